@@ -1,0 +1,1 @@
+//! From rust-hdl blocks to the files in `generated/`.
