@@ -1,0 +1,142 @@
+//! Number formats: what a bit of every word means.
+//!
+//! The formats are types of the `fixed` crate, so that a value cannot be used with another scale
+//! than its own. A format is narrower than its 32-bit container where the gateware is: 30 bits for
+//! words, 24 for gains, 18 for coefficients. [`Format`] holds that width, and [`Format::round`] is
+//! the **only** place where a real number becomes a hardware number.
+
+use crate::word::{Scale, WORD_BITS};
+use fixed::FixedI32;
+use fixed::types::extra::{U16, U22, U24, U32};
+
+/// Wheel speed in encoder counts per clock of the local bus: 2⁻³² counts a clock is one LSB
+/// (0.0078 counts/s at 33.33 MHz), 30 bits, ±0.125 counts a clock (±4.2 million counts/s).
+///
+/// The clock is the natural unit of time in gateware; the driver, which measures the clock, is the
+/// one place that knows seconds.
+pub type Speed = FixedI32<U32>;
+/// Duty, also the integrator of the speed loop: 2⁻²⁴ of full drive is one LSB, 30 bits, ±32.
+pub type Duty = FixedI32<U24>;
+/// Entry of a kinematics matrix: 18 bits, [−2, 2).
+pub type Coefficient = FixedI32<U16>;
+/// Proportional gain, duty LSB per speed LSB: 24 bits, [−128, 128).
+pub type ProportionalGain = FixedI32<U16>;
+/// Integral gain times the control period, duty LSB per speed LSB: 24 bits, [−2, 2).
+pub type IntegralGain = FixedI32<U22>;
+
+/// Width and binary point of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Format {
+    /// What the value is, for messages.
+    pub name: &'static str,
+    /// Significant bits, sign included.
+    pub bits: u32,
+    /// Bits behind the binary point.
+    pub fraction: u32,
+}
+
+/// A real number that a format cannot hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutOfRange {
+    /// The format that was asked.
+    pub format: Format,
+    /// The value that was offered.
+    pub value: f64,
+}
+
+impl core::fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(
+            f,
+            "{} {} is outside [{}, {}) of its {}-bit format",
+            self.format.name,
+            self.value,
+            -self.format.limit(),
+            self.format.limit(),
+            self.format.bits
+        )
+    }
+}
+
+impl core::error::Error for OutOfRange {}
+
+impl Format {
+    /// Format of [`Speed`].
+    pub const SPEED: Self = Self::new("speed", WORD_BITS, 32);
+    /// Format of [`Duty`].
+    pub const DUTY: Self = Self::new("duty", WORD_BITS, 24);
+    /// Format of [`Coefficient`].
+    pub const COEFFICIENT: Self = Self::of_operand("kinematics coefficient", Scale::COEFFICIENT);
+    /// Format of [`ProportionalGain`].
+    pub const PROPORTIONAL: Self = Self::of_operand("proportional gain", Scale::WIDE);
+    /// Format of [`IntegralGain`].
+    pub const INTEGRAL: Self = Self::of_operand("integral gain", Scale::FINE);
+
+    /// A signed format of `bits` bits with `fraction` of them behind the binary point.
+    #[must_use]
+    pub const fn new(name: &'static str, bits: u32, fraction: u32) -> Self {
+        Self { name, bits, fraction }
+    }
+
+    const fn of_operand(name: &'static str, scale: Scale) -> Self {
+        Self::new(name, scale.operand_bits(), scale.fraction_bits())
+    }
+
+    /// Value of one LSB.
+    #[must_use]
+    pub fn lsb(self) -> f64 {
+        1.0 / (1_u64 << self.fraction) as f64
+    }
+
+    /// First value above the range.
+    #[must_use]
+    pub fn limit(self) -> f64 {
+        (1_u64 << (self.bits - 1)) as f64 * self.lsb()
+    }
+
+    /// The raw number nearest to `value`; a tie goes to the even one.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] where the format cannot hold the value, or it is no number.
+    pub fn round(self, value: f64) -> Result<i32, OutOfRange> {
+        let refused = OutOfRange { format: self, value };
+        let scaled = value * (1_u64 << self.fraction) as f64;
+        let raw = fixed::types::I64F0::checked_from_num(scaled).ok_or(refused)?.to_bits();
+        let half = 1_i64 << (self.bits - 1);
+        if (-half..half).contains(&raw) { Ok(raw as i32) } else { Err(refused) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn rounds_to_nearest_ties_to_even() {
+        let lsb = Format::COEFFICIENT.lsb();
+        for (value, raw) in [(0.4, 0), (0.5, 0), (0.6, 1), (1.5, 2), (2.5, 2), (-0.5, 0), (-1.5, -2)] {
+            assert_eq!(Format::COEFFICIENT.round(value * lsb), Ok(raw), "{value}");
+        }
+    }
+
+    #[test]
+    fn range_is_half_open() {
+        assert_eq!(Format::COEFFICIENT.round(-2.0), Ok(-(1 << 17)));
+        assert!(Format::COEFFICIENT.round(2.0).is_err());
+        for bad in [f64::NAN, f64::INFINITY, 1e300] {
+            assert!(Format::SPEED.round(bad).is_err());
+        }
+        let text = Format::COEFFICIENT.round(2.5).unwrap_err().to_string();
+        assert_eq!(text, "kinematics coefficient 2.5 is outside [-2, 2) of its 18-bit format");
+    }
+
+    #[test]
+    fn the_types_carry_the_same_binary_point_as_the_formats() {
+        assert_eq!(f64::from(Speed::from_bits(1)), Format::SPEED.lsb());
+        assert_eq!(f64::from(Duty::from_bits(1)), Format::DUTY.lsb());
+        assert_eq!(f64::from(Coefficient::from_bits(1)), Format::COEFFICIENT.lsb());
+        assert_eq!(f64::from(ProportionalGain::from_bits(1)), Format::PROPORTIONAL.lsb());
+        assert_eq!(f64::from(IntegralGain::from_bits(1)), Format::INTEGRAL.lsb());
+    }
+}

@@ -1,0 +1,465 @@
+//! The table itself.
+
+use super::{Access, Field, Kind, Register, VERSION};
+use crate::AXES;
+use crate::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
+use crate::format::Format;
+use crate::word::WORD_BITS;
+
+/// First word of every identification: "RAC4".
+pub const COOKIE_VALUE: u32 = u32::from_be_bytes(*b"RAC4");
+/// Board the pins are for: "4I65".
+pub const BOARD_VALUE: u32 = u32::from_be_bytes(*b"4I65");
+/// Nominal frequency of the local bus clock in hertz.
+pub const NOMINAL_CLOCK_HZ: u32 = 33_333_333;
+/// Shortest control period in clocks; a shorter one in [`TICK_PERIOD`] acts as this.
+pub const MIN_TICK_PERIOD: u32 = 1_000;
+/// Reset value of [`TICK_PERIOD`]: 1 kHz at the nominal clock.
+pub const DEFAULT_TICK_PERIOD: u32 = 33_333;
+/// Reset value of [`WATCHDOG_TIMEOUT`]: 50 ms at the nominal clock.
+pub const DEFAULT_WATCHDOG_TIMEOUT: u32 = 1_666_667;
+/// Word of [`KICKER_FIRE`] that fires: "KICK". Any other value does nothing.
+pub const KICKER_FIRE_WORD: u32 = u32::from_be_bytes(*b"KICK");
+/// Words of a snapshot, the two sequence numbers included.
+pub const SNAPSHOT_WORDS: usize = 23;
+
+const fn register(
+    name: &'static str,
+    offset: u16,
+    access: Access,
+    kind: Kind,
+    reset: u32,
+    text: &'static str,
+) -> Register {
+    Register { name, offset, words: 1, access, kind, reset, text }
+}
+
+const fn array(
+    name: &'static str,
+    offset: u16,
+    words: usize,
+    access: Access,
+    kind: Kind,
+    text: &'static str,
+) -> Register {
+    Register { name, offset, words: words as u16, access, kind, reset: 0, text }
+}
+
+const fn bit(name: &'static str, bit: u32, text: &'static str) -> Field {
+    Field { name, bit, width: 1, text }
+}
+
+const fn bits(name: &'static str, bit: u32, width: u32, text: &'static str) -> Field {
+    Field { name, bit, width, text }
+}
+
+const WORD: Kind = Kind::Fixed(Format::new("word", WORD_BITS, 0));
+const SPEED: Kind = Kind::Fixed(Format::SPEED);
+const DUTY: Kind = Kind::Fixed(Format::DUTY);
+
+/// Identifies the design.
+pub const COOKIE: Register =
+    register("cookie", 0x000, Access::ReadOnly, Kind::Text, COOKIE_VALUE, "\"RAC4\": this is the design");
+/// Map version.
+pub const MAP_VERSION: Register = register(
+    "map_version",
+    0x004,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    VERSION,
+    "version of this map, major in bits 31:16",
+);
+/// Board name.
+pub const BOARD: Register = register(
+    "board",
+    0x008,
+    Access::ReadOnly,
+    Kind::Text,
+    BOARD_VALUE,
+    "board whose pins the bitstream drives; a 5I20 has the same FPGA on other pins",
+);
+/// Nominal clock.
+pub const CLOCK_HZ: Register = register(
+    "clock_hz",
+    0x00C,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    NOMINAL_CLOCK_HZ,
+    "nominal clock in Hz; the real one is measured with `time`",
+);
+/// Content hash.
+pub const CONTENT_HASH: Register = register(
+    "content_hash",
+    0x010,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    0,
+    "hash of the emitted Verilog with this constant zeroed; the reset value is the one in `rac4i65.v`",
+);
+/// Axes.
+pub const AXIS_COUNT: Register =
+    register("axis_count", 0x014, Access::ReadOnly, Kind::Unsigned(8), AXES as u32, "axes of the core");
+/// Free-running time.
+pub const TIME: Register =
+    register("time", 0x018, Access::ReadOnly, Kind::Unsigned(32), 0, "clocks since configuration, wrapping");
+
+/// Control period.
+pub const TICK_PERIOD: Register = register(
+    "tick_period",
+    0x020,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(24),
+    DEFAULT_TICK_PERIOD,
+    "control period in clocks, at least 1000",
+);
+/// Modes.
+pub const MODE: Register = register(
+    "mode",
+    0x024,
+    Access::LockedWhileArmed,
+    Kind::Fields(&[MODE_COUNT_AND_TIME, MODE_TWIST]),
+    0,
+    "speed measurement and kind of set points",
+);
+/// Speed by count and time.
+pub const MODE_COUNT_AND_TIME: Field =
+    bit("count-and-time", 0, "1: speed by count and time (M/T); 0: count difference per tick");
+/// Set points are a body velocity.
+pub const MODE_TWIST: Field =
+    bit("twist", 1, "1: set points are a body velocity, inverse kinematics in gateware; 0: wheel speeds");
+/// Encoder filter.
+pub const ENCODER_FILTER: Register = register(
+    "encoder_filter",
+    0x028,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(4),
+    3,
+    "an encoder line must be stable for so many clocks and one more",
+);
+/// PWM period.
+pub const PWM_PERIOD: Register =
+    register("pwm_period", 0x02C, Access::LockedWhileArmed, Kind::Unsigned(13), 0, "PWM period in clocks; 0 is off");
+/// Blanking.
+pub const PWM_BLANKING: Register = register(
+    "pwm_blanking",
+    0x030,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(10),
+    33,
+    "clocks with PWM low before and after a change of DIR",
+);
+/// Watchdog.
+pub const WATCHDOG_TIMEOUT: Register = register(
+    "watchdog_timeout",
+    0x034,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(24),
+    DEFAULT_WATCHDOG_TIMEOUT,
+    "clocks without a valid set-point commit until the outputs go off; 0 never lets them on",
+);
+/// Arm.
+pub const ARM: Register = register(
+    "arm",
+    0x038,
+    Access::WriteOnly,
+    Kind::Text,
+    0,
+    "\"ARM1\" then \"ARM2\" arms, unless a fault stands; anything else disarms at once",
+);
+/// Faults.
+pub const FAULTS: Register = register(
+    "faults",
+    0x03C,
+    Access::WriteOneToClear,
+    Kind::Fields(&FAULT_FIELDS),
+    0,
+    "sticky faults; writing anything but 0 clears those whose cause is gone",
+);
+/// First fault.
+pub const FIRST_FAULT: Register = register(
+    "first_fault",
+    0x040,
+    Access::ReadOnly,
+    Kind::Fields(&FAULT_FIELDS),
+    0,
+    "the fault that came first since the last clear",
+);
+/// Status.
+pub const STATUS: Register = register("status", 0x044, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), 0, "live state");
+/// Commit of set points.
+pub const COMMIT_SET_POINTS: Register = register(
+    "commit_set_points",
+    0x048,
+    Access::WriteOnly,
+    Kind::Unsigned(32),
+    0,
+    "checksum over the staged set points; a right one pets the watchdog",
+);
+/// Commit of the configuration.
+pub const COMMIT_CONFIGURATION: Register = register(
+    "commit_configuration",
+    0x04C,
+    Access::WriteOnly,
+    Kind::Unsigned(32),
+    0,
+    "checksum over the staged configuration",
+);
+/// Commit counters.
+pub const COMMITS: Register = register(
+    "commits",
+    0x050,
+    Access::ReadOnly,
+    Kind::Fields(&[COMMITS_ACCEPTED, COMMITS_REJECTED]),
+    0,
+    "commits since configuration, wrapping",
+);
+/// Accepted commits.
+pub const COMMITS_ACCEPTED: Field = bits("accepted", 0, 16, "commits with the right checksum and number of words");
+/// Rejected commits.
+pub const COMMITS_REJECTED: Field = bits("rejected", 16, 16, "commits that changed nothing");
+/// Encoder errors.
+pub const ENCODER_ERROR: Register = register(
+    "encoder_error",
+    0x054,
+    Access::WriteOneToClear,
+    Kind::Unsigned(AXES as u32),
+    0,
+    "per axis: both lines changed at once",
+);
+/// Encoder lines.
+pub const ENCODER_LINES: Register = register(
+    "encoder_lines",
+    0x058,
+    Access::ReadOnly,
+    Kind::Unsigned(2 * AXES as u32),
+    0,
+    "filtered lines, A of axis i in bit 2i, B in bit 2i + 1",
+);
+/// Which encoder errors disarm.
+pub const ENCODER_FAULT_MASK: Register = register(
+    "encoder_fault_mask",
+    0x05C,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(AXES as u32),
+    0xF,
+    "axes whose encoder error disarms",
+);
+
+/// Kicker control.
+pub const KICKER_CONTROL: Register = register(
+    "kicker_control",
+    0x060,
+    Access::ReadWrite,
+    Kind::Fields(&[KICKER_CHARGE, KICKER_ARM_ON_BALL]),
+    0,
+    "charging and automatic trigger",
+);
+/// Charge request.
+pub const KICKER_CHARGE: Field = bit("charge", 0, "charge the capacitor, until the time-out");
+/// Trigger on the ball sensor.
+pub const KICKER_ARM_ON_BALL: Field = bit("arm-on-ball", 1, "fire when the ball sensor sees the ball");
+/// Kicker fire.
+pub const KICKER_FIRE: Register =
+    register("kicker_fire", 0x064, Access::WriteOnly, Kind::Text, 0, "\"KICK\" fires, when armed and not locked out");
+/// Kicker pulse.
+pub const KICKER_PULSE: Register = register(
+    "kicker_pulse",
+    0x068,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(14),
+    0,
+    "trigger pulse in microseconds; longer than 10000 acts as 10000",
+);
+/// Kicker lock-out.
+pub const KICKER_LOCKOUT: Register = register(
+    "kicker_lockout",
+    0x06C,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(20),
+    0,
+    "microseconds after a pulse in which none can follow; a hard minimum is in the gateware",
+);
+/// Charge time-out.
+pub const KICKER_CHARGE_TIMEOUT: Register = register(
+    "kicker_charge_timeout",
+    0x070,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(24),
+    0,
+    "microseconds after which charging stops; 0 never charges",
+);
+/// Kicker status.
+pub const KICKER_STATUS: Register = register(
+    "kicker_status",
+    0x074,
+    Access::ReadOnly,
+    Kind::Fields(&[KICKER_STATE, KICKER_READY, KICKER_TIMED_OUT, KICKER_DROPPED]),
+    0,
+    "state of the kicker; a write to `faults` clears its flags",
+);
+/// Kicker state machine.
+pub const KICKER_STATE: Field = bits("state", 0, 3, "see the kicker's page");
+/// Kicker ready.
+pub const KICKER_READY: Field = bit("ready", 4, "a fire request would be taken");
+/// Charging stopped by its time-out.
+pub const KICKER_TIMED_OUT: Field = bit("charge-timed-out", 5, "charging took longer than its time-out");
+/// A fire request was dropped.
+pub const KICKER_DROPPED: Field = bit("fire-dropped", 6, "a fire request came while disarmed or locked out");
+/// Clocks per microsecond.
+pub const CLOCKS_PER_MICROSECOND: Register = register(
+    "clocks_per_us",
+    0x078,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(6),
+    33,
+    "clocks in what the kicker takes for a microsecond",
+);
+/// LEDs.
+pub const LEDS: Register = register("leds", 0x07C, Access::ReadWrite, Kind::Unsigned(8), 0, "the eight LEDs, 1 = on");
+
+/// Staged configuration.
+pub const CONFIGURATION: Register = array(
+    "configuration",
+    0x400,
+    CONFIGURATION_WORDS,
+    Access::Staged,
+    WORD,
+    "staged configuration bank: nine groups of one word per axis",
+);
+/// Configuration in force.
+pub const ACTIVE_CONFIGURATION: Register =
+    array("active_configuration", 0x500, CONFIGURATION_WORDS, Access::ReadOnly, WORD, "configuration in force");
+/// Staged set points.
+pub const SET_POINTS: Register = array(
+    "set_points",
+    0x600,
+    SET_POINT_WORDS,
+    Access::Staged,
+    WORD,
+    "staged set points: wheel speeds, or body velocity x, y, rotation and a spare",
+);
+/// Set points in force.
+pub const ACTIVE_SET_POINTS: Register =
+    array("active_set_points", 0x640, SET_POINT_WORDS, Access::ReadOnly, WORD, "set points in force");
+/// Integrators.
+pub const INTEGRALS: Register =
+    array("integrals", 0x720, AXES, Access::ReadOnly, DUTY, "integrators of the speed loops; not part of a snapshot");
+/// Snapshot: sequence number.
+pub const SNAPSHOT_SEQUENCE: Register = array(
+    "snapshot_sequence",
+    0x800,
+    1,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    "number of control ticks; reading it latches the snapshot",
+);
+/// Snapshot: status.
+pub const SNAPSHOT_STATUS: Register =
+    array("snapshot_status", 0x804, 1, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), "`status` at the tick");
+/// Snapshot: time.
+pub const SNAPSHOT_TIME: Register =
+    array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick");
+/// Snapshot: counts.
+pub const SNAPSHOT_COUNT: Register = array(
+    "snapshot_count",
+    0x80C,
+    AXES,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    "encoder counts, wrapping two's complement",
+);
+/// Snapshot: speeds.
+pub const SNAPSHOT_SPEED: Register =
+    array("snapshot_speed", 0x81C, AXES, Access::ReadOnly, SPEED, "measured speed in counts per clock");
+/// Snapshot: references.
+pub const SNAPSHOT_REFERENCE: Register =
+    array("snapshot_reference", 0x82C, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
+/// Snapshot: duties.
+pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x83C, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
+/// Snapshot: body velocity.
+pub const SNAPSHOT_TWIST: Register = array(
+    "snapshot_twist",
+    0x84C,
+    3,
+    Access::ReadOnly,
+    WORD,
+    "measured body velocity x, y, rotation, in the driver's unit",
+);
+/// Snapshot: sequence number again.
+pub const SNAPSHOT_SEQUENCE_END: Register = array(
+    "snapshot_sequence_end",
+    0x858,
+    1,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    "equals `snapshot_sequence` in a coherent snapshot; reading it releases the latch",
+);
+
+/// Bits of [`FAULTS`] and [`FIRST_FAULT`]; the order of [`crate::safety::Fault`].
+pub const FAULT_FIELDS: [Field; 6] = [
+    bit("watchdog", 0, "no valid set-point commit for `watchdog_timeout`"),
+    bit("emergency-stop", 1, "emergency stop input high or open"),
+    bit("encoder", 2, "an encoder of `encoder_fault_mask` saw an illegal transition"),
+    bit("commit", 3, "a commit had the wrong checksum or number of words; nothing changed"),
+    bit("external", 4, "another block asked to stop"),
+    bit("arm-refused", 5, "arming was tried while a fault stood, or out of sequence"),
+];
+
+/// Bits of [`STATUS`].
+pub const STATUS_FIELDS: [Field; 6] = [
+    bit("armed", 0, "outputs may be on"),
+    bit("set-points-valid", 1, "a set point was committed since arming"),
+    bit("emergency-stop", 2, "emergency stop input, live"),
+    bit("ball", 3, "ball sensor, live"),
+    bit("set-points-pending", 4, "a commit of set points waits for the next tick"),
+    bit("configuration-pending", 5, "a commit of the configuration waits for the next tick"),
+];
+
+/// All registers, by offset.
+pub const REGISTERS: &[&Register] = &[
+    &COOKIE,
+    &MAP_VERSION,
+    &BOARD,
+    &CLOCK_HZ,
+    &CONTENT_HASH,
+    &AXIS_COUNT,
+    &TIME,
+    &TICK_PERIOD,
+    &MODE,
+    &ENCODER_FILTER,
+    &PWM_PERIOD,
+    &PWM_BLANKING,
+    &WATCHDOG_TIMEOUT,
+    &ARM,
+    &FAULTS,
+    &FIRST_FAULT,
+    &STATUS,
+    &COMMIT_SET_POINTS,
+    &COMMIT_CONFIGURATION,
+    &COMMITS,
+    &ENCODER_ERROR,
+    &ENCODER_LINES,
+    &ENCODER_FAULT_MASK,
+    &KICKER_CONTROL,
+    &KICKER_FIRE,
+    &KICKER_PULSE,
+    &KICKER_LOCKOUT,
+    &KICKER_CHARGE_TIMEOUT,
+    &KICKER_STATUS,
+    &CLOCKS_PER_MICROSECOND,
+    &LEDS,
+    &CONFIGURATION,
+    &ACTIVE_CONFIGURATION,
+    &SET_POINTS,
+    &ACTIVE_SET_POINTS,
+    &INTEGRALS,
+    &SNAPSHOT_SEQUENCE,
+    &SNAPSHOT_STATUS,
+    &SNAPSHOT_TIME,
+    &SNAPSHOT_COUNT,
+    &SNAPSHOT_SPEED,
+    &SNAPSHOT_REFERENCE,
+    &SNAPSHOT_DUTY,
+    &SNAPSHOT_TWIST,
+    &SNAPSHOT_SEQUENCE_END,
+];

@@ -1,0 +1,220 @@
+//! The register map: one typed table from which the bus decoder's addresses, the driver's registers and
+//! the documents in `generated/` all come.
+//!
+//! Conventions:
+//! 1. Offsets are in bytes from the start of BAR 5; every access is an aligned 32-bit word.
+//! 2. Reads have no side effect but one: reading word 0 of the snapshot latches the snapshot.
+//! 3. Reserved addresses read zero; writes to them, and to read-only registers, do nothing.
+//! 4. Set points and configuration are **staged**: they act only when the commit register is
+//!    written with the right checksum ([`checksum`]), and then all at once at the next control tick.
+//! 5. A register marked *locked while armed* ignores writes while the outputs may be on.
+//! 6. A staged word has 30 bits; the upper two are replaced by its sign.
+
+mod map;
+
+pub use map::*;
+
+/// Version of this map: major in the high half, minor in the low half. The driver refuses another major.
+pub const VERSION: u32 = 0x0001_0000;
+
+/// Who may do what with a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// Constant or status.
+    ReadOnly,
+    /// Plain register.
+    ReadWrite,
+    /// Plain register that ignores writes while armed.
+    LockedWhileArmed,
+    /// Writes act, reads give zero.
+    WriteOnly,
+    /// Status whose set bits are cleared by writing ones to them.
+    WriteOneToClear,
+    /// Memory that acts at the next tick after a commit.
+    Staged,
+}
+
+impl Access {
+    /// Short form for tables.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::ReadOnly => "R",
+            Self::ReadWrite => "RW",
+            Self::LockedWhileArmed => "RW, locked while armed",
+            Self::WriteOnly => "W",
+            Self::WriteOneToClear => "R, W1C",
+            Self::Staged => "RW, staged",
+        }
+    }
+}
+
+/// How the 32 bits of a register are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Unsigned number of so many bits.
+    Unsigned(u32),
+    /// Signed fixed-point number.
+    Fixed(crate::format::Format),
+    /// Four ASCII characters, first in the highest byte.
+    Text,
+    /// Separate bits.
+    Fields(&'static [Field]),
+}
+
+/// A bit field of a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Name, in kebab-case.
+    pub name: &'static str,
+    /// Lowest bit.
+    pub bit: u32,
+    /// Bits.
+    pub width: u32,
+    /// What it says.
+    pub text: &'static str,
+}
+
+impl Field {
+    /// The field's value in `word`.
+    #[must_use]
+    pub const fn of(&self, word: u32) -> u32 {
+        (word >> self.bit) & (u32::MAX >> (32 - self.width))
+    }
+
+    /// `value` at the field's place; excess bits are dropped.
+    #[must_use]
+    pub const fn place(&self, value: u32) -> u32 {
+        (value & (u32::MAX >> (32 - self.width))) << self.bit
+    }
+}
+
+/// A register, or an array of them at consecutive words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// Name, in `snake_case`.
+    pub name: &'static str,
+    /// Byte offset in BAR 5.
+    pub offset: u16,
+    /// Words; more than one is an array, mostly one word per axis.
+    pub words: u16,
+    /// Access.
+    pub access: Access,
+    /// Meaning of the bits.
+    pub kind: Kind,
+    /// Value after configuration of the FPGA.
+    pub reset: u32,
+    /// What it is for, and its unit.
+    pub text: &'static str,
+}
+
+impl Register {
+    /// Byte offset of word `index` of an array.
+    ///
+    /// # Panics
+    /// If the array has no such word: a bug in the caller, never input.
+    #[must_use]
+    pub const fn at(&self, index: usize) -> u16 {
+        assert!(index < self.words as usize, "no such word in this register array");
+        self.offset + 4 * index as u16
+    }
+
+    /// Word address, as the local bus counts.
+    #[must_use]
+    pub const fn word_address(&self) -> u16 {
+        self.offset / 4
+    }
+}
+
+/// The register at a byte offset, and which of its words.
+#[must_use]
+pub fn lookup(offset: u16) -> Option<(&'static Register, usize)> {
+    REGISTERS.iter().find_map(|register| {
+        let index = usize::from(offset.checked_sub(register.offset)?) / 4;
+        (offset % 4 == 0 && index < usize::from(register.words)).then_some((*register, index))
+    })
+}
+
+/// Checksum of a sequence of staged writes, for the commit registers.
+///
+/// `state = rotate_left(state, 1) ^ data ^ word_address` for every write since the last commit, from
+/// [`CHECKSUM_SEED`]. A write that is lost, doubled, out of order, at a wrong address or with any
+/// single bit flipped gives another sum.
+#[must_use]
+pub const fn checksum(state: u32, word_address: u16, data: u32) -> u32 {
+    state.rotate_left(1) ^ data ^ word_address as u32
+}
+
+/// Start value of [`checksum`]: "RACS".
+pub const CHECKSUM_SEED: u32 = 0x5241_4353;
+
+/// The 30-bit word that the gateware stores for a staged write (convention 6).
+#[must_use]
+pub const fn stored_word(data: u32) -> i32 {
+    ((data << 2) as i32) >> 2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn registers_do_not_overlap_and_fit_the_window() {
+        let mut next = 0;
+        for register in REGISTERS {
+            assert!(register.offset >= next, "{} overlaps its neighbour", register.name);
+            assert_eq!(register.offset % 4, 0, "{}", register.name);
+            next = register.offset + 4 * register.words;
+            assert_eq!(lookup(register.offset), Some((*register, 0)));
+        }
+        assert_eq!(lookup(2), None);
+        assert_eq!(lookup(0xFFFC), None);
+    }
+
+    #[test]
+    fn fields_stay_inside_their_register_and_apart() {
+        for register in REGISTERS {
+            if let Kind::Fields(fields) = register.kind {
+                let mut used = 0_u32;
+                for field in fields {
+                    let mask = field.place(u32::MAX);
+                    assert_eq!(used & mask, 0, "{}.{}", register.name, field.name);
+                    assert_eq!(field.of(mask), mask >> field.bit);
+                    used |= mask;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_unique() {
+        for (i, register) in REGISTERS.iter().enumerate() {
+            assert!(REGISTERS[..i].iter().all(|other| other.name != register.name), "{}", register.name);
+        }
+    }
+
+    #[test]
+    fn the_checksum_sees_every_single_fault() {
+        let writes = [(0x180_u16, 7_u32), (0x181, 0), (0x182, 0xFFFF_FFFF), (0x183, 0)];
+        let sum = |writes: &[(u16, u32)]| writes.iter().fold(CHECKSUM_SEED, |s, &(a, d)| checksum(s, a, d));
+        let good = sum(&writes);
+        for i in 0..4 {
+            for bit in 0..32 {
+                let mut bad = writes;
+                bad[i].1 ^= 1 << bit;
+                assert_ne!(sum(&bad), good);
+            }
+            for bit in 0..14 {
+                let mut bad = writes;
+                bad[i].0 ^= 1 << bit;
+                assert_ne!(sum(&bad), good);
+            }
+            let mut lost = std::vec::Vec::from(writes);
+            lost.remove(i);
+            assert_ne!(sum(&lost), good);
+            let mut doubled = std::vec::Vec::from(writes);
+            doubled.insert(i, writes[i]);
+            assert_ne!(sum(&doubled), good);
+        }
+    }
+}
