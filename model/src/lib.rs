@@ -1,1 +1,9 @@
-//! model
+//! The robot in floating point: SI units, body frame x right and y forward, heading from the
+//! field's x axis to the body x axis (see [`frames`]).
+
+pub mod error;
+pub mod frames;
+pub mod geometry;
+pub mod robot;
+
+pub mod run;

@@ -1,0 +1,248 @@
+//! The robot as its designers describe it: `robot.toml`.
+
+mod effect;
+mod fields;
+mod parse;
+mod write;
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+pub use effect::{Effect, EffectParameter};
+
+use crate::error::InputError;
+use crate::geometry::{Geometry, GeometryError, Wheel, rac_wheels};
+
+/// Nominal parameters of a robot, in SI units; frames as in [`crate::frames::Twist`].
+///
+/// The fields carry the names of `robot.toml`; [`Robot::load`] explains what it does not accept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// Wheel radius, m.
+    pub wheel_radius_m: f64,
+    /// Where the wheels are.
+    pub layout: Layout,
+    /// Mass of the whole robot, kg.
+    pub mass_kg: f64,
+    /// Moment of inertia of the whole robot about the vertical through the chassis centre, kg m².
+    pub yaw_inertia_kg_m2: f64,
+    /// Motor turns per wheel turn.
+    pub gear_ratio: f64,
+    /// Share of the transmitted torque that is not lost in the gear, in (0, 1].
+    pub gear_efficiency: f64,
+    /// Counts per turn of the motor shaft, after ×4 decoding.
+    pub encoder_counts_per_motor_rev: u32,
+    /// Nominal supply of the motors, V.
+    pub supply_v: f64,
+    /// Control ticks a second.
+    pub control_rate_hz: f64,
+    /// Frames a second of the overhead camera.
+    pub camera_rate_hz: f64,
+    /// Known delay from exposure to log, s.
+    pub camera_latency_s: f64,
+    /// Standard deviation of a camera pose (m, m, rad), where known.
+    pub camera_noise: Option<[f64; 3]>,
+    /// Rounding of logged set points, rad/s, where known.
+    pub ref_quantum: Option<f64>,
+    /// Rounding of logged duties, where known.
+    pub duty_quantum: Option<f64>,
+    /// What carries the robot.
+    pub support: Support,
+    /// Inertia at each wheel shaft beside the reflected rotor, kg m².
+    pub wheel_inertia_kg_m2: f64,
+    /// The motors, all alike.
+    pub motor: MotorParameters,
+    /// The speed loop of every axis.
+    pub pi: PiParameters,
+    /// Effects beyond the nominal model, in the order of the file.
+    pub effects: Vec<Effect>,
+}
+
+/// Where the wheels are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Layout {
+    /// The paper's robot: three wheels 120° apart, see [`Geometry::rac`].
+    Rac {
+        /// Chassis centre to contact points, m.
+        body_radius_m: f64,
+        /// Skew α of each wheel, clockwise, rad.
+        skew_rad: [f64; 3],
+    },
+    /// Any wheels, `[[wheel]]` in the file.
+    Wheels(Vec<Wheel>),
+}
+
+impl Layout {
+    /// The wheels of this layout.
+    pub fn wheels(&self) -> Vec<Wheel> {
+        match self {
+            Self::Rac { body_radius_m, skew_rad } => rac_wheels(*body_radius_m, *skew_rad),
+            Self::Wheels(wheels) => wheels.clone(),
+        }
+    }
+}
+
+/// What carries the robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Support {
+    /// The wheels stand on the floor.
+    #[default]
+    Floor,
+    /// The wheels are in the air, every axis alone.
+    Blocks,
+}
+
+/// `[motor]`: a DC motor with permanent magnets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorParameters {
+    /// Terminal resistance, Ω.
+    pub resistance_ohm: f64,
+    /// Torque per current, Nm/A.
+    pub torque_constant: f64,
+    /// Voltage per speed of the motor shaft, V s/rad, where it differs from the torque constant.
+    pub back_emf_constant: Option<f64>,
+    /// Rotor inertia, kg m².
+    pub rotor_inertia: f64,
+    /// Coulomb friction at the motor shaft, Nm.
+    pub friction_torque: f64,
+}
+
+impl MotorParameters {
+    /// Voltage per speed of the motor shaft, V s/rad.
+    pub fn back_emf(&self) -> f64 {
+        self.back_emf_constant.unwrap_or(self.torque_constant)
+    }
+}
+
+/// `[pi]`: gains of the speed loop, see [`crate::pi::PiLaw`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct PiParameters {
+    /// Duty per rad/s at the wheel.
+    pub kp: f64,
+    /// Duty per rad at the wheel.
+    pub ki: f64,
+    /// The arithmetic of the loop that ran, such as `fixed-kin`; `None` for floating point.
+    pub arithmetic: Option<String>,
+    /// Register words of that arithmetic, by name.
+    pub registers: Vec<(String, i64)>,
+}
+
+impl Robot {
+    /// The robot of the paper with zero skew: built in, so that nothing needs a file.
+    pub fn racbot() -> Self {
+        Self {
+            wheel_radius_m: 0.0275,
+            layout: Layout::Rac { body_radius_m: 0.085, skew_rad: [0.0; 3] },
+            mass_kg: 2.4,
+            yaw_inertia_kg_m2: 0.0095,
+            gear_ratio: 3.71,
+            gear_efficiency: 0.88,
+            encoder_counts_per_motor_rev: 2048,
+            supply_v: 7.2,
+            control_rate_hz: 1000.0,
+            camera_rate_hz: 60.0,
+            camera_latency_s: 0.0,
+            camera_noise: None,
+            ref_quantum: None,
+            duty_quantum: None,
+            support: Support::Floor,
+            wheel_inertia_kg_m2: 0.0,
+            motor: MotorParameters {
+                resistance_ohm: 1.94,
+                torque_constant: 0.00692,
+                back_emf_constant: None,
+                rotor_inertia: 2.7e-7,
+                friction_torque: 0.00015,
+            },
+            pi: PiParameters { kp: 0.15, ki: 0.8, arithmetic: None, registers: Vec::new() },
+            effects: Vec::new(),
+        }
+    }
+
+    /// Reads a `robot.toml`.
+    ///
+    /// # Errors
+    /// [`InputError`] with line, column and field for text that is no TOML, missing, unknown or
+    /// contradictory fields (`[[wheel]]` beside `body_radius_m` or `skew_rad`), numbers that are
+    /// not finite or out of physical range, and wheels that cannot drive the robot.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|e| InputError::io(path, &e))?;
+        Self::parse(&text, path)
+    }
+
+    /// Reads the text of a `robot.toml`; `path` is for the error messages.
+    ///
+    /// # Errors
+    /// As [`Robot::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        parse::robot(text, path)
+    }
+
+    /// Writes a `robot.toml` that [`Robot::load`] reads back as an equal robot.
+    ///
+    /// # Errors
+    /// [`InputError`] if the robot is not valid or the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), InputError> {
+        let path = path.as_ref();
+        self.validate(path)?;
+        std::fs::write(path, self.to_toml()).map_err(|e| InputError::io(path, &e))
+    }
+
+    /// The text of the robot's `robot.toml`.
+    pub fn to_toml(&self) -> String {
+        write::robot(self)
+    }
+
+    /// Checks a robot that was changed in memory by the rules of [`Robot::load`].
+    ///
+    /// # Errors
+    /// [`InputError`] about `path`, without line numbers.
+    pub fn validate(&self, path: &Path) -> Result<(), InputError> {
+        parse::robot(&self.to_toml(), path).map(|_| ()).map_err(|e| InputError { line: None, column: None, ..e })
+    }
+
+    /// The kinematics of the nominal robot.
+    ///
+    /// # Errors
+    /// [`GeometryError`] if the wheels cannot drive the robot; never for a robot that was loaded.
+    pub fn geometry(&self) -> Result<Geometry, GeometryError> {
+        Geometry::new(self.layout.wheels(), self.wheel_radius_m)
+    }
+
+    /// Number of wheels.
+    pub fn wheel_count(&self) -> usize {
+        match &self.layout {
+            Layout::Rac { .. } => 3,
+            Layout::Wheels(wheels) => wheels.len(),
+        }
+    }
+
+    /// Encoder counts per radian of the motor shaft.
+    pub fn counts_per_motor_rad(&self) -> f64 {
+        f64::from(self.encoder_counts_per_motor_rev) / TAU
+    }
+
+    /// Encoder counts per radian of the wheel.
+    pub fn counts_per_wheel_rad(&self) -> f64 {
+        self.counts_per_motor_rad() * self.gear_ratio
+    }
+
+    /// One control tick, s.
+    pub fn tick_s(&self) -> f64 {
+        1.0 / self.control_rate_hz
+    }
+
+    /// The speed (rad/s at the wheel) at which back-EMF eats up a supply.
+    pub fn no_load_wheel_speed(&self, supply_v: f64) -> f64 {
+        supply_v / (self.motor.back_emf() * self.gear_ratio)
+    }
+
+    /// The effect of this name, if the file carries it.
+    pub fn effect(&self, name: &str) -> Option<&Effect> {
+        self.effects.iter().find(|e| e.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,324 @@
+//! `robot.toml` into [`Robot`], with positions for every complaint.
+
+use std::path::Path;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::fields::{FIELDS, Range};
+use super::{Effect, EffectParameter, Layout, Robot, Support};
+use crate::error::{InputError, line_and_column, nearest};
+use crate::geometry::Wheel;
+
+/// Keys beside [`FIELDS`].
+const OTHER_KEYS: &[(&str, &str)] = &[
+    ("", "body_radius_m"),
+    ("", "skew_rad"),
+    ("", "camera_noise"),
+    ("", "support"),
+    ("", "motor"),
+    ("", "pi"),
+    ("", "wheel"),
+    ("", "effect"),
+    ("pi", "arithmetic"),
+    ("pi", "registers"),
+];
+const WHEEL_KEYS: &[&str] = &["x_m", "y_m", "drive_rad", "roller_rad"];
+/// The league's fields are 12 m long; a body radius beyond this is a slip of units.
+const LENGTH: Range = Range::Positive(10.0);
+const COORDINATE: Range = Range::Within(10.0);
+const ANGLE: Range = Range::Within(std::f64::consts::TAU);
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+pub(super) fn robot(text: &str, path: &Path) -> Result<Robot, InputError> {
+    // Editors on Windows put a byte order mark in front.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let source = Source { text, path };
+    let root = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
+    let top = Section { source, name: "", start: 0, table: root.get_ref() };
+    top.known(&keys_of(""))?;
+    let motor = top.section("motor")?;
+    let pi = top.section("pi")?;
+    // Every field is set below but for the optional ones, which are given their defaults here.
+    let mut robot = Robot { gear_efficiency: 1.0, ..Robot::racbot() };
+    for field in FIELDS {
+        let section = match field.table {
+            "motor" => &motor,
+            "pi" => &pi,
+            _ => &top,
+        };
+        match section.number(field.name, field.range, field.meaning)? {
+            Some(x) => (field.set)(&mut robot, x),
+            None if field.optional => {}
+            None => return Err(section.missing(field.name, field.meaning)),
+        }
+    }
+    robot.layout = layout(&top)?;
+    robot.camera_noise = top.numbers("camera_noise", Range::NotNegative(1e2))?;
+    if let Some(value) = top.table.get("support") {
+        robot.support = match value.get_ref().as_str() {
+            Some("floor") => Support::Floor,
+            Some("blocks") => Support::Blocks,
+            _ => {
+                let what = "is neither \"floor\" nor \"blocks\"";
+                return Err(top.fault("support", value, what, "say what carries the robot"));
+            }
+        };
+    }
+    read_pi_extras(&pi, &mut robot)?;
+    robot.effects = effects(&top)?;
+    let wheel_at = top.table.get("wheel").or_else(|| top.table.get("body_radius_m"));
+    robot.geometry().map_err(|e| match wheel_at {
+        Some(value) => top.fault("wheel", value, e.to_string(), ""),
+        None => InputError::new(path, e.to_string(), ""),
+    })?;
+    Ok(robot)
+}
+
+fn keys_of(table: &str) -> Vec<&'static str> {
+    let others = OTHER_KEYS.iter().filter(|(t, _)| *t == table).map(|(_, name)| *name);
+    FIELDS.iter().filter(|f| f.table == table).map(|f| f.name).chain(others).collect()
+}
+
+fn layout(top: &Section) -> Result<Layout, InputError> {
+    let body_radius = top.number("body_radius_m", LENGTH, "chassis centre to wheel contact")?;
+    let Some(wheels) = top.table.get("wheel") else {
+        let Some(body_radius_m) = body_radius else {
+            return Err(top.missing("body_radius_m", "chassis centre to wheel contact in metres"));
+        };
+        let skew = top.numbers("skew_rad", Range::Within(std::f64::consts::FRAC_PI_2))?;
+        let Some(skew_rad) = skew else {
+            return Err(top.missing("skew_rad", "one angle a wheel, [0.0, 0.0, 0.0] if none"));
+        };
+        return Ok(Layout::Rac { body_radius_m, skew_rad });
+    };
+    for key in ["body_radius_m", "skew_rad"] {
+        if let Some(value) = top.table.get(key) {
+            let hint = "keep one of the two; [[wheel]] describes any robot";
+            return Err(top.fault(key, value, "contradicts the [[wheel]] tables", hint));
+        }
+    }
+    let Some(list) = wheels.get_ref().as_array() else {
+        return Err(top.fault("wheel", wheels, "is no array of tables", "write [[wheel]]"));
+    };
+    let mut read = Vec::new();
+    for value in list {
+        let section = top.inner("wheel", value)?;
+        section.known(WHEEL_KEYS)?;
+        let mut numbers = [0.0; 4];
+        for (i, (slot, key)) in numbers.iter_mut().zip(WHEEL_KEYS).enumerate() {
+            let range = if i < 2 { COORDINATE } else { ANGLE };
+            *slot = match section.number(key, range, "")? {
+                Some(x) => x,
+                None if *key == "roller_rad" => 0.0,
+                None => return Err(section.missing(key, "one per wheel")),
+            };
+        }
+        let [x_m, y_m, drive_rad, roller_rad] = numbers;
+        read.push(Wheel { x_m, y_m, drive_rad, roller_rad });
+    }
+    Ok(Layout::Wheels(read))
+}
+
+fn read_pi_extras(pi: &Section, robot: &mut Robot) -> Result<(), InputError> {
+    if let Some(value) = pi.table.get("arithmetic") {
+        let Some(name) = value.get_ref().as_str() else {
+            return Err(pi.fault("arithmetic", value, "is no text", "such as \"fixed-kin\""));
+        };
+        robot.pi.arithmetic = Some(name.to_owned());
+    }
+    if let Some(value) = pi.table.get("registers") {
+        let section = pi.inner("registers", value)?;
+        for (name, word) in section.in_file_order() {
+            let Some(word_value) = whole(word.get_ref()) else {
+                let hint = "register words are whole numbers";
+                return Err(section.fault(name.get_ref(), word, "is no whole number", hint));
+            };
+            robot.pi.registers.push((name.get_ref().to_string(), word_value));
+        }
+    }
+    Ok(())
+}
+
+fn effects(top: &Section) -> Result<Vec<Effect>, InputError> {
+    let Some(value) = top.table.get("effect") else { return Ok(Vec::new()) };
+    let Some(list) = value.get_ref().as_array() else {
+        return Err(top.fault("effect", value, "is no array of tables", "write [[effect]]"));
+    };
+    // The same text once more as plain values, which is what is kept.
+    let plain: toml::Table = toml::from_str(top.source.text).map_err(|e| top.source.syntax(&e))?;
+    let plain = plain.get("effect").and_then(toml::Value::as_array).cloned().unwrap_or_default();
+    list.iter()
+        .zip(plain)
+        .map(|(value, plain)| {
+            let section = top.inner("effect", value)?;
+            effect(&section, plain.as_table().cloned().unwrap_or_default())
+        })
+        .collect()
+}
+
+fn effect(section: &Section, mut other: toml::Table) -> Result<Effect, InputError> {
+    let Some(name) = section.table.get("name") else {
+        return Err(section.missing("name", "such as \"wheel-skew\""));
+    };
+    let Some(text) = name.get_ref().as_str() else {
+        return Err(section.fault("name", name, "is no text", "such as \"wheel-skew\""));
+    };
+    let mut effect = Effect { name: text.to_owned(), ..Effect::default() };
+    if let Some(value) = section.table.get("wheels") {
+        let wheels = value
+            .get_ref()
+            .as_array()
+            .and_then(|list| list.iter().map(|w| whole(w.get_ref()).and_then(|w| usize::try_from(w).ok())).collect());
+        let Some(wheels) = wheels else {
+            return Err(section.fault("wheels", value, "is no list of wheels", "such as [1, 3]"));
+        };
+        effect.wheels = wheels;
+    }
+    if let Some(value) = section.table.get("parameters") {
+        let parameters = section.inner("parameters", value)?;
+        let plain = other.remove("parameters");
+        for (name, value) in parameters.in_file_order() {
+            let key: &str = name.get_ref();
+            let entry = parameters.inner(key, value)?;
+            let Some(number) = entry.number("value", Range::Within(f64::MAX), "the estimate")? else {
+                return Err(entry.missing("value", "the estimate"));
+            };
+            let ci95 = entry.numbers("ci95", Range::Within(f64::MAX))?;
+            let mut rest =
+                plain.as_ref().and_then(|p| p.get(key)).and_then(toml::Value::as_table).cloned().unwrap_or_default();
+            rest.remove("value");
+            rest.remove("ci95");
+            let parameter = EffectParameter { value: number, ci95, other: rest };
+            effect.parameters.push((key.to_owned(), parameter));
+        }
+    }
+    other.remove("name");
+    other.remove("wheels");
+    effect.other = other;
+    Ok(effect)
+}
+
+/// The text and where it came from.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    text: &'a str,
+    path: &'a Path,
+}
+
+impl Source<'_> {
+    fn syntax(self, e: &toml::de::Error) -> InputError {
+        let (line, column) = line_and_column(self.text, e.span().map_or(0, |s| s.start));
+        InputError::new(self.path, e.message().replace('\n', " "), "correct the TOML").at(line, column)
+    }
+}
+
+/// One table of the file.
+struct Section<'a> {
+    source: Source<'a>,
+    name: &'a str,
+    start: usize,
+    table: &'a DeTable<'a>,
+}
+
+impl<'a> Section<'a> {
+    fn path_of(&self, key: &str) -> String {
+        if self.name.is_empty() { key.to_owned() } else { format!("{}.{key}", self.name) }
+    }
+
+    fn error_at(&self, key: &str, offset: usize, what: String, hint: &str) -> InputError {
+        let (line, column) = line_and_column(self.source.text, offset);
+        InputError::new(self.source.path, what, hint).at(line, column).field(self.path_of(key))
+    }
+
+    fn fault(&self, key: &str, at: &Value, what: impl Into<String>, hint: &str) -> InputError {
+        self.error_at(key, at.span().start, what.into(), hint)
+    }
+
+    fn missing(&self, key: &str, meaning: &str) -> InputError {
+        self.error_at(key, self.start, "is missing".to_owned(), &format!("add it: {meaning}"))
+    }
+
+    fn known(&self, keys: &[&str]) -> Result<(), InputError> {
+        for name in self.table.keys() {
+            let key: &str = name.get_ref();
+            if !keys.contains(&key) {
+                let hint = nearest(key, keys).map_or("remove it".to_owned(), |k| format!("did you mean {k}?"));
+                let what = "is not a known field".to_owned();
+                return Err(self.error_at(key, name.span().start, what, &hint));
+            }
+        }
+        Ok(())
+    }
+
+    fn in_file_order(&self) -> Vec<(&'a Spanned<toml::de::DeString<'a>>, &'a Value<'a>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(name, _)| name.span().start);
+        entries
+    }
+
+    fn section(&self, key: &'static str) -> Result<Section<'a>, InputError> {
+        let Some(value) = self.table.get(key) else {
+            return Err(self.missing(key, "a table"));
+        };
+        let section = self.inner(key, value)?;
+        section.known(&keys_of(key))?;
+        Ok(section)
+    }
+
+    fn inner(&self, key: &'a str, value: &'a Value<'a>) -> Result<Section<'a>, InputError> {
+        let Some(table) = value.get_ref().as_table() else {
+            return Err(self.fault(key, value, "is no table", "see the example robot.toml"));
+        };
+        Ok(Section { source: self.source, name: key, start: value.span().start, table })
+    }
+
+    fn number(&self, key: &str, range: Range, meaning: &str) -> Result<Option<f64>, InputError> {
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        let hint = if meaning.is_empty() { String::new() } else { format!("give the {meaning}") };
+        let hint = hint.replace("the the ", "the ");
+        let Some(x) = number(value.get_ref()) else {
+            let what = format!("is {} and no number", value.get_ref().type_str());
+            return Err(self.fault(key, value, what, &hint));
+        };
+        match range.fault(x) {
+            Some(what) => Err(self.fault(key, value, what, &hint)),
+            None => Ok(Some(x)),
+        }
+    }
+
+    /// An array of exactly `N` numbers.
+    fn numbers<const N: usize>(&self, key: &str, range: Range) -> Result<Option<[f64; N]>, InputError> {
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        let hint = format!("give {N} numbers");
+        let Some(list) = value.get_ref().as_array() else {
+            return Err(self.fault(key, value, "is no array", &hint));
+        };
+        if list.len() != N {
+            return Err(self.fault(key, value, format!("has {} entries", list.len()), &hint));
+        }
+        let mut numbers = [0.0; N];
+        for (slot, item) in numbers.iter_mut().zip(list) {
+            let Some(x) = number(item.get_ref()) else {
+                return Err(self.fault(key, item, "holds something that is no number", &hint));
+            };
+            if let Some(what) = range.fault(x) {
+                return Err(self.fault(key, item, what, &hint));
+            }
+            *slot = x;
+        }
+        Ok(Some(numbers))
+    }
+}
+
+fn number(value: &DeValue) -> Option<f64> {
+    match value {
+        DeValue::Float(x) => x.as_str().parse().ok(),
+        DeValue::Integer(_) => whole(value).map(|i| i as f64),
+        _ => None,
+    }
+}
+
+fn whole(value: &DeValue) -> Option<i64> {
+    value.as_integer().and_then(|i| i64::from_str_radix(i.as_str(), i.radix()).ok())
+}

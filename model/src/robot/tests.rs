@@ -1,0 +1,154 @@
+use super::*;
+use std::path::PathBuf;
+
+fn shipped() -> String {
+    std::fs::read_to_string(shipped_path()).unwrap()
+}
+
+fn shipped_path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/robot.toml")
+}
+
+fn error(text: &str) -> InputError {
+    Robot::parse(text, Path::new("robot.toml")).unwrap_err()
+}
+
+fn without(line: &str) -> String {
+    let kept: Vec<&str> = EXAMPLE.lines().filter(|l| !l.starts_with(line)).collect();
+    kept.join("\n")
+}
+
+fn with(line: &str, replacement: &str) -> String {
+    assert!(EXAMPLE.contains(line));
+    EXAMPLE.replace(line, replacement)
+}
+
+const EXAMPLE: &str = "\
+wheel_radius_m = 0.0275
+body_radius_m = 0.085
+skew_rad = [0.0, 0.1, 0.0]
+mass_kg = 2.4
+yaw_inertia_kg_m2 = 0.0095
+gear_ratio = 3.71
+encoder_counts_per_motor_rev = 2048
+supply_v = 7.2
+control_rate_hz = 1000
+camera_rate_hz = 60
+camera_latency_s = 0.02
+camera_noise = [0.0015, 0.0015, 0.009]
+duty_quantum = 0.001
+support = \"blocks\"
+[motor]
+resistance_ohm = 1.94
+torque_constant = 0.00692
+back_emf_constant = 0.0070
+rotor_inertia = 2.7e-7
+friction_torque = 0.00015
+[pi]
+kp = 0.15
+ki = 0.8
+arithmetic = \"fixed-kin\"
+registers = { kp = 157, ki = -3 }
+[[effect]]
+name = \"wheel-skew\"
+wheels = [1, 2, 3]
+runs = [\"run_01\", \"run_02\"]
+found = 2026-11-20T10:00:00Z
+[effect.parameters]
+skew_1_rad = { value = 0.0698, ci95 = [0.069, 0.0705], note = \"ok\" }
+\"odd key\" = { value = 1 }
+[effect.evidence]
+gain = 12.5
+[effect.evidence.links]
+motion = [1, 2]
+";
+
+#[test]
+fn the_shipped_file_is_the_built_in_robot() {
+    assert_eq!(Robot::load(shipped_path()).unwrap(), Robot::racbot());
+    let g = Robot::racbot().geometry().unwrap();
+    assert_eq!(g.wheel_count(), 3);
+    assert!((Robot::racbot().counts_per_wheel_rad() - 2048.0 * 3.71 / TAU).abs() < 1e-9);
+}
+
+#[test]
+fn every_field_survives_writing_and_reading() {
+    let robot = Robot::parse(EXAMPLE, Path::new("robot.toml")).unwrap();
+    assert_eq!(robot.camera_noise, Some([0.0015, 0.0015, 0.009]));
+    assert_eq!(robot.support, Support::Blocks);
+    assert_eq!((robot.gear_efficiency, robot.wheel_inertia_kg_m2), (1.0, 0.0));
+    assert_eq!(robot.motor.back_emf(), 0.0070);
+    assert_eq!(robot.pi.arithmetic.as_deref(), Some("fixed-kin"));
+    assert!(robot.pi.registers.contains(&("ki".to_owned(), -3)));
+    let effect = robot.effect("wheel-skew").unwrap();
+    assert_eq!(effect.value("skew_1_rad"), Some(0.0698));
+    assert_eq!(effect.parameters[0].1.ci95, Some([0.069, 0.0705]));
+    assert!(effect.other["evidence"]["links"]["motion"].is_array());
+    assert!(effect.other["found"].is_datetime());
+    let text = robot.to_toml();
+    assert_eq!(Robot::parse(&text, Path::new("again")).unwrap(), robot, "{text}");
+}
+
+#[test]
+fn wheels_survive_writing_and_reading() {
+    let mut robot = Robot::racbot();
+    robot.layout = Layout::Wheels(rac_wheels(0.085, [0.1, 0.0, 0.0]));
+    let again = Robot::parse(&robot.to_toml(), Path::new("again")).unwrap();
+    assert_eq!(again, robot);
+    assert_eq!(again.geometry().unwrap(), Geometry::rac(0.0275, 0.085, [0.1, 0.0, 0.0]).unwrap());
+}
+
+#[test]
+fn byte_order_mark_and_windows_line_ends_are_accepted() {
+    let text = format!("\u{feff}{}", shipped().replace('\n', "\r\n"));
+    assert_eq!(Robot::parse(&text, Path::new("r")).unwrap(), Robot::racbot());
+}
+
+#[test]
+fn errors_say_where_what_and_what_to_do() {
+    let table: Vec<(String, &str, u32, &str)> = vec![
+        (without("mass_kg"), "mass_kg", 1, "is missing"),
+        (without("kp ="), "pi.kp", 20, "is missing"),
+        (with("mass_kg = 2.4", "mass_kg = -2.4"), "mass_kg", 4, "-2.4 is not positive"),
+        (with("mass_kg = 2.4", "mass_kg = nan"), "mass_kg", 4, "not a finite"),
+        (with("mass_kg = 2.4", "mass_kg = \"2.4\""), "mass_kg", 4, "no number"),
+        (with("supply_v = 7.2", "suply_v = 7.2"), "suply_v", 8, "not a known field"),
+        (with("kp = 0.15", "kp = 0.15\nkd = 1"), "pi.kd", 23, "not a known field"),
+        (with("[0.0, 0.1, 0.0]", "[0.0, 0.1]"), "skew_rad", 3, "has 2 entries"),
+        (with("[0.0, 0.1, 0.0]", "[0.0, inf, 0.0]"), "skew_rad", 3, "not a finite"),
+        (with("= 2048", "= 2048.5"), "encoder_counts_per_motor_rev", 7, "whole number"),
+        (with("\"blocks\"", "\"bricks\""), "support", 14, "neither"),
+        (with("value = 0.0698", "value = \"x\""), "skew_1_rad.value", 33, "no number"),
+        (with("name = \"wheel-skew\"", "nam = 1"), "effect.name", 27, "is missing"),
+        (format!("{EXAMPLE}[[wheel]]\nx_m = 0"), "body_radius_m", 2, "contradicts"),
+        (with("mass_kg = 2.4", "mass_kg = = 2"), "", 4, ""),
+        (with("mass_kg = 2.4", "mass_kg = 2.4\nmass_kg = 2.4"), "", 5, "duplicate"),
+    ];
+    for (text, field, line, what) in table {
+        let e = error(&text);
+        assert_eq!(e.field, field, "{e}");
+        assert!(e.what.contains(what), "{e}");
+        assert!(e.line.is_some_and(|l| l.abs_diff(line) <= 1), "line {line} expected: {e}");
+        assert!(!e.hint.is_empty() && e.column.is_some(), "{e}");
+    }
+    assert!(error(&with("supply_v = 7.2", "suply_v = 7.2")).hint.contains("supply_v"));
+    assert!(error("").what.contains("missing"));
+}
+
+#[test]
+fn wheels_that_cannot_drive_are_refused() {
+    let text = with("[0.0, 0.1, 0.0]", "[1.5707963267948966, 1.5707963267948966, 1.5707963267948966]");
+    assert!(error(&text).what.contains("singular"), "{}", error(&text));
+    let mut robot = Robot::racbot();
+    robot.layout = Layout::Wheels(rac_wheels(0.085, [0.0; 3])[..2].to_vec());
+    assert!(robot.validate(Path::new("r")).unwrap_err().what.contains("at least 3"));
+    robot = Robot { mass_kg: f64::INFINITY, ..Robot::racbot() };
+    assert_eq!(robot.validate(Path::new("r")).unwrap_err().field, "mass_kg");
+}
+
+#[test]
+fn a_missing_file_is_one_clear_error() {
+    let e = Robot::load("/nowhere/robot.toml").unwrap_err();
+    assert_eq!(e.file, Path::new("/nowhere/robot.toml"));
+    assert_eq!(e.hint, "check the path");
+}

@@ -1,0 +1,52 @@
+//! Does a log fit the robot it is said to come from?
+
+use std::path::Path;
+
+use super::{Run, RunError};
+use crate::robot::Robot;
+
+/// How far beyond the no-load speed a count may jump. Generous: a motor pushed from outside, a
+/// supply above nominal or a coarse time stamp are no errors; a lost or swapped counter is.
+const SPEED_FACTOR: f64 = 3.0;
+/// Counts allowed beside: edges that bounce around a tick.
+const COUNT_MARGIN: f64 = 16.0;
+
+impl Run {
+    /// Checks the number of wheels, and that no count jumps by more than its wheel can turn.
+    ///
+    /// # Errors
+    /// [`RunError`] about `path`, with the line of the jump (for a log of one line a tick).
+    pub fn check(&self, robot: &Robot, path: &Path) -> Result<(), RunError> {
+        let (logged, described) = (self.wheel_count(), robot.wheel_count());
+        if logged != 0 && logged != described {
+            let what = format!("speaks of {logged} wheels, but the robot has {described}");
+            return Err(RunError::new(path, what, "use the robot.toml of the robot that drove"));
+        }
+        let logged_supply = self.supply_v.iter().flatten().copied().filter(|v| v.is_finite());
+        let supply = logged_supply.fold(robot.supply_v, f64::max);
+        let per_second = SPEED_FACTOR * robot.no_load_wheel_speed(supply) * robot.counts_per_wheel_rad();
+        let tick = robot.tick_s();
+        for (wheel, counts) in self.counts.iter().enumerate() {
+            let gaps = self.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
+            let mut sampled = (0..counts.len()).filter(|tick| gaps.binary_search(tick).is_err());
+            let Some(mut before) = sampled.next() else { continue };
+            for now in sampled {
+                // Stamps may jitter, so at least one nominal tick is granted.
+                let dt = (self.t[now] - self.t[before]).max(tick);
+                let jump = counts[now].abs_diff(counts[before]);
+                let limit = per_second * dt + COUNT_MARGIN;
+                if jump as f64 > limit {
+                    let what = format!(
+                        "jumps by {jump} counts in {:.3} ms, but the wheel can turn by {limit:.0} at most",
+                        (self.t[now] - self.t[before]) * 1e3
+                    );
+                    let hint = "look for a counter that was reset, wrapped or not read; log cumulative counts";
+                    let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
+                    return Err(RunError { line: u32::try_from(now + 2).ok(), ..error });
+                }
+                before = now;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,62 @@
+//! A data set: a folder with `robot.toml` and `*.csv`.
+
+use std::path::{Path, PathBuf};
+
+use super::{Run, RunError};
+use crate::robot::Robot;
+
+/// A robot and its recorded runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DataSet {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The nominal robot.
+    pub robot: Robot,
+    /// Its runs, in the order of their names; at least one.
+    pub runs: Vec<Run>,
+}
+
+impl DataSet {
+    /// Reads `robot.toml` and every `*.csv` of a folder, and checks that they belong together.
+    ///
+    /// # Errors
+    /// [`RunError`] about the folder or the first file that is wrong.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Self, RunError> {
+        let folder = folder.as_ref();
+        let robot = folder.join("robot.toml");
+        if folder.is_dir() && !robot.exists() {
+            let hint = "put the robot's robot.toml beside its logs";
+            return Err(RunError::new(folder, "has no robot.toml", hint));
+        }
+        Self::open_as(folder, Robot::load(robot)?)
+    }
+
+    /// Reads every `*.csv` of a folder for a robot that is described elsewhere.
+    ///
+    /// # Errors
+    /// As [`DataSet::open`].
+    pub fn open_as(folder: impl AsRef<Path>, robot: Robot) -> Result<Self, RunError> {
+        let folder = folder.as_ref();
+        let entries = std::fs::read_dir(folder).map_err(|e| RunError::io(folder, &e))?;
+        let mut files = Vec::new();
+        for entry in entries {
+            let path = entry.map_err(|e| RunError::io(folder, &e))?.path();
+            let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+            let hidden = path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+            if is_csv && !hidden && path.is_file() {
+                files.push(path);
+            }
+        }
+        if files.is_empty() {
+            return Err(RunError::new(folder, "holds no runs", "put at least one *.csv log there"));
+        }
+        files.sort();
+        let runs = files.iter().map(|path| {
+            let run = Run::read(path)?;
+            run.check(&robot, path)?;
+            Ok(run)
+        });
+        let runs = runs.collect::<Result<_, RunError>>()?;
+        Ok(Self { folder: folder.to_owned(), robot, runs })
+    }
+}

@@ -1,0 +1,294 @@
+//! Reading a log.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use csv::ByteRecord;
+
+use super::columns::{Column, missing_member};
+use super::{CameraSample, Run, RunError};
+use crate::error::nearest;
+use crate::frames::Pose;
+
+impl Run {
+    /// Reads a log.
+    ///
+    /// # Errors
+    /// [`RunError`] with line, column and field for an unreadable or empty file, a header without
+    /// `t` or with columns twice or missing from a group, text where a number must be, NaN,
+    /// infinity, time that does not increase, and lines with too few or too many fields.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, RunError> {
+        let path = path.as_ref();
+        let file = File::open(path).map_err(|e| RunError::io(path, &e))?;
+        let mut run = Self::from_reader(file, path)?;
+        run.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        Ok(run)
+    }
+
+    /// Reads a log from anywhere; `path` is for the error messages.
+    ///
+    /// # Errors
+    /// As [`Run::read`].
+    pub fn from_reader(mut reader: impl Read, path: &Path) -> Result<Self, RunError> {
+        let mut bytes = Vec::new();
+        reader.read_to_end(&mut bytes).map_err(|e| RunError::io(path, &e))?;
+        let mut csv =
+            csv::ReaderBuilder::new().flexible(true).has_headers(false).trim(csv::Trim::All).from_reader(&bytes[..]);
+        let mut record = ByteRecord::new();
+        let mut next = |record: &mut ByteRecord| {
+            csv.read_byte_record(record).map_err(|e| RunError::new(path, e.to_string(), "save the log as CSV"))
+        };
+        if !next(&mut record)? {
+            return Err(RunError::new(path, "is empty", "log at least a header row and one tick"));
+        }
+        let mut reader = Reader::header(path, &bytes, &record)?;
+        while next(&mut record)? {
+            reader.row(&record)?;
+        }
+        reader.finish()
+    }
+}
+
+/// What one column fills.
+struct Slot {
+    name: String,
+    column: Column,
+}
+
+struct Reader<'a> {
+    path: &'a Path,
+    bytes: &'a [u8],
+    slots: Vec<Slot>,
+    run: Run,
+    /// Offset and number of fields of a short line: an error once it is known to be the last or not.
+    short: Option<(usize, usize)>,
+}
+
+impl<'a> Reader<'a> {
+    fn header(path: &'a Path, bytes: &'a [u8], record: &ByteRecord) -> Result<Self, RunError> {
+        let mut slots: Vec<Slot> = Vec::new();
+        for (i, field) in record.iter().enumerate() {
+            let field = if i == 0 { field.strip_prefix(b"\xef\xbb\xbf").unwrap_or(field) } else { field };
+            // Other people's column names need not be UTF-8; ours are ASCII.
+            let name = String::from_utf8_lossy(field).trim().to_owned();
+            if slots.iter().any(|s| s.name == name) {
+                let error = RunError::new(path, "stands twice in the header", "rename or remove one of the two");
+                return Err(error.at(1, column_of(record, i)).field(name));
+            }
+            slots.push(Slot { column: Column::from_name(&name), name });
+        }
+        let names: Vec<&str> = slots.iter().map(|s| s.name.as_str()).collect();
+        let columns: Vec<Column> = slots.iter().map(|s| s.column).collect();
+        let missing =
+            |name: String, hint: String| Err(RunError::new(path, "no such column", hint).at(1, 1).field(name));
+        if !columns.contains(&Column::Time) {
+            let hint = if names.iter().any(|n| n.parse::<f64>().is_ok()) {
+                "the first line must be a header with column names".to_owned()
+            } else {
+                match nearest("t", &names).or_else(|| names.iter().find(|n| n.starts_with("time")).copied()) {
+                    Some(name) if !name.is_empty() => format!("name the column with the time in seconds t, not {name}"),
+                    _ => "log the time in seconds in a column named t".to_owned(),
+                }
+            };
+            return missing("t".to_owned(), hint);
+        }
+        type Group = (fn(usize) -> Column, usize);
+        let groups: [Group; 5] =
+            [(Column::Reference, 0), (Column::Counts, 0), (Column::Duty, 0), (Column::Command, 3), (Column::Camera, 3)];
+        for (group, at_least) in groups {
+            if let Some(column) = missing_member(&columns, group, at_least) {
+                return missing(column.name(), "log the whole group of columns, or none of it".to_owned());
+            }
+        }
+        let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
+        let widths = [width(Column::Reference), width(Column::Counts), width(Column::Duty)];
+        let wheels = widths.into_iter().max().unwrap_or(0);
+        for ((group, _), n) in groups.iter().zip(widths) {
+            if n > 0 && n < wheels {
+                let hint = format!("other columns speak of {wheels} wheels; log this one for all of them");
+                return missing(group(n).name(), hint);
+            }
+        }
+        let run = Run {
+            command: columns.contains(&Column::Command(0)).then(Default::default),
+            reference: vec![Vec::new(); widths[0]],
+            counts: vec![Vec::new(); widths[1]],
+            count_gaps: vec![Vec::new(); widths[1]],
+            duty: vec![Vec::new(); widths[2]],
+            supply_v: columns.contains(&Column::Supply).then(Vec::new),
+            has_camera: columns.contains(&Column::Camera(0)),
+            other: slots.iter().filter(|s| s.column == Column::Other).map(|s| (s.name.clone(), Vec::new())).collect(),
+            ..Run::default()
+        };
+        Ok(Self { path, bytes, slots, run, short: None })
+    }
+
+    fn row(&mut self, record: &ByteRecord) -> Result<(), RunError> {
+        // A line of blanks is read as one empty field.
+        if record.iter().all(<[u8]>::is_empty) && record.len() == 1 && self.slots.len() > 1 {
+            return Ok(());
+        }
+        let offset = record.position().map_or(0, csv::Position::byte) as usize;
+        if let Some((offset, fields)) = self.short {
+            return Err(self.wrong_width(offset, fields, "complete the line"));
+        }
+        if record.len() > self.slots.len() {
+            return Err(self.wrong_width(offset, record.len(), "quote fields that contain a comma"));
+        }
+        if record.len() < self.slots.len() {
+            self.short = Some((offset, record.len()));
+            return Ok(());
+        }
+        let tick = self.run.t.len();
+        let mut camera = [f64::NAN; 3];
+        let mut other = 0;
+        for (i, field) in record.iter().enumerate() {
+            let Slot { name, column } = &self.slots[i];
+            let fail = |what: String, hint: &str| {
+                Err(RunError::new(self.path, what, hint)
+                    .at(self.line(offset), column_of(record, i))
+                    .field(name.clone()))
+            };
+            let number = match column {
+                Column::Other => {
+                    self.run.other[other].1.push(String::from_utf8_lossy(field).into_owned());
+                    other += 1;
+                    continue;
+                }
+                Column::Counts(wheel) => {
+                    let Ok(count) = counts(field) else {
+                        let what = format!("{} is no whole number", quoted(field));
+                        return fail(what, "log cumulative encoder counts, or leave the field empty");
+                    };
+                    // Before the first sample there is nothing to hold; finish() fills it in.
+                    let held = self.run.counts[*wheel].last().copied().unwrap_or(0);
+                    self.run.counts[*wheel].push(count.unwrap_or(held));
+                    if count.is_none() {
+                        self.run.count_gaps[*wheel].push(tick);
+                    }
+                    continue;
+                }
+                _ if field.is_empty() => f64::NAN,
+                _ => match std::str::from_utf8(field).ok().and_then(|s| s.parse::<f64>().ok()) {
+                    Some(x) if x.is_finite() => x,
+                    Some(x) => {
+                        return fail(
+                            format!("{x} is not a finite number"),
+                            "leave the field empty if there is no sample",
+                        );
+                    }
+                    None => {
+                        return fail(format!("{} is no number", quoted(field)), "write numbers with a decimal point");
+                    }
+                },
+            };
+            match column {
+                Column::Time => {
+                    if number.is_nan() {
+                        return fail("is empty".to_owned(), "every tick needs its time");
+                    }
+                    if let Some(before) = self.run.t.last().filter(|before| number <= **before) {
+                        let what = if number == *before {
+                            format!("time {number} s stands twice")
+                        } else {
+                            format!("time runs backwards, from {before} s to {number} s")
+                        };
+                        return fail(what, "sort the log by time, one line a tick");
+                    }
+                    self.run.t.push(number);
+                }
+                Column::Command(i) => {
+                    if let Some(command) = &mut self.run.command {
+                        command[*i].push(number);
+                    }
+                }
+                Column::Reference(wheel) => self.run.reference[*wheel].push(number),
+                Column::Duty(wheel) => {
+                    // Roundings of a logger may pass the limit by a digit, no more.
+                    if number.abs() > 1.001 {
+                        return fail(
+                            format!("duty {number} is not within ±1"),
+                            "log the duty as a share of the supply",
+                        );
+                    }
+                    self.run.duty[*wheel].push(number);
+                }
+                Column::Supply => {
+                    if let Some(supply) = &mut self.run.supply_v {
+                        supply.push(number);
+                    }
+                }
+                Column::Camera(i) => camera[*i] = number,
+                Column::Counts(_) | Column::Other => {}
+            }
+        }
+        match camera.iter().filter(|c| !c.is_nan()).count() {
+            0 => {}
+            3 => self.run.camera.push(CameraSample { tick, pose: Pose::new(camera[0], camera[1], camera[2]) }),
+            _ => {
+                let what = "a camera sample has only a part of x, y and theta";
+                let error = RunError::new(self.path, what, "log all three, or none at this tick");
+                return Err(error.at(self.line(offset), 1).field("cam_x, cam_y, cam_theta"));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Run, RunError> {
+        if let Some((line, fields)) = self.short {
+            return Err(self.wrong_width(
+                line,
+                fields,
+                "the file ends too early: copy it again or delete its last line",
+            ));
+        }
+        if self.run.t.is_empty() {
+            return Err(RunError::new(self.path, "has a header but no ticks", "log at least one line"));
+        }
+        for (counts, gaps) in self.run.counts.iter_mut().zip(&self.run.count_gaps) {
+            let leading = gaps.iter().enumerate().take_while(|(i, tick)| i == *tick).count();
+            if let Some(first) = counts.get(leading).copied() {
+                counts[..leading].fill(first);
+            }
+        }
+        Ok(self.run)
+    }
+
+    /// Line (from 1) of the record read from `offset`; what is blank in between is not part of it.
+    fn line(&self, offset: usize) -> usize {
+        let blank = self.bytes[offset..].iter().take_while(|b| matches!(b, b'\r' | b'\n')).count();
+        let newlines = self.bytes[..offset + blank].iter().filter(|b| **b == b'\n').count();
+        newlines + 1
+    }
+
+    fn wrong_width(&self, offset: usize, fields: usize, hint: &str) -> RunError {
+        let what = format!("{fields} fields, but the header has {}", self.slots.len());
+        RunError::new(self.path, what, hint).at(self.line(offset), 1)
+    }
+}
+
+/// Column (from 1) of a field in its line; exact where nothing is quoted.
+fn column_of(record: &ByteRecord, field: usize) -> usize {
+    record.range(field).map_or(1, |r| r.start + field + 1)
+}
+
+/// A count, or `None` for an empty field; `1e3` and `12.0` are whole numbers too.
+fn counts(field: &[u8]) -> Result<Option<i64>, ()> {
+    if field.is_empty() {
+        return Ok(None);
+    }
+    let text = std::str::from_utf8(field).map_err(|_| ())?;
+    if let Ok(count) = text.parse::<i64>() {
+        return Ok(Some(count));
+    }
+    // Beyond 2^53 a floating-point number no longer says which count it was.
+    let exact = |x: &f64| x.fract() == 0.0 && x.abs() <= 9.007_199_254_740_992e15;
+    text.parse::<f64>().ok().filter(exact).map(|x| Some(x as i64)).ok_or(())
+}
+
+/// A field as an error message can show it.
+fn quoted(field: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(field).chars().take(24).collect();
+    format!("{text:?}")
+}

@@ -1,0 +1,160 @@
+use super::*;
+use crate::robot::Robot;
+use proptest::prelude::*;
+use std::path::{Path, PathBuf};
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs").join(name)
+}
+
+fn read(text: &str) -> Result<Run, RunError> {
+    Run::from_reader(text.as_bytes(), Path::new("run.csv"))
+}
+
+fn error(text: &str) -> String {
+    read(text).unwrap_err().to_string()
+}
+
+#[test]
+fn the_shipped_set_is_read_whole() {
+    let set = DataSet::open(data("wheel-skew")).unwrap();
+    let names: Vec<&str> = set.runs.iter().map(|r| r.name.as_str()).collect();
+    assert_eq!(names, ["run_01", "run_02", "run_03", "run_04"]);
+    let run = &set.runs[0];
+    assert_eq!((run.wheel_count(), run.len()), (3, run.counts[2].len()));
+    assert_eq!(run.camera[0].tick, 1);
+    assert_eq!(run.camera[0].pose, Pose::new(-0.0131, -0.2377, -2.4267));
+    assert!((run.tick_s().unwrap() - 0.001).abs() < 1e-12);
+    assert!((run.camera.len() as f64 / run.duration_s() - 60.0).abs() < 1.0);
+}
+
+#[test]
+fn writing_and_reading_gives_the_same_run() {
+    let run = Run::read(data("wheel-skew").join("run_01.csv")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run_01.csv");
+    run.write(&path).unwrap();
+    assert_eq!(Run::read(&path).unwrap(), run);
+}
+
+#[test]
+fn columns_in_any_order_unknown_ones_kept_gaps_kept() {
+    let text = "note,enc_2,t,enc_1,supply_v\n\"a, b\",,0,,7\nc,5,0.5,,\n,6,1,3,7.1\n,7,2,,7\n";
+    let run = read(text).unwrap();
+    assert_eq!(run.counts, [[3, 3, 3, 3], [5, 5, 6, 7]]);
+    assert_eq!(run.count_gaps, [vec![0, 1, 3], vec![0]]);
+    assert_eq!(run.other, [("note".to_owned(), vec!["a, b".into(), "c".into(), String::new(), String::new()])]);
+    assert!(run.supply_v.as_ref().unwrap()[1].is_nan());
+    assert!(run.reference.is_empty() && run.command.is_none() && !run.has_camera);
+    let mut written = Vec::new();
+    run.write_to(&mut written).unwrap();
+    let again = String::from_utf8(written).unwrap();
+    assert_eq!(again, "t,enc_1,enc_2,supply_v,note\n0,,,7,\"a, b\"\n0.5,,5,,c\n1,3,6,7.1,\n2,,7,7,\n");
+}
+
+#[test]
+fn windows_files_blanks_and_a_missing_last_line_end_are_accepted() {
+    let run = read("\u{feff}t, enc_1\r\n0 , 1\r\n\r\n1,2.0").unwrap();
+    assert_eq!((run.t, run.counts), (vec![0.0, 1.0], vec![vec![1, 2]]));
+}
+
+#[test]
+fn one_to_many_wheels() {
+    for n in 1..=6 {
+        let header: Vec<String> = (1..=n).map(|i| format!("duty_{i}")).collect();
+        let text = format!("t,{}\n0,{}\n", header.join(","), vec!["0.5"; n].join(","));
+        assert_eq!(read(&text).unwrap().wheel_count(), n);
+    }
+}
+
+#[test]
+fn errors_say_where_what_and_what_to_do() {
+    let table = [
+        ("", "run.csv: is empty; log at least"),
+        ("t\n", "run.csv: has a header but no ticks;"),
+        ("x,enc_1\n0,1\n", "run.csv:1:1: t: no such column; name the column"),
+        ("0.1,0.2\n0,1\n", "run.csv:1:1: t: no such column; the first line must be a header"),
+        ("t,t\n0,1\n", "run.csv:1:3: t: stands twice"),
+        ("t,enc_1,enc_3\n0,1,1\n", "run.csv:1:1: enc_2: no such column;"),
+        ("t,enc_1,enc_2,duty_1\n0,1,1,0\n", "run.csv:1:1: duty_2: no such column; other columns speak of 2"),
+        ("t,cam_x,cam_y\n0,1,1\n", "run.csv:1:1: cam_theta: no such column;"),
+        ("t,enc_1\n0,1\n1,two\n", "run.csv:3:3: enc_1: \"two\" is no whole number;"),
+        ("t,enc_1\n0,1\n1,2.5\n", "run.csv:3:3: enc_1: \"2.5\" is no whole number;"),
+        ("t,enc_1\n0,1\n1,1e300\n", "run.csv:3:3: enc_1: \"1e300\" is no whole number;"),
+        ("t,duty_1\n0,\"0,5\"\n", "run.csv:2:3: duty_1: \"0,5\" is no number; write numbers with a decimal point"),
+        ("t,duty_1\n0,NaN\n", "run.csv:2:3: duty_1: NaN is not a finite number; leave the field empty"),
+        ("t,duty_1\n0,-inf\n", "run.csv:2:3: duty_1: -inf is not"),
+        ("t,duty_1\n0,55\n", "run.csv:2:3: duty_1: duty 55 is not within ±1"),
+        ("t\n0\n1\n0.5\n", "run.csv:4:1: t: time runs backwards, from 1 s to 0.5 s;"),
+        ("t\n0\n1\n1\n", "run.csv:4:1: t: time 1 s stands twice;"),
+        ("t,duty_1\n,0\n", "run.csv:2:1: t: is empty;"),
+        ("t,duty_1\n0,0,0\n", "run.csv:2:1: 3 fields, but the header has 2; quote"),
+        ("t,duty_1\n0\n1,0\n", "run.csv:2:1: 1 fields, but the header has 2; complete the line"),
+        ("t,duty_1\n0,0\n1", "run.csv:3:1: 1 fields, but the header has 2; the file ends too early"),
+        ("t,cam_x,cam_y,cam_theta\n0,1,,1\n", "run.csv:2:1: cam_x, cam_y, cam_theta: a camera sample has only"),
+        ("t,duty_1\r\n0,0\r\n1,x\r\n", "run.csv:3:3: duty_1: \"x\""),
+    ];
+    for (text, message) in table {
+        let shown = error(text);
+        assert!(shown.starts_with(message), "{text:?}\n  gave   {shown}\n  not    {message}");
+    }
+}
+
+#[test]
+fn counts_that_jump_further_than_the_wheel_can_turn_are_refused() {
+    // No load at 7.2 V: 1040 rad/s at the motor, 339 counts a millisecond.
+    let log = |jump: i64| {
+        let text = format!("t,enc_1,enc_2,enc_3\n0,0,0,0\n0.001,0,,0\n0.002,0,{jump},0\n");
+        read(&text).unwrap().check(&Robot::racbot(), Path::new("run.csv"))
+    };
+    // 2 ms since the last sample, factor 3.
+    assert_eq!(log(2000), Ok(()));
+    assert_eq!(log(-2000), Ok(()));
+    let e = log(2100).unwrap_err().to_string();
+    assert!(e.starts_with("run.csv:4: enc_2: jumps by 2100 counts in 2.000 ms, but the wheel can turn by 2051"), "{e}");
+    assert!(log(i64::MAX).is_err() && log(i64::MIN).is_err());
+    let two = read("t,enc_1,enc_2\n0,0,0\n").unwrap();
+    let e = two.check(&Robot::racbot(), Path::new("run.csv")).unwrap_err().to_string();
+    assert!(e.contains("speaks of 2 wheels, but the robot has 3"), "{e}");
+}
+
+#[test]
+fn folders_without_runs_or_robot_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = || DataSet::open(folder.path()).unwrap_err().to_string();
+    assert!(open().contains("has no robot.toml"));
+    Robot::racbot().save(folder.path().join("robot.toml")).unwrap();
+    assert!(open().contains("holds no runs"));
+    std::fs::write(folder.path().join("run.csv"), "").unwrap();
+    assert!(open().contains("run.csv: is empty"));
+    assert!(DataSet::open("/nowhere").unwrap_err().to_string().contains("check the path"));
+}
+
+proptest! {
+    #[test]
+    fn no_soup_of_bytes_panics_the_reader(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let _ = Run::from_reader(&bytes[..], Path::new("soup"));
+    }
+
+    #[test]
+    fn no_soup_of_tokens_panics_the_reader_and_what_it_accepts_survives(
+        tokens in proptest::collection::vec(proptest::sample::select(vec![
+            "t", "enc_1", "enc_2", "duty_1", "cam_x", "cam_y", "cam_theta", "note", ",", ",", ",", "\n", "\n", "\r\n",
+            "0", "1", "2", "-3", "0.5", "1e9", "nan", "inf", "\"", "\"\"", "é", " ", "9223372036854775807",
+        ]), 0..60),
+    ) {
+        let text = format!("t,enc_1,note\n{}", tokens.concat());
+        for text in [tokens.concat(), text] {
+            if let Ok(run) = Run::from_reader(text.as_bytes(), Path::new("soup")) {
+                let mut written = Vec::new();
+                run.write_to(&mut written).unwrap();
+                let again = Run::from_reader(&written[..], Path::new("again")).unwrap();
+                // NaN stands for "no sample" and is not equal to itself, so the texts are compared.
+                let mut twice = Vec::new();
+                again.write_to(&mut twice).unwrap();
+                prop_assert_eq!(String::from_utf8_lossy(&written), String::from_utf8_lossy(&twice));
+                let _ = run.check(&Robot::racbot(), Path::new("soup"));
+            }
+        }
+    }
+}
