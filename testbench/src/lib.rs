@@ -1,1 +1,3 @@
-//! testbench
+//! Where hardware and reference meet: co-simulation and the virtual robot.
+
+pub mod cosim;

@@ -1,1 +1,4 @@
 //! From rust-hdl blocks to the files in `generated/`.
+
+pub mod ports;
+pub mod token;
