@@ -3,7 +3,7 @@
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
 use std::ops::ControlFlow;
-use testbench::cosim::{Change, Clocks, Levels, Ports, Verilated};
+use testbench::cosim::{Change, Clocks, Levels, Ports, Verilated, icarus, lint};
 
 #[derive(LogicBlock, Default)]
 struct Accumulator {
@@ -84,6 +84,24 @@ fn verilator_equals_the_simulation() {
     };
     session.stream(50_000, row, check).unwrap();
     assert_eq!(seen, 50_000);
+}
+
+#[test]
+fn icarus_equals_the_simulation() {
+    let mut reference_block = block();
+    let mut stimulus = vec![0; 2 * 2000];
+    for (step, words) in (0..).zip(stimulus.chunks_mut(2)) {
+        row(step, words);
+    }
+    let expected: Vec<_> = stimulus.chunks(2).flat_map(|row| reference(&mut reference_block, row)).collect();
+    let ports = Ports::of(&reference_block).unwrap();
+    let answer = icarus::run("accumulator", &generate_verilog(&block()), "top", &ports, &stimulus).unwrap();
+    assert_eq!(answer, expected);
+}
+
+#[test]
+fn a_sound_block_passes_the_gate() {
+    lint::gate("accumulator", &generate_verilog(&block()), "top").unwrap();
 }
 
 #[test]

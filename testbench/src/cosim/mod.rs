@@ -15,12 +15,16 @@
 //! Builds go to `RACBOT_COSIM_DIR`, or Cargo's scratch folder, and are reused while the design is
 //! unchanged. A tool that is not installed is an error that names its Debian package.
 
+mod bus;
 mod error;
 mod folder;
+pub mod icarus;
 mod layout;
+pub mod lint;
 mod session;
 mod verilated;
 
+pub use bus::{BusConfig, BusOperation};
 pub use error::CosimError;
 pub use hdl::emit::ports;
 pub use hdl::emit::ports::{Direction, Port, Ports};

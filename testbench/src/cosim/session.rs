@@ -3,6 +3,7 @@
 //! One process a session, state from power-up on. Nothing crosses the pipe per clock: commands say
 //! how far to run, pin changes are scheduled ahead, and the bus master runs beside the design.
 
+use super::bus::BusConfig;
 use super::layout::{Clocks, Layout};
 use super::{CosimError, folder};
 use std::io::{BufReader, BufWriter, Read, Write};
@@ -52,6 +53,7 @@ pub struct Session {
     output: BufReader<ChildStdout>,
     clock: u64,
     per_step: bool,
+    pub(crate) bus_attached: bool,
 }
 
 impl Drop for Session {
@@ -71,7 +73,13 @@ impl Session {
         };
         let input = BufWriter::with_capacity(1 << 17, input);
         let output = BufReader::with_capacity(1 << 17, output);
-        Ok(Self { name: name.into(), layout, child, input, output, clock: 0, per_step: false })
+        let mut session =
+            Self { name: name.into(), layout, child, input, output, clock: 0, per_step: false, bus_attached: false };
+        // The bus must idle from the first clock on.
+        match session.attach_bus(&BusConfig::default()) {
+            Ok(()) | Err(CosimError::NoPort { .. }) => Ok(session),
+            Err(error) => Err(error),
+        }
     }
 
     /// The columns of inputs and outputs.
