@@ -4,6 +4,8 @@
 pub mod error;
 pub mod frames;
 pub mod geometry;
+pub mod motor;
+pub mod pi;
+pub mod plant;
 pub mod robot;
-
 pub mod run;

@@ -1,0 +1,238 @@
+//! The simulated robot: motors, wheels and body, in fixed steps.
+
+mod friction;
+mod rolling;
+mod slipping;
+
+use nalgebra::Vector3;
+
+use crate::frames::{Pose, Twist};
+use crate::geometry::{Geometry, GeometryError};
+use crate::motor::Axis;
+use crate::robot::{Robot, Support};
+
+/// How the wheels hold the floor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Contact {
+    /// Rolling without slip: wheel speeds and body twist are tied by the inverse kinematics.
+    #[default]
+    Rolling,
+    /// Friction-limited: the wheel speed is a state of its own; the contact point slips along the
+    /// traction direction at `creep_s_per_kg` × force until the force reaches its limit.
+    Friction {
+        /// Coefficient of friction between roller and floor.
+        friction_coefficient: f64,
+        /// Slip velocity per force below the limit, s/kg, greater than 0.
+        creep_s_per_kg: f64,
+    },
+}
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.806_65;
+/// Longest internal step, s. Halving it changes a second of driving by less than 0.1 mm.
+const LONGEST_STEP_S: f64 = 0.000_25;
+
+/// The robot as a dynamic system.
+///
+/// The platform is a rigid body in the plane, its centre of mass at the chassis centre. The body
+/// twist, body frame and pose are those of [`Twist`] and [`Pose`]; Coriolis terms act on the
+/// platform's mass only, for the wheels' spin has no part in them. Integration is implicit in the
+/// damping and the friction (so that a wheel stands still instead of chattering about zero) and
+/// exact in the rotation of the body frame, half of which goes before the push and half after; it
+/// creates no energy.
+#[derive(Debug, Clone)]
+pub struct Plant {
+    geometry: Geometry,
+    axis: Axis,
+    mass: f64,
+    yaw_inertia: f64,
+    contact: Contact,
+    support: Support,
+    counts_per_rad: f64,
+    twist: Twist,
+    pose: Pose,
+    wheels: Vec<WheelState>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+    contacts: Vec<slipping::ContactPoint>,
+    rolling: Option<rolling::Tables>,
+}
+
+/// One wheel and its motor.
+#[derive(Debug, Clone, Copy, Default)]
+struct WheelState {
+    /// rad/s.
+    speed: f64,
+    /// Speed at the end of the step in hand, rad/s.
+    next_speed: f64,
+    /// rad since the start.
+    angle: f64,
+    /// Torque through the gear in the last step, Nm.
+    transmitted: f64,
+    /// Friction torque in the last step, Nm.
+    friction: f64,
+    /// Torque of the winding at standstill for the present voltage, Nm.
+    drive: f64,
+}
+
+impl Plant {
+    /// A robot at rest at the origin, rolling without slip (or on blocks, if it says so).
+    ///
+    /// # Errors
+    /// [`GeometryError`] if the robot's wheels cannot drive it.
+    pub fn new(robot: &Robot) -> Result<Self, GeometryError> {
+        let geometry = robot.geometry()?;
+        let n = geometry.wheel_count();
+        Ok(Self {
+            contacts: slipping::ContactPoint::of(&geometry),
+            geometry,
+            axis: Axis::of(robot),
+            mass: robot.mass_kg,
+            yaw_inertia: robot.yaw_inertia_kg_m2,
+            contact: Contact::Rolling,
+            support: robot.support,
+            counts_per_rad: robot.counts_per_wheel_rad(),
+            twist: Twist::default(),
+            pose: Pose::default(),
+            wheels: vec![WheelState::default(); n],
+            before: vec![0.0; n],
+            after: vec![0.0; n],
+            rolling: None,
+        })
+    }
+
+    /// The same robot on another floor. On blocks the contact does not matter.
+    #[must_use]
+    pub fn with_contact(mut self, contact: Contact) -> Self {
+        self.contact = contact;
+        self
+    }
+
+    /// The same robot at another place.
+    #[must_use]
+    pub fn at(mut self, pose: Pose) -> Self {
+        self.pose = pose;
+        self
+    }
+
+    /// The same robot in motion, its wheels rolling.
+    #[must_use]
+    pub fn moving(mut self, twist: Twist) -> Self {
+        self.twist = if self.support == Support::Floor { twist } else { Twist::default() };
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            wheel.speed = self.geometry.wheel_speed(i, self.twist);
+        }
+        self
+    }
+
+    /// One control tick of `dt` seconds with a constant duty in [−1, 1] a wheel (0, the motor
+    /// shorted, where one is missing) and a constant supply (V).
+    pub fn step(&mut self, duty: &[f64], supply_v: f64, dt: f64) {
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            let voltage = duty.get(i).copied().unwrap_or(0.0).clamp(-1.0, 1.0) * supply_v;
+            wheel.drive = self.axis.winding_torque(voltage, 0.0);
+        }
+        self.before.copy_from_slice(&self.after);
+        // A tick that is a multiple of the longest step up to rounding gets no extra step.
+        let steps = (dt / LONGEST_STEP_S - 1e-6).ceil().max(1.0);
+        let h = dt / steps;
+        for _ in 0..steps as usize {
+            match (self.support, self.contact) {
+                (Support::Blocks, _) => self.step_on_blocks(h),
+                (_, Contact::Rolling) => self.step_rolling(h),
+                (_, Contact::Friction { friction_coefficient, creep_s_per_kg }) => {
+                    self.step_slipping(h, friction_coefficient, creep_s_per_kg);
+                }
+            }
+        }
+        for (count, wheel) in self.after.iter_mut().zip(&self.wheels) {
+            *count = wheel.angle * self.counts_per_rad;
+        }
+    }
+
+    /// The kinematics it moves by.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Body twist.
+    pub fn twist(&self) -> Twist {
+        self.twist
+    }
+
+    /// Pose in the world, heading not wrapped.
+    pub fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// Wheel speeds, rad/s.
+    pub fn wheel_speeds(&self) -> impl Iterator<Item = f64> + '_ {
+        self.wheels.iter().map(|w| w.speed)
+    }
+
+    /// Encoder positions at the motor shafts before the last step, in counts with fractions.
+    pub fn encoder_before(&self) -> &[f64] {
+        &self.before
+    }
+
+    /// Encoder positions at the motor shafts after the last step, in counts with fractions.
+    pub fn encoder_after(&self) -> &[f64] {
+        &self.after
+    }
+
+    /// What cumulative counters read after the last step.
+    pub fn counts(&self) -> Vec<i64> {
+        self.after.iter().map(|c| c.floor() as i64).collect()
+    }
+
+    /// Kinetic energy of platform, wheels and rotors, J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let spin: f64 = self.wheels.iter().map(|w| w.speed * w.speed).sum();
+        let t = self.twist;
+        let body = self.mass * (t.vx * t.vx + t.vy * t.vy) + self.yaw_inertia * t.omega * t.omega;
+        0.5 * (body + self.axis.inertia() * spin)
+    }
+
+    fn step_on_blocks(&mut self, h: f64) {
+        let axis = self.axis;
+        for wheel in &mut self.wheels {
+            let stiffness = axis.inertia() / h + axis.damping;
+            let push = axis.inertia() / h * wheel.speed + wheel.drive;
+            let old = wheel.speed;
+            for _ in 0..friction::GEAR_ROUNDS {
+                let limit = axis.friction_limit(wheel.transmitted);
+                wheel.speed = friction::soft(push, limit) / stiffness;
+                wheel.friction = stiffness * wheel.speed - push;
+                let winding = wheel.drive - axis.damping * wheel.speed;
+                let acceleration = (wheel.speed - old) / h;
+                wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
+            }
+            wheel.angle += 0.5 * h * (old + wheel.speed);
+        }
+    }
+
+    fn move_body(&mut self, twist: Vector3<f64>, h: f64) {
+        let old = self.twist;
+        let sum = Twist::new(old.vx + twist.x, old.vy + twist.y, old.omega + twist.z);
+        self.pose = self.pose.advance(sum, 0.5 * h);
+        self.twist = Twist::new(twist.x, twist.y, twist.z);
+    }
+
+    fn twist_vector(&self) -> Vector3<f64> {
+        Vector3::new(self.twist.vx, self.twist.vy, self.twist.omega)
+    }
+
+    /// Mass, mass and yaw inertia of the platform.
+    fn mass_vector(&self) -> Vector3<f64> {
+        Vector3::new(self.mass, self.mass, self.yaw_inertia)
+    }
+}
+
+/// Change of a twist because the body frame turns on by ω·h: the Coriolis acceleration, exactly.
+fn turn(twist: &Vector3<f64>, h: f64) -> Vector3<f64> {
+    let (s, c) = (twist.z * h).sin_cos();
+    Vector3::new(c * twist.x + s * twist.y - twist.x, c * twist.y - s * twist.x - twist.y, 0.0)
+}
+
+#[cfg(test)]
+mod tests;

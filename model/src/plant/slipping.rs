@@ -1,0 +1,111 @@
+//! A step on a floor that gives way.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Plant, WheelState, friction, turn};
+use crate::geometry::{Geometry, Wheel};
+use crate::motor::Axis;
+
+/// Newton steps; piecewise linear and convex, so that 2 or 3 are the rule.
+const NEWTON_STEPS: usize = 40;
+
+/// Where a wheel holds the floor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ContactPoint {
+    /// Coefficients of the twist in the contact point's speed along the traction direction.
+    row: Vector3<f64>,
+    /// Traction speed per wheel speed, r·cos(roller), m.
+    lever: f64,
+}
+
+impl ContactPoint {
+    pub(super) fn of(geometry: &Geometry) -> Vec<Self> {
+        let point = |wheel: &Wheel| Self {
+            row: Vector3::from(wheel.traction_row()),
+            lever: geometry.wheel_radius_m() * wheel.roller_rad.cos(),
+        };
+        geometry.wheels().iter().map(point).collect()
+    }
+}
+
+/// What all wheels share over one step of length `h`.
+struct Floor<'a> {
+    axis: &'a Axis,
+    h: f64,
+    /// s/kg.
+    creep: f64,
+    /// Largest traction force of a wheel, N.
+    grip: f64,
+}
+
+/// Force on the body (N), its slope against the contact's speed, and the wheel's new speed.
+struct Traction {
+    force: f64,
+    slope: f64,
+    speed: f64,
+}
+
+impl Floor<'_> {
+    /// The wheel's answer to a body twist.
+    fn traction(&self, wheel: &WheelState, contact: &ContactPoint, twist: &Vector3<f64>) -> Traction {
+        let (u, lever) = (contact.row.dot(twist), contact.lever);
+        let limit = self.axis.friction_limit(wheel.transmitted);
+        let inertia = self.axis.inertia() / self.h;
+        let push = inertia * wheel.speed + wheel.drive;
+        let (k, stiffness) = (lever / self.creep, inertia + self.axis.damping);
+        let held = stiffness + lever * k;
+        let speed = friction::soft(push + k * u, limit) / held;
+        let force = (lever * speed - u) / self.creep;
+        if force.abs() <= self.grip {
+            let follows = if speed == 0.0 { 0.0 } else { lever * k / held };
+            return Traction { force, slope: (follows - 1.0) / self.creep, speed };
+        }
+        let force = self.grip.copysign(force);
+        let speed = friction::soft(push - lever * force, limit) / stiffness;
+        Traction { force, slope: 0.0, speed }
+    }
+}
+
+impl Plant {
+    pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: f64) {
+        let mass = self.mass_vector() / h;
+        let grip = friction_coefficient * self.mass * super::GRAVITY / self.wheels.len() as f64;
+        let start = self.twist_vector();
+        let start = start + turn(&start, 0.5 * h);
+        let axis = self.axis;
+        let floor = Floor { axis: &axis, h, creep, grip };
+        let mut twist = start;
+        for _ in 0..friction::GEAR_ROUNDS {
+            for step in 0..NEWTON_STEPS {
+                let mut residual = mass.component_mul(&(twist - start));
+                let mut slope = Matrix3::from_diagonal(&mass);
+                for (wheel, contact) in self.wheels.iter().zip(&self.contacts) {
+                    let t = floor.traction(wheel, contact, &twist);
+                    residual -= contact.row * t.force;
+                    slope -= contact.row * contact.row.transpose() * t.slope;
+                }
+                let Some(change) = slope.try_inverse().map(|s| s * residual) else { break };
+                // Full steps can cycle between two kinks; half steps then cannot.
+                twist -= if step < 10 { change } else { change * 0.5 };
+                if change.amax() < 1e-13 {
+                    break;
+                }
+            }
+            for (wheel, contact) in self.wheels.iter_mut().zip(&self.contacts) {
+                let t = floor.traction(wheel, contact, &twist);
+                let limit = axis.friction_limit(wheel.transmitted);
+                let acceleration = (t.speed - wheel.speed) / h;
+                let winding = wheel.drive - axis.damping * t.speed;
+                wheel.friction = axis.inertia() * acceleration - winding + contact.lever * t.force;
+                wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
+                wheel.next_speed = t.speed;
+            }
+        }
+        for wheel in &mut self.wheels {
+            wheel.angle += 0.5 * h * (wheel.speed + wheel.next_speed);
+            wheel.speed = wheel.next_speed;
+        }
+        twist += turn(&twist, 0.5 * h);
+        self.move_body(twist, h);
+    }
+}
