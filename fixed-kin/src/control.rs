@@ -35,18 +35,18 @@ pub struct Configuration {
 }
 
 /// Words of a configuration bank, in the order of [`Configuration::to_words`].
-pub const CONFIGURATION_WORDS: usize = 9 * AXES;
+pub const CONFIGURATION_WORDS: usize = 10 * AXES;
 /// Words of a set-point bank.
 pub const SET_POINT_WORDS: usize = AXES;
 
 impl Configuration {
-    /// The bank as the bus sees it: nine groups of one word per axis.
+    /// The bank as the bus sees it: ten groups of one word per axis.
     ///
     /// | words | group |
     /// |---|---|
     /// | 0–3, 4–7, 8–11 | inverse matrix, columns x, y, ω |
     /// | 12–15, 16–19, 20–23 | direct matrix, rows x, y, ω |
-    /// | 24–27, 28–31, 32–35 | kp, ki, limit |
+    /// | 24–27, 28–31, 32–35, 36–39 | kp, ki, lower limit, upper limit |
     #[must_use]
     pub fn to_words(&self) -> [i32; CONFIGURATION_WORDS] {
         let mut words = [0; CONFIGURATION_WORDS];
@@ -57,7 +57,8 @@ impl Configuration {
             }
             words[6 * AXES + axis] = self.gains[axis].kp.to_bits();
             words[7 * AXES + axis] = self.gains[axis].ki.to_bits();
-            words[8 * AXES + axis] = self.gains[axis].limit.to_bits();
+            words[8 * AXES + axis] = self.gains[axis].lower.to_bits();
+            words[9 * AXES + axis] = self.gains[axis].upper.to_bits();
         }
         words
     }
@@ -74,7 +75,8 @@ impl Configuration {
             bank.gains[axis] = PiGains {
                 kp: ProportionalGain::from_bits(words[6 * AXES + axis]),
                 ki: IntegralGain::from_bits(words[7 * AXES + axis]),
-                limit: Duty::from_bits(words[8 * AXES + axis]),
+                lower: Duty::from_bits(words[8 * AXES + axis]),
+                upper: Duty::from_bits(words[9 * AXES + axis]),
             };
         }
         bank
@@ -177,8 +179,12 @@ mod tests {
         let mut core = Core::default();
         core.loops[0].integral = Duty::ONE;
         let mut configuration = Configuration::default();
-        configuration.gains[0] =
-            PiGains { kp: ProportionalGain::from_num(100), ki: IntegralGain::from_num(1), limit: Duty::ONE };
+        configuration.gains[0] = PiGains {
+            kp: ProportionalGain::from_num(100),
+            ki: IntegralGain::from_num(1),
+            lower: -Duty::ONE,
+            upper: Duty::ONE,
+        };
         let inputs = TickInputs {
             set_points: [1 << 20; SET_POINT_WORDS],
             set_points_valid: true,

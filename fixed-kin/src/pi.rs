@@ -4,8 +4,8 @@
 //! e = reference − speed                      speed LSB
 //! t = integral + ki·e                        duty LSB; ki holds the control period
 //! s = kp·e + t
-//! integral = t, unless |s| > limit and e drives s further out      (conditional integration)
-//! duty = clip(kp·e + integral, −limit, limit)
+//! integral = t, unless s is outside [lower, upper] and e drives it further out
+//! duty = clip(kp·e + integral, lower, upper)
 //! ```
 //!
 //! The integral is kept in units of duty, so that a new `ki` makes no bump, and is cleared while
@@ -16,16 +16,17 @@
 use crate::format::{Duty, IntegralGain, ProportionalGain, Speed};
 use crate::word::{Scale, add, multiply, subtract};
 
-/// Gains and limit of one axis; all zero is off.
+/// Gains and limits of one axis; all zero is off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PiGains {
     /// Duty per speed.
     pub kp: ProportionalGain,
     /// Duty per speed and control tick.
     pub ki: IntegralGain,
-    /// Largest duty; 1 is full drive. A negative limit acts as zero drive of that sign only by
-    /// mistake, so the driver refuses it.
-    pub limit: Duty,
+    /// Smallest duty; −1 is full reverse.
+    pub lower: Duty,
+    /// Largest duty; 1 is full drive. Below `lower`, `lower` wins.
+    pub upper: Duty,
 }
 
 /// Integrator of one axis.
@@ -42,16 +43,14 @@ impl PiState {
         let proportional = multiply(error, gains.kp.to_bits(), Scale::WIDE);
         let integral = add(multiply(error, gains.ki.to_bits(), Scale::FINE), self.integral.to_bits());
         let sum = add(integral, proportional);
-        let limit = gains.limit.to_bits();
-        let outside = sum > limit || add(sum, limit) < 0;
+        let clip = |x: i32| x.min(gains.upper.to_bits()).max(gains.lower.to_bits());
+        let outside = clip(sum) != sum;
         let held = outside && (sum ^ error) >= 0;
-        let output = if held {
-            add(proportional, self.integral.to_bits())
-        } else {
-            self.integral = Duty::from_bits(integral);
-            sum
-        };
-        Duty::from_bits(output.min(limit).max(subtract(0, limit)))
+        if held {
+            return Duty::from_bits(clip(add(proportional, self.integral.to_bits())));
+        }
+        self.integral = Duty::from_bits(integral);
+        Duty::from_bits(clip(sum))
     }
 
     /// Forgets the integral: the outputs are off.
@@ -69,7 +68,7 @@ mod tests {
     const ONE: Duty = Duty::ONE;
 
     fn gains(kp: f64, ki: f64) -> PiGains {
-        PiGains { kp: ProportionalGain::from_num(kp), ki: IntegralGain::from_num(ki), limit: ONE }
+        PiGains { kp: ProportionalGain::from_num(kp), ki: IntegralGain::from_num(ki), lower: -ONE, upper: ONE }
     }
 
     #[test]
@@ -121,7 +120,7 @@ mod tests {
             reference in -(1 << 21)..1 << 21_i32, speed in -(1 << 21)..1 << 21_i32,
             integral in -(1 << 24)..1 << 24_i32,
         ) {
-            let law = PiGains { kp: ProportionalGain::from_bits(kp), ki: IntegralGain::from_bits(ki), limit: ONE };
+            let law = PiGains { kp: ProportionalGain::from_bits(kp), ki: IntegralGain::from_bits(ki), lower: -ONE, upper: ONE };
             let mut state = PiState { integral: Duty::from_bits(integral) };
             let duty = f64::from(state.step(&law, Speed::from_bits(reference), Speed::from_bits(speed)).to_bits());
 
@@ -138,16 +137,17 @@ mod tests {
         }
 
         #[test]
-        fn never_leaves_the_limit(bits in prop::array::uniform6(any::<i32>()), limit in 0..1 << 24_i32) {
+        fn never_leaves_the_limits(bits in prop::array::uniform6(any::<i32>()), limit in 0..1_i32 << 24) {
             let word = |x: i32| x >> 2;
             let law = PiGains {
                 kp: ProportionalGain::from_bits(bits[0]),
                 ki: IntegralGain::from_bits(bits[1]),
-                limit: Duty::from_bits(limit),
+                lower: Duty::from_bits(-(limit / 2)),
+                upper: Duty::from_bits(limit),
             };
             let mut state = PiState { integral: Duty::from_bits(word(bits[2])) };
             let duty = state.step(&law, Speed::from_bits(word(bits[3])), Speed::from_bits(word(bits[4])));
-            prop_assert!(duty.to_bits() <= limit && duty.to_bits() >= -limit);
+            prop_assert!(duty.to_bits() <= limit && duty.to_bits() >= -(limit / 2));
             prop_assert!(state.integral.to_bits() >= WORD_MIN);
         }
     }

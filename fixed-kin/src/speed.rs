@@ -6,9 +6,9 @@
 //! tested below.
 //!
 //! Three cases where a plain M/T quotient is wrong, and what is done:
-//! - **Reversal.** The edge up from count c and the edge down to c are at the *same* place, so
-//!   an edge in the other direction counts one less: a wheel that trembles on one line of its
-//!   encoder stands still.
+//! - **Reversal.** The edge up from count c and the edge down to c are at the *same* place of the
+//!   encoder, its line c. So lines are subtracted, not counts: a wheel that trembles on one line
+//!   stands still.
 //! - **No edge in this tick.** The wheel cannot have turned a full count in the `age` since its
 //!   last edge, so the speed falls to at most 1/age.
 //! - **No edge for [`EDGE_TIMEOUT`].** Speed is zero, and the next edge has no partner; until
@@ -54,8 +54,16 @@ pub struct SpeedState {
     /// Speed at the last control tick.
     pub speed: Speed,
     edge_time: u32,
-    direction: bool,
+    line: u16,
     edge_valid: bool,
+}
+
+impl EncoderSample {
+    /// The line of the encoder at which the last edge was: the lower of the two counts beside it.
+    #[must_use]
+    pub fn line(&self) -> u16 {
+        self.count.wrapping_sub(u16::from(self.direction))
+    }
 }
 
 impl SpeedState {
@@ -66,7 +74,7 @@ impl SpeedState {
         let difference = i32::from(sample.count.wrapping_sub(self.count as u16) as i16);
         self.count = self.count.wrapping_add(difference);
         self.speed = match mode {
-            SpeedMode::Difference => quotient(difference, tick_period),
+            SpeedMode::Difference => Speed::from_bits(divide(difference, tick_period)),
             SpeedMode::CountAndTime => self.by_count_and_time(difference, sample, now, tick_period),
         };
         self.speed
@@ -78,15 +86,15 @@ impl SpeedState {
             return self.without_edge(now);
         }
         let speed = if self.edge_valid {
-            let reversal = i32::from(self.direction) - i32::from(sample.direction);
-            quotient(difference + reversal, between_edges)
+            let lines = sample.line().wrapping_sub(self.line) as i16;
+            divide(i32::from(lines), between_edges)
         } else {
-            quotient(difference, tick_period)
+            divide(difference, tick_period)
         };
         self.edge_time = sample.edge_time;
-        self.direction = sample.direction;
+        self.line = sample.line();
         self.edge_valid = true;
-        speed
+        Speed::from_bits(speed)
     }
 
     fn without_edge(&mut self, now: u32) -> Speed {
@@ -98,11 +106,6 @@ impl SpeedState {
         let bound = Speed::from_bits(divide(1, age));
         self.speed.clamp(-bound, bound)
     }
-}
-
-fn quotient(counts: i32, clocks: u32) -> Speed {
-    let magnitude = divide(counts.unsigned_abs(), clocks);
-    Speed::from_bits(if counts < 0 { -magnitude } else { magnitude })
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! |---|---|---|---|
 //! | [`add`], [`subtract`] | saturates at ±(2²⁹−1), −2²⁹ | exact | 1 |
 //! | [`multiply`] | saturates | half up: ⌊x + ½⌋ | 2 + digits |
-//! | [`divide`] | saturates at 2²⁹−1 | towards zero | 35 |
+//! | [`divide`] | saturates at ±(2²⁹−1) | towards zero | 34, beside other work |
 //!
 //! Nothing here wraps and nothing panics, whatever the arguments.
 
@@ -81,17 +81,20 @@ pub fn multiply(a: i32, b: i32, scale: Scale) -> i32 {
     saturate((i64::from(a) * b + half) >> scale.fraction_bits())
 }
 
-/// ⌊`numerator`·2³² / `denominator`⌋, saturated at 2²⁹ − 1 (also for a denominator of zero).
+/// `numerator`·2³² / `denominator` rounded towards zero, saturated at ±(2²⁹ − 1) (also for a
+/// denominator of zero, then by the sign of the numerator, zero counting as positive).
 ///
-/// `numerator` is a word that is not negative, `denominator` a time of up to 24 bits; other bit
-/// patterns are read as unsigned 32-bit numbers, as the gateware does.
+/// The gateware takes a numerator of |n| < 2²⁴ and a denominator, a time, below 2²⁴.
 #[must_use]
-pub fn divide(numerator: u32, denominator: u32) -> i32 {
-    if numerator >= denominator {
-        return WORD_MAX;
-    }
-    let quotient = (u64::from(numerator) << 32) / u64::from(denominator);
-    quotient.min(WORD_MAX as u64) as i32
+pub fn divide(numerator: i32, denominator: u32) -> i32 {
+    let magnitude = numerator.unsigned_abs();
+    let quotient = if magnitude >= denominator {
+        WORD_MAX
+    } else {
+        let quotient = (u64::from(magnitude) << 32) / u64::from(denominator);
+        quotient.min(WORD_MAX as u64) as i32
+    };
+    if numerator < 0 { -quotient } else { quotient }
 }
 
 #[cfg(test)]
@@ -132,12 +135,13 @@ mod tests {
     #[test]
     fn division_edges() {
         assert_eq!(divide(0, 0), WORD_MAX);
+        assert_eq!(divide(-1, 0), -WORD_MAX);
         assert_eq!(divide(0, 1), 0);
         assert_eq!(divide(1, 1), WORD_MAX);
         assert_eq!(divide(1, 8), WORD_MAX);
-        assert_eq!(divide(1, 9), 477_218_588);
+        assert_eq!(divide(-1, 9), -477_218_588);
         assert_eq!(divide(1, 0xFF_FFFF), 256);
-        assert_eq!(divide(u32::MAX, 3), WORD_MAX);
+        assert_eq!(divide(i32::MIN, 3), -WORD_MAX);
     }
 
     proptest! {
@@ -152,15 +156,15 @@ mod tests {
             prop_assert!((got - bounded).abs() <= 0.5, "{got} for {exact}");
         }
 
-        /// Less than one LSB below the real quotient.
+        /// Less than one LSB from the real quotient, on the side of zero.
         #[test]
-        fn divide_is_within_one_lsb(n in 0_u32..1 << 29, d in 1_u32..1 << 24) {
+        fn divide_is_within_one_lsb(n in -(1 << 24)..1 << 24_i32, d in 1_u32..1 << 24) {
             let exact = f64::from(n) * 4_294_967_296.0 / f64::from(d);
             let got = f64::from(divide(n, d));
-            if exact < f64::from(WORD_MAX) {
-                prop_assert!(got <= exact && exact - got < 1.0);
+            if exact.abs() < f64::from(WORD_MAX) {
+                prop_assert!(got.abs() <= exact.abs() && (exact - got).abs() < 1.0);
             } else {
-                prop_assert_eq!(got, f64::from(WORD_MAX));
+                prop_assert_eq!(got, f64::from(WORD_MAX) * exact.signum());
             }
         }
     }

@@ -2,4 +2,7 @@
 
 pub mod blocks;
 pub mod emit;
+pub mod primitives;
+pub mod program;
 pub mod sim;
+pub mod stimulus;

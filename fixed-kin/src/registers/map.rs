@@ -21,7 +21,7 @@ pub const DEFAULT_WATCHDOG_TIMEOUT: u32 = 1_666_667;
 /// Word of [`KICKER_FIRE`] that fires: "KICK". Any other value does nothing.
 pub const KICKER_FIRE_WORD: u32 = u32::from_be_bytes(*b"KICK");
 /// Words of a snapshot, the two sequence numbers included.
-pub const SNAPSHOT_WORDS: usize = 23;
+pub const SNAPSHOT_WORDS: usize = 24;
 
 const fn register(
     name: &'static str,
@@ -324,7 +324,7 @@ pub const CONFIGURATION: Register = array(
     CONFIGURATION_WORDS,
     Access::Staged,
     WORD,
-    "staged configuration bank: nine groups of one word per axis",
+    "staged configuration bank: ten groups of one word per axis",
 );
 /// Configuration in force.
 pub const ACTIVE_CONFIGURATION: Register =
@@ -343,7 +343,7 @@ pub const ACTIVE_SET_POINTS: Register =
     array("active_set_points", 0x640, SET_POINT_WORDS, Access::ReadOnly, WORD, "set points in force");
 /// Integrators.
 pub const INTEGRALS: Register =
-    array("integrals", 0x720, AXES, Access::ReadOnly, DUTY, "integrators of the speed loops; not part of a snapshot");
+    array("integrals", 0x790, AXES, Access::ReadOnly, DUTY, "integrators of the speed loops; not part of a snapshot");
 /// Snapshot: sequence number.
 pub const SNAPSHOT_SEQUENCE: Register = array(
     "snapshot_sequence",
@@ -359,10 +359,13 @@ pub const SNAPSHOT_STATUS: Register =
 /// Snapshot: time.
 pub const SNAPSHOT_TIME: Register =
     array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick");
+/// Snapshot: faults.
+pub const SNAPSHOT_FAULTS: Register =
+    array("snapshot_faults", 0x80C, 1, Access::ReadOnly, Kind::Fields(&FAULT_FIELDS), "`faults` at the tick");
 /// Snapshot: counts.
 pub const SNAPSHOT_COUNT: Register = array(
     "snapshot_count",
-    0x80C,
+    0x810,
     AXES,
     Access::ReadOnly,
     Kind::Unsigned(32),
@@ -370,16 +373,16 @@ pub const SNAPSHOT_COUNT: Register = array(
 );
 /// Snapshot: speeds.
 pub const SNAPSHOT_SPEED: Register =
-    array("snapshot_speed", 0x81C, AXES, Access::ReadOnly, SPEED, "measured speed in counts per clock");
+    array("snapshot_speed", 0x820, AXES, Access::ReadOnly, SPEED, "measured speed in counts per clock");
 /// Snapshot: references.
 pub const SNAPSHOT_REFERENCE: Register =
-    array("snapshot_reference", 0x82C, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
+    array("snapshot_reference", 0x830, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
 /// Snapshot: duties.
-pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x83C, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
+pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x840, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
 /// Snapshot: body velocity.
 pub const SNAPSHOT_TWIST: Register = array(
     "snapshot_twist",
-    0x84C,
+    0x850,
     3,
     Access::ReadOnly,
     WORD,
@@ -388,7 +391,7 @@ pub const SNAPSHOT_TWIST: Register = array(
 /// Snapshot: sequence number again.
 pub const SNAPSHOT_SEQUENCE_END: Register = array(
     "snapshot_sequence_end",
-    0x858,
+    0x85C,
     1,
     Access::ReadOnly,
     Kind::Unsigned(32),
@@ -456,6 +459,7 @@ pub const REGISTERS: &[&Register] = &[
     &SNAPSHOT_SEQUENCE,
     &SNAPSHOT_STATUS,
     &SNAPSHOT_TIME,
+    &SNAPSHOT_FAULTS,
     &SNAPSHOT_COUNT,
     &SNAPSHOT_SPEED,
     &SNAPSHOT_REFERENCE,

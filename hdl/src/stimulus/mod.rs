@@ -6,6 +6,7 @@
 
 pub mod control;
 pub mod encoder;
+pub mod pwm;
 pub mod safety;
 
 use rand_chacha::ChaCha8Rng;

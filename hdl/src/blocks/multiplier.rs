@@ -1,0 +1,176 @@
+//! Serial multiplier, one for all axes: the device has none.
+//!
+//! ```text
+//!      ┌─────────── p (32) ───────────┐┌────────── lo (32) ──────────┐
+//!      │ partial product, >> 2 a step ││ product bits → | ← operand  │
+//!      └──────────────────────────────┘└─────────────────────────────┘
+//!          ▲ ± 0, a, 2a on one 32-bit carry chain, by the low bits of lo
+//! ```
+//!
+//! `result` = `fixed_kin::word::multiply(a, b, scale)`; scale 0–3 take 9, 12, 12, 7 steps.
+//! Radix-4 Booth recoding; half an LSB is the start value of `p`, so rounding costs nothing.
+//! `start` is taken while `busy` is low; `result` is valid from the clock in which `busy` falls.
+
+use crate::primitives::Literal;
+use fixed_kin::word::{Scale, WORD_MAX, WORD_MIN};
+use rust_hdl::prelude::*;
+
+/// The scales in the order of the port `scale`.
+pub const SCALES: [Scale; 4] = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD];
+
+const fn half(scale: Scale) -> u64 {
+    1 << (scale.fraction_bits() - 1)
+}
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct Multiplier {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Takes the request below.
+    pub start: Signal<In, Bit>,
+    /// Scale, index into [`SCALES`].
+    pub scale: Signal<In, Bits<2>>,
+    /// Multiplicand, a word.
+    pub a: Signal<In, Bits<32>>,
+    /// Multiplier, as wide as the scale says.
+    pub b: Signal<In, Bits<32>>,
+    /// At work; requests are ignored.
+    pub busy: Signal<Out, Bit>,
+    /// The result as a word.
+    pub result: Signal<Out, Bits<32>>,
+
+    p: DFF<Bits<32>>,
+    lo: DFF<Bits<32>>,
+    operand: DFF<Bits<32>>,
+    steps: DFF<Bits<4>>,
+    last_bit: DFF<Bit>,
+    guard_8: DFF<Bit>,
+
+    addend: Signal<Local, Bits<32>>,
+    negate: Signal<Local, Bit>,
+    sum: Signal<Local, Bits<32>>,
+    digit: Signal<Local, Bits<3>>,
+    shifted: Signal<Local, Bits<32>>,
+    top: Signal<Local, Bits<11>>,
+    running: Signal<Local, Bit>,
+    fits: Signal<Local, Bit>,
+
+    top_5: Signal<Local, Bits<5>>,
+
+    zero: Literal<32, 0>,
+    no_steps: Literal<4, 0>,
+    one_step: Literal<4, 1>,
+    steps_coefficient: Literal<4, { Scale::COEFFICIENT.digits as u64 }>,
+    steps_gain: Literal<4, { Scale::FINE.digits as u64 }>,
+    steps_period: Literal<4, { Scale::PERIOD.digits as u64 }>,
+    half_coefficient: Literal<32, { half(Scale::COEFFICIENT) }>,
+    half_fine: Literal<32, { half(Scale::FINE) }>,
+    half_wide: Literal<32, { half(Scale::WIDE) }>,
+    half_period: Literal<32, { half(Scale::PERIOD) }>,
+    sign_extension: Literal<32, 0xC000_0000>,
+    word_max: Literal<32, { WORD_MAX as u64 }>,
+    word_min: Literal<32, { WORD_MIN as u32 as u64 }>,
+    eleven_clear: Literal<11, 0>,
+    eleven_set: Literal<11, 0x7FF>,
+    five_clear: Literal<5, 0>,
+    five_set: Literal<5, 0x1F>,
+}
+
+impl Logic for Multiplier {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, p, lo, operand, steps, last_bit, guard_8);
+
+        self.running.next = self.steps.q.val() != self.no_steps.val();
+        self.busy.next = self.running.val();
+
+        // Booth digit: the low two bits of the operand and the one that went before.
+        self.digit.next = bit_cast::<3, 2>(self.lo.q.val().get_bits::<2>(0)) << 1;
+        if self.last_bit.q.val() {
+            self.digit.next = (bit_cast::<3, 2>(self.lo.q.val().get_bits::<2>(0)) << 1) | 1;
+        }
+        self.addend.next = self.operand.q.val();
+        self.negate.next = false;
+        match self.digit.val().index() {
+            0 => {
+                self.addend.next = self.zero.val();
+            }
+            3 => {
+                self.addend.next = self.operand.q.val() << 1;
+            }
+            4 => {
+                self.addend.next = self.operand.q.val() << 1;
+                self.negate.next = true;
+            }
+            5 => {
+                self.negate.next = true;
+            }
+            6 => {
+                self.negate.next = true;
+            }
+            7 => {
+                self.addend.next = self.zero.val();
+            }
+            _ => {
+                self.addend.next = self.operand.q.val();
+            }
+        }
+        self.sum.next = self.p.q.val() + self.addend.val();
+        if self.negate.val() {
+            self.sum.next = self.p.q.val() - self.addend.val();
+        }
+        self.shifted.next = self.sum.val() >> 2;
+
+        if self.running.val() {
+            self.steps.d.next = self.steps.q.val() - self.one_step.val();
+            self.p.d.next = self.shifted.val();
+            if self.sum.val().get_bit(31) {
+                self.p.d.next = self.shifted.val() | self.sign_extension.val();
+            }
+            self.lo.d.next = (self.lo.q.val() >> 2) | (bit_cast::<32, 2>(self.sum.val().get_bits::<2>(0)) << 30);
+            self.last_bit.d.next = self.lo.q.val().get_bit(1);
+        } else if self.start.val() {
+            self.operand.d.next = self.a.val();
+            self.lo.d.next = self.b.val();
+            self.last_bit.d.next = false;
+            self.guard_8.d.next = false;
+            match self.scale.val().index() {
+                0 => {
+                    self.p.d.next = self.half_coefficient.val();
+                    self.steps.d.next = self.steps_coefficient.val();
+                }
+                1 => {
+                    self.p.d.next = self.half_fine.val();
+                    self.steps.d.next = self.steps_gain.val();
+                }
+                2 => {
+                    self.p.d.next = self.half_wide.val();
+                    self.steps.d.next = self.steps_gain.val();
+                    self.guard_8.d.next = true;
+                }
+                _ => {
+                    self.p.d.next = self.half_period.val();
+                    self.steps.d.next = self.steps_period.val();
+                }
+            }
+        }
+
+        // The product is p followed by the top 2 or 8 bits of lo.
+        self.top.next = self.p.q.val().get_bits::<11>(21);
+        self.top_5.next = self.p.q.val().get_bits::<5>(27);
+        if self.guard_8.q.val() {
+            self.fits.next = (self.top.val() == self.eleven_clear.val()) | (self.top.val() == self.eleven_set.val());
+            self.result.next = (self.p.q.val() << 8) | bit_cast::<32, 8>(self.lo.q.val().get_bits::<8>(24));
+        } else {
+            self.fits.next = (self.top_5.val() == self.five_clear.val()) | (self.top_5.val() == self.five_set.val());
+            self.result.next = (self.p.q.val() << 2) | bit_cast::<32, 2>(self.lo.q.val().get_bits::<2>(30));
+        }
+        if !self.fits.val() {
+            self.result.next = self.word_max.val();
+            if self.p.q.val().get_bit(31) {
+                self.result.next = self.word_min.val();
+            }
+        }
+    }
+}

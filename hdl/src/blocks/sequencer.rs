@@ -1,0 +1,366 @@
+//! The sequencer: runs the program of `hdl::program` once per control tick.
+//!
+//! ```text
+//!   fetch                read                 execute
+//!   ┌─────────┐ instr  ┌────────┐   word    ┌────────────────┐
+//!   │ program │──────► │ memory │ ────────► │ acc ± word     │──► acc ──► memory write, output
+//!   └─────────┘        └────────┘           │ × (serial)     │
+//!     ▲ pc               ▲ address          └────────────────┘
+//! ```
+//!
+//! One instruction a clock; a taken branch kills the instruction behind it; a multiplication holds
+//! the pipe; a division runs beside it, until its quotient is asked for. A second copy of the memory, written together with the first, serves
+//! the bus, which may also write where the program does not write in the same clock.
+//!
+//! `tick` starts the program and is ignored while it runs; `done` is high in the clock of its last
+//! instruction.
+
+use crate::blocks::divider::Divider;
+use crate::blocks::multiplier::Multiplier;
+use crate::primitives::{Literal, Memory};
+use crate::program;
+use fixed_kin::AXES;
+use fixed_kin::word::{WORD_MAX, WORD_MIN};
+use rust_hdl::prelude::*;
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct Sequencer {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Start of a control tick.
+    pub tick: Signal<In, Bit>,
+    /// The program is at work.
+    pub running: Signal<Out, Bit>,
+    /// Last instruction of the program.
+    pub done: Signal<Out, Bit>,
+    /// Bank of the configuration in force.
+    pub configuration_bank: Signal<In, Bit>,
+    /// Bank of the set points in force.
+    pub set_point_bank: Signal<In, Bit>,
+    /// Bank the snapshot is written to.
+    pub snapshot_bank: Signal<In, Bit>,
+
+    /// Input port that the program asks for, an `InputPort`.
+    pub input_port: Signal<Out, Bits<4>>,
+    /// The axis the program is at.
+    pub axis: Signal<Out, Bits<2>>,
+    /// What stands at that port, in the same clock.
+    pub input_data: Signal<In, Bits<32>>,
+    /// The program writes an output port.
+    pub output_strobe: Signal<Out, Bit>,
+    /// Which one, an `OutputPort`.
+    pub output_port: Signal<Out, Bit>,
+    /// With what.
+    pub output_data: Signal<Out, Bits<32>>,
+
+    /// Memory address of the bus, banks included.
+    pub bus_address: Signal<In, Bits<8>>,
+    /// What stood there at the last clock.
+    pub bus_read_data: Signal<Out, Bits<32>>,
+    /// The bus wants to write.
+    pub bus_write: Signal<In, Bit>,
+    /// What.
+    pub bus_write_data: Signal<In, Bits<32>>,
+    /// The write is done at this clock.
+    pub bus_write_taken: Signal<Out, Bit>,
+
+    rom: Memory<16, 8>,
+    memory: Memory<32, 8>,
+    mirror: Memory<32, 8>,
+    multiplier: Multiplier,
+    divider: Divider,
+
+    active: DFF<Bit>,
+    pc: DFF<Bits<8>>,
+    instruction: DFF<Bits<16>>,
+    valid: DFF<Bit>,
+    issued: DFF<Bit>,
+    accumulator: DFF<Bits<32>>,
+    axis_number: DFF<Bits<2>>,
+
+    pc_next: Signal<Local, Bits<8>>,
+    stall: Signal<Local, Bit>,
+    branch: Signal<Local, Bit>,
+    storing: Signal<Local, Bit>,
+    read_instruction: Signal<Local, Bits<16>>,
+    read_address: Signal<Local, Bits<8>>,
+    read_bank: Signal<Local, Bits<8>>,
+    write_address: Signal<Local, Bits<8>>,
+    write_bank: Signal<Local, Bits<8>>,
+    op: Signal<Local, Bits<5>>,
+    word: Signal<Local, Bits<32>>,
+    subtracting: Signal<Local, Bit>,
+    sum: Signal<Local, Bits<32>>,
+    sum_top: Signal<Local, Bits<3>>,
+    saturated: Signal<Local, Bits<32>>,
+    low_16: Signal<Local, Bits<32>>,
+    immediate: Signal<Local, Bits<32>>,
+
+    zero: Literal<32, 0>,
+    one_8: Literal<8, 1>,
+    start_pc: Literal<8, 0>,
+    first_axis: Literal<2, 0>,
+    last_axis: Literal<2, { AXES as u64 - 1 }>,
+    one_axis: Literal<2, 1>,
+    word_max: Literal<32, { WORD_MAX as u64 }>,
+    word_min: Literal<32, { WORD_MIN as u32 as u64 }>,
+    three_clear: Literal<3, 0>,
+    three_set: Literal<3, 7>,
+    mask_24: Literal<32, 0xFF_FFFF>,
+    sign_of_16: Literal<32, 0xFFFF_0000>,
+    sign_of_8: Literal<32, 0xFFFF_FF00>,
+    configuration_region: Literal<8, 0x40>,
+    set_point_region: Literal<8, 0x08>,
+    snapshot_region: Literal<8, 0x20>,
+    region_0: Literal<2, 0>,
+    region_set_points: Literal<5, 0x10>,
+    region_3: Literal<2, 3>,
+}
+
+impl Sequencer {
+    /// A sequencer with this program; the memory starts with the program's constants.
+    #[must_use]
+    pub fn new(program: &[u16]) -> Self {
+        let words: Vec<u32> = program.iter().copied().map(u32::from).collect();
+        let initial = program::layout::initial_memory();
+        Self {
+            rom: Memory::new(&words),
+            memory: Memory::new(&initial),
+            mirror: Memory::new(&initial),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Sequencer {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, active, pc, instruction, valid, issued, accumulator, axis_number);
+        clock!(self, clock, rom, memory, mirror, multiplier, divider);
+
+        // Read stage: the instruction at pc, its word is there one clock later.
+        self.rom.read_address.next = self.pc_next.val();
+        self.read_instruction.next = self.rom.read_data.val();
+        self.read_address.next = self.read_instruction.val().get_bits::<8>(0);
+        if self.read_instruction.val().get_bit(10) {
+            self.read_address.next =
+                self.read_instruction.val().get_bits::<8>(0) | bit_cast::<8, 2>(self.axis_number.q.val());
+        }
+        self.read_bank.next = self.start_pc.val();
+        if self.configuration_bank.val() & (self.read_address.val().get_bits::<2>(6) == self.region_0.val()) {
+            self.read_bank.next = self.configuration_region.val();
+        }
+        if self.set_point_bank.val() & (self.read_address.val().get_bits::<5>(3) == self.region_set_points.val()) {
+            self.read_bank.next = self.set_point_region.val();
+        }
+        self.memory.read_address.next = self.read_address.val() | self.read_bank.val();
+
+        // Execute stage.
+        self.op.next = self.instruction.q.val().get_bits::<5>(11);
+        self.word.next = self.memory.read_data.val();
+        self.storing.next = false;
+        self.branch.next = false;
+        self.stall.next = false;
+        self.done.next = false;
+        self.output_strobe.next = false;
+        self.multiplier.start.next = false;
+        self.divider.start.next = false;
+        self.subtracting.next = false;
+        match self.op.val().index() {
+            4 => {
+                self.subtracting.next = true;
+            } // Subtract
+            6 => {
+                self.subtracting.next = true;
+            } // Subtract16
+            7 => {
+                self.subtracting.next = true;
+            } // Subtract24
+            8 => {
+                self.subtracting.next = true;
+            } // Minimum
+            9 => {
+                self.subtracting.next = true;
+            } // Maximum
+            _ => {
+                self.subtracting.next = false;
+            }
+        }
+        self.sum.next = self.accumulator.q.val() + self.word.val();
+        if self.subtracting.val() {
+            self.sum.next = self.accumulator.q.val() - self.word.val();
+        }
+        self.sum_top.next = self.sum.val().get_bits::<3>(29);
+        self.saturated.next = self.sum.val();
+        if (self.sum_top.val() != self.three_clear.val()) & (self.sum_top.val() != self.three_set.val()) {
+            self.saturated.next = self.word_max.val();
+            if self.sum.val().get_bit(31) {
+                self.saturated.next = self.word_min.val();
+            }
+        }
+        self.low_16.next = bit_cast::<32, 16>(self.sum.val().get_bits::<16>(0));
+        if self.sum.val().get_bit(15) {
+            self.low_16.next = bit_cast::<32, 16>(self.sum.val().get_bits::<16>(0)) | self.sign_of_16.val();
+        }
+        self.immediate.next = bit_cast::<32, 8>(self.instruction.q.val().get_bits::<8>(0));
+        if self.instruction.q.val().get_bit(7) {
+            self.immediate.next = bit_cast::<32, 8>(self.instruction.q.val().get_bits::<8>(0)) | self.sign_of_8.val();
+        }
+
+        self.multiplier.a.next = self.word.val();
+        self.multiplier.b.next = self.accumulator.q.val();
+        self.multiplier.scale.next = self.op.val().get_bits::<2>(0);
+        self.divider.numerator.next = self.accumulator.q.val();
+        self.divider.denominator.next = self.word.val();
+
+        if self.valid.q.val() {
+            if self.op.val().get_bit(4) & self.op.val().get_bit(3) {
+                // Multiply: start, wait, take the product.
+                if !self.issued.q.val() {
+                    self.multiplier.start.next = true;
+                    self.issued.d.next = true;
+                    self.stall.next = true;
+                } else if self.multiplier.busy.val() {
+                    self.stall.next = true;
+                } else {
+                    self.accumulator.d.next = self.multiplier.result.val();
+                    self.issued.d.next = false;
+                }
+            } else {
+                match self.op.val().index() {
+                    1 => {
+                        self.accumulator.d.next = self.word.val();
+                    } // Load
+                    2 => {
+                        self.accumulator.d.next = self.immediate.val();
+                    } // Immediate
+                    3 => {
+                        self.accumulator.d.next = self.saturated.val();
+                    } // Add
+                    4 => {
+                        self.accumulator.d.next = self.saturated.val();
+                    } // Subtract
+                    5 => {
+                        self.accumulator.d.next = self.sum.val();
+                    } // AddWrapping
+                    6 => {
+                        self.accumulator.d.next = self.low_16.val();
+                    } // Subtract16
+                    7 => {
+                        self.accumulator.d.next = self.sum.val() & self.mask_24.val();
+                    } // Subtract24
+                    8 => {
+                        if !self.sum.val().get_bit(31) {
+                            self.accumulator.d.next = self.word.val();
+                        }
+                    } // Minimum
+                    9 => {
+                        if self.sum.val().get_bit(31) {
+                            self.accumulator.d.next = self.word.val();
+                        }
+                    } // Maximum
+                    10 => {
+                        self.accumulator.d.next = self.accumulator.q.val() ^ self.word.val();
+                    } // Xor
+                    11 => {
+                        self.storing.next = true;
+                    } // Store
+                    12 => {
+                        self.accumulator.d.next = self.input_data.val();
+                    } // Input
+                    13 => {
+                        self.output_strobe.next = true;
+                    } // Output
+                    14 => {
+                        self.branch.next = true;
+                    } // Jump
+                    15 => {
+                        self.branch.next = self.accumulator.q.val() == self.zero.val();
+                    } // JumpZero
+                    16 => {
+                        self.branch.next = self.accumulator.q.val() != self.zero.val();
+                    } // JumpNotZero
+                    17 => {
+                        self.branch.next = self.accumulator.q.val().get_bit(31);
+                    } // JumpNegative
+                    18 => {
+                        self.branch.next = !self.accumulator.q.val().get_bit(31);
+                    } // JumpNotNegative
+                    19 => {
+                        if self.axis_number.q.val() == self.last_axis.val() {
+                            self.axis_number.d.next = self.first_axis.val();
+                        } else {
+                            self.axis_number.d.next = self.axis_number.q.val() + self.one_axis.val();
+                            self.branch.next = true;
+                        }
+                    } // NextAxis
+                    20 => {
+                        self.done.next = true;
+                    } // Halt
+                    21 => {
+                        self.divider.start.next = true;
+                    } // Divide
+                    22 => {
+                        self.accumulator.d.next = self.divider.quotient.val();
+                        self.stall.next = self.divider.busy.val();
+                    } // Quotient
+                    _ => {
+                        self.accumulator.d.next = self.accumulator.q.val();
+                    }
+                }
+            }
+        }
+
+        // Pipe control.
+        self.pc_next.next = self.pc.q.val();
+        if self.active.q.val() & !self.stall.val() {
+            self.pc_next.next = self.pc.q.val() + self.one_8.val();
+            self.instruction.d.next = self.read_instruction.val();
+            self.valid.d.next = true;
+        }
+        if self.branch.val() {
+            self.pc_next.next = self.instruction.q.val().get_bits::<8>(0);
+            self.valid.d.next = false;
+        }
+        if self.done.val() {
+            self.pc_next.next = self.start_pc.val();
+            self.valid.d.next = false;
+            self.active.d.next = false;
+        }
+        if self.tick.val() & !self.active.q.val() {
+            self.active.d.next = true;
+        }
+        self.pc.d.next = self.pc_next.val();
+        self.running.next = self.active.q.val();
+
+        // The write port: the program first, then the bus.
+        self.write_address.next = self.instruction.q.val().get_bits::<8>(0);
+        if self.instruction.q.val().get_bit(10) {
+            self.write_address.next =
+                self.instruction.q.val().get_bits::<8>(0) | bit_cast::<8, 2>(self.axis_number.q.val());
+        }
+        self.write_bank.next = self.start_pc.val();
+        if self.snapshot_bank.val() & (self.write_address.val().get_bits::<2>(6) == self.region_3.val()) {
+            self.write_bank.next = self.snapshot_region.val();
+        }
+        self.memory.write_address.next = self.bus_address.val();
+        self.memory.write_data.next = self.bus_write_data.val();
+        if self.storing.val() {
+            self.memory.write_address.next = self.write_address.val() | self.write_bank.val();
+            self.memory.write_data.next = self.accumulator.q.val();
+        }
+        self.memory.write_enable.next = self.storing.val() | self.bus_write.val();
+        self.mirror.write_address.next = self.memory.write_address.val();
+        self.mirror.write_data.next = self.memory.write_data.val();
+        self.mirror.write_enable.next = self.memory.write_enable.val();
+        self.mirror.read_address.next = self.bus_address.val();
+        self.bus_read_data.next = self.mirror.read_data.val();
+        self.bus_write_taken.next = self.bus_write.val() & !self.storing.val();
+
+        self.input_port.next = self.instruction.q.val().get_bits::<4>(0);
+        self.axis.next = self.axis_number.q.val();
+        self.output_port.next = self.instruction.q.val().get_bit(0);
+        self.output_data.next = self.accumulator.q.val();
+    }
+}

@@ -1,0 +1,108 @@
+//! Where every word of the sequencer's memory stands.
+//!
+//! | address | words | bank switched by |
+//! |---|---|---|
+//! | 00–3F | configuration, second bank at 40–7F | commit of the configuration |
+//! | 80–87 | set points, second bank at 88–8F | commit of set points |
+//! | 90–BF | state, temporaries, constants | |
+//! | C0–DF | snapshot, second bank at E0–FF | end of a control tick |
+//!
+//! The program names the first bank; the sequencer adds the bank bit.
+
+use fixed_kin::AXES;
+use fixed_kin::registers;
+use fixed_kin::speed::EDGE_TIMEOUT;
+
+/// Words of the memory.
+pub const MEMORY_WORDS: usize = 256;
+
+/// An address of the program: a word, or one word per axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    address: u8,
+    per_axis: bool,
+}
+
+impl Cell {
+    const fn scalar(address: usize) -> Self {
+        Self { address: address as u8, per_axis: false }
+    }
+
+    /// One word per axis; the address ends in zeros, so that the axis number is just put in.
+    const fn axis(address: usize) -> Self {
+        assert!(address % AXES == 0);
+        Self { address: address as u8, per_axis: true }
+    }
+
+    /// Fixed word `index` behind this one.
+    pub(super) const fn word(self, index: usize) -> Self {
+        Self::scalar(self.address as usize + index)
+    }
+
+    pub(super) fn encode(self) -> u16 {
+        u16::from(self.per_axis) << 10 | u16::from(self.address)
+    }
+}
+
+const fn snapshot(register: &registers::Register) -> usize {
+    0xC0 + (register.offset - registers::SNAPSHOT_SEQUENCE.offset) as usize / 4
+}
+
+/// Column `k` of the inverse matrix.
+pub(super) const fn inverse_column(k: usize) -> Cell {
+    Cell::axis(k * AXES)
+}
+
+/// Row `k` of the direct matrix.
+pub(super) const fn direct_row(k: usize) -> Cell {
+    Cell::axis((3 + k) * AXES)
+}
+
+pub(super) const KP: Cell = Cell::axis(6 * AXES);
+pub(super) const KI: Cell = Cell::axis(7 * AXES);
+pub(super) const LOWER: Cell = Cell::axis(8 * AXES);
+pub(super) const UPPER: Cell = Cell::axis(9 * AXES);
+pub(super) const SET_POINT: Cell = Cell::axis(0x80);
+
+pub(super) const COUNT: Cell = Cell::axis(0x90);
+pub(super) const EDGE_TIME: Cell = Cell::axis(0x94);
+pub(super) const LINE: Cell = Cell::axis(0x98);
+pub(super) const EDGE_VALID: Cell = Cell::axis(0x9C);
+pub(super) const SPEED: Cell = Cell::axis(0xA0);
+pub(super) const INTEGRAL: Cell = Cell::axis(0xA4);
+pub(super) const TWIST: Cell = Cell::scalar(0xA8);
+pub(super) const SEQUENCE: Cell = Cell::scalar(0xAB);
+
+pub(super) const DIFFERENCE: Cell = Cell::scalar(0xB0);
+pub(super) const CASE: Cell = Cell::scalar(0xB1);
+pub(super) const DENOMINATOR: Cell = Cell::scalar(0xB2);
+pub(super) const REFERENCE: Cell = Cell::scalar(0xB3);
+pub(super) const ERROR: Cell = Cell::scalar(0xB4);
+pub(super) const PROPORTIONAL: Cell = Cell::scalar(0xB5);
+pub(super) const NEW_INTEGRAL: Cell = Cell::scalar(0xB6);
+pub(super) const SUM: Cell = Cell::scalar(0xB7);
+pub(super) const DUTY: Cell = Cell::scalar(0xB8);
+pub(super) const SCRATCH: Cell = Cell::scalar(0xB9);
+
+pub(super) const TIMEOUT: Cell = Cell::scalar(0xBC);
+pub(super) const ROUNDING: Cell = Cell::scalar(0xBD);
+
+pub(super) const SNAPSHOT_SEQUENCE: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_SEQUENCE));
+pub(super) const SNAPSHOT_STATUS: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_STATUS));
+pub(super) const SNAPSHOT_TIME: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_TIME));
+pub(super) const SNAPSHOT_FAULTS: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_FAULTS));
+pub(super) const SNAPSHOT_TWIST: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_TWIST));
+pub(super) const SNAPSHOT_SEQUENCE_END: Cell = Cell::scalar(snapshot(&registers::SNAPSHOT_SEQUENCE_END));
+pub(super) const SNAPSHOT_COUNT: Cell = Cell::axis(snapshot(&registers::SNAPSHOT_COUNT));
+pub(super) const SNAPSHOT_SPEED: Cell = Cell::axis(snapshot(&registers::SNAPSHOT_SPEED));
+pub(super) const SNAPSHOT_REFERENCE: Cell = Cell::axis(snapshot(&registers::SNAPSHOT_REFERENCE));
+pub(super) const SNAPSHOT_DUTY: Cell = Cell::axis(snapshot(&registers::SNAPSHOT_DUTY));
+
+/// What the memory holds when the FPGA is configured: zeros and the constants of the program.
+#[must_use]
+pub fn initial_memory() -> Vec<u32> {
+    let mut words = vec![0; MEMORY_WORDS];
+    words[TIMEOUT.address as usize] = EDGE_TIMEOUT;
+    words[ROUNDING.address as usize] = 1 << 11;
+    words
+}
