@@ -9,6 +9,7 @@ pub mod encoder;
 pub mod format;
 pub mod kicker;
 pub mod kinematics;
+pub mod local_bus;
 pub mod modulation;
 pub mod pi;
 pub mod pwm;
