@@ -1,11 +1,14 @@
 //! The robot in floating point: SI units, body frame x right and y forward, heading from the
 //! field's x axis to the body x axis (see [`frames`]).
 
+pub mod camera;
 pub mod error;
 pub mod frames;
 pub mod geometry;
 pub mod motor;
 pub mod pi;
 pub mod plant;
+pub mod plot;
 pub mod robot;
 pub mod run;
+pub mod trajectory;

@@ -1,0 +1,48 @@
+//! Set points and the controllers that follow them (paper, section 4).
+
+mod file;
+mod paper;
+
+pub use paper::{MotionController, MotionSample, simulate_motion};
+
+/// One point of a trajectory: a place, and how to travel there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetPoint {
+    /// Field x, m.
+    pub x: f64,
+    /// Field y, m.
+    pub y: f64,
+    /// Speed on the way there, m/s, greater than 0.
+    pub v: f64,
+    /// Rotation on the way there, counter-clockwise, rad/s.
+    pub omega: f64,
+    /// Whether to come to rest there instead of passing through.
+    pub stop: bool,
+}
+
+impl SetPoint {
+    /// A point to pass through.
+    pub const fn pass(x: f64, y: f64, v: f64, omega: f64) -> Self {
+        Self { x, y, v, omega, stop: false }
+    }
+
+    /// A point to come to rest at.
+    pub const fn stop(x: f64, y: f64, v: f64, omega: f64) -> Self {
+        Self { x, y, v, omega, stop: true }
+    }
+}
+
+/// The trajectory of the paper's Fig. 6.
+///
+/// The caption prints the first point as "(3, 3, 10, 05)". We read (3, 3, 1.0, 0.5): decimal
+/// points got lost, for all other speeds are 1 and 10 m/s is beyond the motors.
+pub const FIG_6: [SetPoint; 4] = [
+    SetPoint::pass(3.0, 3.0, 1.0, 0.5),
+    SetPoint::pass(3.0, 0.0, 1.0, 0.0),
+    SetPoint::pass(6.0, 0.0, 1.0, -0.15),
+    SetPoint::pass(6.0, 3.0, 1.0, 0.0),
+];
+
+/// The skew of the paper's Fig. 7 as we drive it, unknown to the controller: 4°, −3°, 2° (the paper
+/// does not print its own).
+pub const FIG_7_SKEW_DEG: [f64; 3] = [4.0, -3.0, 2.0];
