@@ -1,1 +1,249 @@
-//! pwm
+//! Bit-true twin of the PWM generator of one axis: sign-magnitude, double-buffered, blanked.
+//!
+//! One [`Pwm::clock`] is one rising edge of the FPGA clock; the outputs are those that hold until
+//! the next edge. Period and compare are unsigned clocks in 13 bits, blanking in 10; a compare of
+//! at least the period is 100 %. Nothing wraps: the phase returns to zero at the period, the
+//! blanking timer stops.
+//!
+//! | what | clocks |
+//! |---|---|
+//! | `enable` low to `pwm` low | 1 |
+//! | `load` to a change at the pin | 2 after the next period start, up to period + 2 |
+//! | `period_start` before the first clock of a period at the pin | 1 |
+//! | `pwm` low before `dir` changes, and after it | at least blanking + 1 |
+//! | `pwm` low after `enable` | at least blanking + 1 |
+//!
+//! While disabled, `dir` holds; a compare of zero does not ask for a direction, so crossing
+//! zero costs one blanking time and trembling around it none.
+
+/// Width mask of period and compare.
+pub const PERIOD_MASK: u16 = 0x1FFF;
+/// Width mask of the blanking time.
+pub const BLANKING_MASK: u16 = 0x3FF;
+
+/// Registers and strobes the generator sees at one clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// Outputs may be on; false forces `pwm` low and forgets the set point.
+    pub enable: bool,
+    /// Period in clocks, 13 bits; 0 = off.
+    pub period: u16,
+    /// Blanking in clocks, 10 bits.
+    pub blanking: u16,
+    /// Strobe: takes compare and direction into the shadow.
+    pub load: bool,
+    /// High time in clocks, 13 bits; from the next period start.
+    pub compare: u16,
+    /// Level of `dir` for this compare.
+    pub direction: bool,
+}
+
+/// Outputs of the generator after a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The PWM pin.
+    pub pwm: bool,
+    /// The DIR pin.
+    pub dir: bool,
+    /// Strobe: the next clock is the first of a period at the pin.
+    pub period_start: bool,
+}
+
+/// State of one generator.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pwm {
+    phase: u16,
+    shadow_compare: u16,
+    shadow_direction: bool,
+    active_compare: u16,
+    active_direction: bool,
+    /// Clocks since `pwm` was high, `dir` changed or `enable` was low; stops at the blanking time.
+    quiet: u16,
+    /// `quiet` has reached the blanking time since `dir` changed or `enable` was low.
+    settled: bool,
+    outputs: Outputs,
+}
+
+impl Pwm {
+    /// One clock.
+    pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
+        let before = *self;
+        let period = inputs.period & PERIOD_MASK;
+        let last = before.phase + 1 >= period;
+        let wraps = last && period != 0;
+        self.phase = if last { 0 } else { before.phase + 1 };
+        self.outputs.period_start = wraps;
+
+        if inputs.load {
+            self.shadow_compare = inputs.compare & PERIOD_MASK;
+            self.shadow_direction = inputs.direction;
+        }
+        if wraps {
+            self.active_compare = before.shadow_compare;
+            self.active_direction = before.shadow_direction;
+        }
+        if !inputs.enable {
+            self.shadow_compare = 0;
+            self.shadow_direction = false;
+            self.active_compare = 0;
+            self.active_direction = false;
+        }
+
+        let long_quiet = before.quiet >= inputs.blanking & BLANKING_MASK;
+        let aligned = before.active_direction == before.outputs.dir;
+        let turns = inputs.enable && !aligned && before.active_compare != 0 && long_quiet && !before.outputs.pwm;
+        if turns {
+            self.outputs.dir = before.active_direction;
+        }
+        if !long_quiet {
+            self.quiet = before.quiet + 1;
+        }
+        if turns || before.outputs.pwm || !inputs.enable {
+            self.quiet = 0;
+        }
+        self.settled = inputs.enable && !turns && (before.settled || long_quiet);
+        self.outputs.pwm = inputs.enable
+            && period != 0
+            && aligned
+            && (before.settled || long_quiet)
+            && before.phase < before.active_compare;
+        self.outputs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Runs until `compare` and `direction` are in force, then from the next start strobe on.
+    fn steady(pwm: &mut Pwm, inputs: Inputs) {
+        pwm.clock(&Inputs { load: true, ..inputs });
+        for _ in 0..3 * u32::from(inputs.period) + 3 * 1024 {
+            pwm.clock(&inputs);
+        }
+        while !pwm.clock(&inputs).period_start {}
+    }
+
+    fn high_clocks(pwm: &mut Pwm, inputs: &Inputs) -> u32 {
+        (0..inputs.period).map(|_| u32::from(pwm.clock(inputs).pwm)).sum()
+    }
+
+    #[test]
+    fn duty_is_exact_for_every_compare() {
+        for period in [1, 2, 3, 100, 1_667] {
+            for compare in (0..=period + 2).chain([8_191]) {
+                for direction in [false, true] {
+                    let inputs = Inputs { enable: true, period, blanking: 33, load: false, compare, direction };
+                    let mut pwm = Pwm::default();
+                    steady(&mut pwm, inputs);
+                    let high = high_clocks(&mut pwm, &inputs);
+                    assert_eq!(high, u32::from(compare.min(period)), "{compare} of {period}");
+                    assert!(compare == 0 || pwm.outputs.dir == direction);
+                }
+            }
+        }
+        for (compare, high) in [(0, 0), (1, 1), (8_190, 8_190), (8_191, 8_191)] {
+            let inputs = Inputs { enable: true, period: 8_191, blanking: 0, load: false, compare, direction: true };
+            let mut pwm = Pwm::default();
+            steady(&mut pwm, inputs);
+            assert_eq!(high_clocks(&mut pwm, &inputs), high);
+        }
+    }
+
+    #[test]
+    fn a_period_is_one_pulse_from_its_start() {
+        let inputs = Inputs { enable: true, period: 50, blanking: 4, load: false, compare: 20, direction: false };
+        let mut pwm = Pwm::default();
+        steady(&mut pwm, inputs);
+        let wave: Vec<bool> = (0..100).map(|_| pwm.clock(&inputs).pwm).collect();
+        let ideal: Vec<bool> = (0..100).map(|n| n % 50 < 20).collect();
+        assert_eq!(wave, ideal);
+    }
+
+    #[test]
+    fn zero_and_full_have_no_glitch_at_the_wrap() {
+        for (compare, level) in [(0, false), (50, true), (51, true), (8_191, true)] {
+            let inputs = Inputs { enable: true, period: 50, blanking: 4, load: false, compare, direction: false };
+            let mut pwm = Pwm::default();
+            steady(&mut pwm, inputs);
+            for n in 0..1_000_u32 {
+                let load = n.is_multiple_of(7);
+                assert_eq!(pwm.clock(&Inputs { load, ..inputs }).pwm, level, "compare {compare}, clock {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_load_waits_for_the_period_start() {
+        let inputs = Inputs { enable: true, period: 40, blanking: 0, load: false, compare: 10, direction: false };
+        let mut pwm = Pwm::default();
+        steady(&mut pwm, inputs);
+        let next = Inputs { compare: 30, ..inputs };
+        for at in 0..40 {
+            let wave: u32 = (0..40).map(|n| u32::from(pwm.clock(&Inputs { load: n == at, ..next }).pwm)).sum();
+            assert_eq!(wave, 10, "loaded at {at}");
+            steady(&mut pwm, next);
+            assert_eq!(high_clocks(&mut pwm, &next), 30);
+            steady(&mut pwm, inputs);
+        }
+    }
+
+    #[test]
+    fn disabling_acts_in_one_clock_and_forgets() {
+        let inputs = Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 50, direction: true };
+        let mut pwm = Pwm::default();
+        steady(&mut pwm, inputs);
+        assert!(pwm.outputs.pwm && pwm.outputs.dir);
+        let out = pwm.clock(&Inputs { enable: false, load: true, ..inputs });
+        assert!(!out.pwm && out.dir);
+        for _ in 0..500 {
+            assert!(!pwm.clock(&inputs).pwm, "the set point before disabling is gone");
+        }
+    }
+
+    #[test]
+    fn enabling_begins_with_a_blanking_time() {
+        for blanking in [0, 1, 7, 1_023] {
+            let on = Inputs { enable: true, period: 10, blanking, load: true, compare: 10, direction: false };
+            let mut pwm = Pwm::default();
+            for _ in 0..30 {
+                pwm.clock(&Inputs { enable: false, ..on });
+            }
+            let low = (0..).find(|_| pwm.clock(&on).pwm).unwrap_or(u32::MAX);
+            assert!(low >= u32::from(blanking) && low <= u32::from(blanking) + 22, "{blanking}: {low}");
+        }
+    }
+
+    proptest! {
+        /// For any stream at a constant blanking time, seen from the pins alone.
+        #[test]
+        fn blanking_holds_around_every_reversal(
+            blanking in prop_oneof![0..4_u16, 0..60_u16],
+            period in prop_oneof![0..4_u16, 2..80_u16],
+            stream in prop::collection::vec(
+                (prop::bool::weighted(0.97), prop::bool::weighted(0.3), 0..90_u16, any::<bool>()), 0..1_500),
+        ) {
+            let mut pwm = Pwm::default();
+            let mut before = Outputs::default();
+            // Clocks for which the condition has held, over the output stream.
+            let (mut low, mut same_direction, mut enabled) = (1_u32, 0_u32, 0_u32);
+            for (enable, load, compare, direction) in stream {
+                let out = pwm.clock(&Inputs { enable, period, blanking, load, compare, direction });
+                let turned = out.dir != before.dir;
+                prop_assert!(!turned || (low > u32::from(blanking) && !out.pwm && !before.pwm));
+                enabled = if enable { enabled + 1 } else { 0 };
+                if out.pwm && !before.pwm {
+                    prop_assert!(same_direction >= u32::from(blanking));
+                    prop_assert!(enabled > u32::from(blanking));
+                    prop_assert!(!turned);
+                }
+                prop_assert!(!out.pwm || (enable && period > 0));
+                low = if out.pwm { 0 } else { low + 1 };
+                same_direction = if turned { 0 } else { same_direction + 1 };
+                before = out;
+            }
+        }
+    }
+}

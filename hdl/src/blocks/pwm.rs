@@ -1,1 +1,126 @@
-//! pwm
+//! PWM generator of one axis for an H-bridge with PWM and DIR pins: sign-magnitude.
+//!
+//! ```text
+//! compare, direction ─►[shadow at load]─►[active at period start]─► phase < compare ─► gate ─► pwm
+//! phase   /|/|/|        period_start  _|‾|____________                                  └──► dir
+//!
+//! pwm ‾‾‾‾\____________________________/‾‾‾‾    low for more than the blanking time
+//! dir ______________/‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾    before and after DIR changes
+//!         ├─ > b ───┤├────── > b ─────┤
+//! ```
+//!
+//! Timing: the pin is one clock behind the phase; `period_start` is high in the clock before the
+//! first clock of a period at the pin. `enable` low takes `pwm` low in one clock, clears shadow
+//! and active set point and holds `dir`; the blanking time runs again after it. The phase runs on
+//! while disabled, so that axes that share a period stay aligned. A compare of zero asks for no
+//! direction. Limits: period up to 8191 clocks (4 kHz at 33 MHz), blanking up to 1023 (30 µs).
+
+use crate::primitives::Literal;
+use rust_hdl::prelude::*;
+
+/// The PWM block; see the head of this file.
+#[derive(LogicBlock, Default)]
+pub struct Pwm {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Outputs may be on.
+    pub enable: Signal<In, Bit>,
+    /// Period in clocks; 0 = off.
+    pub period: Signal<In, Bits<13>>,
+    /// Blanking in clocks.
+    pub blanking: Signal<In, Bits<10>>,
+    /// Strobe: takes compare and direction into the shadow.
+    pub load: Signal<In, Bit>,
+    /// High time in clocks; from the next period start. The period or more is 100 %.
+    pub compare: Signal<In, Bits<13>>,
+    /// Level of `dir` for this compare.
+    pub direction: Signal<In, Bit>,
+    /// The PWM pin.
+    pub pwm: Signal<Out, Bit>,
+    /// The DIR pin.
+    pub dir: Signal<Out, Bit>,
+    /// Strobe: the next clock is the first of a period at the pin.
+    pub period_start: Signal<Out, Bit>,
+    phase: DFF<Bits<13>>,
+    shadow_compare: DFF<Bits<13>>,
+    shadow_direction: DFF<Bit>,
+    active_compare: DFF<Bits<13>>,
+    active_direction: DFF<Bit>,
+    quiet: DFF<Bits<10>>,
+    settled: DFF<Bit>,
+    pwm_pin: DFF<Bit>,
+    dir_pin: DFF<Bit>,
+    start: DFF<Bit>,
+    next_phase: Signal<Local, Bits<13>>,
+    last: Signal<Local, Bit>,
+    running: Signal<Local, Bit>,
+    wraps: Signal<Local, Bit>,
+    long_quiet: Signal<Local, Bit>,
+    aligned: Signal<Local, Bit>,
+    turns: Signal<Local, Bit>,
+    permitted: Signal<Local, Bit>,
+    phase_zero: Literal<13, 0>,
+    phase_one: Literal<13, 1>,
+    quiet_zero: Literal<10, 0>,
+    quiet_one: Literal<10, 1>,
+}
+
+impl Logic for Pwm {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, phase, shadow_compare, shadow_direction, active_compare, active_direction);
+        dff_setup!(self, clock, quiet, settled, pwm_pin, dir_pin, start);
+
+        self.running.next = self.period.val().any();
+        self.next_phase.next = self.phase.q.val() + self.phase_one.val();
+        self.last.next = self.next_phase.val() >= self.period.val();
+        self.wraps.next = self.last.val() & self.running.val();
+        self.phase.d.next = self.next_phase.val();
+        if self.last.val() {
+            self.phase.d.next = self.phase_zero.val();
+        }
+        self.start.d.next = self.wraps.val();
+
+        if self.load.val() {
+            self.shadow_compare.d.next = self.compare.val();
+            self.shadow_direction.d.next = self.direction.val();
+        }
+        if self.wraps.val() {
+            self.active_compare.d.next = self.shadow_compare.q.val();
+            self.active_direction.d.next = self.shadow_direction.q.val();
+        }
+        if !self.enable.val() {
+            self.shadow_compare.d.next = self.phase_zero.val();
+            self.shadow_direction.d.next = false;
+            self.active_compare.d.next = self.phase_zero.val();
+            self.active_direction.d.next = false;
+        }
+
+        self.long_quiet.next = self.quiet.q.val() >= self.blanking.val();
+        self.aligned.next = !(self.active_direction.q.val() ^ self.dir_pin.q.val());
+        self.turns.next = self.enable.val()
+            & !self.aligned.val()
+            & self.active_compare.q.val().any()
+            & self.long_quiet.val()
+            & !self.pwm_pin.q.val();
+        if self.turns.val() {
+            self.dir_pin.d.next = self.active_direction.q.val();
+        }
+        if !self.long_quiet.val() {
+            self.quiet.d.next = self.quiet.q.val() + self.quiet_one.val();
+        }
+        if self.turns.val() | self.pwm_pin.q.val() | !self.enable.val() {
+            self.quiet.d.next = self.quiet_zero.val();
+        }
+        self.permitted.next = self.enable.val() & (self.settled.q.val() | self.long_quiet.val());
+        self.settled.d.next = self.permitted.val() & !self.turns.val();
+        self.pwm_pin.d.next = self.permitted.val()
+            & self.running.val()
+            & self.aligned.val()
+            & (self.phase.q.val() < self.active_compare.q.val());
+
+        self.pwm.next = self.pwm_pin.q.val();
+        self.dir.next = self.dir_pin.q.val();
+        self.period_start.next = self.start.q.val();
+    }
+}

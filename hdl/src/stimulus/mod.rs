@@ -6,6 +6,7 @@
 
 pub mod control;
 pub mod encoder;
+pub mod kicker;
 pub mod pwm;
 pub mod safety;
 
