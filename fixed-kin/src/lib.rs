@@ -4,6 +4,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod clock_monitor;
 pub mod control;
 pub mod encoder;
 pub mod format;

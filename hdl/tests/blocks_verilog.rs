@@ -1,5 +1,6 @@
 //! The emitted Verilog of the blocks: no latches, no narrowing, nothing the tools object to.
 
+use hdl::blocks::clock_monitor::ClockMonitor;
 use hdl::blocks::encoder::Encoder;
 use hdl::blocks::kicker::Kicker;
 use hdl::blocks::pwm::Pwm;
@@ -70,4 +71,9 @@ fn pwm() {
 #[test]
 fn kicker() {
     check("kicker", Kicker::default(), 200, 120);
+}
+
+#[test]
+fn clock_monitor() {
+    check("clock_monitor", ClockMonitor::default(), 30, 25);
 }

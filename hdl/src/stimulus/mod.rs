@@ -4,6 +4,7 @@
 //! emitted Verilog. Each submodule has `stimulus(seed, clocks)`, a `hardware()` that is the
 //! rust-hdl block behind the twin's interface, and the column names and words of its ports.
 
+pub mod clock_monitor;
 pub mod control;
 pub mod encoder;
 pub mod kicker;
