@@ -88,9 +88,9 @@ pub struct Outputs {
     /// [`State`] as a number.
     pub state: u8,
     /// Sticky: charging was stopped by its time-out.
-    pub charge_timed_out: bool,
+    pub timed_out: bool,
     /// Sticky: a fire request was dropped.
-    pub fire_dropped: bool,
+    pub dropped: bool,
 }
 
 /// State of the kicker block.
@@ -173,8 +173,8 @@ impl Kicker {
             trigger: self.state == State::Pulse,
             ready: self.state == State::Ready && pulse != 0,
             state: self.state as u8,
-            charge_timed_out: (before.outputs.charge_timed_out && !inputs.clear) || (before.outputs.charge && expired),
-            fire_dropped: (before.outputs.fire_dropped && !inputs.clear) || (inputs.fire && !takes) || cancels,
+            timed_out: (before.outputs.timed_out && !inputs.clear) || (before.outputs.charge && expired),
+            dropped: (before.outputs.dropped && !inputs.clear) || (inputs.fire && !takes) || cancels,
         };
         self.outputs
     }

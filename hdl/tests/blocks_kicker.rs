@@ -22,7 +22,7 @@ fn the_stimulus_reaches_the_corners() {
         pulses += u32::from(after.trigger && !before.trigger);
         full_lockouts += u32::from(before.state == State::Lockout as u8 && after.state < 2);
         aborted += u32::from(before.trigger && !row.enable);
-        timeouts += u32::from(after.charge_timed_out && !before.charge_timed_out);
+        timeouts += u32::from(after.timed_out && !before.timed_out);
         interrupted += u32::from(before.charge && after.state == State::Pending as u8);
         before = after;
     }

@@ -77,29 +77,29 @@ fn charging_stops_at_its_time_out_until_asked_again() {
         assert!(kicker.clock(&inputs).charge);
         // The count reaches the time-out, and the clock after sees it.
         assert_eq!(clocks_until(&mut kicker, &inputs, 1 << 25, |o| !o.charge), timeout + 1);
-        assert!(kicker.outputs.charge_timed_out);
+        assert!(kicker.outputs.timed_out);
         assert_eq!(clocks_until(&mut kicker, &inputs, 10_000, |o| o.charge), u32::MAX);
         kicker.clock(&Inputs { charge_request: false, ..inputs });
         assert!(kicker.clock(&inputs).charge);
-        assert!(kicker.outputs.charge_timed_out, "the flag stays until cleared");
+        assert!(kicker.outputs.timed_out, "the flag stays until cleared");
         clocks_until(&mut kicker, &inputs, 1 << 25, |o| !o.charge);
         let cleared = kicker.clock(&Inputs { clear: true, ..inputs });
-        assert!(!cleared.charge_timed_out && kicker.clock(&inputs).charge);
+        assert!(!cleared.timed_out && kicker.clock(&inputs).charge);
     }
     let never = Inputs { charge_timeout: 0, ..CHARGING };
-    assert_eq!(clocks_until(&mut ready(), &never, 1_000, |o| o.charge || o.charge_timed_out), u32::MAX);
+    assert_eq!(clocks_until(&mut ready(), &never, 1_000, |o| o.charge || o.timed_out), u32::MAX);
 }
 
 #[test]
 fn requests_that_cannot_be_taken_are_dropped_and_flagged() {
     let mut kicker = ready();
     fire(&mut kicker, &IDLE);
-    assert!(!kicker.outputs.fire_dropped);
-    assert!(fire(&mut kicker, &IDLE).fire_dropped, "a second request");
-    assert!(!kicker.clock(&Inputs { clear: true, ..IDLE }).fire_dropped);
+    assert!(!kicker.outputs.dropped);
+    assert!(fire(&mut kicker, &IDLE).dropped, "a second request");
+    assert!(!kicker.clock(&Inputs { clear: true, ..IDLE }).dropped);
     for disabled in [Inputs { enable: false, ..IDLE }, Inputs { pulse: 0, ..IDLE }] {
         let mut kicker = ready();
-        assert!(fire(&mut kicker, &disabled).fire_dropped);
+        assert!(fire(&mut kicker, &disabled).dropped);
         assert_eq!(clocks_until(&mut kicker, &IDLE, 1_000, |o| o.trigger), u32::MAX);
     }
 }

@@ -59,9 +59,9 @@ pub struct Kicker {
     /// State as in `fixed_kin::kicker::State`.
     pub state: Signal<Out, Bits<3>>,
     /// Sticky: charging was stopped by its time-out.
-    pub charge_timed_out: Signal<Out, Bit>,
+    pub timed_out: Signal<Out, Bit>,
     /// Sticky: a fire request was dropped.
-    pub fire_dropped: Signal<Out, Bit>,
+    pub dropped: Signal<Out, Bit>,
     ball_filter: GlitchFilter,
     now: DFF<Bits<3>>,
     elapsed: DFF<Bits<20>>,
@@ -71,8 +71,8 @@ pub struct Kicker {
     charge_pin: DFF<Bit>,
     trigger_pin: DFF<Bit>,
     is_ready: DFF<Bit>,
-    timed_out: DFF<Bit>,
-    dropped: DFF<Bit>,
+    timed_out_flag: DFF<Bit>,
+    dropped_flag: DFF<Bit>,
     in_ready: Signal<Local, Bit>,
     in_pending: Signal<Local, Bit>,
     in_pulse: Signal<Local, Bit>,
@@ -113,7 +113,7 @@ impl Logic for Kicker {
     fn update(&mut self) {
         clock!(self, clock, ball_filter);
         dff_setup!(self, clock, now, elapsed, gap, charged, spent);
-        dff_setup!(self, clock, charge_pin, trigger_pin, is_ready, timed_out, dropped);
+        dff_setup!(self, clock, charge_pin, trigger_pin, is_ready, timed_out_flag, dropped_flag);
         self.ball_filter.pin.next = self.ball.val();
         self.ball_filter.tick.next = self.microsecond.val();
         self.ball_filter.limit.next = self.ball_limit.val();
@@ -201,16 +201,17 @@ impl Logic for Kicker {
             self.enable.val() & self.charge_request.val() & !self.expired.val() & self.may_charge.val();
         self.trigger_pin.d.next = self.next_state.val() == self.pulse_state.val();
         self.is_ready.d.next = (self.next_state.val() == self.ready_state.val()) & self.has_pulse.val();
-        self.timed_out.d.next =
-            (self.timed_out.q.val() & !self.clear.val()) | (self.charge_pin.q.val() & self.expired.val());
-        self.dropped.d.next =
-            (self.dropped.q.val() & !self.clear.val()) | (self.fire.val() & !self.takes.val()) | self.cancels.val();
+        self.timed_out_flag.d.next =
+            (self.timed_out_flag.q.val() & !self.clear.val()) | (self.charge_pin.q.val() & self.expired.val());
+        self.dropped_flag.d.next = (self.dropped_flag.q.val() & !self.clear.val())
+            | (self.fire.val() & !self.takes.val())
+            | self.cancels.val();
 
         self.charge.next = self.charge_pin.q.val();
         self.trigger.next = self.trigger_pin.q.val();
         self.ready.next = self.is_ready.q.val();
         self.state.next = self.now.q.val();
-        self.charge_timed_out.next = self.timed_out.q.val();
-        self.fire_dropped.next = self.dropped.q.val();
+        self.timed_out.next = self.timed_out_flag.q.val();
+        self.dropped.next = self.dropped_flag.q.val();
     }
 }

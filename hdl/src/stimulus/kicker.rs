@@ -19,7 +19,7 @@ columns!(Inputs {
     arm_on_ball,
     clear,
 });
-columns!(Outputs { charge, trigger, ready, state, charge_timed_out, fire_dropped });
+columns!(Outputs { charge, trigger, ready, state, timed_out, dropped });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -42,8 +42,8 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
             trigger: block.trigger.val(),
             ready: block.ready.val(),
             state: block.state.val().to_u8(),
-            charge_timed_out: block.charge_timed_out.val(),
-            fire_dropped: block.fire_dropped.val(),
+            timed_out: block.timed_out.val(),
+            dropped: block.dropped.val(),
         }
     }
 }
