@@ -4,8 +4,10 @@
 pub mod camera;
 pub mod error;
 pub mod frames;
+pub mod fusion;
 pub mod geometry;
 pub mod motor;
+pub mod odometry;
 pub mod pi;
 pub mod plant;
 pub mod plot;
