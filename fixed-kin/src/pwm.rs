@@ -184,10 +184,24 @@ mod tests {
         for at in 0..40 {
             let wave: u32 = (0..40).map(|n| u32::from(pwm.clock(&Inputs { load: n == at, ..next }).pwm)).sum();
             assert_eq!(wave, 10, "loaded at {at}");
+            // At the last clock it meets the period start, and waits for the one after.
+            assert_eq!(high_clocks(&mut pwm, &next), if at == 39 { 10 } else { 30 }, "loaded at {at}");
             steady(&mut pwm, next);
             assert_eq!(high_clocks(&mut pwm, &next), 30);
             steady(&mut pwm, inputs);
         }
+    }
+
+    #[test]
+    fn a_duty_of_zero_asks_for_no_direction() {
+        let forward = Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 25, direction: true };
+        let mut pwm = Pwm::default();
+        steady(&mut pwm, forward);
+        let zero = Inputs { compare: 0, direction: false, ..forward };
+        steady(&mut pwm, zero);
+        assert!(pwm.outputs.dir);
+        steady(&mut pwm, Inputs { compare: 1, ..zero });
+        assert!(!pwm.outputs.dir);
     }
 
     #[test]

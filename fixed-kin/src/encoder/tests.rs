@@ -154,3 +154,17 @@ fn samples_are_coherent_and_hold() {
         assert_eq!((out.count, out.edge_time, out.direction), (latched.count, latched.edge_time, latched.direction));
     }
 }
+
+#[test]
+fn a_pulse_just_long_enough_keeps_its_length() {
+    for filter in 0..=15 {
+        let mut bench = Bench::new(filter, 0);
+        let width = u32::from(filter) + 1;
+        let mut high = 0;
+        for clock in 0..4 * width + 10 {
+            bench.hold(lines(i64::from(clock < width)), 1);
+            high += u32::from(bench.out.live_a);
+        }
+        assert_eq!(high, width, "filter {filter}");
+    }
+}

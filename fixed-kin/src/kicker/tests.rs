@@ -91,6 +91,16 @@ fn charging_stops_at_its_time_out_until_asked_again() {
 }
 
 #[test]
+fn every_pulse_allows_a_full_charge() {
+    let mut kicker = ready();
+    assert_eq!(clocks_until(&mut kicker, &CHARGING, 4_000, |o| o.timed_out), u32::MAX);
+    fire(&mut kicker, &CHARGING);
+    clocks_until(&mut kicker, &CHARGING, 2_000, |o| o.trigger);
+    clocks_until(&mut kicker, &CHARGING, 30_000, |o| o.charge);
+    assert_eq!(clocks_until(&mut kicker, &CHARGING, 10_000, |o| !o.charge), CHARGING.charge_timeout + 1);
+}
+
+#[test]
 fn requests_that_cannot_be_taken_are_dropped_and_flagged() {
     let mut kicker = ready();
     fire(&mut kicker, &IDLE);

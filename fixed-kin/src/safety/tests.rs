@@ -134,6 +134,10 @@ fn set_points_are_valid_from_the_first_pet_after_arming() {
     let out = safety.clock(&Inputs { arm_write: true, ..PET });
     assert_eq!((out.armed, out.setpoints_valid), (false, false));
     assert!(!safety.clock(&PET).setpoints_valid);
+    // A set point at the very clock of arming was made for a disarmed robot.
+    safety.clock(&ARM[0]);
+    let out = safety.clock(&Inputs { pet: true, ..ARM[1] });
+    assert_eq!((out.armed, out.setpoints_valid), (true, false));
 }
 
 #[test]
