@@ -4,7 +4,9 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod card;
 pub mod clock_monitor;
+pub mod commit;
 pub mod control;
 pub mod encoder;
 pub mod format;

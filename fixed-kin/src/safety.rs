@@ -151,6 +151,32 @@ impl Safety {
         }
         self.outputs
     }
+
+    /// The outputs after the last clock.
+    #[must_use]
+    pub fn outputs(&self) -> Outputs {
+        self.outputs
+    }
+
+    /// `clocks` clocks with the same inputs, strobes low; equal to as many calls of [`Self::clock`].
+    pub fn advance(&mut self, inputs: &Inputs, clocks: u32) {
+        let mut left = clocks;
+        while left > 0 {
+            let before = *self;
+            self.clock(inputs);
+            left -= 1;
+            if *self == before {
+                return;
+            }
+            // Where a clock has moved nothing but the watchdog, so will those until it bites.
+            let counted = Self { remaining: before.remaining.saturating_sub(1), ..before };
+            if *self == counted {
+                let skipped = left.min(self.remaining.saturating_sub(1));
+                self.remaining -= skipped;
+                left -= skipped;
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -206,3 +206,16 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn advancing_is_clocking() {
+    for clocks in [0, 1, 5, 30, 995, 1_000, 1_005, 5_000] {
+        for inputs in [QUIET, Inputs { emergency_stop: true, ..QUIET }, Inputs { watchdog_timeout: 7, ..QUIET }] {
+            let mut slow = armed();
+            let mut fast = slow;
+            run(&mut slow, &inputs, clocks);
+            fast.advance(&inputs, clocks);
+            assert_eq!(fast, slow, "{clocks} clocks, {inputs:?}");
+        }
+    }
+}
