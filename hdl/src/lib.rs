@@ -1,6 +1,7 @@
 //! The gateware in rust-hdl, one block a file.
 
 pub mod blocks;
+pub mod board;
 pub mod emit;
 pub mod primitives;
 pub mod program;

@@ -60,6 +60,7 @@ fn outputs(block: &LocalBus) -> Outputs {
 struct Master {
     noise: Noise,
     words: u32,
+    waited: u32,
     busy: bool,
     manners: u32,
 }
@@ -86,12 +87,19 @@ impl Master {
             write_busy: self.busy,
             ..Inputs::default()
         };
+        self.waited += 1;
         if !last.ready_n {
             self.words = self.words.saturating_sub(1);
+            self.waited = 0;
+        }
+        // The burst may have ended without us: at the end of the window, or by our own twitch.
+        if self.waited > twin::WRITE_CLOCKS_MAX {
+            self.words = 0;
         }
         let aborts = self.manners >= 2 && noise.one_in(15);
         if (self.words == 0 && !noise.one_in(3)) || aborts {
             inputs.ads_n = false;
+            self.waited = 0;
             self.words = if noise.one_in(2) { 1 } else { 1 + noise.below(9) };
             if noise.one_in(20) {
                 // The end of the window.
@@ -111,7 +119,7 @@ impl Master {
 fn every_clock_equals_the_twin() {
     let clocks = if cfg!(debug_assertions) { 100_000 } else { 1_500_000 };
     let (mut block, mut twin) = (block(), twin::LocalBus::new());
-    let mut master = Master { noise: Noise(7), words: 0, busy: false, manners: 0 };
+    let mut master = Master { noise: Noise(7), words: 0, waited: 0, busy: false, manners: 0 };
     let mut last = twin.outputs(false);
     let (mut reads, mut writes, mut overruns, mut waited) = (0, 0, 0, 0);
     for n in 0..clocks {
@@ -126,8 +134,8 @@ fn every_clock_equals_the_twin() {
         overruns += u32::from(last.overrun);
         waited += u32::from(inputs.write_busy);
     }
-    let much = clocks / 50;
-    assert!(reads > much && writes > much && overruns > 3 && waited > much, "{reads} {writes} {overruns} {waited}");
+    let much = clocks / 20;
+    assert!(reads > much && writes > much && overruns > 10 && waited > much, "{reads} {writes} {overruns} {waited}");
 }
 
 /// A memory behind the block: data two clocks after the strobe, busy as it likes.

@@ -65,7 +65,7 @@ pub struct LocalBus {
     pub overrun: Signal<Out, Bit>,
     // The phases, one flip-flop each; none set is the idle bus.
     fetch: DFF<Bit>,
-    wait: DFF<Bit>,
+    pending: DFF<Bit>,
     take: DFF<Bit>,
     collect: DFF<Bit>,
     offer: DFF<Bit>,
@@ -107,7 +107,7 @@ impl Default for LocalBus {
             write_busy: Signal::default(),
             overrun: Signal::default(),
             fetch: DFF::default(),
-            wait: DFF::default(),
+            pending: DFF::default(),
             take: DFF::default(),
             collect: DFF::default(),
             offer: DFF::default(),
@@ -136,7 +136,7 @@ impl Logic for LocalBus {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(
-            self, clock, fetch, wait, take, collect, offer, answer, writing, last, drive, word, held, to_host,
+            self, clock, fetch, pending, take, collect, offer, answer, writing, last, drive, word, held, to_host,
             from_host
         );
         self.next_word.next = self.word.q.val() + self.one_word.val();
@@ -145,8 +145,8 @@ impl Logic for LocalBus {
         self.ends.next = self.last.q.val() | !self.blast_n.val() | (self.word.q.val() == self.last_word.val());
 
         self.fetch.d.next = false;
-        self.wait.d.next = self.fetch.q.val();
-        self.take.d.next = self.wait.q.val();
+        self.pending.d.next = self.fetch.q.val();
+        self.take.d.next = self.pending.q.val();
         self.collect.d.next = false;
         self.offer.d.next = self.collect.q.val();
         self.answer.d.next = self.take.q.val();
@@ -182,7 +182,7 @@ impl Logic for LocalBus {
             self.word.d.next = self.lad_in.val().get_bits::<14>(2);
             self.writing.d.next = self.lw_r.val();
             self.fetch.d.next = !self.lw_r.val();
-            self.wait.d.next = false;
+            self.pending.d.next = false;
             self.take.d.next = false;
             self.collect.d.next = self.lw_r.val();
             self.offer.d.next = false;

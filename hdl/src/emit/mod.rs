@@ -1,4 +1,14 @@
 //! From rust-hdl blocks to the files in `generated/`.
+//!
+//! ```text
+//! block --> verilog  readable modules  --> top  joined to the board's pins --> hash  signed
+//! board --> ucf      pins and timing
+//! ```
 
+pub mod hash;
+mod module;
 pub mod ports;
 pub mod token;
+pub mod top;
+pub mod ucf;
+pub mod verilog;
