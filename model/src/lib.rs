@@ -1,8 +1,10 @@
 //! The robot in floating point: SI units, body frame x right and y forward, heading from the
 //! field's x axis to the body x axis (see [`frames`]).
 
+pub mod calibration;
 pub mod camera;
 pub mod error;
+pub mod fit;
 pub mod frames;
 pub mod fusion;
 pub mod geometry;
@@ -13,4 +15,5 @@ pub mod plant;
 pub mod plot;
 pub mod robot;
 pub mod run;
+pub mod simulation;
 pub mod trajectory;

@@ -1,0 +1,302 @@
+//! All skews at once, from logs of encoders and camera.
+
+use nalgebra::DMatrix;
+use serde_json::json;
+
+use super::excitation::{Excitation, best_direction};
+use super::{KinematicModel, KinematicParameter};
+use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals};
+use crate::frames::wrap_angle;
+use crate::robot::{Layout, Robot};
+use crate::run::Run;
+
+/// Longer than the engine's default: a skew shows as curvature, which grows with the window, and
+/// wheels that creep by a part in a thousand still do not matter in two seconds.
+const WINDOW_S: f64 = 2.0;
+/// A difference of two skews counts as found if its 95 % interval is at most this wide either way.
+const FOUND: f64 = 1.0;
+/// The common skew counts as found if it is known this well (95 %, degrees) without trusting the
+/// marker's heading.
+const COMMON_FOUND: f64 = 0.5;
+/// χ² per degree of freedom from which skew alone does not explain the data. Camera noise that is
+/// not quite white reaches 1.2.
+const UNEXPLAINED: f64 = 1.5;
+
+/// The skews of a robot's wheels, and what the data cannot tell about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SkewEstimate {
+    /// Skew of each wheel, clockwise, rad; on top of `drive_rad` for robots with `[[wheel]]`.
+    /// The nominal value where nothing could be found out.
+    pub skew_rad: Vec<f64>,
+    /// Their 95 % confidence intervals, given that the marker plate is mounted true.
+    pub ci95: Vec<[f64; 2]>,
+    /// Half widths of the 95 % intervals of skew i − skew j, rad, for wheels i < j from 0. These
+    /// need no marker.
+    pub differences: Vec<(usize, usize, f64)>,
+    /// Camera latency beyond what robot.toml states, and its 95 % interval, s; fitted alongside.
+    pub latency_s: (f64, [f64; 2]),
+    /// Half width of the 95 % interval of the mean skew if the marker plate may be turned, rad.
+    pub common_half_width: f64,
+    /// Whether every difference is known to 1°.
+    pub identifiable: bool,
+    /// Whether the mean skew is known to 0.5° without trusting the marker plate.
+    pub common_identifiable: bool,
+    /// How well the camera is predicted.
+    pub residual: Residual,
+    /// What the data cannot tell, and which drive would help; empty if all is well.
+    pub remarks: Vec<String>,
+}
+
+/// Root mean squares of seen minus predicted (m, m, rad), start poses of one-second windows fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// With the nominal skews.
+    pub before: [f64; 3],
+    /// With the estimate.
+    pub after: [f64; 3],
+    /// The camera's noise.
+    pub noise: [f64; 3],
+    /// χ² per degree of freedom with the estimate.
+    pub reduced_chi2: f64,
+    /// Camera frames used.
+    pub frames: usize,
+    /// Frames recognised as outliers.
+    pub outliers: usize,
+}
+
+impl SkewEstimate {
+    /// `{"skew_rad", "ci95", "common_identifiable", "residual": {...}, ...}`.
+    pub fn to_json(&self) -> serde_json::Value {
+        let r = &self.residual;
+        json!({
+            "skew_rad": self.skew_rad,
+            "ci95": self.ci95,
+            "common_identifiable": self.common_identifiable,
+            "identifiable": self.identifiable,
+            "difference_half_width_rad": self.differences.iter()
+                .map(|(i, j, half)| json!({"wheels": [i + 1, j + 1], "ci95_half_width": half}))
+                .collect::<Vec<_>>(),
+            "common_half_width_rad": self.common_half_width,
+            "residual": {
+                "before": r.before, "after": r.after, "noise": r.noise,
+                "reduced_chi2": r.reduced_chi2, "frames": r.frames, "outliers": r.outliers,
+            },
+            "latency_s": { "value": self.latency_s.0, "ci95": self.latency_s.1 },
+            "remarks": self.remarks,
+        })
+    }
+
+    /// The robot with these skews as its nominal geometry.
+    #[must_use]
+    pub fn apply(&self, robot: &Robot) -> Robot {
+        let mut robot = robot.clone();
+        match &mut robot.layout {
+            Layout::Rac { skew_rad, .. } => {
+                for (slot, skew) in skew_rad.iter_mut().zip(&self.skew_rad) {
+                    *slot = *skew;
+                }
+            }
+            Layout::Wheels(wheels) => {
+                for (wheel, skew) in wheels.iter_mut().zip(&self.skew_rad) {
+                    wheel.drive_rad -= skew;
+                }
+            }
+        }
+        robot
+    }
+}
+
+/// Estimates all skews from logs of encoders and camera.
+///
+/// Logs that cannot tell (no camera, a robot that stands still, one direction only) are no error:
+/// the estimate says so in its remarks and intervals.
+///
+/// # Errors
+/// [`FitError::NotFinite`] if the robot or the logs hold numbers that lead nowhere.
+pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitError> {
+    let n = robot.wheel_count();
+    let mut free: Vec<KinematicParameter> = (0..n).map(KinematicParameter::Skew).collect();
+    // A latency nobody measured would otherwise pass for skew; the data fix it by themselves.
+    free.push(KinematicParameter::CameraLatency);
+    let model = KinematicModel::new(robot, free.clone());
+    let options = FitOptions { window_s: WINDOW_S, noise: robot.camera_noise, ..FitOptions::default() };
+    let start = vec![0.0; n + 1];
+    let fitted = match fit(&model, runs, &start, &options) {
+        Ok(fitted) => fitted,
+        Err(FitError::NoWindows) => return Ok(nothing(robot, runs)),
+        Err(e) => return Err(e),
+    };
+    let before = residuals(&model, runs, &start, &options)?;
+    let nominal = nominal_skew(robot);
+    let widths: Vec<(usize, usize, f64)> = (0..n)
+        .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
+        .map(|(i, j)| {
+            let mut weights = vec![0.0; n + 1];
+            (weights[i], weights[j]) = (1.0, -1.0);
+            (i, j, fitted.half_width(&weights))
+        })
+        .collect();
+    let common_half_width = common_with_free_marker(robot, runs, &free, &fitted, &options)?;
+    let identifiable = widths.iter().all(|(_, _, half)| half.to_degrees() <= FOUND);
+    let ci95: Vec<[f64; 2]> = (0..n).map(|i| fitted.ci95(i).map(|end| end + nominal[i])).collect();
+    let mut estimate = SkewEstimate {
+        skew_rad: nominal.iter().zip(&fitted.parameters).map(|(s, d)| s + d).collect(),
+        ci95,
+        differences: widths,
+        latency_s: (fitted.parameters[n], fitted.ci95(n)),
+        common_half_width,
+        identifiable,
+        common_identifiable: identifiable && common_half_width.to_degrees() <= COMMON_FOUND,
+        residual: Residual {
+            before: before.rms,
+            after: fitted.residuals.rms,
+            noise: fitted.residuals.noise,
+            reduced_chi2: fitted.residuals.reduced_chi2,
+            frames: fitted.residuals.frames,
+            outliers: fitted.residuals.outliers,
+        },
+        remarks: Vec::new(),
+    };
+    estimate.remarks = remarks(robot, runs, &fitted, &estimate);
+    Ok(estimate)
+}
+
+fn nominal_skew(robot: &Robot) -> Vec<f64> {
+    match &robot.layout {
+        Layout::Rac { skew_rad, .. } => skew_rad.to_vec(),
+        Layout::Wheels(wheels) => vec![0.0; wheels.len()],
+    }
+}
+
+/// How well the mean skew is known if the marker plate may be turned as well.
+fn common_with_free_marker(
+    robot: &Robot,
+    runs: &[Run],
+    free: &[KinematicParameter],
+    fitted: &Fit,
+    options: &FitOptions,
+) -> Result<f64, FitError> {
+    let n = robot.wheel_count();
+    let mut free = free.to_vec();
+    free.push(KinematicParameter::MarkerHeading);
+    let mut at = fitted.parameters.clone();
+    at.push(0.0);
+    let (covariance, _) = covariance_at(&KinematicModel::new(robot, free), runs, &at, options)?;
+    let variance = covariance.view((0, 0), (n, n)).sum() / (n * n) as f64;
+    Ok(fitted.quantile * variance.max(0.0).sqrt())
+}
+
+/// Logs without a single window of camera and encoders.
+fn nothing(robot: &Robot, runs: &[Run]) -> SkewEstimate {
+    let n = robot.wheel_count();
+    let anything = std::f64::consts::FRAC_PI_2;
+    let remark = if runs.iter().all(|r| r.counts.is_empty()) {
+        "The logs have no encoder counts (enc_1, enc_2, ...), so nothing can be said about the skews. Log them."
+    } else if runs.iter().all(|r| r.camera.is_empty()) {
+        "The logs have no camera poses (cam_x, cam_y, cam_theta), so nothing can be said about the skews. Log an \
+         overhead camera while the robot drives straight in several directions."
+    } else {
+        "Nowhere in the logs are there four camera frames within a second, so nothing can be said about the skews. \
+         Log more frames."
+    };
+    let skew_rad = nominal_skew(robot);
+    SkewEstimate {
+        ci95: skew_rad.iter().map(|s| [s - anything, s + anything]).collect(),
+        skew_rad,
+        differences: (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j, anything))).collect(),
+        latency_s: (0.0, [-1.0, 1.0]),
+        common_half_width: anything,
+        identifiable: false,
+        common_identifiable: false,
+        residual: Residual::default(),
+        remarks: vec![remark.to_owned()],
+    }
+}
+
+fn remarks(robot: &Robot, runs: &[Run], fitted: &Fit, estimate: &SkewEstimate) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let excitation = Excitation::of(robot, runs);
+    if excitation.path_m < 0.05 && excitation.turned_rad < 0.2 {
+        remarks.push(format!(
+            "The robot stands still in these logs: it moves by {:.0} mm and turns by {:.0} degrees in all. Skew only \
+             shows while driving; drive straight for a metre in at least two directions.",
+            excitation.path_m * 1e3,
+            excitation.turned_rad.to_degrees()
+        ));
+        return remarks;
+    }
+    if !estimate.identifiable {
+        let worst = estimate.differences.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+        if let Some((i, j, half)) = worst {
+            let why = if excitation.path_m < 0.3 {
+                format!("the robot only drives {:.2} m in these logs, beside turning", excitation.path_m)
+            } else if let Some(axis) = excitation.single_axis {
+                format!("the robot only drives along {}", direction_words(axis))
+            } else {
+                "these logs do not excite it enough".to_owned()
+            };
+            remarks.push(format!(
+                "The skew of wheel {} against wheel {} is only known to ±{:.1} degrees: {why}. Driving straight for \
+                 some metres along {} would help most.",
+                i + 1,
+                j + 1,
+                half.to_degrees(),
+                direction_words(best_direction(robot, &weakest_difference(fitted, estimate.skew_rad.len()))),
+            ));
+        }
+    }
+    let (latency, [low, high]) = estimate.latency_s;
+    if latency.abs() > 0.002 && (low > 0.0 || high < 0.0) {
+        remarks.push(format!(
+            "The camera is {:.1} ms later (95 %: {:.1} to {:.1}) than robot.toml states; add it to camera_latency_s.",
+            latency * 1e3,
+            low * 1e3,
+            high * 1e3
+        ));
+    }
+    if estimate.residual.reduced_chi2 > UNEXPLAINED {
+        remarks.push(format!(
+            "With the best skews the camera is still not predicted to its noise: χ² is {:.1} per degree of freedom. \
+             Something else is wrong with the robot or its description; the intervals allow for it, the estimates may be off.",
+            estimate.residual.reduced_chi2
+        ));
+    }
+    if !estimate.common_identifiable {
+        let mean = estimate.skew_rad.iter().sum::<f64>() / estimate.skew_rad.len() as f64;
+        let half = estimate.common_half_width.to_degrees();
+        let known = if half < 10.0 {
+            format!("is only known to ±{half:.1} degrees")
+        } else {
+            "is not known at all".to_owned()
+        };
+        remarks.push(format!(
+            "The part that all skews have in common ({:+.2} degrees) looks, but for second order, like a marker plate \
+             that is turned on the robot. It holds if the plate is mounted true, and {known} if it is not. No drive tells \
+             the two apart; measure the plate. The differences between the wheels do not depend on it.",
+            mean.to_degrees(),
+        ));
+    }
+    remarks
+}
+
+/// The combination of skews, common part aside, about which least is known.
+fn weakest_difference(fitted: &Fit, wheels: usize) -> Vec<f64> {
+    let centre = DMatrix::identity(wheels, wheels) - DMatrix::from_element(wheels, wheels, 1.0 / wheels as f64);
+    let block = fitted.covariance.view((0, 0), (wheels, wheels));
+    let eigen = (&centre * block * &centre).symmetric_eigen();
+    eigen.eigenvectors.column(eigen.eigenvalues.imax()).iter().copied().collect()
+}
+
+/// A body direction (rad from body x) as a driver would say it; forwards and backwards are alike.
+fn direction_words(angle: f64) -> String {
+    let from_forward = wrap_angle(2.0 * (angle - std::f64::consts::FRAC_PI_2)) / 2.0;
+    match from_forward.to_degrees().round() as i64 {
+        0 => "its forward direction".to_owned(),
+        90 | -90 => "its sideways direction".to_owned(),
+        degrees if degrees > 0 => format!("{degrees} degrees to the left of forward"),
+        degrees => format!("{} degrees to the right of forward", -degrees),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,159 @@
+use super::*;
+use crate::camera::CameraModel;
+use crate::frames::{Pose, Twist};
+use crate::plant::Contact;
+use crate::run::DataSet;
+use crate::simulation::{VirtualRobot, calibration_drive};
+use std::path::Path;
+
+fn skewed(deg: [f64; 3]) -> Robot {
+    let skew_rad = deg.map(f64::to_radians);
+    Robot { layout: Layout::Rac { body_radius_m: 0.085, skew_rad }, ..Robot::racbot() }
+}
+
+fn virtual_robot(robot: &Robot, seed: u64) -> VirtualRobot {
+    VirtualRobot::new(robot, Contact::Rolling, CameraModel::of(robot), Pose::default(), seed).unwrap()
+}
+
+/// 30 s of calibration driving by a controller that believes in no skew.
+fn log(deg: [f64; 3], seed: u64) -> Run {
+    let mut robot = virtual_robot(&skewed(deg), seed);
+    calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    robot.into_log()
+}
+
+fn degrees(e: &SkewEstimate) -> Vec<f64> {
+    e.skew_rad.iter().map(|s| s.to_degrees()).collect()
+}
+
+#[test]
+fn the_measured_set_gives_its_true_skews() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew");
+    let set = DataSet::open(folder).unwrap();
+    let e = estimate_skew(&set.robot, &set.runs).unwrap();
+    let (truth, got) = ([4.0, -3.0, 2.0_f64], degrees(&e));
+    for (i, j, half) in &e.differences {
+        let off = (got[*i] - got[*j]) - (truth[*i] - truth[*j]);
+        assert!(off.abs() < 0.1, "wheels {i} and {j}: {off} degrees off");
+        assert!(half.to_degrees() < 0.2 && off.abs() < half.to_degrees());
+    }
+    for (truth, ci) in truth.iter().zip(&e.ci95) {
+        assert!(ci[0] < truth.to_radians() && truth.to_radians() < ci[1]);
+    }
+    assert!(e.identifiable && !e.common_identifiable);
+    assert!(e.residual.before[2] > 2.0 * e.residual.after[2]);
+    assert!((e.residual.reduced_chi2 - 1.0).abs() < 0.1, "{:?}", e.residual);
+    // 0.5° and 1.5 mm, found without being told.
+    assert!((e.residual.noise[2].to_degrees() / 0.5 - 1.0).abs() < 0.1);
+    assert!((e.residual.noise[0] / 0.0015 - 1.0).abs() < 0.1);
+    assert!(e.latency_s.0.abs() < 0.0005);
+    assert_eq!(e.remarks.len(), 1, "{:?}", e.remarks);
+    assert!(e.remarks[0].contains("marker plate"));
+}
+
+#[test]
+fn differences_are_found_to_a_tenth_of_a_degree_in_thirty_seconds() {
+    let truths = [[4.0, -3.0, 2.0], [-8.0, 8.0, 5.0], [0.0, 0.0, 0.0], [7.0, 6.0, -8.0], [1.0, -1.0, 0.5]];
+    let mut errors = Vec::new();
+    let mut covered = 0;
+    for (k, truth) in truths.iter().enumerate() {
+        for seed in 0..4 {
+            let e = estimate_skew(&Robot::racbot(), &[log(*truth, 10 * k as u64 + seed)]).unwrap();
+            let got = degrees(&e);
+            for (i, j, half) in &e.differences {
+                let off = ((got[*i] - got[*j]) - (truth[*i] - truth[*j])).abs();
+                covered += usize::from(off < half.to_degrees());
+                errors.push(off);
+            }
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let at95 = errors[errors.len() * 95 / 100];
+    assert!(at95 < 0.1, "95 % of the differences are within {at95} degrees");
+    assert!(covered * 100 >= errors.len() * 88, "{covered} of {} intervals hold the truth", errors.len());
+}
+
+#[test]
+fn a_common_skew_is_reported_as_such() {
+    let e = estimate_skew(&Robot::racbot(), &[log([2.0; 3], 3)]).unwrap();
+    assert!(e.identifiable && !e.common_identifiable && e.common_half_width.to_degrees() > 1.0);
+    for got in degrees(&e) {
+        assert!((got - 2.0).abs() < 0.15, "{got}");
+    }
+    let json = e.to_json();
+    assert_eq!(json["common_identifiable"], false);
+    assert_eq!(json["skew_rad"].as_array().unwrap().len(), 3);
+    assert!(json["residual"]["after"][2].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn an_unknown_latency_does_not_pass_for_skew() {
+    let robot = skewed([4.0, -3.0, 2.0]);
+    let camera = CameraModel { latency_s: 0.05, ..CameraModel::of(&robot) };
+    let mut v = VirtualRobot::new(&robot, Contact::Rolling, camera, Pose::default(), 8).unwrap();
+    calibration_drive(&mut v, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    let e = estimate_skew(&Robot::racbot(), &[v.into_log()]).unwrap();
+    assert!((e.latency_s.0 - 0.05).abs() < 0.001, "{:?}", e.latency_s);
+    assert!((degrees(&e)[0] - 4.0).abs() < 0.15);
+    assert!(e.remarks.iter().any(|r| r.contains("camera_latency_s")), "{:?}", e.remarks);
+}
+
+#[test]
+fn outliers_do_not_matter() {
+    let robot = skewed([4.0, -3.0, 2.0]);
+    let camera = CameraModel { outlier_share: 0.05, drop_share: 0.1, ..CameraModel::of(&robot) };
+    let mut v = VirtualRobot::new(&robot, Contact::Rolling, camera, Pose::default(), 9).unwrap();
+    calibration_drive(&mut v, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    let e = estimate_skew(&Robot::racbot(), &[v.into_log()]).unwrap();
+    for (got, truth) in degrees(&e).iter().zip([4.0, -3.0, 2.0]) {
+        assert!((got - truth).abs() < 0.2, "{got}");
+    }
+    assert!(e.residual.outliers > 40, "{}", e.residual.outliers);
+}
+
+#[test]
+fn what_logs_cannot_tell_is_said_in_words() {
+    let nominal = Robot::racbot();
+    let g = nominal.geometry().unwrap();
+    let estimate = |run: Run| estimate_skew(&nominal, &[run]).unwrap();
+    let remark = |e: &SkewEstimate| e.remarks.join("\n");
+
+    let blind = Run { camera: Vec::new(), ..log([4.0, -3.0, 2.0], 1) };
+    let e = estimate(blind);
+    assert!(!e.identifiable && remark(&e).contains("no camera poses"), "{}", remark(&e));
+    assert_eq!(e.skew_rad, [0.0; 3]);
+
+    let deaf = Run { counts: Vec::new(), ..log([4.0, -3.0, 2.0], 1) };
+    assert!(remark(&estimate(deaf)).contains("no encoder counts"));
+
+    let mut still = virtual_robot(&skewed([4.0, -3.0, 2.0]), 1);
+    still.drive(Twist::default(), 5.0, &g);
+    let e = estimate(still.into_log());
+    assert!(!e.identifiable && remark(&e).contains("stands still"), "{}", remark(&e));
+
+    let mut turning = virtual_robot(&skewed([4.0, -3.0, 2.0]), 1);
+    turning.drive(Twist::new(0.0, 0.0, 2.0), 10.0, &g);
+    let e = estimate(turning.into_log());
+    assert!(!e.identifiable && remark(&e).contains("beside turning"), "{}", remark(&e));
+    assert!(remark(&e).contains("Driving straight"), "{}", remark(&e));
+
+    // Sideways, the front wheel rolls along its own direction and says nothing about its skew.
+    let mut sideways = virtual_robot(&nominal, 1);
+    for _ in 0..3 {
+        sideways.drive(Twist::new(0.6, 0.0, 0.0), 2.0, &g);
+        sideways.drive(Twist::new(-0.6, 0.0, 0.0), 2.0, &g);
+    }
+    let e = estimate(sideways.into_log());
+    assert!(!e.identifiable && remark(&e).contains("only drives along its sideways direction"), "{}", remark(&e));
+    assert!(remark(&e).contains("along its forward direction would help most"), "{}", remark(&e));
+}
+
+#[test]
+fn the_estimate_applied_is_the_robot_that_drove() {
+    let truth = [4.0, -3.0, 2.0];
+    let e = estimate_skew(&Robot::racbot(), &[log(truth, 2)]).unwrap();
+    let again = estimate_skew(&e.apply(&Robot::racbot()), &[log(truth, 2)]).unwrap();
+    for (a, b) in e.skew_rad.iter().zip(&again.skew_rad) {
+        assert!((a - b).abs() < 1e-4, "{a} {b}");
+    }
+}
