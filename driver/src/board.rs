@@ -1,0 +1,451 @@
+//! The card as a robot's motion controller: identify, configure, arm, command, read.
+
+use crate::registers::{BusError, Registers};
+use crate::scale::{PWM_FREQUENCY_HZ, Scale};
+use fixed_kin::AXES;
+use fixed_kin::control::{SET_POINT_WORDS, SetPointMode};
+use fixed_kin::format::{Duty, Speed};
+use fixed_kin::registers as map;
+use fixed_kin::safety::{ARM_FIRST, ARM_SECOND};
+use fixed_kin::speed::SpeedMode;
+use model::frames::Twist;
+
+/// What went wrong between host and card.
+#[derive(Debug, thiserror::Error)]
+pub enum BoardError {
+    /// The bus.
+    #[error(transparent)]
+    Bus(#[from] BusError),
+    /// Not our design, or not for this board.
+    #[error("{register} reads {found:#010x}, expected {expected:#010x}: {hint}")]
+    Identity {
+        /// Register.
+        register: &'static str,
+        /// What it reads.
+        found: u32,
+        /// What it should.
+        expected: u32,
+        /// What that means.
+        hint: &'static str,
+    },
+    /// The card did not take a commit.
+    #[error(
+        "the card refused a commit of {what}: accepted {accepted} of the words, faults {faults:#04x}; a write was lost or changed on the bus, write again"
+    )]
+    Commit {
+        /// Set points or configuration.
+        what: &'static str,
+        /// Commits accepted since configuration.
+        accepted: u32,
+        /// Fault register.
+        faults: u32,
+    },
+    /// The card stayed disarmed.
+    #[error("the card refused to arm, faults {faults:#04x} ({names}); clear the cause, then arm again")]
+    Arm {
+        /// Fault register.
+        faults: u32,
+        /// Names of its bits.
+        names: String,
+    },
+    /// A register does not hold what was written.
+    #[error("{register} reads {found:#x} after {written:#x} was written; is the card armed, or the bus broken?")]
+    ReadBack {
+        /// Register.
+        register: &'static str,
+        /// What it reads.
+        found: u32,
+        /// What was written.
+        written: u32,
+    },
+    /// No coherent snapshot.
+    #[error("no coherent snapshot in {0} tries; the bus loses or repeats reads")]
+    Snapshot(u32),
+}
+
+/// Identification registers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// Register map version.
+    pub version: u32,
+    /// Hash of the Verilog the bitstream was made from.
+    pub content_hash: u32,
+    /// Axes.
+    pub axes: u32,
+    /// Nominal clock, Hz.
+    pub clock_hz: u32,
+}
+
+/// How the card is to work.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Speed measurement.
+    pub speed_mode: SpeedMode,
+    /// Kind of set points.
+    pub set_point_mode: SetPointMode,
+    /// PWM frequency, Hz.
+    pub pwm_hz: f64,
+    /// Silence of the host after which the outputs go off, s.
+    pub watchdog_s: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            speed_mode: SpeedMode::CountAndTime,
+            set_point_mode: SetPointMode::Twist,
+            pwm_hz: PWM_FREQUENCY_HZ,
+            watchdog_s: 0.05,
+        }
+    }
+}
+
+/// Live state of the card.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Status {
+    /// Outputs may be on.
+    pub armed: bool,
+    /// A set point was committed since arming.
+    pub set_points_valid: bool,
+    /// The emergency stop is pressed or open.
+    pub emergency_stop: bool,
+    /// The ball sensor sees the ball.
+    pub ball: bool,
+}
+
+impl Status {
+    fn of(word: u32) -> Self {
+        let bit = |n: usize| map::STATUS_FIELDS[n].of(word) == 1;
+        Self { armed: bit(0), set_points_valid: bit(1), emergency_stop: bit(2), ball: bit(3) }
+    }
+}
+
+/// One control tick as the card saw it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Number of the tick.
+    pub sequence: u32,
+    /// Status at the tick.
+    pub status: Status,
+    /// Fault register.
+    pub faults: u32,
+    /// Clocks at the tick, low 24 bits.
+    pub time: u32,
+    /// Encoder counts, wrapping.
+    pub counts: [i32; AXES],
+    /// Measured speeds.
+    pub speeds: [Speed; AXES],
+    /// Set points in force.
+    pub references: [Speed; AXES],
+    /// Duties.
+    pub duties: [Duty; AXES],
+    /// Measured body velocity.
+    pub twist: [i32; 3],
+}
+
+impl Snapshot {
+    fn of(words: &[u32; map::SNAPSHOT_WORDS]) -> Self {
+        let word = |register: &map::Register, index: usize| {
+            words[usize::from(register.at(index) - map::SNAPSHOT_SEQUENCE.offset) / 4]
+        };
+        let signed = |register: &map::Register, index: usize| word(register, index) as i32;
+        Self {
+            sequence: words[0],
+            status: Status::of(word(&map::SNAPSHOT_STATUS, 0)),
+            faults: word(&map::SNAPSHOT_FAULTS, 0),
+            time: word(&map::SNAPSHOT_TIME, 0),
+            counts: std::array::from_fn(|i| signed(&map::SNAPSHOT_COUNT, i)),
+            speeds: std::array::from_fn(|i| Speed::from_bits(signed(&map::SNAPSHOT_SPEED, i))),
+            references: std::array::from_fn(|i| Speed::from_bits(signed(&map::SNAPSHOT_REFERENCE, i))),
+            duties: std::array::from_fn(|i| Duty::from_bits(signed(&map::SNAPSHOT_DUTY, i))),
+            twist: std::array::from_fn(|k| signed(&map::SNAPSHOT_TWIST, k)),
+        }
+    }
+}
+
+/// A card behind some bus.
+#[derive(Debug)]
+pub struct Board<R> {
+    /// The bus; direct access is for tests and for the registers that have no method here.
+    pub bus: R,
+}
+
+/// Tries before a snapshot or commit is given up.
+const TRIES: u32 = 3;
+
+impl<R: Registers> Board<R> {
+    /// A board on this bus; nothing is touched yet.
+    pub fn new(bus: R) -> Self {
+        Self { bus }
+    }
+
+    /// Reads and checks the identification.
+    ///
+    /// # Errors
+    /// [`BoardError::Identity`] for another design, map or board.
+    pub fn identify(&mut self) -> Result<Identity, BoardError> {
+        self.expect(
+            &map::COOKIE,
+            map::COOKIE_VALUE,
+            u32::MAX,
+            "no racbot design is loaded; all ones is an absent card",
+        )?;
+        self.expect(&map::BOARD, map::BOARD_VALUE, u32::MAX, "the bitstream drives the pins of another board")?;
+        self.expect(&map::MAP_VERSION, map::VERSION, 0xFFFF_0000, "the register map has another major version")?;
+        Ok(Identity {
+            version: self.bus.read(map::MAP_VERSION.offset)?,
+            content_hash: self.bus.read(map::CONTENT_HASH.offset)?,
+            axes: self.bus.read(map::AXIS_COUNT.offset)?,
+            clock_hz: self.bus.read(map::CLOCK_HZ.offset)?,
+        })
+    }
+
+    fn expect(
+        &mut self,
+        register: &map::Register,
+        expected: u32,
+        mask: u32,
+        hint: &'static str,
+    ) -> Result<(), BoardError> {
+        let found = self.bus.read(register.offset)?;
+        if (found ^ expected) & mask == 0 {
+            return Ok(());
+        }
+        Err(BoardError::Identity { register: register.name, found, expected, hint })
+    }
+
+    /// Disarms and writes everything a robot needs, reading back what can be read.
+    ///
+    /// # Errors
+    /// A bus or commit that fails, or a register that does not take its value.
+    pub fn configure(&mut self, scale: &Scale, settings: &Settings) -> Result<(), BoardError> {
+        self.disarm()?;
+        let clocks = |seconds: f64| (seconds * scale.clock_hz).round().clamp(0.0, 16_777_215.0) as u32;
+        let mode = map::MODE_COUNT_AND_TIME.place(u32::from(settings.speed_mode == SpeedMode::CountAndTime))
+            | map::MODE_TWIST.place(u32::from(settings.set_point_mode == SetPointMode::Twist));
+        let per_microsecond = (scale.clock_hz / 1e6).round().clamp(1.0, 63.0) as u32;
+        for (register, value) in [
+            (&map::TICK_PERIOD, scale.tick_period),
+            (&map::MODE, mode),
+            (&map::PWM_PERIOD, scale.pwm_period(settings.pwm_hz)),
+            (&map::WATCHDOG_TIMEOUT, clocks(settings.watchdog_s)),
+            (&map::CLOCKS_PER_MICROSECOND, per_microsecond),
+        ] {
+            self.write_checked(register, value)?;
+        }
+        let words = scale.configuration().to_words().map(|word| word as u32);
+        self.commit("the configuration", &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words)
+    }
+
+    fn write_checked(&mut self, register: &map::Register, value: u32) -> Result<(), BoardError> {
+        self.bus.write(register.offset, value)?;
+        let found = self.bus.read(register.offset)?;
+        if found == value {
+            return Ok(());
+        }
+        Err(BoardError::ReadBack { register: register.name, found, written: value })
+    }
+
+    /// Stages and commits a group, trying again where the card saw another checksum.
+    fn commit(
+        &mut self,
+        what: &'static str,
+        base: &map::Register,
+        commit: &map::Register,
+        words: &[u32],
+    ) -> Result<(), BoardError> {
+        let before = self.bus.read(map::COMMITS.offset)?;
+        let mut after = before;
+        for _ in 0..TRIES {
+            self.stage(base, commit, words)?;
+            after = self.bus.read(map::COMMITS.offset)?;
+            if map::COMMITS_ACCEPTED.of(after) == map::COMMITS_ACCEPTED.of(before.wrapping_add(1)) {
+                return Ok(());
+            }
+        }
+        let faults = self.bus.read(map::FAULTS.offset)?;
+        Err(BoardError::Commit { what, accepted: map::COMMITS_ACCEPTED.of(after), faults })
+    }
+
+    fn stage(&mut self, base: &map::Register, commit: &map::Register, words: &[u32]) -> Result<(), BusError> {
+        let mut sum = map::CHECKSUM_SEED;
+        for (index, &word) in words.iter().enumerate() {
+            self.bus.write(base.at(index), word)?;
+            sum = map::checksum(sum, base.at(index) / 4, word);
+        }
+        self.bus.write(commit.offset, sum)
+    }
+
+    /// Clears faults, commits a standstill and arms.
+    ///
+    /// # Errors
+    /// [`BoardError::Arm`] while a cause stands.
+    pub fn arm(&mut self) -> Result<(), BoardError> {
+        self.commit("the set points", &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[0; SET_POINT_WORDS])?;
+        self.bus.write(map::FAULTS.offset, u32::MAX)?;
+        self.bus.write(map::ARM.offset, ARM_FIRST)?;
+        self.bus.write(map::ARM.offset, ARM_SECOND)?;
+        if self.status()?.armed {
+            return Ok(());
+        }
+        let faults = self.bus.read(map::FAULTS.offset)?;
+        Err(BoardError::Arm { faults, names: fault_names(faults) })
+    }
+
+    /// Outputs off at once.
+    ///
+    /// # Errors
+    /// A bus that fails; the card's watchdog then does it.
+    pub fn disarm(&mut self) -> Result<(), BoardError> {
+        Ok(self.bus.write(map::ARM.offset, 0)?)
+    }
+
+    /// Live status.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn status(&mut self) -> Result<Status, BoardError> {
+        Ok(Status::of(self.bus.read(map::STATUS.offset)?))
+    }
+
+    /// Commits a body velocity; the card must be in that mode. Five words over the bus.
+    ///
+    /// A commit that the card refuses changes nothing and shows as a fault in the next snapshot.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn set_twist(&mut self, scale: &Scale, twist: Twist) -> Result<(), BoardError> {
+        let [x, y, omega] = scale.twist_words(twist).map(|word| word as u32);
+        Ok(self.stage(&map::SET_POINTS, &map::COMMIT_SET_POINTS, &[x, y, omega, 0])?)
+    }
+
+    /// Commits wheel speeds; the card must be in that mode. Five words over the bus.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn set_wheel_speeds(&mut self, speeds: &[Speed; AXES]) -> Result<(), BoardError> {
+        Ok(self.stage(&map::SET_POINTS, &map::COMMIT_SET_POINTS, &speeds.map(|speed| speed.to_bits() as u32))?)
+    }
+
+    /// A coherent snapshot of the last control tick. 24 words over the bus.
+    ///
+    /// # Errors
+    /// [`BoardError::Snapshot`] where the sequence numbers never agree.
+    pub fn snapshot(&mut self) -> Result<Snapshot, BoardError> {
+        let mut words = [0; map::SNAPSHOT_WORDS];
+        for _ in 0..TRIES {
+            self.bus.read_block(map::SNAPSHOT_SEQUENCE.offset, &mut words)?;
+            if words[0] == words[map::SNAPSHOT_WORDS - 1] {
+                return Ok(Snapshot::of(&words));
+            }
+        }
+        Err(BoardError::Snapshot(TRIES))
+    }
+}
+
+/// Names of the set bits of a fault register.
+fn fault_names(faults: u32) -> String {
+    let names: Vec<_> =
+        map::FAULT_FIELDS.iter().filter(|field| field.of(faults) == 1).map(|field| field.name).collect();
+    if names.is_empty() { "none shown".to_owned() } else { names.join(", ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registers::{Recorder, Transfer};
+    use fixed_kin::card::{Card, Pins};
+    use model::robot::Robot;
+
+    fn ready() -> (Board<Recorder<Card>>, Scale) {
+        let scale = Scale::new(&Robot::racbot(), 33_333_333.0).unwrap();
+        let mut board = Board::new(Recorder::new(Card::new(7)));
+        assert_eq!(board.identify().unwrap().content_hash, 7);
+        board.configure(&scale, &Settings::default()).unwrap();
+        board.bus.inner.tick(&Pins::default());
+        board.arm().unwrap();
+        (board, scale)
+    }
+
+    #[test]
+    fn a_commanded_twist_reaches_the_wheels() {
+        let (mut board, scale) = ready();
+        let twist = Twist { vx: 0.2, vy: 1.0, omega: -0.5 };
+        board.set_twist(&scale, twist).unwrap();
+        board.bus.inner.tick(&Pins::default());
+        let snapshot = board.snapshot().unwrap();
+        let expected = Robot::racbot().geometry().unwrap().wheel_speeds(twist);
+        for (axis, expected) in expected.into_iter().enumerate() {
+            assert!((scale.speed(snapshot.references[axis]) - expected).abs() < 2e-3);
+            assert_eq!(snapshot.duties[axis] > 0, expected > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_control_tick_takes_24_words_read_and_5_written() {
+        let (mut board, scale) = ready();
+        board.bus.transfers.clear();
+        board.set_twist(&scale, Twist::default()).unwrap();
+        board.snapshot().unwrap();
+        let reads = board.bus.transfers.iter().filter(|t| matches!(t, Transfer::Read(..))).count();
+        assert_eq!((reads, board.bus.transfers.len() - reads), (24, 5));
+    }
+
+    #[test]
+    fn a_pressed_emergency_stop_refuses_to_arm_by_name() {
+        let (mut board, _) = ready();
+        board.bus.inner.tick(&Pins { emergency_stop: true, ..Pins::default() });
+        assert!(!board.status().unwrap().armed);
+        let message = board.arm().unwrap_err().to_string();
+        assert!(message.contains("emergency-stop"), "{message}");
+    }
+
+    /// A bus that flips one bit of one write.
+    struct Flip {
+        card: Card,
+        at: usize,
+        writes: usize,
+    }
+
+    impl Registers for Flip {
+        fn read(&mut self, offset: u16) -> Result<u32, BusError> {
+            Ok(self.card.read(offset))
+        }
+        fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
+            self.writes += 1;
+            self.card.write(offset, if self.writes == self.at { data ^ 0x0400 } else { data });
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn one_flipped_write_is_caught_or_repaired() {
+        let scale = Scale::new(&Robot::racbot(), 33_333_333.0).unwrap();
+        for at in 1..60 {
+            let mut board = Board::new(Flip { card: Card::new(0), at, writes: 0 });
+            let done = board.configure(&scale, &Settings::default());
+            if done.is_ok() {
+                board.bus.card.tick(&Pins::default());
+                for (index, word) in scale.configuration().to_words().into_iter().enumerate() {
+                    let found = board.bus.card.read(map::ACTIVE_CONFIGURATION.at(index));
+                    assert_eq!(found as i32, word, "write {at} went unnoticed");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn another_design_is_refused() {
+        struct Absent;
+        impl Registers for Absent {
+            fn read(&mut self, _: u16) -> Result<u32, BusError> {
+                Ok(u32::MAX)
+            }
+            fn write(&mut self, _: u16, _: u32) -> Result<(), BusError> {
+                Ok(())
+            }
+        }
+        let message = Board::new(Absent).identify().unwrap_err().to_string();
+        assert!(message.contains("cookie") && message.contains("absent"), "{message}");
+    }
+}
