@@ -38,6 +38,45 @@ impl<const N: usize, const V: u64> Block for Literal<N, V> {
     }
 }
 
+/// A constant that is chosen when the block is made; zero by default.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<const N: usize>(Constant<Bits<N>>);
+
+impl<const N: usize> Setting<N> {
+    /// A constant of this value.
+    #[must_use]
+    pub fn new(value: u64) -> Self {
+        Self(Constant::new(value.to_bits()))
+    }
+
+    /// The value.
+    #[must_use]
+    pub fn val(&self) -> Bits<N> {
+        self.0.val()
+    }
+}
+
+impl<const N: usize> Default for Setting<N> {
+    fn default() -> Self {
+        Self::new(0)
+    }
+}
+
+impl<const N: usize> Logic for Setting<N> {
+    fn update(&mut self) {}
+}
+
+impl<const N: usize> Block for Setting<N> {
+    fn connect_all(&mut self) {}
+    fn update_all(&mut self) {}
+    fn has_changed(&self) -> bool {
+        false
+    }
+    fn accept(&self, name: &str, probe: &mut dyn Probe) {
+        self.0.accept(name, probe);
+    }
+}
+
 /// A register of `N` bits that starts at `V` when the FPGA is configured.
 #[derive(LogicBlock)]
 pub struct Preset<const N: usize, const V: u64> {
@@ -108,9 +147,6 @@ impl<const W: usize, const N: usize> Memory<W, N> {
     /// If there are more than 2ᴺ words.
     #[must_use]
     pub fn new(initial: &[u32]) -> Self {
-        assert!(initial.len() <= 1 << N, "{} words do not fit 2^{N}", initial.len());
-        let mut words = vec![0; 1 << N];
-        words[..initial.len()].copy_from_slice(initial);
         Self {
             clock: Signal::default(),
             read_address: Signal::default(),
@@ -118,7 +154,7 @@ impl<const W: usize, const N: usize> Memory<W, N> {
             write_address: Signal::default(),
             write_data: Signal::default(),
             write_enable: Signal::default(),
-            _words: words,
+            _words: padded::<N>(initial),
         }
     }
 }
@@ -142,15 +178,10 @@ impl<const W: usize, const N: usize> Logic for Memory<W, N> {
         self.read_data.connect();
     }
     fn hdl(&self) -> Verilog {
-        let initial: Vec<String> =
-            self._words.iter().enumerate().map(|(i, word)| format!("   mem[{i}] = {W}'h{word:x};")).collect();
         Verilog::Custom(format!(
-            "reg [{top}:0] mem [0:{last}];\n\ninitial begin\n   read_data = {W}'h0;\n{initial}\nend\n\n\
-             always @(posedge clock) begin\n   read_data <= mem[read_address];\n   \
+            "{}\n\nalways @(posedge clock) begin\n   read_data <= mem[read_address];\n   \
              if (write_enable) mem[write_address] <= write_data;\nend",
-            top = W - 1,
-            last = (1 << N) - 1,
-            initial = initial.join("\n")
+            memory_of::<W, N>(&self._words)
         ))
     }
     fn timing(&self) -> Vec<TimingInfo> {
@@ -161,4 +192,82 @@ impl<const W: usize, const N: usize> Logic for Memory<W, N> {
             outputs: vec!["read_data".into()],
         }]
     }
+}
+
+/// Read-only memory of 2ᴺ words of `W` ≤ 32 bits, with a registered read port.
+#[derive(LogicBlock)]
+pub struct Rom<const W: usize, const N: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Address to read; data follow one clock later.
+    pub read_address: Signal<In, Bits<N>>,
+    /// What stands at `read_address` of the last clock.
+    pub read_data: Signal<Out, Bits<W>>,
+    _words: Vec<u32>,
+}
+
+impl<const W: usize, const N: usize> Rom<W, N> {
+    /// A memory that holds `words`, then zeros.
+    ///
+    /// # Panics
+    /// If there are more than 2ᴺ words.
+    #[must_use]
+    pub fn new(words: &[u32]) -> Self {
+        Self {
+            clock: Signal::default(),
+            read_address: Signal::default(),
+            read_data: Signal::new_with_default(Bits::default()),
+            _words: padded::<N>(words),
+        }
+    }
+}
+
+impl<const W: usize, const N: usize> Default for Rom<W, N> {
+    fn default() -> Self {
+        Self::new(&[])
+    }
+}
+
+impl<const W: usize, const N: usize> Logic for Rom<W, N> {
+    fn update(&mut self) {
+        if self.clock.pos_edge() {
+            self.read_data.next = u64::from(self._words[self.read_address.val().index()]).to_bits();
+        }
+    }
+    fn connect(&mut self) {
+        self.read_data.connect();
+    }
+    fn hdl(&self) -> Verilog {
+        Verilog::Custom(format!(
+            "{}\n\nalways @(posedge clock) begin\n   read_data <= mem[read_address];\nend",
+            memory_of::<W, N>(&self._words)
+        ))
+    }
+    fn timing(&self) -> Vec<TimingInfo> {
+        vec![TimingInfo {
+            name: "rom".into(),
+            clock: "clock".into(),
+            inputs: vec!["read_address".into()],
+            outputs: vec!["read_data".into()],
+        }]
+    }
+}
+
+fn padded<const N: usize>(words: &[u32]) -> Vec<u32> {
+    assert!(words.len() <= 1 << N, "{} words do not fit 2^{N}", words.len());
+    let mut padded = vec![0; 1 << N];
+    padded[..words.len()].copy_from_slice(words);
+    padded
+}
+
+/// Declaration and start values of a memory.
+fn memory_of<const W: usize, const N: usize>(words: &[u32]) -> String {
+    let initial: Vec<String> =
+        words.iter().enumerate().map(|(i, word)| format!("   mem[{i}] = {W}'h{word:x};")).collect();
+    format!(
+        "reg [{top}:0] mem [0:{last}];\n\ninitial begin\n   read_data = {W}'h0;\n{initial}\nend",
+        top = W - 1,
+        last = (1 << N) - 1,
+        initial = initial.join("\n")
+    )
 }

@@ -265,7 +265,7 @@ pub const KICKER_FIRE: Register =
 pub const KICKER_PULSE: Register = register(
     "kicker_pulse",
     0x068,
-    Access::LockedWhileArmed,
+    Access::ReadWrite,
     Kind::Unsigned(14),
     0,
     "trigger pulse in microseconds; longer than 10000 acts as 10000",

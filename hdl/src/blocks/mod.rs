@@ -1,11 +1,17 @@
 //! The blocks of the gateware, one a file.
 
 pub mod clock_monitor;
+pub mod commit;
+pub mod core;
+pub mod decoder;
 pub mod divider;
 pub mod encoder;
 pub mod kicker;
 pub mod local_bus;
 pub mod multiplier;
 pub mod pwm;
+pub mod register_file;
 pub mod safety;
 pub mod sequencer;
+pub mod snapshot;
+pub mod timebase;

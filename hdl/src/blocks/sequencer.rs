@@ -17,7 +17,7 @@
 
 use crate::blocks::divider::Divider;
 use crate::blocks::multiplier::Multiplier;
-use crate::primitives::{Literal, Memory};
+use crate::primitives::{Literal, Memory, Rom};
 use crate::program;
 use fixed_kin::AXES;
 use fixed_kin::word::{WORD_MAX, WORD_MIN};
@@ -62,10 +62,12 @@ pub struct Sequencer {
     pub bus_write: Signal<In, Bit>,
     /// What.
     pub bus_write_data: Signal<In, Bits<32>>,
+    /// A write of the bus would have to wait in this clock.
+    pub bus_blocked: Signal<Out, Bit>,
     /// The write is done at this clock.
     pub bus_write_taken: Signal<Out, Bit>,
 
-    rom: Memory<16, 8>,
+    rom: Rom<16, 8>,
     memory: Memory<32, 8>,
     mirror: Memory<32, 8>,
     multiplier: Multiplier,
@@ -124,12 +126,7 @@ impl Sequencer {
     pub fn new(program: &[u16]) -> Self {
         let words: Vec<u32> = program.iter().copied().map(u32::from).collect();
         let initial = program::layout::initial_memory();
-        Self {
-            rom: Memory::new(&words),
-            memory: Memory::new(&initial),
-            mirror: Memory::new(&initial),
-            ..Self::default()
-        }
+        Self { rom: Rom::new(&words), memory: Memory::new(&initial), mirror: Memory::new(&initial), ..Self::default() }
     }
 }
 
@@ -140,7 +137,6 @@ impl Logic for Sequencer {
         clock!(self, clock, rom, memory, mirror, multiplier, divider);
 
         // Read stage: the instruction at pc, its word is there one clock later.
-        self.rom.read_address.next = self.pc_next.val();
         self.read_instruction.next = self.rom.read_data.val();
         self.read_address.next = self.read_instruction.val().get_bits::<8>(0);
         if self.read_instruction.val().get_bit(10) {
@@ -332,6 +328,7 @@ impl Logic for Sequencer {
             self.active.d.next = true;
         }
         self.pc.d.next = self.pc_next.val();
+        self.rom.read_address.next = self.pc_next.val();
         self.running.next = self.active.q.val();
 
         // The write port: the program first, then the bus.
@@ -356,6 +353,7 @@ impl Logic for Sequencer {
         self.mirror.write_enable.next = self.memory.write_enable.val();
         self.mirror.read_address.next = self.bus_address.val();
         self.bus_read_data.next = self.mirror.read_data.val();
+        self.bus_blocked.next = self.storing.val();
         self.bus_write_taken.next = self.bus_write.val() & !self.storing.val();
 
         self.input_port.next = self.instruction.q.val().get_bits::<4>(0);

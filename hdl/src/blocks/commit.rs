@@ -1,0 +1,163 @@
+//! Staged writes and their commit: banks flip at a control tick, or nothing changes.
+//!
+//! ```text
+//!  staged write ──► sum = rotate(sum, 1) ^ data ^ address      words of this group + 1
+//!  commit       ──► sum and number of words right? ──yes──► pending ──tick──► bank = !bank
+//!                                                  └──no───► fault
+//! ```
+//!
+//! Serves `commit_set_points`, `commit_configuration`, `commits`; the twin is
+//! `fixed_kin::commit::Commit`. Any commit starts a new sum. A staged write while a commit of its
+//! group is pending takes that commit back: newer values are on their way, and a tick must not see
+//! half of them.
+
+use crate::primitives::{Literal, Preset};
+use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
+use fixed_kin::registers::CHECKSUM_SEED;
+use rust_hdl::prelude::*;
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct Commit {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// A set point is staged.
+    pub stage_set_point: Signal<In, Bit>,
+    /// A word of the configuration is staged.
+    pub stage_configuration: Signal<In, Bit>,
+    /// The set points are committed.
+    pub commit_set_points: Signal<In, Bit>,
+    /// The configuration is committed.
+    pub commit_configuration: Signal<In, Bit>,
+    /// Word address of the write.
+    pub address: Signal<In, Bits<14>>,
+    /// Its data; the checksum in a commit.
+    pub data: Signal<In, Bits<32>>,
+    /// A control tick starts.
+    pub tick: Signal<In, Bit>,
+
+    /// Bank of the set points in force.
+    pub set_point_bank: Signal<Out, Bit>,
+    /// Bank of the configuration in force.
+    pub configuration_bank: Signal<Out, Bit>,
+    /// A commit of set points waits for the tick.
+    pub set_points_pending: Signal<Out, Bit>,
+    /// A commit of the configuration waits for the tick.
+    pub configuration_pending: Signal<Out, Bit>,
+    /// A right commit of set points, in its clock.
+    pub pet: Signal<Out, Bit>,
+    /// A wrong commit, in its clock.
+    pub fault: Signal<Out, Bit>,
+    /// Right commits, wrapping.
+    pub accepted: Signal<Out, Bits<16>>,
+    /// Wrong commits, wrapping.
+    pub rejected: Signal<Out, Bits<16>>,
+
+    sum: Preset<32, { CHECKSUM_SEED as u64 }>,
+    set_points: DFF<Bits<6>>,
+    configuration: DFF<Bits<6>>,
+    set_point_bank_now: DFF<Bit>,
+    configuration_bank_now: DFF<Bit>,
+    set_points_wait: DFF<Bit>,
+    configuration_waits: DFF<Bit>,
+    accepted_count: DFF<Bits<16>>,
+    rejected_count: DFF<Bits<16>>,
+
+    next_sum: Signal<Local, Bits<32>>,
+    sum_right: Signal<Local, Bit>,
+    right: Signal<Local, Bit>,
+    committing: Signal<Local, Bit>,
+
+    seed: Literal<32, { CHECKSUM_SEED as u64 }>,
+    none: Literal<6, 0>,
+    one: Literal<6, 1>,
+    full: Literal<6, 63>,
+    all_set_points: Literal<6, { SET_POINT_WORDS as u64 }>,
+    all_configuration: Literal<6, { CONFIGURATION_WORDS as u64 }>,
+    one_count: Literal<16, 1>,
+}
+
+impl Logic for Commit {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(
+            self,
+            clock,
+            sum,
+            set_points,
+            configuration,
+            set_point_bank_now,
+            configuration_bank_now,
+            set_points_wait,
+            configuration_waits,
+            accepted_count,
+            rejected_count
+        );
+
+        self.next_sum.next = ((self.sum.q.val() << 1) | (self.sum.q.val() >> 31))
+            ^ self.data.val()
+            ^ bit_cast::<32, 14>(self.address.val());
+        self.committing.next = self.commit_set_points.val() | self.commit_configuration.val();
+        self.sum_right.next = self.data.val() == self.sum.q.val();
+        self.right.next = false;
+        if self.commit_set_points.val() {
+            self.right.next = self.sum_right.val()
+                & (self.set_points.q.val() == self.all_set_points.val())
+                & (self.configuration.q.val() == self.none.val());
+        }
+        if self.commit_configuration.val() {
+            self.right.next = self.sum_right.val()
+                & (self.configuration.q.val() == self.all_configuration.val())
+                & (self.set_points.q.val() == self.none.val());
+        }
+        self.pet.next = self.commit_set_points.val() & self.right.val();
+        self.fault.next = self.committing.val() & !self.right.val();
+
+        if self.tick.val() {
+            if self.set_points_wait.q.val() {
+                self.set_point_bank_now.d.next = !self.set_point_bank_now.q.val();
+                self.set_points_wait.d.next = false;
+            }
+            if self.configuration_waits.q.val() {
+                self.configuration_bank_now.d.next = !self.configuration_bank_now.q.val();
+                self.configuration_waits.d.next = false;
+            }
+        }
+        if self.stage_set_point.val() {
+            self.sum.d.next = self.next_sum.val();
+            if self.set_points.q.val() != self.full.val() {
+                self.set_points.d.next = self.set_points.q.val() + self.one.val();
+            }
+            self.set_points_wait.d.next = false;
+        }
+        if self.stage_configuration.val() {
+            self.sum.d.next = self.next_sum.val();
+            if self.configuration.q.val() != self.full.val() {
+                self.configuration.d.next = self.configuration.q.val() + self.one.val();
+            }
+            self.configuration_waits.d.next = false;
+        }
+        if self.committing.val() {
+            self.sum.d.next = self.seed.val();
+            self.set_points.d.next = self.none.val();
+            self.configuration.d.next = self.none.val();
+            if self.right.val() {
+                self.accepted_count.d.next = self.accepted_count.q.val() + self.one_count.val();
+                if self.commit_set_points.val() {
+                    self.set_points_wait.d.next = true;
+                } else {
+                    self.configuration_waits.d.next = true;
+                }
+            } else {
+                self.rejected_count.d.next = self.rejected_count.q.val() + self.one_count.val();
+            }
+        }
+
+        self.set_point_bank.next = self.set_point_bank_now.q.val();
+        self.configuration_bank.next = self.configuration_bank_now.q.val();
+        self.set_points_pending.next = self.set_points_wait.q.val();
+        self.configuration_pending.next = self.configuration_waits.q.val();
+        self.accepted.next = self.accepted_count.q.val();
+        self.rejected.next = self.rejected_count.q.val();
+    }
+}

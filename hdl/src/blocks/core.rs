@@ -1,0 +1,433 @@
+//! The core: every block on one clock behind the local bus.
+//!
+//! ```text
+//!  local bus ─┬─ register file ── safety, kicker, timebase
+//!             ├─ commit ───────── banks of set points and configuration
+//!             └─ memory of the sequencer ── snapshot
+//!  encoders ──► sequencer (speed, kinematics, PI) ──► PWM
+//! ```
+//!
+//! Ports carry the names and levels of the pins, but for `lad`, which the emitted top file joins
+//! from `lad_in`, `lad_out` and `lad_drive`. Whatever can move a motor or fire the kicker passes
+//! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal.
+
+use crate::blocks::clock_monitor::ClockMonitor;
+use crate::blocks::commit::Commit;
+use crate::blocks::decoder::Decoder;
+use crate::blocks::encoder::Encoder;
+use crate::blocks::kicker::Kicker;
+use crate::blocks::local_bus::LocalBus;
+use crate::blocks::pwm::Pwm;
+use crate::blocks::register_file::RegisterFile;
+use crate::blocks::safety::Safety;
+use crate::blocks::sequencer::Sequencer;
+use crate::blocks::snapshot::Snapshot;
+use crate::blocks::timebase::Timebase;
+use crate::primitives::Literal;
+use crate::program::control_tick;
+use rust_hdl::prelude::*;
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct Core {
+    /// Local bus clock.
+    pub lclk: Signal<In, Clock>,
+    /// 50 MHz crystal.
+    pub synclk: Signal<In, Clock>,
+    /// Address strobe.
+    pub ads_n: Signal<In, Bit>,
+    /// Burst last.
+    pub blast_n: Signal<In, Bit>,
+    /// High for a write.
+    pub lw_r: Signal<In, Bit>,
+    /// Address and data bus, as seen.
+    pub lad_in: Signal<In, Bits<32>>,
+    /// Address and data bus, as driven.
+    pub lad_out: Signal<Out, Bits<32>>,
+    /// Drive it.
+    pub lad_drive: Signal<Out, Bit>,
+    /// Ready.
+    pub ready_n: Signal<Out, Bit>,
+    /// Interrupt; not used yet, high.
+    pub int_n: Signal<Out, Bit>,
+    /// LEDs, low = on.
+    pub led_n: Signal<Out, Bits<8>>,
+    /// Encoder lines A, a bit per axis.
+    pub encoder_a: Signal<In, Bits<4>>,
+    /// Encoder lines B.
+    pub encoder_b: Signal<In, Bits<4>>,
+    /// PWM pins.
+    pub pwm: Signal<Out, Bits<4>>,
+    /// Direction pins.
+    pub dir: Signal<Out, Bits<4>>,
+    /// Bridge enables, low = on.
+    pub enable_n: Signal<Out, Bits<4>>,
+    /// Charger of the kicker, low = charge.
+    pub kicker_charge_n: Signal<Out, Bit>,
+    /// Trigger of the kicker, low = fire.
+    pub kicker_trigger_n: Signal<Out, Bit>,
+    /// Emergency stop, high or open = stop.
+    pub emergency_stop: Signal<In, Bit>,
+    /// Ball sensor, high = ball.
+    pub ball_sensor: Signal<In, Bit>,
+
+    bus: LocalBus,
+    registers: RegisterFile,
+    timebase: Timebase,
+    decoder: Decoder,
+    commit: Commit,
+    snapshot: Snapshot,
+    safety: Safety,
+    kicker: Kicker,
+    monitor: ClockMonitor,
+    sequencer: Sequencer,
+    encoders: [Encoder; 4],
+    drives: [Pwm; 4],
+
+    armed_at_tick: DFF<Bit>,
+    valid_at_tick: DFF<Bit>,
+    now: DFF<Bits<24>>,
+    reverse: DFF<Bit>,
+    read_page: DFF<Bit>,
+    read_memory: DFF<Bit>,
+    read_q: DFF<Bits<32>>,
+    stop_sync: DFF<Bit>,
+    stop_live: DFF<Bit>,
+    ball_sync: DFF<Bit>,
+    ball_live: DFF<Bit>,
+    dead_sync: DFF<Bit>,
+    dead_live: DFF<Bit>,
+    interrupt: DFF<Bit>,
+
+    tick: Signal<Local, Bit>,
+    alive: Signal<Local, Bit>,
+    staging: Signal<Local, Bit>,
+    staged: Signal<Local, Bits<32>>,
+    status: Signal<Local, Bits<8>>,
+    kicker_status: Signal<Local, Bits<8>>,
+    errors: Signal<Local, Bits<4>>,
+    lines: Signal<Local, Bits<8>>,
+    masked_errors: Signal<Local, Bits<4>>,
+    count: Signal<Local, Bits<16>>,
+    edge_time: Signal<Local, Bits<24>>,
+    direction: Signal<Local, Bit>,
+    line: Signal<Local, Bits<16>>,
+    compare: Signal<Local, Bits<13>>,
+    pwm_pins: Signal<Local, Bits<4>>,
+    dir_pins: Signal<Local, Bits<4>>,
+
+    zero: Literal<32, 0>,
+    one_16: Literal<16, 1>,
+    sign_30: Literal<32, 0xC000_0000>,
+    mask_30: Literal<32, 0x3FFF_FFFF>,
+    none: Literal<4, 0>,
+    all: Literal<4, 0xF>,
+}
+
+impl Core {
+    /// The core with the hash of its own Verilog; 0 while that is being made.
+    #[must_use]
+    pub fn new(content_hash: u32) -> Self {
+        Self {
+            registers: RegisterFile::new(content_hash),
+            sequencer: Sequencer::new(&control_tick()),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Core {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(
+            self,
+            lclk,
+            armed_at_tick,
+            valid_at_tick,
+            now,
+            reverse,
+            read_page,
+            read_memory,
+            read_q,
+            stop_sync,
+            stop_live,
+            ball_sync,
+            ball_live,
+            dead_sync,
+            dead_live,
+            interrupt
+        );
+        clock!(self, lclk, bus, registers, timebase, commit, snapshot, safety, kicker, sequencer);
+        for i in 0..4 {
+            self.encoders[i].clock.next = self.lclk.val();
+            self.drives[i].clock.next = self.lclk.val();
+        }
+        self.monitor.lclk.next = self.lclk.val();
+        self.monitor.synclk.next = self.synclk.val();
+
+        // Pins.
+        self.bus.ads_n.next = self.ads_n.val();
+        self.bus.blast_n.next = self.blast_n.val();
+        self.bus.lw_r.next = self.lw_r.val();
+        self.bus.lad_in.next = self.lad_in.val();
+        self.lad_out.next = self.bus.lad_out.val();
+        self.lad_drive.next = self.bus.lad_drive.val();
+        self.ready_n.next = self.bus.ready_n.val();
+        self.interrupt.d.next = true;
+        self.int_n.next = self.interrupt.q.val();
+        self.led_n.next = !self.registers.leds.val();
+        self.stop_sync.d.next = self.emergency_stop.val();
+        self.stop_live.d.next = self.stop_sync.q.val();
+        self.ball_sync.d.next = self.ball_sensor.val();
+        self.ball_live.d.next = self.ball_sync.q.val();
+        self.dead_sync.d.next = self.monitor.lclk_dead.val();
+        self.dead_live.d.next = self.dead_sync.q.val();
+
+        // Time and the control tick.
+        self.timebase.tick_period.next = self.registers.tick_period.val();
+        self.timebase.restart.next = self.registers.tick_period_written.val();
+        self.timebase.clocks_per_microsecond.next = self.registers.clocks_per_microsecond.val();
+        self.tick.next = self.timebase.tick.val() & !self.sequencer.running.val();
+        self.sequencer.tick.next = self.tick.val();
+        self.sequencer.configuration_bank.next = self.commit.configuration_bank.val();
+        self.sequencer.set_point_bank.next = self.commit.set_point_bank.val();
+        self.sequencer.snapshot_bank.next = self.snapshot.write_bank.val();
+        self.snapshot.tick.next = self.tick.val();
+        self.snapshot.done.next = self.sequencer.done.val();
+        if self.tick.val() {
+            self.armed_at_tick.d.next = self.safety.armed.val();
+            self.valid_at_tick.d.next = self.safety.setpoints_valid.val();
+            self.now.d.next = self.timebase.clock_count.val().get_bits::<24>(0);
+        }
+
+        // Where a bus access goes.
+        self.decoder.address.next = self.bus.address.val();
+        self.decoder.configuration_bank.next = self.commit.configuration_bank.val();
+        self.decoder.set_point_bank.next = self.commit.set_point_bank.val();
+        self.decoder.snapshot_bank.next = self.snapshot.read_bank.val();
+        self.snapshot.read_first.next = self.decoder.snapshot_first.val() & self.bus.read.val();
+        self.snapshot.read_last.next = self.decoder.snapshot_last.val() & self.bus.read.val();
+
+        // Writes.
+        self.registers.address.next = self.bus.address.val().get_bits::<6>(0);
+        self.registers.data.next = self.bus.write_data.val();
+        self.registers.write.next = self.decoder.in_registers.val() & self.bus.write.val();
+        self.staged.next = self.bus.write_data.val() & self.mask_30.val();
+        if self.bus.write_data.val().get_bit(29) {
+            self.staged.next = self.bus.write_data.val() | self.sign_30.val();
+        }
+        self.staging.next = self.decoder.stages_set_point.val() | self.decoder.stages_configuration.val();
+        self.sequencer.bus_address.next = self.decoder.memory_address.val();
+        self.sequencer.bus_write_data.next = self.staged.val();
+        self.sequencer.bus_write.next = self.staging.val() & self.bus.write.val();
+        self.bus.write_busy.next = self.staging.val() & self.sequencer.bus_blocked.val();
+        self.commit.stage_set_point.next = self.decoder.stages_set_point.val() & self.sequencer.bus_write_taken.val();
+        self.commit.stage_configuration.next =
+            self.decoder.stages_configuration.val() & self.sequencer.bus_write_taken.val();
+        self.commit.address.next = self.bus.address.val();
+        self.commit.data.next = self.bus.write_data.val();
+        self.commit.commit_set_points.next = self.registers.commit_set_points.val();
+        self.commit.commit_configuration.next = self.registers.commit_configuration.val();
+        self.commit.tick.next = self.tick.val();
+
+        // Reads: the word is there one clock after the strobe, in the register one later.
+        self.read_page.d.next = self.decoder.in_registers.val();
+        self.read_memory.d.next = self.decoder.in_memory.val();
+        self.read_q.d.next = self.zero.val();
+        if self.read_page.q.val() {
+            self.read_q.d.next = self.registers.read_data.val();
+        }
+        if self.read_memory.q.val() {
+            self.read_q.d.next = self.sequencer.bus_read_data.val();
+        }
+        self.bus.read_data.next = self.read_q.q.val();
+
+        // Encoders.
+        for i in 0..4 {
+            self.encoders[i].a.next = self.encoder_a.val().get_bit(i);
+            self.encoders[i].b.next = self.encoder_b.val().get_bit(i);
+            self.encoders[i].filter.next = self.registers.encoder_filter.val();
+            self.encoders[i].sample.next = self.tick.val();
+            self.encoders[i].now.next = self.timebase.clock_count.val().get_bits::<24>(0);
+            self.encoders[i].clear_error.next = self.registers.clear_encoder_error.val().get_bit(i);
+        }
+        self.errors.next = bit_cast::<4, 1>(self.encoders[0].error.val().into())
+            | (bit_cast::<4, 1>(self.encoders[1].error.val().into()) << 1)
+            | (bit_cast::<4, 1>(self.encoders[2].error.val().into()) << 2)
+            | (bit_cast::<4, 1>(self.encoders[3].error.val().into()) << 3);
+        self.lines.next = bit_cast::<8, 1>(self.encoders[0].live_a.val().into())
+            | (bit_cast::<8, 1>(self.encoders[0].live_b.val().into()) << 1)
+            | (bit_cast::<8, 1>(self.encoders[1].live_a.val().into()) << 2)
+            | (bit_cast::<8, 1>(self.encoders[1].live_b.val().into()) << 3)
+            | (bit_cast::<8, 1>(self.encoders[2].live_a.val().into()) << 4)
+            | (bit_cast::<8, 1>(self.encoders[2].live_b.val().into()) << 5)
+            | (bit_cast::<8, 1>(self.encoders[3].live_a.val().into()) << 6)
+            | (bit_cast::<8, 1>(self.encoders[3].live_b.val().into()) << 7);
+        self.masked_errors.next = self.errors.val() & self.registers.encoder_fault_mask.val();
+
+        self.status.next = bit_cast::<8, 1>(self.safety.armed.val().into())
+            | (bit_cast::<8, 1>(self.safety.setpoints_valid.val().into()) << 1)
+            | (bit_cast::<8, 1>(self.stop_live.q.val().into()) << 2)
+            | (bit_cast::<8, 1>(self.ball_live.q.val().into()) << 3)
+            | (bit_cast::<8, 1>(self.commit.set_points_pending.val().into()) << 4)
+            | (bit_cast::<8, 1>(self.commit.configuration_pending.val().into()) << 5);
+
+        // Input ports of the sequencer.
+        match self.sequencer.axis.val().index() {
+            0 => {
+                self.count.next = self.encoders[0].count.val();
+                self.edge_time.next = self.encoders[0].edge_time.val();
+                self.direction.next = self.encoders[0].direction.val();
+            }
+            1 => {
+                self.count.next = self.encoders[1].count.val();
+                self.edge_time.next = self.encoders[1].edge_time.val();
+                self.direction.next = self.encoders[1].direction.val();
+            }
+            2 => {
+                self.count.next = self.encoders[2].count.val();
+                self.edge_time.next = self.encoders[2].edge_time.val();
+                self.direction.next = self.encoders[2].direction.val();
+            }
+            _ => {
+                self.count.next = self.encoders[3].count.val();
+                self.edge_time.next = self.encoders[3].edge_time.val();
+                self.direction.next = self.encoders[3].direction.val();
+            }
+        }
+        self.line.next = self.count.val();
+        if self.direction.val() {
+            self.line.next = self.count.val() - self.one_16.val();
+        }
+        match self.sequencer.input_port.val().index() {
+            0 => {
+                self.sequencer.input_data.next = bit_cast::<32, 16>(self.count.val());
+            } // Count
+            1 => {
+                self.sequencer.input_data.next = bit_cast::<32, 24>(self.edge_time.val());
+            } // EdgeTime
+            2 => {
+                self.sequencer.input_data.next = bit_cast::<32, 16>(self.line.val());
+            } // Line
+            3 => {
+                self.sequencer.input_data.next = bit_cast::<32, 24>(self.now.q.val());
+            } // Now
+            4 => {
+                self.sequencer.input_data.next = bit_cast::<32, 24>(self.timebase.period.val());
+            } // TickPeriod
+            5 => {
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.registers.mode.val().get_bits::<1>(0));
+            } // CountAndTime
+            6 => {
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.registers.mode.val().get_bits::<1>(1));
+            } // Twist
+            7 => {
+                self.sequencer.input_data.next = self.zero.val();
+                if self.armed_at_tick.q.val() {
+                    self.sequencer.input_data.next = bit_cast::<32, 16>(self.one_16.val());
+                }
+            } // Armed
+            8 => {
+                self.sequencer.input_data.next = self.zero.val();
+                if self.valid_at_tick.q.val() {
+                    self.sequencer.input_data.next = bit_cast::<32, 16>(self.one_16.val());
+                }
+            } // SetPointsValid
+            9 => {
+                self.sequencer.input_data.next = bit_cast::<32, 13>(self.registers.pwm_period.val());
+            } // PwmPeriod
+            10 => {
+                self.sequencer.input_data.next = bit_cast::<32, 8>(self.status.val());
+            } // Status
+            _ => {
+                self.sequencer.input_data.next = bit_cast::<32, 8>(self.safety.faults.val());
+            } // Faults
+        }
+
+        // PWM.
+        if self.sequencer.output_strobe.val() & !self.sequencer.output_port.val() {
+            self.reverse.d.next = self.sequencer.output_data.val().get_bit(31);
+        }
+        self.compare.next = self.sequencer.output_data.val().get_bits::<13>(12);
+        self.alive.next = !self.monitor.lclk_dead.val();
+        for i in 0..4 {
+            self.drives[i].enable.next = self.safety.armed.val();
+            self.drives[i].period.next = self.registers.pwm_period.val();
+            self.drives[i].blanking.next = self.registers.pwm_blanking.val();
+            self.drives[i].compare.next = self.compare.val();
+            self.drives[i].direction.next = self.reverse.q.val();
+            self.drives[i].load.next = false;
+        }
+        if self.sequencer.output_strobe.val() & self.sequencer.output_port.val() {
+            match self.sequencer.axis.val().index() {
+                0 => {
+                    self.drives[0].load.next = true;
+                }
+                1 => {
+                    self.drives[1].load.next = true;
+                }
+                2 => {
+                    self.drives[2].load.next = true;
+                }
+                _ => {
+                    self.drives[3].load.next = true;
+                }
+            }
+        }
+        self.pwm_pins.next = bit_cast::<4, 1>(self.drives[0].pwm.val().into())
+            | (bit_cast::<4, 1>(self.drives[1].pwm.val().into()) << 1)
+            | (bit_cast::<4, 1>(self.drives[2].pwm.val().into()) << 2)
+            | (bit_cast::<4, 1>(self.drives[3].pwm.val().into()) << 3);
+        self.dir_pins.next = bit_cast::<4, 1>(self.drives[0].dir.val().into())
+            | (bit_cast::<4, 1>(self.drives[1].dir.val().into()) << 1)
+            | (bit_cast::<4, 1>(self.drives[2].dir.val().into()) << 2)
+            | (bit_cast::<4, 1>(self.drives[3].dir.val().into()) << 3);
+        self.pwm.next = self.pwm_pins.val();
+        self.dir.next = self.dir_pins.val();
+        self.enable_n.next = self.all.val();
+        if self.safety.armed.val() & self.alive.val() {
+            self.enable_n.next = self.none.val();
+        } else {
+            self.pwm.next = self.none.val();
+        }
+
+        // Safety and kicker.
+        self.safety.emergency_stop.next = self.emergency_stop.val();
+        self.safety.arm_write.next = self.registers.arm_write.val();
+        self.safety.arm_data.next = self.bus.write_data.val();
+        self.safety.pet.next = self.commit.pet.val();
+        self.safety.watchdog_timeout.next = self.registers.watchdog_timeout.val();
+        self.safety.encoder_fault.next = self.masked_errors.val() != self.none.val();
+        self.safety.commit_fault.next = self.commit.fault.val();
+        self.safety.external_fault.next = self.dead_live.q.val();
+        self.safety.clear_faults.next = self.registers.clear_faults.val();
+        self.kicker.enable.next = self.safety.armed.val();
+        self.kicker.microsecond.next = self.timebase.microsecond.val();
+        self.kicker.charge_request.next = self.registers.kicker_control.val().get_bit(0);
+        self.kicker.arm_on_ball.next = self.registers.kicker_control.val().get_bit(1);
+        self.kicker.charge_timeout.next = self.registers.kicker_charge_timeout.val();
+        self.kicker.fire.next = self.registers.fire.val();
+        self.kicker.pulse.next = self.registers.kicker_pulse.val();
+        self.kicker.lockout.next = self.registers.kicker_lockout.val();
+        self.kicker.ball.next = self.ball_sensor.val();
+        self.kicker.clear.next = self.registers.clear_faults.val();
+        self.kicker_charge_n.next = !(self.kicker.charge.val() & self.safety.armed.val() & self.alive.val());
+        self.kicker_trigger_n.next = !(self.kicker.trigger.val() & self.safety.armed.val() & self.alive.val());
+
+        // What the register file shows.
+        self.registers.armed.next = self.safety.armed.val();
+        self.registers.clock_count.next = self.timebase.clock_count.val();
+        self.registers.faults.next = self.safety.faults.val();
+        self.registers.first_fault.next = self.safety.first_fault.val();
+        self.registers.encoder_error.next = self.errors.val();
+        self.registers.encoder_lines.next = self.lines.val();
+        self.registers.commits.next =
+            bit_cast::<32, 16>(self.commit.accepted.val()) | (bit_cast::<32, 16>(self.commit.rejected.val()) << 16);
+        self.registers.status.next = self.status.val();
+        self.kicker_status.next = bit_cast::<8, 3>(self.kicker.state.val())
+            | (bit_cast::<8, 1>(self.kicker.ready.val().into()) << 4)
+            | (bit_cast::<8, 1>(self.kicker.timed_out.val().into()) << 5)
+            | (bit_cast::<8, 1>(self.kicker.dropped.val().into()) << 6);
+        self.registers.kicker_status.next = self.kicker_status.val();
+    }
+}

@@ -1,0 +1,149 @@
+//! Where an access of the bus goes: combinational, from the word address and the banks.
+//!
+//! | page (byte offset) | to | words |
+//! |---|---|---|
+//! | 000 | register file | 64 |
+//! | 400, 500 | configuration: staged bank, bank in force | 40 |
+//! | 600, 640 | set points: staged bank, bank in force | 4 |
+//! | 790 | integrators | 4 |
+//! | 800 | snapshot: bank the reader holds | 24 |
+//!
+//! Anything else is reserved: reads zero, writes nothing.
+
+use crate::primitives::Literal;
+use fixed_kin::AXES;
+use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
+use fixed_kin::registers::{
+    ACTIVE_CONFIGURATION, ACTIVE_SET_POINTS, CONFIGURATION, INTEGRALS, Register, SET_POINTS, SNAPSHOT_SEQUENCE,
+    SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
+};
+use rust_hdl::prelude::*;
+
+/// Page of 64 words that a register stands in.
+const fn page(register: &Register) -> u64 {
+    (register.offset / 256) as u64
+}
+
+/// Word inside its page.
+const fn index(register: &Register) -> u64 {
+    (register.offset / 4 % 64) as u64
+}
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct Decoder {
+    /// Word address.
+    pub address: Signal<In, Bits<14>>,
+    /// Bank of the configuration in force.
+    pub configuration_bank: Signal<In, Bit>,
+    /// Bank of the set points in force.
+    pub set_point_bank: Signal<In, Bit>,
+    /// Bank of the snapshot to read.
+    pub snapshot_bank: Signal<In, Bit>,
+    /// In the register file.
+    pub in_registers: Signal<Out, Bit>,
+    /// In the memory, at `memory_address`.
+    pub in_memory: Signal<Out, Bit>,
+    /// Address in the sequencer's memory.
+    pub memory_address: Signal<Out, Bits<8>>,
+    /// A write would stage a set point.
+    pub stages_set_point: Signal<Out, Bit>,
+    /// A write would stage a word of the configuration.
+    pub stages_configuration: Signal<Out, Bit>,
+    /// First word of the snapshot.
+    pub snapshot_first: Signal<Out, Bit>,
+    /// Last word of the snapshot.
+    pub snapshot_last: Signal<Out, Bit>,
+
+    page: Signal<Local, Bits<8>>,
+    index: Signal<Local, Bits<6>>,
+    wide: Signal<Local, Bits<8>>,
+    set_point: Signal<Local, Bits<8>>,
+    base: Signal<Local, Bits<8>>,
+    bank: Signal<Local, Bits<8>>,
+
+    no_bank: Literal<8, 0>,
+    configuration_1: Literal<8, 0x40>,
+    at_set_points: Literal<8, 0x80>,
+    set_points_1: Literal<8, 0x08>,
+    at_snapshot: Literal<8, 0xC0>,
+    snapshot_1: Literal<8, 0x20>,
+    page_registers: Literal<8, 0>,
+    page_configuration: Literal<8, { page(&CONFIGURATION) }>,
+    page_active: Literal<8, { page(&ACTIVE_CONFIGURATION) }>,
+    page_set_points: Literal<8, { page(&SET_POINTS) }>,
+    page_state: Literal<8, { page(&INTEGRALS) }>,
+    page_snapshot: Literal<8, { page(&SNAPSHOT_SEQUENCE) }>,
+    configuration_end: Literal<6, { CONFIGURATION_WORDS as u64 }>,
+    set_points_end: Literal<6, { SET_POINT_WORDS as u64 }>,
+    active_start: Literal<6, { index(&ACTIVE_SET_POINTS) }>,
+    active_end: Literal<6, { index(&ACTIVE_SET_POINTS) + SET_POINT_WORDS as u64 }>,
+    integrals_start: Literal<6, { index(&INTEGRALS) }>,
+    integrals_end: Literal<6, { index(&INTEGRALS) + AXES as u64 }>,
+    snapshot_end: Literal<6, { SNAPSHOT_WORDS as u64 }>,
+    first: Literal<6, 0>,
+    last: Literal<6, { index(&SNAPSHOT_SEQUENCE_END) }>,
+}
+
+impl Logic for Decoder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.page.next = self.address.val().get_bits::<8>(6);
+        self.index.next = self.address.val().get_bits::<6>(0);
+        self.wide.next = bit_cast::<8, 6>(self.index.val());
+        self.set_point.next = bit_cast::<8, 2>(self.index.val().get_bits::<2>(0)) | self.at_set_points.val();
+
+        self.in_registers.next = self.page.val() == self.page_registers.val();
+        self.in_memory.next = false;
+        self.stages_set_point.next = false;
+        self.stages_configuration.next = false;
+        self.snapshot_first.next = false;
+        self.snapshot_last.next = false;
+        self.bank.next = self.no_bank.val();
+        self.base.next = self.wide.val();
+        if self.page.val() == self.page_configuration.val() {
+            self.in_memory.next = self.index.val() < self.configuration_end.val();
+            self.stages_configuration.next = self.index.val() < self.configuration_end.val();
+            if !self.configuration_bank.val() {
+                self.bank.next = self.configuration_1.val();
+            }
+        }
+        if self.page.val() == self.page_active.val() {
+            self.in_memory.next = self.index.val() < self.configuration_end.val();
+            if self.configuration_bank.val() {
+                self.bank.next = self.configuration_1.val();
+            }
+        }
+        if self.page.val() == self.page_set_points.val() {
+            self.base.next = self.set_point.val();
+            if self.index.val() < self.set_points_end.val() {
+                self.in_memory.next = true;
+                self.stages_set_point.next = true;
+                if !self.set_point_bank.val() {
+                    self.bank.next = self.set_points_1.val();
+                }
+            } else {
+                self.in_memory.next =
+                    (self.index.val() >= self.active_start.val()) & (self.index.val() < self.active_end.val());
+                if self.set_point_bank.val() {
+                    self.bank.next = self.set_points_1.val();
+                }
+            }
+        }
+        if self.page.val() == self.page_state.val() {
+            self.in_memory.next =
+                (self.index.val() >= self.integrals_start.val()) & (self.index.val() < self.integrals_end.val());
+            self.base.next = self.wide.val() | self.at_set_points.val();
+        }
+        if self.page.val() == self.page_snapshot.val() {
+            self.in_memory.next = self.index.val() < self.snapshot_end.val();
+            self.snapshot_first.next = self.index.val() == self.first.val();
+            self.snapshot_last.next = self.index.val() == self.last.val();
+            self.base.next = self.wide.val() | self.at_snapshot.val();
+            if self.snapshot_bank.val() {
+                self.bank.next = self.snapshot_1.val();
+            }
+        }
+        self.memory_address.next = self.base.val() | self.bank.val();
+    }
+}

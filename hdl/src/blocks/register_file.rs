@@ -1,0 +1,348 @@
+//! The plain registers, byte offsets 000–0FF of the map, and the strobes of those that act.
+//!
+//! | access | rule |
+//! |---|---|
+//! | locked while armed | a write while `armed` is ignored |
+//! | write only | a strobe in the clock of the write, with `data` |
+//! | read | `read_data` one clock after `address` |
+//!
+//! The case labels are word addresses of `fixed_kin::registers`; a test walks all of them.
+
+use crate::primitives::{Literal, Preset, Setting};
+use fixed_kin::AXES;
+use fixed_kin::registers::{
+    BOARD_VALUE, COOKIE_VALUE, DEFAULT_TICK_PERIOD, DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, NOMINAL_CLOCK_HZ,
+    VERSION,
+};
+use rust_hdl::prelude::*;
+
+/// See the module.
+#[derive(LogicBlock, Default)]
+pub struct RegisterFile {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Word address inside the page.
+    pub address: Signal<In, Bits<6>>,
+    /// The page is written in this clock.
+    pub write: Signal<In, Bit>,
+    /// What is written.
+    pub data: Signal<In, Bits<32>>,
+    /// The word at `address` of the last clock.
+    pub read_data: Signal<Out, Bits<32>>,
+    /// Outputs may be on.
+    pub armed: Signal<In, Bit>,
+
+    /// Live `time`.
+    pub clock_count: Signal<In, Bits<32>>,
+    /// Live `faults`.
+    pub faults: Signal<In, Bits<8>>,
+    /// Live `first_fault`.
+    pub first_fault: Signal<In, Bits<8>>,
+    /// Live `status`.
+    pub status: Signal<In, Bits<8>>,
+    /// Live `commits`.
+    pub commits: Signal<In, Bits<32>>,
+    /// Live `encoder_error`.
+    pub encoder_error: Signal<In, Bits<4>>,
+    /// Live `encoder_lines`.
+    pub encoder_lines: Signal<In, Bits<8>>,
+    /// Live `kicker_status`.
+    pub kicker_status: Signal<In, Bits<8>>,
+
+    /// `tick_period`.
+    pub tick_period: Signal<Out, Bits<24>>,
+    /// `tick_period` is written.
+    pub tick_period_written: Signal<Out, Bit>,
+    /// `mode`.
+    pub mode: Signal<Out, Bits<2>>,
+    /// `encoder_filter`.
+    pub encoder_filter: Signal<Out, Bits<4>>,
+    /// `encoder_fault_mask`.
+    pub encoder_fault_mask: Signal<Out, Bits<4>>,
+    /// `pwm_period`.
+    pub pwm_period: Signal<Out, Bits<13>>,
+    /// `pwm_blanking`.
+    pub pwm_blanking: Signal<Out, Bits<10>>,
+    /// `watchdog_timeout`.
+    pub watchdog_timeout: Signal<Out, Bits<24>>,
+    /// `kicker_control`.
+    pub kicker_control: Signal<Out, Bits<2>>,
+    /// `kicker_pulse`.
+    pub kicker_pulse: Signal<Out, Bits<14>>,
+    /// `kicker_lockout`.
+    pub kicker_lockout: Signal<Out, Bits<20>>,
+    /// `kicker_charge_timeout`.
+    pub kicker_charge_timeout: Signal<Out, Bits<24>>,
+    /// `clocks_per_us`.
+    pub clocks_per_microsecond: Signal<Out, Bits<6>>,
+    /// `leds`.
+    pub leds: Signal<Out, Bits<8>>,
+    /// `arm` is written.
+    pub arm_write: Signal<Out, Bit>,
+    /// `faults` is written.
+    pub clear_faults: Signal<Out, Bit>,
+    /// `encoder_error` is written: the bits to clear.
+    pub clear_encoder_error: Signal<Out, Bits<4>>,
+    /// `commit_set_points` is written.
+    pub commit_set_points: Signal<Out, Bit>,
+    /// `commit_configuration` is written.
+    pub commit_configuration: Signal<Out, Bit>,
+    /// `kicker_fire` is written with the right word.
+    pub fire: Signal<Out, Bit>,
+
+    tick_period_q: Preset<24, { DEFAULT_TICK_PERIOD as u64 }>,
+    mode_q: DFF<Bits<2>>,
+    encoder_filter_q: Preset<4, 3>,
+    encoder_fault_mask_q: Preset<4, 0xF>,
+    pwm_period_q: DFF<Bits<13>>,
+    pwm_blanking_q: Preset<10, 33>,
+    watchdog_timeout_q: Preset<24, { DEFAULT_WATCHDOG_TIMEOUT as u64 }>,
+    kicker_control_q: DFF<Bits<2>>,
+    kicker_pulse_q: DFF<Bits<14>>,
+    kicker_lockout_q: DFF<Bits<20>>,
+    kicker_charge_timeout_q: DFF<Bits<24>>,
+    clocks_per_microsecond_q: Preset<6, 33>,
+    leds_q: DFF<Bits<8>>,
+    read_q: DFF<Bits<32>>,
+
+    unlocked: Signal<Local, Bit>,
+
+    cookie: Literal<32, { COOKIE_VALUE as u64 }>,
+    version: Literal<32, { VERSION as u64 }>,
+    board: Literal<32, { BOARD_VALUE as u64 }>,
+    clock_hz: Literal<32, { NOMINAL_CLOCK_HZ as u64 }>,
+    axes: Literal<32, { AXES as u64 }>,
+    fire_word: Literal<32, { KICKER_FIRE_WORD as u64 }>,
+    zero: Literal<32, 0>,
+    no_axes: Literal<4, 0>,
+    /// Set by the emitter; the hash is taken with this constant zero.
+    content_hash: Setting<32>,
+}
+
+impl RegisterFile {
+    /// Registers at their reset values, with the hash of the emitted Verilog.
+    #[must_use]
+    pub fn new(content_hash: u32) -> Self {
+        Self { content_hash: Setting::new(content_hash.into()), ..Self::default() }
+    }
+}
+
+impl Logic for RegisterFile {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(
+            self,
+            clock,
+            tick_period_q,
+            mode_q,
+            encoder_filter_q,
+            pwm_period_q,
+            pwm_blanking_q,
+            watchdog_timeout_q,
+            encoder_fault_mask_q,
+            kicker_control_q,
+            kicker_pulse_q,
+            kicker_lockout_q,
+            kicker_charge_timeout_q,
+            clocks_per_microsecond_q,
+            leds_q,
+            read_q
+        );
+
+        self.unlocked.next = !self.armed.val();
+        self.tick_period_written.next = false;
+        self.arm_write.next = false;
+        self.clear_faults.next = false;
+        self.commit_set_points.next = false;
+        self.commit_configuration.next = false;
+        self.fire.next = false;
+        self.clear_encoder_error.next = self.no_axes.val();
+        if self.write.val() {
+            match self.address.val().index() {
+                8 => {
+                    if self.unlocked.val() {
+                        self.tick_period_q.d.next = self.data.val().get_bits::<24>(0);
+                        self.tick_period_written.next = true;
+                    }
+                } // TICK_PERIOD
+                9 => {
+                    if self.unlocked.val() {
+                        self.mode_q.d.next = self.data.val().get_bits::<2>(0);
+                    }
+                } // MODE
+                10 => {
+                    if self.unlocked.val() {
+                        self.encoder_filter_q.d.next = self.data.val().get_bits::<4>(0);
+                    }
+                } // ENCODER_FILTER
+                11 => {
+                    if self.unlocked.val() {
+                        self.pwm_period_q.d.next = self.data.val().get_bits::<13>(0);
+                    }
+                } // PWM_PERIOD
+                12 => {
+                    if self.unlocked.val() {
+                        self.pwm_blanking_q.d.next = self.data.val().get_bits::<10>(0);
+                    }
+                } // PWM_BLANKING
+                13 => {
+                    if self.unlocked.val() {
+                        self.watchdog_timeout_q.d.next = self.data.val().get_bits::<24>(0);
+                    }
+                } // WATCHDOG_TIMEOUT
+                14 => {
+                    self.arm_write.next = true;
+                } // ARM
+                15 => {
+                    self.clear_faults.next = self.data.val() != self.zero.val();
+                } // FAULTS
+                18 => {
+                    self.commit_set_points.next = true;
+                } // COMMIT_SET_POINTS
+                19 => {
+                    self.commit_configuration.next = true;
+                } // COMMIT_CONFIGURATION
+                21 => {
+                    self.clear_encoder_error.next = self.data.val().get_bits::<4>(0);
+                } // ENCODER_ERROR
+                23 => {
+                    if self.unlocked.val() {
+                        self.encoder_fault_mask_q.d.next = self.data.val().get_bits::<4>(0);
+                    }
+                } // ENCODER_FAULT_MASK
+                24 => {
+                    self.kicker_control_q.d.next = self.data.val().get_bits::<2>(0);
+                } // KICKER_CONTROL
+                25 => {
+                    self.fire.next = self.data.val() == self.fire_word.val();
+                } // KICKER_FIRE
+                26 => {
+                    self.kicker_pulse_q.d.next = self.data.val().get_bits::<14>(0);
+                } // KICKER_PULSE
+                27 => {
+                    if self.unlocked.val() {
+                        self.kicker_lockout_q.d.next = self.data.val().get_bits::<20>(0);
+                    }
+                } // KICKER_LOCKOUT
+                28 => {
+                    if self.unlocked.val() {
+                        self.kicker_charge_timeout_q.d.next = self.data.val().get_bits::<24>(0);
+                    }
+                } // KICKER_CHARGE_TIMEOUT
+                30 => {
+                    if self.unlocked.val() {
+                        self.clocks_per_microsecond_q.d.next = self.data.val().get_bits::<6>(0);
+                    }
+                } // CLOCKS_PER_MICROSECOND
+                31 => {
+                    self.leds_q.d.next = self.data.val().get_bits::<8>(0);
+                } // LEDS
+                _ => {
+                    self.fire.next = false;
+                }
+            }
+        }
+
+        match self.address.val().index() {
+            0 => {
+                self.read_q.d.next = self.cookie.val();
+            }
+            1 => {
+                self.read_q.d.next = self.version.val();
+            }
+            2 => {
+                self.read_q.d.next = self.board.val();
+            }
+            3 => {
+                self.read_q.d.next = self.clock_hz.val();
+            }
+            4 => {
+                self.read_q.d.next = self.content_hash.val();
+            }
+            5 => {
+                self.read_q.d.next = self.axes.val();
+            }
+            6 => {
+                self.read_q.d.next = self.clock_count.val();
+            }
+            8 => {
+                self.read_q.d.next = bit_cast::<32, 24>(self.tick_period_q.q.val());
+            }
+            9 => {
+                self.read_q.d.next = bit_cast::<32, 2>(self.mode_q.q.val());
+            }
+            10 => {
+                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_filter_q.q.val());
+            }
+            11 => {
+                self.read_q.d.next = bit_cast::<32, 13>(self.pwm_period_q.q.val());
+            }
+            12 => {
+                self.read_q.d.next = bit_cast::<32, 10>(self.pwm_blanking_q.q.val());
+            }
+            13 => {
+                self.read_q.d.next = bit_cast::<32, 24>(self.watchdog_timeout_q.q.val());
+            }
+            15 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.faults.val());
+            }
+            16 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.first_fault.val());
+            }
+            17 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.status.val());
+            }
+            20 => {
+                self.read_q.d.next = self.commits.val();
+            }
+            21 => {
+                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_error.val());
+            }
+            22 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.encoder_lines.val());
+            }
+            23 => {
+                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_fault_mask_q.q.val());
+            }
+            24 => {
+                self.read_q.d.next = bit_cast::<32, 2>(self.kicker_control_q.q.val());
+            }
+            26 => {
+                self.read_q.d.next = bit_cast::<32, 14>(self.kicker_pulse_q.q.val());
+            }
+            27 => {
+                self.read_q.d.next = bit_cast::<32, 20>(self.kicker_lockout_q.q.val());
+            }
+            28 => {
+                self.read_q.d.next = bit_cast::<32, 24>(self.kicker_charge_timeout_q.q.val());
+            }
+            29 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.kicker_status.val());
+            }
+            30 => {
+                self.read_q.d.next = bit_cast::<32, 6>(self.clocks_per_microsecond_q.q.val());
+            }
+            31 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.leds_q.q.val());
+            }
+            _ => {
+                self.read_q.d.next = self.zero.val();
+            }
+        }
+        self.read_data.next = self.read_q.q.val();
+
+        self.tick_period.next = self.tick_period_q.q.val();
+        self.mode.next = self.mode_q.q.val();
+        self.encoder_filter.next = self.encoder_filter_q.q.val();
+        self.pwm_period.next = self.pwm_period_q.q.val();
+        self.pwm_blanking.next = self.pwm_blanking_q.q.val();
+        self.watchdog_timeout.next = self.watchdog_timeout_q.q.val();
+        self.encoder_fault_mask.next = self.encoder_fault_mask_q.q.val();
+        self.kicker_control.next = self.kicker_control_q.q.val();
+        self.kicker_pulse.next = self.kicker_pulse_q.q.val();
+        self.kicker_lockout.next = self.kicker_lockout_q.q.val();
+        self.kicker_charge_timeout.next = self.kicker_charge_timeout_q.q.val();
+        self.clocks_per_microsecond.next = self.clocks_per_microsecond_q.q.val();
+        self.leds.next = self.leds_q.q.val();
+    }
+}
