@@ -8,6 +8,7 @@ pub mod fit;
 pub mod frames;
 pub mod fusion;
 pub mod geometry;
+pub mod localisation;
 pub mod motor;
 pub mod odometry;
 pub mod pi;

@@ -3,10 +3,12 @@
 use crate::camera::{Camera, CameraModel};
 use crate::frames::{Pose, Twist};
 use crate::geometry::{Geometry, GeometryError};
+use crate::localisation::Localiser;
 use crate::pi::SpeedLoop;
 use crate::plant::{Contact, Plant};
 use crate::robot::Robot;
 use crate::run::{CameraSample, Run};
+use crate::trajectory::{Follower, SetPoint, TrajectoryReport};
 
 /// A robot that is driven by body twists and keeps a log of everything a real one would.
 ///
@@ -137,6 +139,44 @@ impl VirtualRobot {
     }
 }
 
+/// A followed trajectory.
+#[derive(Debug, Clone)]
+pub struct Followed {
+    /// How well it went, by where the robot really was.
+    pub report: TrajectoryReport,
+    /// Time (s) and where the robot really was, every tick.
+    pub track: Vec<(f64, Pose)>,
+    /// Where the controller believed it to be, every tick.
+    pub believed: Vec<Pose>,
+}
+
+/// Drives a virtual robot along set points until it rests at their end, has given up, or
+/// `limit_s` is over. A set point counts as reached if the robot really was within
+/// `tolerance_m` of it.
+pub fn follow(
+    robot: &mut VirtualRobot,
+    set_points: &[SetPoint],
+    follower: &mut Follower,
+    localiser: &mut Localiser,
+    believed: &Geometry,
+    limit_s: f64,
+    tolerance_m: f64,
+) -> Followed {
+    let (start, began) = (robot.pose(), robot.time());
+    let (mut track, mut poses) = (Vec::new(), Vec::new());
+    loop {
+        let t = robot.time() - began;
+        let seen = robot.look();
+        let pose = localiser.tick(robot.time(), &robot.counts(), seen);
+        track.push((t, robot.pose()));
+        poses.push(pose);
+        let Some(command) = follower.command(pose, robot.robot.tick_s()).filter(|_| t < limit_s) else { break };
+        robot.tick(command, believed);
+    }
+    let report = TrajectoryReport::new(start, set_points, follower.arrivals(), &track, tolerance_m);
+    Followed { report, track, believed: poses }
+}
+
 /// Time to reach a twist, s.
 const RAMP_S: f64 = 0.3;
 /// Rest after a drive, for the camera to see where it ended, s.
@@ -160,7 +200,10 @@ pub fn calibration_drive(robot: &mut VirtualRobot, speed: f64, seconds: f64, bel
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fusion::FusionOptions;
     use crate::pi::PiLaw;
+    use crate::robot::Layout;
+    use crate::trajectory::{FIG_6, FIG_7_SKEW_DEG, FollowerOptions, Limits};
 
     fn robot() -> Robot {
         Robot::racbot()
@@ -188,6 +231,78 @@ mod tests {
         let path = folder.path().join("run.csv");
         run.write(&path).unwrap();
         assert_eq!(Run::read(&path).unwrap(), run);
+    }
+
+    fn drive_fig_6(skew_deg: [f64; 3], believed_deg: [f64; 3], closed: bool, points: &[SetPoint]) -> Followed {
+        let layout = |deg: [f64; 3]| Layout::Rac { body_radius_m: 0.085, skew_rad: deg.map(f64::to_radians) };
+        let actual = Robot { layout: layout(skew_deg), ..robot() };
+        let nominal = Robot { layout: layout(believed_deg), ..robot() };
+        let start = Pose::default();
+        let mut v = VirtualRobot::new(&actual, Contact::Rolling, CameraModel::of(&actual), start, 1).unwrap();
+        let g = nominal.geometry().unwrap();
+        let limits = Limits::of(&nominal).unwrap();
+        let options = FollowerOptions::of(&nominal).unwrap();
+        let mut follower = Follower::new(points, start, &g, limits, options);
+        let mut localiser = if closed {
+            // Skew is no noise; the filter is told that odometry errs by more than its walk.
+            let options = FusionOptions { wheel_variance: 1e-2, ..FusionOptions::of(&nominal) };
+            Localiser::fused(&nominal, &g, options, start)
+        } else {
+            Localiser::odometry(&nominal, &g, start)
+        };
+        follow(&mut v, points, &mut follower, &mut localiser, &g, 60.0, 0.1)
+    }
+
+    #[test]
+    fn fig_6_with_dynamics_reaches_every_set_point() {
+        for closed in [false, true] {
+            let r = drive_fig_6([0.0; 3], [0.0; 3], closed, &FIG_6).report;
+            assert!(r.set_points.iter().all(|s| s.why_not.is_none() && s.miss_m < 0.02), "{r:#?}");
+            let time = r.time_s.unwrap();
+            assert!(time > 13.2 && time < 20.0, "{time}");
+            assert!(r.path_error_rms_m < 0.015 && r.path_error_max_m < 0.07 && r.overshoot_m < 0.6, "{r:#?}");
+        }
+    }
+
+    #[test]
+    fn unknown_skew_is_survived_with_a_camera_only_and_known_skew_without() {
+        let skew = FIG_7_SKEW_DEG;
+        let open = drive_fig_6(skew, [0.0; 3], false, &FIG_6).report;
+        assert!(open.time_s.is_none() && open.path_error_max_m > 0.5, "{open:#?}");
+        assert!(open.set_points[0].why_not.as_ref().unwrap().contains("never came nearer"));
+        let closed = drive_fig_6(skew, [0.0; 3], true, &FIG_6).report;
+        assert!(closed.time_s.is_some() && closed.path_error_rms_m < 0.05, "{closed:#?}");
+        let known = drive_fig_6(skew, skew, false, &FIG_6).report;
+        // Below 1 % of the 13.2 m path.
+        assert!(known.time_s.is_some() && known.path_error_max_m < 0.05, "{known:#?}");
+    }
+
+    #[test]
+    fn stops_come_to_rest_without_overshoot() {
+        let points = [SetPoint::stop(0.8, 0.0, 0.8, 0.5), SetPoint::stop(0.8, 0.6, 0.8, -0.5)];
+        let followed = drive_fig_6([0.0; 3], [0.0; 3], false, &points);
+        let r = &followed.report;
+        assert!(r.time_s.is_some() && r.overshoot_m < 0.01, "{r:#?}");
+        let at = r.set_points[0].reached_at.unwrap();
+        let (_, first) = followed.track.iter().find(|(t, _)| *t >= at).unwrap();
+        let (_, later) = followed.track.iter().find(|(t, _)| *t >= at + 0.02).unwrap();
+        assert!(first.distance(*later) / 0.02 < 0.06, "nearly at rest");
+        let last = followed.track.last().unwrap().1;
+        assert!((last.x - 0.8).abs() < 0.02 && (last.y - 0.6).abs() < 0.02, "{last:?}");
+    }
+
+    #[test]
+    fn a_robot_that_cannot_move_gives_up_and_says_so() {
+        let mut weak = robot();
+        weak.motor.friction_torque = 1.0;
+        let mut v = VirtualRobot::new(&weak, Contact::Rolling, CameraModel::of(&weak), Pose::default(), 1).unwrap();
+        let g = weak.geometry().unwrap();
+        let limits = Limits::of(&robot()).unwrap();
+        let mut follower = Follower::new(&FIG_6, Pose::default(), &g, limits, FollowerOptions::default());
+        let mut localiser = Localiser::odometry(&weak, &g, Pose::default());
+        let r = follow(&mut v, &FIG_6, &mut follower, &mut localiser, &g, 60.0, 0.1).report;
+        assert!(r.set_points[0].why_not.as_ref().unwrap().contains("given up"), "{r:#?}");
+        assert!(r.set_points[3].why_not.as_ref().unwrap().contains("ended"), "{r:#?}");
     }
 
     #[test]

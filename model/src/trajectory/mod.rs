@@ -1,9 +1,15 @@
 //! Set points and the controllers that follow them (paper, section 4).
 
 mod file;
+mod follower;
+mod limits;
 mod paper;
+mod report;
 
+pub use follower::{Arrival, Follower, FollowerOptions};
+pub use limits::Limits;
 pub use paper::{MotionController, MotionSample, simulate_motion};
+pub use report::{SetPointReport, TrajectoryReport};
 
 /// One point of a trajectory: a place, and how to travel there.
 #[derive(Debug, Clone, Copy, PartialEq)]
