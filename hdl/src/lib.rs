@@ -2,6 +2,7 @@
 
 pub mod blocks;
 pub mod board;
+pub mod design;
 pub mod emit;
 pub mod primitives;
 pub mod program;

@@ -56,6 +56,8 @@ pub struct Core {
     pub encoder_a: Signal<In, Bits<4>>,
     /// Encoder lines B.
     pub encoder_b: Signal<In, Bits<4>>,
+    /// Encoder index lines; shown, not counted.
+    pub encoder_index: Signal<In, Bits<4>>,
     /// PWM pins.
     pub pwm: Signal<Out, Bits<4>>,
     /// Direction pins.
@@ -95,6 +97,8 @@ pub struct Core {
     stop_live: DFF<Bit>,
     ball_sync: DFF<Bit>,
     ball_live: DFF<Bit>,
+    index_sync: DFF<Bits<4>>,
+    index_live: DFF<Bits<4>>,
     dead_sync: DFF<Bit>,
     dead_live: DFF<Bit>,
     interrupt: DFF<Bit>,
@@ -106,7 +110,7 @@ pub struct Core {
     status: Signal<Local, Bits<8>>,
     kicker_status: Signal<Local, Bits<8>>,
     errors: Signal<Local, Bits<4>>,
-    lines: Signal<Local, Bits<8>>,
+    lines: Signal<Local, Bits<12>>,
     masked_errors: Signal<Local, Bits<4>>,
     count: Signal<Local, Bits<16>>,
     edge_time: Signal<Local, Bits<24>>,
@@ -153,6 +157,8 @@ impl Logic for Core {
             stop_live,
             ball_sync,
             ball_live,
+            index_sync,
+            index_live,
             dead_sync,
             dead_live,
             interrupt
@@ -180,6 +186,8 @@ impl Logic for Core {
         self.stop_live.d.next = self.stop_sync.q.val();
         self.ball_sync.d.next = self.ball_sensor.val();
         self.ball_live.d.next = self.ball_sync.q.val();
+        self.index_sync.d.next = self.encoder_index.val();
+        self.index_live.d.next = self.index_sync.q.val();
         self.dead_sync.d.next = self.monitor.lclk_dead.val();
         self.dead_live.d.next = self.dead_sync.q.val();
 
@@ -255,14 +263,15 @@ impl Logic for Core {
             | (bit_cast::<4, 1>(self.encoders[1].error.val().into()) << 1)
             | (bit_cast::<4, 1>(self.encoders[2].error.val().into()) << 2)
             | (bit_cast::<4, 1>(self.encoders[3].error.val().into()) << 3);
-        self.lines.next = bit_cast::<8, 1>(self.encoders[0].live_a.val().into())
-            | (bit_cast::<8, 1>(self.encoders[0].live_b.val().into()) << 1)
-            | (bit_cast::<8, 1>(self.encoders[1].live_a.val().into()) << 2)
-            | (bit_cast::<8, 1>(self.encoders[1].live_b.val().into()) << 3)
-            | (bit_cast::<8, 1>(self.encoders[2].live_a.val().into()) << 4)
-            | (bit_cast::<8, 1>(self.encoders[2].live_b.val().into()) << 5)
-            | (bit_cast::<8, 1>(self.encoders[3].live_a.val().into()) << 6)
-            | (bit_cast::<8, 1>(self.encoders[3].live_b.val().into()) << 7);
+        self.lines.next = bit_cast::<12, 1>(self.encoders[0].live_a.val().into())
+            | (bit_cast::<12, 1>(self.encoders[0].live_b.val().into()) << 1)
+            | (bit_cast::<12, 1>(self.encoders[1].live_a.val().into()) << 2)
+            | (bit_cast::<12, 1>(self.encoders[1].live_b.val().into()) << 3)
+            | (bit_cast::<12, 1>(self.encoders[2].live_a.val().into()) << 4)
+            | (bit_cast::<12, 1>(self.encoders[2].live_b.val().into()) << 5)
+            | (bit_cast::<12, 1>(self.encoders[3].live_a.val().into()) << 6)
+            | (bit_cast::<12, 1>(self.encoders[3].live_b.val().into()) << 7)
+            | (bit_cast::<12, 4>(self.index_live.q.val()) << 8);
         self.masked_errors.next = self.errors.val() & self.registers.encoder_fault_mask.val();
 
         self.status.next = bit_cast::<8, 1>(self.safety.armed.val().into())

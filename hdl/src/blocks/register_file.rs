@@ -45,7 +45,7 @@ pub struct RegisterFile {
     /// Live `encoder_error`.
     pub encoder_error: Signal<In, Bits<4>>,
     /// Live `encoder_lines`.
-    pub encoder_lines: Signal<In, Bits<8>>,
+    pub encoder_lines: Signal<In, Bits<12>>,
     /// Live `kicker_status`.
     pub kicker_status: Signal<In, Bits<8>>,
 
@@ -299,7 +299,7 @@ impl Logic for RegisterFile {
                 self.read_q.d.next = bit_cast::<32, 4>(self.encoder_error.val());
             }
             22 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.encoder_lines.val());
+                self.read_q.d.next = bit_cast::<32, 12>(self.encoder_lines.val());
             }
             23 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.encoder_fault_mask_q.q.val());

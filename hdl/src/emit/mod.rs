@@ -5,9 +5,11 @@
 //! board --> ucf      pins and timing
 //! ```
 
+mod always;
 pub mod hash;
 mod module;
 pub mod ports;
+pub mod registers;
 pub mod token;
 pub mod top;
 pub mod ucf;

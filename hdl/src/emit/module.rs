@@ -1,7 +1,7 @@
 //! One module of rust-hdl's Verilog, taken apart far enough to be written better.
 
 use super::token::{Kind, Token, tokens};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A module as rust-hdl wrote it.
 #[derive(Debug)]
@@ -35,6 +35,7 @@ pub(super) fn split(text: &str) -> Vec<Module<'_>> {
             }
         }
         module.drop_unused_constants();
+        module.body = super::always::cut(&module.body, &module.constants());
         modules.push(module);
     }
     modules
@@ -85,6 +86,16 @@ impl<'a> Module<'a> {
         let digits = start.rsplit(['h', 'b', 'd']).next()?.trim_start_matches('0');
         let from = if digits.is_empty() { String::new() } else { format!("_from_{digits}") };
         Some((width, format!("dff_{width}{from}")))
+    }
+
+    /// Names of its `localparam`s.
+    fn constants(&self) -> BTreeSet<&'a str> {
+        let mut names = BTreeSet::new();
+        let mut rest = self.body.iter();
+        while rest.any(|t| t.is("localparam")) {
+            names.extend(rest.find(|t| t.kind == Kind::Ident && !t.is("signed")).map(|t| t.text));
+        }
+        names
     }
 
     /// rust-hdl repeats the values of an enum in every module that has such a signal.

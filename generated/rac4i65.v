@@ -1,0 +1,4961 @@
+// rac4i65
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 1.0.
+// Do not edit: change the sources and run `racbot generate`.
+
+`default_nettype none
+
+module rac4i65 (
+    input wire lclk,
+    input wire synclk,
+    input wire ads_n,
+    input wire blast_n,
+    input wire lw_r,
+    output wire ready_n,
+    output wire int_n,
+    inout wire [31:0] lad,
+    output wire [7:0] led_n,
+    output wire [3:0] dir,
+    output wire [3:0] enable_n,
+    input wire [3:0] encoder_a,
+    input wire [3:0] encoder_b,
+    input wire [3:0] encoder_index,
+    output wire [3:0] pwm,
+    output wire kicker_charge_n,
+    output wire kicker_trigger_n,
+    input wire emergency_stop,
+    input wire ball_sensor
+);
+
+    wire [31:0] lad_out;
+    wire lad_drive;
+    assign lad = lad_drive ? lad_out : 32'bz;
+
+    rac4i65_core core (
+        .lclk(lclk),
+        .synclk(synclk),
+        .ads_n(ads_n),
+        .blast_n(blast_n),
+        .lw_r(lw_r),
+        .ready_n(ready_n),
+        .int_n(int_n),
+        .lad_in(lad),
+        .lad_out(lad_out),
+        .lad_drive(lad_drive),
+        .led_n(led_n),
+        .dir(dir),
+        .enable_n(enable_n),
+        .encoder_a(encoder_a),
+        .encoder_b(encoder_b),
+        .encoder_index(encoder_index),
+        .pwm(pwm),
+        .kicker_charge_n(kicker_charge_n),
+        .kicker_trigger_n(kicker_trigger_n),
+        .emergency_stop(emergency_stop),
+        .ball_sensor(ball_sensor)
+    );
+endmodule
+
+module rac4i65_core (
+    input wire lclk,
+    input wire synclk,
+    input wire ads_n,
+    input wire blast_n,
+    input wire lw_r,
+    input wire [31:0] lad_in,
+    output reg [31:0] lad_out,
+    output reg lad_drive,
+    output reg ready_n,
+    output reg int_n,
+    output reg [7:0] led_n,
+    input wire [3:0] encoder_a,
+    input wire [3:0] encoder_b,
+    input wire [3:0] encoder_index,
+    output reg [3:0] pwm,
+    output reg [3:0] dir,
+    output reg [3:0] enable_n,
+    output reg kicker_charge_n,
+    output reg kicker_trigger_n,
+    input wire emergency_stop,
+    input wire ball_sensor
+);
+
+    // Constants
+    localparam zero = 32'h0;
+    localparam one_16 = 16'h1;
+    localparam sign_30 = 32'hc0000000;
+    localparam mask_30 = 32'h3fffffff;
+    localparam none = 4'h0;
+    localparam all = 4'hf;
+
+    // Pins of the parts
+    reg bus_clock;
+    reg bus_ads_n;
+    reg bus_blast_n;
+    reg bus_lw_r;
+    reg [31:0] bus_lad_in;
+    wire [31:0] bus_lad_out;
+    wire bus_lad_drive;
+    wire bus_ready_n;
+    wire [13:0] bus_address_2;
+    wire bus_read;
+    reg [31:0] bus_read_data_2;
+    wire bus_write_2;
+    wire [31:0] bus_write_data_2;
+    reg bus_write_busy;
+    wire bus_overrun;
+    reg registers_clock;
+    reg [5:0] registers_address;
+    reg registers_write;
+    reg [31:0] registers_data;
+    wire [31:0] registers_read_data;
+    reg registers_armed;
+    reg [31:0] registers_clock_count;
+    reg [7:0] registers_faults;
+    reg [7:0] registers_first_fault;
+    reg [7:0] registers_status;
+    reg [31:0] registers_commits;
+    reg [3:0] registers_encoder_error;
+    reg [11:0] registers_encoder_lines;
+    reg [7:0] registers_kicker_status;
+    wire [23:0] registers_tick_period;
+    wire registers_tick_period_written;
+    wire [1:0] registers_mode;
+    wire [3:0] registers_encoder_filter;
+    wire [3:0] registers_encoder_fault_mask;
+    wire [12:0] registers_pwm_period;
+    wire [9:0] registers_pwm_blanking;
+    wire [23:0] registers_watchdog_timeout;
+    wire [1:0] registers_kicker_control;
+    wire [13:0] registers_kicker_pulse;
+    wire [19:0] registers_kicker_lockout;
+    wire [23:0] registers_kicker_charge_timeout;
+    wire [5:0] registers_clocks_per_microsecond;
+    wire [7:0] registers_leds;
+    wire registers_arm_write;
+    wire registers_clear_faults;
+    wire [3:0] registers_clear_encoder_error;
+    wire registers_commit_set_points;
+    wire registers_commit_configuration;
+    wire registers_fire;
+    reg timebase_clock;
+    reg [23:0] timebase_tick_period;
+    reg timebase_restart;
+    reg [5:0] timebase_clocks_per_microsecond;
+    wire [31:0] timebase_clock_count;
+    wire [23:0] timebase_period;
+    wire timebase_tick;
+    wire timebase_microsecond;
+    reg [13:0] decoder_address;
+    reg decoder_configuration_bank;
+    reg decoder_set_point_bank;
+    reg decoder_snapshot_bank;
+    wire decoder_in_registers;
+    wire decoder_in_memory;
+    wire [7:0] decoder_memory_address;
+    wire decoder_stages_set_point;
+    wire decoder_stages_configuration;
+    wire decoder_snapshot_first;
+    wire decoder_snapshot_last;
+    reg commit_clock;
+    reg commit_stage_set_point;
+    reg commit_stage_configuration;
+    reg commit_commit_set_points;
+    reg commit_commit_configuration;
+    reg [13:0] commit_address;
+    reg [31:0] commit_data;
+    reg commit_tick;
+    wire commit_set_point_bank;
+    wire commit_configuration_bank;
+    wire commit_set_points_pending;
+    wire commit_configuration_pending;
+    wire commit_pet;
+    wire commit_fault_2;
+    wire [15:0] commit_accepted;
+    wire [15:0] commit_rejected;
+    reg snapshot_clock;
+    reg snapshot_tick;
+    reg snapshot_done;
+    reg snapshot_read_first;
+    reg snapshot_read_last;
+    wire snapshot_write_bank;
+    wire snapshot_read_bank;
+    reg safety_clock;
+    reg safety_emergency_stop;
+    reg safety_arm_write;
+    reg [31:0] safety_arm_data;
+    reg safety_pet;
+    reg [23:0] safety_watchdog_timeout;
+    reg safety_encoder_fault;
+    reg safety_commit_fault;
+    reg safety_external_fault;
+    reg safety_clear_faults;
+    wire safety_armed;
+    wire safety_setpoints_valid;
+    wire [7:0] safety_faults;
+    wire [7:0] safety_first_fault;
+    reg kicker_clock;
+    reg kicker_enable;
+    reg kicker_microsecond;
+    reg kicker_charge_request;
+    reg [23:0] kicker_charge_timeout_2;
+    reg kicker_fire;
+    reg [13:0] kicker_pulse_2;
+    reg [19:0] kicker_lockout_2;
+    reg kicker_ball;
+    reg kicker_arm_on_ball;
+    reg kicker_clear;
+    wire kicker_charge;
+    wire kicker_trigger;
+    wire kicker_ready;
+    wire [2:0] kicker_state;
+    wire kicker_timed_out;
+    wire kicker_dropped;
+    reg monitor_lclk;
+    reg monitor_synclk;
+    wire monitor_lclk_dead;
+    reg sequencer_clock;
+    reg sequencer_tick;
+    wire sequencer_running;
+    wire sequencer_done;
+    reg sequencer_configuration_bank;
+    reg sequencer_set_point_bank;
+    reg sequencer_snapshot_bank;
+    wire [3:0] sequencer_input_port;
+    wire [1:0] sequencer_axis;
+    reg [31:0] sequencer_input_data;
+    wire sequencer_output_strobe;
+    wire sequencer_output_port;
+    wire [31:0] sequencer_output_data;
+    reg [7:0] sequencer_bus_address;
+    wire [31:0] sequencer_bus_read_data;
+    reg sequencer_bus_write;
+    reg [31:0] sequencer_bus_write_data;
+    wire sequencer_bus_blocked;
+    wire sequencer_bus_write_taken;
+    reg encoders_0_clock;
+    reg encoders_0_a;
+    reg encoders_0_b;
+    reg [3:0] encoders_0_filter;
+    reg encoders_0_sample;
+    reg [23:0] encoders_0_now;
+    reg encoders_0_clear_error;
+    wire [15:0] encoders_0_count;
+    wire [23:0] encoders_0_edge_time;
+    wire encoders_0_direction;
+    wire encoders_0_error;
+    wire encoders_0_live_a;
+    wire encoders_0_live_b;
+    reg encoders_1_clock;
+    reg encoders_1_a;
+    reg encoders_1_b;
+    reg [3:0] encoders_1_filter;
+    reg encoders_1_sample;
+    reg [23:0] encoders_1_now;
+    reg encoders_1_clear_error;
+    wire [15:0] encoders_1_count;
+    wire [23:0] encoders_1_edge_time;
+    wire encoders_1_direction;
+    wire encoders_1_error;
+    wire encoders_1_live_a;
+    wire encoders_1_live_b;
+    reg encoders_2_clock;
+    reg encoders_2_a;
+    reg encoders_2_b;
+    reg [3:0] encoders_2_filter;
+    reg encoders_2_sample;
+    reg [23:0] encoders_2_now;
+    reg encoders_2_clear_error;
+    wire [15:0] encoders_2_count;
+    wire [23:0] encoders_2_edge_time;
+    wire encoders_2_direction;
+    wire encoders_2_error;
+    wire encoders_2_live_a;
+    wire encoders_2_live_b;
+    reg encoders_3_clock;
+    reg encoders_3_a;
+    reg encoders_3_b;
+    reg [3:0] encoders_3_filter;
+    reg encoders_3_sample;
+    reg [23:0] encoders_3_now;
+    reg encoders_3_clear_error;
+    wire [15:0] encoders_3_count;
+    wire [23:0] encoders_3_edge_time;
+    wire encoders_3_direction;
+    wire encoders_3_error;
+    wire encoders_3_live_a;
+    wire encoders_3_live_b;
+    reg drives_0_clock;
+    reg drives_0_enable;
+    reg [12:0] drives_0_period;
+    reg [9:0] drives_0_blanking;
+    reg drives_0_load;
+    reg [12:0] drives_0_compare;
+    reg drives_0_direction;
+    wire drives_0_pwm;
+    wire drives_0_dir;
+    wire drives_0_period_start;
+    reg drives_1_clock;
+    reg drives_1_enable;
+    reg [12:0] drives_1_period;
+    reg [9:0] drives_1_blanking;
+    reg drives_1_load;
+    reg [12:0] drives_1_compare;
+    reg drives_1_direction;
+    wire drives_1_pwm;
+    wire drives_1_dir;
+    wire drives_1_period_start;
+    reg drives_2_clock;
+    reg drives_2_enable;
+    reg [12:0] drives_2_period;
+    reg [9:0] drives_2_blanking;
+    reg drives_2_load;
+    reg [12:0] drives_2_compare;
+    reg drives_2_direction;
+    wire drives_2_pwm;
+    wire drives_2_dir;
+    wire drives_2_period_start;
+    reg drives_3_clock;
+    reg drives_3_enable;
+    reg [12:0] drives_3_period;
+    reg [9:0] drives_3_blanking;
+    reg drives_3_load;
+    reg [12:0] drives_3_compare;
+    reg drives_3_direction;
+    wire drives_3_pwm;
+    wire drives_3_dir;
+    wire drives_3_period_start;
+    reg armed_at_tick_d;
+    wire armed_at_tick_q;
+    reg armed_at_tick_clock;
+    reg valid_at_tick_d;
+    wire valid_at_tick_q;
+    reg valid_at_tick_clock;
+    reg [23:0] now_d;
+    wire [23:0] now_q;
+    reg now_clock;
+    reg reverse_d;
+    wire reverse_q;
+    reg reverse_clock;
+    reg read_page_d;
+    wire read_page_q;
+    reg read_page_clock;
+    reg read_memory_d;
+    wire read_memory_q;
+    reg read_memory_clock;
+    reg [31:0] read_q_d;
+    wire [31:0] read_q_q;
+    reg read_q_clock;
+    reg stop_sync_d;
+    wire stop_sync_q;
+    reg stop_sync_clock;
+    reg stop_live_d;
+    wire stop_live_q;
+    reg stop_live_clock;
+    reg ball_sync_d;
+    wire ball_sync_q;
+    reg ball_sync_clock;
+    reg ball_live_d;
+    wire ball_live_q;
+    reg ball_live_clock;
+    reg [3:0] index_sync_d;
+    wire [3:0] index_sync_q;
+    reg index_sync_clock;
+    reg [3:0] index_live_d;
+    wire [3:0] index_live_q;
+    reg index_live_clock;
+    reg dead_sync_d;
+    wire dead_sync_q;
+    reg dead_sync_clock;
+    reg dead_live_d;
+    wire dead_live_q;
+    reg dead_live_clock;
+    reg interrupt_d;
+    wire interrupt_q;
+    reg interrupt_clock;
+
+    // Intermediate values
+    reg tick;
+    reg alive;
+    reg staging;
+    reg [31:0] staged;
+    reg [7:0] status;
+    reg [7:0] kicker_status;
+    reg [3:0] errors;
+    reg [11:0] lines;
+    reg [3:0] masked_errors;
+    reg [15:0] count;
+    reg [23:0] edge_time;
+    reg direction;
+    reg [15:0] line;
+    reg [12:0] compare;
+    reg [3:0] pwm_pins;
+    reg [3:0] dir_pins;
+
+    // Parts
+    rac4i65_core_bus bus(
+        .clock(bus_clock),
+        .ads_n(bus_ads_n),
+        .blast_n(bus_blast_n),
+        .lw_r(bus_lw_r),
+        .lad_in(bus_lad_in),
+        .lad_out(bus_lad_out),
+        .lad_drive(bus_lad_drive),
+        .ready_n(bus_ready_n),
+        .address(bus_address_2),
+        .read(bus_read),
+        .read_data(bus_read_data_2),
+        .write(bus_write_2),
+        .write_data(bus_write_data_2),
+        .write_busy(bus_write_busy),
+        .overrun(bus_overrun)
+    );
+    rac4i65_core_registers registers(
+        .clock(registers_clock),
+        .address(registers_address),
+        .write(registers_write),
+        .data(registers_data),
+        .read_data(registers_read_data),
+        .armed(registers_armed),
+        .clock_count(registers_clock_count),
+        .faults(registers_faults),
+        .first_fault(registers_first_fault),
+        .status(registers_status),
+        .commits(registers_commits),
+        .encoder_error(registers_encoder_error),
+        .encoder_lines(registers_encoder_lines),
+        .kicker_status(registers_kicker_status),
+        .tick_period(registers_tick_period),
+        .tick_period_written(registers_tick_period_written),
+        .mode(registers_mode),
+        .encoder_filter(registers_encoder_filter),
+        .encoder_fault_mask(registers_encoder_fault_mask),
+        .pwm_period(registers_pwm_period),
+        .pwm_blanking(registers_pwm_blanking),
+        .watchdog_timeout(registers_watchdog_timeout),
+        .kicker_control(registers_kicker_control),
+        .kicker_pulse(registers_kicker_pulse),
+        .kicker_lockout(registers_kicker_lockout),
+        .kicker_charge_timeout(registers_kicker_charge_timeout),
+        .clocks_per_microsecond(registers_clocks_per_microsecond),
+        .leds(registers_leds),
+        .arm_write(registers_arm_write),
+        .clear_faults(registers_clear_faults),
+        .clear_encoder_error(registers_clear_encoder_error),
+        .commit_set_points(registers_commit_set_points),
+        .commit_configuration(registers_commit_configuration),
+        .fire(registers_fire)
+    );
+    rac4i65_core_timebase timebase(
+        .clock(timebase_clock),
+        .tick_period(timebase_tick_period),
+        .restart(timebase_restart),
+        .clocks_per_microsecond(timebase_clocks_per_microsecond),
+        .clock_count(timebase_clock_count),
+        .period(timebase_period),
+        .tick(timebase_tick),
+        .microsecond(timebase_microsecond)
+    );
+    rac4i65_core_decoder decoder(
+        .address(decoder_address),
+        .configuration_bank(decoder_configuration_bank),
+        .set_point_bank(decoder_set_point_bank),
+        .snapshot_bank(decoder_snapshot_bank),
+        .in_registers(decoder_in_registers),
+        .in_memory(decoder_in_memory),
+        .memory_address(decoder_memory_address),
+        .stages_set_point(decoder_stages_set_point),
+        .stages_configuration(decoder_stages_configuration),
+        .snapshot_first(decoder_snapshot_first),
+        .snapshot_last(decoder_snapshot_last)
+    );
+    rac4i65_core_commit commit(
+        .clock(commit_clock),
+        .stage_set_point(commit_stage_set_point),
+        .stage_configuration(commit_stage_configuration),
+        .commit_set_points(commit_commit_set_points),
+        .commit_configuration(commit_commit_configuration),
+        .address(commit_address),
+        .data(commit_data),
+        .tick(commit_tick),
+        .set_point_bank(commit_set_point_bank),
+        .configuration_bank(commit_configuration_bank),
+        .set_points_pending(commit_set_points_pending),
+        .configuration_pending(commit_configuration_pending),
+        .pet(commit_pet),
+        .fault(commit_fault_2),
+        .accepted(commit_accepted),
+        .rejected(commit_rejected)
+    );
+    rac4i65_core_snapshot snapshot(
+        .clock(snapshot_clock),
+        .tick(snapshot_tick),
+        .done(snapshot_done),
+        .read_first(snapshot_read_first),
+        .read_last(snapshot_read_last),
+        .write_bank(snapshot_write_bank),
+        .read_bank(snapshot_read_bank)
+    );
+    rac4i65_core_safety safety(
+        .clock(safety_clock),
+        .emergency_stop(safety_emergency_stop),
+        .arm_write(safety_arm_write),
+        .arm_data(safety_arm_data),
+        .pet(safety_pet),
+        .watchdog_timeout(safety_watchdog_timeout),
+        .encoder_fault(safety_encoder_fault),
+        .commit_fault(safety_commit_fault),
+        .external_fault(safety_external_fault),
+        .clear_faults(safety_clear_faults),
+        .armed(safety_armed),
+        .setpoints_valid(safety_setpoints_valid),
+        .faults(safety_faults),
+        .first_fault(safety_first_fault)
+    );
+    rac4i65_core_kicker kicker(
+        .clock(kicker_clock),
+        .enable(kicker_enable),
+        .microsecond(kicker_microsecond),
+        .charge_request(kicker_charge_request),
+        .charge_timeout(kicker_charge_timeout_2),
+        .fire(kicker_fire),
+        .pulse(kicker_pulse_2),
+        .lockout(kicker_lockout_2),
+        .ball(kicker_ball),
+        .arm_on_ball(kicker_arm_on_ball),
+        .clear(kicker_clear),
+        .charge(kicker_charge),
+        .trigger(kicker_trigger),
+        .ready(kicker_ready),
+        .state(kicker_state),
+        .timed_out(kicker_timed_out),
+        .dropped(kicker_dropped)
+    );
+    rac4i65_core_monitor monitor (.lclk(monitor_lclk), .synclk(monitor_synclk), .lclk_dead(monitor_lclk_dead));
+    rac4i65_core_sequencer sequencer(
+        .clock(sequencer_clock),
+        .tick(sequencer_tick),
+        .running(sequencer_running),
+        .done(sequencer_done),
+        .configuration_bank(sequencer_configuration_bank),
+        .set_point_bank(sequencer_set_point_bank),
+        .snapshot_bank(sequencer_snapshot_bank),
+        .input_port(sequencer_input_port),
+        .axis(sequencer_axis),
+        .input_data(sequencer_input_data),
+        .output_strobe(sequencer_output_strobe),
+        .output_port(sequencer_output_port),
+        .output_data(sequencer_output_data),
+        .bus_address(sequencer_bus_address),
+        .bus_read_data(sequencer_bus_read_data),
+        .bus_write(sequencer_bus_write),
+        .bus_write_data(sequencer_bus_write_data),
+        .bus_blocked(sequencer_bus_blocked),
+        .bus_write_taken(sequencer_bus_write_taken)
+    );
+    rac4i65_core_encoders encoders_0(
+        .clock(encoders_0_clock),
+        .a(encoders_0_a),
+        .b(encoders_0_b),
+        .filter(encoders_0_filter),
+        .sample(encoders_0_sample),
+        .now(encoders_0_now),
+        .clear_error(encoders_0_clear_error),
+        .count(encoders_0_count),
+        .edge_time(encoders_0_edge_time),
+        .direction(encoders_0_direction),
+        .error(encoders_0_error),
+        .live_a(encoders_0_live_a),
+        .live_b(encoders_0_live_b)
+    );
+    rac4i65_core_encoders encoders_1(
+        .clock(encoders_1_clock),
+        .a(encoders_1_a),
+        .b(encoders_1_b),
+        .filter(encoders_1_filter),
+        .sample(encoders_1_sample),
+        .now(encoders_1_now),
+        .clear_error(encoders_1_clear_error),
+        .count(encoders_1_count),
+        .edge_time(encoders_1_edge_time),
+        .direction(encoders_1_direction),
+        .error(encoders_1_error),
+        .live_a(encoders_1_live_a),
+        .live_b(encoders_1_live_b)
+    );
+    rac4i65_core_encoders encoders_2(
+        .clock(encoders_2_clock),
+        .a(encoders_2_a),
+        .b(encoders_2_b),
+        .filter(encoders_2_filter),
+        .sample(encoders_2_sample),
+        .now(encoders_2_now),
+        .clear_error(encoders_2_clear_error),
+        .count(encoders_2_count),
+        .edge_time(encoders_2_edge_time),
+        .direction(encoders_2_direction),
+        .error(encoders_2_error),
+        .live_a(encoders_2_live_a),
+        .live_b(encoders_2_live_b)
+    );
+    rac4i65_core_encoders encoders_3(
+        .clock(encoders_3_clock),
+        .a(encoders_3_a),
+        .b(encoders_3_b),
+        .filter(encoders_3_filter),
+        .sample(encoders_3_sample),
+        .now(encoders_3_now),
+        .clear_error(encoders_3_clear_error),
+        .count(encoders_3_count),
+        .edge_time(encoders_3_edge_time),
+        .direction(encoders_3_direction),
+        .error(encoders_3_error),
+        .live_a(encoders_3_live_a),
+        .live_b(encoders_3_live_b)
+    );
+    rac4i65_core_drives drives_0(
+        .clock(drives_0_clock),
+        .enable(drives_0_enable),
+        .period(drives_0_period),
+        .blanking(drives_0_blanking),
+        .load(drives_0_load),
+        .compare(drives_0_compare),
+        .direction(drives_0_direction),
+        .pwm(drives_0_pwm),
+        .dir(drives_0_dir),
+        .period_start(drives_0_period_start)
+    );
+    rac4i65_core_drives drives_1(
+        .clock(drives_1_clock),
+        .enable(drives_1_enable),
+        .period(drives_1_period),
+        .blanking(drives_1_blanking),
+        .load(drives_1_load),
+        .compare(drives_1_compare),
+        .direction(drives_1_direction),
+        .pwm(drives_1_pwm),
+        .dir(drives_1_dir),
+        .period_start(drives_1_period_start)
+    );
+    rac4i65_core_drives drives_2(
+        .clock(drives_2_clock),
+        .enable(drives_2_enable),
+        .period(drives_2_period),
+        .blanking(drives_2_blanking),
+        .load(drives_2_load),
+        .compare(drives_2_compare),
+        .direction(drives_2_direction),
+        .pwm(drives_2_pwm),
+        .dir(drives_2_dir),
+        .period_start(drives_2_period_start)
+    );
+    rac4i65_core_drives drives_3(
+        .clock(drives_3_clock),
+        .enable(drives_3_enable),
+        .period(drives_3_period),
+        .blanking(drives_3_blanking),
+        .load(drives_3_load),
+        .compare(drives_3_compare),
+        .direction(drives_3_direction),
+        .pwm(drives_3_pwm),
+        .dir(drives_3_dir),
+        .period_start(drives_3_period_start)
+    );
+    rac4i65_core_dff_1 armed_at_tick (.d(armed_at_tick_d), .q(armed_at_tick_q), .clock(armed_at_tick_clock));
+    rac4i65_core_dff_1 valid_at_tick (.d(valid_at_tick_d), .q(valid_at_tick_q), .clock(valid_at_tick_clock));
+    rac4i65_core_dff_24_2 now (.d(now_d), .q(now_q), .clock(now_clock));
+    rac4i65_core_dff_1 reverse (.d(reverse_d), .q(reverse_q), .clock(reverse_clock));
+    rac4i65_core_dff_1 read_page (.d(read_page_d), .q(read_page_q), .clock(read_page_clock));
+    rac4i65_core_dff_1 read_memory (.d(read_memory_d), .q(read_memory_q), .clock(read_memory_clock));
+    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(read_q_clock));
+    rac4i65_core_dff_1 stop_sync (.d(stop_sync_d), .q(stop_sync_q), .clock(stop_sync_clock));
+    rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(stop_live_clock));
+    rac4i65_core_dff_1 ball_sync (.d(ball_sync_d), .q(ball_sync_q), .clock(ball_sync_clock));
+    rac4i65_core_dff_1 ball_live (.d(ball_live_d), .q(ball_live_q), .clock(ball_live_clock));
+    rac4i65_core_dff_4 index_sync (.d(index_sync_d), .q(index_sync_q), .clock(index_sync_clock));
+    rac4i65_core_dff_4 index_live (.d(index_live_d), .q(index_live_q), .clock(index_live_clock));
+    rac4i65_core_dff_1 dead_sync (.d(dead_sync_d), .q(dead_sync_q), .clock(dead_sync_clock));
+    rac4i65_core_dff_1 dead_live (.d(dead_live_d), .q(dead_live_q), .clock(dead_live_clock));
+    rac4i65_core_dff_1 interrupt (.d(interrupt_d), .q(interrupt_q), .clock(interrupt_clock));
+
+    always @(*) begin
+        armed_at_tick_clock = lclk;
+        valid_at_tick_clock = lclk;
+        now_clock = lclk;
+        reverse_clock = lclk;
+        read_page_clock = lclk;
+        read_memory_clock = lclk;
+        read_q_clock = lclk;
+        stop_sync_clock = lclk;
+        stop_live_clock = lclk;
+        ball_sync_clock = lclk;
+        ball_live_clock = lclk;
+        index_sync_clock = lclk;
+        index_live_clock = lclk;
+        dead_sync_clock = lclk;
+        dead_live_clock = lclk;
+        interrupt_clock = lclk;
+        bus_clock = lclk;
+        registers_clock = lclk;
+        timebase_clock = lclk;
+        commit_clock = lclk;
+        snapshot_clock = lclk;
+        safety_clock = lclk;
+        kicker_clock = lclk;
+        sequencer_clock = lclk;
+        encoders_0_clock = lclk;
+        drives_0_clock = lclk;
+        encoders_1_clock = lclk;
+        drives_1_clock = lclk;
+        encoders_2_clock = lclk;
+        drives_2_clock = lclk;
+        encoders_3_clock = lclk;
+        drives_3_clock = lclk;
+        monitor_lclk = lclk;
+    end
+
+    always @(*) begin
+        armed_at_tick_d = armed_at_tick_q;
+        valid_at_tick_d = valid_at_tick_q;
+        now_d = now_q;
+        if (tick) begin
+            armed_at_tick_d = safety_armed;
+            valid_at_tick_d = safety_setpoints_valid;
+            now_d = timebase_clock_count[(32'h0)+:(24)];
+        end
+    end
+
+    always @(*) begin
+        reverse_d = reverse_q;
+        if (sequencer_output_strobe & ~sequencer_output_port) begin
+            reverse_d = sequencer_output_data[32'h1f];
+        end
+    end
+
+    always @(*) begin
+        read_page_d = read_page_q;
+        read_page_d = decoder_in_registers;
+    end
+
+    always @(*) begin
+        read_memory_d = read_memory_q;
+        read_memory_d = decoder_in_memory;
+    end
+
+    always @(*) begin
+        read_q_d = read_q_q;
+        read_q_d = zero;
+        if (read_page_q) begin
+            read_q_d = registers_read_data;
+        end
+        if (read_memory_q) begin
+            read_q_d = sequencer_bus_read_data;
+        end
+    end
+
+    always @(*) begin
+        stop_sync_d = stop_sync_q;
+        stop_sync_d = emergency_stop;
+    end
+
+    always @(*) begin
+        stop_live_d = stop_live_q;
+        stop_live_d = stop_sync_q;
+    end
+
+    always @(*) begin
+        ball_sync_d = ball_sync_q;
+        ball_sync_d = ball_sensor;
+    end
+
+    always @(*) begin
+        ball_live_d = ball_live_q;
+        ball_live_d = ball_sync_q;
+    end
+
+    always @(*) begin
+        index_sync_d = index_sync_q;
+        index_sync_d = encoder_index;
+    end
+
+    always @(*) begin
+        index_live_d = index_live_q;
+        index_live_d = index_sync_q;
+    end
+
+    always @(*) begin
+        dead_sync_d = dead_sync_q;
+        dead_sync_d = monitor_lclk_dead;
+    end
+
+    always @(*) begin
+        dead_live_d = dead_live_q;
+        dead_live_d = dead_sync_q;
+    end
+
+    always @(*) begin
+        interrupt_d = interrupt_q;
+        interrupt_d = 1'b1;
+    end
+
+    always @(*) monitor_synclk = synclk;
+    always @(*) bus_ads_n = ads_n;
+    always @(*) bus_blast_n = blast_n;
+    always @(*) bus_lw_r = lw_r;
+    always @(*) bus_lad_in = lad_in;
+    always @(*) lad_out = bus_lad_out;
+    always @(*) lad_drive = bus_lad_drive;
+    always @(*) ready_n = bus_ready_n;
+    always @(*) int_n = interrupt_q;
+    always @(*) led_n = ~registers_leds;
+    always @(*) timebase_tick_period = registers_tick_period;
+    always @(*) timebase_restart = registers_tick_period_written;
+    always @(*) timebase_clocks_per_microsecond = registers_clocks_per_microsecond;
+    always @(*) tick = timebase_tick & ~sequencer_running;
+
+    always @(*) begin
+        sequencer_tick = tick;
+        snapshot_tick = tick;
+        commit_tick = tick;
+        encoders_0_sample = tick;
+        encoders_1_sample = tick;
+        encoders_2_sample = tick;
+        encoders_3_sample = tick;
+    end
+
+    always @(*) begin
+        sequencer_configuration_bank = commit_configuration_bank;
+        decoder_configuration_bank = commit_configuration_bank;
+    end
+
+    always @(*) begin
+        sequencer_set_point_bank = commit_set_point_bank;
+        decoder_set_point_bank = commit_set_point_bank;
+    end
+
+    always @(*) sequencer_snapshot_bank = snapshot_write_bank;
+    always @(*) snapshot_done = sequencer_done;
+
+    always @(*) begin
+        decoder_address = bus_address_2;
+        registers_address = bus_address_2[(32'h0)+:(6)];
+        commit_address = bus_address_2;
+    end
+
+    always @(*) decoder_snapshot_bank = snapshot_read_bank;
+    always @(*) snapshot_read_first = decoder_snapshot_first & bus_read;
+    always @(*) snapshot_read_last = decoder_snapshot_last & bus_read;
+
+    always @(*) begin
+        registers_data = bus_write_data_2;
+        commit_data = bus_write_data_2;
+        safety_arm_data = bus_write_data_2;
+    end
+
+    always @(*) registers_write = decoder_in_registers & bus_write_2;
+
+    always @(*) begin
+        staged = bus_write_data_2 & mask_30;
+        if (bus_write_data_2[32'h1d]) begin
+            staged = bus_write_data_2 | sign_30;
+        end
+    end
+
+    always @(*) staging = decoder_stages_set_point | decoder_stages_configuration;
+    always @(*) sequencer_bus_address = decoder_memory_address;
+    always @(*) sequencer_bus_write_data = staged;
+    always @(*) sequencer_bus_write = staging & bus_write_2;
+    always @(*) bus_write_busy = staging & sequencer_bus_blocked;
+    always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
+    always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
+    always @(*) commit_commit_set_points = registers_commit_set_points;
+    always @(*) commit_commit_configuration = registers_commit_configuration;
+    always @(*) bus_read_data_2 = read_q_q;
+
+    always @(*) begin
+        encoders_0_a = encoder_a[0];
+        encoders_1_a = encoder_a[1];
+        encoders_2_a = encoder_a[2];
+        encoders_3_a = encoder_a[3];
+    end
+
+    always @(*) begin
+        encoders_0_b = encoder_b[0];
+        encoders_1_b = encoder_b[1];
+        encoders_2_b = encoder_b[2];
+        encoders_3_b = encoder_b[3];
+    end
+
+    always @(*) begin
+        encoders_0_filter = registers_encoder_filter;
+        encoders_1_filter = registers_encoder_filter;
+        encoders_2_filter = registers_encoder_filter;
+        encoders_3_filter = registers_encoder_filter;
+    end
+
+    always @(*) begin
+        encoders_0_now = timebase_clock_count[(32'h0)+:(24)];
+        encoders_1_now = timebase_clock_count[(32'h0)+:(24)];
+        encoders_2_now = timebase_clock_count[(32'h0)+:(24)];
+        encoders_3_now = timebase_clock_count[(32'h0)+:(24)];
+        registers_clock_count = timebase_clock_count;
+    end
+
+    always @(*) begin
+        encoders_0_clear_error = registers_clear_encoder_error[0];
+        encoders_1_clear_error = registers_clear_encoder_error[1];
+        encoders_2_clear_error = registers_clear_encoder_error[2];
+        encoders_3_clear_error = registers_clear_encoder_error[3];
+    end
+
+    always @(*) errors = ((encoders_0_error) & 4'hf) | (((encoders_1_error) & 4'hf) << 32'h1) | (((encoders_2_error) & 4'hf) << 32'h2) | (((encoders_3_error) & 4'hf) << 32'h3);
+    always @(*) lines = ((encoders_0_live_a) & 12'hfff) | (((encoders_0_live_b) & 12'hfff) << 32'h1) | (((encoders_1_live_a) & 12'hfff) << 32'h2) | (((encoders_1_live_b) & 12'hfff) << 32'h3) | (((encoders_2_live_a) & 12'hfff) << 32'h4) | (((encoders_2_live_b) & 12'hfff) << 32'h5) | (((encoders_3_live_a) & 12'hfff) << 32'h6) | (((encoders_3_live_b) & 12'hfff) << 32'h7) | (((index_live_q) & 12'hfff) << 32'h8);
+    always @(*) masked_errors = errors & registers_encoder_fault_mask;
+    always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
+
+    always @(*) begin
+        case (sequencer_axis)
+            0:
+            begin
+                count = encoders_0_count;
+                edge_time = encoders_0_edge_time;
+                direction = encoders_0_direction;
+            end
+            1:
+            begin
+                count = encoders_1_count;
+                edge_time = encoders_1_edge_time;
+                direction = encoders_1_direction;
+            end
+            2:
+            begin
+                count = encoders_2_count;
+                edge_time = encoders_2_edge_time;
+                direction = encoders_2_direction;
+            end
+            default:
+            begin
+                count = encoders_3_count;
+                edge_time = encoders_3_edge_time;
+                direction = encoders_3_direction;
+            end
+        endcase
+    end
+
+    always @(*) begin
+        line = count;
+        if (direction) begin
+            line = count - one_16;
+        end
+    end
+
+    always @(*) begin
+        case (sequencer_input_port)
+            0:
+            begin
+                sequencer_input_data = ((count) & 32'hffffffff);
+            end
+            1:
+            begin
+                sequencer_input_data = ((edge_time) & 32'hffffffff);
+            end
+            2:
+            begin
+                sequencer_input_data = ((line) & 32'hffffffff);
+            end
+            3:
+            begin
+                sequencer_input_data = ((now_q) & 32'hffffffff);
+            end
+            4:
+            begin
+                sequencer_input_data = ((timebase_period) & 32'hffffffff);
+            end
+            5:
+            begin
+                sequencer_input_data = ((registers_mode[(32'h0)+:(1)]) & 32'hffffffff);
+            end
+            6:
+            begin
+                sequencer_input_data = ((registers_mode[(32'h1)+:(1)]) & 32'hffffffff);
+            end
+            7:
+            begin
+                sequencer_input_data = zero;
+                if (armed_at_tick_q) begin
+                    sequencer_input_data = ((one_16) & 32'hffffffff);
+                end
+            end
+            8:
+            begin
+                sequencer_input_data = zero;
+                if (valid_at_tick_q) begin
+                    sequencer_input_data = ((one_16) & 32'hffffffff);
+                end
+            end
+            9:
+            begin
+                sequencer_input_data = ((registers_pwm_period) & 32'hffffffff);
+            end
+            10:
+            begin
+                sequencer_input_data = ((status) & 32'hffffffff);
+            end
+            default:
+            begin
+                sequencer_input_data = ((safety_faults) & 32'hffffffff);
+            end
+        endcase
+    end
+
+    always @(*) compare = sequencer_output_data[(32'hc)+:(13)];
+    always @(*) alive = ~monitor_lclk_dead;
+
+    always @(*) begin
+        drives_0_enable = safety_armed;
+        drives_1_enable = safety_armed;
+        drives_2_enable = safety_armed;
+        drives_3_enable = safety_armed;
+        kicker_enable = safety_armed;
+        registers_armed = safety_armed;
+    end
+
+    always @(*) begin
+        drives_0_period = registers_pwm_period;
+        drives_1_period = registers_pwm_period;
+        drives_2_period = registers_pwm_period;
+        drives_3_period = registers_pwm_period;
+    end
+
+    always @(*) begin
+        drives_0_blanking = registers_pwm_blanking;
+        drives_1_blanking = registers_pwm_blanking;
+        drives_2_blanking = registers_pwm_blanking;
+        drives_3_blanking = registers_pwm_blanking;
+    end
+
+    always @(*) begin
+        drives_0_compare = compare;
+        drives_1_compare = compare;
+        drives_2_compare = compare;
+        drives_3_compare = compare;
+    end
+
+    always @(*) begin
+        drives_0_direction = reverse_q;
+        drives_1_direction = reverse_q;
+        drives_2_direction = reverse_q;
+        drives_3_direction = reverse_q;
+    end
+
+    always @(*) begin
+        drives_0_load = 1'b0;
+        drives_1_load = 1'b0;
+        drives_2_load = 1'b0;
+        drives_3_load = 1'b0;
+        if (sequencer_output_strobe & sequencer_output_port) begin
+            case (sequencer_axis)
+                0:
+                begin
+                    drives_0_load = 1'b1;
+                end
+                1:
+                begin
+                    drives_1_load = 1'b1;
+                end
+                2:
+                begin
+                    drives_2_load = 1'b1;
+                end
+                default:
+                begin
+                    drives_3_load = 1'b1;
+                end
+            endcase
+        end
+    end
+
+    always @(*) pwm_pins = ((drives_0_pwm) & 4'hf) | (((drives_1_pwm) & 4'hf) << 32'h1) | (((drives_2_pwm) & 4'hf) << 32'h2) | (((drives_3_pwm) & 4'hf) << 32'h3);
+    always @(*) dir_pins = ((drives_0_dir) & 4'hf) | (((drives_1_dir) & 4'hf) << 32'h1) | (((drives_2_dir) & 4'hf) << 32'h2) | (((drives_3_dir) & 4'hf) << 32'h3);
+
+    always @(*) begin
+        pwm = pwm_pins;
+        enable_n = all;
+        if (safety_armed & alive) begin
+            enable_n = none;
+        end
+        else begin
+            pwm = none;
+        end
+    end
+
+    always @(*) dir = dir_pins;
+    always @(*) safety_emergency_stop = emergency_stop;
+    always @(*) safety_arm_write = registers_arm_write;
+    always @(*) safety_pet = commit_pet;
+    always @(*) safety_watchdog_timeout = registers_watchdog_timeout;
+    always @(*) safety_encoder_fault = masked_errors != none;
+    always @(*) safety_commit_fault = commit_fault_2;
+    always @(*) safety_external_fault = dead_live_q;
+
+    always @(*) begin
+        safety_clear_faults = registers_clear_faults;
+        kicker_clear = registers_clear_faults;
+    end
+
+    always @(*) kicker_microsecond = timebase_microsecond;
+
+    always @(*) begin
+        kicker_charge_request = registers_kicker_control[32'h0];
+        kicker_arm_on_ball = registers_kicker_control[32'h1];
+    end
+
+    always @(*) kicker_charge_timeout_2 = registers_kicker_charge_timeout;
+    always @(*) kicker_fire = registers_fire;
+    always @(*) kicker_pulse_2 = registers_kicker_pulse;
+    always @(*) kicker_lockout_2 = registers_kicker_lockout;
+    always @(*) kicker_ball = ball_sensor;
+    always @(*) kicker_charge_n = ~(kicker_charge & safety_armed & alive);
+    always @(*) kicker_trigger_n = ~(kicker_trigger & safety_armed & alive);
+    always @(*) registers_faults = safety_faults;
+    always @(*) registers_first_fault = safety_first_fault;
+    always @(*) registers_encoder_error = errors;
+    always @(*) registers_encoder_lines = lines;
+    always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
+    always @(*) registers_status = status;
+    always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6);
+    always @(*) registers_kicker_status = kicker_status;
+endmodule
+
+module rac4i65_core_bus (
+    input wire clock,
+    input wire ads_n,
+    input wire blast_n,
+    input wire lw_r,
+    input wire [31:0] lad_in,
+    output reg [31:0] lad_out,
+    output reg lad_drive,
+    output reg ready_n,
+    output reg [13:0] address,
+    output reg read,
+    input wire [31:0] read_data,
+    output reg write,
+    output reg [31:0] write_data,
+    input wire write_busy,
+    output reg overrun
+);
+
+    // Constants
+    localparam one_word = 14'b1;
+    localparam one_held = 6'b1;
+    localparam held_none = 6'b0;
+    localparam held_limit = 6'b111111;
+    localparam last_word = 14'b11111111111111;
+
+    // Pins of the parts
+    reg fetch_d;
+    wire fetch_q;
+    reg fetch_clock;
+    reg pending_d;
+    wire pending_q;
+    reg pending_clock;
+    reg take_d;
+    wire take_q;
+    reg take_clock;
+    reg collect_d;
+    wire collect_q;
+    reg collect_clock;
+    reg offer_d;
+    wire offer_q;
+    reg offer_clock;
+    reg answer_d;
+    wire answer_q;
+    reg answer_clock;
+    reg writing_d;
+    wire writing_q;
+    reg writing_clock;
+    reg last_d;
+    wire last_q;
+    reg last_clock;
+    reg drive_d;
+    wire drive_q;
+    reg drive_clock;
+    reg [13:0] word_d;
+    wire [13:0] word_q;
+    reg word_clock;
+    reg [5:0] held_d;
+    wire [5:0] held_q;
+    reg held_clock;
+    reg [31:0] to_host_d;
+    wire [31:0] to_host_q;
+    reg to_host_clock;
+    reg [31:0] from_host_d;
+    wire [31:0] from_host_q;
+    reg from_host_clock;
+
+    // Intermediate values
+    reg [13:0] next_word;
+    reg [5:0] next_held;
+    reg expired;
+    reg ends;
+
+    // Parts
+    rac4i65_core_dff_1 fetch (.d(fetch_d), .q(fetch_q), .clock(fetch_clock));
+    rac4i65_core_dff_1 pending (.d(pending_d), .q(pending_q), .clock(pending_clock));
+    rac4i65_core_dff_1 take (.d(take_d), .q(take_q), .clock(take_clock));
+    rac4i65_core_dff_1 collect (.d(collect_d), .q(collect_q), .clock(collect_clock));
+    rac4i65_core_dff_1 offer (.d(offer_d), .q(offer_q), .clock(offer_clock));
+    rac4i65_core_dff_1 answer (.d(answer_d), .q(answer_q), .clock(answer_clock));
+    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(writing_clock));
+    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(last_clock));
+    rac4i65_core_dff_1 drive (.d(drive_d), .q(drive_q), .clock(drive_clock));
+    rac4i65_core_dff_14 word (.d(word_d), .q(word_q), .clock(word_clock));
+    rac4i65_core_dff_6 held (.d(held_d), .q(held_q), .clock(held_clock));
+    rac4i65_core_dff_32 to_host (.d(to_host_d), .q(to_host_q), .clock(to_host_clock));
+    rac4i65_core_dff_32 from_host (.d(from_host_d), .q(from_host_q), .clock(from_host_clock));
+
+    always @(*) begin
+        fetch_clock = clock;
+        pending_clock = clock;
+        take_clock = clock;
+        collect_clock = clock;
+        offer_clock = clock;
+        answer_clock = clock;
+        writing_clock = clock;
+        last_clock = clock;
+        drive_clock = clock;
+        word_clock = clock;
+        held_clock = clock;
+        to_host_clock = clock;
+        from_host_clock = clock;
+    end
+
+    always @(*) begin
+        fetch_d = fetch_q;
+        pending_d = pending_q;
+        take_d = take_q;
+        collect_d = collect_q;
+        offer_d = offer_q;
+        answer_d = answer_q;
+        writing_d = writing_q;
+        last_d = last_q;
+        drive_d = drive_q;
+        word_d = word_q;
+        held_d = held_q;
+        fetch_d = 1'b0;
+        pending_d = fetch_q;
+        take_d = pending_q;
+        collect_d = 1'b0;
+        offer_d = collect_q;
+        answer_d = take_q;
+        last_d = (last_q | ~blast_n) & ~answer_q;
+        if (fetch_q) begin
+            drive_d = 1'b1;
+        end
+        if (offer_q) begin
+            if (write_busy & ~expired) begin
+                offer_d = 1'b1;
+                held_d = next_held;
+            end
+            else begin
+                answer_d = 1'b1;
+                held_d = held_none;
+            end
+        end
+        if (answer_q) begin
+            if (ends) begin
+                drive_d = 1'b0;
+            end
+            else begin
+                word_d = next_word;
+                fetch_d = ~writing_q;
+                collect_d = writing_q;
+            end
+        end
+        if (~ads_n) begin
+            word_d = lad_in[(32'h2)+:(14)];
+            writing_d = lw_r;
+            fetch_d = ~lw_r;
+            pending_d = 1'b0;
+            take_d = 1'b0;
+            collect_d = lw_r;
+            offer_d = 1'b0;
+            answer_d = 1'b0;
+            drive_d = 1'b0;
+            last_d = 1'b0;
+            held_d = held_none;
+        end
+    end
+
+    always @(*) begin
+        to_host_d = to_host_q;
+        if (take_q) begin
+            to_host_d = read_data;
+        end
+    end
+
+    always @(*) begin
+        from_host_d = from_host_q;
+        if (collect_q) begin
+            from_host_d = lad_in;
+        end
+    end
+
+    always @(*) begin
+        next_word = word_q + one_word;
+        address = word_q;
+    end
+
+    always @(*) begin
+        next_held = held_q + one_held;
+        expired = held_q == held_limit;
+    end
+
+    always @(*) ends = last_q | ~blast_n | (word_q == last_word);
+    always @(*) lad_out = to_host_q;
+    always @(*) lad_drive = drive_q;
+    always @(*) ready_n = ~answer_q;
+    always @(*) read = fetch_q;
+    always @(*) write = offer_q & ~write_busy;
+    always @(*) write_data = from_host_q;
+    always @(*) overrun = offer_q & write_busy & expired;
+endmodule
+
+module rac4i65_core_registers (
+    input wire clock,
+    input wire [5:0] address,
+    input wire write,
+    input wire [31:0] data,
+    output reg [31:0] read_data,
+    input wire armed,
+    input wire [31:0] clock_count,
+    input wire [7:0] faults,
+    input wire [7:0] first_fault,
+    input wire [7:0] status,
+    input wire [31:0] commits,
+    input wire [3:0] encoder_error,
+    input wire [11:0] encoder_lines,
+    input wire [7:0] kicker_status,
+    output reg [23:0] tick_period,
+    output reg tick_period_written,
+    output reg [1:0] mode,
+    output reg [3:0] encoder_filter,
+    output reg [3:0] encoder_fault_mask,
+    output reg [12:0] pwm_period,
+    output reg [9:0] pwm_blanking,
+    output reg [23:0] watchdog_timeout,
+    output reg [1:0] kicker_control,
+    output reg [13:0] kicker_pulse,
+    output reg [19:0] kicker_lockout,
+    output reg [23:0] kicker_charge_timeout,
+    output reg [5:0] clocks_per_microsecond,
+    output reg [7:0] leds,
+    output reg arm_write,
+    output reg clear_faults,
+    output reg [3:0] clear_encoder_error,
+    output reg commit_set_points,
+    output reg commit_configuration,
+    output reg fire
+);
+
+    // Constants
+    localparam cookie = 32'h52414334;
+    localparam version = 32'h10000;
+    localparam board = 32'h34493635;
+    localparam clock_hz = 32'h1fca055;
+    localparam axes = 32'h4;
+    localparam fire_word = 32'h4b49434b;
+    localparam zero = 32'h0;
+    localparam no_axes = 4'h0;
+    localparam content_hash = 32'hf3497617;
+
+    // Pins of the parts
+    reg [23:0] tick_period_q_d;
+    wire [23:0] tick_period_q_q;
+    reg tick_period_q_clock;
+    reg [1:0] mode_q_d;
+    wire [1:0] mode_q_q;
+    reg mode_q_clock;
+    reg [3:0] encoder_filter_q_d;
+    wire [3:0] encoder_filter_q_q;
+    reg encoder_filter_q_clock;
+    reg [3:0] encoder_fault_mask_q_d;
+    wire [3:0] encoder_fault_mask_q_q;
+    reg encoder_fault_mask_q_clock;
+    reg [12:0] pwm_period_q_d;
+    wire [12:0] pwm_period_q_q;
+    reg pwm_period_q_clock;
+    reg [9:0] pwm_blanking_q_d;
+    wire [9:0] pwm_blanking_q_q;
+    reg pwm_blanking_q_clock;
+    reg [23:0] watchdog_timeout_q_d;
+    wire [23:0] watchdog_timeout_q_q;
+    reg watchdog_timeout_q_clock;
+    reg [1:0] kicker_control_q_d;
+    wire [1:0] kicker_control_q_q;
+    reg kicker_control_q_clock;
+    reg [13:0] kicker_pulse_q_d;
+    wire [13:0] kicker_pulse_q_q;
+    reg kicker_pulse_q_clock;
+    reg [19:0] kicker_lockout_q_d;
+    wire [19:0] kicker_lockout_q_q;
+    reg kicker_lockout_q_clock;
+    reg [23:0] kicker_charge_timeout_q_d;
+    wire [23:0] kicker_charge_timeout_q_q;
+    reg kicker_charge_timeout_q_clock;
+    reg [5:0] clocks_per_microsecond_q_d;
+    wire [5:0] clocks_per_microsecond_q_q;
+    reg clocks_per_microsecond_q_clock;
+    reg [7:0] leds_q_d;
+    wire [7:0] leds_q_q;
+    reg leds_q_clock;
+    reg [31:0] read_q_d;
+    wire [31:0] read_q_q;
+    reg read_q_clock;
+
+    // Intermediate values
+    reg unlocked;
+
+    // Parts
+    rac4i65_core_dff_24_from_8235 tick_period_q(
+        .d(tick_period_q_d),
+        .q(tick_period_q_q),
+        .clock(tick_period_q_clock)
+    );
+    rac4i65_core_dff_2 mode_q (.d(mode_q_d), .q(mode_q_q), .clock(mode_q_clock));
+    rac4i65_core_dff_4_from_3 encoder_filter_q(
+        .d(encoder_filter_q_d),
+        .q(encoder_filter_q_q),
+        .clock(encoder_filter_q_clock)
+    );
+    rac4i65_core_dff_4_from_f encoder_fault_mask_q(
+        .d(encoder_fault_mask_q_d),
+        .q(encoder_fault_mask_q_q),
+        .clock(encoder_fault_mask_q_clock)
+    );
+    rac4i65_core_dff_13 pwm_period_q (.d(pwm_period_q_d), .q(pwm_period_q_q), .clock(pwm_period_q_clock));
+    rac4i65_core_dff_10_from_21 pwm_blanking_q(
+        .d(pwm_blanking_q_d),
+        .q(pwm_blanking_q_q),
+        .clock(pwm_blanking_q_clock)
+    );
+    rac4i65_core_dff_24 watchdog_timeout_q(
+        .d(watchdog_timeout_q_d),
+        .q(watchdog_timeout_q_q),
+        .clock(watchdog_timeout_q_clock)
+    );
+    rac4i65_core_dff_2 kicker_control_q(
+        .d(kicker_control_q_d),
+        .q(kicker_control_q_q),
+        .clock(kicker_control_q_clock)
+    );
+    rac4i65_core_dff_14 kicker_pulse_q (.d(kicker_pulse_q_d), .q(kicker_pulse_q_q), .clock(kicker_pulse_q_clock));
+    rac4i65_core_dff_20 kicker_lockout_q(
+        .d(kicker_lockout_q_d),
+        .q(kicker_lockout_q_q),
+        .clock(kicker_lockout_q_clock)
+    );
+    rac4i65_core_dff_24_2 kicker_charge_timeout_q(
+        .d(kicker_charge_timeout_q_d),
+        .q(kicker_charge_timeout_q_q),
+        .clock(kicker_charge_timeout_q_clock)
+    );
+    rac4i65_core_dff_6_from_21 clocks_per_microsecond_q(
+        .d(clocks_per_microsecond_q_d),
+        .q(clocks_per_microsecond_q_q),
+        .clock(clocks_per_microsecond_q_clock)
+    );
+    rac4i65_core_dff_8 leds_q (.d(leds_q_d), .q(leds_q_q), .clock(leds_q_clock));
+    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(read_q_clock));
+
+    always @(*) begin
+        tick_period_q_clock = clock;
+        mode_q_clock = clock;
+        encoder_filter_q_clock = clock;
+        pwm_period_q_clock = clock;
+        pwm_blanking_q_clock = clock;
+        watchdog_timeout_q_clock = clock;
+        encoder_fault_mask_q_clock = clock;
+        kicker_control_q_clock = clock;
+        kicker_pulse_q_clock = clock;
+        kicker_lockout_q_clock = clock;
+        kicker_charge_timeout_q_clock = clock;
+        clocks_per_microsecond_q_clock = clock;
+        leds_q_clock = clock;
+        read_q_clock = clock;
+    end
+
+    always @(*) begin
+        tick_period_q_d = tick_period_q_q;
+        mode_q_d = mode_q_q;
+        encoder_filter_q_d = encoder_filter_q_q;
+        pwm_period_q_d = pwm_period_q_q;
+        pwm_blanking_q_d = pwm_blanking_q_q;
+        watchdog_timeout_q_d = watchdog_timeout_q_q;
+        encoder_fault_mask_q_d = encoder_fault_mask_q_q;
+        kicker_control_q_d = kicker_control_q_q;
+        kicker_pulse_q_d = kicker_pulse_q_q;
+        kicker_lockout_q_d = kicker_lockout_q_q;
+        kicker_charge_timeout_q_d = kicker_charge_timeout_q_q;
+        clocks_per_microsecond_q_d = clocks_per_microsecond_q_q;
+        leds_q_d = leds_q_q;
+        tick_period_written = 1'b0;
+        arm_write = 1'b0;
+        clear_faults = 1'b0;
+        commit_set_points = 1'b0;
+        commit_configuration = 1'b0;
+        fire = 1'b0;
+        clear_encoder_error = no_axes;
+        if (write) begin
+            case (address)
+                8:
+                begin
+                    if (unlocked) begin
+                        tick_period_q_d = data[(32'h0)+:(24)];
+                        tick_period_written = 1'b1;
+                    end
+                end
+                9:
+                begin
+                    if (unlocked) begin
+                        mode_q_d = data[(32'h0)+:(2)];
+                    end
+                end
+                10:
+                begin
+                    if (unlocked) begin
+                        encoder_filter_q_d = data[(32'h0)+:(4)];
+                    end
+                end
+                11:
+                begin
+                    if (unlocked) begin
+                        pwm_period_q_d = data[(32'h0)+:(13)];
+                    end
+                end
+                12:
+                begin
+                    if (unlocked) begin
+                        pwm_blanking_q_d = data[(32'h0)+:(10)];
+                    end
+                end
+                13:
+                begin
+                    if (unlocked) begin
+                        watchdog_timeout_q_d = data[(32'h0)+:(24)];
+                    end
+                end
+                14:
+                begin
+                    arm_write = 1'b1;
+                end
+                15:
+                begin
+                    clear_faults = data != zero;
+                end
+                18:
+                begin
+                    commit_set_points = 1'b1;
+                end
+                19:
+                begin
+                    commit_configuration = 1'b1;
+                end
+                21:
+                begin
+                    clear_encoder_error = data[(32'h0)+:(4)];
+                end
+                23:
+                begin
+                    if (unlocked) begin
+                        encoder_fault_mask_q_d = data[(32'h0)+:(4)];
+                    end
+                end
+                24:
+                begin
+                    kicker_control_q_d = data[(32'h0)+:(2)];
+                end
+                25:
+                begin
+                    fire = data == fire_word;
+                end
+                26:
+                begin
+                    kicker_pulse_q_d = data[(32'h0)+:(14)];
+                end
+                27:
+                begin
+                    if (unlocked) begin
+                        kicker_lockout_q_d = data[(32'h0)+:(20)];
+                    end
+                end
+                28:
+                begin
+                    if (unlocked) begin
+                        kicker_charge_timeout_q_d = data[(32'h0)+:(24)];
+                    end
+                end
+                30:
+                begin
+                    if (unlocked) begin
+                        clocks_per_microsecond_q_d = data[(32'h0)+:(6)];
+                    end
+                end
+                31:
+                begin
+                    leds_q_d = data[(32'h0)+:(8)];
+                end
+                default:
+                begin
+                    fire = 1'b0;
+                end
+            endcase
+        end
+    end
+
+    always @(*) begin
+        read_q_d = read_q_q;
+        case (address)
+            0:
+            begin
+                read_q_d = cookie;
+            end
+            1:
+            begin
+                read_q_d = version;
+            end
+            2:
+            begin
+                read_q_d = board;
+            end
+            3:
+            begin
+                read_q_d = clock_hz;
+            end
+            4:
+            begin
+                read_q_d = content_hash;
+            end
+            5:
+            begin
+                read_q_d = axes;
+            end
+            6:
+            begin
+                read_q_d = clock_count;
+            end
+            8:
+            begin
+                read_q_d = ((tick_period_q_q) & 32'hffffffff);
+            end
+            9:
+            begin
+                read_q_d = ((mode_q_q) & 32'hffffffff);
+            end
+            10:
+            begin
+                read_q_d = ((encoder_filter_q_q) & 32'hffffffff);
+            end
+            11:
+            begin
+                read_q_d = ((pwm_period_q_q) & 32'hffffffff);
+            end
+            12:
+            begin
+                read_q_d = ((pwm_blanking_q_q) & 32'hffffffff);
+            end
+            13:
+            begin
+                read_q_d = ((watchdog_timeout_q_q) & 32'hffffffff);
+            end
+            15:
+            begin
+                read_q_d = ((faults) & 32'hffffffff);
+            end
+            16:
+            begin
+                read_q_d = ((first_fault) & 32'hffffffff);
+            end
+            17:
+            begin
+                read_q_d = ((status) & 32'hffffffff);
+            end
+            20:
+            begin
+                read_q_d = commits;
+            end
+            21:
+            begin
+                read_q_d = ((encoder_error) & 32'hffffffff);
+            end
+            22:
+            begin
+                read_q_d = ((encoder_lines) & 32'hffffffff);
+            end
+            23:
+            begin
+                read_q_d = ((encoder_fault_mask_q_q) & 32'hffffffff);
+            end
+            24:
+            begin
+                read_q_d = ((kicker_control_q_q) & 32'hffffffff);
+            end
+            26:
+            begin
+                read_q_d = ((kicker_pulse_q_q) & 32'hffffffff);
+            end
+            27:
+            begin
+                read_q_d = ((kicker_lockout_q_q) & 32'hffffffff);
+            end
+            28:
+            begin
+                read_q_d = ((kicker_charge_timeout_q_q) & 32'hffffffff);
+            end
+            29:
+            begin
+                read_q_d = ((kicker_status) & 32'hffffffff);
+            end
+            30:
+            begin
+                read_q_d = ((clocks_per_microsecond_q_q) & 32'hffffffff);
+            end
+            31:
+            begin
+                read_q_d = ((leds_q_q) & 32'hffffffff);
+            end
+            default:
+            begin
+                read_q_d = zero;
+            end
+        endcase
+    end
+
+    always @(*) unlocked = ~armed;
+    always @(*) read_data = read_q_q;
+    always @(*) tick_period = tick_period_q_q;
+    always @(*) mode = mode_q_q;
+    always @(*) encoder_filter = encoder_filter_q_q;
+    always @(*) pwm_period = pwm_period_q_q;
+    always @(*) pwm_blanking = pwm_blanking_q_q;
+    always @(*) watchdog_timeout = watchdog_timeout_q_q;
+    always @(*) encoder_fault_mask = encoder_fault_mask_q_q;
+    always @(*) kicker_control = kicker_control_q_q;
+    always @(*) kicker_pulse = kicker_pulse_q_q;
+    always @(*) kicker_lockout = kicker_lockout_q_q;
+    always @(*) kicker_charge_timeout = kicker_charge_timeout_q_q;
+    always @(*) clocks_per_microsecond = clocks_per_microsecond_q_q;
+    always @(*) leds = leds_q_q;
+endmodule
+
+module rac4i65_core_timebase (
+    input wire clock,
+    input wire [23:0] tick_period,
+    input wire restart,
+    input wire [5:0] clocks_per_microsecond,
+    output reg [31:0] clock_count,
+    output reg [23:0] period,
+    output reg tick,
+    output reg microsecond
+);
+
+    // Constants
+    localparam one = 32'h1;
+    localparam one_phase = 24'h1;
+    localparam phase_start = 24'h0;
+    localparam one_part = 6'b1;
+    localparam part_start = 6'b0;
+    localparam shortest = 24'h3e8;
+
+    // Pins of the parts
+    reg [31:0] clocks_d;
+    wire [31:0] clocks_q;
+    reg clocks_clock;
+    reg [23:0] phase_d;
+    wire [23:0] phase_q;
+    reg phase_clock;
+    reg [5:0] part_d;
+    wire [5:0] part_q;
+    reg part_clock;
+
+    // Intermediate values
+    reg [23:0] bounded;
+    reg [23:0] next_phase;
+    reg [5:0] next_part;
+
+    // Parts
+    rac4i65_core_dff_32 clocks (.d(clocks_d), .q(clocks_q), .clock(clocks_clock));
+    rac4i65_core_dff_24_2 phase (.d(phase_d), .q(phase_q), .clock(phase_clock));
+    rac4i65_core_dff_6 part (.d(part_d), .q(part_q), .clock(part_clock));
+
+    always @(*) begin
+        clocks_clock = clock;
+        phase_clock = clock;
+        part_clock = clock;
+    end
+
+    always @(*) begin
+        clocks_d = clocks_q;
+        clocks_d = clocks_q + one;
+    end
+
+    always @(*) begin
+        phase_d = phase_q;
+        phase_d = next_phase;
+        tick = 1'b0;
+        if (restart) begin
+            phase_d = phase_start;
+        end
+        else if (next_phase >= bounded) begin
+            phase_d = phase_start;
+            tick = 1'b1;
+        end
+    end
+
+    always @(*) begin
+        part_d = part_q;
+        part_d = next_part;
+        microsecond = 1'b0;
+        if (next_part >= clocks_per_microsecond) begin
+            part_d = part_start;
+            microsecond = 1'b1;
+        end
+    end
+
+    always @(*) clock_count = clocks_q;
+
+    always @(*) begin
+        bounded = tick_period;
+        if (tick_period < shortest) begin
+            bounded = shortest;
+        end
+    end
+
+    always @(*) period = bounded;
+    always @(*) next_phase = phase_q + one_phase;
+    always @(*) next_part = part_q + one_part;
+endmodule
+
+module rac4i65_core_decoder (
+    input wire [13:0] address,
+    input wire configuration_bank,
+    input wire set_point_bank,
+    input wire snapshot_bank,
+    output reg in_registers,
+    output reg in_memory,
+    output reg [7:0] memory_address,
+    output reg stages_set_point,
+    output reg stages_configuration,
+    output reg snapshot_first,
+    output reg snapshot_last
+);
+
+    // Constants
+    localparam no_bank = 8'h0;
+    localparam configuration_1 = 8'h40;
+    localparam at_set_points = 8'h80;
+    localparam set_points_1 = 8'h8;
+    localparam at_snapshot = 8'hc0;
+    localparam snapshot_1 = 8'h20;
+    localparam page_registers = 8'h0;
+    localparam page_configuration = 8'h4;
+    localparam page_active = 8'h5;
+    localparam page_set_points = 8'h6;
+    localparam page_state = 8'h7;
+    localparam page_snapshot = 8'h8;
+    localparam configuration_end = 6'b101000;
+    localparam set_points_end = 6'b100;
+    localparam active_start = 6'b10000;
+    localparam active_end = 6'b10100;
+    localparam integrals_start = 6'b100100;
+    localparam integrals_end = 6'b101000;
+    localparam snapshot_end = 6'b11000;
+    localparam first = 6'b0;
+    localparam last = 6'b10111;
+
+    // Intermediate values
+    reg [7:0] page;
+    reg [5:0] index;
+    reg [7:0] wide;
+    reg [7:0] set_point;
+    reg [7:0] base;
+    reg [7:0] bank;
+
+    always @(*) begin
+        page = address[(32'h6)+:(8)];
+        index = address[(32'h0)+:(6)];
+    end
+
+    always @(*) begin
+        wide = ((index) & 8'hff);
+        set_point = ((index[(32'h0)+:(2)]) & 8'hff) | at_set_points;
+    end
+
+    always @(*) in_registers = page == page_registers;
+
+    always @(*) begin
+        in_memory = 1'b0;
+        stages_set_point = 1'b0;
+        stages_configuration = 1'b0;
+        snapshot_first = 1'b0;
+        snapshot_last = 1'b0;
+        bank = no_bank;
+        base = wide;
+        if (page == page_configuration) begin
+            in_memory = index < configuration_end;
+            stages_configuration = index < configuration_end;
+            if (~configuration_bank) begin
+                bank = configuration_1;
+            end
+        end
+        if (page == page_active) begin
+            in_memory = index < configuration_end;
+            if (configuration_bank) begin
+                bank = configuration_1;
+            end
+        end
+        if (page == page_set_points) begin
+            base = set_point;
+            if (index < set_points_end) begin
+                in_memory = 1'b1;
+                stages_set_point = 1'b1;
+                if (~set_point_bank) begin
+                    bank = set_points_1;
+                end
+            end
+            else begin
+                in_memory = (index >= active_start) & (index < active_end);
+                if (set_point_bank) begin
+                    bank = set_points_1;
+                end
+            end
+        end
+        if (page == page_state) begin
+            in_memory = (index >= integrals_start) & (index < integrals_end);
+            base = wide | at_set_points;
+        end
+        if (page == page_snapshot) begin
+            in_memory = index < snapshot_end;
+            snapshot_first = index == first;
+            snapshot_last = index == last;
+            base = wide | at_snapshot;
+            if (snapshot_bank) begin
+                bank = snapshot_1;
+            end
+        end
+    end
+
+    always @(*) memory_address = base | bank;
+endmodule
+
+module rac4i65_core_commit (
+    input wire clock,
+    input wire stage_set_point,
+    input wire stage_configuration,
+    input wire commit_set_points,
+    input wire commit_configuration,
+    input wire [13:0] address,
+    input wire [31:0] data,
+    input wire tick,
+    output reg set_point_bank,
+    output reg configuration_bank,
+    output reg set_points_pending,
+    output reg configuration_pending,
+    output reg pet,
+    output reg fault,
+    output reg [15:0] accepted,
+    output reg [15:0] rejected
+);
+
+    // Constants
+    localparam seed = 32'h52414353;
+    localparam none = 6'b0;
+    localparam one = 6'b1;
+    localparam full = 6'b111111;
+    localparam all_set_points = 6'b100;
+    localparam all_configuration = 6'b101000;
+    localparam one_count = 16'h1;
+
+    // Pins of the parts
+    reg [31:0] sum_d;
+    wire [31:0] sum_q;
+    reg sum_clock;
+    reg [5:0] set_points_d;
+    wire [5:0] set_points_q;
+    reg set_points_clock;
+    reg [5:0] configuration_d;
+    wire [5:0] configuration_q;
+    reg configuration_clock;
+    reg set_point_bank_now_d;
+    wire set_point_bank_now_q;
+    reg set_point_bank_now_clock;
+    reg configuration_bank_now_d;
+    wire configuration_bank_now_q;
+    reg configuration_bank_now_clock;
+    reg set_points_wait_d;
+    wire set_points_wait_q;
+    reg set_points_wait_clock;
+    reg configuration_waits_d;
+    wire configuration_waits_q;
+    reg configuration_waits_clock;
+    reg [15:0] accepted_count_d;
+    wire [15:0] accepted_count_q;
+    reg accepted_count_clock;
+    reg [15:0] rejected_count_d;
+    wire [15:0] rejected_count_q;
+    reg rejected_count_clock;
+
+    // Intermediate values
+    reg [31:0] next_sum;
+    reg sum_right;
+    reg right;
+    reg committing;
+
+    // Parts
+    rac4i65_core_dff_32_from_52414353 sum (.d(sum_d), .q(sum_q), .clock(sum_clock));
+    rac4i65_core_dff_6 set_points (.d(set_points_d), .q(set_points_q), .clock(set_points_clock));
+    rac4i65_core_dff_6 configuration (.d(configuration_d), .q(configuration_q), .clock(configuration_clock));
+    rac4i65_core_dff_1 set_point_bank_now(
+        .d(set_point_bank_now_d),
+        .q(set_point_bank_now_q),
+        .clock(set_point_bank_now_clock)
+    );
+    rac4i65_core_dff_1 configuration_bank_now(
+        .d(configuration_bank_now_d),
+        .q(configuration_bank_now_q),
+        .clock(configuration_bank_now_clock)
+    );
+    rac4i65_core_dff_1 set_points_wait(
+        .d(set_points_wait_d),
+        .q(set_points_wait_q),
+        .clock(set_points_wait_clock)
+    );
+    rac4i65_core_dff_1 configuration_waits(
+        .d(configuration_waits_d),
+        .q(configuration_waits_q),
+        .clock(configuration_waits_clock)
+    );
+    rac4i65_core_dff_16 accepted_count (.d(accepted_count_d), .q(accepted_count_q), .clock(accepted_count_clock));
+    rac4i65_core_dff_16 rejected_count (.d(rejected_count_d), .q(rejected_count_q), .clock(rejected_count_clock));
+
+    always @(*) begin
+        sum_clock = clock;
+        set_points_clock = clock;
+        configuration_clock = clock;
+        set_point_bank_now_clock = clock;
+        configuration_bank_now_clock = clock;
+        set_points_wait_clock = clock;
+        configuration_waits_clock = clock;
+        accepted_count_clock = clock;
+        rejected_count_clock = clock;
+    end
+
+    always @(*) begin
+        sum_d = sum_q;
+        set_points_d = set_points_q;
+        configuration_d = configuration_q;
+        set_point_bank_now_d = set_point_bank_now_q;
+        configuration_bank_now_d = configuration_bank_now_q;
+        set_points_wait_d = set_points_wait_q;
+        configuration_waits_d = configuration_waits_q;
+        accepted_count_d = accepted_count_q;
+        rejected_count_d = rejected_count_q;
+        if (tick) begin
+            if (set_points_wait_q) begin
+                set_point_bank_now_d = ~set_point_bank_now_q;
+                set_points_wait_d = 1'b0;
+            end
+            if (configuration_waits_q) begin
+                configuration_bank_now_d = ~configuration_bank_now_q;
+                configuration_waits_d = 1'b0;
+            end
+        end
+        if (stage_set_point) begin
+            sum_d = next_sum;
+            if (set_points_q != full) begin
+                set_points_d = set_points_q + one;
+            end
+            set_points_wait_d = 1'b0;
+        end
+        if (stage_configuration) begin
+            sum_d = next_sum;
+            if (configuration_q != full) begin
+                configuration_d = configuration_q + one;
+            end
+            configuration_waits_d = 1'b0;
+        end
+        if (committing) begin
+            sum_d = seed;
+            set_points_d = none;
+            configuration_d = none;
+            if (right) begin
+                accepted_count_d = accepted_count_q + one_count;
+                if (commit_set_points) begin
+                    set_points_wait_d = 1'b1;
+                end
+                else begin
+                    configuration_waits_d = 1'b1;
+                end
+            end
+            else begin
+                rejected_count_d = rejected_count_q + one_count;
+            end
+        end
+    end
+
+    always @(*) next_sum = ((sum_q << 32'h1) | (sum_q >> 32'h1f)) ^ data ^ ((address) & 32'hffffffff);
+    always @(*) committing = commit_set_points | commit_configuration;
+    always @(*) sum_right = data == sum_q;
+
+    always @(*) begin
+        right = 1'b0;
+        if (commit_set_points) begin
+            right = sum_right & (set_points_q == all_set_points) & (configuration_q == none);
+        end
+        if (commit_configuration) begin
+            right = sum_right & (configuration_q == all_configuration) & (set_points_q == none);
+        end
+    end
+
+    always @(*) pet = commit_set_points & right;
+    always @(*) fault = committing & ~right;
+    always @(*) set_point_bank = set_point_bank_now_q;
+    always @(*) configuration_bank = configuration_bank_now_q;
+    always @(*) set_points_pending = set_points_wait_q;
+    always @(*) configuration_pending = configuration_waits_q;
+    always @(*) accepted = accepted_count_q;
+    always @(*) rejected = rejected_count_q;
+endmodule
+
+module rac4i65_core_snapshot (
+    input wire clock,
+    input wire tick,
+    input wire done,
+    input wire read_first,
+    input wire read_last,
+    output reg write_bank,
+    output reg read_bank
+);
+
+    // Pins of the parts
+    reg writing_d;
+    wire writing_q;
+    reg writing_clock;
+    reg latest_d;
+    wire latest_q;
+    reg latest_clock;
+    reg held_d;
+    wire held_q;
+    reg held_clock;
+    reg held_bank_d;
+    wire held_bank_q;
+    reg held_bank_clock;
+
+    // Intermediate values
+    reg target;
+
+    // Parts
+    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(writing_clock));
+    rac4i65_core_dff_1 latest (.d(latest_d), .q(latest_q), .clock(latest_clock));
+    rac4i65_core_dff_1 held (.d(held_d), .q(held_q), .clock(held_clock));
+    rac4i65_core_dff_1 held_bank (.d(held_bank_d), .q(held_bank_q), .clock(held_bank_clock));
+
+    always @(*) begin
+        writing_clock = clock;
+        latest_clock = clock;
+        held_clock = clock;
+        held_bank_clock = clock;
+    end
+
+    always @(*) begin
+        writing_d = writing_q;
+        latest_d = latest_q;
+        if (tick) begin
+            writing_d = target;
+            latest_d = ~target;
+        end
+        if (done) begin
+            latest_d = writing_q;
+        end
+    end
+
+    always @(*) begin
+        held_d = held_q;
+        held_bank_d = held_bank_q;
+        read_bank = held_bank_q;
+        if (read_first) begin
+            held_d = 1'b1;
+            held_bank_d = latest_q;
+            read_bank = latest_q;
+        end
+        if (read_last) begin
+            held_d = 1'b0;
+        end
+    end
+
+    always @(*) begin
+        target = ~latest_q;
+        if (held_q) begin
+            target = ~held_bank_q;
+        end
+    end
+
+    always @(*) write_bank = writing_q;
+endmodule
+
+module rac4i65_core_safety (
+    input wire clock,
+    input wire emergency_stop,
+    input wire arm_write,
+    input wire [31:0] arm_data,
+    input wire pet,
+    input wire [23:0] watchdog_timeout,
+    input wire encoder_fault,
+    input wire commit_fault,
+    input wire external_fault,
+    input wire clear_faults,
+    output reg armed,
+    output reg setpoints_valid,
+    output reg [7:0] faults,
+    output reg [7:0] first_fault
+);
+
+    // Constants
+    localparam none = 8'h0;
+    localparam watchdog_bit = 8'h1;
+    localparam stop_bit = 8'h2;
+    localparam encoder_bit = 8'h4;
+    localparam commit_bit = 8'h8;
+    localparam external_bit = 8'h10;
+    localparam refused_bit = 8'h20;
+    localparam arm_1 = 32'h41524d31;
+    localparam arm_2 = 32'h41524d32;
+    localparam stop_filter = 4'hf;
+    localparam one = 24'h1;
+
+    // Pins of the parts
+    reg released_clock;
+    reg released_pin;
+    reg released_tick;
+    reg [3:0] released_limit;
+    reg released_load;
+    wire released_synchronised;
+    wire released_value;
+    reg [23:0] remaining_d;
+    wire [23:0] remaining_q;
+    reg remaining_clock;
+    reg first_word_d;
+    wire first_word_q;
+    reg first_word_clock;
+    reg is_armed_d;
+    wire is_armed_q;
+    reg is_armed_clock;
+    reg has_setpoint_d;
+    wire has_setpoint_q;
+    reg has_setpoint_clock;
+    reg [7:0] sticky_d;
+    wire [7:0] sticky_q;
+    reg sticky_clock;
+    reg [7:0] first_d;
+    wire [7:0] first_q;
+    reg first_clock;
+
+    // Intermediate values
+    reg bitten;
+    reg stopped;
+    reg standing;
+    reg is_first_word;
+    reg is_second_word;
+    reg arms;
+    reg stays_armed;
+    reg [7:0] event_watchdog;
+    reg [7:0] event_stop;
+    reg [7:0] event_encoder;
+    reg [7:0] event_commit;
+    reg [7:0] event_external;
+    reg [7:0] event_refused;
+    reg [7:0] events;
+
+    // Parts
+    rac4i65_core_encoders_0_line_a released(
+        .clock(released_clock),
+        .pin(released_pin),
+        .tick(released_tick),
+        .limit(released_limit),
+        .load(released_load),
+        .synchronised(released_synchronised),
+        .value(released_value)
+    );
+    rac4i65_core_dff_24_2 remaining (.d(remaining_d), .q(remaining_q), .clock(remaining_clock));
+    rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(first_word_clock));
+    rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(is_armed_clock));
+    rac4i65_core_dff_1 has_setpoint (.d(has_setpoint_d), .q(has_setpoint_q), .clock(has_setpoint_clock));
+    rac4i65_core_dff_8 sticky (.d(sticky_d), .q(sticky_q), .clock(sticky_clock));
+    rac4i65_core_dff_8 first (.d(first_d), .q(first_q), .clock(first_clock));
+
+    always @(*) begin
+        released_clock = clock;
+        remaining_clock = clock;
+        first_word_clock = clock;
+        is_armed_clock = clock;
+        has_setpoint_clock = clock;
+        sticky_clock = clock;
+        first_clock = clock;
+        released_tick = 1'b1;
+        released_limit = stop_filter;
+        released_load = 1'b0;
+    end
+
+    always @(*) begin
+        remaining_d = remaining_q;
+        if (~bitten) begin
+            remaining_d = remaining_q - one;
+        end
+        if (pet | (remaining_q > watchdog_timeout)) begin
+            remaining_d = watchdog_timeout;
+        end
+    end
+
+    always @(*) begin
+        first_word_d = first_word_q;
+        stays_armed = is_armed_q & ~standing;
+        if (arm_write) begin
+            first_word_d = is_first_word;
+            stays_armed = arms;
+        end
+        if (standing) begin
+            first_word_d = 1'b0;
+        end
+    end
+
+    always @(*) begin
+        is_armed_d = is_armed_q;
+        is_armed_d = stays_armed;
+    end
+
+    always @(*) begin
+        has_setpoint_d = has_setpoint_q;
+        has_setpoint_d = stays_armed & (has_setpoint_q | (is_armed_q & pet));
+    end
+
+    always @(*) begin
+        sticky_d = sticky_q;
+        sticky_d = sticky_q | events;
+        if (clear_faults) begin
+            sticky_d = events;
+        end
+    end
+
+    always @(*) begin
+        first_d = first_q;
+        if (clear_faults | ~|first_q) begin
+            first_d = events;
+        end
+    end
+
+    always @(*) released_pin = ~emergency_stop;
+    always @(*) stopped = ~released_value;
+    always @(*) bitten = ~|remaining_q;
+    always @(*) standing = bitten | stopped | encoder_fault | external_fault;
+    always @(*) is_first_word = arm_data == arm_1;
+    always @(*) is_second_word = arm_write & (arm_data == arm_2);
+    always @(*) arms = is_second_word & first_word_q & ~standing;
+
+    always @(*) begin
+        event_watchdog = none;
+        if (bitten) begin
+            event_watchdog = watchdog_bit;
+        end
+    end
+
+    always @(*) begin
+        event_stop = none;
+        if (stopped) begin
+            event_stop = stop_bit;
+        end
+    end
+
+    always @(*) begin
+        event_encoder = none;
+        if (encoder_fault) begin
+            event_encoder = encoder_bit;
+        end
+    end
+
+    always @(*) begin
+        event_commit = none;
+        if (commit_fault) begin
+            event_commit = commit_bit;
+        end
+    end
+
+    always @(*) begin
+        event_external = none;
+        if (external_fault) begin
+            event_external = external_bit;
+        end
+    end
+
+    always @(*) begin
+        event_refused = none;
+        if (is_second_word & ~arms) begin
+            event_refused = refused_bit;
+        end
+    end
+
+    always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused;
+    always @(*) armed = is_armed_q;
+    always @(*) setpoints_valid = has_setpoint_q;
+    always @(*) faults = sticky_q;
+    always @(*) first_fault = first_q;
+endmodule
+
+module rac4i65_core_encoders_0_line_a (
+    input wire clock,
+    input wire pin,
+    input wire tick,
+    input wire [3:0] limit,
+    input wire load,
+    output reg synchronised,
+    output reg value
+);
+
+    // Constants
+    localparam zero = 4'h0;
+    localparam one = 4'h1;
+
+    // Pins of the parts
+    reg first_d;
+    wire first_q;
+    reg first_clock;
+    reg second_d;
+    wire second_q;
+    reg second_clock;
+    reg [3:0] run_d;
+    wire [3:0] run_q;
+    reg run_clock;
+    reg filtered_d;
+    wire filtered_q;
+    reg filtered_clock;
+
+    // Intermediate values
+    reg differs;
+
+    // Parts
+    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(first_clock));
+    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(second_clock));
+    rac4i65_core_dff_4 run (.d(run_d), .q(run_q), .clock(run_clock));
+    rac4i65_core_dff_1 filtered (.d(filtered_d), .q(filtered_q), .clock(filtered_clock));
+
+    always @(*) begin
+        first_clock = clock;
+        second_clock = clock;
+        run_clock = clock;
+        filtered_clock = clock;
+    end
+
+    always @(*) begin
+        first_d = first_q;
+        first_d = pin;
+    end
+
+    always @(*) begin
+        second_d = second_q;
+        second_d = first_q;
+    end
+
+    always @(*) begin
+        run_d = run_q;
+        filtered_d = filtered_q;
+        if (differs & tick) begin
+            run_d = run_q + one;
+            if (run_q >= limit) begin
+                run_d = zero;
+                filtered_d = second_q;
+            end
+        end
+        if (~differs) begin
+            run_d = zero;
+        end
+        if (load) begin
+            run_d = zero;
+            filtered_d = second_q;
+        end
+    end
+
+    always @(*) differs = second_q ^ filtered_q;
+    always @(*) synchronised = second_q;
+    always @(*) value = filtered_q;
+endmodule
+
+module rac4i65_core_kicker (
+    input wire clock,
+    input wire enable,
+    input wire microsecond,
+    input wire charge_request,
+    input wire [23:0] charge_timeout,
+    input wire fire,
+    input wire [13:0] pulse,
+    input wire [19:0] lockout,
+    input wire ball,
+    input wire arm_on_ball,
+    input wire clear,
+    output reg charge,
+    output reg trigger,
+    output reg ready,
+    output reg [2:0] state,
+    output reg timed_out,
+    output reg dropped
+);
+
+    // Constants
+    localparam off_state = 3'b0;
+    localparam ready_state = 3'b1;
+    localparam pending_state = 3'b10;
+    localparam pulse_state = 3'b11;
+    localparam commutation_state = 3'b100;
+    localparam lockout_state = 3'b101;
+    localparam maximum_pulse = 14'b10011100010000;
+    localparam commutation_time = 20'h4e20;
+    localparam minimum_lockout = 20'h186a0;
+    localparam charge_gap = 10'b1111101000;
+    localparam ball_limit = 4'h7;
+    localparam elapsed_zero = 20'h0;
+    localparam elapsed_one = 20'h1;
+    localparam gap_one = 10'b1;
+    localparam charged_zero = 24'h0;
+    localparam charged_one = 24'h1;
+
+    // Pins of the parts
+    reg ball_filter_clock;
+    reg ball_filter_pin;
+    reg ball_filter_tick;
+    reg [3:0] ball_filter_limit;
+    reg ball_filter_load;
+    wire ball_filter_synchronised;
+    wire ball_filter_value;
+    reg [2:0] now_d;
+    wire [2:0] now_q;
+    reg now_clock;
+    reg [19:0] elapsed_d;
+    wire [19:0] elapsed_q;
+    reg elapsed_clock;
+    reg [9:0] gap_d;
+    wire [9:0] gap_q;
+    reg gap_clock;
+    reg [23:0] charged_d;
+    wire [23:0] charged_q;
+    reg charged_clock;
+    reg spent_d;
+    wire spent_q;
+    reg spent_clock;
+    reg charge_pin_d;
+    wire charge_pin_q;
+    reg charge_pin_clock;
+    reg trigger_pin_d;
+    wire trigger_pin_q;
+    reg trigger_pin_clock;
+    reg is_ready_d;
+    wire is_ready_q;
+    reg is_ready_clock;
+    reg timed_out_flag_d;
+    wire timed_out_flag_q;
+    reg timed_out_flag_clock;
+    reg dropped_flag_d;
+    wire dropped_flag_q;
+    reg dropped_flag_clock;
+
+    // Intermediate values
+    reg in_ready;
+    reg in_pending;
+    reg in_pulse;
+    reg has_pulse;
+    reg takes;
+    reg by_ball;
+    reg accepts;
+    reg cancels;
+    reg [2:0] idle;
+    reg [2:0] next_state;
+    reg [19:0] next_elapsed;
+    reg [13:0] short_elapsed;
+    reg pulse_over;
+    reg lockout_over;
+    reg gap_over;
+    reg expired;
+    reg may_charge;
+
+    // Parts
+    rac4i65_core_encoders_0_line_a ball_filter(
+        .clock(ball_filter_clock),
+        .pin(ball_filter_pin),
+        .tick(ball_filter_tick),
+        .limit(ball_filter_limit),
+        .load(ball_filter_load),
+        .synchronised(ball_filter_synchronised),
+        .value(ball_filter_value)
+    );
+    rac4i65_core_dff_3 now (.d(now_d), .q(now_q), .clock(now_clock));
+    rac4i65_core_dff_20 elapsed (.d(elapsed_d), .q(elapsed_q), .clock(elapsed_clock));
+    rac4i65_core_dff_10 gap (.d(gap_d), .q(gap_q), .clock(gap_clock));
+    rac4i65_core_dff_24_2 charged (.d(charged_d), .q(charged_q), .clock(charged_clock));
+    rac4i65_core_dff_1 spent (.d(spent_d), .q(spent_q), .clock(spent_clock));
+    rac4i65_core_dff_1 charge_pin (.d(charge_pin_d), .q(charge_pin_q), .clock(charge_pin_clock));
+    rac4i65_core_dff_1 trigger_pin (.d(trigger_pin_d), .q(trigger_pin_q), .clock(trigger_pin_clock));
+    rac4i65_core_dff_1 is_ready (.d(is_ready_d), .q(is_ready_q), .clock(is_ready_clock));
+    rac4i65_core_dff_1 timed_out_flag (.d(timed_out_flag_d), .q(timed_out_flag_q), .clock(timed_out_flag_clock));
+    rac4i65_core_dff_1 dropped_flag (.d(dropped_flag_d), .q(dropped_flag_q), .clock(dropped_flag_clock));
+
+    always @(*) begin
+        ball_filter_clock = clock;
+        now_clock = clock;
+        elapsed_clock = clock;
+        gap_clock = clock;
+        charged_clock = clock;
+        spent_clock = clock;
+        charge_pin_clock = clock;
+        trigger_pin_clock = clock;
+        is_ready_clock = clock;
+        timed_out_flag_clock = clock;
+        dropped_flag_clock = clock;
+        ball_filter_limit = ball_limit;
+        ball_filter_load = 1'b0;
+    end
+
+    always @(*) begin
+        now_d = now_q;
+        now_d = next_state;
+    end
+
+    always @(*) begin
+        elapsed_d = elapsed_q;
+        next_state = now_q;
+        if (in_ready) begin
+            next_state = idle;
+            if (accepts) begin
+                next_state = pending_state;
+            end
+        end
+        else if (in_pending) begin
+            if (cancels) begin
+                next_state = idle;
+            end
+            else if (microsecond & gap_over) begin
+                next_state = pulse_state;
+            end
+        end
+        else if (in_pulse) begin
+            if (microsecond) begin
+                elapsed_d = next_elapsed;
+            end
+            if (~enable | (microsecond & pulse_over)) begin
+                next_state = commutation_state;
+                elapsed_d = elapsed_zero;
+            end
+        end
+        else if (now_q == commutation_state) begin
+            if (microsecond) begin
+                elapsed_d = next_elapsed;
+                if (next_elapsed >= commutation_time) begin
+                    next_state = lockout_state;
+                end
+            end
+        end
+        else if (now_q == lockout_state) begin
+            if (microsecond) begin
+                elapsed_d = next_elapsed;
+                if (lockout_over) begin
+                    next_state = idle;
+                    elapsed_d = elapsed_zero;
+                end
+            end
+        end
+        else begin
+            next_state = idle;
+        end
+    end
+
+    always @(*) begin
+        gap_d = gap_q;
+        if (charge_pin_q) begin
+            gap_d = charge_gap;
+        end
+        else if (microsecond & ~gap_over) begin
+            gap_d = gap_q - gap_one;
+        end
+    end
+
+    always @(*) begin
+        charged_d = charged_q;
+        if (microsecond & charge_pin_q & ~expired) begin
+            charged_d = charged_q + charged_one;
+        end
+        if (~charge_request | in_pulse | (clear & expired)) begin
+            charged_d = charged_zero;
+        end
+    end
+
+    always @(*) begin
+        spent_d = spent_q;
+        spent_d = arm_on_ball & (spent_q | ~enable | accepts);
+    end
+
+    always @(*) begin
+        charge_pin_d = charge_pin_q;
+        charge_pin_d = enable & charge_request & ~expired & may_charge;
+    end
+
+    always @(*) begin
+        trigger_pin_d = trigger_pin_q;
+        trigger_pin_d = next_state == pulse_state;
+    end
+
+    always @(*) begin
+        is_ready_d = is_ready_q;
+        is_ready_d = (next_state == ready_state) & has_pulse;
+    end
+
+    always @(*) begin
+        timed_out_flag_d = timed_out_flag_q;
+        timed_out_flag_d = (timed_out_flag_q & ~clear) | (charge_pin_q & expired);
+    end
+
+    always @(*) begin
+        dropped_flag_d = dropped_flag_q;
+        dropped_flag_d = (dropped_flag_q & ~clear) | (fire & ~takes) | cancels;
+    end
+
+    always @(*) ball_filter_pin = ball;
+    always @(*) ball_filter_tick = microsecond;
+
+    always @(*) begin
+        in_ready = now_q == ready_state;
+        in_pending = now_q == pending_state;
+        in_pulse = now_q == pulse_state;
+        state = now_q;
+    end
+
+    always @(*) has_pulse = |pulse;
+    always @(*) takes = in_ready & enable & has_pulse;
+    always @(*) by_ball = arm_on_ball & ball_filter_value & ~spent_q;
+    always @(*) accepts = takes & (fire | by_ball);
+    always @(*) cancels = in_pending & ~(enable & has_pulse);
+    always @(*) gap_over = ~|gap_q;
+    always @(*) next_elapsed = elapsed_q + elapsed_one;
+    always @(*) short_elapsed = next_elapsed[(32'h0)+:(14)];
+    always @(*) pulse_over = (short_elapsed >= pulse) | (short_elapsed >= maximum_pulse);
+    always @(*) lockout_over = (next_elapsed >= lockout) & (next_elapsed >= minimum_lockout);
+
+    always @(*) begin
+        idle = off_state;
+        if (enable) begin
+            idle = ready_state;
+        end
+    end
+
+    always @(*) expired = charged_q >= charge_timeout;
+    always @(*) may_charge = (next_state == ready_state) | (next_state == lockout_state);
+    always @(*) charge = charge_pin_q;
+    always @(*) trigger = trigger_pin_q;
+    always @(*) ready = is_ready_q;
+    always @(*) timed_out = timed_out_flag_q;
+    always @(*) dropped = dropped_flag_q;
+endmodule
+
+module rac4i65_core_monitor (
+    input wire lclk,
+    input wire synclk,
+    output reg lclk_dead
+);
+
+    // Constants
+    localparam silent_zero = 5'b0;
+    localparam silent_one = 5'b1;
+    localparam silent_limit = 5'b11111;
+    localparam good_zero = 8'h0;
+    localparam good_one = 8'h1;
+    localparam good_limit = 8'hff;
+
+    // Pins of the parts
+    reg toggle_d;
+    wire toggle_q;
+    reg toggle_clock;
+    reg first_d;
+    wire first_q;
+    reg first_clock;
+    reg second_d;
+    wire second_q;
+    reg second_clock;
+    reg last_d;
+    wire last_q;
+    reg last_clock;
+    reg [4:0] silent_d;
+    wire [4:0] silent_q;
+    reg silent_clock;
+    reg [7:0] good_d;
+    wire [7:0] good_q;
+    reg good_clock;
+    reg alive_d;
+    wire alive_q;
+    reg alive_clock;
+
+    // Parts
+    rac4i65_core_dff_1 toggle (.d(toggle_d), .q(toggle_q), .clock(toggle_clock));
+    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(first_clock));
+    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(second_clock));
+    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(last_clock));
+    rac4i65_core_dff_5 silent (.d(silent_d), .q(silent_q), .clock(silent_clock));
+    rac4i65_core_dff_8 good (.d(good_d), .q(good_q), .clock(good_clock));
+    rac4i65_core_dff_1 alive (.d(alive_d), .q(alive_q), .clock(alive_clock));
+
+    always @(*) toggle_clock = lclk;
+
+    always @(*) begin
+        toggle_d = toggle_q;
+        toggle_d = ~toggle_q;
+    end
+
+    always @(*) begin
+        first_clock = synclk;
+        second_clock = synclk;
+        last_clock = synclk;
+        silent_clock = synclk;
+        good_clock = synclk;
+        alive_clock = synclk;
+    end
+
+    always @(*) begin
+        first_d = first_q;
+        first_d = toggle_q;
+    end
+
+    always @(*) begin
+        second_d = second_q;
+        second_d = first_q;
+    end
+
+    always @(*) begin
+        last_d = last_q;
+        last_d = second_q;
+    end
+
+    always @(*) begin
+        silent_d = silent_q;
+        good_d = good_q;
+        alive_d = alive_q;
+        if (second_q ^ last_q) begin
+            silent_d = silent_zero;
+            if (good_q == good_limit) begin
+                alive_d = 1'b1;
+            end
+            else begin
+                good_d = good_q + good_one;
+            end
+        end
+        else if (silent_q == silent_limit) begin
+            good_d = good_zero;
+            alive_d = 1'b0;
+        end
+        else begin
+            silent_d = silent_q + silent_one;
+        end
+    end
+
+    always @(*) lclk_dead = ~alive_q;
+endmodule
+
+module rac4i65_core_sequencer (
+    input wire clock,
+    input wire tick,
+    output reg running,
+    output reg done,
+    input wire configuration_bank,
+    input wire set_point_bank,
+    input wire snapshot_bank,
+    output reg [3:0] input_port,
+    output reg [1:0] axis,
+    input wire [31:0] input_data,
+    output reg output_strobe,
+    output reg output_port,
+    output reg [31:0] output_data,
+    input wire [7:0] bus_address,
+    output reg [31:0] bus_read_data,
+    input wire bus_write,
+    input wire [31:0] bus_write_data,
+    output reg bus_blocked,
+    output reg bus_write_taken
+);
+
+    // Constants
+    localparam zero = 32'h0;
+    localparam one_8 = 8'h1;
+    localparam start_pc = 8'h0;
+    localparam first_axis = 2'b0;
+    localparam last_axis = 2'b11;
+    localparam one_axis = 2'b1;
+    localparam word_max = 32'h1fffffff;
+    localparam word_min = 32'he0000000;
+    localparam three_clear = 3'b0;
+    localparam three_set = 3'b111;
+    localparam mask_24 = 32'hffffff;
+    localparam sign_of_16 = 32'hffff0000;
+    localparam sign_of_8 = 32'hffffff00;
+    localparam configuration_region = 8'h40;
+    localparam set_point_region = 8'h8;
+    localparam snapshot_region = 8'h20;
+    localparam region_0 = 2'b0;
+    localparam region_set_points = 5'b10000;
+    localparam region_3 = 2'b11;
+
+    // Pins of the parts
+    reg rom_clock;
+    reg [7:0] rom_read_address;
+    wire [15:0] rom_read_data;
+    reg memory_clock;
+    reg [7:0] memory_read_address;
+    wire [31:0] memory_read_data;
+    reg [7:0] memory_write_address;
+    reg [31:0] memory_write_data;
+    reg memory_write_enable;
+    reg mirror_clock;
+    reg [7:0] mirror_read_address;
+    wire [31:0] mirror_read_data;
+    reg [7:0] mirror_write_address;
+    reg [31:0] mirror_write_data;
+    reg mirror_write_enable;
+    reg multiplier_clock;
+    reg multiplier_start;
+    reg [1:0] multiplier_scale;
+    reg [31:0] multiplier_a;
+    reg [31:0] multiplier_b;
+    wire multiplier_busy;
+    wire [31:0] multiplier_result;
+    reg divider_clock;
+    reg divider_start;
+    reg [31:0] divider_numerator;
+    reg [31:0] divider_denominator;
+    wire divider_busy;
+    wire [31:0] divider_quotient;
+    reg active_d;
+    wire active_q;
+    reg active_clock;
+    reg [7:0] pc_d;
+    wire [7:0] pc_q;
+    reg pc_clock;
+    reg [15:0] instruction_d;
+    wire [15:0] instruction_q;
+    reg instruction_clock;
+    reg valid_d;
+    wire valid_q;
+    reg valid_clock;
+    reg issued_d;
+    wire issued_q;
+    reg issued_clock;
+    reg [31:0] accumulator_d;
+    wire [31:0] accumulator_q;
+    reg accumulator_clock;
+    reg [1:0] axis_number_d;
+    wire [1:0] axis_number_q;
+    reg axis_number_clock;
+
+    // Intermediate values
+    reg [7:0] pc_next;
+    reg stall;
+    reg branch;
+    reg storing;
+    reg [15:0] read_instruction;
+    reg [7:0] read_address;
+    reg [7:0] read_bank;
+    reg [7:0] write_address;
+    reg [7:0] write_bank;
+    reg [4:0] op;
+    reg [31:0] word;
+    reg subtracting;
+    reg [31:0] sum;
+    reg [2:0] sum_top;
+    reg [31:0] saturated;
+    reg [31:0] low_16;
+    reg [31:0] immediate;
+
+    // Parts
+    rac4i65_core_sequencer_rom rom(
+        .clock(rom_clock),
+        .read_address(rom_read_address),
+        .read_data(rom_read_data)
+    );
+    rac4i65_core_sequencer_memory memory(
+        .clock(memory_clock),
+        .read_address(memory_read_address),
+        .read_data(memory_read_data),
+        .write_address(memory_write_address),
+        .write_data(memory_write_data),
+        .write_enable(memory_write_enable)
+    );
+    rac4i65_core_sequencer_memory mirror(
+        .clock(mirror_clock),
+        .read_address(mirror_read_address),
+        .read_data(mirror_read_data),
+        .write_address(mirror_write_address),
+        .write_data(mirror_write_data),
+        .write_enable(mirror_write_enable)
+    );
+    rac4i65_core_sequencer_multiplier multiplier(
+        .clock(multiplier_clock),
+        .start(multiplier_start),
+        .scale(multiplier_scale),
+        .a(multiplier_a),
+        .b(multiplier_b),
+        .busy(multiplier_busy),
+        .result(multiplier_result)
+    );
+    rac4i65_core_sequencer_divider divider(
+        .clock(divider_clock),
+        .start(divider_start),
+        .numerator(divider_numerator),
+        .denominator(divider_denominator),
+        .busy(divider_busy),
+        .quotient(divider_quotient)
+    );
+    rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(active_clock));
+    rac4i65_core_dff_8 pc (.d(pc_d), .q(pc_q), .clock(pc_clock));
+    rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(instruction_clock));
+    rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(valid_clock));
+    rac4i65_core_dff_1 issued (.d(issued_d), .q(issued_q), .clock(issued_clock));
+    rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(accumulator_clock));
+    rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(axis_number_clock));
+
+    always @(*) begin
+        active_clock = clock;
+        pc_clock = clock;
+        instruction_clock = clock;
+        valid_clock = clock;
+        issued_clock = clock;
+        accumulator_clock = clock;
+        axis_number_clock = clock;
+        rom_clock = clock;
+        memory_clock = clock;
+        mirror_clock = clock;
+        multiplier_clock = clock;
+        divider_clock = clock;
+    end
+
+    always @(*) begin
+        active_d = active_q;
+        instruction_d = instruction_q;
+        valid_d = valid_q;
+        pc_next = pc_q;
+        if (active_q & ~stall) begin
+            pc_next = pc_q + one_8;
+            instruction_d = read_instruction;
+            valid_d = 1'b1;
+        end
+        if (branch) begin
+            pc_next = instruction_q[(32'h0)+:(8)];
+            valid_d = 1'b0;
+        end
+        if (done) begin
+            pc_next = start_pc;
+            valid_d = 1'b0;
+            active_d = 1'b0;
+        end
+        if (tick & ~active_q) begin
+            active_d = 1'b1;
+        end
+    end
+
+    always @(*) begin
+        pc_d = pc_q;
+        pc_d = pc_next;
+    end
+
+    always @(*) begin
+        issued_d = issued_q;
+        accumulator_d = accumulator_q;
+        axis_number_d = axis_number_q;
+        storing = 1'b0;
+        branch = 1'b0;
+        stall = 1'b0;
+        done = 1'b0;
+        output_strobe = 1'b0;
+        multiplier_start = 1'b0;
+        divider_start = 1'b0;
+        if (valid_q) begin
+            if (op[32'h4] & op[32'h3]) begin
+                if (~issued_q) begin
+                    multiplier_start = 1'b1;
+                    issued_d = 1'b1;
+                    stall = 1'b1;
+                end
+                else if (multiplier_busy) begin
+                    stall = 1'b1;
+                end
+                else begin
+                    accumulator_d = multiplier_result;
+                    issued_d = 1'b0;
+                end
+            end
+            else begin
+                case (op)
+                    1:
+                    begin
+                        accumulator_d = word;
+                    end
+                    2:
+                    begin
+                        accumulator_d = immediate;
+                    end
+                    3:
+                    begin
+                        accumulator_d = saturated;
+                    end
+                    4:
+                    begin
+                        accumulator_d = saturated;
+                    end
+                    5:
+                    begin
+                        accumulator_d = sum;
+                    end
+                    6:
+                    begin
+                        accumulator_d = low_16;
+                    end
+                    7:
+                    begin
+                        accumulator_d = sum & mask_24;
+                    end
+                    8:
+                    begin
+                        if (~sum[32'h1f]) begin
+                            accumulator_d = word;
+                        end
+                    end
+                    9:
+                    begin
+                        if (sum[32'h1f]) begin
+                            accumulator_d = word;
+                        end
+                    end
+                    10:
+                    begin
+                        accumulator_d = accumulator_q ^ word;
+                    end
+                    11:
+                    begin
+                        storing = 1'b1;
+                    end
+                    12:
+                    begin
+                        accumulator_d = input_data;
+                    end
+                    13:
+                    begin
+                        output_strobe = 1'b1;
+                    end
+                    14:
+                    begin
+                        branch = 1'b1;
+                    end
+                    15:
+                    begin
+                        branch = accumulator_q == zero;
+                    end
+                    16:
+                    begin
+                        branch = accumulator_q != zero;
+                    end
+                    17:
+                    begin
+                        branch = accumulator_q[32'h1f];
+                    end
+                    18:
+                    begin
+                        branch = ~accumulator_q[32'h1f];
+                    end
+                    19:
+                    begin
+                        if (axis_number_q == last_axis) begin
+                            axis_number_d = first_axis;
+                        end
+                        else begin
+                            axis_number_d = axis_number_q + one_axis;
+                            branch = 1'b1;
+                        end
+                    end
+                    20:
+                    begin
+                        done = 1'b1;
+                    end
+                    21:
+                    begin
+                        divider_start = 1'b1;
+                    end
+                    22:
+                    begin
+                        accumulator_d = divider_quotient;
+                        stall = divider_busy;
+                    end
+                    default:
+                    begin
+                        accumulator_d = accumulator_q;
+                    end
+                endcase
+            end
+        end
+    end
+
+    always @(*) read_instruction = rom_read_data;
+
+    always @(*) begin
+        read_address = read_instruction[(32'h0)+:(8)];
+        if (read_instruction[32'ha]) begin
+            read_address = read_instruction[(32'h0)+:(8)] | ((axis_number_q) & 8'hff);
+        end
+    end
+
+    always @(*) begin
+        read_bank = start_pc;
+        if (configuration_bank & (read_address[(32'h6)+:(2)] == region_0)) begin
+            read_bank = configuration_region;
+        end
+        if (set_point_bank & (read_address[(32'h3)+:(5)] == region_set_points)) begin
+            read_bank = set_point_region;
+        end
+    end
+
+    always @(*) memory_read_address = read_address | read_bank;
+
+    always @(*) begin
+        op = instruction_q[(32'hb)+:(5)];
+        input_port = instruction_q[(32'h0)+:(4)];
+        output_port = instruction_q[32'h0];
+    end
+
+    always @(*) word = memory_read_data;
+
+    always @(*) begin
+        subtracting = 1'b0;
+        case (op)
+            4:
+            begin
+                subtracting = 1'b1;
+            end
+            6:
+            begin
+                subtracting = 1'b1;
+            end
+            7:
+            begin
+                subtracting = 1'b1;
+            end
+            8:
+            begin
+                subtracting = 1'b1;
+            end
+            9:
+            begin
+                subtracting = 1'b1;
+            end
+            default:
+            begin
+                subtracting = 1'b0;
+            end
+        endcase
+    end
+
+    always @(*) begin
+        sum = accumulator_q + word;
+        if (subtracting) begin
+            sum = accumulator_q - word;
+        end
+    end
+
+    always @(*) sum_top = sum[(32'h1d)+:(3)];
+
+    always @(*) begin
+        saturated = sum;
+        if ((sum_top != three_clear) & (sum_top != three_set)) begin
+            saturated = word_max;
+            if (sum[32'h1f]) begin
+                saturated = word_min;
+            end
+        end
+    end
+
+    always @(*) begin
+        low_16 = ((sum[(32'h0)+:(16)]) & 32'hffffffff);
+        if (sum[32'hf]) begin
+            low_16 = ((sum[(32'h0)+:(16)]) & 32'hffffffff) | sign_of_16;
+        end
+    end
+
+    always @(*) begin
+        immediate = ((instruction_q[(32'h0)+:(8)]) & 32'hffffffff);
+        if (instruction_q[32'h7]) begin
+            immediate = ((instruction_q[(32'h0)+:(8)]) & 32'hffffffff) | sign_of_8;
+        end
+    end
+
+    always @(*) begin
+        multiplier_a = word;
+        divider_denominator = word;
+    end
+
+    always @(*) begin
+        multiplier_b = accumulator_q;
+        divider_numerator = accumulator_q;
+        output_data = accumulator_q;
+    end
+
+    always @(*) multiplier_scale = op[(32'h0)+:(2)];
+    always @(*) rom_read_address = pc_next;
+    always @(*) running = active_q;
+
+    always @(*) begin
+        write_address = instruction_q[(32'h0)+:(8)];
+        if (instruction_q[32'ha]) begin
+            write_address = instruction_q[(32'h0)+:(8)] | ((axis_number_q) & 8'hff);
+        end
+    end
+
+    always @(*) begin
+        write_bank = start_pc;
+        if (snapshot_bank & (write_address[(32'h6)+:(2)] == region_3)) begin
+            write_bank = snapshot_region;
+        end
+    end
+
+    always @(*) begin
+        memory_write_address = bus_address;
+        memory_write_data = bus_write_data;
+        if (storing) begin
+            memory_write_address = write_address | write_bank;
+            memory_write_data = accumulator_q;
+        end
+    end
+
+    always @(*) begin
+        memory_write_enable = storing | bus_write;
+        bus_write_taken = bus_write & ~storing;
+    end
+
+    always @(*) mirror_write_address = memory_write_address;
+    always @(*) mirror_write_data = memory_write_data;
+    always @(*) mirror_write_enable = memory_write_enable;
+    always @(*) mirror_read_address = bus_address;
+    always @(*) bus_read_data = mirror_read_data;
+    always @(*) bus_blocked = storing;
+    always @(*) axis = axis_number_q;
+endmodule
+
+module rac4i65_core_sequencer_rom (
+    input wire clock,
+    input wire [7:0] read_address,
+    output reg [15:0] read_data
+);
+
+    reg [15:0] mem [0:255];
+
+    initial begin
+        read_data = 16'h0;
+        mem[0] = 16'h1000;
+        mem[1] = 16'h58a8;
+        mem[2] = 16'h58a9;
+        mem[3] = 16'h58aa;
+        mem[4] = 16'h6000;
+        mem[5] = 16'h3490;
+        mem[6] = 16'h58b0;
+        mem[7] = 16'h2c90;
+        mem[8] = 16'h5c90;
+        mem[9] = 16'h5cc4;
+        mem[10] = 16'h6005;
+        mem[11] = 16'h8011;
+        mem[12] = 16'h6004;
+        mem[13] = 16'h58b2;
+        mem[14] = 16'h8b0;
+        mem[15] = 16'ha8b2;
+        mem[16] = 16'h7025;
+        mem[17] = 16'h6001;
+        mem[18] = 16'h3c94;
+        mem[19] = 16'h7827;
+        mem[20] = 16'h58b2;
+        mem[21] = 16'hc9c;
+        mem[22] = 16'h781b;
+        mem[23] = 16'h6002;
+        mem[24] = 16'h3498;
+        mem[25] = 16'ha8b2;
+        mem[26] = 16'h701f;
+        mem[27] = 16'h6004;
+        mem[28] = 16'h58b2;
+        mem[29] = 16'h8b0;
+        mem[30] = 16'ha8b2;
+        mem[31] = 16'h6001;
+        mem[32] = 16'h5c94;
+        mem[33] = 16'h6002;
+        mem[34] = 16'h5c98;
+        mem[35] = 16'h1001;
+        mem[36] = 16'h5c9c;
+        mem[37] = 16'h1000;
+        mem[38] = 16'h7035;
+        mem[39] = 16'hc9c;
+        mem[40] = 16'h7832;
+        mem[41] = 16'h6003;
+        mem[42] = 16'h3c94;
+        mem[43] = 16'h58b2;
+        mem[44] = 16'h20bc;
+        mem[45] = 16'h9032;
+        mem[46] = 16'h1001;
+        mem[47] = 16'ha8b2;
+        mem[48] = 16'h1001;
+        mem[49] = 16'h7035;
+        mem[50] = 16'h1000;
+        mem[51] = 16'h5c9c;
+        mem[52] = 16'h10ff;
+        mem[53] = 16'h58b1;
+        mem[54] = 16'h6008;
+        mem[55] = 16'h7847;
+        mem[56] = 16'h6006;
+        mem[57] = 16'h803c;
+        mem[58] = 16'hc80;
+        mem[59] = 16'h7048;
+        mem[60] = 16'hc00;
+        mem[61] = 16'hc080;
+        mem[62] = 16'h58b9;
+        mem[63] = 16'hc04;
+        mem[64] = 16'hc081;
+        mem[65] = 16'h18b9;
+        mem[66] = 16'h58b9;
+        mem[67] = 16'hc08;
+        mem[68] = 16'hc082;
+        mem[69] = 16'h18b9;
+        mem[70] = 16'h7048;
+        mem[71] = 16'h1000;
+        mem[72] = 16'h58b3;
+        mem[73] = 16'h5ccc;
+        mem[74] = 16'h8b1;
+        mem[75] = 16'h7859;
+        mem[76] = 16'h8857;
+        mem[77] = 16'hb0b1;
+        mem[78] = 16'h58b9;
+        mem[79] = 16'hca0;
+        mem[80] = 16'h8853;
+        mem[81] = 16'h40b9;
+        mem[82] = 16'h705a;
+        mem[83] = 16'h1000;
+        mem[84] = 16'h20b9;
+        mem[85] = 16'h4ca0;
+        mem[86] = 16'h705a;
+        mem[87] = 16'h1000;
+        mem[88] = 16'h705a;
+        mem[89] = 16'hb0b1;
+        mem[90] = 16'h5ca0;
+        mem[91] = 16'h5cc8;
+        mem[92] = 16'hc0c;
+        mem[93] = 16'hc4a0;
+        mem[94] = 16'h18a8;
+        mem[95] = 16'h58a8;
+        mem[96] = 16'hc10;
+        mem[97] = 16'hc4a0;
+        mem[98] = 16'h18a9;
+        mem[99] = 16'h58a9;
+        mem[100] = 16'hc14;
+        mem[101] = 16'hc4a0;
+        mem[102] = 16'h18aa;
+        mem[103] = 16'h58aa;
+        mem[104] = 16'h6007;
+        mem[105] = 16'h7887;
+        mem[106] = 16'h8b3;
+        mem[107] = 16'h24a0;
+        mem[108] = 16'h58b4;
+        mem[109] = 16'hc18;
+        mem[110] = 16'hd0b4;
+        mem[111] = 16'h58b5;
+        mem[112] = 16'hc1c;
+        mem[113] = 16'hc8b4;
+        mem[114] = 16'h1ca4;
+        mem[115] = 16'h58b6;
+        mem[116] = 16'h18b5;
+        mem[117] = 16'h58b7;
+        mem[118] = 16'h4424;
+        mem[119] = 16'h4c20;
+        mem[120] = 16'h58b8;
+        mem[121] = 16'h20b7;
+        mem[122] = 16'h807e;
+        mem[123] = 16'h8b6;
+        mem[124] = 16'h5ca4;
+        mem[125] = 16'h708a;
+        mem[126] = 16'h8b7;
+        mem[127] = 16'h50b4;
+        mem[128] = 16'h887b;
+        mem[129] = 16'h8b5;
+        mem[130] = 16'h1ca4;
+        mem[131] = 16'h4424;
+        mem[132] = 16'h4c20;
+        mem[133] = 16'h58b8;
+        mem[134] = 16'h708a;
+        mem[135] = 16'h1000;
+        mem[136] = 16'h58b8;
+        mem[137] = 16'h5ca4;
+        mem[138] = 16'h8b8;
+        mem[139] = 16'h5cd0;
+        mem[140] = 16'h6800;
+        mem[141] = 16'h9090;
+        mem[142] = 16'h1000;
+        mem[143] = 16'h20b8;
+        mem[144] = 16'h58b9;
+        mem[145] = 16'h6009;
+        mem[146] = 16'hd8b9;
+        mem[147] = 16'h18bd;
+        mem[148] = 16'h6801;
+        mem[149] = 16'h9804;
+        mem[150] = 16'h8a8;
+        mem[151] = 16'h58d4;
+        mem[152] = 16'h8a9;
+        mem[153] = 16'h58d5;
+        mem[154] = 16'h8aa;
+        mem[155] = 16'h58d6;
+        mem[156] = 16'h600a;
+        mem[157] = 16'h58c1;
+        mem[158] = 16'h600b;
+        mem[159] = 16'h58c3;
+        mem[160] = 16'h6003;
+        mem[161] = 16'h58c2;
+        mem[162] = 16'h1001;
+        mem[163] = 16'h28ab;
+        mem[164] = 16'h58ab;
+        mem[165] = 16'h58c0;
+        mem[166] = 16'h58d7;
+        mem[167] = 16'ha000;
+        mem[168] = 16'h0;
+        mem[169] = 16'h0;
+        mem[170] = 16'h0;
+        mem[171] = 16'h0;
+        mem[172] = 16'h0;
+        mem[173] = 16'h0;
+        mem[174] = 16'h0;
+        mem[175] = 16'h0;
+        mem[176] = 16'h0;
+        mem[177] = 16'h0;
+        mem[178] = 16'h0;
+        mem[179] = 16'h0;
+        mem[180] = 16'h0;
+        mem[181] = 16'h0;
+        mem[182] = 16'h0;
+        mem[183] = 16'h0;
+        mem[184] = 16'h0;
+        mem[185] = 16'h0;
+        mem[186] = 16'h0;
+        mem[187] = 16'h0;
+        mem[188] = 16'h0;
+        mem[189] = 16'h0;
+        mem[190] = 16'h0;
+        mem[191] = 16'h0;
+        mem[192] = 16'h0;
+        mem[193] = 16'h0;
+        mem[194] = 16'h0;
+        mem[195] = 16'h0;
+        mem[196] = 16'h0;
+        mem[197] = 16'h0;
+        mem[198] = 16'h0;
+        mem[199] = 16'h0;
+        mem[200] = 16'h0;
+        mem[201] = 16'h0;
+        mem[202] = 16'h0;
+        mem[203] = 16'h0;
+        mem[204] = 16'h0;
+        mem[205] = 16'h0;
+        mem[206] = 16'h0;
+        mem[207] = 16'h0;
+        mem[208] = 16'h0;
+        mem[209] = 16'h0;
+        mem[210] = 16'h0;
+        mem[211] = 16'h0;
+        mem[212] = 16'h0;
+        mem[213] = 16'h0;
+        mem[214] = 16'h0;
+        mem[215] = 16'h0;
+        mem[216] = 16'h0;
+        mem[217] = 16'h0;
+        mem[218] = 16'h0;
+        mem[219] = 16'h0;
+        mem[220] = 16'h0;
+        mem[221] = 16'h0;
+        mem[222] = 16'h0;
+        mem[223] = 16'h0;
+        mem[224] = 16'h0;
+        mem[225] = 16'h0;
+        mem[226] = 16'h0;
+        mem[227] = 16'h0;
+        mem[228] = 16'h0;
+        mem[229] = 16'h0;
+        mem[230] = 16'h0;
+        mem[231] = 16'h0;
+        mem[232] = 16'h0;
+        mem[233] = 16'h0;
+        mem[234] = 16'h0;
+        mem[235] = 16'h0;
+        mem[236] = 16'h0;
+        mem[237] = 16'h0;
+        mem[238] = 16'h0;
+        mem[239] = 16'h0;
+        mem[240] = 16'h0;
+        mem[241] = 16'h0;
+        mem[242] = 16'h0;
+        mem[243] = 16'h0;
+        mem[244] = 16'h0;
+        mem[245] = 16'h0;
+        mem[246] = 16'h0;
+        mem[247] = 16'h0;
+        mem[248] = 16'h0;
+        mem[249] = 16'h0;
+        mem[250] = 16'h0;
+        mem[251] = 16'h0;
+        mem[252] = 16'h0;
+        mem[253] = 16'h0;
+        mem[254] = 16'h0;
+        mem[255] = 16'h0;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+    end
+endmodule
+
+module rac4i65_core_sequencer_memory (
+    input wire clock,
+    input wire [7:0] read_address,
+    output reg [31:0] read_data,
+    input wire [7:0] write_address,
+    input wire [31:0] write_data,
+    input wire write_enable
+);
+
+    reg [31:0] mem [0:255];
+
+    initial begin
+        read_data = 32'h0;
+        mem[0] = 32'h0;
+        mem[1] = 32'h0;
+        mem[2] = 32'h0;
+        mem[3] = 32'h0;
+        mem[4] = 32'h0;
+        mem[5] = 32'h0;
+        mem[6] = 32'h0;
+        mem[7] = 32'h0;
+        mem[8] = 32'h0;
+        mem[9] = 32'h0;
+        mem[10] = 32'h0;
+        mem[11] = 32'h0;
+        mem[12] = 32'h0;
+        mem[13] = 32'h0;
+        mem[14] = 32'h0;
+        mem[15] = 32'h0;
+        mem[16] = 32'h0;
+        mem[17] = 32'h0;
+        mem[18] = 32'h0;
+        mem[19] = 32'h0;
+        mem[20] = 32'h0;
+        mem[21] = 32'h0;
+        mem[22] = 32'h0;
+        mem[23] = 32'h0;
+        mem[24] = 32'h0;
+        mem[25] = 32'h0;
+        mem[26] = 32'h0;
+        mem[27] = 32'h0;
+        mem[28] = 32'h0;
+        mem[29] = 32'h0;
+        mem[30] = 32'h0;
+        mem[31] = 32'h0;
+        mem[32] = 32'h0;
+        mem[33] = 32'h0;
+        mem[34] = 32'h0;
+        mem[35] = 32'h0;
+        mem[36] = 32'h0;
+        mem[37] = 32'h0;
+        mem[38] = 32'h0;
+        mem[39] = 32'h0;
+        mem[40] = 32'h0;
+        mem[41] = 32'h0;
+        mem[42] = 32'h0;
+        mem[43] = 32'h0;
+        mem[44] = 32'h0;
+        mem[45] = 32'h0;
+        mem[46] = 32'h0;
+        mem[47] = 32'h0;
+        mem[48] = 32'h0;
+        mem[49] = 32'h0;
+        mem[50] = 32'h0;
+        mem[51] = 32'h0;
+        mem[52] = 32'h0;
+        mem[53] = 32'h0;
+        mem[54] = 32'h0;
+        mem[55] = 32'h0;
+        mem[56] = 32'h0;
+        mem[57] = 32'h0;
+        mem[58] = 32'h0;
+        mem[59] = 32'h0;
+        mem[60] = 32'h0;
+        mem[61] = 32'h0;
+        mem[62] = 32'h0;
+        mem[63] = 32'h0;
+        mem[64] = 32'h0;
+        mem[65] = 32'h0;
+        mem[66] = 32'h0;
+        mem[67] = 32'h0;
+        mem[68] = 32'h0;
+        mem[69] = 32'h0;
+        mem[70] = 32'h0;
+        mem[71] = 32'h0;
+        mem[72] = 32'h0;
+        mem[73] = 32'h0;
+        mem[74] = 32'h0;
+        mem[75] = 32'h0;
+        mem[76] = 32'h0;
+        mem[77] = 32'h0;
+        mem[78] = 32'h0;
+        mem[79] = 32'h0;
+        mem[80] = 32'h0;
+        mem[81] = 32'h0;
+        mem[82] = 32'h0;
+        mem[83] = 32'h0;
+        mem[84] = 32'h0;
+        mem[85] = 32'h0;
+        mem[86] = 32'h0;
+        mem[87] = 32'h0;
+        mem[88] = 32'h0;
+        mem[89] = 32'h0;
+        mem[90] = 32'h0;
+        mem[91] = 32'h0;
+        mem[92] = 32'h0;
+        mem[93] = 32'h0;
+        mem[94] = 32'h0;
+        mem[95] = 32'h0;
+        mem[96] = 32'h0;
+        mem[97] = 32'h0;
+        mem[98] = 32'h0;
+        mem[99] = 32'h0;
+        mem[100] = 32'h0;
+        mem[101] = 32'h0;
+        mem[102] = 32'h0;
+        mem[103] = 32'h0;
+        mem[104] = 32'h0;
+        mem[105] = 32'h0;
+        mem[106] = 32'h0;
+        mem[107] = 32'h0;
+        mem[108] = 32'h0;
+        mem[109] = 32'h0;
+        mem[110] = 32'h0;
+        mem[111] = 32'h0;
+        mem[112] = 32'h0;
+        mem[113] = 32'h0;
+        mem[114] = 32'h0;
+        mem[115] = 32'h0;
+        mem[116] = 32'h0;
+        mem[117] = 32'h0;
+        mem[118] = 32'h0;
+        mem[119] = 32'h0;
+        mem[120] = 32'h0;
+        mem[121] = 32'h0;
+        mem[122] = 32'h0;
+        mem[123] = 32'h0;
+        mem[124] = 32'h0;
+        mem[125] = 32'h0;
+        mem[126] = 32'h0;
+        mem[127] = 32'h0;
+        mem[128] = 32'h0;
+        mem[129] = 32'h0;
+        mem[130] = 32'h0;
+        mem[131] = 32'h0;
+        mem[132] = 32'h0;
+        mem[133] = 32'h0;
+        mem[134] = 32'h0;
+        mem[135] = 32'h0;
+        mem[136] = 32'h0;
+        mem[137] = 32'h0;
+        mem[138] = 32'h0;
+        mem[139] = 32'h0;
+        mem[140] = 32'h0;
+        mem[141] = 32'h0;
+        mem[142] = 32'h0;
+        mem[143] = 32'h0;
+        mem[144] = 32'h0;
+        mem[145] = 32'h0;
+        mem[146] = 32'h0;
+        mem[147] = 32'h0;
+        mem[148] = 32'h0;
+        mem[149] = 32'h0;
+        mem[150] = 32'h0;
+        mem[151] = 32'h0;
+        mem[152] = 32'h0;
+        mem[153] = 32'h0;
+        mem[154] = 32'h0;
+        mem[155] = 32'h0;
+        mem[156] = 32'h0;
+        mem[157] = 32'h0;
+        mem[158] = 32'h0;
+        mem[159] = 32'h0;
+        mem[160] = 32'h0;
+        mem[161] = 32'h0;
+        mem[162] = 32'h0;
+        mem[163] = 32'h0;
+        mem[164] = 32'h0;
+        mem[165] = 32'h0;
+        mem[166] = 32'h0;
+        mem[167] = 32'h0;
+        mem[168] = 32'h0;
+        mem[169] = 32'h0;
+        mem[170] = 32'h0;
+        mem[171] = 32'h0;
+        mem[172] = 32'h0;
+        mem[173] = 32'h0;
+        mem[174] = 32'h0;
+        mem[175] = 32'h0;
+        mem[176] = 32'h0;
+        mem[177] = 32'h0;
+        mem[178] = 32'h0;
+        mem[179] = 32'h0;
+        mem[180] = 32'h0;
+        mem[181] = 32'h0;
+        mem[182] = 32'h0;
+        mem[183] = 32'h0;
+        mem[184] = 32'h0;
+        mem[185] = 32'h0;
+        mem[186] = 32'h0;
+        mem[187] = 32'h0;
+        mem[188] = 32'h800000;
+        mem[189] = 32'h800;
+        mem[190] = 32'h0;
+        mem[191] = 32'h0;
+        mem[192] = 32'h0;
+        mem[193] = 32'h0;
+        mem[194] = 32'h0;
+        mem[195] = 32'h0;
+        mem[196] = 32'h0;
+        mem[197] = 32'h0;
+        mem[198] = 32'h0;
+        mem[199] = 32'h0;
+        mem[200] = 32'h0;
+        mem[201] = 32'h0;
+        mem[202] = 32'h0;
+        mem[203] = 32'h0;
+        mem[204] = 32'h0;
+        mem[205] = 32'h0;
+        mem[206] = 32'h0;
+        mem[207] = 32'h0;
+        mem[208] = 32'h0;
+        mem[209] = 32'h0;
+        mem[210] = 32'h0;
+        mem[211] = 32'h0;
+        mem[212] = 32'h0;
+        mem[213] = 32'h0;
+        mem[214] = 32'h0;
+        mem[215] = 32'h0;
+        mem[216] = 32'h0;
+        mem[217] = 32'h0;
+        mem[218] = 32'h0;
+        mem[219] = 32'h0;
+        mem[220] = 32'h0;
+        mem[221] = 32'h0;
+        mem[222] = 32'h0;
+        mem[223] = 32'h0;
+        mem[224] = 32'h0;
+        mem[225] = 32'h0;
+        mem[226] = 32'h0;
+        mem[227] = 32'h0;
+        mem[228] = 32'h0;
+        mem[229] = 32'h0;
+        mem[230] = 32'h0;
+        mem[231] = 32'h0;
+        mem[232] = 32'h0;
+        mem[233] = 32'h0;
+        mem[234] = 32'h0;
+        mem[235] = 32'h0;
+        mem[236] = 32'h0;
+        mem[237] = 32'h0;
+        mem[238] = 32'h0;
+        mem[239] = 32'h0;
+        mem[240] = 32'h0;
+        mem[241] = 32'h0;
+        mem[242] = 32'h0;
+        mem[243] = 32'h0;
+        mem[244] = 32'h0;
+        mem[245] = 32'h0;
+        mem[246] = 32'h0;
+        mem[247] = 32'h0;
+        mem[248] = 32'h0;
+        mem[249] = 32'h0;
+        mem[250] = 32'h0;
+        mem[251] = 32'h0;
+        mem[252] = 32'h0;
+        mem[253] = 32'h0;
+        mem[254] = 32'h0;
+        mem[255] = 32'h0;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+        if (write_enable) mem[write_address] <= write_data;
+    end
+endmodule
+
+module rac4i65_core_sequencer_multiplier (
+    input wire clock,
+    input wire start,
+    input wire [1:0] scale,
+    input wire [31:0] a,
+    input wire [31:0] b,
+    output reg busy,
+    output reg [31:0] result
+);
+
+    // Constants
+    localparam zero = 32'h0;
+    localparam no_steps = 4'h0;
+    localparam one_step = 4'h1;
+    localparam steps_coefficient = 4'h9;
+    localparam steps_gain = 4'hc;
+    localparam steps_period = 4'h7;
+    localparam half_coefficient = 32'h8000;
+    localparam half_fine = 32'h200000;
+    localparam half_wide = 32'h8000;
+    localparam half_period = 32'h800;
+    localparam sign_extension = 32'hc0000000;
+    localparam word_max = 32'h1fffffff;
+    localparam word_min = 32'he0000000;
+    localparam eleven_clear = 11'b0;
+    localparam eleven_set = 11'b11111111111;
+    localparam five_clear = 5'b0;
+    localparam five_set = 5'b11111;
+
+    // Pins of the parts
+    reg [31:0] p_d;
+    wire [31:0] p_q;
+    reg p_clock;
+    reg [31:0] lo_d;
+    wire [31:0] lo_q;
+    reg lo_clock;
+    reg [31:0] operand_d;
+    wire [31:0] operand_q;
+    reg operand_clock;
+    reg [3:0] steps_d;
+    wire [3:0] steps_q;
+    reg steps_clock;
+    reg last_bit_d;
+    wire last_bit_q;
+    reg last_bit_clock;
+    reg guard_8_d;
+    wire guard_8_q;
+    reg guard_8_clock;
+
+    // Intermediate values
+    reg [31:0] addend;
+    reg negate;
+    reg [31:0] sum;
+    reg [2:0] digit;
+    reg [31:0] shifted;
+    reg [10:0] top;
+    reg running;
+    reg fits;
+    reg [4:0] top_5;
+
+    // Parts
+    rac4i65_core_dff_32 p (.d(p_d), .q(p_q), .clock(p_clock));
+    rac4i65_core_dff_32 lo (.d(lo_d), .q(lo_q), .clock(lo_clock));
+    rac4i65_core_dff_32 operand (.d(operand_d), .q(operand_q), .clock(operand_clock));
+    rac4i65_core_dff_4 steps (.d(steps_d), .q(steps_q), .clock(steps_clock));
+    rac4i65_core_dff_1 last_bit (.d(last_bit_d), .q(last_bit_q), .clock(last_bit_clock));
+    rac4i65_core_dff_1 guard_8 (.d(guard_8_d), .q(guard_8_q), .clock(guard_8_clock));
+
+    always @(*) begin
+        p_clock = clock;
+        lo_clock = clock;
+        operand_clock = clock;
+        steps_clock = clock;
+        last_bit_clock = clock;
+        guard_8_clock = clock;
+    end
+
+    always @(*) begin
+        p_d = p_q;
+        lo_d = lo_q;
+        operand_d = operand_q;
+        steps_d = steps_q;
+        last_bit_d = last_bit_q;
+        guard_8_d = guard_8_q;
+        if (running) begin
+            steps_d = steps_q - one_step;
+            p_d = shifted;
+            if (sum[32'h1f]) begin
+                p_d = shifted | sign_extension;
+            end
+            lo_d = (lo_q >> 32'h2) | (((sum[(32'h0)+:(2)]) & 32'hffffffff) << 32'h1e);
+            last_bit_d = lo_q[32'h1];
+        end
+        else if (start) begin
+            operand_d = a;
+            lo_d = b;
+            last_bit_d = 1'b0;
+            guard_8_d = 1'b0;
+            case (scale)
+                0:
+                begin
+                    p_d = half_coefficient;
+                    steps_d = steps_coefficient;
+                end
+                1:
+                begin
+                    p_d = half_fine;
+                    steps_d = steps_gain;
+                end
+                2:
+                begin
+                    p_d = half_wide;
+                    steps_d = steps_gain;
+                    guard_8_d = 1'b1;
+                end
+                default:
+                begin
+                    p_d = half_period;
+                    steps_d = steps_period;
+                end
+            endcase
+        end
+    end
+
+    always @(*) running = steps_q != no_steps;
+    always @(*) busy = running;
+
+    always @(*) begin
+        digit = ((lo_q[(32'h0)+:(2)]) & 3'h7) << 32'h1;
+        if (last_bit_q) begin
+            digit = (((lo_q[(32'h0)+:(2)]) & 3'h7) << 32'h1) | 32'h1;
+        end
+    end
+
+    always @(*) begin
+        addend = operand_q;
+        negate = 1'b0;
+        case (digit)
+            0:
+            begin
+                addend = zero;
+            end
+            3:
+            begin
+                addend = operand_q << 32'h1;
+            end
+            4:
+            begin
+                addend = operand_q << 32'h1;
+                negate = 1'b1;
+            end
+            5:
+            begin
+                negate = 1'b1;
+            end
+            6:
+            begin
+                negate = 1'b1;
+            end
+            7:
+            begin
+                addend = zero;
+            end
+            default:
+            begin
+                addend = operand_q;
+            end
+        endcase
+    end
+
+    always @(*) begin
+        sum = p_q + addend;
+        if (negate) begin
+            sum = p_q - addend;
+        end
+    end
+
+    always @(*) shifted = sum >> 32'h2;
+
+    always @(*) begin
+        top = p_q[(32'h15)+:(11)];
+        top_5 = p_q[(32'h1b)+:(5)];
+    end
+
+    always @(*) begin
+        if (guard_8_q) begin
+            fits = (top == eleven_clear) | (top == eleven_set);
+            result = (p_q << 32'h8) | ((lo_q[(32'h18)+:(8)]) & 32'hffffffff);
+        end
+        else begin
+            fits = (top_5 == five_clear) | (top_5 == five_set);
+            result = (p_q << 32'h2) | ((lo_q[(32'h1e)+:(2)]) & 32'hffffffff);
+        end
+        if (~fits) begin
+            result = word_max;
+            if (p_q[32'h1f]) begin
+                result = word_min;
+            end
+        end
+    end
+endmodule
+
+module rac4i65_core_sequencer_divider (
+    input wire clock,
+    input wire start,
+    input wire [31:0] numerator,
+    input wire [31:0] denominator,
+    output reg busy,
+    output reg [31:0] quotient
+);
+
+    // Constants
+    localparam no_steps = 6'b0;
+    localparam one_step = 6'b1;
+    localparam all_steps = 6'b100001;
+    localparam zero_25 = 25'h0;
+    localparam zero = 32'h0;
+    localparam one = 32'h1;
+    localparam three_clear = 3'b0;
+    localparam word_max = 32'h1fffffff;
+
+    // Pins of the parts
+    reg [24:0] remainder_d;
+    wire [24:0] remainder_q;
+    reg remainder_clock;
+    reg [31:0] bits_d;
+    wire [31:0] bits_q;
+    reg bits_clock;
+    reg [24:0] divisor_d;
+    wire [24:0] divisor_q;
+    reg divisor_clock;
+    reg [5:0] steps_d;
+    wire [5:0] steps_q;
+    reg steps_clock;
+    reg negative_d;
+    wire negative_q;
+    reg negative_clock;
+    reg overflow_d;
+    wire overflow_q;
+    reg overflow_clock;
+    reg checking_d;
+    wire checking_q;
+    reg checking_clock;
+
+    // Intermediate values
+    reg running;
+    reg [24:0] minuend;
+    reg [25:0] difference;
+    reg [24:0] magnitude;
+    reg [2:0] bits_top;
+    reg [31:0] clipped;
+
+    // Parts
+    rac4i65_core_dff_25 remainder (.d(remainder_d), .q(remainder_q), .clock(remainder_clock));
+    rac4i65_core_dff_32 bits (.d(bits_d), .q(bits_q), .clock(bits_clock));
+    rac4i65_core_dff_25 divisor (.d(divisor_d), .q(divisor_q), .clock(divisor_clock));
+    rac4i65_core_dff_6 steps (.d(steps_d), .q(steps_q), .clock(steps_clock));
+    rac4i65_core_dff_1 negative (.d(negative_d), .q(negative_q), .clock(negative_clock));
+    rac4i65_core_dff_1 overflow (.d(overflow_d), .q(overflow_q), .clock(overflow_clock));
+    rac4i65_core_dff_1 checking (.d(checking_d), .q(checking_q), .clock(checking_clock));
+
+    always @(*) begin
+        remainder_clock = clock;
+        bits_clock = clock;
+        divisor_clock = clock;
+        steps_clock = clock;
+        negative_clock = clock;
+        overflow_clock = clock;
+        checking_clock = clock;
+    end
+
+    always @(*) begin
+        remainder_d = remainder_q;
+        bits_d = bits_q;
+        divisor_d = divisor_q;
+        steps_d = steps_q;
+        negative_d = negative_q;
+        overflow_d = overflow_q;
+        checking_d = checking_q;
+        if (running) begin
+            steps_d = steps_q - one_step;
+            checking_d = 1'b0;
+            if (checking_q) begin
+                overflow_d = ~difference[32'h19];
+            end
+            else if (difference[32'h19]) begin
+                remainder_d = minuend;
+                bits_d = bits_q << 32'h1;
+            end
+            else begin
+                remainder_d = difference[(32'h0)+:(25)];
+                bits_d = (bits_q << 32'h1) | one;
+            end
+        end
+        else if (start) begin
+            remainder_d = magnitude;
+            divisor_d = ((denominator[(32'h0)+:(24)]) & 25'h1ffffff);
+            bits_d = zero;
+            negative_d = numerator[32'h1f];
+            overflow_d = 1'b0;
+            checking_d = 1'b1;
+            steps_d = all_steps;
+        end
+    end
+
+    always @(*) running = steps_q != no_steps;
+    always @(*) busy = running;
+
+    always @(*) begin
+        minuend = remainder_q << 32'h1;
+        if (checking_q) begin
+            minuend = remainder_q;
+        end
+    end
+
+    always @(*) difference = ((minuend) & 26'h3ffffff) - ((divisor_q) & 26'h3ffffff);
+
+    always @(*) begin
+        magnitude = numerator[(32'h0)+:(25)];
+        if (numerator[32'h1f]) begin
+            magnitude = zero_25 - numerator[(32'h0)+:(25)];
+        end
+    end
+
+    always @(*) bits_top = bits_q[(32'h1d)+:(3)];
+
+    always @(*) begin
+        clipped = bits_q;
+        if (overflow_q | (bits_top != three_clear)) begin
+            clipped = word_max;
+        end
+    end
+
+    always @(*) begin
+        quotient = clipped;
+        if (negative_q) begin
+            quotient = zero - clipped;
+        end
+    end
+endmodule
+
+module rac4i65_core_encoders (
+    input wire clock,
+    input wire a,
+    input wire b,
+    input wire [3:0] filter,
+    input wire sample,
+    input wire [23:0] now,
+    input wire clear_error,
+    output reg [15:0] count,
+    output reg [23:0] edge_time,
+    output reg direction,
+    output reg error,
+    output reg live_a,
+    output reg live_b
+);
+
+    // Constants
+    localparam forward = 16'h1;
+    localparam backward = 16'hffff;
+
+    // Pins of the parts
+    reg line_a_clock;
+    reg line_a_pin;
+    reg line_a_tick;
+    reg [3:0] line_a_limit;
+    reg line_a_load;
+    wire line_a_synchronised;
+    wire line_a_value;
+    reg line_b_clock;
+    reg line_b_pin;
+    reg line_b_tick;
+    reg [3:0] line_b_limit;
+    reg line_b_load;
+    wire line_b_synchronised;
+    wire line_b_value;
+    reg settled_0_d;
+    wire settled_0_q;
+    reg settled_0_clock;
+    reg settled_1_d;
+    wire settled_1_q;
+    reg settled_1_clock;
+    reg settled_d;
+    wire settled_q;
+    reg settled_clock;
+    reg last_a_d;
+    wire last_a_q;
+    reg last_a_clock;
+    reg last_b_d;
+    wire last_b_q;
+    reg last_b_clock;
+    reg [15:0] live_count_d;
+    wire [15:0] live_count_q;
+    reg live_count_clock;
+    reg [23:0] live_time_d;
+    wire [23:0] live_time_q;
+    reg live_time_clock;
+    reg live_direction_d;
+    wire live_direction_q;
+    reg live_direction_clock;
+    reg [15:0] sampled_count_d;
+    wire [15:0] sampled_count_q;
+    reg sampled_count_clock;
+    reg [23:0] sampled_time_d;
+    wire [23:0] sampled_time_q;
+    reg sampled_time_clock;
+    reg sampled_direction_d;
+    wire sampled_direction_q;
+    reg sampled_direction_clock;
+    reg sticky_error_d;
+    wire sticky_error_q;
+    reg sticky_error_clock;
+
+    // Intermediate values
+    reg change_a;
+    reg change_b;
+    reg up;
+    reg [15:0] step;
+
+    // Parts
+    rac4i65_core_encoders_0_line_a line_a(
+        .clock(line_a_clock),
+        .pin(line_a_pin),
+        .tick(line_a_tick),
+        .limit(line_a_limit),
+        .load(line_a_load),
+        .synchronised(line_a_synchronised),
+        .value(line_a_value)
+    );
+    rac4i65_core_encoders_0_line_a line_b(
+        .clock(line_b_clock),
+        .pin(line_b_pin),
+        .tick(line_b_tick),
+        .limit(line_b_limit),
+        .load(line_b_load),
+        .synchronised(line_b_synchronised),
+        .value(line_b_value)
+    );
+    rac4i65_core_dff_1 settled_0 (.d(settled_0_d), .q(settled_0_q), .clock(settled_0_clock));
+    rac4i65_core_dff_1 settled_1 (.d(settled_1_d), .q(settled_1_q), .clock(settled_1_clock));
+    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(settled_clock));
+    rac4i65_core_dff_1 last_a (.d(last_a_d), .q(last_a_q), .clock(last_a_clock));
+    rac4i65_core_dff_1 last_b (.d(last_b_d), .q(last_b_q), .clock(last_b_clock));
+    rac4i65_core_dff_16 live_count (.d(live_count_d), .q(live_count_q), .clock(live_count_clock));
+    rac4i65_core_dff_24_2 live_time (.d(live_time_d), .q(live_time_q), .clock(live_time_clock));
+    rac4i65_core_dff_1 live_direction (.d(live_direction_d), .q(live_direction_q), .clock(live_direction_clock));
+    rac4i65_core_dff_16 sampled_count (.d(sampled_count_d), .q(sampled_count_q), .clock(sampled_count_clock));
+    rac4i65_core_dff_24_2 sampled_time (.d(sampled_time_d), .q(sampled_time_q), .clock(sampled_time_clock));
+    rac4i65_core_dff_1 sampled_direction(
+        .d(sampled_direction_d),
+        .q(sampled_direction_q),
+        .clock(sampled_direction_clock)
+    );
+    rac4i65_core_dff_1 sticky_error (.d(sticky_error_d), .q(sticky_error_q), .clock(sticky_error_clock));
+
+    always @(*) begin
+        line_a_clock = clock;
+        line_b_clock = clock;
+        settled_0_clock = clock;
+        settled_1_clock = clock;
+        settled_clock = clock;
+        last_a_clock = clock;
+        last_b_clock = clock;
+        live_count_clock = clock;
+        live_time_clock = clock;
+        live_direction_clock = clock;
+        sampled_count_clock = clock;
+        sampled_time_clock = clock;
+        sampled_direction_clock = clock;
+        sticky_error_clock = clock;
+        line_a_tick = 1'b1;
+        line_b_tick = 1'b1;
+    end
+
+    always @(*) begin
+        settled_0_d = settled_0_q;
+        settled_0_d = 1'b1;
+    end
+
+    always @(*) begin
+        settled_1_d = settled_1_q;
+        settled_1_d = settled_0_q;
+    end
+
+    always @(*) begin
+        settled_d = settled_q;
+        settled_d = settled_1_q;
+    end
+
+    always @(*) begin
+        last_a_d = last_a_q;
+        last_b_d = last_b_q;
+        last_a_d = line_a_value;
+        last_b_d = line_b_value;
+        if (~settled_q) begin
+            last_a_d = line_a_synchronised;
+            last_b_d = line_b_synchronised;
+        end
+    end
+
+    always @(*) begin
+        live_count_d = live_count_q;
+        live_time_d = live_time_q;
+        live_direction_d = live_direction_q;
+        if (change_a ^ change_b) begin
+            live_count_d = live_count_q + step;
+            live_time_d = now;
+            live_direction_d = up;
+        end
+    end
+
+    always @(*) begin
+        sampled_count_d = sampled_count_q;
+        sampled_time_d = sampled_time_q;
+        sampled_direction_d = sampled_direction_q;
+        if (sample) begin
+            sampled_count_d = live_count_q;
+            sampled_time_d = live_time_q;
+            sampled_direction_d = live_direction_q;
+        end
+    end
+
+    always @(*) begin
+        sticky_error_d = sticky_error_q;
+        if (clear_error) begin
+            sticky_error_d = 1'b0;
+        end
+        if (change_a & change_b) begin
+            sticky_error_d = 1'b1;
+        end
+    end
+
+    always @(*) line_a_pin = a;
+    always @(*) line_b_pin = b;
+
+    always @(*) begin
+        line_a_limit = filter;
+        line_b_limit = filter;
+    end
+
+    always @(*) begin
+        line_a_load = ~settled_q;
+        line_b_load = ~settled_q;
+    end
+
+    always @(*) change_a = settled_q & (line_a_value ^ last_a_q);
+    always @(*) change_b = settled_q & (line_b_value ^ last_b_q);
+    always @(*) up = line_a_value ^ last_b_q;
+
+    always @(*) begin
+        step = backward;
+        if (up) begin
+            step = forward;
+        end
+    end
+
+    always @(*) count = sampled_count_q;
+    always @(*) edge_time = sampled_time_q;
+    always @(*) direction = sampled_direction_q;
+    always @(*) error = sticky_error_q;
+    always @(*) live_a = line_a_value;
+    always @(*) live_b = line_b_value;
+endmodule
+
+module rac4i65_core_drives (
+    input wire clock,
+    input wire enable,
+    input wire [12:0] period,
+    input wire [9:0] blanking,
+    input wire load,
+    input wire [12:0] compare,
+    input wire direction,
+    output reg pwm,
+    output reg dir,
+    output reg period_start
+);
+
+    // Constants
+    localparam phase_zero = 13'b0;
+    localparam phase_one = 13'b1;
+    localparam quiet_zero = 10'b0;
+    localparam quiet_one = 10'b1;
+
+    // Pins of the parts
+    reg [12:0] phase_d;
+    wire [12:0] phase_q;
+    reg phase_clock;
+    reg [12:0] shadow_compare_d;
+    wire [12:0] shadow_compare_q;
+    reg shadow_compare_clock;
+    reg shadow_direction_d;
+    wire shadow_direction_q;
+    reg shadow_direction_clock;
+    reg [12:0] active_compare_d;
+    wire [12:0] active_compare_q;
+    reg active_compare_clock;
+    reg active_direction_d;
+    wire active_direction_q;
+    reg active_direction_clock;
+    reg [9:0] quiet_d;
+    wire [9:0] quiet_q;
+    reg quiet_clock;
+    reg settled_d;
+    wire settled_q;
+    reg settled_clock;
+    reg pwm_pin_d;
+    wire pwm_pin_q;
+    reg pwm_pin_clock;
+    reg dir_pin_d;
+    wire dir_pin_q;
+    reg dir_pin_clock;
+    reg start_d;
+    wire start_q;
+    reg start_clock;
+
+    // Intermediate values
+    reg [12:0] next_phase;
+    reg last;
+    reg running;
+    reg wraps;
+    reg long_quiet;
+    reg aligned;
+    reg turns;
+    reg permitted;
+
+    // Parts
+    rac4i65_core_dff_13 phase (.d(phase_d), .q(phase_q), .clock(phase_clock));
+    rac4i65_core_dff_13 shadow_compare (.d(shadow_compare_d), .q(shadow_compare_q), .clock(shadow_compare_clock));
+    rac4i65_core_dff_1 shadow_direction(
+        .d(shadow_direction_d),
+        .q(shadow_direction_q),
+        .clock(shadow_direction_clock)
+    );
+    rac4i65_core_dff_13 active_compare (.d(active_compare_d), .q(active_compare_q), .clock(active_compare_clock));
+    rac4i65_core_dff_1 active_direction(
+        .d(active_direction_d),
+        .q(active_direction_q),
+        .clock(active_direction_clock)
+    );
+    rac4i65_core_dff_10 quiet (.d(quiet_d), .q(quiet_q), .clock(quiet_clock));
+    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(settled_clock));
+    rac4i65_core_dff_1 pwm_pin (.d(pwm_pin_d), .q(pwm_pin_q), .clock(pwm_pin_clock));
+    rac4i65_core_dff_1 dir_pin (.d(dir_pin_d), .q(dir_pin_q), .clock(dir_pin_clock));
+    rac4i65_core_dff_1 start (.d(start_d), .q(start_q), .clock(start_clock));
+
+    always @(*) begin
+        phase_clock = clock;
+        shadow_compare_clock = clock;
+        shadow_direction_clock = clock;
+        active_compare_clock = clock;
+        active_direction_clock = clock;
+        quiet_clock = clock;
+        settled_clock = clock;
+        pwm_pin_clock = clock;
+        dir_pin_clock = clock;
+        start_clock = clock;
+    end
+
+    always @(*) begin
+        phase_d = phase_q;
+        phase_d = next_phase;
+        if (last) begin
+            phase_d = phase_zero;
+        end
+    end
+
+    always @(*) begin
+        shadow_compare_d = shadow_compare_q;
+        shadow_direction_d = shadow_direction_q;
+        active_compare_d = active_compare_q;
+        active_direction_d = active_direction_q;
+        if (load) begin
+            shadow_compare_d = compare;
+            shadow_direction_d = direction;
+        end
+        if (wraps) begin
+            active_compare_d = shadow_compare_q;
+            active_direction_d = shadow_direction_q;
+        end
+        if (~enable) begin
+            shadow_compare_d = phase_zero;
+            shadow_direction_d = 1'b0;
+            active_compare_d = phase_zero;
+            active_direction_d = 1'b0;
+        end
+    end
+
+    always @(*) begin
+        quiet_d = quiet_q;
+        if (~long_quiet) begin
+            quiet_d = quiet_q + quiet_one;
+        end
+        if (turns | pwm_pin_q | ~enable) begin
+            quiet_d = quiet_zero;
+        end
+    end
+
+    always @(*) begin
+        settled_d = settled_q;
+        settled_d = permitted & ~turns;
+    end
+
+    always @(*) begin
+        pwm_pin_d = pwm_pin_q;
+        pwm_pin_d = permitted & running & aligned & (phase_q < active_compare_q);
+    end
+
+    always @(*) begin
+        dir_pin_d = dir_pin_q;
+        if (turns) begin
+            dir_pin_d = active_direction_q;
+        end
+    end
+
+    always @(*) begin
+        start_d = start_q;
+        start_d = wraps;
+    end
+
+    always @(*) running = |period;
+    always @(*) next_phase = phase_q + phase_one;
+    always @(*) last = next_phase >= period;
+    always @(*) wraps = last & running;
+    always @(*) long_quiet = quiet_q >= blanking;
+    always @(*) aligned = ~(active_direction_q ^ dir_pin_q);
+    always @(*) turns = enable & ~aligned & |active_compare_q & long_quiet & ~pwm_pin_q;
+    always @(*) permitted = enable & (settled_q | long_quiet);
+    always @(*) pwm = pwm_pin_q;
+    always @(*) dir = dir_pin_q;
+    always @(*) period_start = start_q;
+endmodule
+
+module rac4i65_core_dff_1 (
+    input wire d,
+    output reg q,
+    input wire clock
+);
+
+    initial begin
+        q = 1'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_2 (
+    input wire [1:0] d,
+    output reg [1:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 2'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_3 (
+    input wire [2:0] d,
+    output reg [2:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 3'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_4 (
+    input wire [3:0] d,
+    output reg [3:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 4'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_4_from_3 (
+    input wire [3:0] d,
+    output reg [3:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 4'h3;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_4_from_f (
+    input wire [3:0] d,
+    output reg [3:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 4'hf;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_5 (
+    input wire [4:0] d,
+    output reg [4:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 5'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_6 (
+    input wire [5:0] d,
+    output reg [5:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 6'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_6_from_21 (
+    input wire [5:0] d,
+    output reg [5:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 6'h21;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_8 (
+    input wire [7:0] d,
+    output reg [7:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 8'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_10 (
+    input wire [9:0] d,
+    output reg [9:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 10'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_10_from_21 (
+    input wire [9:0] d,
+    output reg [9:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 10'h21;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_13 (
+    input wire [12:0] d,
+    output reg [12:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 13'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_14 (
+    input wire [13:0] d,
+    output reg [13:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 14'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_16 (
+    input wire [15:0] d,
+    output reg [15:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 16'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_20 (
+    input wire [19:0] d,
+    output reg [19:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 20'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_24 (
+    input wire [23:0] d,
+    output reg [23:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 24'h196e6b;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_24_2 (
+    input wire [23:0] d,
+    output reg [23:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 24'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_24_from_8235 (
+    input wire [23:0] d,
+    output reg [23:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 24'h8235;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_25 (
+    input wire [24:0] d,
+    output reg [24:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 25'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_32 (
+    input wire [31:0] d,
+    output reg [31:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 32'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_32_from_52414353 (
+    input wire [31:0] d,
+    output reg [31:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 32'h52414353;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,75 @@
+//! The design as a whole: every file in `generated/`, made afresh, and the committed Verilog.
+
+use crate::blocks::core::Core;
+use crate::board::{Board, BoardError};
+use crate::emit::{hash, registers, top, ucf};
+use rust_hdl::prelude::Block;
+
+/// Name of the top module and of the files.
+pub const NAME: &str = "rac4i65";
+
+/// The committed `generated/rac4i65.v`; a test proves that it is current.
+pub const COMMITTED_VERILOG: &str = include_str!("../../generated/rac4i65.v");
+
+/// A file of `generated/`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Name in the folder.
+    pub name: String,
+    /// Content.
+    pub text: String,
+}
+
+/// A design that cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum DesignError {
+    /// Core and board do not fit.
+    #[error(transparent)]
+    Top(#[from] top::TopError),
+    /// The board table contradicts itself.
+    #[error(transparent)]
+    Board(#[from] BoardError),
+}
+
+/// The hash that a card with the committed design answers with.
+#[must_use]
+pub fn content_hash() -> u32 {
+    hash::embedded(COMMITTED_VERILOG).unwrap_or_else(|| hash::content_hash(COMMITTED_VERILOG))
+}
+
+/// The core, connected, ready to simulate.
+#[must_use]
+pub fn core() -> Core {
+    let mut core = Core::new(content_hash());
+    core.connect_all();
+    core
+}
+
+/// The chip's Verilog with its own hash inside.
+///
+/// # Errors
+/// [`DesignError`] where core and board do not fit: a mistake in one of them.
+pub fn verilog(board: &Board) -> Result<String, DesignError> {
+    let mut core = Core::new(0);
+    core.connect_all();
+    let text = top::chip(&core, board, NAME)?;
+    Ok(hash::embed(&text).unwrap_or(text))
+}
+
+/// Every file of `generated/`.
+///
+/// # Errors
+/// As [`verilog`].
+pub fn files() -> Result<Vec<File>, DesignError> {
+    let board = Board::mesa_4i65_7i30();
+    let verilog = verilog(&board)?;
+    let hash = hash::content_hash(&verilog);
+    let file = |name: &str, text: String| File { name: name.to_owned(), text };
+    Ok(vec![
+        file("rac4i65.v", verilog),
+        file("rac4i65.ucf", ucf::ucf(&board, NAME)?),
+        file("registers.md", registers::markdown()),
+        file("registers.h", registers::c_header()),
+        file("registers.json", registers::json(hash)),
+    ])
+}
