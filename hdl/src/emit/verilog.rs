@@ -10,6 +10,7 @@
 //! | `pwm$0$clock` | `pwm_0_clock` |
 //! | port list, then declarations | one header with the declarations |
 //! | constants of enums nobody uses here | gone |
+//! | one `always @(*)` for a whole `update` | one for each group of signals that need each other |
 //!
 //! Parents come before their parts, flip-flops last. The text is Verilog-2001 and the same on every
 //! run. Names are replaced token by token; two names that would fall together are kept apart by a
