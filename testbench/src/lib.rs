@@ -1,3 +1,4 @@
 //! Where hardware and reference meet: co-simulation and the virtual robot.
 
 pub mod cosim;
+pub mod fpga;

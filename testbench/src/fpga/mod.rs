@@ -1,0 +1,135 @@
+//! One seam, three FPGAs behind it: the same registers, encoders that turn, control ticks that pass.
+//!
+//! | backend | what it is | needs |
+//! |---|---|---|
+//! | [`BitTrue`] | `fixed_kin::card::Card`, tick by tick | nothing |
+//! | [`RustHdl`] | the rust-hdl core, clock by clock, through its bus pins | nothing |
+//! | [`Verilog`] | the emitted Verilog, compiled, through its bus pins | Verilator |
+//!
+//! Encoders move linearly within a control period; the first [`Fpga::quiet_clocks`] of it they stand
+//! still, because a host that talks over real bus pins takes clocks after each tick.
+
+mod bit_true;
+pub mod edges;
+mod pin_level;
+mod rust_hdl;
+mod verilog;
+
+pub use bit_true::BitTrue;
+pub use rust_hdl::RustHdl;
+pub use verilog::Verilog;
+
+use driver::{BusError, Registers};
+use fixed_kin::AXES;
+use std::fmt;
+use std::str::FromStr;
+
+/// Clocks after a control tick in which the encoders of the pin-level backends stand still: the
+/// program (844), a snapshot and a commit over the bus, and some.
+pub const QUIET_CLOCKS: u32 = 1_400;
+
+/// A simulation that cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum FpgaError {
+    /// The bus.
+    #[error(transparent)]
+    Bus(#[from] BusError),
+    /// The co-simulation.
+    #[error(transparent)]
+    Cosim(#[from] crate::cosim::CosimError),
+    /// The core cannot be emitted.
+    #[error("the core cannot be emitted: {0}")]
+    Emit(String),
+    /// The host took too long.
+    #[error("{clocks} clocks went by since the control tick, more than the {QUIET_CLOCKS} in which encoders may stand still; use a longer control period")]
+    Late {
+        /// Clocks since the tick.
+        clocks: u64,
+    },
+    /// A motion that no encoder could follow.
+    #[error("encoder {axis} would move {counts} counts in a control period of {period} clocks, faster than its filter can follow")]
+    TooFast {
+        /// Axis, from 1.
+        axis: usize,
+        /// Counts in the period.
+        counts: f64,
+        /// Period in clocks.
+        period: u32,
+    },
+}
+
+/// An FPGA with encoders on its pins.
+pub trait Fpga: Registers {
+    /// Its name.
+    fn kind(&self) -> Kind;
+
+    /// Lets one control period pass, in which the encoders move to these positions (counts; the
+    /// counter shows the floor), and the program after it.
+    ///
+    /// # Errors
+    /// [`FpgaError`] where the simulation fails or an encoder moves too fast.
+    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError>;
+
+    /// Clocks at the start of a period in which encoders stand still.
+    fn quiet_clocks(&self) -> u32;
+}
+
+/// Which FPGA.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// The bit-true model.
+    #[default]
+    BitTrue,
+    /// The rust-hdl simulation.
+    RustHdl,
+    /// Compiled Verilog.
+    Verilog,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::BitTrue, Self::RustHdl, Self::Verilog];
+
+    /// A new FPGA of this kind, just configured.
+    ///
+    /// # Errors
+    /// A missing tool, by the name of its package.
+    pub fn open(self) -> Result<Box<dyn Fpga>, FpgaError> {
+        Ok(match self {
+            Self::BitTrue => Box::new(BitTrue::new()),
+            Self::RustHdl => Box::new(RustHdl::new()),
+            Self::Verilog => Box::new(Verilog::new()?),
+        })
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::BitTrue => "bit-true",
+            Self::RustHdl => "rust-hdl",
+            Self::Verilog => "verilog",
+        })
+    }
+}
+
+impl FromStr for Kind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.to_string() == text)
+            .ok_or_else(|| format!("no FPGA is called '{text}'; choose bit-true, rust-hdl or verilog"))
+    }
+}
+
+/// Refuses a motion whose edges are closer than the filter lets pass.
+fn check_motion(axis: usize, from: f64, to: f64, period: u32, quiet: u32, filter: u8) -> Result<(), FpgaError> {
+    let counts = (to - from).abs();
+    let span = f64::from(period.saturating_sub(quiet).max(1));
+    if counts.is_finite() && counts * f64::from(u32::from(filter) + 2) <= span {
+        return Ok(());
+    }
+    Err(FpgaError::TooFast { axis: axis + 1, counts, period })
+}

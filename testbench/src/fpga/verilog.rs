@@ -1,0 +1,87 @@
+//! The emitted Verilog, compiled by Verilator, as an FPGA.
+
+use super::pin_level::{Chip, Lines, PinLevel};
+use super::{Fpga, FpgaError, Kind};
+use crate::cosim::{Change, Session, Verilated};
+use driver::{BusError, Registers};
+use fixed_kin::AXES;
+use hdl::design::{COMMITTED_VERILOG, NAME};
+use hdl::emit::ports::Ports;
+
+/// The committed `generated/rac4i65.v` behind its pins.
+#[derive(Debug)]
+pub struct Verilog(PinLevel<Compiled>);
+
+#[derive(Debug)]
+struct Compiled {
+    session: Session,
+    a: usize,
+    b: usize,
+}
+
+impl Verilog {
+    /// Compiles the chip, once per content, and powers it up.
+    ///
+    /// # Errors
+    /// A missing Verilator, by the name of its package, or a compilation that fails.
+    pub fn new() -> Result<Self, FpgaError> {
+        let ports = Ports::parse(COMMITTED_VERILOG, NAME, &["lclk", "synclk"])
+            .map_err(|error| FpgaError::Emit(error.to_string()))?;
+        let mut session = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports)?.start()?;
+        let (a, b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
+        session.set_port("emergency_stop", 0)?;
+        Ok(Self(PinLevel::new(Kind::Verilog, Compiled { session, a, b })))
+    }
+}
+
+impl Chip for Compiled {
+    fn clock(&self) -> u64 {
+        self.session.clock()
+    }
+
+    fn schedule(&mut self, lines: &[Lines]) -> Result<(), FpgaError> {
+        let changes: Vec<_> = lines
+            .iter()
+            .flat_map(|lines| [(self.a, lines.a), (self.b, lines.b)].map(|(port, value)| (lines.clock, port, value)))
+            .map(|(clock, port, value)| Change { clock, port, value })
+            .collect();
+        Ok(self.session.schedule(&changes)?)
+    }
+
+    fn run(&mut self, clocks: u64) -> Result<(), FpgaError> {
+        Ok(self.session.run(clocks)?)
+    }
+
+    fn read(&mut self, offset: u16, words: &mut [u32]) -> Result<(), FpgaError> {
+        words.copy_from_slice(&self.session.bus_burst_read(offset.into(), words.len() as u32)?);
+        Ok(())
+    }
+
+    fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
+        Ok(self.session.bus_write(offset.into(), data)?)
+    }
+}
+
+impl Registers for Verilog {
+    fn read(&mut self, offset: u16) -> Result<u32, BusError> {
+        self.0.read(offset)
+    }
+    fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
+        self.0.write(offset, data)
+    }
+    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
+        self.0.read_block(offset, words)
+    }
+}
+
+impl Fpga for Verilog {
+    fn kind(&self) -> Kind {
+        Kind::Verilog
+    }
+    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
+        self.0.advance(positions)
+    }
+    fn quiet_clocks(&self) -> u32 {
+        self.0.quiet_clocks()
+    }
+}
