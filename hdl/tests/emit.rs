@@ -53,21 +53,22 @@ struct Pair {
     down: Signal<In, Bit>,
     value: Signal<Out, Bits<8>>,
     stage: [Stage; 2],
-    stage_0: DFF<Bits<8>>,
+    stage_0: Stage,
 }
 
 impl Logic for Pair {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, stage_0);
+        self.stage_0.clock.next = self.clock.val();
+        self.stage_0.down.next = self.down.val();
         for i in 0..2 {
             self.stage[i].clock.next = self.clock.val();
             self.stage[i].down.next = self.down.val();
         }
         self.stage[0].amount.next = self.amount.val();
         self.stage[1].amount.next = self.stage[0].value.val();
-        self.stage_0.d.next = self.stage[1].value.val();
-        self.value.next = self.stage_0.q.val();
+        self.stage_0.amount.next = self.stage[1].value.val();
+        self.value.next = self.stage_0.value.val();
     }
 }
 
@@ -130,9 +131,9 @@ fn equal_instances_become_one_module_with_a_name_that_says_what_they_share() {
 
 #[test]
 fn names_that_would_fall_together_are_kept_apart() {
-    // `stage$0$clock` is a pin of the array, `stage_0$clock` one of the flip-flop beside it.
+    // `stage$0$value` is a pin of the array, `stage_0$value` one of the stage beside it.
     let text = verilog::emit(&tree(), "tree");
-    let declared: Vec<_> = text.lines().filter(|l| l.contains("reg stage_0_clock")).collect();
+    let declared: Vec<_> = text.lines().filter(|l| l.contains("wire [7:0] stage_0_value")).collect();
     assert_eq!(declared.len(), 2, "{declared:?}");
     assert_eq!(declared.iter().collect::<BTreeSet<_>>().len(), 2);
 }
