@@ -8,6 +8,7 @@
 mod always;
 pub mod hash;
 mod module;
+mod pins;
 pub mod ports;
 pub mod registers;
 pub mod token;

@@ -35,7 +35,9 @@ pub(super) fn split(text: &str) -> Vec<Module<'_>> {
             }
         }
         module.drop_unused_constants();
-        module.body = super::always::cut(&module.body, &module.constants());
+        let constants = module.constants();
+        let connected = super::pins::connect(&module.body, &module.ports, &constants);
+        module.body = super::always::cut(&connected, &constants);
         modules.push(module);
     }
     modules

@@ -10,6 +10,7 @@
 //! | `pwm$0$clock` | `pwm_0_clock` |
 //! | port list, then declarations | one header with the declarations |
 //! | constants of enums nobody uses here | gone |
+//! | a pin that only repeats a signal | that signal |
 //! | one `always @(*)` for a whole `update` | one for each group of signals that need each other |
 //!
 //! Parents come before their parts, flip-flops last. The text is Verilog-2001 and the same on every
@@ -167,7 +168,7 @@ fn titles(modules: &[Module], merged: &HashMap<usize, usize>, top: &str) -> BTre
 }
 
 /// What instances with these paths have in common: their path without array indices, else their
-/// last name, else the first one's path.
+/// last name, else the first one's path without indices.
 fn common(paths: &[Vec<&str>]) -> String {
     if paths.len() == 1 {
         return paths[0].join("_");
@@ -179,5 +180,5 @@ fn common(paths: &[Vec<&str>]) -> String {
         let first = of(&paths[0]);
         paths.iter().all(|path| of(path) == first).then_some(first)
     };
-    same(&bare).or_else(|| same(&last)).unwrap_or_else(|| paths[0].join("_"))
+    same(&bare).or_else(|| same(&last)).unwrap_or_else(|| bare(&paths[0]))
 }
