@@ -1,0 +1,269 @@
+//! Weak form: bumps, and the unexplained torque of each.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::{DriveModel, Mechanics};
+use crate::gram::Cluster;
+use crate::segment::Segment;
+
+/// Length of a bump, s, and in ticks at least.
+const BUMP_S: f64 = 0.12;
+const FEWEST_TICKS: f64 = 12.0;
+/// Length of a cluster, s, and in bumps at least.
+const CLUSTER_S: f64 = 1.0;
+const FEWEST_BUMPS: f64 = 8.0;
+/// Below this speed a wheel may stick, and its friction is anything up to its limit, rad/s.
+const STUCK: f64 = 0.35;
+/// Share of a bump a wheel may be that slow.
+const STUCK_SHARE: f64 = 0.35;
+
+/// The drive link of a data set.
+pub struct DriveLink<'a> {
+    /// The pieces of the runs.
+    pub segments: &'a [Segment],
+    /// Torque per wheel acceleration of the nominal robot: the unit residuals are given in.
+    inertia: DMatrix<f64>,
+    /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
+    pub noise: Vec<f64>,
+    bumps: Vec<Bump>,
+}
+
+/// One test function on one segment.
+#[derive(Debug, Clone)]
+struct Bump {
+    segment: usize,
+    first: usize,
+    /// Weights of the angles, second differences of the test function, from `first`.
+    angle: Vec<f64>,
+    /// Weights of the intervals from tick to tick, summing to 1.
+    force: Vec<f64>,
+    /// 1 where the wheel turned, 0 where it may have been stuck.
+    weights: Vec<f64>,
+    /// Cluster, unique over all segments.
+    cluster: usize,
+}
+
+/// Unexplained torques.
+#[derive(Debug, Clone)]
+pub struct DriveResiduals {
+    /// Index of the run, one a bump.
+    pub run: Vec<usize>,
+    /// Segment and middle tick of each bump.
+    pub at: Vec<(usize, usize)>,
+    /// Torque, Nm, `[bump][wheel]`; what would have to be added to the model.
+    pub torque: Vec<Vec<f64>>,
+    /// Weight, `[bump][wheel]`.
+    pub weights: Vec<Vec<f64>>,
+}
+
+impl<'a> DriveLink<'a> {
+    /// Lays bumps over the segments; `noise` is set by [`Self::estimate_noise`].
+    pub fn new(segments: &'a [Segment], nominal: &DriveModel) -> Option<Self> {
+        let inertia = nominal.mechanics()?.inertia;
+        let n = nominal.wheels.len();
+        let mut bumps = Vec::new();
+        let mut cluster = 0;
+        for (index, s) in segments.iter().enumerate() {
+            if s.duty.len() != n || s.angle.len() != n || s.t.len() < 2 * FEWEST_TICKS as usize {
+                continue;
+            }
+            let tick = (s.t[s.t.len() - 1] - s.t[0]) / (s.t.len() - 1) as f64;
+            let length = BUMP_S.max(FEWEST_TICKS * tick);
+            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length);
+            let mut start = s.t[0];
+            let mut opened = start;
+            cluster += 1;
+            while start + length <= s.t[s.t.len() - 1] {
+                if start - opened >= cluster_s {
+                    opened = start;
+                    cluster += 1;
+                }
+                if let Some(bump) = Bump::new(s, index, start, length, cluster, n) {
+                    bumps.push(bump);
+                }
+                start += 0.5 * length;
+            }
+        }
+        (!bumps.is_empty()).then(|| Self { segments, inertia, noise: vec![1.0; n], bumps })
+    }
+
+    /// Number of bumps.
+    pub fn len(&self) -> usize {
+        self.bumps.len()
+    }
+
+    /// Whether there is nothing to compare.
+    pub fn is_empty(&self) -> bool {
+        self.bumps.is_empty()
+    }
+
+    /// Wheel accelerations a model predicts, `[bump]`, in units of nominal torque.
+    fn predict(&self, model: &DriveModel) -> Option<Vec<DVector<f64>>> {
+        let mechanics = model.mechanics()?;
+        let n = model.wheels.len();
+        let mut out = Vec::with_capacity(self.bumps.len());
+        let mut current: Option<(usize, Vec<f64>, Vec<Vec<Vec<f64>>>)> = None;
+        for b in &self.bumps {
+            if current.as_ref().is_none_or(|c| c.0 != b.segment) {
+                let s = &self.segments[b.segment];
+                current = Some((b.segment, model.forces(s), model.offsets.iter().map(|o| o(model, s)).collect()));
+            }
+            let Some((_, forces, offsets)) = &current else { continue };
+            let mut a = b.acceleration(forces, n, &mechanics, model);
+            for offset in offsets {
+                for i in 0..n {
+                    a[i] += b
+                        .angle
+                        .iter()
+                        .zip(&offset[i][b.first..])
+                        .map(|(w, x)| w * (x - offset[i][b.first]))
+                        .sum::<f64>();
+                }
+            }
+            out.push(&self.inertia * a);
+        }
+        Some(out)
+    }
+
+    /// What the encoders measured, in the same units.
+    fn measured(&self) -> Vec<DVector<f64>> {
+        let n = self.noise.len();
+        self.bumps
+            .iter()
+            .map(|b| {
+                let s = &self.segments[b.segment];
+                let a = DVector::from_fn(n, |i, _| {
+                    b.angle.iter().zip(&s.angle[i][b.first..]).map(|(w, x)| w * (x - s.angle[i][b.first])).sum()
+                });
+                &self.inertia * a
+            })
+            .collect()
+    }
+
+    /// Unexplained torques under a model.
+    pub fn residuals(&self, model: &DriveModel) -> Option<DriveResiduals> {
+        let predicted = self.predict(model)?;
+        let measured = self.measured();
+        Some(DriveResiduals {
+            run: self.bumps.iter().map(|b| self.segments[b.segment].run).collect(),
+            at: self.bumps.iter().map(|b| (b.segment, b.first + b.force.len() / 2)).collect(),
+            torque: measured.iter().zip(&predicted).map(|(m, p)| (m - p).iter().copied().collect()).collect(),
+            weights: self.bumps.iter().map(|b| b.weights.clone()).collect(),
+        })
+    }
+
+    /// Noise of a bump from the scatter of its neighbours: half the squared second difference of
+    /// bumps that do not overlap, by the median, so that what changes slowly does not count.
+    pub fn estimate_noise(&mut self, residuals: &DriveResiduals) {
+        for (i, slot) in self.noise.iter_mut().enumerate() {
+            let mut differences = Vec::new();
+            for m in 2..residuals.torque.len().saturating_sub(2) {
+                let near = [m - 2, m, m + 2];
+                if near.iter().any(|j| residuals.at[*j].0 != residuals.at[m].0 || residuals.weights[*j][i] == 0.0) {
+                    continue;
+                }
+                let [a, b, c] = near.map(|j| residuals.torque[j][i]);
+                differences.push((a - 2.0 * b + c).abs() / 6.0_f64.sqrt());
+            }
+            *slot = (crate::statistics::median(&mut differences) / 0.6745).max(1e-6);
+        }
+    }
+
+    /// Linearises: residuals and derivatives along each pair of models (low, high, step), per cluster.
+    pub fn linearise(&self, model: &DriveModel, sides: &[(DriveModel, DriveModel, f64)]) -> Vec<Cluster> {
+        let Some(residuals) = self.residuals(model) else { return Vec::new() };
+        let columns: Vec<Option<Vec<DVector<f64>>>> = sides
+            .par_iter()
+            .map(|(low, high, step)| {
+                let (a, b) = (self.predict(low)?, self.predict(high)?);
+                Some(a.iter().zip(&b).map(|(a, b)| (b - a) / *step).collect())
+            })
+            .collect();
+        let n = self.noise.len();
+        let mut clusters = Vec::new();
+        let mut first = 0;
+        for end in 1..=self.bumps.len() {
+            if end < self.bumps.len() && self.bumps[end].cluster == self.bumps[first].cluster {
+                continue;
+            }
+            let rows = (end - first) * n;
+            let weight = |r: usize| self.bumps[first + r / n].weights[r % n] / self.noise[r % n];
+            let residual = DVector::from_fn(rows, |r, _| residuals.torque[first + r / n][r % n] * weight(r));
+            let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
+                columns[c].as_ref().map_or(0.0, |column| column[first + r / n][r % n] * weight(r))
+            });
+            let used: f64 = self.bumps[first..end].iter().flat_map(|b| &b.weights).sum();
+            let b = &self.bumps[first];
+            let s = &self.segments[b.segment];
+            clusters.push(Cluster::new(s.run, s.t[b.first], used, &residual, &jacobian));
+            first = end;
+        }
+        clusters
+    }
+}
+
+impl Bump {
+    fn new(s: &Segment, segment: usize, start: f64, length: f64, cluster: usize, wheels: usize) -> Option<Self> {
+        // Ticks strictly inside, and one on either side, where the bump is 0.
+        let first = s.t.partition_point(|t| *t <= start).saturating_sub(1);
+        let end = s.t.partition_point(|t| *t < start + length);
+        if end >= s.t.len() || end - first < 4 {
+            return None;
+        }
+        let t = &s.t[first..=end];
+        let shape: Vec<f64> = t
+            .iter()
+            .map(|t| {
+                let x = (t - start) / length;
+                if (0.0..=1.0).contains(&x) { (std::f64::consts::PI * x).sin().powi(2) } else { 0.0 }
+            })
+            .collect();
+        let m = t.len();
+        // With duty held from tick to tick the acceleration a_k is constant there, and exactly
+        // Δθ_k/h_k − Δθ_{k−1}/h_{k−1} = (a_k·h_k + a_{k−1}·h_{k−1})/2: summed with the bump's
+        // values and by parts this gives the weights of angles and intervals.
+        let mut angle = vec![0.0; m];
+        let mut force = vec![0.0; m - 1];
+        for k in 1..m - 1 {
+            let (before, after) = (t[k] - t[k - 1], t[k + 1] - t[k]);
+            angle[k - 1] += shape[k] / before;
+            angle[k] -= shape[k] * (1.0 / before + 1.0 / after);
+            angle[k + 1] += shape[k] / after;
+            force[k - 1] += 0.5 * shape[k] * before;
+            force[k] += 0.5 * shape[k] * after;
+        }
+        let total: f64 = force.iter().sum();
+        if total <= 0.0 {
+            return None;
+        }
+        angle.iter_mut().for_each(|w| *w /= total);
+        force.iter_mut().for_each(|w| *w /= total);
+        let weights = (0..wheels)
+            .map(|i| {
+                let stuck: f64 =
+                    force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < STUCK).map(|(f, _)| f).sum();
+                if stuck > STUCK_SHARE { 0.0 } else { 1.0 }
+            })
+            .collect();
+        Some(Self { segment, first, angle, force, weights, cluster })
+    }
+
+    fn acceleration(&self, forces: &[f64], n: usize, mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
+        let width = n + 3;
+        let mut mean = vec![0.0; width];
+        for (j, w) in self.force.iter().enumerate() {
+            let row = &forces[(self.first + j) * width..(self.first + j + 1) * width];
+            for (slot, x) in mean.iter_mut().zip(row) {
+                *slot += w * x;
+            }
+        }
+        let wheel = DVector::from_column_slice(&mean[..n]);
+        let mut a = &mechanics.response * wheel;
+        if let Some(body) = &mechanics.body {
+            a += body * DVector::from_column_slice(&mean[n..]);
+        }
+        // The wheels' acceleration as the encoders see it.
+        DVector::from_fn(n, |i, _| a[i] / model.axes[i].encoder_scale)
+    }
+}

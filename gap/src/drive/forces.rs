@@ -1,0 +1,194 @@
+//! Torques and forces at every tick.
+
+use model::frames::Twist;
+use model::robot::Support;
+
+use super::DriveModel;
+use crate::segment::Segment;
+
+/// Speed over which friction turns round, rad/s at the wheel: about the noise of a smoothed speed.
+pub(super) const SIGN_WIDTH: f64 = 0.4;
+/// The same for the sideways speed of a contact, m/s.
+pub const SLIDE_WIDTH: f64 = 0.01;
+
+/// The state of the robot at one tick, as the terms of the drive model see it.
+pub struct Instant<'a> {
+    /// The piece of log.
+    pub segment: &'a Segment,
+    /// The tick.
+    pub tick: usize,
+    /// Seconds since the start of the segment.
+    pub time_s: f64,
+    /// Duty that acts, −1 to 1, one a wheel.
+    pub duty: &'a [f64],
+    /// Supply, V.
+    pub supply: f64,
+    /// Wheel speed, smoothed, rad/s.
+    pub speed: &'a [f64],
+    /// Direction of rotation, −1 to 1, smooth about 0.
+    pub sign: &'a [f64],
+    /// Torque of the winding at the wheel shaft, Nm.
+    pub winding: &'a [f64],
+    /// Speed of the contact point in the direction in which the rollers roll, m/s.
+    pub sideways: &'a [f64],
+    /// Body twist.
+    pub twist: Twist,
+    /// Heading of the body x axis in the world, rad.
+    pub heading: f64,
+    /// Place in the field, m.
+    pub position: [f64; 2],
+    /// What [`super::Prepare`] made, `[preparation][wheel][tick]`.
+    pub prepared: &'a [Vec<Vec<f64>>],
+}
+
+impl Instant<'_> {
+    /// Body velocity in world axes, m/s.
+    pub fn world_velocity(&self) -> [f64; 2] {
+        let (s, c) = self.heading.sin_cos();
+        [c * self.twist.vx - s * self.twist.vy, s * self.twist.vx + c * self.twist.vy]
+    }
+}
+
+/// Torques and forces that terms add to.
+pub struct Loads {
+    /// At each wheel shaft, Nm, positive with the wheel's rotation.
+    pub wheel: Vec<f64>,
+    /// On the body: to the right (N), forward (N), counter-clockwise (Nm).
+    pub body: [f64; 3],
+}
+
+impl Loads {
+    /// Adds a force in world axes, N, at the chassis centre.
+    pub fn push_world(&mut self, heading: f64, force: [f64; 2]) {
+        let (s, c) = heading.sin_cos();
+        self.body[0] += c * force[0] + s * force[1];
+        self.body[1] += -s * force[0] + c * force[1];
+    }
+}
+
+/// Smooth sign.
+pub fn smooth_sign(x: f64, width: f64) -> f64 {
+    (x / width).tanh()
+}
+
+impl DriveModel {
+    /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
+    pub fn forces(&self, s: &Segment) -> Vec<f64> {
+        let n = self.wheels.len();
+        let width = n + 3;
+        let ticks = s.t.len();
+        let mut out = vec![0.0; ticks * width];
+        if s.duty.len() != n || s.angle.len() != n {
+            return out;
+        }
+        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
+        let free: Vec<[f64; 3]> = self
+            .wheels
+            .iter()
+            .map(|w| {
+                // Perpendicular to the traction direction.
+                let [ax, ay] = w.traction();
+                [-ay, ax, w.x_m * ax + w.y_m * ay]
+            })
+            .collect();
+        let g = self.gear_ratio;
+        let (mut duty, mut speed, mut sign) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
+        let start = s.t[0];
+        for k in 0..ticks - 1 {
+            let dt = s.t[k + 1] - s.t[k];
+            let twist = s.twist[k];
+            for i in 0..n {
+                let axis = &self.axes[i];
+                let mut u = if self.duty_delay_s == 0.0 {
+                    s.duty[i][k]
+                } else {
+                    delayed(&s.duty[i], k, self.duty_delay_s / dt)
+                };
+                for map in &self.duty_maps {
+                    u = map(i, u);
+                }
+                duty[i] = u;
+                speed[i] = axis.encoder_scale * s.speed[i][k];
+                sign[i] = smooth_sign(speed[i], SIGN_WIDTH);
+                sideways[i] = free[i][0] * twist.vx + free[i][1] * twist.vy + free[i][2] * twist.omega;
+            }
+            let mut supply = s.supply[k];
+            if !self.supply_maps.is_empty() {
+                for i in 0..n {
+                    let axis = &self.axes[i];
+                    currents[i] = (duty[i] * supply - axis.back_emf * g * speed[i]) / axis.resistance;
+                }
+                for map in &self.supply_maps {
+                    let now = Instant {
+                        segment: s,
+                        tick: k,
+                        time_s: s.t[k] - start,
+                        duty: &duty,
+                        supply,
+                        speed: &speed,
+                        sign: &sign,
+                        winding: &winding,
+                        sideways: &sideways,
+                        twist,
+                        heading: s.heading[k],
+                        position: s.position[k],
+                        prepared: &prepared,
+                    };
+                    supply = map(&now, supply, &currents);
+                }
+            }
+            for i in 0..n {
+                let axis = &self.axes[i];
+                // Raw increments where the equation is linear: nothing is lost by smoothing.
+                let raw = axis.encoder_scale * (s.angle[i][k + 1] - s.angle[i][k]) / dt;
+                let current = (duty[i] * supply - axis.back_emf * g * raw) / axis.resistance;
+                winding[i] = g * axis.torque_constant * current;
+                let coulomb = g * axis.friction;
+                let transmitted = winding[i] - coulomb * sign[i];
+                loads.wheel[i] = winding[i] - sign[i] * (coulomb + axis.gear_loss * transmitted.abs());
+            }
+            loads.body = [0.0; 3];
+            if self.support == Support::Floor {
+                let [cx, cy] = self.centre_of_mass;
+                let (px, py) = (self.mass * (twist.vx - twist.omega * cy), self.mass * (twist.vy + twist.omega * cx));
+                loads.body =
+                    [twist.omega * py, -twist.omega * px, -self.mass * twist.omega * (cx * twist.vx + cy * twist.vy)];
+            }
+            if !self.loads.is_empty() {
+                let now = Instant {
+                    segment: s,
+                    tick: k,
+                    time_s: s.t[k] - start,
+                    duty: &duty,
+                    supply,
+                    speed: &speed,
+                    sign: &sign,
+                    winding: &winding,
+                    sideways: &sideways,
+                    twist,
+                    heading: s.heading[k],
+                    position: s.position[k],
+                    prepared: &prepared,
+                };
+                for term in &self.loads {
+                    term(&now, &mut loads);
+                }
+            }
+            let row = &mut out[k * width..(k + 1) * width];
+            row[..n].copy_from_slice(&loads.wheel);
+            row[n..].copy_from_slice(&loads.body);
+        }
+        out
+    }
+}
+
+/// A held signal `ticks` ago, 0 before its start.
+fn delayed(values: &[f64], k: usize, ticks: f64) -> f64 {
+    let at = |m: i64| if m < 0 { 0.0 } else { values[(m as usize).min(values.len() - 1)] };
+    let whole = ticks.floor();
+    let share = ticks - whole;
+    let m = k as i64 - whole as i64;
+    (1.0 - share) * at(m) + share * at(m - 1)
+}

@@ -1,0 +1,167 @@
+//! The `drive` link: duty and supply to wheel motion.
+//!
+//! Newton's law in wheel coordinates, solved for wheel acceleration so that its coefficient is 1
+//! (a free coefficient on both sides would let a fit shrink everything), multiplied by bumps of
+//! about 120 ms and integrated twice by parts, so that nothing but counts enters. The result is an
+//! unexplained torque per wheel and bump, Nm at the wheel shaft.
+
+mod bumps;
+mod forces;
+
+use model::geometry::{Geometry, Wheel};
+use model::robot::{Robot, Support};
+use nalgebra::{DMatrix, Matrix3};
+
+use crate::segment::Segment;
+
+pub use bumps::{DriveLink, DriveResiduals};
+pub use forces::{Instant, Loads, SLIDE_WIDTH, smooth_sign};
+
+/// Adds torques and forces at one instant.
+pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
+/// Changes the duty that reaches a motor: (wheel, duty) → duty.
+pub type DutyMap = Box<dyn Fn(usize, f64) -> f64 + Send + Sync>;
+/// Changes the supply: (instant, currents of the motors in A) → V.
+pub type SupplyMap = Box<dyn Fn(&Instant<'_>, f64, &[f64]) -> f64 + Send + Sync>;
+/// Prepares per-tick values of a segment (`[wheel][tick]`) that a term needs, such as a motor's
+/// temperature or the state of a gear's play.
+pub type Prepare = Box<dyn Fn(&DriveModel, &Segment) -> Vec<Vec<f64>> + Send + Sync>;
+
+/// Motor and gear of one wheel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisModel {
+    /// Terminal resistance, Ω.
+    pub resistance: f64,
+    /// Torque per current, Nm/A, at the motor shaft.
+    pub torque_constant: f64,
+    /// Voltage per speed, V s/rad, at the motor shaft.
+    pub back_emf: f64,
+    /// Rotor inertia at the motor shaft, kg m².
+    pub rotor_inertia: f64,
+    /// Inertia at the wheel shaft beside the rotor, kg m².
+    pub load_inertia: f64,
+    /// Coulomb friction at the motor shaft, Nm.
+    pub friction: f64,
+    /// Share of the transmitted torque that is lost.
+    pub gear_loss: f64,
+    /// Wheel angle per angle by the encoder.
+    pub encoder_scale: f64,
+}
+
+/// Everything between duty and wheel motion; effects change it.
+pub struct DriveModel {
+    /// Wheels as they really are.
+    pub wheels: Vec<Wheel>,
+    /// Wheel radius, m.
+    pub wheel_radius_m: f64,
+    /// Radius of each wheel relative to that.
+    pub radius_scale: Vec<f64>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Yaw inertia about the chassis centre, kg m².
+    pub yaw_inertia: f64,
+    /// Centre of mass in the body frame, m.
+    pub centre_of_mass: [f64; 2],
+    /// Motor turns per wheel turn.
+    pub gear_ratio: f64,
+    /// Motors and gears.
+    pub axes: Vec<AxisModel>,
+    /// Age of the duty that acts, s.
+    pub duty_delay_s: f64,
+    /// What the bridge makes of a duty.
+    pub duty_maps: Vec<DutyMap>,
+    /// What the load makes of the supply.
+    pub supply_maps: Vec<SupplyMap>,
+    /// Torques and forces beside those of the nominal model.
+    pub loads: Vec<LoadTerm>,
+    /// Per-tick values for terms with memory.
+    pub prepare: Vec<Prepare>,
+    /// Encoder angle minus wheel angle, `[wheel][tick]`, rad at the wheel: play of a gear.
+    pub offsets: Vec<Prepare>,
+    /// What carries the robot.
+    pub support: Support,
+}
+
+impl DriveModel {
+    /// The nominal robot.
+    pub fn new(robot: &Robot) -> Self {
+        let wheels = robot.layout.wheels();
+        let n = wheels.len();
+        let axis = AxisModel {
+            resistance: robot.motor.resistance_ohm,
+            torque_constant: robot.motor.torque_constant,
+            back_emf: robot.motor.back_emf(),
+            rotor_inertia: robot.motor.rotor_inertia,
+            load_inertia: robot.wheel_inertia_kg_m2,
+            friction: robot.motor.friction_torque,
+            gear_loss: 1.0 - robot.gear_efficiency,
+            encoder_scale: 1.0,
+        };
+        Self {
+            wheels,
+            wheel_radius_m: robot.wheel_radius_m,
+            radius_scale: vec![1.0; n],
+            mass: robot.mass_kg,
+            yaw_inertia: robot.yaw_inertia_kg_m2,
+            centre_of_mass: [0.0; 2],
+            gear_ratio: robot.gear_ratio,
+            axes: vec![axis; n],
+            duty_delay_s: 0.0,
+            duty_maps: Vec::new(),
+            supply_maps: Vec::new(),
+            loads: Vec::new(),
+            prepare: Vec::new(),
+            offsets: Vec::new(),
+            support: robot.support,
+        }
+    }
+
+    /// The matrices that turn mean torques and forces into wheel accelerations; `None` where the
+    /// wheels cannot drive the robot.
+    pub fn mechanics(&self) -> Option<Mechanics> {
+        let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
+        let n = self.wheels.len();
+        let rows = DMatrix::from_fn(n, 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i]);
+        let spin: Vec<f64> =
+            self.axes.iter().map(|a| self.gear_ratio.powi(2) * a.rotor_inertia + a.load_inertia).collect();
+        if self.support == Support::Blocks {
+            let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
+            let inverse = inertia.clone().try_inverse()?;
+            return Some(Mechanics { rows, body: None, response: inverse, inertia });
+        }
+        let [cx, cy] = self.centre_of_mass;
+        let (m, i) = (self.mass, self.yaw_inertia);
+        let platform = Matrix3::new(m, 0.0, -m * cy, 0.0, m, m * cx, -m * cy, m * cx, i);
+        let mut total = DMatrix::from_fn(3, 3, |a, b| platform[(a, b)]);
+        for (w, j) in spin.iter().enumerate() {
+            for a in 0..3 {
+                for b in 0..3 {
+                    total[(a, b)] += j * rows[(w, a)] * rows[(w, b)];
+                }
+            }
+        }
+        let inverse = total.clone().try_inverse()?;
+        // Twist per wheel speed, least squares.
+        let normal = (rows.transpose() * &rows).try_inverse()?;
+        let twist = normal * rows.transpose();
+        let body = &rows * &inverse;
+        Some(Mechanics {
+            response: &body * rows.transpose(),
+            inertia: twist.transpose() * total * &twist,
+            body: Some(body),
+            rows,
+        })
+    }
+}
+
+/// Mean torques to wheel accelerations and back.
+pub struct Mechanics {
+    /// Wheel speed per twist, N × 3.
+    pub rows: DMatrix<f64>,
+    /// Wheel acceleration per generalised body force, N × 3; none on blocks.
+    pub body: Option<DMatrix<f64>>,
+    /// Wheel acceleration per wheel torque, N × N.
+    pub response: DMatrix<f64>,
+    /// Wheel torque per wheel acceleration, N × N.
+    pub inertia: DMatrix<f64>,
+}

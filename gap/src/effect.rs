@@ -1,0 +1,202 @@
+//! What an effect is: a name, parameters with physical bounds, and what it changes in the links.
+
+use model::geometry::Wheel;
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::motion::MotionModel;
+
+/// A piece of the chain from command to camera, cut at logged signals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Link {
+    /// The time stamps.
+    Timing,
+    /// Command → wheel set points.
+    Command,
+    /// Set points and encoders → duty.
+    Controller,
+    /// Duty and supply → encoders.
+    Drive,
+    /// Encoders → camera.
+    Motion,
+}
+
+impl Link {
+    /// Name in reports and in `gap.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Timing => "timing",
+            Self::Command => "command",
+            Self::Controller => "controller",
+            Self::Drive => "drive",
+            Self::Motion => "motion",
+        }
+    }
+}
+
+/// One number an effect has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Name, ending in its unit.
+    pub name: String,
+    /// A step that is small but shows: sets finite differences.
+    pub scale: f64,
+    /// Physical bounds.
+    pub bounds: [f64; 2],
+    /// Below this size (either sign) the effect is detectable but immaterial.
+    pub material: f64,
+    /// Value an otherwise absent effect is tried at, for parameters whose absence is not 0.
+    pub start: Option<f64>,
+}
+
+impl Parameter {
+    /// A parameter that is 0 in the nominal model.
+    pub fn new(name: impl Into<String>, scale: f64, bounds: [f64; 2], material: f64) -> Self {
+        Self { name: name.into(), scale, bounds, material, start: None }
+    }
+
+    /// A parameter tried from `start`, its effect absent without it.
+    #[must_use]
+    pub fn from(mut self, start: f64) -> Self {
+        self.start = Some(start);
+        self
+    }
+}
+
+/// One way to parametrise an effect: all wheels alike, one wheel, every wheel its own.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Form {
+    /// Wheels it acts on, from 0; empty for the whole robot.
+    pub wheels: Vec<usize>,
+    /// Fitted.
+    pub free: Vec<Parameter>,
+    /// Held at values that were not fitted.
+    pub fixed: Vec<(String, f64)>,
+}
+
+impl Form {
+    /// The whole robot, with these parameters.
+    pub fn whole(free: Vec<Parameter>) -> Self {
+        Self { free, ..Self::default() }
+    }
+
+    /// The same with a constant.
+    #[must_use]
+    pub fn fixing(mut self, name: &str, value: f64) -> Self {
+        self.fixed.push((name.to_owned(), value));
+        self
+    }
+
+    /// One parameter for each of all wheels.
+    pub fn each(robot: &Robot, parameter: impl Fn(usize) -> Parameter) -> Self {
+        let wheels: Vec<usize> = (0..robot.wheel_count()).collect();
+        Self { free: wheels.iter().map(|i| parameter(*i)).collect(), wheels, fixed: Vec::new() }
+    }
+
+    /// Every wheel alone, one form a wheel.
+    pub fn alone(robot: &Robot, parameter: impl Fn(usize) -> Parameter) -> Vec<Self> {
+        (0..robot.wheel_count())
+            .map(|i| Self { wheels: vec![i], free: vec![parameter(i)], fixed: Vec::new() })
+            .collect()
+    }
+}
+
+/// Parameter values by name; what is not there is 0.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values(pub Vec<(String, f64)>);
+
+impl Values {
+    /// A value, if it is there.
+    pub fn find(&self, name: &str) -> Option<f64> {
+        self.0.iter().find(|(n, _)| n == name).map(|(_, v)| *v)
+    }
+
+    /// A value, 0 if it is not there.
+    pub fn get(&self, name: &str) -> f64 {
+        self.find(name).unwrap_or(0.0)
+    }
+
+    /// The value of wheel `i` (from 0): `stem_i+1_unit`, plus the common `stem_unit`.
+    pub fn wheel(&self, stem: &str, i: usize, unit: &str) -> f64 {
+        self.get(&wheel_name(stem, i, unit)) + self.get(&join(stem, unit))
+    }
+
+    /// Sets a value.
+    pub fn set(&mut self, name: &str, value: f64) {
+        match self.0.iter_mut().find(|(n, _)| n == name) {
+            Some(slot) => slot.1 = value,
+            None => self.0.push((name.to_owned(), value)),
+        }
+    }
+}
+
+/// `stem_2_unit` for wheel 1 (from 0).
+pub fn wheel_name(stem: &str, wheel: usize, unit: &str) -> String {
+    join(&format!("{stem}_{}", wheel + 1), unit)
+}
+
+fn join(stem: &str, unit: &str) -> String {
+    if unit.is_empty() { stem.to_owned() } else { format!("{stem}_{unit}") }
+}
+
+/// A physical effect that the nominal model leaves out.
+pub trait Effect: Send + Sync {
+    /// Name, kebab-case, stable.
+    fn name(&self) -> &str;
+    /// What it is, in one sentence with its equation.
+    fn equation(&self) -> &str;
+    /// Where it is described.
+    fn reference(&self) -> &str {
+        ""
+    }
+    /// The link in which its parameters are fitted.
+    fn link(&self) -> Link;
+    /// Its parametrisations for a robot, simplest first.
+    fn forms(&self, robot: &Robot) -> Vec<Form>;
+    /// Acts on the motion link.
+    fn motion(&self, _values: &Values, _model: &mut MotionModel) {}
+    /// Acts on the drive link.
+    fn drive(&self, _values: &Values, _model: &mut DriveModel) {}
+    /// A measurement without driving that settles it, and the minutes it takes.
+    fn measurement(&self) -> Option<(&str, f64)> {
+        None
+    }
+}
+
+/// Sizes of a robot that materiality is measured in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sizes {
+    /// Torque of a stalled motor at the wheel shaft, Nm.
+    pub stall_nm: f64,
+    /// No-load speed, rad/s at the wheel.
+    pub no_load: f64,
+    /// Weight, N.
+    pub weight_n: f64,
+    /// Largest distance of a contact point from the centre, m.
+    pub rim_m: f64,
+    /// Stall current, A.
+    pub stall_a: f64,
+}
+
+impl Sizes {
+    /// The sizes of a robot.
+    pub fn of(robot: &Robot) -> Self {
+        let m = &robot.motor;
+        let stall_a = robot.supply_v / m.resistance_ohm;
+        let rim = |w: &Wheel| w.x_m.hypot(w.y_m);
+        Self {
+            stall_nm: robot.gear_ratio * m.torque_constant * stall_a,
+            no_load: robot.no_load_wheel_speed(robot.supply_v),
+            weight_n: 9.806_65 * robot.mass_kg,
+            rim_m: robot.layout.wheels().iter().map(rim).fold(0.0, f64::max),
+            stall_a,
+        }
+    }
+}
+
+/// Applies one change to the wheels of both links' models.
+pub fn turn_wheels(wheels: &mut [Wheel], change: impl Fn(usize, &mut Wheel)) {
+    for (i, w) in wheels.iter_mut().enumerate() {
+        change(i, w);
+    }
+}

@@ -1,0 +1,39 @@
+//! `actuation-latency`: duties that act later than logged.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Values};
+
+/// Duties that act later than logged.
+pub(super) struct ActuationLatency;
+
+impl Effect for ActuationLatency {
+    fn name(&self) -> &str {
+        "actuation-latency"
+    }
+
+    fn equation(&self) -> &str {
+        "duty at t acts at t + latency_s"
+    }
+
+    fn reference(&self) -> &str {
+        "-"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, _robot: &Robot) -> Vec<Form> {
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.002, [-0.02, 0.3], 0.004)])]
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        model.duty_delay_s += values.get("latency_s");
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("an oscilloscope at bridge input and output", 5.0))
+    }
+}

@@ -1,0 +1,39 @@
+//! `camera-latency`: a camera frame that is older than its stamp.
+
+use model::robot::Robot;
+
+use crate::effect::{Effect, Form, Link, Parameter, Values};
+use crate::motion::MotionModel;
+
+/// A camera frame that is older than its stamp.
+pub(super) struct CameraLatency;
+
+impl Effect for CameraLatency {
+    fn name(&self) -> &str {
+        "camera-latency"
+    }
+
+    fn equation(&self) -> &str {
+        "camera pose at t shows the robot at t - latency_s"
+    }
+
+    fn reference(&self) -> &str {
+        "vision latency"
+    }
+
+    fn link(&self) -> Link {
+        Link::Motion
+    }
+
+    fn forms(&self, _robot: &Robot) -> Vec<Form> {
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-0.5, 0.5], 0.003)])]
+    }
+
+    fn motion(&self, values: &Values, model: &mut MotionModel) {
+        model.latency_s += values.get("latency_s");
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("blink a light on a clock the camera sees", 5.0))
+    }
+}

@@ -1,0 +1,44 @@
+//! `centre-of-mass`: a centre of mass that is not the chassis centre.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+
+/// A centre of mass that is not the chassis centre.
+pub(super) struct CentreOfMass;
+
+impl Effect for CentreOfMass {
+    fn name(&self) -> &str {
+        "centre-of-mass"
+    }
+
+    fn equation(&self) -> &str {
+        "centre of mass at (x_m, y_m) in the body frame"
+    }
+
+    fn reference(&self) -> &str {
+        "-"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let m = 0.05 * Sizes::of(robot).rim_m;
+        vec![Form::whole(vec![
+            Parameter::new("x_m", 0.002, [-0.3, 0.3], m),
+            Parameter::new("y_m", 0.002, [-0.3, 0.3], m),
+        ])]
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        model.centre_of_mass[0] += values.get("x_m");
+        model.centre_of_mass[1] += values.get("y_m");
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("balance the robot on an edge, twice", 3.0))
+    }
+}

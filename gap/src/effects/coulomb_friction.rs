@@ -1,0 +1,50 @@
+//! `coulomb-friction`: dry friction at the wheel shaft beyond nominal.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
+
+/// Dry friction at the wheel shaft beyond nominal.
+pub(super) struct CoulombFriction;
+
+impl Effect for CoulombFriction {
+    fn name(&self) -> &str {
+        "coulomb-friction"
+    }
+
+    fn equation(&self) -> &str {
+        "torque -T sign(w) at the wheel shaft"
+    }
+
+    fn reference(&self) -> &str {
+        "Armstrong-Helouvry 1994"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let stall = Sizes::of(robot).stall_nm;
+        let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * stall, [-0.1 * stall, stall], 0.04 * stall);
+        let mut forms =
+            vec![Form::whole(vec![Parameter::new("torque_nm", 0.01 * stall, [-0.1 * stall, stall], 0.03 * stall)])];
+        forms.extend(Form::alone(robot, p));
+        forms.push(Form::each(robot, p));
+        forms
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let torque: Vec<f64> = (0..model.wheels.len()).map(|i| values.wheel("torque", i, "nm")).collect();
+        model.loads.push(Box::new(move |now, loads| {
+            for (i, t) in torque.iter().enumerate() {
+                loads.wheel[i] -= t * now.sign[i];
+            }
+        }));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("turn the wheel by hand with a torque gauge, robot off", 5.0))
+    }
+}

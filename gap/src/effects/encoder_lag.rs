@@ -1,0 +1,35 @@
+//! `encoder-lag`: encoder counts that are older than the tick they stand at.
+
+use model::robot::Robot;
+
+use crate::effect::{Effect, Form, Link, Parameter, Values};
+use crate::motion::MotionModel;
+
+/// Encoder counts that are older than the tick they stand at.
+pub(super) struct EncoderLag;
+
+impl Effect for EncoderLag {
+    fn name(&self) -> &str {
+        "encoder-lag"
+    }
+
+    fn equation(&self) -> &str {
+        "wheel angle at t is logged at t + latency_s"
+    }
+
+    fn reference(&self) -> &str {
+        "sampling delay"
+    }
+
+    fn link(&self) -> Link {
+        Link::Motion
+    }
+
+    fn forms(&self, _robot: &Robot) -> Vec<Form> {
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-0.3, 0.3], 0.004)])]
+    }
+
+    fn motion(&self, values: &Values, model: &mut MotionModel) {
+        model.latency_s -= values.get("latency_s");
+    }
+}

@@ -1,0 +1,52 @@
+//! `encoder-scale`: more or fewer counts a wheel turn than stated.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};
+use crate::motion::MotionModel;
+
+/// More or fewer counts a wheel turn than stated.
+pub(super) struct EncoderScale;
+
+impl Effect for EncoderScale {
+    fn name(&self) -> &str {
+        "encoder-scale"
+    }
+
+    fn equation(&self) -> &str {
+        "wheel angle = counts / (counts per turn) (1 + scale_i): wrong counts per turn or gear ratio"
+    }
+
+    fn reference(&self) -> &str {
+        "data sheets of encoder and gear"
+    }
+
+    fn link(&self) -> Link {
+        Link::Motion
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let p = |i| Parameter::new(wheel_name("scale", i, ""), 0.01, [-0.6, 0.6], 0.004);
+        let mut forms = vec![Form::whole(vec![Parameter::new("scale", 0.01, [-0.6, 0.6], 0.004)])];
+        forms.extend(Form::alone(robot, p));
+        forms.push(Form::each(robot, p));
+        forms
+    }
+
+    fn motion(&self, values: &Values, model: &mut MotionModel) {
+        for i in 0..model.wheels.len() {
+            model.distance_scale[i] *= 1.0 + values.wheel("scale", i, "");
+        }
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        for i in 0..model.wheels.len() {
+            model.axes[i].encoder_scale *= 1.0 + values.wheel("scale", i, "");
+        }
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("turn the wheel by hand ten times and read the counter", 2.0))
+    }
+}

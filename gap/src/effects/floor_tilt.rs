@@ -1,0 +1,44 @@
+//! `floor-tilt`: a floor that is not level.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Values};
+
+/// A floor that is not level.
+pub(super) struct FloorTilt;
+
+impl Effect for FloorTilt {
+    fn name(&self) -> &str {
+        "floor-tilt"
+    }
+
+    fn equation(&self) -> &str {
+        "force m g (x_rad, y_rad) in the world, downhill"
+    }
+
+    fn reference(&self) -> &str {
+        "-"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let _ = robot;
+        vec![Form::whole(vec![
+            Parameter::new("x_rad", 0.005, [-0.3, 0.3], 0.008),
+            Parameter::new("y_rad", 0.005, [-0.3, 0.3], 0.008),
+        ])]
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let (x, y, weight) = (values.get("x_rad"), values.get("y_rad"), model.mass * 9.806_65);
+        model.loads.push(Box::new(move |now, loads| loads.push_world(now.heading, [weight * x, weight * y])));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("lay a spirit level on the floor", 1.0))
+    }
+}

@@ -1,0 +1,53 @@
+//! `heading-drag`: friction of a wheel that depends on the heading, as a dragging cable gives.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+
+/// Friction of a wheel that depends on the heading, as a dragging cable gives.
+pub(super) struct HeadingDrag;
+
+impl Effect for HeadingDrag {
+    fn name(&self) -> &str {
+        "heading-drag"
+    }
+
+    fn equation(&self) -> &str {
+        "torque -(cos_nm cos(n theta) + sin_nm sin(n theta)) sign(w) at all wheels"
+    }
+
+    fn reference(&self) -> &str {
+        "-"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let stall = Sizes::of(robot).stall_nm;
+        [1.0, 2.0, 3.0]
+            .into_iter()
+            .map(|n| {
+                let p = |name: &str| Parameter::new(name, 0.01 * stall, [-stall, stall], 0.03 * stall);
+                Form::whole(vec![p("cos_nm"), p("sin_nm")]).fixing("harmonic", n)
+            })
+            .collect()
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let (a, b, n) = (values.get("cos_nm"), values.get("sin_nm"), values.find("harmonic").unwrap_or(1.0));
+        model.loads.push(Box::new(move |now, loads| {
+            let (s, c) = (n * now.heading).sin_cos();
+            let t = a * c + b * s;
+            for i in 0..now.sign.len() {
+                loads.wheel[i] -= t * now.sign[i];
+            }
+        }));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("the same drive with the cable taken off", 3.0))
+    }
+}

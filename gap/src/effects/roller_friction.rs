@@ -1,0 +1,57 @@
+//! `roller-friction`: rollers that resist being rolled sideways.
+
+use crate::drive::{SLIDE_WIDTH, smooth_sign};
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+
+/// Rollers that resist being rolled sideways.
+pub(super) struct RollerFriction;
+
+impl Effect for RollerFriction {
+    fn name(&self) -> &str {
+        "roller-friction"
+    }
+
+    fn equation(&self) -> &str {
+        "force -force_n sign(v) at each contact along the direction its rollers roll in"
+    }
+
+    fn reference(&self) -> &str {
+        "Siciliano et al., Springer Handbook of Robotics, ch. 17"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let w = Sizes::of(robot).weight_n / robot.wheel_count() as f64;
+        vec![Form::whole(vec![Parameter::new("force_n", 0.01 * w, [-0.05 * w, w], 0.018 * w)])]
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let force = values.get("force_n");
+        let rows: Vec<[f64; 3]> = model
+            .wheels
+            .iter()
+            .map(|w| {
+                let [ax, ay] = w.traction();
+                [-ay, ax, w.x_m * ax + w.y_m * ay]
+            })
+            .collect();
+        model.loads.push(Box::new(move |now, loads| {
+            for (row, v) in rows.iter().zip(now.sideways) {
+                let f = -force * smooth_sign(*v, SLIDE_WIDTH);
+                for (slot, r) in loads.body.iter_mut().zip(row) {
+                    *slot += f * r;
+                }
+            }
+        }));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("pull the robot along a wheel axle with a spring scale", 5.0))
+    }
+}

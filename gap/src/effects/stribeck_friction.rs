@@ -1,0 +1,52 @@
+//! `stribeck-friction`: friction that is larger near standstill.
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+
+/// Friction that is larger near standstill.
+pub(super) struct StribeckFriction;
+
+impl Effect for StribeckFriction {
+    fn name(&self) -> &str {
+        "stribeck-friction"
+    }
+
+    fn equation(&self) -> &str {
+        "torque -T exp(-(w / speed)^2) sign(w)"
+    }
+
+    fn reference(&self) -> &str {
+        "Armstrong-Helouvry 1994"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let s = Sizes::of(robot);
+        [2.0, 6.0]
+            .into_iter()
+            .map(|w| {
+                let p =
+                    Parameter::new("torque_nm", 0.01 * s.stall_nm, [-0.1 * s.stall_nm, s.stall_nm], 0.05 * s.stall_nm);
+                Form::whole(vec![p]).fixing("speed_rad_s", w)
+            })
+            .collect()
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let (t, w) = (values.get("torque_nm"), values.find("speed_rad_s").unwrap_or(3.0));
+        model.loads.push(Box::new(move |now, loads| {
+            for i in 0..now.speed.len() {
+                loads.wheel[i] -= t * (-(now.speed[i] / w).powi(2)).exp() * now.sign[i];
+            }
+        }));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("a slow ramp of the duty with the wheels lifted", 3.0))
+    }
+}

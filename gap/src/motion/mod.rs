@@ -1,0 +1,135 @@
+//! The `motion` link: encoder angles to camera poses.
+//!
+//! Windowed output error. Each run is cut into windows of about a second; within one, the pose
+//! predicted from the encoders is compared with every camera frame, and the window's start pose is
+//! a nuisance that is projected out (multiple shooting with free nodes). Parameters act on the
+//! prediction only.
+
+mod windows;
+
+use model::frames::{Pose, Twist, displacement};
+use model::geometry::{Geometry, Wheel};
+use model::robot::Robot;
+use nalgebra::DMatrix;
+
+use crate::segment::{Frame, Segment};
+
+pub use windows::MotionLink;
+
+/// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
+pub type AngleChange = Box<dyn Fn(&Segment, &mut [Vec<f64>]) + Send + Sync>;
+/// What the camera makes of a pose.
+pub type Observe = Box<dyn Fn(Pose) -> Pose + Send + Sync>;
+
+/// Everything between encoder and camera; effects change it.
+pub struct MotionModel {
+    /// Wheels as they really are.
+    pub wheels: Vec<Wheel>,
+    /// Wheel radius, m.
+    pub wheel_radius_m: f64,
+    /// Distance rolled per angle by the encoder, relative to nominal, one a wheel.
+    pub distance_scale: Vec<f64>,
+    /// Age of a camera frame at its stamp, s.
+    pub latency_s: f64,
+    /// The marker plate in the body frame.
+    pub marker: Pose,
+    /// Changes of the wheel angles, in this order.
+    pub angles: Vec<AngleChange>,
+    /// What the camera does to a pose of the marker, in this order.
+    pub observe: Vec<Observe>,
+    /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
+    pub inertia: DMatrix<f64>,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Motor turns per wheel turn.
+    pub gear_ratio: f64,
+}
+
+impl MotionModel {
+    /// The nominal robot.
+    pub fn new(robot: &Robot) -> Self {
+        let wheels = robot.layout.wheels();
+        Self {
+            distance_scale: vec![1.0; wheels.len()],
+            wheels,
+            wheel_radius_m: robot.wheel_radius_m,
+            latency_s: robot.camera_latency_s,
+            marker: Pose::default(),
+            angles: Vec::new(),
+            observe: Vec::new(),
+            inertia: crate::drive::DriveModel::new(robot)
+                .mechanics()
+                .map_or_else(|| DMatrix::zeros(robot.wheel_count(), robot.wheel_count()), |m| m.inertia),
+            mass_kg: robot.mass_kg,
+            gear_ratio: robot.gear_ratio,
+        }
+    }
+
+    /// Body displacement per wheel angle, one column a wheel (m, m, rad per rad); `None` where the
+    /// wheels cannot drive the robot.
+    pub fn columns(&self) -> Option<Vec<[f64; 3]>> {
+        let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
+        let columns = geometry.direct().column_iter().zip(&self.distance_scale);
+        Some(columns.map(|(c, s)| [c[0] * s, c[1] * s, c[2] * s]).collect())
+    }
+
+    /// The wheel angles of a segment with all changes; borrowed if there are none.
+    pub fn angles<'a>(&self, segment: &'a Segment) -> std::borrow::Cow<'a, [Vec<f64>]> {
+        if self.angles.is_empty() {
+            return std::borrow::Cow::Borrowed(&segment.angle);
+        }
+        let mut angles = segment.angle.clone();
+        for change in &self.angles {
+            change(segment, &mut angles);
+        }
+        std::borrow::Cow::Owned(angles)
+    }
+
+    /// Chassis poses at the frames of one window, relative to that at the window's first frame.
+    /// The marker and the camera are not in it yet.
+    pub fn track(&self, segment: &Segment, angles: &[Vec<f64>], columns: &[[f64; 3]], frames: &[Frame]) -> Vec<Pose> {
+        let mut out = Vec::with_capacity(frames.len());
+        let Some(first) = frames.first() else { return out };
+        let last_tick = segment.t.len() - 1;
+        let mut tick = segment.tick_at(first.t - self.latency_s);
+        let moved = |k: usize, share: f64| {
+            let mut sum = [0.0; 3];
+            for (column, angle) in columns.iter().zip(angles) {
+                let turned = (angle[k + 1] - angle[k]) * share;
+                for (s, c) in sum.iter_mut().zip(column) {
+                    *s += c * turned;
+                }
+            }
+            displacement(Twist::new(sum[0], sum[1], sum[2]))
+        };
+        let mut pose = Pose::default();
+        for frame in frames {
+            let exposed = frame.t - self.latency_s;
+            while tick < last_tick && segment.t[tick + 1] <= exposed {
+                pose = pose.compose(moved(tick, 1.0));
+                tick += 1;
+            }
+            let mut at = pose;
+            if tick < last_tick && exposed > segment.t[tick] {
+                let share = (exposed - segment.t[tick]) / (segment.t[tick + 1] - segment.t[tick]);
+                at = pose.compose(moved(tick, share));
+            }
+            out.push(at);
+        }
+        if let Some(origin) = out.first().copied() {
+            for pose in &mut out {
+                *pose = origin.relative(*pose);
+            }
+        }
+        out
+    }
+
+    /// What the camera sees of a chassis pose.
+    pub fn seen(&self, chassis: Pose) -> Pose {
+        let mut pose = chassis.compose(self.marker);
+        for observe in &self.observe {
+            pose = observe(pose);
+        }
+        pose
+    }
+}

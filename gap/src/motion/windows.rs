@@ -1,0 +1,245 @@
+//! Windows of camera frames: alignment, weights, residuals and their derivatives.
+
+use model::frames::{Pose, wrap_angle};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use rayon::prelude::*;
+
+use super::MotionModel;
+use crate::gram::Cluster;
+use crate::segment::Segment;
+
+/// Fewer frames than this fix a start pose but hardly anything else.
+const FEWEST_FRAMES: usize = 4;
+/// Frames further out than this many robust standard deviations get less weight (Huber), ...
+const HUBER: f64 = 4.0;
+/// ... and none from here.
+const REJECT: f64 = 10.0;
+/// Median of the norm of three standard normal numbers.
+const MEDIAN_OF_CHI3: f64 = 1.538_2;
+
+/// The motion link of a data set.
+pub struct MotionLink<'a> {
+    /// The pieces of the runs.
+    pub segments: &'a [Segment],
+    /// Standard deviations of a camera pose (m, m, rad).
+    pub noise: [f64; 3],
+    windows: Vec<Window>,
+}
+
+/// Consecutive frames of one segment.
+#[derive(Debug, Clone)]
+struct Window {
+    segment: usize,
+    frames: std::ops::Range<usize>,
+}
+
+/// One window's frames and what the model makes of them.
+#[derive(Debug, Clone)]
+pub struct WindowResiduals {
+    /// Index of the run.
+    pub run: usize,
+    /// Times of the frames, s.
+    pub t: Vec<f64>,
+    /// Predicted poses.
+    pub predicted: Vec<Pose>,
+    /// Seen minus predicted, in units of the noise.
+    pub residuals: Vec<[f64; 3]>,
+    /// Weight of each frame, 0 to 1.
+    pub weights: Vec<f64>,
+    start: Pose,
+}
+
+impl<'a> MotionLink<'a> {
+    /// Cuts the segments into windows of `window_s`.
+    pub fn new(segments: &'a [Segment], noise: [f64; 3], window_s: f64) -> Self {
+        let mut windows = Vec::new();
+        for (index, s) in segments.iter().enumerate().filter(|(_, s)| !s.angle.is_empty()) {
+            let Some(start) = s.t.first() else { continue };
+            let number = |i: usize| ((s.frames[i].t - start) / window_s).floor();
+            let mut first = 0;
+            for i in 1..=s.frames.len() {
+                if i < s.frames.len() && number(i) == number(first) {
+                    continue;
+                }
+                if i - first >= FEWEST_FRAMES {
+                    windows.push(Window { segment: index, frames: first..i });
+                }
+                first = i;
+            }
+        }
+        Self { segments, noise, windows }
+    }
+
+    /// Number of windows.
+    pub fn len(&self) -> usize {
+        self.windows.len()
+    }
+
+    /// Whether there is nothing to compare.
+    pub fn is_empty(&self) -> bool {
+        self.windows.is_empty()
+    }
+
+    /// Residuals of every window, start poses fitted, outliers weighted down.
+    pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
+        let Some(columns) = model.columns() else { return Vec::new() };
+        let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
+        let tracks: Vec<Vec<Pose>> = self.windows.par_iter().map(|w| self.track(model, &angles, &columns, w)).collect();
+        let align = |(window, track): (&Window, &Vec<Pose>), spread: Option<f64>, weights: Option<Vec<f64>>| {
+            self.align(model, window, track, spread, weights)
+        };
+        let mut all: Vec<WindowResiduals> =
+            self.windows.par_iter().zip(&tracks).map(|pair| align(pair, None, None)).collect();
+        let mut norms: Vec<f64> = all.iter().flat_map(|w| w.residuals.iter().map(norm)).collect();
+        let spread = (crate::statistics::median(&mut norms) / MEDIAN_OF_CHI3).max(1.0);
+        all.par_iter_mut().zip(self.windows.par_iter().zip(&tracks)).for_each(|(w, pair)| {
+            let weights = w.residuals.iter().map(|r| weight(norm(r) / spread)).collect::<Vec<_>>();
+            if weights.iter().any(|x| *x < 1.0) {
+                *w = align(pair, Some(spread), Some(weights));
+            }
+        });
+        all
+    }
+
+    fn track(
+        &self,
+        model: &MotionModel,
+        angles: &[std::borrow::Cow<'_, [Vec<f64>]>],
+        columns: &[[f64; 3]],
+        w: &Window,
+    ) -> Vec<Pose> {
+        let s = &self.segments[w.segment];
+        model.track(s, &angles[w.segment], columns, &s.frames[w.frames.clone()])
+    }
+
+    fn align(
+        &self,
+        model: &MotionModel,
+        window: &Window,
+        track: &[Pose],
+        spread: Option<f64>,
+        weights: Option<Vec<f64>>,
+    ) -> WindowResiduals {
+        let s = &self.segments[window.segment];
+        let frames = &s.frames[window.frames.clone()];
+        let n = frames.len();
+        let middle = n / 2;
+        // Chassis pose of the first frame so that the middle one fits.
+        let marker_inverse = model.marker.inverse();
+        let mut start = frames[middle].pose.compose(marker_inverse).compose(track[middle].inverse());
+        let mut weights = weights.unwrap_or_else(|| vec![1.0; n]);
+        let mut residuals = vec![[0.0; 3]; n];
+        let mut predicted = vec![Pose::default(); n];
+        for step in 0..=4 {
+            let (mut information, mut score) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros());
+            for i in 0..n {
+                let placed = start.compose(track[i]);
+                let p = model.seen(placed);
+                predicted[i] = p;
+                let seen = frames[i].pose;
+                let raw = [seen.x - p.x, seen.y - p.y, wrap_angle(seen.theta - p.theta)];
+                for (j, row) in start_rows(start, p).iter().enumerate() {
+                    let row = Vector3::from(*row) / self.noise[j];
+                    residuals[i][j] = raw[j] / self.noise[j];
+                    information += row * row.transpose() * weights[i];
+                    score += row * (weights[i] * residuals[i][j]);
+                }
+            }
+            if step == 4 {
+                break;
+            }
+            let Some(inverse) = information.try_inverse() else { break };
+            let d = inverse * score;
+            start = Pose::new(start.x + d.x, start.y + d.y, start.theta + d.z);
+            if let Some(spread) = spread
+                && step >= 1
+            {
+                weights = residuals.iter().map(|r| weight(norm(r) / spread)).collect();
+            }
+        }
+        WindowResiduals { run: s.run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
+    }
+
+    /// Linearises: per window, the residuals and the derivatives of the prediction along each pair
+    /// of models (low, high, step between them), start poses projected out.
+    pub fn linearise(&self, model: &MotionModel, sides: &[(MotionModel, MotionModel, f64)]) -> Vec<Cluster> {
+        let base = self.residuals(model);
+        self.linearise_at(&base, sides)
+    }
+
+    /// As [`Self::linearise`], at residuals already known.
+    pub fn linearise_at(&self, base: &[WindowResiduals], sides: &[(MotionModel, MotionModel, f64)]) -> Vec<Cluster> {
+        let columns: Vec<Vec<DVector<f64>>> =
+            sides.par_iter().map(|(low, high, step)| self.column(base, low, high, *step)).collect();
+        base.iter().enumerate().map(|(w, aligned)| self.cluster(w, aligned, &columns)).collect()
+    }
+
+    /// Derivative of the predictions of every window, in units of the noise.
+    fn column(&self, base: &[WindowResiduals], low: &MotionModel, high: &MotionModel, step: f64) -> Vec<DVector<f64>> {
+        let predict = |model: &MotionModel| -> Vec<Vec<Pose>> {
+            let Some(columns) = model.columns() else { return Vec::new() };
+            let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
+            self.windows
+                .iter()
+                .zip(base)
+                .map(|(w, b)| {
+                    let track = self.track(model, &angles, &columns, w);
+                    track.iter().map(|p| model.seen(b.start.compose(*p))).collect()
+                })
+                .collect()
+        };
+        let (a, b) = (predict(low), predict(high));
+        if a.is_empty() || b.is_empty() {
+            return base.iter().map(|w| DVector::zeros(3 * w.t.len())).collect();
+        }
+        a.iter()
+            .zip(&b)
+            .map(|(a, b)| {
+                DVector::from_iterator(
+                    3 * a.len(),
+                    a.iter().zip(b).flat_map(|(a, b)| {
+                        let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
+                        [0, 1, 2].map(|i| d[i] / (step * self.noise[i]))
+                    }),
+                )
+            })
+            .collect()
+    }
+
+    fn cluster(&self, w: usize, aligned: &WindowResiduals, columns: &[Vec<DVector<f64>>]) -> Cluster {
+        let n = aligned.t.len();
+        let rows = 3 * n;
+        let root: Vec<f64> = aligned.weights.iter().flat_map(|w| [w.sqrt(); 3]).collect();
+        let mut jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| columns[c][w][r] * root[r]);
+        let mut residual =
+            DVector::from_iterator(rows, aligned.residuals.iter().flatten().zip(&root).map(|(x, w)| x * w));
+        let nuisance = DMatrix::from_fn(rows, 3, |r, c| {
+            start_rows(aligned.start, aligned.predicted[r / 3])[r % 3][c] * root[r] / self.noise[r % 3]
+        });
+        let q = nuisance.qr().q();
+        let projected = q.transpose() * &jacobian;
+        jacobian -= &q * projected;
+        let projected = q.transpose() * &residual;
+        residual -= &q * projected;
+        let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
+        Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
+    }
+}
+
+fn norm(r: &[f64; 3]) -> f64 {
+    (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt()
+}
+
+fn weight(out: f64) -> f64 {
+    match out {
+        out if out > REJECT => 0.0,
+        out if out > HUBER => HUBER / out,
+        _ => 1.0,
+    }
+}
+
+/// Derivative of a predicted pose by its window's start pose: rows x, y, heading. What the camera
+/// does to a pose is close enough to the identity.
+fn start_rows(start: Pose, placed: Pose) -> [[f64; 3]; 3] {
+    [[1.0, 0.0, start.y - placed.y], [0.0, 1.0, placed.x - start.x], [0.0, 0.0, 1.0]]
+}

@@ -1,0 +1,168 @@
+//! A link as a regression problem: linearising it about a state, and fitting its active effects.
+
+use crate::drive::{DriveLink, DriveModel};
+use crate::effect::Link;
+use crate::gram::{Cluster, Gram};
+use crate::motion::{MotionLink, MotionModel};
+use crate::state::{Active, State};
+
+/// A link of a data set that can be linearised about any state.
+pub enum Problem<'a> {
+    /// Encoders to camera.
+    Motion(&'a MotionLink<'a>),
+    /// Duty to encoders.
+    Drive(&'a DriveLink<'a>),
+}
+
+/// Which parameter a column of the linearisation belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// Effect of the state, by index, and parameter.
+    Active(usize, usize),
+    /// Candidate, by index, and parameter.
+    Candidate(usize, usize),
+}
+
+/// A linearisation.
+pub struct Linear {
+    /// Condensed residuals and columns.
+    pub gram: Gram,
+    /// Owner of each column.
+    pub owners: Vec<Owner>,
+}
+
+impl Linear {
+    /// The columns of one candidate.
+    pub fn of_candidate(&self, candidate: usize) -> Vec<usize> {
+        self.position(|o| matches!(o, Owner::Candidate(c, _) if c == candidate))
+    }
+
+    /// The columns of one active effect.
+    pub fn of_active(&self, index: usize) -> Vec<usize> {
+        self.position(|o| matches!(o, Owner::Active(c, _) if c == index))
+    }
+
+    /// The columns of all active effects.
+    pub fn active(&self) -> Vec<usize> {
+        self.position(|o| matches!(o, Owner::Active(..)))
+    }
+
+    fn position(&self, wanted: impl Fn(Owner) -> bool) -> Vec<usize> {
+        (0..self.owners.len()).filter(|i| wanted(self.owners[*i])).collect()
+    }
+}
+
+/// Steps of Gauss-Newton at most.
+const STEPS: usize = 8;
+
+impl Problem<'_> {
+    /// Which link it is.
+    pub fn link(&self) -> Link {
+        match self {
+            Self::Motion(_) => Link::Motion,
+            Self::Drive(_) => Link::Drive,
+        }
+    }
+
+    /// Residuals and the derivatives by all active parameters of this link and all candidates.
+    pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
+        let mut owners = Vec::new();
+        let mut moves: Vec<(State, State, f64)> = Vec::new();
+        for index in state.fitted_on(self.link()) {
+            let a = &state.active[index];
+            for (j, p) in a.form.free.iter().enumerate() {
+                let h = 0.05 * p.scale;
+                owners.push(Owner::Active(index, j));
+                moves.push((state.with(index, a.moved(j, -h)), state.with(index, a.moved(j, h)), 2.0 * h));
+            }
+        }
+        for (c, candidate) in candidates.iter().enumerate() {
+            if candidate.switched() {
+                // One column for the whole effect: off to on.
+                owners.push(Owner::Candidate(c, 0));
+                let mut on = state.clone();
+                on.active.push(candidate.clone());
+                moves.push((state.clone(), on, 1.0));
+                continue;
+            }
+            for (j, p) in candidate.form.free.iter().enumerate() {
+                let h = p.scale;
+                owners.push(Owner::Candidate(c, j));
+                let side = |by: f64| {
+                    let mut s = state.clone();
+                    s.active.push(candidate.moved(j, by));
+                    s
+                };
+                // One-sided where the negative makes no sense.
+                let low = if p.bounds[0] >= 0.0 { 0.0 } else { -h };
+                moves.push((side(low), side(h), h - low));
+            }
+        }
+        let clusters: Vec<Cluster> = match self {
+            Self::Motion(link) => {
+                let sides: Vec<(MotionModel, MotionModel, f64)> =
+                    moves.iter().map(|(a, b, h)| (a.motion(None), b.motion(None), *h)).collect();
+                link.linearise(&state.motion(None), &sides)
+            }
+            Self::Drive(link) => {
+                let sides: Vec<(DriveModel, DriveModel, f64)> =
+                    moves.iter().map(|(a, b, h)| (a.drive(None), b.drive(None), *h)).collect();
+                link.linearise(&state.drive(None), &sides)
+            }
+        };
+        Linear { gram: Gram::new(clusters), owners }
+    }
+
+    /// Sum of squares of the residuals of a state.
+    pub fn loss(&self, state: &State) -> f64 {
+        self.linearise_nothing(state).loss()
+    }
+
+    /// Residuals alone.
+    pub fn linearise_nothing(&self, state: &State) -> Gram {
+        let clusters = match self {
+            Self::Motion(link) => link.linearise(&state.motion(None), &[]),
+            Self::Drive(link) => link.linearise(&state.drive(None), &[]),
+        };
+        Gram::new(clusters)
+    }
+
+    /// Fits the active effects of this link by Gauss-Newton, in place; the loss reached.
+    pub fn fit(&self, state: &mut State) -> f64 {
+        let mut loss = self.loss(state);
+        for _ in 0..STEPS {
+            let linear = self.linearise(state, &[]);
+            let columns = linear.active();
+            if columns.is_empty() {
+                break;
+            }
+            let step = linear.gram.solve(&columns).step;
+            let mut accepted = false;
+            let mut largest = 0.0_f64;
+            for halving in 0..5 {
+                let factor = 0.5_f64.powi(halving);
+                let mut trial = state.clone();
+                largest = 0.0;
+                for (x, owner) in step.iter().zip(columns.iter().map(|c| linear.owners[*c])) {
+                    let Owner::Active(index, j) = owner else { continue };
+                    let p = state.active[index].form.free[j].clone();
+                    let now = state.active[index].values.get(&p.name);
+                    let next = (now + factor * x).clamp(p.bounds[0], p.bounds[1]);
+                    largest = largest.max((next - now).abs() / p.scale);
+                    trial.active[index].values.set(&p.name, next);
+                }
+                let reached = self.loss(&trial);
+                if reached.is_finite() && reached <= loss * (1.0 + 1e-9) {
+                    accepted = reached < loss * (1.0 - 1e-6);
+                    loss = reached;
+                    *state = trial;
+                    break;
+                }
+            }
+            if !accepted || largest < 1e-4 {
+                break;
+            }
+        }
+        loss
+    }
+}

@@ -1,0 +1,95 @@
+//! The model under study: the nominal robot and the effects added so far.
+
+use std::sync::Arc;
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::{Effect, Form, Link, Values};
+use crate::motion::MotionModel;
+
+/// An effect with values.
+#[derive(Clone)]
+pub struct Active {
+    /// The effect.
+    pub effect: Arc<dyn Effect>,
+    /// How it is parametrised.
+    pub form: Form,
+    /// Its values, fixed ones included.
+    pub values: Values,
+    /// Whether it is fitted but too small to be named.
+    pub immaterial: bool,
+    /// Whether it stood in the robot's file and is not fitted again.
+    pub given: bool,
+}
+
+impl Active {
+    /// An effect at its start: 0, or where it is tried first.
+    pub fn new(effect: Arc<dyn Effect>, form: Form) -> Self {
+        let mut values = Values(form.fixed.clone());
+        for p in &form.free {
+            values.set(&p.name, p.start.unwrap_or(0.0));
+        }
+        Self { effect, form, values, immaterial: false, given: false }
+    }
+
+    /// Values of the fitted parameters.
+    pub fn parameters(&self) -> Vec<f64> {
+        self.form.free.iter().map(|p| self.values.get(&p.name)).collect()
+    }
+
+    /// The same with one fitted parameter moved.
+    pub fn moved(&self, parameter: usize, by: f64) -> Self {
+        let mut out = self.clone();
+        let name = &self.form.free[parameter].name;
+        out.values.set(name, self.values.get(name) + by);
+        out
+    }
+
+    /// Whether it is switched on from a start value instead of growing from 0.
+    pub fn switched(&self) -> bool {
+        self.form.free.iter().any(|p| p.start.is_some())
+    }
+}
+
+/// The nominal robot and the effects added so far.
+#[derive(Clone)]
+pub struct State {
+    /// The nominal robot.
+    pub robot: Robot,
+    /// Effects, in the order they were added.
+    pub active: Vec<Active>,
+}
+
+impl State {
+    /// The motion link of this state.
+    pub fn motion(&self, extra: Option<&Active>) -> MotionModel {
+        let mut model = MotionModel::new(&self.robot);
+        for a in self.active.iter().chain(extra) {
+            a.effect.motion(&a.values, &mut model);
+        }
+        model
+    }
+
+    /// The drive link of this state.
+    pub fn drive(&self, extra: Option<&Active>) -> DriveModel {
+        let mut model = DriveModel::new(&self.robot);
+        for a in self.active.iter().chain(extra) {
+            a.effect.drive(&a.values, &mut model);
+        }
+        model
+    }
+
+    /// The same with the active effect `index` replaced.
+    #[must_use]
+    pub fn with(&self, index: usize, active: Active) -> Self {
+        let mut out = self.clone();
+        out.active[index] = active;
+        out
+    }
+
+    /// Indices of the effects fitted on a link.
+    pub fn fitted_on(&self, link: Link) -> Vec<usize> {
+        (0..self.active.len()).filter(|i| !self.active[*i].given && self.active[*i].effect.link() == link).collect()
+    }
+}
