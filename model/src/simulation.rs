@@ -108,10 +108,10 @@ impl VirtualRobot {
         self.plant.step(&duties, self.robot.supply_v, self.robot.tick_s());
     }
 
-    /// Drives `twist` for `seconds`, reached and left with limited acceleration: a trapezoid that
-    /// covers about `twist` × `seconds` and ends at rest.
+    /// Drives `twist` for `seconds`, reached and left with limited acceleration: covers `twist` ×
+    /// `seconds` and ends at rest.
     pub fn drive(&mut self, twist: Twist, seconds: f64, believed: &Geometry) {
-        let ramp = RAMP_S.min(0.5 * seconds);
+        let ramp = ramp_s(twist);
         let start = self.time();
         loop {
             let t = self.time() - start;
@@ -177,19 +177,29 @@ pub fn follow(
     Followed { report, track, believed: poses }
 }
 
+/// Acceleration of [`VirtualRobot::drive`], m/s². Twice as much saturates the duty of the fastest
+/// wheel, and what that wheel then falls behind turns the robot.
+const RAMP_ACCELERATION: f64 = 0.8;
+/// Shortest time to reach a twist, s: rotation needs little torque.
+const SHORTEST_RAMP_S: f64 = 0.2;
+
 /// Time to reach a twist, s.
-const RAMP_S: f64 = 0.3;
+fn ramp_s(twist: Twist) -> f64 {
+    (twist.speed() / RAMP_ACCELERATION).max(SHORTEST_RAMP_S)
+}
+
 /// Rest after a drive, for the camera to see where it ended, s.
 const REST_S: f64 = 0.15;
 
 /// A drive of about `seconds` that shows all a calibration needs: straight out and back in
 /// directions all around, at `speed` (m/s), with turns between.
 pub fn calibration_drive(robot: &mut VirtualRobot, speed: f64, seconds: f64, believed: &Geometry) {
-    let leg_s = 1.5;
+    let leg_s = 1.2;
+    let leg_total_s = leg_s + speed / RAMP_ACCELERATION + REST_S;
     let end = robot.time() + seconds;
     // The golden angle spreads any number of directions evenly.
     let mut heading = 0.3_f64;
-    while robot.time() + 2.0 * (leg_s + RAMP_S + REST_S) < end {
+    while robot.time() + 2.0 * leg_total_s < end {
         let twist = Twist::new(speed * heading.cos(), speed * heading.sin(), 0.0);
         robot.drive(twist, leg_s, believed);
         robot.drive(Twist { omega: 1.2, ..twist.scaled(-1.0) }, leg_s, believed);
@@ -223,7 +233,7 @@ mod tests {
         assert!((local.y - 1.0).abs() < 0.02 && local.x.abs() < 0.005, "{local:?}");
         let run = v.into_log();
         assert_eq!(run.check(&robot(), std::path::Path::new("log")), Ok(()));
-        assert_eq!((run.len(), run.duty[2].len(), run.counts[0].len()), (2450, 2450, 2450));
+        assert_eq!((run.len(), run.duty[2].len(), run.counts[0].len()), (2775, 2775, 2775));
         // Count difference before the first tick is zero: the log replays from the first row.
         let law = PiLaw::of(&robot());
         assert_eq!(run.duty[1][0], law.step(&mut 0.0, run.reference[1][0], 0.0));
