@@ -81,6 +81,7 @@ module rac4i65_core (
 
     // Constants
     localparam zero = 32'h0;
+    localparam live_status = 8'hf;
     localparam one_16 = 16'h1;
     localparam sign_30 = 32'hc0000000;
     localparam mask_30 = 32'h3fffffff;
@@ -88,35 +89,25 @@ module rac4i65_core (
     localparam all = 4'hf;
 
     // Pins of the parts
-    reg bus_clock;
-    reg bus_ads_n;
-    reg bus_blast_n;
-    reg bus_lw_r;
-    reg [31:0] bus_lad_in;
+
     wire [31:0] bus_lad_out;
     wire bus_lad_drive;
     wire bus_ready_n;
     wire [13:0] bus_address_2;
     wire bus_read;
-    reg [31:0] bus_read_data_2;
+
     wire bus_write_2;
     wire [31:0] bus_write_data_2;
     reg bus_write_busy;
     wire bus_overrun;
-    reg registers_clock;
+
     reg [5:0] registers_address;
     reg registers_write;
-    reg [31:0] registers_data;
+
     wire [31:0] registers_read_data;
-    reg registers_armed;
-    reg [31:0] registers_clock_count;
-    reg [7:0] registers_faults;
-    reg [7:0] registers_first_fault;
-    reg [7:0] registers_status;
+
     reg [31:0] registers_commits;
-    reg [3:0] registers_encoder_error;
-    reg [11:0] registers_encoder_lines;
-    reg [7:0] registers_kicker_status;
+
     wire [23:0] registers_tick_period;
     wire registers_tick_period_written;
     wire [1:0] registers_mode;
@@ -137,18 +128,12 @@ module rac4i65_core (
     wire registers_commit_set_points;
     wire registers_commit_configuration;
     wire registers_fire;
-    reg timebase_clock;
-    reg [23:0] timebase_tick_period;
-    reg timebase_restart;
-    reg [5:0] timebase_clocks_per_microsecond;
+
     wire [31:0] timebase_clock_count;
     wire [23:0] timebase_period;
     wire timebase_tick;
     wire timebase_microsecond;
-    reg [13:0] decoder_address;
-    reg decoder_configuration_bank;
-    reg decoder_set_point_bank;
-    reg decoder_snapshot_bank;
+
     wire decoder_in_registers;
     wire decoder_in_memory;
     wire [7:0] decoder_memory_address;
@@ -156,14 +141,10 @@ module rac4i65_core (
     wire decoder_stages_configuration;
     wire decoder_snapshot_first;
     wire decoder_snapshot_last;
-    reg commit_clock;
+
     reg commit_stage_set_point;
     reg commit_stage_configuration;
-    reg commit_commit_set_points;
-    reg commit_commit_configuration;
-    reg [13:0] commit_address;
-    reg [31:0] commit_data;
-    reg commit_tick;
+
     wire commit_set_point_bank;
     wire commit_configuration_bank;
     wire commit_set_points_pending;
@@ -172,71 +153,51 @@ module rac4i65_core (
     wire commit_fault_2;
     wire [15:0] commit_accepted;
     wire [15:0] commit_rejected;
-    reg snapshot_clock;
-    reg snapshot_tick;
-    reg snapshot_done;
+
     reg snapshot_read_first;
     reg snapshot_read_last;
     wire snapshot_write_bank;
     wire snapshot_read_bank;
-    reg safety_clock;
-    reg safety_emergency_stop;
-    reg safety_arm_write;
-    reg [31:0] safety_arm_data;
-    reg safety_pet;
-    reg [23:0] safety_watchdog_timeout;
+
     reg safety_encoder_fault;
-    reg safety_commit_fault;
-    reg safety_external_fault;
-    reg safety_clear_faults;
+
     wire safety_armed;
     wire safety_setpoints_valid;
     wire [7:0] safety_faults;
     wire [7:0] safety_first_fault;
-    reg kicker_clock;
-    reg kicker_enable;
-    reg kicker_microsecond;
+
     reg kicker_charge_request;
-    reg [23:0] kicker_charge_timeout_2;
-    reg kicker_fire;
-    reg [13:0] kicker_pulse_2;
-    reg [19:0] kicker_lockout_2;
-    reg kicker_ball;
+
     reg kicker_arm_on_ball;
-    reg kicker_clear;
+
     wire kicker_charge;
     wire kicker_trigger;
     wire kicker_ready;
     wire [2:0] kicker_state;
     wire kicker_timed_out;
     wire kicker_dropped;
-    reg monitor_lclk;
-    reg monitor_synclk;
+
     wire monitor_lclk_dead;
-    reg sequencer_clock;
-    reg sequencer_tick;
+
     wire sequencer_running;
     wire sequencer_done;
-    reg sequencer_configuration_bank;
-    reg sequencer_set_point_bank;
-    reg sequencer_snapshot_bank;
+
     wire [3:0] sequencer_input_port;
     wire [1:0] sequencer_axis;
     reg [31:0] sequencer_input_data;
     wire sequencer_output_strobe;
     wire sequencer_output_port;
     wire [31:0] sequencer_output_data;
-    reg [7:0] sequencer_bus_address;
+
     wire [31:0] sequencer_bus_read_data;
     reg sequencer_bus_write;
-    reg [31:0] sequencer_bus_write_data;
+
     wire sequencer_bus_blocked;
     wire sequencer_bus_write_taken;
-    reg encoders_0_clock;
+
     reg encoders_0_a;
     reg encoders_0_b;
-    reg [3:0] encoders_0_filter;
-    reg encoders_0_sample;
+
     reg [23:0] encoders_0_now;
     reg encoders_0_clear_error;
     wire [15:0] encoders_0_count;
@@ -245,11 +206,10 @@ module rac4i65_core (
     wire encoders_0_error;
     wire encoders_0_live_a;
     wire encoders_0_live_b;
-    reg encoders_1_clock;
+
     reg encoders_1_a;
     reg encoders_1_b;
-    reg [3:0] encoders_1_filter;
-    reg encoders_1_sample;
+
     reg [23:0] encoders_1_now;
     reg encoders_1_clear_error;
     wire [15:0] encoders_1_count;
@@ -258,11 +218,10 @@ module rac4i65_core (
     wire encoders_1_error;
     wire encoders_1_live_a;
     wire encoders_1_live_b;
-    reg encoders_2_clock;
+
     reg encoders_2_a;
     reg encoders_2_b;
-    reg [3:0] encoders_2_filter;
-    reg encoders_2_sample;
+
     reg [23:0] encoders_2_now;
     reg encoders_2_clear_error;
     wire [15:0] encoders_2_count;
@@ -271,11 +230,10 @@ module rac4i65_core (
     wire encoders_2_error;
     wire encoders_2_live_a;
     wire encoders_2_live_b;
-    reg encoders_3_clock;
+
     reg encoders_3_a;
     reg encoders_3_b;
-    reg [3:0] encoders_3_filter;
-    reg encoders_3_sample;
+
     reg [23:0] encoders_3_now;
     reg encoders_3_clear_error;
     wire [15:0] encoders_3_count;
@@ -284,94 +242,77 @@ module rac4i65_core (
     wire encoders_3_error;
     wire encoders_3_live_a;
     wire encoders_3_live_b;
-    reg drives_0_clock;
-    reg drives_0_enable;
-    reg [12:0] drives_0_period;
-    reg [9:0] drives_0_blanking;
+
     reg drives_0_load;
-    reg [12:0] drives_0_compare;
-    reg drives_0_direction;
+
     wire drives_0_pwm;
     wire drives_0_dir;
     wire drives_0_period_start;
-    reg drives_1_clock;
-    reg drives_1_enable;
-    reg [12:0] drives_1_period;
-    reg [9:0] drives_1_blanking;
+
     reg drives_1_load;
-    reg [12:0] drives_1_compare;
-    reg drives_1_direction;
+
     wire drives_1_pwm;
     wire drives_1_dir;
     wire drives_1_period_start;
-    reg drives_2_clock;
-    reg drives_2_enable;
-    reg [12:0] drives_2_period;
-    reg [9:0] drives_2_blanking;
+
     reg drives_2_load;
-    reg [12:0] drives_2_compare;
-    reg drives_2_direction;
+
     wire drives_2_pwm;
     wire drives_2_dir;
     wire drives_2_period_start;
-    reg drives_3_clock;
-    reg drives_3_enable;
-    reg [12:0] drives_3_period;
-    reg [9:0] drives_3_blanking;
+
     reg drives_3_load;
-    reg [12:0] drives_3_compare;
-    reg drives_3_direction;
+
     wire drives_3_pwm;
     wire drives_3_dir;
     wire drives_3_period_start;
-    reg armed_at_tick_d;
-    wire armed_at_tick_q;
-    reg armed_at_tick_clock;
-    reg valid_at_tick_d;
-    wire valid_at_tick_q;
-    reg valid_at_tick_clock;
+    reg [7:0] status_at_tick_d;
+    wire [7:0] status_at_tick_q;
+
+    reg [7:0] faults_at_tick_d;
+    wire [7:0] faults_at_tick_q;
+
     reg [23:0] now_d;
     wire [23:0] now_q;
-    reg now_clock;
+
     reg reverse_d;
     wire reverse_q;
-    reg reverse_clock;
+
     reg read_page_d;
     wire read_page_q;
-    reg read_page_clock;
+
     reg read_memory_d;
     wire read_memory_q;
-    reg read_memory_clock;
+
     reg [31:0] read_q_d;
     wire [31:0] read_q_q;
-    reg read_q_clock;
+
     reg stop_sync_d;
     wire stop_sync_q;
-    reg stop_sync_clock;
+
     reg stop_live_d;
     wire stop_live_q;
-    reg stop_live_clock;
+
     reg ball_sync_d;
     wire ball_sync_q;
-    reg ball_sync_clock;
+
     reg ball_live_d;
     wire ball_live_q;
-    reg ball_live_clock;
+
     reg [3:0] index_sync_d;
     wire [3:0] index_sync_q;
-    reg index_sync_clock;
+
     reg [3:0] index_live_d;
     wire [3:0] index_live_q;
-    reg index_live_clock;
+
     reg dead_sync_d;
     wire dead_sync_q;
-    reg dead_sync_clock;
+
     reg dead_live_d;
     wire dead_live_q;
-    reg dead_live_clock;
+
     reg interrupt_d;
     wire interrupt_q;
-    reg interrupt_clock;
 
     // Intermediate values
     reg tick;
@@ -393,37 +334,37 @@ module rac4i65_core (
 
     // Parts
     rac4i65_core_bus bus(
-        .clock(bus_clock),
-        .ads_n(bus_ads_n),
-        .blast_n(bus_blast_n),
-        .lw_r(bus_lw_r),
-        .lad_in(bus_lad_in),
+        .clock(lclk),
+        .ads_n(ads_n),
+        .blast_n(blast_n),
+        .lw_r(lw_r),
+        .lad_in(lad_in),
         .lad_out(bus_lad_out),
         .lad_drive(bus_lad_drive),
         .ready_n(bus_ready_n),
         .address(bus_address_2),
         .read(bus_read),
-        .read_data(bus_read_data_2),
+        .read_data(read_q_q),
         .write(bus_write_2),
         .write_data(bus_write_data_2),
         .write_busy(bus_write_busy),
         .overrun(bus_overrun)
     );
     rac4i65_core_registers registers(
-        .clock(registers_clock),
+        .clock(lclk),
         .address(registers_address),
         .write(registers_write),
-        .data(registers_data),
+        .data(bus_write_data_2),
         .read_data(registers_read_data),
-        .armed(registers_armed),
-        .clock_count(registers_clock_count),
-        .faults(registers_faults),
-        .first_fault(registers_first_fault),
-        .status(registers_status),
+        .armed(safety_armed),
+        .clock_count(timebase_clock_count),
+        .faults(safety_faults),
+        .first_fault(safety_first_fault),
+        .status(status),
         .commits(registers_commits),
-        .encoder_error(registers_encoder_error),
-        .encoder_lines(registers_encoder_lines),
-        .kicker_status(registers_kicker_status),
+        .encoder_error(errors),
+        .encoder_lines(lines),
+        .kicker_status(kicker_status),
         .tick_period(registers_tick_period),
         .tick_period_written(registers_tick_period_written),
         .mode(registers_mode),
@@ -446,20 +387,20 @@ module rac4i65_core (
         .fire(registers_fire)
     );
     rac4i65_core_timebase timebase(
-        .clock(timebase_clock),
-        .tick_period(timebase_tick_period),
-        .restart(timebase_restart),
-        .clocks_per_microsecond(timebase_clocks_per_microsecond),
+        .clock(lclk),
+        .tick_period(registers_tick_period),
+        .restart(registers_tick_period_written),
+        .clocks_per_microsecond(registers_clocks_per_microsecond),
         .clock_count(timebase_clock_count),
         .period(timebase_period),
         .tick(timebase_tick),
         .microsecond(timebase_microsecond)
     );
     rac4i65_core_decoder decoder(
-        .address(decoder_address),
-        .configuration_bank(decoder_configuration_bank),
-        .set_point_bank(decoder_set_point_bank),
-        .snapshot_bank(decoder_snapshot_bank),
+        .address(bus_address_2),
+        .configuration_bank(commit_configuration_bank),
+        .set_point_bank(commit_set_point_bank),
+        .snapshot_bank(snapshot_read_bank),
         .in_registers(decoder_in_registers),
         .in_memory(decoder_in_memory),
         .memory_address(decoder_memory_address),
@@ -469,14 +410,14 @@ module rac4i65_core (
         .snapshot_last(decoder_snapshot_last)
     );
     rac4i65_core_commit commit(
-        .clock(commit_clock),
+        .clock(lclk),
         .stage_set_point(commit_stage_set_point),
         .stage_configuration(commit_stage_configuration),
-        .commit_set_points(commit_commit_set_points),
-        .commit_configuration(commit_commit_configuration),
-        .address(commit_address),
-        .data(commit_data),
-        .tick(commit_tick),
+        .commit_set_points(registers_commit_set_points),
+        .commit_configuration(registers_commit_configuration),
+        .address(bus_address_2),
+        .data(bus_write_data_2),
+        .tick(tick),
         .set_point_bank(commit_set_point_bank),
         .configuration_bank(commit_configuration_bank),
         .set_points_pending(commit_set_points_pending),
@@ -487,42 +428,42 @@ module rac4i65_core (
         .rejected(commit_rejected)
     );
     rac4i65_core_snapshot snapshot(
-        .clock(snapshot_clock),
-        .tick(snapshot_tick),
-        .done(snapshot_done),
+        .clock(lclk),
+        .tick(tick),
+        .done(sequencer_done),
         .read_first(snapshot_read_first),
         .read_last(snapshot_read_last),
         .write_bank(snapshot_write_bank),
         .read_bank(snapshot_read_bank)
     );
     rac4i65_core_safety safety(
-        .clock(safety_clock),
-        .emergency_stop(safety_emergency_stop),
-        .arm_write(safety_arm_write),
-        .arm_data(safety_arm_data),
-        .pet(safety_pet),
-        .watchdog_timeout(safety_watchdog_timeout),
+        .clock(lclk),
+        .emergency_stop(emergency_stop),
+        .arm_write(registers_arm_write),
+        .arm_data(bus_write_data_2),
+        .pet(commit_pet),
+        .watchdog_timeout(registers_watchdog_timeout),
         .encoder_fault(safety_encoder_fault),
-        .commit_fault(safety_commit_fault),
-        .external_fault(safety_external_fault),
-        .clear_faults(safety_clear_faults),
+        .commit_fault(commit_fault_2),
+        .external_fault(dead_live_q),
+        .clear_faults(registers_clear_faults),
         .armed(safety_armed),
         .setpoints_valid(safety_setpoints_valid),
         .faults(safety_faults),
         .first_fault(safety_first_fault)
     );
     rac4i65_core_kicker kicker(
-        .clock(kicker_clock),
-        .enable(kicker_enable),
-        .microsecond(kicker_microsecond),
+        .clock(lclk),
+        .enable(safety_armed),
+        .microsecond(timebase_microsecond),
         .charge_request(kicker_charge_request),
-        .charge_timeout(kicker_charge_timeout_2),
-        .fire(kicker_fire),
-        .pulse(kicker_pulse_2),
-        .lockout(kicker_lockout_2),
-        .ball(kicker_ball),
+        .charge_timeout(registers_kicker_charge_timeout),
+        .fire(registers_fire),
+        .pulse(registers_kicker_pulse),
+        .lockout(registers_kicker_lockout),
+        .ball(ball_sensor),
         .arm_on_ball(kicker_arm_on_ball),
-        .clear(kicker_clear),
+        .clear(registers_clear_faults),
         .charge(kicker_charge),
         .trigger(kicker_trigger),
         .ready(kicker_ready),
@@ -530,34 +471,34 @@ module rac4i65_core (
         .timed_out(kicker_timed_out),
         .dropped(kicker_dropped)
     );
-    rac4i65_core_monitor monitor (.lclk(monitor_lclk), .synclk(monitor_synclk), .lclk_dead(monitor_lclk_dead));
+    rac4i65_core_monitor monitor (.lclk(lclk), .synclk(synclk), .lclk_dead(monitor_lclk_dead));
     rac4i65_core_sequencer sequencer(
-        .clock(sequencer_clock),
-        .tick(sequencer_tick),
+        .clock(lclk),
+        .tick(tick),
         .running(sequencer_running),
         .done(sequencer_done),
-        .configuration_bank(sequencer_configuration_bank),
-        .set_point_bank(sequencer_set_point_bank),
-        .snapshot_bank(sequencer_snapshot_bank),
+        .configuration_bank(commit_configuration_bank),
+        .set_point_bank(commit_set_point_bank),
+        .snapshot_bank(snapshot_write_bank),
         .input_port(sequencer_input_port),
         .axis(sequencer_axis),
         .input_data(sequencer_input_data),
         .output_strobe(sequencer_output_strobe),
         .output_port(sequencer_output_port),
         .output_data(sequencer_output_data),
-        .bus_address(sequencer_bus_address),
+        .bus_address(decoder_memory_address),
         .bus_read_data(sequencer_bus_read_data),
         .bus_write(sequencer_bus_write),
-        .bus_write_data(sequencer_bus_write_data),
+        .bus_write_data(staged),
         .bus_blocked(sequencer_bus_blocked),
         .bus_write_taken(sequencer_bus_write_taken)
     );
     rac4i65_core_encoders encoders_0(
-        .clock(encoders_0_clock),
+        .clock(lclk),
         .a(encoders_0_a),
         .b(encoders_0_b),
-        .filter(encoders_0_filter),
-        .sample(encoders_0_sample),
+        .filter(registers_encoder_filter),
+        .sample(tick),
         .now(encoders_0_now),
         .clear_error(encoders_0_clear_error),
         .count(encoders_0_count),
@@ -568,11 +509,11 @@ module rac4i65_core (
         .live_b(encoders_0_live_b)
     );
     rac4i65_core_encoders encoders_1(
-        .clock(encoders_1_clock),
+        .clock(lclk),
         .a(encoders_1_a),
         .b(encoders_1_b),
-        .filter(encoders_1_filter),
-        .sample(encoders_1_sample),
+        .filter(registers_encoder_filter),
+        .sample(tick),
         .now(encoders_1_now),
         .clear_error(encoders_1_clear_error),
         .count(encoders_1_count),
@@ -583,11 +524,11 @@ module rac4i65_core (
         .live_b(encoders_1_live_b)
     );
     rac4i65_core_encoders encoders_2(
-        .clock(encoders_2_clock),
+        .clock(lclk),
         .a(encoders_2_a),
         .b(encoders_2_b),
-        .filter(encoders_2_filter),
-        .sample(encoders_2_sample),
+        .filter(registers_encoder_filter),
+        .sample(tick),
         .now(encoders_2_now),
         .clear_error(encoders_2_clear_error),
         .count(encoders_2_count),
@@ -598,11 +539,11 @@ module rac4i65_core (
         .live_b(encoders_2_live_b)
     );
     rac4i65_core_encoders encoders_3(
-        .clock(encoders_3_clock),
+        .clock(lclk),
         .a(encoders_3_a),
         .b(encoders_3_b),
-        .filter(encoders_3_filter),
-        .sample(encoders_3_sample),
+        .filter(registers_encoder_filter),
+        .sample(tick),
         .now(encoders_3_now),
         .clear_error(encoders_3_clear_error),
         .count(encoders_3_count),
@@ -613,113 +554,77 @@ module rac4i65_core (
         .live_b(encoders_3_live_b)
     );
     rac4i65_core_drives drives_0(
-        .clock(drives_0_clock),
-        .enable(drives_0_enable),
-        .period(drives_0_period),
-        .blanking(drives_0_blanking),
+        .clock(lclk),
+        .enable(safety_armed),
+        .period(registers_pwm_period),
+        .blanking(registers_pwm_blanking),
         .load(drives_0_load),
-        .compare(drives_0_compare),
-        .direction(drives_0_direction),
+        .compare(compare),
+        .direction(reverse_q),
         .pwm(drives_0_pwm),
         .dir(drives_0_dir),
         .period_start(drives_0_period_start)
     );
     rac4i65_core_drives drives_1(
-        .clock(drives_1_clock),
-        .enable(drives_1_enable),
-        .period(drives_1_period),
-        .blanking(drives_1_blanking),
+        .clock(lclk),
+        .enable(safety_armed),
+        .period(registers_pwm_period),
+        .blanking(registers_pwm_blanking),
         .load(drives_1_load),
-        .compare(drives_1_compare),
-        .direction(drives_1_direction),
+        .compare(compare),
+        .direction(reverse_q),
         .pwm(drives_1_pwm),
         .dir(drives_1_dir),
         .period_start(drives_1_period_start)
     );
     rac4i65_core_drives drives_2(
-        .clock(drives_2_clock),
-        .enable(drives_2_enable),
-        .period(drives_2_period),
-        .blanking(drives_2_blanking),
+        .clock(lclk),
+        .enable(safety_armed),
+        .period(registers_pwm_period),
+        .blanking(registers_pwm_blanking),
         .load(drives_2_load),
-        .compare(drives_2_compare),
-        .direction(drives_2_direction),
+        .compare(compare),
+        .direction(reverse_q),
         .pwm(drives_2_pwm),
         .dir(drives_2_dir),
         .period_start(drives_2_period_start)
     );
     rac4i65_core_drives drives_3(
-        .clock(drives_3_clock),
-        .enable(drives_3_enable),
-        .period(drives_3_period),
-        .blanking(drives_3_blanking),
+        .clock(lclk),
+        .enable(safety_armed),
+        .period(registers_pwm_period),
+        .blanking(registers_pwm_blanking),
         .load(drives_3_load),
-        .compare(drives_3_compare),
-        .direction(drives_3_direction),
+        .compare(compare),
+        .direction(reverse_q),
         .pwm(drives_3_pwm),
         .dir(drives_3_dir),
         .period_start(drives_3_period_start)
     );
-    rac4i65_core_dff_1 armed_at_tick (.d(armed_at_tick_d), .q(armed_at_tick_q), .clock(armed_at_tick_clock));
-    rac4i65_core_dff_1 valid_at_tick (.d(valid_at_tick_d), .q(valid_at_tick_q), .clock(valid_at_tick_clock));
-    rac4i65_core_dff_24_2 now (.d(now_d), .q(now_q), .clock(now_clock));
-    rac4i65_core_dff_1 reverse (.d(reverse_d), .q(reverse_q), .clock(reverse_clock));
-    rac4i65_core_dff_1 read_page (.d(read_page_d), .q(read_page_q), .clock(read_page_clock));
-    rac4i65_core_dff_1 read_memory (.d(read_memory_d), .q(read_memory_q), .clock(read_memory_clock));
-    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(read_q_clock));
-    rac4i65_core_dff_1 stop_sync (.d(stop_sync_d), .q(stop_sync_q), .clock(stop_sync_clock));
-    rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(stop_live_clock));
-    rac4i65_core_dff_1 ball_sync (.d(ball_sync_d), .q(ball_sync_q), .clock(ball_sync_clock));
-    rac4i65_core_dff_1 ball_live (.d(ball_live_d), .q(ball_live_q), .clock(ball_live_clock));
-    rac4i65_core_dff_4 index_sync (.d(index_sync_d), .q(index_sync_q), .clock(index_sync_clock));
-    rac4i65_core_dff_4 index_live (.d(index_live_d), .q(index_live_q), .clock(index_live_clock));
-    rac4i65_core_dff_1 dead_sync (.d(dead_sync_d), .q(dead_sync_q), .clock(dead_sync_clock));
-    rac4i65_core_dff_1 dead_live (.d(dead_live_d), .q(dead_live_q), .clock(dead_live_clock));
-    rac4i65_core_dff_1 interrupt (.d(interrupt_d), .q(interrupt_q), .clock(interrupt_clock));
+    rac4i65_core_dff_8 status_at_tick (.d(status_at_tick_d), .q(status_at_tick_q), .clock(lclk));
+    rac4i65_core_dff_8 faults_at_tick (.d(faults_at_tick_d), .q(faults_at_tick_q), .clock(lclk));
+    rac4i65_core_dff_24_2 now (.d(now_d), .q(now_q), .clock(lclk));
+    rac4i65_core_dff_1 reverse (.d(reverse_d), .q(reverse_q), .clock(lclk));
+    rac4i65_core_dff_1 read_page (.d(read_page_d), .q(read_page_q), .clock(lclk));
+    rac4i65_core_dff_1 read_memory (.d(read_memory_d), .q(read_memory_q), .clock(lclk));
+    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(lclk));
+    rac4i65_core_dff_1 stop_sync (.d(stop_sync_d), .q(stop_sync_q), .clock(lclk));
+    rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(lclk));
+    rac4i65_core_dff_1 ball_sync (.d(ball_sync_d), .q(ball_sync_q), .clock(lclk));
+    rac4i65_core_dff_1 ball_live (.d(ball_live_d), .q(ball_live_q), .clock(lclk));
+    rac4i65_core_dff_4 index_sync (.d(index_sync_d), .q(index_sync_q), .clock(lclk));
+    rac4i65_core_dff_4 index_live (.d(index_live_d), .q(index_live_q), .clock(lclk));
+    rac4i65_core_dff_1 dead_sync (.d(dead_sync_d), .q(dead_sync_q), .clock(lclk));
+    rac4i65_core_dff_1 dead_live (.d(dead_live_d), .q(dead_live_q), .clock(lclk));
+    rac4i65_core_dff_1 interrupt (.d(interrupt_d), .q(interrupt_q), .clock(lclk));
 
     always @(*) begin
-        armed_at_tick_clock = lclk;
-        valid_at_tick_clock = lclk;
-        now_clock = lclk;
-        reverse_clock = lclk;
-        read_page_clock = lclk;
-        read_memory_clock = lclk;
-        read_q_clock = lclk;
-        stop_sync_clock = lclk;
-        stop_live_clock = lclk;
-        ball_sync_clock = lclk;
-        ball_live_clock = lclk;
-        index_sync_clock = lclk;
-        index_live_clock = lclk;
-        dead_sync_clock = lclk;
-        dead_live_clock = lclk;
-        interrupt_clock = lclk;
-        bus_clock = lclk;
-        registers_clock = lclk;
-        timebase_clock = lclk;
-        commit_clock = lclk;
-        snapshot_clock = lclk;
-        safety_clock = lclk;
-        kicker_clock = lclk;
-        sequencer_clock = lclk;
-        encoders_0_clock = lclk;
-        drives_0_clock = lclk;
-        encoders_1_clock = lclk;
-        drives_1_clock = lclk;
-        encoders_2_clock = lclk;
-        drives_2_clock = lclk;
-        encoders_3_clock = lclk;
-        drives_3_clock = lclk;
-        monitor_lclk = lclk;
-    end
-
-    always @(*) begin
-        armed_at_tick_d = armed_at_tick_q;
-        valid_at_tick_d = valid_at_tick_q;
+        status_at_tick_d = status_at_tick_q;
+        faults_at_tick_d = faults_at_tick_q;
         now_d = now_q;
         if (tick) begin
-            armed_at_tick_d = safety_armed;
-            valid_at_tick_d = safety_setpoints_valid;
+            status_at_tick_d = status & live_status;
+            faults_at_tick_d = safety_faults;
             now_d = timebase_clock_count[(32'h0)+:(24)];
         end
     end
@@ -797,60 +702,16 @@ module rac4i65_core (
         interrupt_d = 1'b1;
     end
 
-    always @(*) monitor_synclk = synclk;
-    always @(*) bus_ads_n = ads_n;
-    always @(*) bus_blast_n = blast_n;
-    always @(*) bus_lw_r = lw_r;
-    always @(*) bus_lad_in = lad_in;
     always @(*) lad_out = bus_lad_out;
     always @(*) lad_drive = bus_lad_drive;
     always @(*) ready_n = bus_ready_n;
     always @(*) int_n = interrupt_q;
     always @(*) led_n = ~registers_leds;
-    always @(*) timebase_tick_period = registers_tick_period;
-    always @(*) timebase_restart = registers_tick_period_written;
-    always @(*) timebase_clocks_per_microsecond = registers_clocks_per_microsecond;
+    always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
     always @(*) tick = timebase_tick & ~sequencer_running;
-
-    always @(*) begin
-        sequencer_tick = tick;
-        snapshot_tick = tick;
-        commit_tick = tick;
-        encoders_0_sample = tick;
-        encoders_1_sample = tick;
-        encoders_2_sample = tick;
-        encoders_3_sample = tick;
-    end
-
-    always @(*) begin
-        sequencer_configuration_bank = commit_configuration_bank;
-        decoder_configuration_bank = commit_configuration_bank;
-    end
-
-    always @(*) begin
-        sequencer_set_point_bank = commit_set_point_bank;
-        decoder_set_point_bank = commit_set_point_bank;
-    end
-
-    always @(*) sequencer_snapshot_bank = snapshot_write_bank;
-    always @(*) snapshot_done = sequencer_done;
-
-    always @(*) begin
-        decoder_address = bus_address_2;
-        registers_address = bus_address_2[(32'h0)+:(6)];
-        commit_address = bus_address_2;
-    end
-
-    always @(*) decoder_snapshot_bank = snapshot_read_bank;
     always @(*) snapshot_read_first = decoder_snapshot_first & bus_read;
     always @(*) snapshot_read_last = decoder_snapshot_last & bus_read;
-
-    always @(*) begin
-        registers_data = bus_write_data_2;
-        commit_data = bus_write_data_2;
-        safety_arm_data = bus_write_data_2;
-    end
-
+    always @(*) registers_address = bus_address_2[(32'h0)+:(6)];
     always @(*) registers_write = decoder_in_registers & bus_write_2;
 
     always @(*) begin
@@ -861,15 +722,10 @@ module rac4i65_core (
     end
 
     always @(*) staging = decoder_stages_set_point | decoder_stages_configuration;
-    always @(*) sequencer_bus_address = decoder_memory_address;
-    always @(*) sequencer_bus_write_data = staged;
     always @(*) sequencer_bus_write = staging & bus_write_2;
     always @(*) bus_write_busy = staging & sequencer_bus_blocked;
     always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
     always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
-    always @(*) commit_commit_set_points = registers_commit_set_points;
-    always @(*) commit_commit_configuration = registers_commit_configuration;
-    always @(*) bus_read_data_2 = read_q_q;
 
     always @(*) begin
         encoders_0_a = encoder_a[0];
@@ -886,18 +742,10 @@ module rac4i65_core (
     end
 
     always @(*) begin
-        encoders_0_filter = registers_encoder_filter;
-        encoders_1_filter = registers_encoder_filter;
-        encoders_2_filter = registers_encoder_filter;
-        encoders_3_filter = registers_encoder_filter;
-    end
-
-    always @(*) begin
         encoders_0_now = timebase_clock_count[(32'h0)+:(24)];
         encoders_1_now = timebase_clock_count[(32'h0)+:(24)];
         encoders_2_now = timebase_clock_count[(32'h0)+:(24)];
         encoders_3_now = timebase_clock_count[(32'h0)+:(24)];
-        registers_clock_count = timebase_clock_count;
     end
 
     always @(*) begin
@@ -910,7 +758,6 @@ module rac4i65_core (
     always @(*) errors = ((encoders_0_error) & 4'hf) | (((encoders_1_error) & 4'hf) << 32'h1) | (((encoders_2_error) & 4'hf) << 32'h2) | (((encoders_3_error) & 4'hf) << 32'h3);
     always @(*) lines = ((encoders_0_live_a) & 12'hfff) | (((encoders_0_live_b) & 12'hfff) << 32'h1) | (((encoders_1_live_a) & 12'hfff) << 32'h2) | (((encoders_1_live_b) & 12'hfff) << 32'h3) | (((encoders_2_live_a) & 12'hfff) << 32'h4) | (((encoders_2_live_b) & 12'hfff) << 32'h5) | (((encoders_3_live_a) & 12'hfff) << 32'h6) | (((encoders_3_live_b) & 12'hfff) << 32'h7) | (((index_live_q) & 12'hfff) << 32'h8);
     always @(*) masked_errors = errors & registers_encoder_fault_mask;
-    always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
 
     always @(*) begin
         case (sequencer_axis)
@@ -980,17 +827,11 @@ module rac4i65_core (
             end
             7:
             begin
-                sequencer_input_data = zero;
-                if (armed_at_tick_q) begin
-                    sequencer_input_data = ((one_16) & 32'hffffffff);
-                end
+                sequencer_input_data = ((status_at_tick_q[(32'h0)+:(1)]) & 32'hffffffff);
             end
             8:
             begin
-                sequencer_input_data = zero;
-                if (valid_at_tick_q) begin
-                    sequencer_input_data = ((one_16) & 32'hffffffff);
-                end
+                sequencer_input_data = ((status_at_tick_q[(32'h1)+:(1)]) & 32'hffffffff);
             end
             9:
             begin
@@ -998,54 +839,17 @@ module rac4i65_core (
             end
             10:
             begin
-                sequencer_input_data = ((status) & 32'hffffffff);
+                sequencer_input_data = ((status_at_tick_q) & 32'hffffffff);
             end
             default:
             begin
-                sequencer_input_data = ((safety_faults) & 32'hffffffff);
+                sequencer_input_data = ((faults_at_tick_q) & 32'hffffffff);
             end
         endcase
     end
 
     always @(*) compare = sequencer_output_data[(32'hc)+:(13)];
     always @(*) alive = ~monitor_lclk_dead;
-
-    always @(*) begin
-        drives_0_enable = safety_armed;
-        drives_1_enable = safety_armed;
-        drives_2_enable = safety_armed;
-        drives_3_enable = safety_armed;
-        kicker_enable = safety_armed;
-        registers_armed = safety_armed;
-    end
-
-    always @(*) begin
-        drives_0_period = registers_pwm_period;
-        drives_1_period = registers_pwm_period;
-        drives_2_period = registers_pwm_period;
-        drives_3_period = registers_pwm_period;
-    end
-
-    always @(*) begin
-        drives_0_blanking = registers_pwm_blanking;
-        drives_1_blanking = registers_pwm_blanking;
-        drives_2_blanking = registers_pwm_blanking;
-        drives_3_blanking = registers_pwm_blanking;
-    end
-
-    always @(*) begin
-        drives_0_compare = compare;
-        drives_1_compare = compare;
-        drives_2_compare = compare;
-        drives_3_compare = compare;
-    end
-
-    always @(*) begin
-        drives_0_direction = reverse_q;
-        drives_1_direction = reverse_q;
-        drives_2_direction = reverse_q;
-        drives_3_direction = reverse_q;
-    end
 
     always @(*) begin
         drives_0_load = 1'b0;
@@ -1089,41 +893,17 @@ module rac4i65_core (
     end
 
     always @(*) dir = dir_pins;
-    always @(*) safety_emergency_stop = emergency_stop;
-    always @(*) safety_arm_write = registers_arm_write;
-    always @(*) safety_pet = commit_pet;
-    always @(*) safety_watchdog_timeout = registers_watchdog_timeout;
     always @(*) safety_encoder_fault = masked_errors != none;
-    always @(*) safety_commit_fault = commit_fault_2;
-    always @(*) safety_external_fault = dead_live_q;
-
-    always @(*) begin
-        safety_clear_faults = registers_clear_faults;
-        kicker_clear = registers_clear_faults;
-    end
-
-    always @(*) kicker_microsecond = timebase_microsecond;
 
     always @(*) begin
         kicker_charge_request = registers_kicker_control[32'h0];
         kicker_arm_on_ball = registers_kicker_control[32'h1];
     end
 
-    always @(*) kicker_charge_timeout_2 = registers_kicker_charge_timeout;
-    always @(*) kicker_fire = registers_fire;
-    always @(*) kicker_pulse_2 = registers_kicker_pulse;
-    always @(*) kicker_lockout_2 = registers_kicker_lockout;
-    always @(*) kicker_ball = ball_sensor;
     always @(*) kicker_charge_n = ~(kicker_charge & safety_armed & alive);
     always @(*) kicker_trigger_n = ~(kicker_trigger & safety_armed & alive);
-    always @(*) registers_faults = safety_faults;
-    always @(*) registers_first_fault = safety_first_fault;
-    always @(*) registers_encoder_error = errors;
-    always @(*) registers_encoder_lines = lines;
     always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
-    always @(*) registers_status = status;
     always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6);
-    always @(*) registers_kicker_status = kicker_status;
 endmodule
 
 module rac4i65_core_bus (
@@ -1154,43 +934,42 @@ module rac4i65_core_bus (
     // Pins of the parts
     reg fetch_d;
     wire fetch_q;
-    reg fetch_clock;
+
     reg pending_d;
     wire pending_q;
-    reg pending_clock;
+
     reg take_d;
     wire take_q;
-    reg take_clock;
+
     reg collect_d;
     wire collect_q;
-    reg collect_clock;
+
     reg offer_d;
     wire offer_q;
-    reg offer_clock;
+
     reg answer_d;
     wire answer_q;
-    reg answer_clock;
+
     reg writing_d;
     wire writing_q;
-    reg writing_clock;
+
     reg last_d;
     wire last_q;
-    reg last_clock;
+
     reg drive_d;
     wire drive_q;
-    reg drive_clock;
+
     reg [13:0] word_d;
     wire [13:0] word_q;
-    reg word_clock;
+
     reg [5:0] held_d;
     wire [5:0] held_q;
-    reg held_clock;
+
     reg [31:0] to_host_d;
     wire [31:0] to_host_q;
-    reg to_host_clock;
+
     reg [31:0] from_host_d;
     wire [31:0] from_host_q;
-    reg from_host_clock;
 
     // Intermediate values
     reg [13:0] next_word;
@@ -1199,35 +978,19 @@ module rac4i65_core_bus (
     reg ends;
 
     // Parts
-    rac4i65_core_dff_1 fetch (.d(fetch_d), .q(fetch_q), .clock(fetch_clock));
-    rac4i65_core_dff_1 pending (.d(pending_d), .q(pending_q), .clock(pending_clock));
-    rac4i65_core_dff_1 take (.d(take_d), .q(take_q), .clock(take_clock));
-    rac4i65_core_dff_1 collect (.d(collect_d), .q(collect_q), .clock(collect_clock));
-    rac4i65_core_dff_1 offer (.d(offer_d), .q(offer_q), .clock(offer_clock));
-    rac4i65_core_dff_1 answer (.d(answer_d), .q(answer_q), .clock(answer_clock));
-    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(writing_clock));
-    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(last_clock));
-    rac4i65_core_dff_1 drive (.d(drive_d), .q(drive_q), .clock(drive_clock));
-    rac4i65_core_dff_14 word (.d(word_d), .q(word_q), .clock(word_clock));
-    rac4i65_core_dff_6 held (.d(held_d), .q(held_q), .clock(held_clock));
-    rac4i65_core_dff_32 to_host (.d(to_host_d), .q(to_host_q), .clock(to_host_clock));
-    rac4i65_core_dff_32 from_host (.d(from_host_d), .q(from_host_q), .clock(from_host_clock));
-
-    always @(*) begin
-        fetch_clock = clock;
-        pending_clock = clock;
-        take_clock = clock;
-        collect_clock = clock;
-        offer_clock = clock;
-        answer_clock = clock;
-        writing_clock = clock;
-        last_clock = clock;
-        drive_clock = clock;
-        word_clock = clock;
-        held_clock = clock;
-        to_host_clock = clock;
-        from_host_clock = clock;
-    end
+    rac4i65_core_dff_1 fetch (.d(fetch_d), .q(fetch_q), .clock(clock));
+    rac4i65_core_dff_1 pending (.d(pending_d), .q(pending_q), .clock(clock));
+    rac4i65_core_dff_1 take (.d(take_d), .q(take_q), .clock(clock));
+    rac4i65_core_dff_1 collect (.d(collect_d), .q(collect_q), .clock(clock));
+    rac4i65_core_dff_1 offer (.d(offer_d), .q(offer_q), .clock(clock));
+    rac4i65_core_dff_1 answer (.d(answer_d), .q(answer_q), .clock(clock));
+    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
+    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(clock));
+    rac4i65_core_dff_1 drive (.d(drive_d), .q(drive_q), .clock(clock));
+    rac4i65_core_dff_14 word (.d(word_d), .q(word_q), .clock(clock));
+    rac4i65_core_dff_6 held (.d(held_d), .q(held_q), .clock(clock));
+    rac4i65_core_dff_32 to_host (.d(to_host_d), .q(to_host_q), .clock(clock));
+    rac4i65_core_dff_32 from_host (.d(from_host_d), .q(from_host_q), .clock(clock));
 
     always @(*) begin
         fetch_d = fetch_q;
@@ -1366,123 +1129,81 @@ module rac4i65_core_registers (
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
-    localparam content_hash = 32'hf3497617;
+    localparam content_hash = 32'h64136e1e;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
     wire [23:0] tick_period_q_q;
-    reg tick_period_q_clock;
+
     reg [1:0] mode_q_d;
     wire [1:0] mode_q_q;
-    reg mode_q_clock;
+
     reg [3:0] encoder_filter_q_d;
     wire [3:0] encoder_filter_q_q;
-    reg encoder_filter_q_clock;
+
     reg [3:0] encoder_fault_mask_q_d;
     wire [3:0] encoder_fault_mask_q_q;
-    reg encoder_fault_mask_q_clock;
+
     reg [12:0] pwm_period_q_d;
     wire [12:0] pwm_period_q_q;
-    reg pwm_period_q_clock;
+
     reg [9:0] pwm_blanking_q_d;
     wire [9:0] pwm_blanking_q_q;
-    reg pwm_blanking_q_clock;
+
     reg [23:0] watchdog_timeout_q_d;
     wire [23:0] watchdog_timeout_q_q;
-    reg watchdog_timeout_q_clock;
+
     reg [1:0] kicker_control_q_d;
     wire [1:0] kicker_control_q_q;
-    reg kicker_control_q_clock;
+
     reg [13:0] kicker_pulse_q_d;
     wire [13:0] kicker_pulse_q_q;
-    reg kicker_pulse_q_clock;
+
     reg [19:0] kicker_lockout_q_d;
     wire [19:0] kicker_lockout_q_q;
-    reg kicker_lockout_q_clock;
+
     reg [23:0] kicker_charge_timeout_q_d;
     wire [23:0] kicker_charge_timeout_q_q;
-    reg kicker_charge_timeout_q_clock;
+
     reg [5:0] clocks_per_microsecond_q_d;
     wire [5:0] clocks_per_microsecond_q_q;
-    reg clocks_per_microsecond_q_clock;
+
     reg [7:0] leds_q_d;
     wire [7:0] leds_q_q;
-    reg leds_q_clock;
+
     reg [31:0] read_q_d;
     wire [31:0] read_q_q;
-    reg read_q_clock;
 
     // Intermediate values
     reg unlocked;
 
     // Parts
-    rac4i65_core_dff_24_from_8235 tick_period_q(
-        .d(tick_period_q_d),
-        .q(tick_period_q_q),
-        .clock(tick_period_q_clock)
-    );
-    rac4i65_core_dff_2 mode_q (.d(mode_q_d), .q(mode_q_q), .clock(mode_q_clock));
-    rac4i65_core_dff_4_from_3 encoder_filter_q(
-        .d(encoder_filter_q_d),
-        .q(encoder_filter_q_q),
-        .clock(encoder_filter_q_clock)
-    );
+    rac4i65_core_dff_24_from_8235 tick_period_q (.d(tick_period_q_d), .q(tick_period_q_q), .clock(clock));
+    rac4i65_core_dff_2 mode_q (.d(mode_q_d), .q(mode_q_q), .clock(clock));
+    rac4i65_core_dff_4_from_3 encoder_filter_q (.d(encoder_filter_q_d), .q(encoder_filter_q_q), .clock(clock));
     rac4i65_core_dff_4_from_f encoder_fault_mask_q(
         .d(encoder_fault_mask_q_d),
         .q(encoder_fault_mask_q_q),
-        .clock(encoder_fault_mask_q_clock)
+        .clock(clock)
     );
-    rac4i65_core_dff_13 pwm_period_q (.d(pwm_period_q_d), .q(pwm_period_q_q), .clock(pwm_period_q_clock));
-    rac4i65_core_dff_10_from_21 pwm_blanking_q(
-        .d(pwm_blanking_q_d),
-        .q(pwm_blanking_q_q),
-        .clock(pwm_blanking_q_clock)
-    );
-    rac4i65_core_dff_24 watchdog_timeout_q(
-        .d(watchdog_timeout_q_d),
-        .q(watchdog_timeout_q_q),
-        .clock(watchdog_timeout_q_clock)
-    );
-    rac4i65_core_dff_2 kicker_control_q(
-        .d(kicker_control_q_d),
-        .q(kicker_control_q_q),
-        .clock(kicker_control_q_clock)
-    );
-    rac4i65_core_dff_14 kicker_pulse_q (.d(kicker_pulse_q_d), .q(kicker_pulse_q_q), .clock(kicker_pulse_q_clock));
-    rac4i65_core_dff_20 kicker_lockout_q(
-        .d(kicker_lockout_q_d),
-        .q(kicker_lockout_q_q),
-        .clock(kicker_lockout_q_clock)
-    );
+    rac4i65_core_dff_13 pwm_period_q (.d(pwm_period_q_d), .q(pwm_period_q_q), .clock(clock));
+    rac4i65_core_dff_10_from_21 pwm_blanking_q (.d(pwm_blanking_q_d), .q(pwm_blanking_q_q), .clock(clock));
+    rac4i65_core_dff_24 watchdog_timeout_q (.d(watchdog_timeout_q_d), .q(watchdog_timeout_q_q), .clock(clock));
+    rac4i65_core_dff_2 kicker_control_q (.d(kicker_control_q_d), .q(kicker_control_q_q), .clock(clock));
+    rac4i65_core_dff_14 kicker_pulse_q (.d(kicker_pulse_q_d), .q(kicker_pulse_q_q), .clock(clock));
+    rac4i65_core_dff_20 kicker_lockout_q (.d(kicker_lockout_q_d), .q(kicker_lockout_q_q), .clock(clock));
     rac4i65_core_dff_24_2 kicker_charge_timeout_q(
         .d(kicker_charge_timeout_q_d),
         .q(kicker_charge_timeout_q_q),
-        .clock(kicker_charge_timeout_q_clock)
+        .clock(clock)
     );
     rac4i65_core_dff_6_from_21 clocks_per_microsecond_q(
         .d(clocks_per_microsecond_q_d),
         .q(clocks_per_microsecond_q_q),
-        .clock(clocks_per_microsecond_q_clock)
+        .clock(clock)
     );
-    rac4i65_core_dff_8 leds_q (.d(leds_q_d), .q(leds_q_q), .clock(leds_q_clock));
-    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(read_q_clock));
-
-    always @(*) begin
-        tick_period_q_clock = clock;
-        mode_q_clock = clock;
-        encoder_filter_q_clock = clock;
-        pwm_period_q_clock = clock;
-        pwm_blanking_q_clock = clock;
-        watchdog_timeout_q_clock = clock;
-        encoder_fault_mask_q_clock = clock;
-        kicker_control_q_clock = clock;
-        kicker_pulse_q_clock = clock;
-        kicker_lockout_q_clock = clock;
-        kicker_charge_timeout_q_clock = clock;
-        clocks_per_microsecond_q_clock = clock;
-        leds_q_clock = clock;
-        read_q_clock = clock;
-    end
+    rac4i65_core_dff_8 leds_q (.d(leds_q_d), .q(leds_q_q), .clock(clock));
+    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(clock));
 
     always @(*) begin
         tick_period_q_d = tick_period_q_q;
@@ -1769,13 +1490,12 @@ module rac4i65_core_timebase (
     // Pins of the parts
     reg [31:0] clocks_d;
     wire [31:0] clocks_q;
-    reg clocks_clock;
+
     reg [23:0] phase_d;
     wire [23:0] phase_q;
-    reg phase_clock;
+
     reg [5:0] part_d;
     wire [5:0] part_q;
-    reg part_clock;
 
     // Intermediate values
     reg [23:0] bounded;
@@ -1783,15 +1503,9 @@ module rac4i65_core_timebase (
     reg [5:0] next_part;
 
     // Parts
-    rac4i65_core_dff_32 clocks (.d(clocks_d), .q(clocks_q), .clock(clocks_clock));
-    rac4i65_core_dff_24_2 phase (.d(phase_d), .q(phase_q), .clock(phase_clock));
-    rac4i65_core_dff_6 part (.d(part_d), .q(part_q), .clock(part_clock));
-
-    always @(*) begin
-        clocks_clock = clock;
-        phase_clock = clock;
-        part_clock = clock;
-    end
+    rac4i65_core_dff_32 clocks (.d(clocks_d), .q(clocks_q), .clock(clock));
+    rac4i65_core_dff_24_2 phase (.d(phase_d), .q(phase_q), .clock(clock));
+    rac4i65_core_dff_6 part (.d(part_d), .q(part_q), .clock(clock));
 
     always @(*) begin
         clocks_d = clocks_q;
@@ -1978,31 +1692,30 @@ module rac4i65_core_commit (
     // Pins of the parts
     reg [31:0] sum_d;
     wire [31:0] sum_q;
-    reg sum_clock;
+
     reg [5:0] set_points_d;
     wire [5:0] set_points_q;
-    reg set_points_clock;
+
     reg [5:0] configuration_d;
     wire [5:0] configuration_q;
-    reg configuration_clock;
+
     reg set_point_bank_now_d;
     wire set_point_bank_now_q;
-    reg set_point_bank_now_clock;
+
     reg configuration_bank_now_d;
     wire configuration_bank_now_q;
-    reg configuration_bank_now_clock;
+
     reg set_points_wait_d;
     wire set_points_wait_q;
-    reg set_points_wait_clock;
+
     reg configuration_waits_d;
     wire configuration_waits_q;
-    reg configuration_waits_clock;
+
     reg [15:0] accepted_count_d;
     wire [15:0] accepted_count_q;
-    reg accepted_count_clock;
+
     reg [15:0] rejected_count_d;
     wire [15:0] rejected_count_q;
-    reg rejected_count_clock;
 
     // Intermediate values
     reg [31:0] next_sum;
@@ -2011,43 +1724,19 @@ module rac4i65_core_commit (
     reg committing;
 
     // Parts
-    rac4i65_core_dff_32_from_52414353 sum (.d(sum_d), .q(sum_q), .clock(sum_clock));
-    rac4i65_core_dff_6 set_points (.d(set_points_d), .q(set_points_q), .clock(set_points_clock));
-    rac4i65_core_dff_6 configuration (.d(configuration_d), .q(configuration_q), .clock(configuration_clock));
-    rac4i65_core_dff_1 set_point_bank_now(
-        .d(set_point_bank_now_d),
-        .q(set_point_bank_now_q),
-        .clock(set_point_bank_now_clock)
-    );
+    rac4i65_core_dff_32_from_52414353 sum (.d(sum_d), .q(sum_q), .clock(clock));
+    rac4i65_core_dff_6 set_points (.d(set_points_d), .q(set_points_q), .clock(clock));
+    rac4i65_core_dff_6 configuration (.d(configuration_d), .q(configuration_q), .clock(clock));
+    rac4i65_core_dff_1 set_point_bank_now (.d(set_point_bank_now_d), .q(set_point_bank_now_q), .clock(clock));
     rac4i65_core_dff_1 configuration_bank_now(
         .d(configuration_bank_now_d),
         .q(configuration_bank_now_q),
-        .clock(configuration_bank_now_clock)
+        .clock(clock)
     );
-    rac4i65_core_dff_1 set_points_wait(
-        .d(set_points_wait_d),
-        .q(set_points_wait_q),
-        .clock(set_points_wait_clock)
-    );
-    rac4i65_core_dff_1 configuration_waits(
-        .d(configuration_waits_d),
-        .q(configuration_waits_q),
-        .clock(configuration_waits_clock)
-    );
-    rac4i65_core_dff_16 accepted_count (.d(accepted_count_d), .q(accepted_count_q), .clock(accepted_count_clock));
-    rac4i65_core_dff_16 rejected_count (.d(rejected_count_d), .q(rejected_count_q), .clock(rejected_count_clock));
-
-    always @(*) begin
-        sum_clock = clock;
-        set_points_clock = clock;
-        configuration_clock = clock;
-        set_point_bank_now_clock = clock;
-        configuration_bank_now_clock = clock;
-        set_points_wait_clock = clock;
-        configuration_waits_clock = clock;
-        accepted_count_clock = clock;
-        rejected_count_clock = clock;
-    end
+    rac4i65_core_dff_1 set_points_wait (.d(set_points_wait_d), .q(set_points_wait_q), .clock(clock));
+    rac4i65_core_dff_1 configuration_waits (.d(configuration_waits_d), .q(configuration_waits_q), .clock(clock));
+    rac4i65_core_dff_16 accepted_count (.d(accepted_count_d), .q(accepted_count_q), .clock(clock));
+    rac4i65_core_dff_16 rejected_count (.d(rejected_count_d), .q(rejected_count_q), .clock(clock));
 
     always @(*) begin
         sum_d = sum_q;
@@ -2139,32 +1828,24 @@ module rac4i65_core_snapshot (
     // Pins of the parts
     reg writing_d;
     wire writing_q;
-    reg writing_clock;
+
     reg latest_d;
     wire latest_q;
-    reg latest_clock;
+
     reg held_d;
     wire held_q;
-    reg held_clock;
+
     reg held_bank_d;
     wire held_bank_q;
-    reg held_bank_clock;
 
     // Intermediate values
     reg target;
 
     // Parts
-    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(writing_clock));
-    rac4i65_core_dff_1 latest (.d(latest_d), .q(latest_q), .clock(latest_clock));
-    rac4i65_core_dff_1 held (.d(held_d), .q(held_q), .clock(held_clock));
-    rac4i65_core_dff_1 held_bank (.d(held_bank_d), .q(held_bank_q), .clock(held_bank_clock));
-
-    always @(*) begin
-        writing_clock = clock;
-        latest_clock = clock;
-        held_clock = clock;
-        held_bank_clock = clock;
-    end
+    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
+    rac4i65_core_dff_1 latest (.d(latest_d), .q(latest_q), .clock(clock));
+    rac4i65_core_dff_1 held (.d(held_d), .q(held_q), .clock(clock));
+    rac4i65_core_dff_1 held_bank (.d(held_bank_d), .q(held_bank_q), .clock(clock));
 
     always @(*) begin
         writing_d = writing_q;
@@ -2233,7 +1914,7 @@ module rac4i65_core_safety (
     localparam one = 24'h1;
 
     // Pins of the parts
-    reg released_clock;
+
     reg released_pin;
     reg released_tick;
     reg [3:0] released_limit;
@@ -2242,22 +1923,21 @@ module rac4i65_core_safety (
     wire released_value;
     reg [23:0] remaining_d;
     wire [23:0] remaining_q;
-    reg remaining_clock;
+
     reg first_word_d;
     wire first_word_q;
-    reg first_word_clock;
+
     reg is_armed_d;
     wire is_armed_q;
-    reg is_armed_clock;
+
     reg has_setpoint_d;
     wire has_setpoint_q;
-    reg has_setpoint_clock;
+
     reg [7:0] sticky_d;
     wire [7:0] sticky_q;
-    reg sticky_clock;
+
     reg [7:0] first_d;
     wire [7:0] first_q;
-    reg first_clock;
 
     // Intermediate values
     reg bitten;
@@ -2276,8 +1956,8 @@ module rac4i65_core_safety (
     reg [7:0] events;
 
     // Parts
-    rac4i65_core_encoders_0_line_a released(
-        .clock(released_clock),
+    rac4i65_core_encoders_line_a released(
+        .clock(clock),
         .pin(released_pin),
         .tick(released_tick),
         .limit(released_limit),
@@ -2285,28 +1965,18 @@ module rac4i65_core_safety (
         .synchronised(released_synchronised),
         .value(released_value)
     );
-    rac4i65_core_dff_24_2 remaining (.d(remaining_d), .q(remaining_q), .clock(remaining_clock));
-    rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(first_word_clock));
-    rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(is_armed_clock));
-    rac4i65_core_dff_1 has_setpoint (.d(has_setpoint_d), .q(has_setpoint_q), .clock(has_setpoint_clock));
-    rac4i65_core_dff_8 sticky (.d(sticky_d), .q(sticky_q), .clock(sticky_clock));
-    rac4i65_core_dff_8 first (.d(first_d), .q(first_q), .clock(first_clock));
-
-    always @(*) begin
-        released_clock = clock;
-        remaining_clock = clock;
-        first_word_clock = clock;
-        is_armed_clock = clock;
-        has_setpoint_clock = clock;
-        sticky_clock = clock;
-        first_clock = clock;
-        released_tick = 1'b1;
-        released_limit = stop_filter;
-        released_load = 1'b0;
-    end
+    rac4i65_core_dff_24_2 remaining (.d(remaining_d), .q(remaining_q), .clock(clock));
+    rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(clock));
+    rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(clock));
+    rac4i65_core_dff_1 has_setpoint (.d(has_setpoint_d), .q(has_setpoint_q), .clock(clock));
+    rac4i65_core_dff_8 sticky (.d(sticky_d), .q(sticky_q), .clock(clock));
+    rac4i65_core_dff_8 first (.d(first_d), .q(first_q), .clock(clock));
 
     always @(*) begin
         remaining_d = remaining_q;
+        released_tick = 1'b1;
+        released_limit = stop_filter;
+        released_load = 1'b0;
         if (~bitten) begin
             remaining_d = remaining_q - one;
         end
@@ -2409,7 +2079,7 @@ module rac4i65_core_safety (
     always @(*) first_fault = first_q;
 endmodule
 
-module rac4i65_core_encoders_0_line_a (
+module rac4i65_core_encoders_line_a (
     input wire clock,
     input wire pin,
     input wire tick,
@@ -2426,32 +2096,24 @@ module rac4i65_core_encoders_0_line_a (
     // Pins of the parts
     reg first_d;
     wire first_q;
-    reg first_clock;
+
     reg second_d;
     wire second_q;
-    reg second_clock;
+
     reg [3:0] run_d;
     wire [3:0] run_q;
-    reg run_clock;
+
     reg filtered_d;
     wire filtered_q;
-    reg filtered_clock;
 
     // Intermediate values
     reg differs;
 
     // Parts
-    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(first_clock));
-    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(second_clock));
-    rac4i65_core_dff_4 run (.d(run_d), .q(run_q), .clock(run_clock));
-    rac4i65_core_dff_1 filtered (.d(filtered_d), .q(filtered_q), .clock(filtered_clock));
-
-    always @(*) begin
-        first_clock = clock;
-        second_clock = clock;
-        run_clock = clock;
-        filtered_clock = clock;
-    end
+    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(clock));
+    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(clock));
+    rac4i65_core_dff_4 run (.d(run_d), .q(run_q), .clock(clock));
+    rac4i65_core_dff_1 filtered (.d(filtered_d), .q(filtered_q), .clock(clock));
 
     always @(*) begin
         first_d = first_q;
@@ -2526,43 +2188,40 @@ module rac4i65_core_kicker (
     localparam charged_one = 24'h1;
 
     // Pins of the parts
-    reg ball_filter_clock;
-    reg ball_filter_pin;
-    reg ball_filter_tick;
+
     reg [3:0] ball_filter_limit;
     reg ball_filter_load;
     wire ball_filter_synchronised;
     wire ball_filter_value;
     reg [2:0] now_d;
     wire [2:0] now_q;
-    reg now_clock;
+
     reg [19:0] elapsed_d;
     wire [19:0] elapsed_q;
-    reg elapsed_clock;
+
     reg [9:0] gap_d;
     wire [9:0] gap_q;
-    reg gap_clock;
+
     reg [23:0] charged_d;
     wire [23:0] charged_q;
-    reg charged_clock;
+
     reg spent_d;
     wire spent_q;
-    reg spent_clock;
+
     reg charge_pin_d;
     wire charge_pin_q;
-    reg charge_pin_clock;
+
     reg trigger_pin_d;
     wire trigger_pin_q;
-    reg trigger_pin_clock;
+
     reg is_ready_d;
     wire is_ready_q;
-    reg is_ready_clock;
+
     reg timed_out_flag_d;
     wire timed_out_flag_q;
-    reg timed_out_flag_clock;
+
     reg dropped_flag_d;
     wire dropped_flag_q;
-    reg dropped_flag_clock;
 
     // Intermediate values
     reg in_ready;
@@ -2584,44 +2243,30 @@ module rac4i65_core_kicker (
     reg may_charge;
 
     // Parts
-    rac4i65_core_encoders_0_line_a ball_filter(
-        .clock(ball_filter_clock),
-        .pin(ball_filter_pin),
-        .tick(ball_filter_tick),
+    rac4i65_core_encoders_line_a ball_filter(
+        .clock(clock),
+        .pin(ball),
+        .tick(microsecond),
         .limit(ball_filter_limit),
         .load(ball_filter_load),
         .synchronised(ball_filter_synchronised),
         .value(ball_filter_value)
     );
-    rac4i65_core_dff_3 now (.d(now_d), .q(now_q), .clock(now_clock));
-    rac4i65_core_dff_20 elapsed (.d(elapsed_d), .q(elapsed_q), .clock(elapsed_clock));
-    rac4i65_core_dff_10 gap (.d(gap_d), .q(gap_q), .clock(gap_clock));
-    rac4i65_core_dff_24_2 charged (.d(charged_d), .q(charged_q), .clock(charged_clock));
-    rac4i65_core_dff_1 spent (.d(spent_d), .q(spent_q), .clock(spent_clock));
-    rac4i65_core_dff_1 charge_pin (.d(charge_pin_d), .q(charge_pin_q), .clock(charge_pin_clock));
-    rac4i65_core_dff_1 trigger_pin (.d(trigger_pin_d), .q(trigger_pin_q), .clock(trigger_pin_clock));
-    rac4i65_core_dff_1 is_ready (.d(is_ready_d), .q(is_ready_q), .clock(is_ready_clock));
-    rac4i65_core_dff_1 timed_out_flag (.d(timed_out_flag_d), .q(timed_out_flag_q), .clock(timed_out_flag_clock));
-    rac4i65_core_dff_1 dropped_flag (.d(dropped_flag_d), .q(dropped_flag_q), .clock(dropped_flag_clock));
-
-    always @(*) begin
-        ball_filter_clock = clock;
-        now_clock = clock;
-        elapsed_clock = clock;
-        gap_clock = clock;
-        charged_clock = clock;
-        spent_clock = clock;
-        charge_pin_clock = clock;
-        trigger_pin_clock = clock;
-        is_ready_clock = clock;
-        timed_out_flag_clock = clock;
-        dropped_flag_clock = clock;
-        ball_filter_limit = ball_limit;
-        ball_filter_load = 1'b0;
-    end
+    rac4i65_core_dff_3 now (.d(now_d), .q(now_q), .clock(clock));
+    rac4i65_core_dff_20 elapsed (.d(elapsed_d), .q(elapsed_q), .clock(clock));
+    rac4i65_core_dff_10 gap (.d(gap_d), .q(gap_q), .clock(clock));
+    rac4i65_core_dff_24_2 charged (.d(charged_d), .q(charged_q), .clock(clock));
+    rac4i65_core_dff_1 spent (.d(spent_d), .q(spent_q), .clock(clock));
+    rac4i65_core_dff_1 charge_pin (.d(charge_pin_d), .q(charge_pin_q), .clock(clock));
+    rac4i65_core_dff_1 trigger_pin (.d(trigger_pin_d), .q(trigger_pin_q), .clock(clock));
+    rac4i65_core_dff_1 is_ready (.d(is_ready_d), .q(is_ready_q), .clock(clock));
+    rac4i65_core_dff_1 timed_out_flag (.d(timed_out_flag_d), .q(timed_out_flag_q), .clock(clock));
+    rac4i65_core_dff_1 dropped_flag (.d(dropped_flag_d), .q(dropped_flag_q), .clock(clock));
 
     always @(*) begin
         now_d = now_q;
+        ball_filter_limit = ball_limit;
+        ball_filter_load = 1'b0;
         now_d = next_state;
     end
 
@@ -2723,9 +2368,6 @@ module rac4i65_core_kicker (
         dropped_flag_d = (dropped_flag_q & ~clear) | (fire & ~takes) | cancels;
     end
 
-    always @(*) ball_filter_pin = ball;
-    always @(*) ball_filter_tick = microsecond;
-
     always @(*) begin
         in_ready = now_q == ready_state;
         in_pending = now_q == pending_state;
@@ -2777,49 +2419,37 @@ module rac4i65_core_monitor (
     // Pins of the parts
     reg toggle_d;
     wire toggle_q;
-    reg toggle_clock;
+
     reg first_d;
     wire first_q;
-    reg first_clock;
+
     reg second_d;
     wire second_q;
-    reg second_clock;
+
     reg last_d;
     wire last_q;
-    reg last_clock;
+
     reg [4:0] silent_d;
     wire [4:0] silent_q;
-    reg silent_clock;
+
     reg [7:0] good_d;
     wire [7:0] good_q;
-    reg good_clock;
+
     reg alive_d;
     wire alive_q;
-    reg alive_clock;
 
     // Parts
-    rac4i65_core_dff_1 toggle (.d(toggle_d), .q(toggle_q), .clock(toggle_clock));
-    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(first_clock));
-    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(second_clock));
-    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(last_clock));
-    rac4i65_core_dff_5 silent (.d(silent_d), .q(silent_q), .clock(silent_clock));
-    rac4i65_core_dff_8 good (.d(good_d), .q(good_q), .clock(good_clock));
-    rac4i65_core_dff_1 alive (.d(alive_d), .q(alive_q), .clock(alive_clock));
-
-    always @(*) toggle_clock = lclk;
+    rac4i65_core_dff_1 toggle (.d(toggle_d), .q(toggle_q), .clock(lclk));
+    rac4i65_core_dff_1 first (.d(first_d), .q(first_q), .clock(synclk));
+    rac4i65_core_dff_1 second (.d(second_d), .q(second_q), .clock(synclk));
+    rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(synclk));
+    rac4i65_core_dff_5 silent (.d(silent_d), .q(silent_q), .clock(synclk));
+    rac4i65_core_dff_8 good (.d(good_d), .q(good_q), .clock(synclk));
+    rac4i65_core_dff_1 alive (.d(alive_d), .q(alive_q), .clock(synclk));
 
     always @(*) begin
         toggle_d = toggle_q;
         toggle_d = ~toggle_q;
-    end
-
-    always @(*) begin
-        first_clock = synclk;
-        second_clock = synclk;
-        last_clock = synclk;
-        silent_clock = synclk;
-        good_clock = synclk;
-        alive_clock = synclk;
     end
 
     always @(*) begin
@@ -2906,55 +2536,47 @@ module rac4i65_core_sequencer (
     localparam region_3 = 2'b11;
 
     // Pins of the parts
-    reg rom_clock;
-    reg [7:0] rom_read_address;
+
     wire [15:0] rom_read_data;
-    reg memory_clock;
+
     reg [7:0] memory_read_address;
     wire [31:0] memory_read_data;
     reg [7:0] memory_write_address;
     reg [31:0] memory_write_data;
     reg memory_write_enable;
-    reg mirror_clock;
-    reg [7:0] mirror_read_address;
+
     wire [31:0] mirror_read_data;
-    reg [7:0] mirror_write_address;
-    reg [31:0] mirror_write_data;
-    reg mirror_write_enable;
-    reg multiplier_clock;
+
     reg multiplier_start;
     reg [1:0] multiplier_scale;
-    reg [31:0] multiplier_a;
-    reg [31:0] multiplier_b;
+
     wire multiplier_busy;
     wire [31:0] multiplier_result;
-    reg divider_clock;
+
     reg divider_start;
-    reg [31:0] divider_numerator;
-    reg [31:0] divider_denominator;
+
     wire divider_busy;
     wire [31:0] divider_quotient;
     reg active_d;
     wire active_q;
-    reg active_clock;
+
     reg [7:0] pc_d;
     wire [7:0] pc_q;
-    reg pc_clock;
+
     reg [15:0] instruction_d;
     wire [15:0] instruction_q;
-    reg instruction_clock;
+
     reg valid_d;
     wire valid_q;
-    reg valid_clock;
+
     reg issued_d;
     wire issued_q;
-    reg issued_clock;
+
     reg [31:0] accumulator_d;
     wire [31:0] accumulator_q;
-    reg accumulator_clock;
+
     reg [1:0] axis_number_d;
     wire [1:0] axis_number_q;
-    reg axis_number_clock;
 
     // Intermediate values
     reg [7:0] pc_next;
@@ -2976,13 +2598,9 @@ module rac4i65_core_sequencer (
     reg [31:0] immediate;
 
     // Parts
-    rac4i65_core_sequencer_rom rom(
-        .clock(rom_clock),
-        .read_address(rom_read_address),
-        .read_data(rom_read_data)
-    );
+    rac4i65_core_sequencer_rom rom (.clock(clock), .read_address(pc_next), .read_data(rom_read_data));
     rac4i65_core_sequencer_memory memory(
-        .clock(memory_clock),
+        .clock(clock),
         .read_address(memory_read_address),
         .read_data(memory_read_data),
         .write_address(memory_write_address),
@@ -2990,52 +2608,37 @@ module rac4i65_core_sequencer (
         .write_enable(memory_write_enable)
     );
     rac4i65_core_sequencer_memory mirror(
-        .clock(mirror_clock),
-        .read_address(mirror_read_address),
+        .clock(clock),
+        .read_address(bus_address),
         .read_data(mirror_read_data),
-        .write_address(mirror_write_address),
-        .write_data(mirror_write_data),
-        .write_enable(mirror_write_enable)
+        .write_address(memory_write_address),
+        .write_data(memory_write_data),
+        .write_enable(memory_write_enable)
     );
     rac4i65_core_sequencer_multiplier multiplier(
-        .clock(multiplier_clock),
+        .clock(clock),
         .start(multiplier_start),
         .scale(multiplier_scale),
-        .a(multiplier_a),
-        .b(multiplier_b),
+        .a(word),
+        .b(accumulator_q),
         .busy(multiplier_busy),
         .result(multiplier_result)
     );
     rac4i65_core_sequencer_divider divider(
-        .clock(divider_clock),
+        .clock(clock),
         .start(divider_start),
-        .numerator(divider_numerator),
-        .denominator(divider_denominator),
+        .numerator(accumulator_q),
+        .denominator(word),
         .busy(divider_busy),
         .quotient(divider_quotient)
     );
-    rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(active_clock));
-    rac4i65_core_dff_8 pc (.d(pc_d), .q(pc_q), .clock(pc_clock));
-    rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(instruction_clock));
-    rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(valid_clock));
-    rac4i65_core_dff_1 issued (.d(issued_d), .q(issued_q), .clock(issued_clock));
-    rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(accumulator_clock));
-    rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(axis_number_clock));
-
-    always @(*) begin
-        active_clock = clock;
-        pc_clock = clock;
-        instruction_clock = clock;
-        valid_clock = clock;
-        issued_clock = clock;
-        accumulator_clock = clock;
-        axis_number_clock = clock;
-        rom_clock = clock;
-        memory_clock = clock;
-        mirror_clock = clock;
-        multiplier_clock = clock;
-        divider_clock = clock;
-    end
+    rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(clock));
+    rac4i65_core_dff_8 pc (.d(pc_d), .q(pc_q), .clock(clock));
+    rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(clock));
+    rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(clock));
+    rac4i65_core_dff_1 issued (.d(issued_d), .q(issued_q), .clock(clock));
+    rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(clock));
+    rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(clock));
 
     always @(*) begin
         active_d = active_q;
@@ -3294,19 +2897,7 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) begin
-        multiplier_a = word;
-        divider_denominator = word;
-    end
-
-    always @(*) begin
-        multiplier_b = accumulator_q;
-        divider_numerator = accumulator_q;
-        output_data = accumulator_q;
-    end
-
     always @(*) multiplier_scale = op[(32'h0)+:(2)];
-    always @(*) rom_read_address = pc_next;
     always @(*) running = active_q;
 
     always @(*) begin
@@ -3337,13 +2928,10 @@ module rac4i65_core_sequencer (
         bus_write_taken = bus_write & ~storing;
     end
 
-    always @(*) mirror_write_address = memory_write_address;
-    always @(*) mirror_write_data = memory_write_data;
-    always @(*) mirror_write_enable = memory_write_enable;
-    always @(*) mirror_read_address = bus_address;
     always @(*) bus_read_data = mirror_read_data;
     always @(*) bus_blocked = storing;
     always @(*) axis = axis_number_q;
+    always @(*) output_data = accumulator_q;
 endmodule
 
 module rac4i65_core_sequencer_rom (
@@ -3928,22 +3516,21 @@ module rac4i65_core_sequencer_multiplier (
     // Pins of the parts
     reg [31:0] p_d;
     wire [31:0] p_q;
-    reg p_clock;
+
     reg [31:0] lo_d;
     wire [31:0] lo_q;
-    reg lo_clock;
+
     reg [31:0] operand_d;
     wire [31:0] operand_q;
-    reg operand_clock;
+
     reg [3:0] steps_d;
     wire [3:0] steps_q;
-    reg steps_clock;
+
     reg last_bit_d;
     wire last_bit_q;
-    reg last_bit_clock;
+
     reg guard_8_d;
     wire guard_8_q;
-    reg guard_8_clock;
 
     // Intermediate values
     reg [31:0] addend;
@@ -3957,21 +3544,12 @@ module rac4i65_core_sequencer_multiplier (
     reg [4:0] top_5;
 
     // Parts
-    rac4i65_core_dff_32 p (.d(p_d), .q(p_q), .clock(p_clock));
-    rac4i65_core_dff_32 lo (.d(lo_d), .q(lo_q), .clock(lo_clock));
-    rac4i65_core_dff_32 operand (.d(operand_d), .q(operand_q), .clock(operand_clock));
-    rac4i65_core_dff_4 steps (.d(steps_d), .q(steps_q), .clock(steps_clock));
-    rac4i65_core_dff_1 last_bit (.d(last_bit_d), .q(last_bit_q), .clock(last_bit_clock));
-    rac4i65_core_dff_1 guard_8 (.d(guard_8_d), .q(guard_8_q), .clock(guard_8_clock));
-
-    always @(*) begin
-        p_clock = clock;
-        lo_clock = clock;
-        operand_clock = clock;
-        steps_clock = clock;
-        last_bit_clock = clock;
-        guard_8_clock = clock;
-    end
+    rac4i65_core_dff_32 p (.d(p_d), .q(p_q), .clock(clock));
+    rac4i65_core_dff_32 lo (.d(lo_d), .q(lo_q), .clock(clock));
+    rac4i65_core_dff_32 operand (.d(operand_d), .q(operand_q), .clock(clock));
+    rac4i65_core_dff_4 steps (.d(steps_d), .q(steps_q), .clock(clock));
+    rac4i65_core_dff_1 last_bit (.d(last_bit_d), .q(last_bit_q), .clock(clock));
+    rac4i65_core_dff_1 guard_8 (.d(guard_8_d), .q(guard_8_q), .clock(clock));
 
     always @(*) begin
         p_d = p_q;
@@ -4120,25 +3698,24 @@ module rac4i65_core_sequencer_divider (
     // Pins of the parts
     reg [24:0] remainder_d;
     wire [24:0] remainder_q;
-    reg remainder_clock;
+
     reg [31:0] bits_d;
     wire [31:0] bits_q;
-    reg bits_clock;
+
     reg [24:0] divisor_d;
     wire [24:0] divisor_q;
-    reg divisor_clock;
+
     reg [5:0] steps_d;
     wire [5:0] steps_q;
-    reg steps_clock;
+
     reg negative_d;
     wire negative_q;
-    reg negative_clock;
+
     reg overflow_d;
     wire overflow_q;
-    reg overflow_clock;
+
     reg checking_d;
     wire checking_q;
-    reg checking_clock;
 
     // Intermediate values
     reg running;
@@ -4149,23 +3726,13 @@ module rac4i65_core_sequencer_divider (
     reg [31:0] clipped;
 
     // Parts
-    rac4i65_core_dff_25 remainder (.d(remainder_d), .q(remainder_q), .clock(remainder_clock));
-    rac4i65_core_dff_32 bits (.d(bits_d), .q(bits_q), .clock(bits_clock));
-    rac4i65_core_dff_25 divisor (.d(divisor_d), .q(divisor_q), .clock(divisor_clock));
-    rac4i65_core_dff_6 steps (.d(steps_d), .q(steps_q), .clock(steps_clock));
-    rac4i65_core_dff_1 negative (.d(negative_d), .q(negative_q), .clock(negative_clock));
-    rac4i65_core_dff_1 overflow (.d(overflow_d), .q(overflow_q), .clock(overflow_clock));
-    rac4i65_core_dff_1 checking (.d(checking_d), .q(checking_q), .clock(checking_clock));
-
-    always @(*) begin
-        remainder_clock = clock;
-        bits_clock = clock;
-        divisor_clock = clock;
-        steps_clock = clock;
-        negative_clock = clock;
-        overflow_clock = clock;
-        checking_clock = clock;
-    end
+    rac4i65_core_dff_25 remainder (.d(remainder_d), .q(remainder_q), .clock(clock));
+    rac4i65_core_dff_32 bits (.d(bits_d), .q(bits_q), .clock(clock));
+    rac4i65_core_dff_25 divisor (.d(divisor_d), .q(divisor_q), .clock(clock));
+    rac4i65_core_dff_6 steps (.d(steps_d), .q(steps_q), .clock(clock));
+    rac4i65_core_dff_1 negative (.d(negative_d), .q(negative_q), .clock(clock));
+    rac4i65_core_dff_1 overflow (.d(overflow_d), .q(overflow_q), .clock(clock));
+    rac4i65_core_dff_1 checking (.d(checking_d), .q(checking_q), .clock(clock));
 
     always @(*) begin
         remainder_d = remainder_q;
@@ -4258,56 +3825,53 @@ module rac4i65_core_encoders (
     localparam backward = 16'hffff;
 
     // Pins of the parts
-    reg line_a_clock;
-    reg line_a_pin;
+
     reg line_a_tick;
-    reg [3:0] line_a_limit;
+
     reg line_a_load;
     wire line_a_synchronised;
     wire line_a_value;
-    reg line_b_clock;
-    reg line_b_pin;
+
     reg line_b_tick;
-    reg [3:0] line_b_limit;
+
     reg line_b_load;
     wire line_b_synchronised;
     wire line_b_value;
     reg settled_0_d;
     wire settled_0_q;
-    reg settled_0_clock;
+
     reg settled_1_d;
     wire settled_1_q;
-    reg settled_1_clock;
+
     reg settled_d;
     wire settled_q;
-    reg settled_clock;
+
     reg last_a_d;
     wire last_a_q;
-    reg last_a_clock;
+
     reg last_b_d;
     wire last_b_q;
-    reg last_b_clock;
+
     reg [15:0] live_count_d;
     wire [15:0] live_count_q;
-    reg live_count_clock;
+
     reg [23:0] live_time_d;
     wire [23:0] live_time_q;
-    reg live_time_clock;
+
     reg live_direction_d;
     wire live_direction_q;
-    reg live_direction_clock;
+
     reg [15:0] sampled_count_d;
     wire [15:0] sampled_count_q;
-    reg sampled_count_clock;
+
     reg [23:0] sampled_time_d;
     wire [23:0] sampled_time_q;
-    reg sampled_time_clock;
+
     reg sampled_direction_d;
     wire sampled_direction_q;
-    reg sampled_direction_clock;
+
     reg sticky_error_d;
     wire sticky_error_q;
-    reg sticky_error_clock;
 
     // Intermediate values
     reg change_a;
@@ -4316,63 +3880,42 @@ module rac4i65_core_encoders (
     reg [15:0] step;
 
     // Parts
-    rac4i65_core_encoders_0_line_a line_a(
-        .clock(line_a_clock),
-        .pin(line_a_pin),
+    rac4i65_core_encoders_line_a line_a(
+        .clock(clock),
+        .pin(a),
         .tick(line_a_tick),
-        .limit(line_a_limit),
+        .limit(filter),
         .load(line_a_load),
         .synchronised(line_a_synchronised),
         .value(line_a_value)
     );
-    rac4i65_core_encoders_0_line_a line_b(
-        .clock(line_b_clock),
-        .pin(line_b_pin),
+    rac4i65_core_encoders_line_a line_b(
+        .clock(clock),
+        .pin(b),
         .tick(line_b_tick),
-        .limit(line_b_limit),
+        .limit(filter),
         .load(line_b_load),
         .synchronised(line_b_synchronised),
         .value(line_b_value)
     );
-    rac4i65_core_dff_1 settled_0 (.d(settled_0_d), .q(settled_0_q), .clock(settled_0_clock));
-    rac4i65_core_dff_1 settled_1 (.d(settled_1_d), .q(settled_1_q), .clock(settled_1_clock));
-    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(settled_clock));
-    rac4i65_core_dff_1 last_a (.d(last_a_d), .q(last_a_q), .clock(last_a_clock));
-    rac4i65_core_dff_1 last_b (.d(last_b_d), .q(last_b_q), .clock(last_b_clock));
-    rac4i65_core_dff_16 live_count (.d(live_count_d), .q(live_count_q), .clock(live_count_clock));
-    rac4i65_core_dff_24_2 live_time (.d(live_time_d), .q(live_time_q), .clock(live_time_clock));
-    rac4i65_core_dff_1 live_direction (.d(live_direction_d), .q(live_direction_q), .clock(live_direction_clock));
-    rac4i65_core_dff_16 sampled_count (.d(sampled_count_d), .q(sampled_count_q), .clock(sampled_count_clock));
-    rac4i65_core_dff_24_2 sampled_time (.d(sampled_time_d), .q(sampled_time_q), .clock(sampled_time_clock));
-    rac4i65_core_dff_1 sampled_direction(
-        .d(sampled_direction_d),
-        .q(sampled_direction_q),
-        .clock(sampled_direction_clock)
-    );
-    rac4i65_core_dff_1 sticky_error (.d(sticky_error_d), .q(sticky_error_q), .clock(sticky_error_clock));
-
-    always @(*) begin
-        line_a_clock = clock;
-        line_b_clock = clock;
-        settled_0_clock = clock;
-        settled_1_clock = clock;
-        settled_clock = clock;
-        last_a_clock = clock;
-        last_b_clock = clock;
-        live_count_clock = clock;
-        live_time_clock = clock;
-        live_direction_clock = clock;
-        sampled_count_clock = clock;
-        sampled_time_clock = clock;
-        sampled_direction_clock = clock;
-        sticky_error_clock = clock;
-        line_a_tick = 1'b1;
-        line_b_tick = 1'b1;
-    end
+    rac4i65_core_dff_1 settled_0 (.d(settled_0_d), .q(settled_0_q), .clock(clock));
+    rac4i65_core_dff_1 settled_1 (.d(settled_1_d), .q(settled_1_q), .clock(clock));
+    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(clock));
+    rac4i65_core_dff_1 last_a (.d(last_a_d), .q(last_a_q), .clock(clock));
+    rac4i65_core_dff_1 last_b (.d(last_b_d), .q(last_b_q), .clock(clock));
+    rac4i65_core_dff_16 live_count (.d(live_count_d), .q(live_count_q), .clock(clock));
+    rac4i65_core_dff_24_2 live_time (.d(live_time_d), .q(live_time_q), .clock(clock));
+    rac4i65_core_dff_1 live_direction (.d(live_direction_d), .q(live_direction_q), .clock(clock));
+    rac4i65_core_dff_16 sampled_count (.d(sampled_count_d), .q(sampled_count_q), .clock(clock));
+    rac4i65_core_dff_24_2 sampled_time (.d(sampled_time_d), .q(sampled_time_q), .clock(clock));
+    rac4i65_core_dff_1 sampled_direction (.d(sampled_direction_d), .q(sampled_direction_q), .clock(clock));
+    rac4i65_core_dff_1 sticky_error (.d(sticky_error_d), .q(sticky_error_q), .clock(clock));
 
     always @(*) begin
         settled_0_d = settled_0_q;
         settled_0_d = 1'b1;
+        line_a_tick = 1'b1;
+        line_b_tick = 1'b1;
     end
 
     always @(*) begin
@@ -4428,14 +3971,6 @@ module rac4i65_core_encoders (
         end
     end
 
-    always @(*) line_a_pin = a;
-    always @(*) line_b_pin = b;
-
-    always @(*) begin
-        line_a_limit = filter;
-        line_b_limit = filter;
-    end
-
     always @(*) begin
         line_a_load = ~settled_q;
         line_b_load = ~settled_q;
@@ -4482,34 +4017,33 @@ module rac4i65_core_drives (
     // Pins of the parts
     reg [12:0] phase_d;
     wire [12:0] phase_q;
-    reg phase_clock;
+
     reg [12:0] shadow_compare_d;
     wire [12:0] shadow_compare_q;
-    reg shadow_compare_clock;
+
     reg shadow_direction_d;
     wire shadow_direction_q;
-    reg shadow_direction_clock;
+
     reg [12:0] active_compare_d;
     wire [12:0] active_compare_q;
-    reg active_compare_clock;
+
     reg active_direction_d;
     wire active_direction_q;
-    reg active_direction_clock;
+
     reg [9:0] quiet_d;
     wire [9:0] quiet_q;
-    reg quiet_clock;
+
     reg settled_d;
     wire settled_q;
-    reg settled_clock;
+
     reg pwm_pin_d;
     wire pwm_pin_q;
-    reg pwm_pin_clock;
+
     reg dir_pin_d;
     wire dir_pin_q;
-    reg dir_pin_clock;
+
     reg start_d;
     wire start_q;
-    reg start_clock;
 
     // Intermediate values
     reg [12:0] next_phase;
@@ -4522,37 +4056,16 @@ module rac4i65_core_drives (
     reg permitted;
 
     // Parts
-    rac4i65_core_dff_13 phase (.d(phase_d), .q(phase_q), .clock(phase_clock));
-    rac4i65_core_dff_13 shadow_compare (.d(shadow_compare_d), .q(shadow_compare_q), .clock(shadow_compare_clock));
-    rac4i65_core_dff_1 shadow_direction(
-        .d(shadow_direction_d),
-        .q(shadow_direction_q),
-        .clock(shadow_direction_clock)
-    );
-    rac4i65_core_dff_13 active_compare (.d(active_compare_d), .q(active_compare_q), .clock(active_compare_clock));
-    rac4i65_core_dff_1 active_direction(
-        .d(active_direction_d),
-        .q(active_direction_q),
-        .clock(active_direction_clock)
-    );
-    rac4i65_core_dff_10 quiet (.d(quiet_d), .q(quiet_q), .clock(quiet_clock));
-    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(settled_clock));
-    rac4i65_core_dff_1 pwm_pin (.d(pwm_pin_d), .q(pwm_pin_q), .clock(pwm_pin_clock));
-    rac4i65_core_dff_1 dir_pin (.d(dir_pin_d), .q(dir_pin_q), .clock(dir_pin_clock));
-    rac4i65_core_dff_1 start (.d(start_d), .q(start_q), .clock(start_clock));
-
-    always @(*) begin
-        phase_clock = clock;
-        shadow_compare_clock = clock;
-        shadow_direction_clock = clock;
-        active_compare_clock = clock;
-        active_direction_clock = clock;
-        quiet_clock = clock;
-        settled_clock = clock;
-        pwm_pin_clock = clock;
-        dir_pin_clock = clock;
-        start_clock = clock;
-    end
+    rac4i65_core_dff_13 phase (.d(phase_d), .q(phase_q), .clock(clock));
+    rac4i65_core_dff_13 shadow_compare (.d(shadow_compare_d), .q(shadow_compare_q), .clock(clock));
+    rac4i65_core_dff_1 shadow_direction (.d(shadow_direction_d), .q(shadow_direction_q), .clock(clock));
+    rac4i65_core_dff_13 active_compare (.d(active_compare_d), .q(active_compare_q), .clock(clock));
+    rac4i65_core_dff_1 active_direction (.d(active_direction_d), .q(active_direction_q), .clock(clock));
+    rac4i65_core_dff_10 quiet (.d(quiet_d), .q(quiet_q), .clock(clock));
+    rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(clock));
+    rac4i65_core_dff_1 pwm_pin (.d(pwm_pin_d), .q(pwm_pin_q), .clock(clock));
+    rac4i65_core_dff_1 dir_pin (.d(dir_pin_d), .q(dir_pin_q), .clock(clock));
+    rac4i65_core_dff_1 start (.d(start_d), .q(start_q), .clock(clock));
 
     always @(*) begin
         phase_d = phase_q;

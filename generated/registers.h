@@ -74,7 +74,7 @@
 #define RAC4I65_INTEGRALS 0x790u /* integrators of the speed loops; not part of a snapshot */
 #define RAC4I65_INTEGRALS_WORDS 4u
 #define RAC4I65_SNAPSHOT_SEQUENCE 0x800u /* number of control ticks; reading it latches the snapshot */
-#define RAC4I65_SNAPSHOT_STATUS 0x804u /* `status` at the tick */
+#define RAC4I65_SNAPSHOT_STATUS 0x804u /* `status` at the tick, without what is pending */
 #define RAC4I65_SNAPSHOT_STATUS_ARMED 0x00000001u /* outputs may be on */
 #define RAC4I65_SNAPSHOT_STATUS_SET_POINTS_VALID 0x00000002u /* a set point was committed since arming */
 #define RAC4I65_SNAPSHOT_STATUS_EMERGENCY_STOP 0x00000004u /* emergency stop input, live */

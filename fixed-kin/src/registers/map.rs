@@ -231,9 +231,9 @@ pub const ENCODER_LINES: Register = register(
     "encoder_lines",
     0x058,
     Access::ReadOnly,
-    Kind::Unsigned(2 * AXES as u32),
+    Kind::Unsigned(3 * AXES as u32),
     0,
-    "filtered lines, A of axis i in bit 2i, B in bit 2i + 1",
+    "filtered lines, A of axis i in bit 2i, B in bit 2i + 1, index in bit 8 + i",
 );
 /// Which encoder errors disarm.
 pub const ENCODER_FAULT_MASK: Register = register(
@@ -354,8 +354,14 @@ pub const SNAPSHOT_SEQUENCE: Register = array(
     "number of control ticks; reading it latches the snapshot",
 );
 /// Snapshot: status.
-pub const SNAPSHOT_STATUS: Register =
-    array("snapshot_status", 0x804, 1, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), "`status` at the tick");
+pub const SNAPSHOT_STATUS: Register = array(
+    "snapshot_status",
+    0x804,
+    1,
+    Access::ReadOnly,
+    Kind::Fields(&STATUS_FIELDS),
+    "`status` at the tick, without what is pending",
+);
 /// Snapshot: time.
 pub const SNAPSHOT_TIME: Register =
     array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick");

@@ -86,8 +86,8 @@ pub struct Core {
     encoders: [Encoder; 4],
     drives: [Pwm; 4],
 
-    armed_at_tick: DFF<Bit>,
-    valid_at_tick: DFF<Bit>,
+    status_at_tick: DFF<Bits<8>>,
+    faults_at_tick: DFF<Bits<8>>,
     now: DFF<Bits<24>>,
     reverse: DFF<Bit>,
     read_page: DFF<Bit>,
@@ -121,6 +121,8 @@ pub struct Core {
     dir_pins: Signal<Local, Bits<4>>,
 
     zero: Literal<32, 0>,
+    /// The bits of the status that a snapshot shows; what is pending is over at the tick.
+    live_status: Literal<8, 0x0F>,
     one_16: Literal<16, 1>,
     sign_30: Literal<32, 0xC000_0000>,
     mask_30: Literal<32, 0x3FFF_FFFF>,
@@ -146,8 +148,8 @@ impl Logic for Core {
         dff_setup!(
             self,
             lclk,
-            armed_at_tick,
-            valid_at_tick,
+            status_at_tick,
+            faults_at_tick,
             now,
             reverse,
             read_page,
@@ -191,6 +193,13 @@ impl Logic for Core {
         self.dead_sync.d.next = self.monitor.lclk_dead.val();
         self.dead_live.d.next = self.dead_sync.q.val();
 
+        self.status.next = bit_cast::<8, 1>(self.safety.armed.val().into())
+            | (bit_cast::<8, 1>(self.safety.setpoints_valid.val().into()) << 1)
+            | (bit_cast::<8, 1>(self.stop_live.q.val().into()) << 2)
+            | (bit_cast::<8, 1>(self.ball_live.q.val().into()) << 3)
+            | (bit_cast::<8, 1>(self.commit.set_points_pending.val().into()) << 4)
+            | (bit_cast::<8, 1>(self.commit.configuration_pending.val().into()) << 5);
+
         // Time and the control tick.
         self.timebase.tick_period.next = self.registers.tick_period.val();
         self.timebase.restart.next = self.registers.tick_period_written.val();
@@ -203,8 +212,8 @@ impl Logic for Core {
         self.snapshot.tick.next = self.tick.val();
         self.snapshot.done.next = self.sequencer.done.val();
         if self.tick.val() {
-            self.armed_at_tick.d.next = self.safety.armed.val();
-            self.valid_at_tick.d.next = self.safety.setpoints_valid.val();
+            self.status_at_tick.d.next = self.status.val() & self.live_status.val();
+            self.faults_at_tick.d.next = self.safety.faults.val();
             self.now.d.next = self.timebase.clock_count.val().get_bits::<24>(0);
         }
 
@@ -274,13 +283,6 @@ impl Logic for Core {
             | (bit_cast::<12, 4>(self.index_live.q.val()) << 8);
         self.masked_errors.next = self.errors.val() & self.registers.encoder_fault_mask.val();
 
-        self.status.next = bit_cast::<8, 1>(self.safety.armed.val().into())
-            | (bit_cast::<8, 1>(self.safety.setpoints_valid.val().into()) << 1)
-            | (bit_cast::<8, 1>(self.stop_live.q.val().into()) << 2)
-            | (bit_cast::<8, 1>(self.ball_live.q.val().into()) << 3)
-            | (bit_cast::<8, 1>(self.commit.set_points_pending.val().into()) << 4)
-            | (bit_cast::<8, 1>(self.commit.configuration_pending.val().into()) << 5);
-
         // Input ports of the sequencer.
         match self.sequencer.axis.val().index() {
             0 => {
@@ -331,25 +333,19 @@ impl Logic for Core {
                 self.sequencer.input_data.next = bit_cast::<32, 1>(self.registers.mode.val().get_bits::<1>(1));
             } // Twist
             7 => {
-                self.sequencer.input_data.next = self.zero.val();
-                if self.armed_at_tick.q.val() {
-                    self.sequencer.input_data.next = bit_cast::<32, 16>(self.one_16.val());
-                }
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.status_at_tick.q.val().get_bits::<1>(0));
             } // Armed
             8 => {
-                self.sequencer.input_data.next = self.zero.val();
-                if self.valid_at_tick.q.val() {
-                    self.sequencer.input_data.next = bit_cast::<32, 16>(self.one_16.val());
-                }
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.status_at_tick.q.val().get_bits::<1>(1));
             } // SetPointsValid
             9 => {
                 self.sequencer.input_data.next = bit_cast::<32, 13>(self.registers.pwm_period.val());
             } // PwmPeriod
             10 => {
-                self.sequencer.input_data.next = bit_cast::<32, 8>(self.status.val());
+                self.sequencer.input_data.next = bit_cast::<32, 8>(self.status_at_tick.q.val());
             } // Status
             _ => {
-                self.sequencer.input_data.next = bit_cast::<32, 8>(self.safety.faults.val());
+                self.sequencer.input_data.next = bit_cast::<32, 8>(self.faults_at_tick.q.val());
             } // Faults
         }
 
