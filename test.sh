@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Sets everything up and runs every test, with the time of each stage. What cannot run is said loudly.
+set -u -o pipefail
+cd "$(dirname "$0")"
+
+tools=(verilator iverilog yosys)
+started=$SECONDS
+failed=()
+skipped=()
+
+stage() {
+    local name=$1
+    shift
+    local begin=$SECONDS
+    printf '\n=== %s\n' "$name"
+    if "$@"; then
+        printf '=== %s: passed in %d s\n' "$name" $((SECONDS - begin))
+    else
+        printf '=== %s: FAILED after %d s\n' "$name" $((SECONDS - begin))
+        failed+=("$name")
+    fi
+}
+
+missing() {
+    local tool
+    for tool in "${tools[@]}"; do
+        command -v "$tool" >/dev/null || printf '%s ' "$tool"
+    done
+}
+
+install_tools() {
+    [ -z "$(missing)" ] && return 0
+    if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+        apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive \
+            apt-get install -y -q --no-install-recommends verilator iverilog yosys g++ make >/dev/null
+    fi
+    [ -z "$(missing)" ]
+}
+
+# Logic simulation is ten times faster with optimisation; the release profile keeps overflow checks.
+export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never}
+stage "tools from Debian" install_tools
+stage "build" cargo build --workspace --all-targets --release
+if [ -z "$(missing)" ]; then
+    stage "tests" cargo test --workspace --release
+else
+    # Only the tests that run other people's tools are left out, and not quietly.
+    skipped=("every test of emitted Verilog: install the Debian packages $(missing)")
+    failed=("${failed[@]/tools from Debian/}")
+    stage "tests without tools" cargo test --workspace --release --lib --bins
+    stage "rust-hdl against fixed-kin" cargo test -p hdl --release --test arithmetic --test sequencer \
+        --test generated --test 'blocks_[!v]*' --test local_bus
+fi
+
+printf '\n=== total: %d s\n' $((SECONDS - started))
+if [ ${#skipped[@]} -gt 0 ]; then
+    printf '\n!!! NOT RUN: %s\n' "${skipped[@]}"
+    [ "${CI:-}" = true ] && failed+=("nothing may be left out where CI=true")
+fi
+real_failures=()
+for name in "${failed[@]}"; do [ -n "$name" ] && real_failures+=("$name"); done
+if [ ${#real_failures[@]} -gt 0 ]; then
+    printf '\nFAILED: %s\n' "${real_failures[@]}"
+    exit 1
+fi
+printf '\nall stages passed\n'
