@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn mounts_follow_the_published_matrix() {
-        let (radius, skew) = (0.085, [0.07, -0.05, 0.03]);
+        let (radius, skew) = (0.085, [0.07_f64, -0.05, 0.03]);
         let velocity = [0.4, -0.7, 1.3];
         let third = PI / 3.0;
         let rows = [
@@ -81,8 +81,7 @@ mod tests {
         ];
         for (i, spoke) in [90.0_f64, 210.0, 330.0].into_iter().enumerate() {
             let mount = Mount::on_circle(spoke.to_radians(), radius, skew[i]);
-            let expected =
-                rows[i][0] * velocity[0] + rows[i][1] * velocity[1] - skew[i].cos() * radius * velocity[2];
+            let expected = rows[i][0] * velocity[0] + rows[i][1] * velocity[1] - skew[i].cos() * radius * velocity[2];
             assert!((mount.rim_speed(velocity) - expected).abs() < 1e-12, "wheel {}", i + 1);
         }
     }

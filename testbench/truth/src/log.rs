@@ -114,13 +114,8 @@ mod tests {
 
     #[test]
     fn csv_has_the_groups_asked_for_and_empty_fields_between_frames() {
-        let row = Row {
-            command: [0.1, -0.0, 0.0],
-            refs: vec![1.25],
-            counts: vec![-3],
-            duties: vec![0.125],
-            supply_v: 7.204,
-        };
+        let row =
+            Row { command: [0.1, -0.0, 0.0], refs: vec![1.25], counts: vec![-3], duties: vec![0.125], supply_v: 7.204 };
         let frames = vec![Frame { tick: 1, pose: [0.123_46, -1.0, 3.0] }];
         let log = Log { rate_hz: 1000.0, rows: vec![row.clone(), row], frames };
         assert_eq!(

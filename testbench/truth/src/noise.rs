@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 /// What a stream of random numbers is for; adding a use never changes the numbers of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stream {
+pub(crate) enum Stream {
     /// Which robot it is.
     Robot,
     /// Nuisances that every set has.
@@ -42,7 +42,7 @@ impl Stream {
 
 /// The generator of one stream of one case.
 #[must_use]
-pub fn stream(seed: u64, purpose: Stream) -> ChaCha8Rng {
+pub(crate) fn stream(seed: u64, purpose: Stream) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(purpose.id());
     rng

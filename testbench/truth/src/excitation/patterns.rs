@@ -57,8 +57,7 @@ fn lines(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<> 
         let place = time / active * legs.len() as f64;
         let (direction, peak) = legs[(place as usize).min(legs.len() - 1)];
         let part = place.fract() * 2.0;
-        let speed =
-            if part < 1.0 { peak * trapezoid(part, ramp) } else { -peak * trapezoid(part - 1.0, ramp) };
+        let speed = if part < 1.0 { peak * trapezoid(part, ramp) } else { -peak * trapezoid(part - 1.0, ramp) };
         [speed * direction.cos(), speed * direction.sin(), 0.0]
     }
 }
@@ -125,14 +124,13 @@ fn sweep(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<> 
 fn multisine(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<> {
     let axes: [[[f64; 3]; 3]; 3] = [0, 1, 2].map(|axis| {
         let size = if axis == 2 { rng.random_range(0.6..1.1) } else { rng.random_range(0.12..0.2) };
-        [0.25, 0.6, 1.2].map(|frequency| {
-            [size, frequency * rng.random_range(0.8..1.25), rng.random_range(0.0..TAU)]
-        })
+        [0.25, 0.6, 1.2].map(|frequency| [size, frequency * rng.random_range(0.8..1.25), rng.random_range(0.0..TAU)])
     });
     move |time| {
         let fade = (time / 0.3).min(1.0) * ((active - time) / 0.3).min(1.0);
         axes.map(|sines| {
-            let sum: f64 = sines.iter().map(|[size, frequency, phase]| size * (phase + TAU * frequency * time).sin()).sum();
+            let sum: f64 =
+                sines.iter().map(|[size, frequency, phase]| size * (phase + TAU * frequency * time).sin()).sum();
             fade * sum
         })
     }

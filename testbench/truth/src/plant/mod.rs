@@ -134,10 +134,7 @@ impl<'a> Plant<'a> {
         self.centre[1] += step * self.velocity[1];
         self.heading += step * self.spin;
         let (sin, cos) = self.heading.sin_cos();
-        let along = [
-            cos * self.velocity[0] + sin * self.velocity[1],
-            -sin * self.velocity[0] + cos * self.velocity[1],
-        ];
+        let along = [cos * self.velocity[0] + sin * self.velocity[1], -sin * self.velocity[0] + cos * self.velocity[1]];
         let gate = ((along[0].hypot(along[1]) + 0.1 * self.spin.abs()) / NOISE_SPEED).min(1.0);
         let (mut force, mut moment, mut amps) = ([0.0; 2], 0.0, 0.0);
         for i in 0..self.corners.len() {
@@ -179,8 +176,7 @@ impl<'a> Plant<'a> {
         let back_emf = power.torque_constant * power.gear_ratio * corner.shaft.rotor_speed;
         let settled = (bridge * self.battery_v - back_emf) / resistance;
         corner.current += self.current_gain * (settled - corner.current);
-        corner.heat +=
-            step * (resistance * corner.current * corner.current - corner.heat / power.cooling_s.max(1e-3));
+        corner.heat += step * (resistance * corner.current * corner.current - corner.heat / power.cooling_s.max(1e-3));
 
         let mut push = [0.0; 2];
         let mut moment = 0.0;
@@ -197,10 +193,7 @@ impl<'a> Plant<'a> {
             let drive = corner.grip.advance(step, slip, creep, friction * load);
             let drag_limit = wheel.roller_drag_n * load / corner.resting_load.max(1e-9);
             let drag = corner.side.advance(step, dot(point, corner.free), 0.0, drag_limit);
-            push = [
-                drive * corner.push[0] - drag * corner.free[0],
-                drive * corner.push[1] - drag * corner.free[1],
-            ];
+            push = [drive * corner.push[0] - drag * corner.free[0], drive * corner.push[1] - drag * corner.free[1]];
             moment = px * push[1] - py * push[0];
             torque -= drive * radius * corner.cos_roller;
         }
@@ -237,8 +230,7 @@ impl<'a> Plant<'a> {
         let mut moment = 0.0;
         if machine.ground.grain_n > 0.0 {
             let (sin, cos) = machine.ground.grain_azimuth_rad.sin_cos();
-            let drag =
-                self.grain.advance(self.step, dot(self.velocity, [cos, sin]), 0.0, machine.ground.grain_n);
+            let drag = self.grain.advance(self.step, dot(self.velocity, [cos, sin]), 0.0, machine.ground.grain_n);
             force[0] -= drag * cos;
             force[1] -= drag * sin;
         }
@@ -318,10 +310,9 @@ impl<'a> Plant<'a> {
     #[must_use]
     pub fn energy_j(&self) -> f64 {
         let [vx, vy] = self.velocity;
-        let chassis = 0.5
-            * (self.machine.mass_kg * (vx * vx + vy * vy) + self.machine.yaw_inertia_kg_m2 * self.spin * self.spin);
-        let wheels: f64 =
-            self.corners.iter().map(|c| c.shaft.energy() + c.grip.energy() + c.side.energy()).sum();
+        let chassis =
+            0.5 * (self.machine.mass_kg * (vx * vx + vy * vy) + self.machine.yaw_inertia_kg_m2 * self.spin * self.spin);
+        let wheels: f64 = self.corners.iter().map(|c| c.shaft.energy() + c.grip.energy() + c.side.energy()).sum();
         chassis + wheels + self.grain.energy()
     }
 }
@@ -347,6 +338,6 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Angle in counts of an encoder on the motor shaft: `counts·(1 + scale)·gear·angle/2π`.
 #[must_use]
-pub fn counts_of(angle_rad: f64, gear_ratio: f64, counts_per_rev: f64) -> f64 {
+pub(crate) fn counts_of(angle_rad: f64, gear_ratio: f64, counts_per_rev: f64) -> f64 {
     angle_rad * gear_ratio * counts_per_rev / TAU
 }

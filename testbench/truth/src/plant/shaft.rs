@@ -96,8 +96,7 @@ impl Shaft {
         self.rotor_speed = dry(free, step / self.rotor_inertia, [torques.motor_dry; 2]);
         let free = self.speed + step / self.wheel_inertia * (mesh + torques.wheel);
         let held = self.loss * mesh.abs();
-        self.speed =
-            dry(free, step / self.wheel_inertia, [held + torques.wheel_dry[0], held + torques.wheel_dry[1]]);
+        self.speed = dry(free, step / self.wheel_inertia, [held + torques.wheel_dry[0], held + torques.wheel_dry[1]]);
     }
 
     /// Kinetic and elastic energy, J.
