@@ -39,6 +39,15 @@ impl FusionOptions {
     }
 }
 
+impl FusionOptions {
+    /// For a robot whose geometry is not calibrated: skew of some degrees is no random walk, but a
+    /// filter that trusts odometry a hundred times less follows the camera nevertheless.
+    #[must_use]
+    pub fn uncalibrated(self) -> Self {
+        Self { wheel_variance: 100.0 * self.wheel_variance, ..self }
+    }
+}
+
 /// What became of a camera frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Correction {

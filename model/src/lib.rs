@@ -1,5 +1,29 @@
-//! The robot in floating point: SI units, body frame x right and y forward, heading from the
-//! field's x axis to the body x axis (see [`frames`]).
+//! The robot in floating point: geometry, motors and body, files, trajectories, localisation and
+//! calibration, after Rodrigues, Brandão, Lobo, Rocha and Dias, "RAC robotic soccer small-size
+//! team: omnidirectional drive modelling and robot construction".
+//!
+//! Four types carry the rest:
+//!
+//! - [`Robot`](robot::Robot), what the designers know: `robot.toml`;
+//! - [`Geometry`](geometry::Geometry), where the wheels are: equations (1) to (6) for any number of
+//!   wheels;
+//! - [`Run`](run::Run), what a robot did: a CSV log;
+//! - [`Plant`](plant::Plant), how it moves: motors, wheels and body in time.
+//!
+//! Units are SI everywhere. Body frame: x to the right, y forward ([`frames::Twist`]). World frame:
+//! the camera's field, heading of the body **x** axis ([`frames::Pose`]).
+//!
+//! ```
+//! use model::calibration::estimate_skew;
+//! use model::run::DataSet;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/runs/wheel-skew");
+//! let set = DataSet::open(folder)?;
+//! let found = estimate_skew(&set.robot, &set.runs)?;
+//! // The hidden truth is +4, −3 and +2 degrees.
+//! assert!((found.skew_rad[0].to_degrees() - 4.0).abs() < 0.2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod calibration;
 pub mod camera;

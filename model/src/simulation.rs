@@ -254,8 +254,7 @@ mod tests {
         let options = FollowerOptions::of(&nominal).unwrap();
         let mut follower = Follower::new(points, start, &g, limits, options);
         let mut localiser = if closed {
-            // Skew is no noise; the filter is told that odometry errs by more than its walk.
-            let options = FusionOptions { wheel_variance: 1e-2, ..FusionOptions::of(&nominal) };
+            let options = FusionOptions::of(&nominal).uncalibrated();
             Localiser::fused(&nominal, &g, options, start)
         } else {
             Localiser::odometry(&nominal, &g, start)

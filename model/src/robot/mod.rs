@@ -179,7 +179,8 @@ impl Robot {
         parse::robot(text, path)
     }
 
-    /// Writes a `robot.toml` that [`Robot::load`] reads back as an equal robot.
+    /// Writes a `robot.toml` that [`Robot::load`] reads back as an equal robot. Comments of a file
+    /// it was read from are not kept.
     ///
     /// # Errors
     /// [`InputError`] if the robot is not valid or the file cannot be written.

@@ -173,6 +173,16 @@ mod tests {
     }
 
     #[test]
+    fn the_shipped_files_are_what_they_say() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/set-points");
+        assert_eq!(SetPoint::read_file(folder.join("fig-6.csv")).unwrap(), FIG_6);
+        let square = SetPoint::read_file(folder.join("square.toml")).unwrap();
+        assert_eq!(square.len(), 4);
+        assert!(square.iter().all(|p| p.stop));
+        assert_eq!(SetPoint::read_file(folder.join("none.csv")).unwrap_err().hint, "check the path");
+    }
+
+    #[test]
     fn errors_say_where_and_what() {
         let table = [
             ("", "points.csv: holds no set points"),
