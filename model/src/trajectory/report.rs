@@ -49,7 +49,11 @@ impl TrajectoryReport {
             .enumerate()
             .map(|(i, p)| {
                 let arrival = arrivals.get(i).copied().unwrap_or(Arrival::Pending);
-                let miss_m = track.iter().map(|(_, at)| (at.x - p.x).hypot(at.y - p.y)).fold(f64::INFINITY, f64::min);
+                // On the way to it or just after; a path may pass the same place at other times, too.
+                let from = i.checked_sub(1).and_then(|i| time_of(arrivals.get(i))).unwrap_or(0.0);
+                let to = time_of(arrivals.get(i + 1)).unwrap_or(f64::INFINITY);
+                let there = track.iter().filter(|(t, _)| *t >= from && *t <= to);
+                let miss_m = there.map(|(_, at)| (at.x - p.x).hypot(at.y - p.y)).fold(f64::INFINITY, f64::min);
                 set_point_report(arrival, miss_m, tolerance_m, track)
             })
             .collect();
@@ -84,6 +88,13 @@ impl TrajectoryReport {
             overshoot_m,
             set_points: reports,
         }
+    }
+}
+
+fn time_of(arrival: Option<&Arrival>) -> Option<f64> {
+    match arrival {
+        Some(Arrival::Reached { t, .. } | Arrival::Stuck { t, .. }) => Some(*t),
+        Some(Arrival::Pending) | None => None,
     }
 }
 
@@ -131,6 +142,16 @@ mod tests {
         assert!((report.path_m - 2.0).abs() < 1e-12 && (report.overshoot_m - 0.05).abs() < 1e-12);
         assert!((report.path_error_max_m - 0.05).abs() < 1e-12);
         assert!((report.path_error_rms_m - 0.025).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_place_passed_earlier_does_not_count_for_a_later_set_point() {
+        let points = [SetPoint::stop(1.0, 0.0, 1.0, 0.0), SetPoint::stop(0.0, 0.0, 1.0, 0.0)];
+        let track = [(0.0, Pose::default()), (1.0, Pose::new(1.0, 0.0, 0.0)), (2.0, Pose::new(0.3, 0.0, 0.0))];
+        let arrivals = [1.0, 2.0].map(|t| Arrival::Reached { t, miss_m: 0.0 });
+        let report = TrajectoryReport::new(Pose::default(), &points, &arrivals, &track, 0.1);
+        assert!(report.set_points[0].why_not.is_none());
+        assert!((report.set_points[1].miss_m - 0.3).abs() < 1e-12 && report.time_s.is_none());
     }
 
     #[test]
