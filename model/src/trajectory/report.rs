@@ -159,7 +159,7 @@ mod tests {
         let points = [SetPoint::pass(1.0, 0.0, 1.0, 0.0); 4];
         let arrivals =
             [Arrival::Reached { t: 1.0, miss_m: 0.0 }, Arrival::Stuck { t: 2.0, distance_m: 0.7 }, Arrival::Pending];
-        let track = [(0.0, Pose::default()), (3.0, Pose::new(0.5, 0.0, 0.0))];
+        let track = [(0.0, Pose::default()), (1.5, Pose::new(0.5, 0.0, 0.0)), (3.0, Pose::default())];
         let report = TrajectoryReport::new(Pose::default(), &points, &arrivals, &track, 0.1);
         assert_eq!(report.time_s, None);
         let why: Vec<&str> = report.set_points.iter().map(|s| s.why_not.as_deref().unwrap()).collect();
