@@ -23,12 +23,17 @@ const OPERATIONS: usize = 1_000_000;
 fn compile<B: Block>(name: &str, mut block: B) -> (String, Ports) {
     block.connect_all();
     let ports = Ports::of(&block).unwrap();
-    (emit(&block, name), ports)
+    (emit(&block, &top(name)), ports)
+}
+
+/// Module name: not that of one of its own ports.
+fn top(name: &str) -> String {
+    format!("block_{name}")
 }
 
 /// Rows of outputs of a module over a stimulus.
 fn respond(name: &str, verilog: &str, ports: &Ports, clocks: &Clocks, stimulus: &[u32]) -> Vec<u32> {
-    let built = Verilated::build(name, verilog, name, ports).unwrap_or_else(|error| panic!("{error}"));
+    let built = Verilated::build(name, verilog, &top(name), ports).unwrap_or_else(|error| panic!("{error}"));
     built.run_with(clocks, stimulus).unwrap()
 }
 
