@@ -5,6 +5,8 @@ use model::geometry::Geometry;
 use model::robot::Robot;
 use model::run::Run;
 
+use crate::drive::{SIGN_WIDTH, smooth_sign};
+
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
 /// millisecond the quantum of a speed, 0.83 rad/s, becomes 0.04 rad/s.
 const SMOOTHING_S: f64 = 0.03;
@@ -31,6 +33,8 @@ pub struct Segment {
     pub angle: Vec<Vec<f64>>,
     /// Smoothed wheel speed at each tick, rad/s, `[wheel][tick]`.
     pub speed: Vec<Vec<f64>>,
+    /// Direction of rotation, −1 to 1, smooth about 0, `[wheel][tick]`.
+    pub sign: Vec<Vec<f64>>,
     /// Duty, `[wheel][tick]`, from its tick to the next; empty if not logged.
     pub duty: Vec<Vec<f64>>,
     /// Supply, V, at each tick.
@@ -85,6 +89,7 @@ fn segment(
             .map(|i| unwrapped(run, i, ticks.clone(), &t).iter().map(|c| c / robot.counts_per_wheel_rad()).collect())
             .collect();
         s.speed = s.angle.iter().map(|a| smooth_speed(&t, a)).collect();
+        s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, SIGN_WIDTH)).collect()).collect();
     }
     if run.duty.len() == n {
         s.duty = run.duty.iter().map(|d| held(&d[ticks.clone()], 0.0)).collect();

@@ -153,21 +153,28 @@ impl<'a> DriveLink<'a> {
         })
     }
 
-    /// Noise of a bump from the scatter of its neighbours: half the squared second difference of
-    /// bumps that do not overlap, by the median, so that what changes slowly does not count.
-    pub fn estimate_noise(&mut self, residuals: &DriveResiduals) {
-        for (i, slot) in self.noise.iter_mut().enumerate() {
-            let mut differences = Vec::new();
-            for m in 2..residuals.torque.len().saturating_sub(2) {
-                let near = [m - 2, m, m + 2];
-                if near.iter().any(|j| residuals.at[*j].0 != residuals.at[m].0 || residuals.weights[*j][i] == 0.0) {
-                    continue;
-                }
-                let [a, b, c] = near.map(|j| residuals.torque[j][i]);
-                differences.push((a - 2.0 * b + c).abs() / 6.0_f64.sqrt());
-            }
-            *slot = (crate::statistics::median(&mut differences) / 0.6745).max(1e-6);
-        }
+    /// Mean of something over every bump.
+    pub fn mean(&self, of: impl Fn(&Segment, usize) -> f64) -> Vec<f64> {
+        let mean = |b: &Bump| {
+            let s = &self.segments[b.segment];
+            b.force.iter().enumerate().map(|(j, w)| w * of(s, b.first + j)).sum()
+        };
+        self.bumps.iter().map(mean).collect()
+    }
+
+    /// Weights, `[bump][wheel]`.
+    pub fn weights(&self, bump: usize) -> &[f64] {
+        &self.bumps[bump].weights
+    }
+
+    /// Cluster of a bump.
+    pub fn cluster(&self, bump: usize) -> usize {
+        self.bumps[bump].cluster
+    }
+
+    /// Segment and first tick of a bump.
+    pub fn place(&self, bump: usize) -> (usize, usize) {
+        (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
     /// Linearises: residuals and derivatives along each pair of models (low, high, step), per cluster.

@@ -7,7 +7,7 @@ use super::DriveModel;
 use crate::segment::Segment;
 
 /// Speed over which friction turns round, rad/s at the wheel: about the noise of a smoothed speed.
-pub(super) const SIGN_WIDTH: f64 = 0.4;
+pub const SIGN_WIDTH: f64 = 0.4;
 /// The same for the sideways speed of a contact, m/s.
 pub const SLIDE_WIDTH: f64 = 0.01;
 
@@ -111,7 +111,7 @@ impl DriveModel {
                 }
                 duty[i] = u;
                 speed[i] = axis.encoder_scale * s.speed[i][k];
-                sign[i] = smooth_sign(speed[i], SIGN_WIDTH);
+                sign[i] = s.sign[i][k];
                 sideways[i] = free[i][0] * twist.vx + free[i][1] * twist.vy + free[i][2] * twist.omega;
             }
             let mut supply = s.supply[k];

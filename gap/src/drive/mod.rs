@@ -6,6 +6,7 @@
 //! unexplained torque per wheel and bump, Nm at the wheel shaft.
 
 mod bumps;
+mod floor;
 mod forces;
 
 use model::geometry::{Geometry, Wheel};
@@ -15,7 +16,8 @@ use nalgebra::{DMatrix, Matrix3};
 use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
-pub use forces::{Instant, Loads, SLIDE_WIDTH, smooth_sign};
+pub use floor::floor;
+pub use forces::{Instant, Loads, SIGN_WIDTH, SLIDE_WIDTH, smooth_sign};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -114,6 +116,11 @@ impl DriveModel {
             offsets: Vec::new(),
             support: robot.support,
         }
+    }
+
+    /// Mean inertia a wheel feels while the others are free to follow, kg m² at its shaft.
+    pub fn felt_inertia(&self) -> f64 {
+        self.mechanics().map_or(f64::NAN, |m| m.inertia.trace() / m.inertia.nrows() as f64)
     }
 
     /// The matrices that turn mean torques and forces into wheel accelerations; `None` where the

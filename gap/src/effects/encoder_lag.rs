@@ -2,6 +2,7 @@
 
 use model::robot::Robot;
 
+use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
@@ -26,10 +27,14 @@ impl Effect for EncoderLag {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-0.3, 0.3], 0.004)])]
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [0.0, 0.3], 0.004)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         model.latency_s -= values.get("latency_s");
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        model.duty_delay_s += values.get("latency_s");
     }
 }

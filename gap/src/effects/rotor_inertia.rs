@@ -1,7 +1,6 @@
 //! `rotor-inertia`: rotors with another inertia than stated.
 
 use model::robot::Robot;
-use model::robot::Support;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
@@ -27,12 +26,11 @@ impl Effect for RotorInertia {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new(
-            "scale",
-            0.1,
-            [-0.9, 50.0],
-            if robot.support == Support::Blocks { 0.06 } else { 1.0 },
-        )])]
+        // Material is what changes the inertia a wheel feels by as much as a material mass does.
+        let model = DriveModel::new(robot);
+        let own = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
+        let material = 0.06 * model.felt_inertia() / own.max(1e-12);
+        vec![Form::whole(vec![Parameter::new("scale", (0.2 * material).max(0.02), [-0.9, 200.0], material)])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

@@ -29,13 +29,13 @@ impl Effect for ViscousFriction {
         let s = Sizes::of(robot);
         let unit = s.stall_nm / s.no_load;
         let p = |i| {
-            Parameter::new(wheel_name("coefficient", i, "nms"), 0.05 * unit, [-0.2 * unit, 20.0 * unit], 0.12 * unit)
+            Parameter::new(wheel_name("coefficient", i, "nms"), 0.05 * unit, [-0.2 * unit, 20.0 * unit], 0.4 * unit)
         };
         let mut forms = vec![Form::whole(vec![Parameter::new(
             "coefficient_nms",
             0.05 * unit,
             [-0.2 * unit, 20.0 * unit],
-            0.12 * unit,
+            0.4 * unit,
         )])];
         forms.extend(Form::alone(robot, p));
         forms

@@ -1,0 +1,68 @@
+//! Everything that is decided before fitting.
+
+use crate::effect::{Effect, Link};
+
+/// Thresholds of the selection, fixed before anything is fitted and printed in the report.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thresholds {
+    /// Standard deviation of an effect that is not named, as a share of its materiality threshold.
+    pub held_share: f64,
+    /// The same for effects that are switched on, as a share of the size they are tried at.
+    pub held_switch: f64,
+    /// Share of a named effect that an effect of the same look may have without being named.
+    pub law_share: f64,
+    /// Objective an effect must gain after paying for its parameters.
+    pub gain: f64,
+    /// Cost of naming an effect, and of each parameter beyond the first.
+    pub costs: [f64; 2],
+    /// Share of the held-out sum of squares an effect must explain: motion, drive.
+    pub shares: [f64; 2],
+    /// Held-out gain over clusters in units of its own spread.
+    pub held_out_t: f64,
+    /// An effect is dropped, or simplified, if the objective gets no worse than this.
+    pub slack: f64,
+    /// Correlation of drive residuals: how many count as one.
+    pub drive_correlation: f64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self {
+            held_share: 0.25,
+            held_switch: 0.15,
+            law_share: 0.08,
+            gain: 4.0,
+            costs: [8.0, 2.0],
+            shares: [0.003, 0.02],
+            held_out_t: 2.0,
+            slack: 0.0,
+            drive_correlation: 1.5,
+        }
+    }
+}
+
+impl Thresholds {
+    /// Cost of freeing an effect with this many parameters.
+    pub fn cost(&self, parameters: usize) -> f64 {
+        self.costs[0] + self.costs[1] * parameters.saturating_sub(1) as f64
+    }
+
+    /// Share of the held-out sum of squares.
+    pub fn share(&self, link: Link) -> f64 {
+        if link == Link::Motion { self.shares[0] } else { self.shares[1] }
+    }
+
+    /// Residuals per independent one.
+    pub fn correlation(&self, link: Link) -> f64 {
+        if link == Link::Motion { 1.0 } else { self.drive_correlation }
+    }
+}
+
+/// What a user may choose.
+#[derive(Default)]
+pub struct Options {
+    /// Thresholds of the selection.
+    pub thresholds: Thresholds,
+    /// Effects beyond the catalogue.
+    pub effects: Vec<std::sync::Arc<dyn Effect>>,
+}

@@ -1,0 +1,605 @@
+//! Selection: which effects must be named for a link, and which are there but immaterial.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::effect::{Effect, Link};
+use crate::options::Thresholds;
+use crate::problem::{Linear, Owner, Problem};
+use crate::ridge::{Ridge, RidgeFit, Role};
+use crate::state::{Active, State};
+
+/// Largest number of effects named on one link.
+const MOST: usize = 5;
+/// Candidates among which all pairs and triples are tried.
+const SHORT_LIST: usize = 9;
+/// Rounds of relinearisation while the named effects still move.
+const ROUNDS: usize = 3;
+/// A removal that costs more than this in the linear approximation is not tried.
+const FAR: f64 = 40.0;
+
+/// A linearised link with all candidates, ready for any question about subsets.
+pub struct Bench {
+    /// The state it is linearised about.
+    pub state: State,
+    /// Candidates with a column each parameter.
+    pub candidates: Vec<Active>,
+    /// Columns.
+    pub linear: Linear,
+    /// Variance of the residuals in units of the assumed noise.
+    pub variance: f64,
+    held: Vec<Role>,
+    held_share: f64,
+}
+
+/// A candidate's fit on a bench.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// Index of the candidate.
+    pub candidate: usize,
+    /// Decrease of the objective, complexity paid for.
+    pub gain: f64,
+    /// Estimates.
+    pub values: Vec<f64>,
+    /// Whether any of them is material.
+    pub material: bool,
+}
+
+/// The link's candidates: every form of every effect fitted there.
+pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
+    let wanted = catalogue.iter().filter(|e| e.link() == link);
+    wanted.flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active::new(e.clone(), f))).collect()
+}
+
+impl Bench {
+    /// Linearises a link about a state with all candidates.
+    pub fn new(problem: &Problem, state: &State, candidates: &[Active], thresholds: &Thresholds) -> Self {
+        let linear = problem.linearise(state, candidates);
+        let mut seen: Vec<(String, String, String)> = Vec::new();
+        let held = linear
+            .owners
+            .iter()
+            .map(|owner| match owner {
+                Owner::Active(..) => Role::Free,
+                Owner::Candidate(c, j) => {
+                    let candidate = &candidates[*c];
+                    let p = &candidate.form.free[*j];
+                    let key =
+                        (candidate.effect.name().to_owned(), format!("{:?}", candidate.form.fixed), p.name.clone());
+                    let named = state.active.iter().any(|a| {
+                        a.effect.name() == candidate.effect.name() && a.form.free.iter().any(|f| f.name == p.name)
+                    });
+                    if named || (seen.contains(&key) && !candidate.switched()) {
+                        return Role::Out;
+                    }
+                    seen.push(key);
+                    if candidate.switched() {
+                        return Role::Held(thresholds.held_switch, 0.0);
+                    }
+                    Role::Held(thresholds.held_share * p.material, 0.0)
+                }
+            })
+            .collect::<Vec<_>>();
+        let mut bench = Self {
+            state: state.clone(),
+            candidates: candidates.to_vec(),
+            linear,
+            variance: 1.0,
+            held,
+            held_share: thresholds.held_share,
+        };
+        bench.widen(thresholds);
+        let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
+        let n = bench.linear.gram.n();
+        let columns = free.iter().filter(|r| **r == Role::Free).count() as f64;
+        let least = Ridge::new(&bench.linear.gram, 1.0).fit(&free).loss;
+        bench.variance = (least / (n - columns).max(1.0)).max(1.0) * thresholds.correlation(problem.link());
+        bench
+    }
+
+    /// The law of a large effect is not known to the last tenth: what looks like a named effect is
+    /// allowed a share of it without being named.
+    fn widen(&mut self, thresholds: &Thresholds) {
+        let m = self.linear.owners.len();
+        let mut jj = DMatrix::zeros(m, m);
+        for c in &self.linear.gram.clusters {
+            jj += &c.jj;
+        }
+        for index in 0..self.state.active.len() {
+            let columns = self.linear.of_active(index);
+            let p: Vec<f64> = columns
+                .iter()
+                .map(|c| match self.linear.owners[*c] {
+                    Owner::Active(_, j) => {
+                        self.state.active[index].values.get(&self.state.active[index].form.free[j].name)
+                    }
+                    Owner::Candidate(..) => 0.0,
+                })
+                .collect();
+            let size2: f64 = columns
+                .iter()
+                .zip(&p)
+                .flat_map(|(a, x)| columns.iter().zip(&p).map(move |(b, y)| (*a, *b, x * y)))
+                .map(|(a, b, xy)| jj[(a, b)] * xy)
+                .sum();
+            if size2 <= 0.0 || self.state.active[index].switched() {
+                continue;
+            }
+            for c in 0..m {
+                let Role::Held(sd, at) = self.held[c] else { continue };
+                if jj[(c, c)] <= 0.0 {
+                    continue;
+                }
+                let overlap: f64 = columns.iter().zip(&p).map(|(a, x)| jj[(c, *a)] * x).sum();
+                let cos2 = overlap * overlap / (size2 * jj[(c, c)]);
+                let wide = thresholds.law_share * cos2 * (size2 / jj[(c, c)]).sqrt();
+                self.held[c] = Role::Held(sd.max(wide), at);
+            }
+        }
+    }
+
+    fn ridge(&self) -> Ridge<'_> {
+        Ridge::new(&self.linear.gram, self.variance)
+    }
+
+    /// Roles with nothing freed.
+    pub fn roles(&self) -> Vec<Role> {
+        self.held.clone()
+    }
+
+    /// Roles with some candidates freed.
+    pub fn freeing(&self, freed: &[usize]) -> Vec<Role> {
+        let mut roles = self.held.clone();
+        for &c in freed {
+            let candidate = &self.candidates[c];
+            for (role, owner) in roles.iter_mut().zip(&self.linear.owners) {
+                let Owner::Candidate(other, j) = owner else { continue };
+                let o = &self.candidates[*other];
+                if *other == c {
+                    *role = Role::Free;
+                } else if o.effect.name() == candidate.effect.name() {
+                    // The same number under another form, or another shape of the same effect.
+                    let same = candidate.form.free.iter().any(|p| p.name == o.form.free[*j].name);
+                    if (same || o.form.fixed != candidate.form.fixed || o.switched()) && !freed.contains(other) {
+                        *role = Role::Out;
+                    }
+                }
+            }
+        }
+        roles
+    }
+
+    /// Objective of a fit: loss, penalty and the cost of what is freed.
+    pub fn objective(&self, fit: &RidgeFit, freed: &[usize], thresholds: &Thresholds) -> f64 {
+        let costs: f64 = freed.iter().map(|c| thresholds.cost(self.candidates[*c].form.free.len())).sum();
+        fit.loss + fit.penalty + costs
+    }
+
+    /// The fit with nothing freed.
+    pub fn base(&self) -> RidgeFit {
+        self.ridge().fit(&self.held)
+    }
+
+    /// The fit with some candidates freed.
+    pub fn fit(&self, freed: &[usize]) -> RidgeFit {
+        self.ridge().fit(&self.freeing(freed))
+    }
+
+    /// Held-out losses per cluster with some candidates freed, and nothing held beside them.
+    pub fn held_out(&self, freed: &[usize]) -> Vec<f64> {
+        let bare: Vec<Role> =
+            self.freeing(freed).into_iter().map(|r| if r == Role::Free { r } else { Role::Out }).collect();
+        self.ridge().held_out(&bare)
+    }
+
+    /// Estimated increase of the objective if an active effect went, or kept only some parameters.
+    pub fn loss_without(&self, index: usize, keep: &[String], thresholds: &Thresholds) -> f64 {
+        let mut roles = self.held.clone();
+        let active = &self.state.active[index];
+        for (role, owner) in roles.iter_mut().zip(&self.linear.owners) {
+            if let Owner::Active(i, j) = owner
+                && *i == index
+                && !keep.contains(&active.form.free[*j].name)
+            {
+                let p = &active.form.free[*j];
+                let sd = if p.material > 0.0 && p.material.is_finite() {
+                    thresholds.held_share * p.material
+                } else {
+                    1e-3 * p.scale
+                };
+                *role = Role::Held(sd, active.values.get(&p.name));
+            }
+        }
+        let (base, without) = (self.base(), self.ridge().fit(&roles));
+        let freed = active.form.free.len() - keep.len();
+        let cost =
+            if keep.is_empty() { thresholds.cost(active.form.free.len()) } else { thresholds.costs[1] * freed as f64 };
+        without.loss + without.penalty - base.loss - base.penalty - cost
+    }
+
+    /// Estimates of a candidate in a fit.
+    pub fn values(&self, fit: &RidgeFit, candidate: usize) -> Vec<f64> {
+        let c = &self.candidates[candidate];
+        let columns = self.linear.of_candidate(candidate);
+        if c.switched() {
+            // The column stands for the whole effect at its start.
+            let share = columns.first().map_or(0.0, |j| fit.step[*j]);
+            return c
+                .form
+                .free
+                .iter()
+                .enumerate()
+                .map(
+                    |(j, p)| {
+                        if j == 0 && p.material > 0.0 { share * c.values.get(&p.name) } else { c.values.get(&p.name) }
+                    },
+                )
+                .collect();
+        }
+        columns.iter().map(|j| fit.step[*j]).collect()
+    }
+
+    /// Every candidate on its own, best first.
+    pub fn trials(&self, thresholds: &Thresholds) -> Vec<Trial> {
+        let base = self.base();
+        let from = base.loss + base.penalty;
+        let ridge = self.ridge();
+        let mut trials: Vec<Trial> = (0..self.candidates.len())
+            .into_par_iter()
+            .filter(|c| {
+                self.linear
+                    .of_candidate(*c)
+                    .iter()
+                    .all(|j| self.linear.gram.clusters.iter().any(|k| k.jj[(*j, *j)] > 0.0))
+            })
+            .filter(|c| !self.is_active(*c))
+            .map(|c| {
+                let fit = ridge.fit(&self.freeing(&[c]));
+                let values = self.values(&fit, c);
+                let within = self.within_bounds(c, &values, &fit);
+                let gain = if within { from - self.objective(&fit, &[c], thresholds) } else { f64::NEG_INFINITY };
+                Trial { candidate: c, gain, material: self.material(c, &values, &fit), values }
+            })
+            .collect();
+        // Equals keep the order of the catalogue.
+        trials.sort_by(|a, b| (b.gain - 1e-6 * b.candidate as f64).total_cmp(&(a.gain - 1e-6 * a.candidate as f64)));
+        trials
+    }
+
+    fn is_active(&self, c: usize) -> bool {
+        let candidate = &self.candidates[c];
+        self.state.active.iter().any(|a| {
+            a.effect.name() == candidate.effect.name()
+                && (a.form.free.len() >= candidate.form.free.len() || a.form.fixed != candidate.form.fixed)
+                && !a.given
+        })
+    }
+
+    /// Whether an estimate makes physical sense: all parameters within bounds, give or take noise.
+    fn within_bounds(&self, c: usize, values: &[f64], fit: &RidgeFit) -> bool {
+        let candidate = &self.candidates[c];
+        if candidate.switched() {
+            let share = self.linear.of_candidate(c).first().map_or(0.0, |j| fit.step[*j]);
+            return share > 0.3 && share < 5.0;
+        }
+        candidate.form.free.iter().zip(values).all(|(p, v)| {
+            let slack = 0.5 * p.material.min(p.scale);
+            *v >= p.bounds[0] - slack && *v <= p.bounds[1] + slack
+        })
+    }
+
+    /// Whether an estimate exceeds the materiality threshold.
+    pub fn material(&self, c: usize, values: &[f64], fit: &RidgeFit) -> bool {
+        let candidate = &self.candidates[c];
+        if candidate.switched() && candidate.form.free.iter().all(|p| p.material == 0.0) {
+            return self.linear.of_candidate(c).first().is_some_and(|j| fit.step[*j] > 0.3);
+        }
+        let columns = self.linear.of_candidate(c);
+        // Where a named effect of the same look widened the margin, it is wider here, too.
+        let margin = |j: usize| match columns.get(j).map(|j| self.held[*j]) {
+            Some(Role::Held(sd, _)) if !candidate.switched() => sd / self.held_share,
+            _ => 0.0,
+        };
+        candidate
+            .form
+            .free
+            .iter()
+            .zip(values)
+            .enumerate()
+            .any(|(j, (p, v))| p.material.is_finite() && v.abs() >= p.material.max(margin(j)))
+    }
+
+    /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
+    /// observations, nowhere below what the residual variance explains.
+    pub fn covariance(&self, roles: &[Role], fit: &RidgeFit) -> DMatrix<f64> {
+        let gram = &self.linear.gram;
+        let m = roles.len();
+        let columns: Vec<usize> =
+            (0..m).filter(|i| roles[*i] != Role::Out && gram.clusters.iter().any(|c| c.jj[(*i, *i)] > 0.0)).collect();
+        let k = columns.len();
+        let mut jj = DMatrix::zeros(k, k);
+        let mut meat = DMatrix::zeros(k, k);
+        let g = gram.clusters.len() as f64;
+        for c in &gram.clusters {
+            let score = nalgebra::DVector::from_fn(k, |p, _| {
+                c.jr[columns[p]] - columns.iter().map(|q| c.jj[(columns[p], *q)] * fit.step[*q]).sum::<f64>()
+            });
+            meat += &score * score.transpose();
+            for p in 0..k {
+                for q in 0..k {
+                    jj[(p, q)] += c.jj[(columns[p], columns[q])];
+                }
+            }
+        }
+        let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
+        meat *= g / (g - free).max(1.0);
+        let mut plain = jj.clone() * self.variance;
+        for (p, c) in columns.iter().enumerate() {
+            if let Role::Held(sd, _) = roles[*c] {
+                let weight = self.variance / (sd * sd);
+                jj[(p, p)] += weight;
+                meat[(p, p)] += weight * self.variance;
+                plain[(p, p)] += weight * self.variance;
+            }
+        }
+        let scale: Vec<f64> = (0..k).map(|i| jj[(i, i)].sqrt().max(1e-150)).collect();
+        let unit = DMatrix::from_fn(k, k, |p, q| jj[(p, q)] / (scale[p] * scale[q]) + if p == q { 1e-9 } else { 0.0 });
+        let Some(inverse) = unit.try_inverse() else { return DMatrix::from_element(m, m, f64::INFINITY) };
+        let inverse = DMatrix::from_fn(k, k, |p, q| inverse[(p, q)] / (scale[p] * scale[q]));
+        let robust = &inverse * meat * &inverse;
+        let plain = &inverse * plain * &inverse;
+        let mut out = DMatrix::zeros(m, m);
+        for p in 0..k {
+            for q in 0..k {
+                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
+                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
+            }
+        }
+        out
+    }
+}
+
+/// Whether any parameter of an effect exceeds its materiality threshold.
+pub fn is_material(active: &Active, values: &[f64]) -> bool {
+    active.form.free.iter().zip(values).any(|(p, v)| p.material.is_finite() && v.abs() >= p.material)
+        || active.form.free.iter().all(|p| p.material == 0.0)
+}
+
+/// Outcome of a selection.
+pub struct Selection {
+    /// The state with the named (and the freed immaterial) effects.
+    pub state: State,
+    /// Linearised about it.
+    pub bench: Bench,
+    /// Sum of squares left, in units of the assumed noise.
+    pub loss: f64,
+    /// Penalty of what is held near zero, and cost of what is named.
+    pub costs: f64,
+}
+
+impl Selection {
+    /// Difference of the objectives of two selections, under one variance; negative if this is
+    /// the better one.
+    fn against(&self, other: &Self) -> f64 {
+        let variance = self.bench.variance.min(other.bench.variance);
+        (self.loss - other.loss) / variance + self.costs - other.costs
+    }
+}
+
+/// Selects the effects of one link.
+pub fn select(problem: &Problem, start: &State, catalogue: &[Arc<dyn Effect>], thresholds: &Thresholds) -> Selection {
+    let all = candidates(start, catalogue, problem.link());
+    let first = Bench::new(problem, start, &all, thresholds);
+    let mut best = forward(problem, &first, &[], &all, thresholds);
+    // Pairs and triples that a greedy search may have missed, from the first linearisation.
+    let greedy: Vec<(String, Vec<usize>)> = names_of(&best, start.active.len());
+    for subset in short_subsets(&first, thresholds) {
+        let own: Vec<(String, Vec<usize>)> = subset
+            .iter()
+            .map(|c| (first.candidates[*c].effect.name().to_owned(), first.candidates[*c].form.wheels.clone()))
+            .collect();
+        let same = own.len() == greedy.len() && own.iter().all(|n| greedy.contains(n));
+        if same || own.len() > greedy.len().max(1) {
+            continue;
+        }
+        let other = forward(problem, &first, &subset, &all, thresholds);
+        if other.against(&best) < -2.0 {
+            best = other;
+        }
+        break;
+    }
+    backward(problem, best, start.active.len(), &all, thresholds)
+}
+
+fn names_of(selection: &Selection, first: usize) -> Vec<(String, Vec<usize>)> {
+    selection.state.active[first..].iter().map(|a| (a.effect.name().to_owned(), a.form.wheels.clone())).collect()
+}
+
+/// The best pair and the best triple by the linear objective, best first.
+fn short_subsets(bench: &Bench, thresholds: &Thresholds) -> Vec<Vec<usize>> {
+    let trials = bench.trials(thresholds);
+    let mut list: Vec<usize> = Vec::new();
+    for t in trials.iter().filter(|t| t.gain > 0.0) {
+        let name = bench.candidates[t.candidate].effect.name();
+        if list.iter().filter(|c| bench.candidates[**c].effect.name() == name).count() < 2 {
+            list.push(t.candidate);
+        }
+        if list.len() == SHORT_LIST {
+            break;
+        }
+    }
+    let mut subsets: Vec<Vec<usize>> = Vec::new();
+    for (i, a) in list.iter().enumerate() {
+        for (j, b) in list.iter().enumerate().skip(i + 1) {
+            subsets.push(vec![*a, *b]);
+            for c in list.iter().skip(j + 1) {
+                subsets.push(vec![*a, *b, *c]);
+            }
+        }
+    }
+    let distinct = |s: &Vec<usize>| {
+        s.iter().enumerate().all(|(i, a)| {
+            s.iter().skip(i + 1).all(|b| bench.candidates[*a].effect.name() != bench.candidates[*b].effect.name())
+        })
+    };
+    let mut rated: Vec<(f64, Vec<usize>)> = subsets
+        .into_par_iter()
+        .filter(distinct)
+        .filter_map(|s| {
+            let fit = bench.fit(&s);
+            let sound = s.iter().all(|c| {
+                let v = bench.values(&fit, *c);
+                bench.within_bounds(*c, &v, &fit) && bench.material(*c, &v, &fit)
+            });
+            sound.then(|| (bench.objective(&fit, &s, thresholds), s))
+        })
+        .collect();
+    rated.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rated.into_iter().map(|r| r.1).take(1).collect()
+}
+
+/// Adds effects one after the other, beginning with `given` ones.
+fn forward(problem: &Problem, first: &Bench, given: &[usize], all: &[Active], thresholds: &Thresholds) -> Selection {
+    let mut state = first.state.clone();
+    if !given.is_empty() {
+        let fit = first.fit(given);
+        for c in given {
+            state.active.push(placed(&first.candidates[*c], &first.values(&fit, *c)));
+        }
+    }
+    let from = first.state.active.len();
+    let mut bench = None;
+    loop {
+        let current = if state.active.len() == from {
+            Bench::new(problem, &first.state, all, thresholds)
+        } else {
+            settle(problem, &mut state, all, thresholds)
+        };
+        let bench_now = bench.insert(current);
+        if state.active.len() - from >= MOST {
+            break;
+        }
+        let Some(next) = next(problem.link(), bench_now, thresholds) else { break };
+        let mut active = placed(&bench_now.candidates[next.candidate], &next.values);
+        active.immaterial = !next.material;
+        // A richer form of the same effect takes its place.
+        state.active.retain(|a| a.given || a.effect.name() != active.effect.name());
+        state.active.push(active);
+    }
+    let bench = bench.unwrap_or_else(|| Bench::new(problem, &state, all, thresholds));
+    finish(state, bench, from, thresholds)
+}
+
+fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
+    let fit = bench.base();
+    let costs: f64 = state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum();
+    Selection { loss: fit.loss * bench.variance, costs: fit.penalty + costs, state, bench }
+}
+
+fn placed(candidate: &Active, values: &[f64]) -> Active {
+    let mut active = candidate.clone();
+    for (p, v) in candidate.form.free.iter().zip(values) {
+        active.values.set(&p.name, v.clamp(p.bounds[0], p.bounds[1]));
+    }
+    active
+}
+
+/// Refits the active effects together with everything held near zero.
+fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thresholds) -> Bench {
+    problem.fit(state);
+    let mut bench = Bench::new(problem, state, all, thresholds);
+    for _ in 1..ROUNDS {
+        let fit = bench.base();
+        let mut largest = 0.0_f64;
+        let mut trial = state.clone();
+        for (j, owner) in bench.linear.owners.iter().enumerate() {
+            let Owner::Active(index, parameter) = owner else { continue };
+            let p = &state.active[*index].form.free[*parameter];
+            let now = state.active[*index].values.get(&p.name);
+            let next = (now + fit.step[j]).clamp(p.bounds[0], p.bounds[1]);
+            largest = largest.max((next - now).abs() / p.scale);
+            trial.active[*index].values.set(&p.name, next);
+        }
+        if largest < 0.02 {
+            break;
+        }
+        let next = Bench::new(problem, &trial, all, thresholds);
+        let (a, b) = (bench.base(), next.base());
+        let before = a.loss * bench.variance + a.penalty * bench.variance;
+        let after = b.loss * next.variance + b.penalty * bench.variance;
+        if !after.is_finite() || after > before * 1.05 {
+            break;
+        }
+        *state = trial;
+        bench = next;
+    }
+    bench
+}
+
+/// The next effect to add, if any passes the gates.
+fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
+    let trials = bench.trials(thresholds);
+    let without = bench.held_out(&[]);
+    let total: f64 = without.iter().sum();
+    for t in trials.into_iter().take(6) {
+        if t.gain < thresholds.gain {
+            return None;
+        }
+        let with = bench.held_out(&[t.candidate]);
+        let differences: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
+        let sum: f64 = differences.iter().sum();
+        let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
+        if sum / total < thresholds.share(link) || sum < thresholds.held_out_t * spread {
+            continue;
+        }
+        return Some(t);
+    }
+    None
+}
+
+/// Drops effects whose removal costs little, and replaces forms by simpler ones.
+fn backward(problem: &Problem, mut best: Selection, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
+    loop {
+        let mut improved = false;
+        for index in (from..best.state.active.len()).rev() {
+            let mut smaller = best.state.clone();
+            let removed = smaller.active.remove(index);
+            let mut rivals: Vec<State> = Vec::new();
+            // Far from worthwhile in the linear approximation is not worth a refit.
+            if best.bench.loss_without(index, &[], thresholds) < FAR {
+                rivals.push(smaller.clone());
+            }
+            // Simpler forms of the same effect, from the same values.
+            for c in all.iter().filter(|c| c.effect.name() == removed.effect.name()) {
+                if c.form.free.len() < removed.form.free.len()
+                    && c.form.free.iter().all(|p| removed.values.find(&p.name).is_some())
+                {
+                    let values: Vec<f64> = c.form.free.iter().map(|p| removed.values.get(&p.name)).collect();
+                    let keep: Vec<String> = c.form.free.iter().map(|p| p.name.clone()).collect();
+                    if is_material(c, &values) && best.bench.loss_without(index, &keep, thresholds) < FAR {
+                        let mut s = smaller.clone();
+                        s.active.push(placed(c, &values));
+                        rivals.push(s);
+                    }
+                }
+            }
+            for mut rival in rivals {
+                let bench = settle(problem, &mut rival, all, thresholds);
+                let rival = finish(rival, bench, from, thresholds);
+                if rival.against(&best) < thresholds.slack {
+                    best = rival;
+                    improved = true;
+                    break;
+                }
+            }
+            if improved {
+                break;
+            }
+        }
+        if !improved {
+            return best;
+        }
+    }
+}
