@@ -1,4 +1,7 @@
 //! Where hardware and reference meet: co-simulation and the virtual robot.
 
+pub mod closed_loop;
 pub mod cosim;
+pub mod cross_check;
 pub mod fpga;
+pub mod replay;

@@ -1,0 +1,67 @@
+//! Who makes body velocities out of set points.
+
+use super::LoopError;
+use model::frames::{Pose, Twist};
+use model::robot::Robot;
+use model::trajectory::{Arrival, Follower, FollowerOptions, Limits, MotionController, SetPoint};
+
+/// Which controller drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Control {
+    /// Limits of speed and acceleration, corners and stops: for robots with mass.
+    #[default]
+    Follower,
+    /// The paper's: straight at the next set point with its speed at once.
+    Paper,
+}
+
+/// Distance at which the paper's controller takes a set point as reached, m. A robot with mass that
+/// comes at 1 m/s would circle around a smaller one.
+const PAPER_TOLERANCE_M: f64 = 0.05;
+
+/// A controller on its way.
+#[derive(Debug)]
+pub(super) enum Controller {
+    Follower(Box<Follower>),
+    Paper { motion: MotionController, points: Vec<SetPoint>, arrivals: Vec<Arrival>, t: f64 },
+}
+
+impl Controller {
+    pub(super) fn new(control: Control, robot: &Robot, points: &[SetPoint], start: Pose) -> Result<Self, LoopError> {
+        Ok(match control {
+            Control::Follower => {
+                let (geometry, limits) = (robot.geometry()?, Limits::of(robot)?);
+                Self::Follower(Box::new(Follower::new(points, start, &geometry, limits, FollowerOptions::of(robot)?)))
+            }
+            Control::Paper => Self::Paper {
+                motion: MotionController::new(points, PAPER_TOLERANCE_M),
+                points: points.to_vec(),
+                arrivals: vec![Arrival::Pending; points.len()],
+                t: 0.0,
+            },
+        })
+    }
+
+    /// The body velocity for the coming `dt` seconds, or `None` once there is nothing left to do.
+    pub(super) fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist> {
+        match self {
+            Self::Follower(follower) => follower.command(pose, dt),
+            Self::Paper { motion, points, arrivals, t } => {
+                let before = motion.reached();
+                let command = motion.command(pose, dt);
+                for (arrival, point) in arrivals.iter_mut().zip(points).take(motion.reached()).skip(before) {
+                    *arrival = Arrival::Reached { t: *t, miss_m: (pose.x - point.x).hypot(pose.y - point.y) };
+                }
+                *t += dt;
+                command
+            }
+        }
+    }
+
+    pub(super) fn arrivals(&self) -> &[Arrival] {
+        match self {
+            Self::Follower(follower) => follower.arrivals(),
+            Self::Paper { arrivals, .. } => arrivals,
+        }
+    }
+}

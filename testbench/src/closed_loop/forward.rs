@@ -1,0 +1,28 @@
+//! A boxed or borrowed FPGA is an FPGA.
+
+use crate::fpga::{Fpga, FpgaError, Kind};
+use fixed_kin::AXES;
+
+impl<F: Fpga + ?Sized> Fpga for &mut F {
+    fn kind(&self) -> Kind {
+        (**self).kind()
+    }
+    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
+        (**self).advance(positions)
+    }
+    fn quiet_clocks(&self) -> u32 {
+        (**self).quiet_clocks()
+    }
+}
+
+impl<F: Fpga + ?Sized> Fpga for Box<F> {
+    fn kind(&self) -> Kind {
+        (**self).kind()
+    }
+    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
+        (**self).advance(positions)
+    }
+    fn quiet_clocks(&self) -> u32 {
+        (**self).quiet_clocks()
+    }
+}
