@@ -65,17 +65,17 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
     }
     let mut rng = stream(seed, Stream::Effect);
     let kind = settle(kind, &mut rng);
-    let choice = Choice { robot: &robot, conditions };
+    let choice = Choice { seed, conditions };
     let (mut effects, mut outside, mut ablation) = (Vec::new(), Vec::new(), None);
     match &kind {
         Kind::EffectFree | Kind::Mixed => {}
         Kind::Single { effect, size } => {
             let entry = choice.entry(effect.as_deref(), &mut rng)?;
-            effects.push(choice.hide(entry, *size, 1, &mut machine, &mut rng)?);
+            effects.push(choice.hide(entry, *size, 1, (&mut machine, &mut robot), &mut rng)?);
         }
         Kind::Pair { effects: named, size } => {
             for entry in choice.pair(named.as_ref(), &mut rng)? {
-                effects.push(choice.hide(entry, *size, 2, &mut machine, &mut rng)?);
+                effects.push(choice.hide(entry, *size, 2, (&mut machine, &mut robot), &mut rng)?);
             }
         }
         Kind::LookAlike { size } => {
@@ -83,7 +83,7 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
                 LOOK_ALIKES.iter().filter(|pair| pair.iter().all(|name| observable_name(name, conditions))).collect();
             let pair = fitting.choose(&mut rng).copied().unwrap_or(&LOOK_ALIKES[0]);
             for name in pair {
-                effects.push(choice.hide(effects::find(name)?, *size, 2, &mut machine, &mut rng)?);
+                effects.push(choice.hide(effects::find(name)?, *size, 2, (&mut machine, &mut robot), &mut rng)?);
             }
         }
         Kind::Outside { name, size } => {
@@ -92,11 +92,11 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
                 None => OUTSIDE.choose(&mut rng),
             };
             let entry = entry.ok_or_else(|| Error::UnknownEffect(name.clone().unwrap_or_default()))?;
-            outside.push(choice.hide(entry, *size, 2, &mut machine, &mut rng)?);
+            outside.push(choice.hide(entry, *size, 2, (&mut machine, &mut robot), &mut rng)?);
         }
         Kind::Ablation(which) => {
             let which = which.or_else(|| Ablation::ALL.choose(&mut rng).copied()).unwrap_or(Ablation::AbsentTruth);
-            effects.push(choice.ablate(which, &mut machine, &mut rng)?);
+            effects.push(choice.ablate(which, (&mut machine, &mut robot), &mut rng)?);
             ablation = Some(which);
         }
     }
@@ -137,7 +137,7 @@ fn settle(kind: &Kind, rng: &mut ChaCha8Rng) -> Kind {
 
 /// What an effect's choice depends on.
 struct Choice<'a> {
-    robot: &'a Robot,
+    seed: u64,
     conditions: &'a Conditions,
 }
 
@@ -176,15 +176,20 @@ impl Choice<'_> {
         entry: &Entry,
         size: Option<u8>,
         least: u8,
-        machine: &mut Machine,
+        (machine, robot): (&mut Machine, &mut Robot),
         rng: &mut ChaCha8Rng,
     ) -> Result<Hidden, Error> {
         let level = size.unwrap_or_else(|| rng.random_range(least..=5));
-        effects::hide(entry, level, rng, machine, self.robot)
+        effects::hide(entry, level, self.seed, machine, robot)
     }
 
     /// The effect that an ablated case claims.
-    fn ablate(&self, which: Ablation, machine: &mut Machine, rng: &mut ChaCha8Rng) -> Result<Hidden, Error> {
+    fn ablate(
+        &self,
+        which: Ablation,
+        (machine, robot): (&mut Machine, &mut Robot),
+        rng: &mut ChaCha8Rng,
+    ) -> Result<Hidden, Error> {
         let name = match which {
             Ablation::ShuffledCamera => ["camera-latency", "wheel-skew", "wheel-radius", "marker-offset"].choose(rng),
             Ablation::SwappedLabels => ["wheel-radius", "wheel-angle", "encoder-loss"].choose(rng),
@@ -193,7 +198,7 @@ impl Choice<'_> {
         let entry = effects::find(name.copied().unwrap_or("wheel-radius"))?;
         let mut untouched = machine.clone();
         let target = if which == Ablation::AbsentTruth { &mut untouched } else { machine };
-        self.hide(entry, None, 3, target, rng)
+        self.hide(entry, None, 3, (target, robot), rng)
     }
 }
 

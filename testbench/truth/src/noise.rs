@@ -57,6 +57,14 @@ pub fn set_seed(seed: u64, index: u64) -> u64 {
     x ^ (x >> 31)
 }
 
+/// The generator of a named purpose of one case.
+pub(crate) fn named_stream(seed: u64, name: &str) -> ChaCha8Rng {
+    let hash = name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
+    ChaCha8Rng::seed_from_u64(set_seed(seed, hash))
+}
+
 /// A standard normal number.
 pub(crate) fn normal(rng: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(rng)

@@ -38,8 +38,12 @@ pub(crate) fn draw_robot(conditions: &Conditions, rng: &mut ChaCha8Rng) -> Robot
         robot.wheel_inertia_kg_m2 = Some(f64::from(rng.random_range(40..80_u8)) * 1.0e-7);
         // Nothing but the shaft to move: gains for a load a hundred times lighter.
         let slow = (conditions.rate_hz / 1000.0).min(1.0);
-        robot.kp *= 0.3 * slow;
+        robot.soften();
+        robot.kp *= slow;
         robot.ki *= slow;
+    }
+    if rng.random_bool(0.12) && !conditions.standard_robot {
+        robot.soften();
     }
     if !conditions.blocks && rng.random_bool(0.15) {
         robot.camera_latency_s = Some(f64::from(rng.random_range(5..40_u8)) * 1.0e-3);

@@ -62,6 +62,8 @@ pub struct Robot {
     pub kp: f64,
     /// Integral gain, duty per rad at the wheel.
     pub ki: f64,
+    /// Whether the loop is tuned gently.
+    pub gentle: bool,
 }
 
 impl Robot {
@@ -92,6 +94,7 @@ impl Robot {
             friction_torque: 0.00015,
             kp: 0.15,
             ki: 0.8,
+            gentle: false,
         }
     }
 
@@ -112,11 +115,12 @@ impl Robot {
         std::f64::consts::TAU * self.control_rate_hz / (f64::from(self.counts_per_rev) * self.gear_ratio)
     }
 
-    /// Mean distance of the contact points from the chassis centre, m.
-    #[must_use]
-    pub fn mean_radius_m(&self) -> f64 {
-        let mounts = self.mounts();
-        mounts.iter().map(|m| m.x_m.hypot(m.y_m)).sum::<f64>() / mounts.len().max(1) as f64
+    /// Tunes the loop gently: 0.3 of the usual proportional gain, unless that is done already.
+    pub(crate) fn soften(&mut self) {
+        if !self.gentle {
+            self.gentle = true;
+            self.kp = (self.kp * 300.0).round() / 1000.0;
+        }
     }
 
     /// The file `robot.toml`.

@@ -8,13 +8,21 @@ const fn entry(name: &'static str, sizes: [f64; 5], meaning: &'static str, hide:
 }
 
 pub(super) const DRIVE: &[Entry] = &[
-    entry("gear-backlash", [0.01, 0.02, 0.04, 0.08, 0.15], "play_rad at the motor shaft, one wheel or all", |hand| {
-        let wheels = hand.one_or_all();
-        for &i in &wheels {
-            hand.machine.wheels[i].play_rad = hand.value;
-        }
-        Found::on(wheels, [("play_rad", hand.value)])
-    }),
+    entry(
+        "gear-backlash",
+        [0.01, 0.02, 0.04, 0.08, 0.15],
+        "play_rad at the motor shaft, one wheel or all; the nominal gain is then 0.3 of the usual one",
+        |hand| {
+            let wheels = hand.one_or_all();
+            for &i in &wheels {
+                hand.machine.wheels[i].play_rad = hand.value;
+            }
+            // With the usual gain a rotor that is free inside its play swings from rail to rail; nobody leaves it so.
+            hand.robot.soften();
+            hand.machine.controller.kp = hand.robot.kp;
+            Found::on(wheels, [("play_rad", hand.value)])
+        },
+    ),
     entry("dead-band", [0.01, 0.02, 0.04, 0.08, 0.15], "duty that the bridge swallows", |hand| {
         hand.machine.power.dead_band = hand.value;
         Found::whole([("duty", hand.value)])
@@ -43,7 +51,7 @@ pub(super) const DRIVE: &[Entry] = &[
     ),
     entry(
         "motor-heating",
-        [0.004, 0.010, 0.025, 0.06, 0.15],
+        [0.002, 0.005, 0.012, 0.03, 0.07],
         "rise_per_j: relative growth of the winding resistance per joule of its heat; cooling_s",
         |hand| {
             let cooling = hand.rng.random_range(15.0..40.0);

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::machine::Machine;
+use crate::noise::named_stream;
 use crate::robot::Robot;
 
 pub use outside::outside_names;
@@ -82,7 +83,7 @@ pub(crate) struct Hand<'a> {
     pub(crate) level: u8,
     pub(crate) rng: &'a mut ChaCha8Rng,
     pub(crate) machine: &'a mut Machine,
-    pub(crate) robot: &'a Robot,
+    pub(crate) robot: &'a mut Robot,
 }
 
 impl Hand<'_> {
@@ -148,17 +149,18 @@ pub fn find(name: &str) -> Result<&'static Entry, Error> {
     catalogue().find(|entry| entry.name == name).ok_or_else(|| Error::UnknownEffect(name.to_owned()))
 }
 
-/// Hides `entry` at size level 1 to 5 in the machine.
+/// Hides `entry` at size level 1 to 5 in the machine; its random numbers depend on seed and name only.
 pub(crate) fn hide(
     entry: &Entry,
     level: u8,
-    rng: &mut ChaCha8Rng,
+    seed: u64,
     machine: &mut Machine,
-    robot: &Robot,
+    robot: &mut Robot,
 ) -> Result<Hidden, Error> {
     let centre = *entry.sizes.get(usize::from(level).wrapping_sub(1)).ok_or(Error::Size(level))?;
+    let mut rng = named_stream(seed, entry.name);
     let value = centre * rng.random_range(-0.13_f64..0.13).exp();
-    let found = (entry.hide)(&mut Hand { value, level, rng, machine, robot });
+    let found = (entry.hide)(&mut Hand { value, level, rng: &mut rng, machine, robot });
     Ok(Hidden {
         name: entry.name.to_owned(),
         link: entry.link,

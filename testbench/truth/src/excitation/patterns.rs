@@ -97,8 +97,8 @@ fn circle(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<>
 fn rotation(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<> {
     let side = sign(rng);
     let peaks: Vec<f64> =
-        (0..4).map(|i| side * if i % 2 == 0 { 1.0 } else { -1.0 } * rng.random_range(3.0..6.5)).collect();
-    let ramp = rng.random_range(0.3..0.42);
+        (0..4).map(|i| side * if i % 2 == 0 { 1.0 } else { -1.0 } * rng.random_range(3.5..6.6)).collect();
+    let ramp = rng.random_range(0.25..0.4);
     move |time| {
         let place = time / active * 4.0;
         [0.0, 0.0, peaks[(place as usize).min(3)] * trapezoid(place.fract(), ramp)]
@@ -109,7 +109,7 @@ fn rotation(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use
 fn sweep(active: f64, rng: &mut ChaCha8Rng) -> impl Fn(f64) -> [f64; 3] + use<> {
     let axes: [[f64; 4]; 3] = [0, 1, 2].map(|k| {
         let size = if k == 2 { rng.random_range(1.8..3.0) } else { rng.random_range(0.35..0.5) };
-        [size, rng.random_range(0.2..0.5), rng.random_range(1.0..1.8), rng.random_range(0.0..TAU)]
+        [size, rng.random_range(0.2..0.5), rng.random_range(1.3..2.2), rng.random_range(0.0..TAU)]
     });
     move |time| {
         let part = time / active;
