@@ -25,7 +25,10 @@ pub(crate) fn film(camera: &Camera, track: &Track, rate_hz: f64, ticks: usize, r
     let mut capture = period * rng.random::<f64>();
     while capture < end {
         let stamp = capture * (1.0 + camera.clock_drift) + camera.stamp_jitter_s * normal(rng);
-        let pose = see(camera, track, capture, rng);
+        let mut pose = see(camera, track, capture, rng);
+        if camera.frozen > 0.0 && rng.random_bool(camera.frozen.min(1.0)) {
+            pose = frames.last().map_or(pose, |last| last.pose);
+        }
         let arrives = camera.dropped == 0.0 || !rng.random_bool(camera.dropped.clamp(0.0, 1.0));
         let tick = (stamp * rate_hz).round();
         capture += period;

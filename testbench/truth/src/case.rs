@@ -93,7 +93,7 @@ impl FromStr for Kind {
             "outside" => {
                 most(2)?;
                 if let Some(name) = rest.first()
-                    && !effects::outside_names().any(|known| known == *name)
+                    && !effects::outside().any(|entry| entry.name == *name)
                 {
                     return Err(Error::UnknownEffect((*name).to_owned()));
                 }

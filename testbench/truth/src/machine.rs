@@ -135,6 +135,8 @@ pub struct Camera {
     pub creep_m_s: [f64; 2],
     /// Part of the frames that never arrive.
     pub dropped: f64,
+    /// Part of the frames that repeat the one before, noise and all: tracking was lost.
+    pub frozen: f64,
 }
 
 /// What the controller does otherwise than `robot.toml` says.
@@ -261,6 +263,7 @@ impl Machine {
                 clock_drift: 0.0,
                 creep_m_s: [0.0; 2],
                 dropped: 0.0,
+                frozen: 0.0,
             },
             controller: Controller {
                 kp: robot.kp,

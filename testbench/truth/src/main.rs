@@ -119,10 +119,12 @@ fn run(args: &Args) -> Result<(), Error> {
 
 fn list() {
     println!("{:<20} {:<10} sizes 1 to 5; what they are", "effect", "link");
-    for entry in truth::catalogue() {
+    let show = |entry: &truth::Entry| {
         let sizes: Vec<String> = entry.sizes.iter().map(f64::to_string).collect();
         let link = format!("{:?}", entry.link).to_lowercase();
         println!("{:<20} {link:<10} {}; {}", entry.name, sizes.join(" "), entry.meaning);
-    }
-    println!("outside the catalogue: {}", truth::outside_names().collect::<Vec<_>>().join(" "));
+    };
+    truth::catalogue().for_each(show);
+    println!("\noutside the catalogue");
+    truth::outside().for_each(show);
 }

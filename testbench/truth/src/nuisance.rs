@@ -85,13 +85,13 @@ pub(crate) fn draw_machine(robot: &Robot, rng: &mut ChaCha8Rng) -> Machine {
     let power = &mut machine.power;
     power.inductance_h = rng.random_range(5.0e-5..9.0e-5);
     power.battery_ohm = rng.random_range(0.045..0.055);
-    power.supply_measured = rng.random_bool(0.6);
+    power.supply_measured = rng.random_bool(0.75);
     power.supply_noise_v = 0.010;
     let [noise_m, _, noise_rad] = robot.camera_noise.unwrap_or([0.0015, 0.0015, 0.0087]);
     machine.camera.noise_m = noise_m;
     machine.camera.noise_rad = noise_rad;
-    machine.roughness.force_n = rng.random_range(0.02..0.08);
-    machine.roughness.moment_nm = rng.random_range(0.0005..0.002);
+    machine.roughness.force_n = rng.random_range(0.03..0.12);
+    machine.roughness.moment_nm = rng.random_range(0.001..0.003);
     machine.roughness.shaft_nm = rng.random_range(1.0e-4..4.0e-4);
     machine.roughness.time_s = rng.random_range(0.03..0.08);
     let inertia = robot.wheel_inertia_kg_m2.unwrap_or_else(|| rng.random_range(4.0e-6..8.0e-6));

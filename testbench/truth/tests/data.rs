@@ -94,7 +94,7 @@ fn the_same_seed_gives_the_same_data_and_another_seed_others() {
 fn every_effect_can_be_hidden_at_every_size_and_its_data_stay_finite() {
     let names: Vec<String> = truth::catalogue()
         .map(|entry| format!("single:{}", entry.name))
-        .chain(truth::outside_names().map(|name| format!("outside:{name}")))
+        .chain(truth::outside().map(|entry| format!("outside:{}", entry.name)))
         .collect();
     assert!(names.len() > 45);
     for (k, name) in names.iter().enumerate() {

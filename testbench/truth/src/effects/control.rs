@@ -89,14 +89,9 @@ pub(super) const CONTROL: &[Entry] = &[
         "camera-timing",
         Link::Timing,
         [0.0015, 0.0025, 0.004, 0.006, 0.010],
-        "jitter_s: standard deviation of the stamps about the capture times; at sizes 4 and 5 frames are lost too \
-         (dropped, a fraction)",
-        |hand| {
-            let dropped = if hand.level >= 4 { hand.rng.random_range(0.05..0.2) } else { 0.0 };
-            hand.machine.camera.stamp_jitter_s = hand.value;
-            hand.machine.camera.dropped = dropped;
-            Found::whole([("jitter_s", hand.value), ("dropped", dropped)])
-        },
+        "jitter_s: standard deviation of the stamps about the capture times, at sizes 4 and 5 frames are lost too \
+         (dropped, a fraction); in one case of three instead drift: the stamping clock runs faster by 0.3/s of the size",
+        camera_timing,
     ),
 ];
 
@@ -124,4 +119,17 @@ fn wheel_order(hand: &mut Hand<'_>) -> Found {
         hand.machine.controller.row_of_ref = order;
     }
     found
+}
+
+/// Stamps that scatter, or a clock that runs wrong.
+fn camera_timing(hand: &mut Hand<'_>) -> Found {
+    if hand.rng.random_bool(1.0 / 3.0) {
+        let drift = 0.3 * hand.signed();
+        hand.machine.camera.clock_drift = drift;
+        return Found::whole([("drift", drift)]);
+    }
+    let dropped = if hand.level >= 4 { hand.rng.random_range(0.05..0.2) } else { 0.0 };
+    hand.machine.camera.stamp_jitter_s = hand.value;
+    hand.machine.camera.dropped = dropped;
+    Found::whole([("jitter_s", hand.value), ("dropped", dropped)])
 }

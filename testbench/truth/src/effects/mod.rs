@@ -21,7 +21,7 @@ use crate::machine::Machine;
 use crate::noise::named_stream;
 use crate::robot::Robot;
 
-pub use outside::outside_names;
+pub use outside::outside;
 pub(crate) use outside::{OUTSIDE, draw_hits};
 
 /// The link of the chain in which an effect shows.

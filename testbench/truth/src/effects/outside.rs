@@ -16,9 +16,9 @@ const fn entry(
     Entry { name, link, sizes, meaning, hide }
 }
 
-/// Names of all effects outside the catalogue.
-pub fn outside_names() -> impl Iterator<Item = &'static str> {
-    OUTSIDE.iter().map(|entry| entry.name)
+/// Every effect outside the catalogue.
+pub fn outside() -> impl Iterator<Item = &'static Entry> {
+    OUTSIDE.iter()
 }
 
 /// All effects outside the catalogue.
@@ -121,6 +121,16 @@ pub(crate) const OUTSIDE: &[Entry] = &[
             let drift = [hand.value * cos, hand.value * sin];
             hand.machine.camera.creep_m_s = drift;
             Found::whole([("x_m_per_s", drift[0]), ("y_m_per_s", drift[1])])
+        },
+    ),
+    entry(
+        "camera-freeze",
+        Link::Motion,
+        [0.03, 0.06, 0.12, 0.20, 0.35],
+        "frozen: fraction of frames that repeat the one before",
+        |hand| {
+            hand.machine.camera.frozen = hand.value;
+            Found::whole([("frozen", hand.value)])
         },
     ),
 ];
