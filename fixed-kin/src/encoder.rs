@@ -112,6 +112,12 @@ pub struct Encoder {
 }
 
 impl Encoder {
+    /// The outputs after the last clock.
+    #[must_use]
+    pub fn outputs(&self) -> Outputs {
+        self.outputs
+    }
+
     /// One clock.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;

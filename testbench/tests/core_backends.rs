@@ -35,7 +35,7 @@ fn drive(fpga: &mut dyn Fpga, settings: &Settings, rate_hz: f64, ticks: usize) -
     let mut positions = [0.0; AXES];
     let mut speeds = [0.0; AXES];
     let fastest = f64::from(scale.tick_period - QUIET_CLOCKS.min(scale.tick_period - 1)) / 12.0;
-    let mut words = vec![[0; map::SNAPSHOT_WORDS].to_vec(); 0];
+    let mut words = Vec::new();
     for tick in 0..ticks {
         if tick % 7 == 0 {
             let mut pick = |limit: f64| random.random_range(-limit..limit);

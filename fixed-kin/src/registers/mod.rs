@@ -131,7 +131,7 @@ impl Register {
 pub fn lookup(offset: u16) -> Option<(&'static Register, usize)> {
     REGISTERS.iter().find_map(|register| {
         let index = usize::from(offset.checked_sub(register.offset)?) / 4;
-        (offset % 4 == 0 && index < usize::from(register.words)).then_some((*register, index))
+        (offset.is_multiple_of(4) && index < usize::from(register.words)).then_some((*register, index))
     })
 }
 

@@ -30,7 +30,7 @@ impl Cell {
 
     /// One word per axis; the address ends in zeros, so that the axis number is just put in.
     const fn axis(address: usize) -> Self {
-        assert!(address % AXES == 0);
+        assert!(address.is_multiple_of(AXES));
         Self { address: address as u8, per_axis: true }
     }
 

@@ -65,8 +65,8 @@ pub fn scenario(seed: u64, ticks: usize) -> Vec<Scenario> {
                 regime = std::array::from_fn(|_| random.random_range(0..6));
             }
             inputs.now = (inputs.now + inputs.tick_period) & mask;
-            for axis in 0..AXES {
-                step_encoder(&mut random, &mut inputs, axis, regime[axis]);
+            for (axis, &regime) in regime.iter().enumerate() {
+                step_encoder(&mut random, &mut inputs, axis, regime);
             }
             inputs.set_points = std::array::from_fn(|_| match random.random_range(0..4) {
                 0 => word(&mut random),

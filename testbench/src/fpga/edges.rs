@@ -98,10 +98,8 @@ impl Counter {
         let motion = Motion::new(self.position, to, period, quiet);
         self.position = to;
         let before = now.wrapping_sub(period);
-        for slot in self.late {
-            if let Some((time, edge)) = slot {
-                self.count(time, edge);
-            }
+        for (time, edge) in self.late.into_iter().flatten() {
+            self.count(time, edge);
         }
         self.late = [None; 4];
         // The edge sampled at clock m after the tick is counted at m + delay, in time for the next
@@ -158,7 +156,8 @@ mod tests {
         for now in 0..=period {
             encoder.clock(&quiet(false, false, now == period, now));
         }
-        for (tick, step) in [3.7, -1.2, 0.3, 25.0, -25.0, 0.9, 0.0, -0.6, 0.6, 37.3, -40.0, 0.1].into_iter().enumerate() {
+        for (tick, step) in [3.7, -1.2, 0.3, 25.0, -25.0, 0.9, 0.0, -0.6, 0.6, 37.3, -40.0, 0.1].into_iter().enumerate()
+        {
             let before = period * (tick as u32 + 1);
             let target = position + step;
             let expected = counter.advance(target, before + period, period, 0, filter);
@@ -173,7 +172,11 @@ mod tests {
             }
             let got = encoder.outputs();
             assert!(!got.error, "tick {tick}");
-            assert_eq!((got.count, got.edge_time, got.direction), (expected.count, expected.edge_time, expected.direction), "tick {tick}");
+            assert_eq!(
+                (got.count, got.edge_time, got.direction),
+                (expected.count, expected.edge_time, expected.direction),
+                "tick {tick}"
+            );
         }
     }
 }

@@ -41,13 +41,17 @@ pub enum FpgaError {
     #[error("the core cannot be emitted: {0}")]
     Emit(String),
     /// The host took too long.
-    #[error("{clocks} clocks went by since the control tick, more than the {QUIET_CLOCKS} in which encoders may stand still; use a longer control period")]
+    #[error(
+        "{clocks} clocks went by since the control tick, more than the {QUIET_CLOCKS} in which encoders may stand still; use a longer control period"
+    )]
     Late {
         /// Clocks since the tick.
         clocks: u64,
     },
     /// A motion that no encoder could follow.
-    #[error("encoder {axis} would move {counts} counts in a control period of {period} clocks, faster than its filter can follow")]
+    #[error(
+        "encoder {axis} would move {counts} counts in a control period of {period} clocks, faster than its filter can follow"
+    )]
     TooFast {
         /// Axis, from 1.
         axis: usize,

@@ -9,9 +9,7 @@ use super::edges::{Motion, lines};
 use super::{Fpga, FpgaError, Kind, QUIET_CLOCKS, check_motion};
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
-use fixed_kin::registers::{
-    ENCODER_FILTER, MIN_TICK_PERIOD, SNAPSHOT_SEQUENCE, SNAPSHOT_WORDS, TICK_PERIOD,
-};
+use fixed_kin::registers::{ENCODER_FILTER, MIN_TICK_PERIOD, SNAPSHOT_SEQUENCE, SNAPSHOT_WORDS, TICK_PERIOD};
 use fixed_kin::speed::TIME_BITS;
 
 /// Clocks after a tick in which the program certainly ends.
@@ -81,15 +79,16 @@ impl<C: Chip> PinLevel<C> {
 
     fn play(&mut self, tick: u64, period: u32, positions: &[f64; AXES]) -> Result<(), FpgaError> {
         let mut changes: Vec<(u64, usize, u32)> = Vec::new();
-        for axis in 0..AXES {
-            let motion = Motion::new(self.positions[axis], positions[axis], period, QUIET_CLOCKS);
+        for (axis, (&from, &to)) in self.positions.iter().zip(positions).enumerate() {
+            let motion = Motion::new(from, to, period, QUIET_CLOCKS);
             changes.extend(motion.edges().map(|edge| (tick + 1 + u64::from(edge.clock), axis, lines(edge.count))));
         }
         changes.sort_unstable();
         let mut scheduled: Vec<Lines> = Vec::with_capacity(changes.len());
         for (clock, axis, level) in changes {
             self.levels[axis] = level;
-            let bit = |n: u32| self.levels.iter().enumerate().fold(0, |word, (i, level)| word | ((level >> n) & 1) << i);
+            let bit =
+                |n: u32| self.levels.iter().enumerate().fold(0, |word, (i, level)| word | ((level >> n) & 1) << i);
             let now = Lines { clock, a: bit(0), b: bit(1) };
             match scheduled.last_mut() {
                 Some(last) if last.clock == clock => *last = now,
