@@ -92,12 +92,9 @@ impl FromStr for Kind {
             }
             "outside" => {
                 most(2)?;
-                if let Some(name) = rest.first()
-                    && !effects::outside().any(|entry| entry.name == *name)
-                {
-                    return Err(Error::UnknownEffect((*name).to_owned()));
-                }
-                Ok(Self::Outside { name: rest.first().map(|&name| name.to_owned()), size: size(rest.get(1))? })
+                let name =
+                    rest.first().map(|name| effects::find_outside(name).map(|e| e.name.to_owned())).transpose()?;
+                Ok(Self::Outside { name, size: size(rest.get(1))? })
             }
             "ablation" => {
                 most(1)?;

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::ablation::Ablation;
 use crate::case::{Case, Conditions, Kind};
-use crate::effects::{self, Entry, Hidden, Link, OUTSIDE, draw_hits};
+use crate::effects::{self, Entry, Hidden, Link, draw_hits};
 use crate::error::Error;
 use crate::excitation::{COMMAND_PERIOD_S, draw_commands, draw_patterns};
 use crate::log::Columns;
@@ -33,7 +33,7 @@ pub const LOOK_ALIKES: [[&str; 2]; 12] = [
 ];
 
 /// Effects that the wheels show when nothing but their shafts moves.
-const ON_BLOCKS: [&str; 14] = [
+const ON_BLOCKS: [&str; 16] = [
     "coulomb-friction",
     "viscous-friction",
     "stribeck-friction",
@@ -48,6 +48,8 @@ const ON_BLOCKS: [&str; 14] = [
     "pi-gain",
     "quantisation",
     "sample-order",
+    "late-sticking",
+    "periodic-torque",
 ];
 
 /// Draws a case of this kind under the usual conditions: 1 kHz, three wheels on the floor, every column.
@@ -88,10 +90,9 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
         }
         Kind::Outside { name, size } => {
             let entry = match name {
-                Some(name) => OUTSIDE.iter().find(|entry| entry.name == name),
-                None => OUTSIDE.choose(&mut rng),
+                Some(name) => effects::find_outside(name)?,
+                None => choice.among(effects::outside(), &mut rng)?,
             };
-            let entry = entry.ok_or_else(|| Error::UnknownEffect(name.clone().unwrap_or_default()))?;
             outside.push(choice.hide(entry, *size, 2, (&mut machine, &mut robot), &mut rng)?);
         }
         Kind::Ablation(which) => {
@@ -147,11 +148,20 @@ impl Choice<'_> {
         if let Some(name) = name {
             return effects::find(name);
         }
-        let fitting: Vec<&Entry> = effects::catalogue().filter(|entry| observable(entry, self.conditions)).collect();
+        self.among(effects::catalogue(), rng)
+    }
+
+    /// One of these entries that shows under these conditions.
+    fn among(
+        &self,
+        entries: impl Iterator<Item = &'static Entry>,
+        rng: &mut ChaCha8Rng,
+    ) -> Result<&'static Entry, Error> {
+        let fitting: Vec<&Entry> = entries.filter(|entry| observable(entry, self.conditions)).collect();
         fitting
             .choose(rng)
             .copied()
-            .ok_or_else(|| Error::Conditions("no effect of the catalogue shows under them".to_owned()))
+            .ok_or_else(|| Error::Conditions("no effect of this kind shows under them".to_owned()))
     }
 
     /// Two different entries; two drawn ones never contain a wrong wheel order, which hides everything else.

@@ -38,7 +38,7 @@ pub use camera::Frame;
 pub use case::{Case, Conditions, Kind};
 pub use disturbance::{Disturbance, Hit};
 pub use draw::{LOOK_ALIKES, draw, draw_with, observable};
-pub use effects::{Entry, Hidden, Link, catalogue, find, outside};
+pub use effects::{Entry, Hidden, Link, catalogue, find, find_outside, outside};
 pub use error::Error;
 pub use excitation::{COMMAND_PERIOD_S, Pattern};
 pub use geometry::{Mount, wrap};

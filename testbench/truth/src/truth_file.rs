@@ -112,7 +112,9 @@ pub fn simulate(case: &Case) -> Vec<Log> {
 #[must_use]
 pub fn truth(case: &Case) -> Truth {
     let seen = |hidden: &Hidden| {
-        effects::find(&hidden.name).map_or(case.columns.camera, |entry| observable(entry, &case.conditions))
+        effects::find(&hidden.name)
+            .or_else(|_| effects::find_outside(&hidden.name))
+            .is_ok_and(|entry| observable(entry, &case.conditions))
     };
     Truth {
         seed: case.seed,

@@ -21,8 +21,8 @@ use crate::machine::Machine;
 use crate::noise::named_stream;
 use crate::robot::Robot;
 
+pub(crate) use outside::draw_hits;
 pub use outside::outside;
-pub(crate) use outside::{OUTSIDE, draw_hits};
 
 /// The link of the chain in which an effect shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -147,6 +147,11 @@ pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
 /// The catalogue entry of this name.
 pub fn find(name: &str) -> Result<&'static Entry, Error> {
     catalogue().find(|entry| entry.name == name).ok_or_else(|| Error::UnknownEffect(name.to_owned()))
+}
+
+/// The entry of this name outside the catalogue.
+pub fn find_outside(name: &str) -> Result<&'static Entry, Error> {
+    outside().find(|entry| entry.name == name).ok_or_else(|| Error::UnknownEffect(name.to_owned()))
 }
 
 /// Hides `entry` at size level 1 to 5 in the machine; its random numbers depend on seed and name only.

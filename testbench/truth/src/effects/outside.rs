@@ -22,7 +22,7 @@ pub fn outside() -> impl Iterator<Item = &'static Entry> {
 }
 
 /// All effects outside the catalogue.
-pub(crate) const OUTSIDE: &[Entry] = &[
+const OUTSIDE: &[Entry] = &[
     entry(
         "heading-rub",
         Link::Drive,
@@ -49,7 +49,7 @@ pub(crate) const OUTSIDE: &[Entry] = &[
     entry(
         "cable-pull",
         Link::Drive,
-        [0.5, 1.0, 2.0, 4.0, 8.0],
+        [0.3, 0.6, 1.0, 1.8, 3.0],
         "stiffness_n_per_m beyond a slack of 0.15 m from an anchor near the start",
         |hand| {
             let (sin, cos) = hand.angle().sin_cos();
