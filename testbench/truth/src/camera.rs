@@ -109,4 +109,29 @@ mod tests {
         assert!((119..=121).contains(&frames.len()));
         assert!(frames.windows(2).all(|w| (16..=17).contains(&(w[1].tick - w[0].tick))));
     }
+
+    #[test]
+    fn marker_scale_and_lens_move_what_is_seen() {
+        let mut track = Track::new(0.001);
+        track.push([0.3, 0.4, 0.5], &[]);
+        let camera = Machine::ideal(&Robot::standard()).camera;
+        let seen = |change: fn(&mut Camera)| {
+            let mut changed = camera.clone();
+            change(&mut changed);
+            see(&changed, &track, 2.0, &mut stream(5, Stream::Camera(0)))
+        };
+        let close = |pose: [f64; 3], expected: [f64; 3]| {
+            assert!(pose.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{pose:?} instead of {expected:?}");
+        };
+        let (sin, cos) = 0.5_f64.sin_cos();
+        close(seen(|_| {}), [0.3, 0.4, 0.5]);
+        close(seen(|c| c.marker_heading_rad = 0.1), [0.3, 0.4, 0.6]);
+        close(
+            seen(|c| c.marker_offset_m = [0.01, 0.02]),
+            [0.3 + 0.01 * cos - 0.02 * sin, 0.4 + 0.01 * sin + 0.02 * cos, 0.5],
+        );
+        close(seen(|c| c.scale = 0.1), [0.33, 0.44, 0.5]);
+        close(seen(|c| c.lens_per_m2 = 0.2), [0.315, 0.42, 0.5]);
+        close(seen(|c| c.creep_m_s = [0.01, -0.01]), [0.32, 0.38, 0.5]);
+    }
 }
