@@ -1,0 +1,67 @@
+//! `racbot demo`
+
+use crate::demo::{Part, Report};
+use crate::terminal::{Answer, Failure, Table, save};
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Options of `demo`.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Options {
+    /// Folder for the report
+    #[arg(long, value_name = "DIR", default_value = OUT)]
+    out: PathBuf,
+
+    /// Folder of the committed gateware, to check where it exists
+    #[arg(long, value_name = "DIR", default_value = GENERATED)]
+    generated: PathBuf,
+}
+
+const OUT: &str = "out/demo";
+const GENERATED: &str = "generated";
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { out: OUT.into(), generated: GENERATED.into() }
+    }
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let begun = Instant::now();
+        let mut report = Report::default();
+        report.check_generated(&self.generated)?;
+        report.drive()?;
+        report.cross_check()?;
+        report.replay()?;
+        let index = self.out.join("index.html");
+        for (name, content) in report.files() {
+            save(&self.out.join(name), &content)?;
+        }
+        let seconds = begun.elapsed().as_secs_f64();
+        let parts = &report.parts;
+        let text = format!("{}\nreport   {}\ntook     {seconds:.1} s\n", table(parts).render(), index.display());
+        let wrong = parts.iter().find(|part| !part.good).map(|part| format!("demo: {}: {}", part.name, part.outcome));
+        let parts: Vec<Value> = parts.iter().map(Part::to_json).collect();
+        let json = json!({ "parts": parts, "report": index, "seconds": seconds, "good": wrong.is_none() });
+        Ok(Answer { text, json, wrong })
+    }
+}
+
+fn table(parts: &[Part]) -> Table {
+    let mut table = Table::new(3, &["part", "result", ""]);
+    for part in parts {
+        for (row, detail) in part.details.iter().enumerate() {
+            let name = if row == 0 { part.name } else { "" };
+            let mark = match (row, part.good) {
+                (0, true) => "ok",
+                (0, false) => "WRONG",
+                _ => "",
+            };
+            table.row([name.to_owned(), detail.clone(), mark.to_owned()]);
+        }
+    }
+    table
+}

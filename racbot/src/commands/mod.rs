@@ -1,0 +1,65 @@
+//! One file per subcommand: its options, what it calls, what it prints.
+
+mod calibrate;
+#[cfg(feature = "simulation")]
+mod demo;
+#[cfg(feature = "simulation")]
+mod generate;
+#[cfg(feature = "simulation")]
+mod options;
+#[cfg(feature = "simulation")]
+mod replay;
+#[cfg(feature = "simulation")]
+mod simulate;
+
+use crate::terminal::{Answer, Failure};
+use clap::{CommandFactory, Subcommand};
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Everything once on the built-in virtual robot: this is what `racbot` alone does
+    #[cfg(feature = "simulation")]
+    Demo(demo::Options),
+    /// Write the gateware: Verilog, pin constraints, register documents
+    #[cfg(feature = "simulation")]
+    Generate(generate::Options),
+    /// Drive a virtual robot along set points, its speed loops in an FPGA
+    #[cfg(feature = "simulation")]
+    Simulate(simulate::Options),
+    /// Feed a measured log through the FPGA and compare its duties with the logged ones
+    #[cfg(feature = "simulation")]
+    Replay(replay::Options),
+    /// Find the skew of the wheels
+    Calibrate(calibrate::Options),
+}
+
+impl Command {
+    /// What `racbot` alone does.
+    pub(crate) fn preset() -> Option<Self> {
+        #[cfg(feature = "simulation")]
+        return Some(Self::Demo(demo::Options::default()));
+        #[cfg(not(feature = "simulation"))]
+        return None;
+    }
+
+    /// Does it.
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        match self {
+            #[cfg(feature = "simulation")]
+            Self::Demo(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Generate(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Simulate(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Replay(options) => options.run(),
+            Self::Calibrate(options) => options.run(),
+        }
+    }
+}
+
+/// The help text.
+pub(crate) fn help<C: CommandFactory>() -> String {
+    C::command().render_help().to_string()
+}

@@ -1,0 +1,309 @@
+//! `racbot simulate`
+
+use super::options::{Degrees, FpgaChoice, SpeedChoice, load_robot, remark_on_effects, skewed};
+use crate::terminal::progress::Progress;
+use crate::terminal::{Answer, Failure, Table, save, wrapped};
+use clap::{Args, ValueEnum};
+use model::camera::CameraModel;
+use model::error::InputError;
+use model::frames::Pose;
+use model::plot::Color;
+use model::robot::Robot;
+use model::trajectory::{FIG_6, SetPoint};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::time::Instant;
+use testbench::closed_loop::picture::{Curve, speeds, trajectory};
+use testbench::closed_loop::{Control, Drive, Driven, Ending};
+use testbench::fpga::{BitTrue, Kind};
+
+/// Options of `simulate`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Robot as the controller believes it to be [default: the built-in one of the paper]
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+
+    /// Set points: CSV lines `x, y, v, omega[, stop]`, or TOML [default: the four of the paper's Fig. 6]
+    #[arg(long, value_name = "FILE")]
+    setpoints: Option<PathBuf>,
+
+    /// Robot as it really is, unknown to the controller
+    #[arg(long, value_name = "FILE", conflicts_with = "skew_deg")]
+    hidden: Option<PathBuf>,
+
+    /// Skew of every wheel in degrees, clockwise, unknown to the controller, such as 4,-3,2
+    #[arg(long, value_name = "DEG,..", allow_hyphen_values = true)]
+    skew_deg: Option<Degrees>,
+
+    /// What the overhead camera is for
+    #[arg(long, value_name = "USE", num_args = 0..=1, default_value = "log", default_missing_value = "correct")]
+    camera: CameraUse,
+
+    /// Start pose: x and y in metres, heading of the body's x axis in degrees
+    #[arg(long, value_name = "X,Y,DEG", default_value = "0,0,0", allow_hyphen_values = true)]
+    start: Start,
+
+    /// Seed of the camera's noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// FPGA that closes the speed loops
+    #[arg(long, value_enum, default_value_t)]
+    fpga: FpgaChoice,
+
+    /// How the FPGA measures speeds
+    #[arg(long, value_enum, default_value_t)]
+    speed_mode: SpeedChoice,
+
+    /// Who steers
+    #[arg(long, value_enum, default_value_t)]
+    controller: ControllerChoice,
+
+    /// Longest drive in seconds [default: 60; 0.02 on rust-hdl, which takes minutes for a second]
+    #[arg(long, value_name = "S")]
+    limit_s: Option<f64>,
+
+    /// Folder for the run, robot.toml and pictures: a data set for the other commands
+    #[arg(long, value_name = "DIR", default_value = "out/simulate")]
+    out: PathBuf,
+
+    /// Name of the run in the folder
+    #[arg(long, value_name = "NAME", default_value = "run")]
+    name: String,
+}
+
+/// What the camera is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CameraUse {
+    /// There is none
+    Off,
+    /// It is logged, the controller does not see it
+    Log,
+    /// It is logged and corrects the controller's pose
+    Correct,
+}
+
+/// Who steers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ControllerChoice {
+    /// Limits of speed and acceleration, slows down for corners
+    #[default]
+    Follower,
+    /// As in the paper: straight at the next set point at its full speed
+    Paper,
+}
+
+/// A start pose.
+#[derive(Clone, Copy, Debug)]
+struct Start(Pose);
+
+impl std::str::FromStr for Start {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Vec<f64> = text.split(',').filter_map(|field| field.trim().parse().ok()).collect();
+        match numbers[..] {
+            [x, y, degrees] if numbers.iter().all(|n| n.is_finite()) && text.split(',').count() == 3 => {
+                Ok(Self(Pose::new(x, y, degrees.to_radians())))
+            }
+            _ => Err(format!("'{text}' is no pose; give x, y in metres and the heading in degrees, such as 1,0.5,90")),
+        }
+    }
+}
+
+/// A drive, and how long it took.
+struct Timed {
+    driven: Driven,
+    /// Seconds of the robot's life per second of computing.
+    times_real_time: f64,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let believed = load_robot(self.robot.as_deref())?;
+        let actual = self.actual(&believed)?;
+        let set_points = self.set_points()?;
+        let drive = Drive {
+            actual: actual.clone(),
+            control: match self.controller {
+                ControllerChoice::Follower => Control::Follower,
+                ControllerChoice::Paper => Control::Paper,
+            },
+            camera: (self.camera != CameraUse::Off).then(|| CameraModel::of(&actual)),
+            fused: self.camera == CameraUse::Correct,
+            start: self.start.0,
+            speed_mode: self.speed_mode.into(),
+            limit_s: self.limit_s()?,
+            seed: self.seed,
+            ..Drive::new(&believed, &set_points)
+        };
+        let timed = self.timed(&drive)?;
+        let ideal = (actual != believed).then(|| {
+            let ideal = Drive { actual: believed.clone(), ..drive.clone() };
+            ideal.run(BitTrue::new(), |_| {}).map_err(|error| self.about_robot(error))
+        });
+        let files = self.save(&drive, &timed.driven, ideal.transpose()?.as_ref())?;
+        Ok(self.answer(&drive, &timed, &files))
+    }
+
+    fn actual(&self, believed: &Robot) -> Result<Robot, Failure> {
+        if let Some(skew) = &self.skew_deg {
+            let actual = skewed(believed, skew)?;
+            actual.geometry().map_err(|error| Failure::usage(format!("--skew-deg: {error}")))?;
+            return Ok(actual);
+        }
+        let Some(file) = &self.hidden else { return Ok(believed.clone()) };
+        let actual = Robot::load(file)?;
+        if actual.wheel_count() != believed.wheel_count() {
+            let what = format!("has {} wheels, but the robot {}", actual.wheel_count(), believed.wheel_count());
+            return Err(InputError::new(file, what, "hide a robot with as many wheels").into());
+        }
+        Ok(actual)
+    }
+
+    fn set_points(&self) -> Result<Vec<SetPoint>, InputError> {
+        self.setpoints.as_ref().map_or_else(|| Ok(FIG_6.to_vec()), SetPoint::read_file)
+    }
+
+    fn limit_s(&self) -> Result<f64, Failure> {
+        match self.limit_s {
+            None if self.fpga.kind() == Kind::RustHdl => Ok(0.02),
+            None => Ok(60.0),
+            Some(limit) if limit > 0.0 && limit <= 3_600.0 => Ok(limit),
+            Some(limit) => Err(Failure::usage(format!("--limit-s: {limit} is not between 0 and 3600 seconds"))),
+        }
+    }
+
+    fn timed(&self, drive: &Drive) -> Result<Timed, Failure> {
+        let progress = Progress::new(format!("driving over {}", self.fpga.kind()), (drive.limit_s * 1e3) as u64);
+        let fpga = self.fpga.open()?;
+        let begun = Instant::now();
+        let driven = drive.run(fpga, |t| progress.at((t * 1e3) as u64)).map_err(|error| self.about_robot(error))?;
+        let times_real_time = driven.track.len() as f64 * drive.believed.tick_s() / begun.elapsed().as_secs_f64();
+        Ok(Timed { driven, times_real_time })
+    }
+
+    fn about_robot(&self, what: impl std::fmt::Display) -> Failure {
+        match &self.robot {
+            Some(file) => Failure::about(file, what),
+            None => Failure::data(what),
+        }
+    }
+
+    fn save(&self, drive: &Drive, driven: &Driven, ideal: Option<&Driven>) -> Result<Vec<PathBuf>, Failure> {
+        let path = |name: &str| self.out.join(name);
+        let files =
+            [path(&format!("{}.csv", self.name)), path("robot.toml"), path("trajectory.svg"), path("speeds.svg")];
+        save(&files[1], &driven.robot.to_toml())?;
+        driven.run.write(&files[0])?;
+        save(&files[2], &picture(drive, driven, ideal))?;
+        save(&files[3], &speeds("Wheel speeds, heading and duties", driven))?;
+        Ok(files.to_vec())
+    }
+
+    fn answer(&self, drive: &Drive, timed: &Timed, files: &[PathBuf]) -> Answer {
+        let mut text = format!("{} over the {} FPGA\n\n", headline(drive), self.fpga.kind());
+        text += &figures(drive, timed);
+        for remark in [&drive.believed, &drive.actual].into_iter().filter_map(remark_on_effects) {
+            text += &wrapped(&remark, 2);
+        }
+        let names: Vec<_> = files.iter().filter_map(|f| f.file_name()).map(|f| f.to_string_lossy()).collect();
+        let _ = writeln!(text, "written      {}: {}", self.out.display(), names.join(", "));
+        let mut json = to_json(drive, timed);
+        json["fpga"] = json!(self.fpga.kind().to_string());
+        json["files"] = json!(files);
+        Answer { text, json, wrong: None }
+    }
+}
+
+/// What is driven, in a few words.
+fn headline(drive: &Drive) -> String {
+    let hidden = if drive.actual == drive.believed { "" } else { ", the true robot hidden from the controller," };
+    format!("{} set points{hidden}", drive.set_points.len())
+}
+
+/// The trajectory; the ideal one beside it where there is one.
+fn picture(drive: &Drive, driven: &Driven, ideal: Option<&Driven>) -> String {
+    let title = format!("Trajectory over {} set points", drive.set_points.len());
+    let hidden = if drive.fused { "hidden geometry, camera corrects" } else { "hidden geometry" };
+    let curves = match ideal {
+        None => vec![Curve { label: "robot", driven, color: Color::Green }],
+        Some(ideal) => vec![
+            Curve { label: "geometry as believed", driven: ideal, color: Color::Green },
+            Curve { label: hidden, driven, color: Color::Red },
+        ],
+    };
+    trajectory(&title, &drive.set_points, &curves)
+}
+
+/// Set points and figures of merit.
+fn figures(drive: &Drive, timed: &Timed) -> String {
+    let report = &timed.driven.report;
+    let mut table = Table::new(2, &["", "set point", "reached at", "nearest"]);
+    let mut text = String::new();
+    for (number, (point, at)) in drive.set_points.iter().zip(&report.set_points).enumerate() {
+        let stop = if point.stop { ", stop" } else { "" };
+        let reached = match (at.reached_at, &at.why_not) {
+            (Some(t), None) => format!("{t:.2} s"),
+            _ => "missed".to_owned(),
+        };
+        let place = format!("({}, {}) at {} m/s, {} rad/s{stop}", point.x, point.y, point.v, point.omega);
+        table.row([(number + 1).to_string(), place, reached, format!("{:.0} mm", 1e3 * at.miss_m)]);
+    }
+    text += &table.render();
+    text.push('\n');
+    for (number, at) in report.set_points.iter().enumerate() {
+        if let Some(why) = &at.why_not {
+            text += &wrapped(&format!("{}: {why}", number + 1), 3);
+        }
+    }
+    let time = report.time_s.map_or_else(|| "not all reached".to_owned(), |t| format!("{t:.2} s"));
+    let _ = writeln!(text, "time         {time} for {:.2} m", report.path_m);
+    let (rms, max) = (1e3 * report.path_error_rms_m, 1e3 * report.path_error_max_m);
+    let _ = writeln!(text, "path error   {rms:.1} mm RMS, {max:.1} mm at most");
+    let _ = writeln!(text, "overshoot    {:.1} mm", 1e3 * report.overshoot_m);
+    let ending = match &timed.driven.ending {
+        Ending::Finished => "at rest".to_owned(),
+        Ending::TimeLimit => format!("after {} s, the time limit", drive.limit_s),
+        Ending::Disarmed(faults) => format!("card disarmed: {faults}"),
+    };
+    let _ = writeln!(text, "ended        {ending}");
+    let _ = writeln!(text, "simulated    {} times real time", ratio(timed.times_real_time));
+    text
+}
+
+/// The same for programs.
+fn to_json(drive: &Drive, timed: &Timed) -> Value {
+    let report = &timed.driven.report;
+    let points = drive.set_points.iter().zip(&report.set_points).map(|(point, at)| {
+        json!({
+            "x": point.x, "y": point.y, "v": point.v, "omega": point.omega, "stop": point.stop,
+            "reached_at_s": at.reached_at, "nearest_m": at.miss_m, "why_not": at.why_not,
+        })
+    });
+    json!({
+        "set_points": points.collect::<Vec<_>>(),
+        "time_s": report.time_s,
+        "path_m": report.path_m,
+        "path_error_rms_m": report.path_error_rms_m,
+        "path_error_max_m": report.path_error_max_m,
+        "overshoot_m": report.overshoot_m,
+        "ended": match &timed.driven.ending {
+            Ending::Finished => "finished".to_owned(),
+            Ending::TimeLimit => "time-limit".to_owned(),
+            Ending::Disarmed(faults) => format!("disarmed: {faults}"),
+        },
+        "times_real_time": timed.times_real_time,
+    })
+}
+
+/// A ratio with two significant figures.
+fn ratio(value: f64) -> String {
+    if value >= 100.0 {
+        let step = 10_f64.powf(value.log10().floor() - 1.0);
+        return format!("{:.0}", (value / step).round() * step);
+    }
+    if value >= 10.0 { format!("{value:.0}") } else { format!("{value:.2}") }
+}

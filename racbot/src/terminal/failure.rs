@@ -1,0 +1,54 @@
+//! Why a command could not be done: one line.
+
+use super::Exit;
+use model::error::InputError;
+use std::fmt::Display;
+use std::io::Write;
+use std::path::Path;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(crate) struct Failure {
+    what: String,
+    exit: Exit,
+}
+
+impl Failure {
+    /// The input is wrong.
+    pub(crate) fn data(what: impl Display) -> Self {
+        Self { what: what.to_string(), exit: Exit::BadData }
+    }
+
+    /// The command line is wrong.
+    pub(crate) fn usage(what: impl Display) -> Self {
+        Self { what: what.to_string(), exit: Exit::Usage }
+    }
+
+    /// Something in or about a file is wrong.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn about(file: &Path, what: impl Display) -> Self {
+        Self::data(format!("{}: {what}", file.display()))
+    }
+
+    /// Prints the line, and says how the command ends.
+    pub(crate) fn print(&self) -> Exit {
+        let line = self.what.split_whitespace().collect::<Vec<_>>().join(" ");
+        // Where standard error is gone there is nobody to tell.
+        let _ = writeln!(std::io::stderr(), "racbot: {line}");
+        self.exit
+    }
+}
+
+impl From<InputError> for Failure {
+    fn from(error: InputError) -> Self {
+        Self::data(error)
+    }
+}
+
+/// Writes a file and the folders above it.
+pub(crate) fn save(path: &Path, content: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
+    }
+    Ok(std::fs::write(path, content).map_err(|error| InputError::io(path, &error))?)
+}

@@ -1,0 +1,33 @@
+//! What goes to the terminal: answers, failures, tables, progress.
+
+mod answer;
+mod failure;
+pub(crate) mod progress;
+mod table;
+
+pub(crate) use answer::{Answer, print};
+pub(crate) use failure::{Failure, save};
+pub(crate) use table::{Table, wrapped};
+
+use std::process::ExitCode;
+
+/// How a command ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// Done, whatever the verdict.
+    Done,
+    /// The input is wrong, or what was checked is.
+    BadData,
+    /// The command line is wrong.
+    Usage,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(match exit {
+            Exit::Done => 0,
+            Exit::BadData => 1,
+            Exit::Usage => 2,
+        })
+    }
+}
