@@ -96,6 +96,42 @@ fn unloaded_wheels_turn_as_fast_as_the_motor_equation_says() {
 }
 
 #[test]
+fn the_robot_accelerates_as_torque_over_mass_says() {
+    let mut machine = Machine::ideal(&Robot::standard());
+    machine.power.motor_friction_nm = 0.0;
+    machine.power.gear_efficiency = 1.0;
+    let mut plant = Plant::new(&machine, [0.0; 3], STEP, &[]);
+    run(&mut plant, 0.4, &[0.0, 0.7, -0.7]);
+    let (power, wheel) = (&machine.power, &machine.wheels[1]);
+    let gain = power.gear_ratio * power.torque_constant;
+    let inertia = wheel.inertia_kg_m2 + power.gear_ratio.powi(2) * power.rotor_inertia;
+    // Wheels 2 and 3 push at 30 degrees to the way ahead; all three turn with the robot.
+    let push = 2.0 * 30_f64.to_radians().cos();
+    let radius = wheel.radius_m;
+    let mass = machine.mass_kg + 1.5 * inertia / (radius * radius);
+    let mut speed = 0.0;
+    for _ in 0..40_000 {
+        let rim = speed * 30_f64.to_radians().cos();
+        let torque = gain * (0.7 * power.open_v - gain * rim / radius) / power.resistance_ohm;
+        speed += 1e-5 * push * torque / radius / mass;
+    }
+    let seen = plant.twist();
+    assert!((seen[1] / speed - 1.0).abs() < 2e-3, "{} m/s instead of {speed} m/s", seen[1]);
+    assert!(seen[0].abs() < 1e-6 && seen[2].abs() < 1e-5);
+    // The same on the spot.
+    let mut plant = Plant::new(&machine, [0.0; 3], STEP, &[]);
+    run(&mut plant, 0.2, &[0.5; 3]);
+    let moment = machine.yaw_inertia_kg_m2 + 3.0 * inertia * (0.085 / radius).powi(2);
+    let mut spin = 0.0;
+    for _ in 0..20_000 {
+        let torque = gain * (0.5 * power.open_v - gain * spin * 0.085 / radius) / power.resistance_ohm;
+        spin += 1e-5 * 3.0 * torque * 0.085 / radius / moment;
+    }
+    let seen = -plant.twist()[2];
+    assert!((seen / spin - 1.0).abs() < 2e-3, "{seen} rad/s instead of {spin} rad/s");
+}
+
+#[test]
 fn without_slip_the_wheels_follow_the_kinematic_equation() {
     let robot = Robot::standard();
     let mut machine = Machine::ideal(&robot);

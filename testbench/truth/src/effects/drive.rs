@@ -39,7 +39,7 @@ pub(super) const DRIVE: &[Entry] = &[
     }),
     entry(
         "battery-sag",
-        [0.12, 0.20, 0.35, 0.60, 1.00],
+        [0.09, 0.15, 0.30, 0.55, 1.00],
         "resistance_ohm in all (the usual 0.05 included) and drop_v at rest; supply_v is then not measured",
         |hand| {
             let drop = if hand.rng.random_bool(0.4) { hand.rng.random_range(0.1..0.5) } else { 0.0 };
@@ -51,7 +51,7 @@ pub(super) const DRIVE: &[Entry] = &[
     ),
     entry(
         "motor-heating",
-        [0.002, 0.005, 0.012, 0.03, 0.07],
+        [0.0008, 0.0025, 0.008, 0.025, 0.07],
         "rise_per_j: relative growth of the winding resistance per joule of its heat; cooling_s",
         |hand| {
             let cooling = hand.rng.random_range(15.0..40.0);
@@ -81,7 +81,7 @@ pub(super) const DRIVE: &[Entry] = &[
             Found::whole([("scale", scale)])
         },
     ),
-    entry("centre-of-mass", [0.002, 0.004, 0.008, 0.015, 0.03], "length of (x_m, y_m), body frame", |hand| {
+    entry("centre-of-mass", [0.001, 0.003, 0.007, 0.015, 0.03], "length of (x_m, y_m), body frame", |hand| {
         let (sin, cos) = hand.angle().sin_cos();
         let offset = [hand.value * cos, hand.value * sin];
         hand.machine.centre_of_mass_m = offset;
@@ -89,7 +89,7 @@ pub(super) const DRIVE: &[Entry] = &[
     }),
     entry(
         "floor-tilt",
-        [0.004, 0.008, 0.015, 0.03, 0.05],
+        [0.002, 0.005, 0.012, 0.03, 0.05],
         "length of (x_rad, y_rad), world, downhill positive",
         |hand| {
             let (sin, cos) = hand.angle().sin_cos();

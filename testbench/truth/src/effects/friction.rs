@@ -34,7 +34,7 @@ pub(super) const FRICTION: &[Entry] = &[
     ),
     entry(
         "stribeck-friction",
-        [0.003, 0.006, 0.012, 0.025, 0.045],
+        [0.002, 0.005, 0.012, 0.025, 0.045],
         "torque_nm: extra dry friction at rest, exp(−(ω/speed_rad_s)²), all wheels",
         |hand| {
             let speed = hand.rng.random_range(2.0..4.0);
@@ -47,7 +47,7 @@ pub(super) const FRICTION: &[Entry] = &[
     ),
     entry(
         "asymmetric-friction",
-        [0.003, 0.006, 0.012, 0.02, 0.035],
+        [0.0015, 0.004, 0.01, 0.02, 0.035],
         "torque_nm: dry friction that acts in one sense of rotation only (sense = +1 or -1), one wheel or all",
         |hand| {
             let wheels = hand.one_or_all();
@@ -86,7 +86,7 @@ pub(super) const FRICTION: &[Entry] = &[
     }),
     entry(
         "heading-drag",
-        [0.004, 0.008, 0.014, 0.022, 0.035],
+        [0.002, 0.005, 0.01, 0.02, 0.035],
         "torque_nm: dry friction torque·(1 + cos(harmonic·θ − phase_rad))/2 on every wheel",
         |hand| {
             let harmonic = f64::from(hand.rng.random_range(1..=2_u8));

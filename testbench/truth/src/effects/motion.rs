@@ -56,11 +56,11 @@ pub(super) const MOTION: &[Entry] = &[
         hand.machine.power.encoder_lag_s = hand.value;
         Found::whole([("lag_s", hand.value)])
     }),
-    entry("wheel-creep", [0.0005, 0.001, 0.002, 0.005, 0.012], "creep_s_per_kg (slip speed per force)", |hand| {
+    entry("wheel-creep", [0.0008, 0.0015, 0.003, 0.006, 0.012], "creep_s_per_kg (slip speed per force)", |hand| {
         hand.machine.ground.creep_s_per_kg = hand.value;
         Found::whole([("creep_s_per_kg", hand.value)])
     }),
-    entry("wheel-slip", [0.36, 0.30, 0.24, 0.18, 0.12], "friction_coefficient, all wheels", |hand| {
+    entry("wheel-slip", [0.45, 0.36, 0.28, 0.20, 0.13], "friction_coefficient, all wheels", |hand| {
         hand.machine.ground.friction_static = hand.value;
         hand.machine.ground.friction_sliding = 0.9 * hand.value;
         Found::whole([("friction_coefficient", hand.value)])
