@@ -47,12 +47,29 @@ pub struct Parameter {
     pub material: f64,
     /// Value an otherwise absent effect is tried at, for parameters whose absence is not 0.
     pub start: Option<f64>,
+    /// Material if below this, for parameters that are large in the nominal model.
+    pub below: Option<f64>,
 }
 
 impl Parameter {
     /// A parameter that is 0 in the nominal model.
     pub fn new(name: impl Into<String>, scale: f64, bounds: [f64; 2], material: f64) -> Self {
-        Self { name: name.into(), scale, bounds, material, start: None }
+        Self { name: name.into(), scale, bounds, material, start: None, below: None }
+    }
+
+    /// A parameter that is material if it falls below `limit`.
+    #[must_use]
+    pub fn material_below(mut self, limit: f64) -> Self {
+        self.below = Some(limit);
+        self
+    }
+
+    /// Whether a value is worth naming.
+    pub fn is_material(&self, value: f64) -> bool {
+        match self.below {
+            Some(limit) => value < limit,
+            None => self.material.is_finite() && value.abs() >= self.material,
+        }
     }
 
     /// A parameter tried from `start`, its effect absent without it.
@@ -151,6 +168,10 @@ pub trait Effect: Send + Sync {
     }
     /// The link in which its parameters are fitted.
     fn link(&self) -> Link;
+    /// A second link in which it can be found.
+    fn also(&self) -> Option<Link> {
+        None
+    }
     /// Its parametrisations for a robot, simplest first.
     fn forms(&self, robot: &Robot) -> Vec<Form>;
     /// Acts on the motion link.

@@ -21,7 +21,15 @@ pub struct Cluster {
     pub jr: DVector<f64>,
     /// JᵀJ.
     pub jj: DMatrix<f64>,
+    /// Huber weight that n, rr, jr and jj carry already.
+    pub weight: f64,
+    /// Huber loss minus rr: constant under a linear step.
+    pub offset: f64,
 }
+
+/// Mean square from which a cluster counts less, in units of the noise: a burst of slip in one
+/// second must not outweigh a minute of driving.
+const BURST: f64 = 4.0;
 
 impl Cluster {
     /// Condenses residuals and their Jacobian.
@@ -33,7 +41,24 @@ impl Cluster {
             rr: residual.norm_squared(),
             jr: jacobian.transpose() * residual,
             jj: jacobian.transpose() * jacobian,
+            weight: 1.0,
+            offset: 0.0,
         }
+    }
+
+    /// Weighs a cluster down whose residuals are far beyond the noise (Huber on its norm).
+    fn robust(mut self) -> Self {
+        let limit = BURST * self.n;
+        if self.rr > limit && self.n > 0.0 {
+            let huber = 2.0 * (limit * self.rr).sqrt() - limit;
+            self.weight = (limit / self.rr).sqrt();
+            self.n *= self.weight;
+            self.rr *= self.weight;
+            self.jr *= self.weight;
+            self.jj *= self.weight;
+            self.offset = huber - self.rr;
+        }
+        self
     }
 }
 
@@ -66,6 +91,7 @@ const RIDGE: f64 = 1e-9;
 impl Gram {
     /// Sets up folds: leave one run out, or blocks of a single run.
     pub fn new(clusters: Vec<Cluster>) -> Self {
+        let clusters: Vec<Cluster> = clusters.into_iter().map(Cluster::robust).collect();
         let first = clusters.first().map_or(0, |c| c.run);
         let single = clusters.iter().all(|c| c.run == first);
         let n = clusters.len();
@@ -74,12 +100,23 @@ impl Gram {
         Self { clusters, folds }
     }
 
-    /// Sum of squares of the residuals.
+    /// Huber loss of the residuals.
     pub fn loss(&self) -> f64 {
-        self.clusters.iter().map(|c| c.rr).sum()
+        self.clusters.iter().map(|c| c.rr + c.offset).sum()
     }
 
-    /// Number of residuals.
+    /// Sum of squares of the residuals without weights, and their number.
+    pub fn plain(&self) -> (f64, f64) {
+        let sum = |f: &dyn Fn(&Cluster) -> f64| self.clusters.iter().map(|c| f(c) / c.weight).sum();
+        (sum(&|c| c.rr), sum(&|c| c.n))
+    }
+
+    /// What the Huber losses exceed the weighted sums of squares by.
+    pub fn offset(&self) -> f64 {
+        self.clusters.iter().map(|c| c.offset).sum()
+    }
+
+    /// Number of residuals, weighted.
     pub fn n(&self) -> f64 {
         self.clusters.iter().map(|c| c.n).sum()
     }

@@ -17,10 +17,14 @@ pub struct Thresholds {
     pub costs: [f64; 2],
     /// Share of the held-out sum of squares an effect must explain: motion, drive.
     pub shares: [f64; 2],
+    /// Share of what exceeds the noise, held out, that an effect must explain.
+    pub share_of_excess: f64,
     /// Held-out gain over clusters in units of its own spread.
     pub held_out_t: f64,
     /// An effect is dropped, or simplified, if the objective gets no worse than this.
     pub slack: f64,
+    /// Objectives that differ by less are a tie, which the order of the catalogue breaks.
+    pub tie: f64,
     /// Correlation of drive residuals: how many count as one.
     pub drive_correlation: f64,
 }
@@ -34,8 +38,10 @@ impl Default for Thresholds {
             gain: 4.0,
             costs: [8.0, 2.0],
             shares: [0.003, 0.02],
+            share_of_excess: 0.12,
             held_out_t: 2.0,
             slack: 0.0,
+            tie: 4.0,
             drive_correlation: 1.5,
         }
     }

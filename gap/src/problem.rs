@@ -21,6 +21,8 @@ pub enum Owner {
     Active(usize, usize),
     /// Candidate, by index, and parameter.
     Candidate(usize, usize),
+    /// All that a switched-on effect of the state does, by index.
+    Whole(usize),
 }
 
 /// A linearisation.
@@ -75,6 +77,12 @@ impl Problem<'_> {
                 owners.push(Owner::Active(index, j));
                 moves.push((state.with(index, a.moved(j, -h)), state.with(index, a.moved(j, h)), 2.0 * h));
             }
+        }
+        for index in state.fitted_on(self.link()).into_iter().filter(|i| state.active[*i].switched()) {
+            let mut off = state.clone();
+            off.active.remove(index);
+            owners.push(Owner::Whole(index));
+            moves.push((off, state.clone(), 1.0));
         }
         for (c, candidate) in candidates.iter().enumerate() {
             if candidate.switched() {

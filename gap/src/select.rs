@@ -49,8 +49,12 @@ pub struct Trial {
 
 /// The link's candidates: every form of every effect fitted there.
 pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
-    let wanted = catalogue.iter().filter(|e| e.link() == link);
-    wanted.flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active::new(e.clone(), f))).collect()
+    let wanted = catalogue.iter().filter(|e| {
+        (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
+    });
+    wanted
+        .flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
+        .collect()
 }
 
 impl Bench {
@@ -63,6 +67,7 @@ impl Bench {
             .iter()
             .map(|owner| match owner {
                 Owner::Active(..) => Role::Free,
+                Owner::Whole(_) => Role::Out,
                 Owner::Candidate(c, j) => {
                     let candidate = &candidates[*c];
                     let p = &candidate.form.free[*j];
@@ -75,8 +80,19 @@ impl Bench {
                         return Role::Out;
                     }
                     seen.push(key);
+                    if !p.material.is_finite() {
+                        return Role::Out;
+                    }
                     if candidate.switched() {
-                        return Role::Held(thresholds.held_switch, 0.0);
+                        // Of the forms of one effect only those nearest to its absence.
+                        let own: Vec<usize> = (0..candidates.len())
+                            .filter(|o| candidates[*o].effect.name() == candidate.effect.name())
+                            .collect();
+                        let near = match candidate.form.free.first().and_then(|p| p.below) {
+                            Some(_) => own.last() == Some(c),
+                            None => own.first() == Some(c) || own.get(own.len() / 2) == Some(c),
+                        };
+                        return if near { Role::Held(thresholds.held_switch, 0.0) } else { Role::Out };
                     }
                     Role::Held(thresholds.held_share * p.material, 0.0)
                 }
@@ -90,6 +106,7 @@ impl Bench {
             held,
             held_share: thresholds.held_share,
         };
+        bench.merge_twins();
         bench.widen(thresholds);
         let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
         let n = bench.linear.gram.n();
@@ -97,6 +114,26 @@ impl Bench {
         let least = Ridge::new(&bench.linear.gram, 1.0).fit(&free).loss;
         bench.variance = (least / (n - columns).max(1.0)).max(1.0) * thresholds.correlation(problem.link());
         bench
+    }
+
+    /// Of columns that are the same but for a factor, one is held; several would add their margins.
+    fn merge_twins(&mut self) {
+        let m = self.linear.owners.len();
+        let mut jj = DMatrix::<f64>::zeros(m, m);
+        for c in &self.linear.gram.clusters {
+            jj += &c.jj;
+        }
+        for a in 0..m {
+            for b in 0..a {
+                let (Role::Held(sa, _), Role::Held(sb, _)) = (self.held[a], self.held[b]) else { continue };
+                let cos2 = jj[(a, b)].powi(2) / (jj[(a, a)] * jj[(b, b)]).max(1e-300);
+                if cos2 > 0.99 {
+                    // The narrower of the two, in units of what it does.
+                    let (wa, wb) = (sa * jj[(a, a)].sqrt(), sb * jj[(b, b)].sqrt());
+                    self.held[if wa < wb { b } else { a }] = Role::Out;
+                }
+            }
+        }
     }
 
     /// The law of a large effect is not known to the last tenth: what looks like a named effect is
@@ -108,23 +145,24 @@ impl Bench {
             jj += &c.jj;
         }
         for index in 0..self.state.active.len() {
-            let columns = self.linear.of_active(index);
-            let p: Vec<f64> = columns
-                .iter()
-                .map(|c| match self.linear.owners[*c] {
-                    Owner::Active(_, j) => {
-                        self.state.active[index].values.get(&self.state.active[index].form.free[j].name)
-                    }
-                    Owner::Candidate(..) => 0.0,
-                })
-                .collect();
-            let size2: f64 = columns
-                .iter()
-                .zip(&p)
-                .flat_map(|(a, x)| columns.iter().zip(&p).map(move |(b, y)| (*a, *b, x * y)))
-                .map(|(a, b, xy)| jj[(a, b)] * xy)
-                .sum();
-            if size2 <= 0.0 || self.state.active[index].switched() {
+            let active = &self.state.active[index];
+            let whole = self.linear.owners.iter().position(|o| *o == Owner::Whole(index));
+            let (columns, p): (Vec<usize>, Vec<f64>) = match whole {
+                Some(column) => (vec![column], vec![1.0]),
+                None => {
+                    let columns = self.linear.of_active(index);
+                    let value = |c: &usize| match self.linear.owners[*c] {
+                        Owner::Active(_, j) => active.values.get(&active.form.free[j].name),
+                        _ => 0.0,
+                    };
+                    let p = columns.iter().map(value).collect();
+                    (columns, p)
+                }
+            };
+            let pairs =
+                columns.iter().zip(&p).flat_map(|(a, x)| columns.iter().zip(&p).map(move |(b, y)| (*a, *b, x * y)));
+            let size2: f64 = pairs.map(|(a, b, xy)| jj[(a, b)] * xy).sum();
+            if size2 <= 0.0 {
                 continue;
             }
             for c in 0..m {
@@ -192,6 +230,15 @@ impl Bench {
         let bare: Vec<Role> =
             self.freeing(freed).into_iter().map(|r| if r == Role::Free { r } else { Role::Out }).collect();
         self.ridge().held_out(&bare)
+    }
+
+    /// The same with parts of runs held out instead of runs.
+    pub fn held_out_blocks(&self, freed: &[usize]) -> Vec<f64> {
+        let bare: Vec<Role> =
+            self.freeing(freed).into_iter().map(|r| if r == Role::Free { r } else { Role::Out }).collect();
+        let mut gram = self.linear.gram.clone();
+        gram.folds = (0..gram.clusters.len()).map(|i| i % 5).collect();
+        Ridge::new(&gram, self.variance).held_out(&bare)
     }
 
     /// Estimated increase of the objective if an active effect went, or kept only some parameters.
@@ -293,22 +340,13 @@ impl Bench {
     /// Whether an estimate exceeds the materiality threshold.
     pub fn material(&self, c: usize, values: &[f64], fit: &RidgeFit) -> bool {
         let candidate = &self.candidates[c];
-        if candidate.switched() && candidate.form.free.iter().all(|p| p.material == 0.0) {
-            return self.linear.of_candidate(c).first().is_some_and(|j| fit.step[*j] > 0.3);
-        }
         let columns = self.linear.of_candidate(c);
         // Where a named effect of the same look widened the margin, it is wider here, too.
         let margin = |j: usize| match columns.get(j).map(|j| self.held[*j]) {
             Some(Role::Held(sd, _)) if !candidate.switched() => sd / self.held_share,
             _ => 0.0,
         };
-        candidate
-            .form
-            .free
-            .iter()
-            .zip(values)
-            .enumerate()
-            .any(|(j, (p, v))| p.material.is_finite() && v.abs() >= p.material.max(margin(j)))
+        candidate.form.free.iter().zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= margin(j))
     }
 
     /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
@@ -363,8 +401,7 @@ impl Bench {
 
 /// Whether any parameter of an effect exceeds its materiality threshold.
 pub fn is_material(active: &Active, values: &[f64]) -> bool {
-    active.form.free.iter().zip(values).any(|(p, v)| p.material.is_finite() && v.abs() >= p.material)
-        || active.form.free.iter().all(|p| p.material == 0.0)
+    active.form.free.iter().zip(values).any(|(p, v)| p.is_material(*v))
 }
 
 /// Outcome of a selection.
@@ -410,7 +447,57 @@ pub fn select(problem: &Problem, start: &State, catalogue: &[Arc<dyn Effect>], t
         }
         break;
     }
-    backward(problem, best, start.active.len(), &all, thresholds)
+    let best = backward(problem, best, start.active.len(), &all, thresholds);
+    let (best, changed) = swap(problem, best, start.active.len(), &all, thresholds);
+    if changed { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
+}
+
+/// Replaces each effect by whatever explains the same better, or as well and comes earlier in the
+/// catalogue.
+fn swap(
+    problem: &Problem,
+    mut best: Selection,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> (Selection, bool) {
+    let mut changed = false;
+    for index in from..best.state.active.len() {
+        let mut without = best.state.clone();
+        let own = without.active.remove(index);
+        let rank = |name: &str| all.iter().position(|c| c.effect.name() == name).unwrap_or(usize::MAX);
+        let bench = Bench::new(problem, &without, all, thresholds);
+        let trials = bench.trials(thresholds);
+        let gain_of_own = trials
+            .iter()
+            .filter(|t| bench.candidates[t.candidate].effect.name() == own.effect.name())
+            .map(|t| t.gain)
+            .fold(0.0, f64::max);
+        let mut tried: Vec<&str> = vec![own.effect.name()];
+        for t in &trials {
+            let candidate = &bench.candidates[t.candidate];
+            let name = candidate.effect.name();
+            if t.gain < gain_of_own - 12.0 - 0.1 * gain_of_own.abs() || tried.len() > 3 {
+                break;
+            }
+            if tried.contains(&name) || !t.material || best.state.active.iter().any(|a| a.effect.name() == name) {
+                continue;
+            }
+            tried.push(name);
+            let mut state = without.clone();
+            state.active.insert(index, placed(candidate, &t.values));
+            let settled = settle(problem, &mut state, all, thresholds);
+            let rival = finish(state, settled, from, thresholds);
+            let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
+            let needed = if simpler { thresholds.tie } else { -thresholds.tie };
+            if rival.against(&best) < needed {
+                best = rival;
+                changed = true;
+                break;
+            }
+        }
+    }
+    (best, changed)
 }
 
 fn names_of(selection: &Selection, first: usize) -> Vec<(String, Vec<usize>)> {
@@ -495,7 +582,7 @@ fn forward(problem: &Problem, first: &Bench, given: &[usize], all: &[Active], th
 fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
     let fit = bench.base();
     let costs: f64 = state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum();
-    Selection { loss: fit.loss * bench.variance, costs: fit.penalty + costs, state, bench }
+    Selection { loss: fit.loss * bench.variance + bench.linear.gram.offset(), costs: fit.penalty + costs, state, bench }
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {
@@ -527,8 +614,8 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
         }
         let next = Bench::new(problem, &trial, all, thresholds);
         let (a, b) = (bench.base(), next.base());
-        let before = a.loss * bench.variance + a.penalty * bench.variance;
-        let after = b.loss * next.variance + b.penalty * bench.variance;
+        let before = a.loss * bench.variance + bench.linear.gram.offset() + a.penalty * bench.variance;
+        let after = b.loss * next.variance + next.linear.gram.offset() + b.penalty * bench.variance;
         if !after.is_finite() || after > before * 1.05 {
             break;
         }
@@ -542,16 +629,39 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
 fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
     let trials = bench.trials(thresholds);
     let without = bench.held_out(&[]);
-    let total: f64 = without.iter().sum();
     for t in trials.into_iter().take(6) {
         if t.gain < thresholds.gain {
             return None;
         }
         let with = bench.held_out(&[t.candidate]);
-        let differences: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
-        let sum: f64 = differences.iter().sum();
-        let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
-        if sum / total < thresholds.share(link) || sum < thresholds.held_out_t * spread {
+        // What is more than noise: an effect must explain a share of that.
+        let n = bench.linear.gram.n();
+        let passes = |without: &[f64], with: &[f64], t_needed: f64| {
+            let total: f64 = without.iter().sum();
+            let differences: Vec<f64> = without.iter().zip(with).map(|(a, b)| a - b).collect();
+            let sum: f64 = differences.iter().sum();
+            let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
+            let excess = (total - n).max(0.0);
+            sum >= thresholds.share(link) * total
+                && sum >= thresholds.share_of_excess * excess
+                && sum >= t_needed * spread
+        };
+        let strong = t.gain > 50.0;
+        let by_run = passes(&without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 });
+        // What happens in one run only cannot be predicted from the others, but from its own parts.
+        let by_block = strong && passes(&bench.held_out_blocks(&[]), &bench.held_out_blocks(&[t.candidate]), 1.0);
+        if std::env::var("GAPDBG").is_ok() {
+            let c = &bench.candidates[t.candidate];
+            let (w, v): (f64, f64) = (without.iter().sum(), with.iter().sum());
+            eprintln!(
+                "  gate {} {:.4?} gain {:.1} total {w:.0} sum {:.1} n {n} {by_run} {by_block}",
+                c.effect.name(),
+                t.values,
+                t.gain,
+                w - v
+            );
+        }
+        if !by_run && !by_block {
             continue;
         }
         return Some(t);

@@ -19,6 +19,8 @@ pub struct Active {
     pub values: Values,
     /// Whether it is fitted but too small to be named.
     pub immaterial: bool,
+    /// The link it is fitted on.
+    pub link: Link,
     /// Whether it stood in the robot's file and is not fitted again.
     pub given: bool,
 }
@@ -30,7 +32,7 @@ impl Active {
         for p in &form.free {
             values.set(&p.name, p.start.unwrap_or(0.0));
         }
-        Self { effect, form, values, immaterial: false, given: false }
+        Self { link: effect.link(), effect, form, values, immaterial: false, given: false }
     }
 
     /// Values of the fitted parameters.
@@ -90,6 +92,6 @@ impl State {
 
     /// Indices of the effects fitted on a link.
     pub fn fitted_on(&self, link: Link) -> Vec<usize> {
-        (0..self.active.len()).filter(|i| !self.active[*i].given && self.active[*i].effect.link() == link).collect()
+        (0..self.active.len()).filter(|i| !self.active[*i].given && self.active[*i].link == link).collect()
     }
 }

@@ -26,7 +26,7 @@ impl Effect for ActuationLatency {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.002, [-0.02, 0.3], 0.004)])]
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.002, [-0.001, 0.3], 0.004)])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

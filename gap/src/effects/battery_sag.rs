@@ -28,12 +28,12 @@ impl Effect for BatterySag {
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let s = Sizes::of(robot);
         let unit = robot.supply_v / (s.stall_a * robot.wheel_count() as f64);
-        let r = Parameter::new("resistance_ohm", 0.05 * unit, [-0.05 * unit, 3.0 * unit], 0.12 * unit);
+        let r = Parameter::new("resistance_ohm", 0.05 * unit, [-0.05 * unit, 3.0 * unit], 0.25 * unit);
         let d = Parameter::new(
             "drop_v",
             0.02 * robot.supply_v,
             [-0.3 * robot.supply_v, 0.6 * robot.supply_v],
-            0.05 * robot.supply_v,
+            0.06 * robot.supply_v,
         );
         vec![Form::whole(vec![r.clone()]), Form::whole(vec![r, d])]
     }

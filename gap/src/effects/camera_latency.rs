@@ -25,8 +25,8 @@ impl Effect for CameraLatency {
         Link::Motion
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-0.5, 0.5], 0.003)])]
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-robot.camera_latency_s - 0.001, 0.5], 0.003)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

@@ -28,10 +28,10 @@ impl Effect for CarpetGrain {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let w = Sizes::of(robot).weight_n;
-        (0..4)
+        (0..8)
             .map(|k| {
                 let azimuth = Parameter::new("azimuth_rad", 0.1, [-3.2, 3.2], f64::INFINITY)
-                    .from(f64::from(k) * std::f64::consts::FRAC_PI_4);
+                    .from(f64::from(k) * std::f64::consts::FRAC_PI_8);
                 Form::whole(vec![Parameter::new("force_n", 0.005 * w, [0.0, w], 0.012 * w).from(0.02 * w), azimuth])
             })
             .collect()

@@ -14,7 +14,7 @@ impl Effect for DriveCurve {
     }
 
     fn equation(&self) -> &str {
-        "duty u becomes u + cubic (u^3 - u): right at 0 and full duty, off between"
+        "duty u becomes u (1 + curvature (|u| - 1)): right at 0 and full duty, less between"
     }
 
     fn reference(&self) -> &str {
@@ -26,12 +26,12 @@ impl Effect for DriveCurve {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("cubic", 0.05, [-1.0, 1.0], 0.15)])]
+        vec![Form::whole(vec![Parameter::new("curvature", 0.05, [-1.0, 1.0], 0.12)])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let c = values.get("cubic");
-        model.duty_maps.push(Box::new(move |_, u| u + c * (u * u * u - u)));
+        let c = values.get("curvature");
+        model.duty_maps.push(Box::new(move |_, u| u * (1.0 + c * (u.abs() - 1.0))));
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

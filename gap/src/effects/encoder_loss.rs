@@ -28,7 +28,7 @@ impl Effect for EncoderLoss {
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let limit = Sizes::of(robot).no_load;
         let mut forms = Vec::new();
-        for share in [0.1, 0.25, 0.4, 0.6] {
+        for share in [0.0, 0.05, 0.1, 0.2, 0.35, 0.6] {
             for form in Form::alone(robot, |i| Parameter::new(wheel_name("loss", i, ""), 0.01, [0.0, 0.9], 0.02)) {
                 forms.push(form.fixing("threshold_rad_s", (share * limit).round()));
             }

@@ -1,10 +1,12 @@
 //! `gear-backlash`: play between motor and wheel.
 
 use model::robot::Robot;
+use nalgebra::DMatrix;
 
-use crate::drive::DriveModel;
+use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};
 use crate::motion::MotionModel;
+use crate::segment::Segment;
 
 /// Play between motor and wheel.
 pub(super) struct GearBacklash;
@@ -36,18 +38,31 @@ impl Effect for GearBacklash {
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
+        let inertia = model.inertia.clone();
         model.angles.push(Box::new(move |segment, angles| {
             for (i, angle) in angles.iter_mut().enumerate() {
-                let off = play(&segment.angle[i], values.wheel("play", i, "rad") / ratio);
-                angle.iter_mut().zip(off).for_each(|(a, o)| *a -= o);
+                let half = 0.5 * values.wheel("play", i, "rad") / ratio;
+                if half != 0.0 {
+                    let side = side(segment, &inertia, i);
+                    angle.iter_mut().zip(side).for_each(|(a, s)| *a -= half * s);
+                }
             }
         }));
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
+        let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
         model.offsets.push(Box::new(move |_, segment| {
-            (0..segment.angle.len()).map(|i| play(&segment.angle[i], values.wheel("play", i, "rad") / ratio)).collect()
+            (0..segment.angle.len())
+                .map(|i| {
+                    let half = 0.5 * values.wheel("play", i, "rad") / ratio;
+                    if half == 0.0 {
+                        return vec![0.0; segment.t.len()];
+                    }
+                    side(segment, &inertia, i).into_iter().map(|s| half * s).collect()
+                })
+                .collect()
         }));
     }
 
@@ -56,15 +71,17 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Motor angle minus wheel angle (both at the wheel, rad) for a wheel that follows with `play`.
-fn play(angle: &[f64], play: f64) -> Vec<f64> {
-    let half = 0.5 * play.max(0.0);
-    let mut wheel = angle.first().copied().unwrap_or(0.0);
-    angle
-        .iter()
-        .map(|a| {
-            wheel = wheel.clamp(a - half, a + half);
-            a - wheel
-        })
-        .collect()
+/// Which flank of the teeth carries, −1 to 1: the sign of the torque through the gear, which is what
+/// accelerates the robot at this wheel.
+fn side(segment: &Segment, inertia: &DMatrix<f64>, wheel: usize) -> Vec<f64> {
+    let n = segment.speed.len();
+    let momentum: Vec<f64> =
+        (0..segment.t.len()).map(|k| (0..n).map(|j| inertia[(wheel, j)] * segment.speed[j][k]).sum()).collect();
+    let last = momentum.len() - 1;
+    let peak = 1e-3 * inertia.trace() / n as f64;
+    let torque = |k: usize| {
+        let (a, b) = (k.saturating_sub(4), (k + 4).min(last));
+        (momentum[b] - momentum[a]) / (segment.t[b] - segment.t[a]).max(1e-9)
+    };
+    (0..=last).map(|k| smooth_sign(torque(k), 500.0 * peak)).collect()
 }

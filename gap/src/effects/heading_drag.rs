@@ -14,7 +14,7 @@ impl Effect for HeadingDrag {
     }
 
     fn equation(&self) -> &str {
-        "torque -(cos_nm cos(n theta) + sin_nm sin(n theta)) sign(w) at all wheels"
+        "torque -(mean_nm + cos_nm cos(n theta) + sin_nm sin(n theta)) sign(w) at all wheels, theta the heading"
     }
 
     fn reference(&self) -> &str {
@@ -31,16 +31,22 @@ impl Effect for HeadingDrag {
             .into_iter()
             .map(|n| {
                 let p = |name: &str| Parameter::new(name, 0.01 * stall, [-stall, stall], 0.03 * stall);
-                Form::whole(vec![p("cos_nm"), p("sin_nm")]).fixing("harmonic", n)
+                Form::whole(vec![
+                    p("cos_nm"),
+                    p("sin_nm"),
+                    Parameter::new("mean_nm", 0.01 * stall, [-stall, stall], f64::INFINITY),
+                ])
+                .fixing("harmonic", n)
             })
             .collect()
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (a, b, n) = (values.get("cos_nm"), values.get("sin_nm"), values.find("harmonic").unwrap_or(1.0));
+        let mean = values.get("mean_nm");
         model.loads.push(Box::new(move |now, loads| {
             let (s, c) = (n * now.heading).sin_cos();
-            let t = a * c + b * s;
+            let t = mean + a * c + b * s;
             for i in 0..now.sign.len() {
                 loads.wheel[i] -= t * now.sign[i];
             }

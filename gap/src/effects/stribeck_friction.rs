@@ -27,7 +27,7 @@ impl Effect for StribeckFriction {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let s = Sizes::of(robot);
-        [2.0, 6.0]
+        [1.5, 3.0, 6.0]
             .into_iter()
             .map(|w| {
                 let p =

@@ -2,6 +2,7 @@
 
 use model::robot::Robot;
 
+use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
@@ -26,7 +27,7 @@ impl Effect for WheelCreep {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("creep_s_per_kg", 0.002, [0.0, 0.5], 0.008)])]
+        vec![Form::whole(vec![Parameter::new("creep_s_per_kg", 0.002, [0.0, 0.5], 0.003)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
@@ -41,5 +42,20 @@ impl Effect for WheelCreep {
                 }
             }
         }));
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let creep = values.get("creep_s_per_kg") / (model.wheel_radius_m * model.wheel_radius_m);
+        let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
+        // Encoder minus rolled angle: the time integral of the inertial force is the change of speed.
+        model.offsets.push(Box::new(move |_, segment| {
+            let n = segment.speed.len();
+            let momentum = |i: usize, k: usize| (0..n).map(|j| inertia[(i, j)] * segment.speed[j][k]).sum::<f64>();
+            (0..n).map(|i| (0..segment.t.len()).map(|k| creep * momentum(i, k)).collect()).collect()
+        }));
+    }
+
+    fn also(&self) -> Option<Link> {
+        Some(Link::Drive)
     }
 }

@@ -1,10 +1,15 @@
 //! `wheel-slip`: wheels that slip when the force exceeds what friction holds.
 
+use model::frames::Twist;
+use model::geometry::Geometry;
 use model::robot::Robot;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
+
+/// Projected Gauss-Seidel sweeps a tick; one or two while no wheel slips.
+const SWEEPS: usize = 12;
 
 /// Wheels that slip when the force exceeds what friction holds.
 pub(super) struct WheelSlip;
@@ -15,23 +20,20 @@ impl Effect for WheelSlip {
     }
 
     fn equation(&self) -> &str {
-        "|traction force| <= friction_coefficient times normal force; beyond it the wheel spins"
+        "|traction force| <= friction_coefficient m g / wheels; beyond it the wheel turns faster than it rolls"
     }
 
     fn reference(&self) -> &str {
-        "Coulomb"
+        "Coulomb; Moreau 1988, projected Gauss-Seidel"
     }
 
     fn link(&self) -> Link {
         Link::Motion
     }
 
-    fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let _ = robot;
-        [0.15, 0.25, 0.4, 0.6]
-            .into_iter()
-            .map(|mu| Form::whole(vec![Parameter::new("friction_coefficient", 0.05, [0.02, 1.5], 0.0).from(mu)]))
-            .collect()
+    fn forms(&self, _robot: &Robot) -> Vec<Form> {
+        let at = |mu| Parameter::new("friction_coefficient", 0.05, [0.02, 1.5], 0.0).from(mu).material_below(0.45);
+        [0.12, 0.17, 0.22, 0.28, 0.36, 0.48, 0.64, 0.85].into_iter().map(|mu| Form::whole(vec![at(mu)])).collect()
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
@@ -39,25 +41,48 @@ impl Effect for WheelSlip {
         let n = model.wheels.len();
         let grip = mu * model.mass_kg * 9.806_65 / n as f64 * model.wheel_radius_m;
         let inertia = model.inertia.clone();
-        let Some(inverse) = (inertia.clone() + DMatrix::identity(n, n) * (1e-9 * inertia.trace())).try_inverse() else {
-            return;
-        };
+        let regular = inertia.clone() + DMatrix::identity(n, n) * (1e-9 * inertia.trace());
+        let Some(inverse) = regular.try_inverse() else { return };
+        let Ok(geometry) = Geometry::new(model.wheels.clone(), model.wheel_radius_m) else { return };
         model.angles.push(Box::new(move |segment, angles| {
-            let speed_at = |k: usize| DVector::from_fn(n, |i, _| segment.speed[i][k]);
-            let mut ground = speed_at(0);
-            let mut lost = DVector::<f64>::zeros(n);
+            let mut ground: Vec<f64> = segment.speed.iter().map(|w| w[0]).collect();
+            let mut lost = vec![0.0; n];
+            let mut impulse = vec![0.0; n];
             for k in 1..segment.t.len() {
                 let dt = segment.t[k] - segment.t[k - 1];
-                let wheel = speed_at(k);
-                let torque = (&inertia * (&wheel - &ground)) / dt;
-                if torque.iter().any(|t| t.abs() > grip) {
-                    ground += &inverse * torque.map(|t| t.clamp(-grip, grip)) * dt;
-                } else {
-                    ground.copy_from(&wheel);
+                // The body frame turns under the robot.
+                let v = geometry.twist(&ground);
+                let turned = Twist::new(v.omega * v.vy * dt, -v.omega * v.vx * dt, 0.0);
+                let free: Vec<f64> = (0..n).map(|i| ground[i] + geometry.wheel_speed(i, turned)).collect();
+                // Mostly friction can give what it takes to end every wheel's slip.
+                let needed = |i: usize| (0..n).map(|j| inertia[(i, j)] * (segment.speed[j][k] - free[j])).sum::<f64>();
+                if (0..n).all(|i| needed(i).abs() <= grip * dt) {
+                    for i in 0..n {
+                        ground[i] = segment.speed[i][k];
+                        angles[i][k] -= lost[i];
+                    }
+                    continue;
                 }
-                lost += (&wheel - &ground) * dt;
-                for (angle, l) in angles.iter_mut().zip(lost.iter()) {
-                    angle[k] -= l;
+                // Otherwise each wheel takes what it needs, or what friction can give.
+                impulse.fill(0.0);
+                let moved =
+                    |impulse: &[f64], i: usize| free[i] + (0..n).map(|j| inverse[(i, j)] * impulse[j]).sum::<f64>();
+                for _ in 0..SWEEPS {
+                    let mut change = 0.0_f64;
+                    for i in 0..n {
+                        let missing = segment.speed[i][k] - moved(&impulse, i);
+                        let next = (impulse[i] + missing / inverse[(i, i)]).clamp(-grip * dt, grip * dt);
+                        change = change.max((next - impulse[i]).abs());
+                        impulse[i] = next;
+                    }
+                    if change < 1e-3 * grip * dt {
+                        break;
+                    }
+                }
+                for i in 0..n {
+                    ground[i] = moved(&impulse, i);
+                    lost[i] += (segment.speed[i][k] - ground[i]) * dt;
+                    angles[i][k] -= lost[i];
                 }
             }
         }));

@@ -85,17 +85,19 @@ impl<'a> MotionLink<'a> {
         let Some(columns) = model.columns() else { return Vec::new() };
         let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
         let tracks: Vec<Vec<Pose>> = self.windows.par_iter().map(|w| self.track(model, &angles, &columns, w)).collect();
-        let align = |(window, track): (&Window, &Vec<Pose>), spread: Option<f64>, weights: Option<Vec<f64>>| {
-            self.align(model, window, track, spread, weights)
+        let align = |(window, track): (&Window, &Vec<Pose>), weights: Option<Vec<f64>>| {
+            self.align(model, window, track, weights)
         };
         let mut all: Vec<WindowResiduals> =
-            self.windows.par_iter().zip(&tracks).map(|pair| align(pair, None, None)).collect();
-        let mut norms: Vec<f64> = all.iter().flat_map(|w| w.residuals.iter().map(norm)).collect();
+            self.windows.par_iter().zip(&tracks).map(|pair| align(pair, None)).collect();
+        // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
+        let mut norms: Vec<f64> =
+            all.iter().flat_map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i))).collect();
         let spread = (crate::statistics::median(&mut norms) / MEDIAN_OF_CHI3).max(1.0);
         all.par_iter_mut().zip(self.windows.par_iter().zip(&tracks)).for_each(|(w, pair)| {
-            let weights = w.residuals.iter().map(|r| weight(norm(r) / spread)).collect::<Vec<_>>();
+            let weights: Vec<f64> = (0..w.residuals.len()).map(|i| weight(apart(&w.residuals, i) / spread)).collect();
             if weights.iter().any(|x| *x < 1.0) {
-                *w = align(pair, Some(spread), Some(weights));
+                *w = align(pair, Some(weights));
             }
         });
         all
@@ -117,7 +119,6 @@ impl<'a> MotionLink<'a> {
         model: &MotionModel,
         window: &Window,
         track: &[Pose],
-        spread: Option<f64>,
         weights: Option<Vec<f64>>,
     ) -> WindowResiduals {
         let s = &self.segments[window.segment];
@@ -127,7 +128,7 @@ impl<'a> MotionLink<'a> {
         // Chassis pose of the first frame so that the middle one fits.
         let marker_inverse = model.marker.inverse();
         let mut start = frames[middle].pose.compose(marker_inverse).compose(track[middle].inverse());
-        let mut weights = weights.unwrap_or_else(|| vec![1.0; n]);
+        let weights = weights.unwrap_or_else(|| vec![1.0; n]);
         let mut residuals = vec![[0.0; 3]; n];
         let mut predicted = vec![Pose::default(); n];
         for step in 0..=4 {
@@ -151,11 +152,6 @@ impl<'a> MotionLink<'a> {
             let Some(inverse) = information.try_inverse() else { break };
             let d = inverse * score;
             start = Pose::new(start.x + d.x, start.y + d.y, start.theta + d.z);
-            if let Some(spread) = spread
-                && step >= 1
-            {
-                weights = residuals.iter().map(|r| weight(norm(r) / spread)).collect();
-            }
         }
         WindowResiduals { run: s.run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
     }
@@ -224,6 +220,16 @@ impl<'a> MotionLink<'a> {
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
         Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
     }
+}
+
+/// Distance of a residual from the median of its neighbours.
+fn apart(residuals: &[[f64; 3]], i: usize) -> f64 {
+    let near = &residuals[i.saturating_sub(3)..(i + 4).min(residuals.len())];
+    let component = |j: usize| {
+        let mut values: Vec<f64> = near.iter().map(|r| r[j]).collect();
+        residuals[i][j] - crate::statistics::median(&mut values)
+    };
+    norm(&[component(0), component(1), component(2)])
 }
 
 fn norm(r: &[f64; 3]) -> f64 {
