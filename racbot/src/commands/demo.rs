@@ -17,14 +17,19 @@ pub(crate) struct Options {
     /// Folder of the committed gateware, to check where it exists
     #[arg(long, value_name = "DIR", default_value = GENERATED)]
     generated: PathBuf,
+
+    /// Control ticks to simulate in rust-hdl, clock by clock
+    #[arg(long, value_name = "N", default_value_t = TICKS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    ticks: u32,
 }
 
+const TICKS: u32 = 120;
 const OUT: &str = "out/demo";
 const GENERATED: &str = "generated";
 
 impl Default for Options {
     fn default() -> Self {
-        Self { out: OUT.into(), generated: GENERATED.into() }
+        Self { out: OUT.into(), generated: GENERATED.into(), ticks: TICKS }
     }
 }
 
@@ -34,7 +39,7 @@ impl Options {
         let mut report = Report::default();
         report.check_generated(&self.generated)?;
         report.drive()?;
-        report.cross_check()?;
+        report.cross_check(self.ticks)?;
         report.replay()?;
         let index = self.out.join("index.html");
         for (name, content) in report.files() {

@@ -62,7 +62,7 @@ pub(crate) struct Options {
     controller: ControllerChoice,
 
     /// Longest drive in seconds [default: 60; 0.02 on rust-hdl, which takes minutes for a second]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     limit_s: Option<f64>,
 
     /// Folder for the run, robot.toml and pictures: a data set for the other commands

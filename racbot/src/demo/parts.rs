@@ -28,8 +28,6 @@ const SHIPPED_ROBOT: &str = include_str!("../../../data/runs/wheel-skew/robot.to
 
 /// Control rate of the cross-check, Hz: short periods, so that many ticks fit into few clocks.
 const CROSS_CHECK_RATE_HZ: f64 = 8_000.0;
-/// Control ticks of the cross-check.
-const CROSS_CHECK_TICKS: u32 = 120;
 
 impl Report {
     /// Is `generated/` what the gateware emits today?
@@ -134,11 +132,11 @@ impl Report {
         });
     }
 
-    /// A stretch of a drive through the rust-hdl simulation, every tick compared.
-    pub(crate) fn cross_check(&mut self) -> Result<(), Failure> {
+    /// Some ticks of a drive through the rust-hdl simulation, all of them compared.
+    pub(crate) fn cross_check(&mut self, ticks: u32) -> Result<(), Failure> {
         let mut drive = Drive {
             speed_mode: SpeedMode::CountAndTime,
-            limit_s: f64::from(CROSS_CHECK_TICKS) / CROSS_CHECK_RATE_HZ,
+            limit_s: f64::from(ticks) / CROSS_CHECK_RATE_HZ,
             // Straight into the bend before the second set point.
             moving: Twist::new(0.6, 0.5, 0.5),
             ..Drive::fig_6()

@@ -1,0 +1,145 @@
+//! What works, works: tables that fit the terminal, JSON that parses, files that other commands read.
+
+use super::{data, racbot};
+use std::fs;
+use std::process::{Command, Stdio};
+use tempfile::tempdir;
+
+#[test]
+fn simulate_drives_fig_6_and_its_run_replays_bit_for_bit() {
+    let folder = tempdir().unwrap();
+    let outcome = racbot(folder.path(), &["simulate", "--out", "drive"]).done().fits_80_columns();
+    assert!(!outcome.stdout.contains("missed") && outcome.stdout.contains("at rest"), "{}", outcome.stdout);
+    for (name, start) in [("trajectory.svg", "<svg"), ("speeds.svg", "<svg"), ("run.csv", "t,cmd_vx")] {
+        let text = fs::read_to_string(folder.path().join("drive").join(name)).unwrap();
+        assert!(text.starts_with(start) && !text.contains("NaN"), "{name}");
+    }
+    let robot = fs::read_to_string(folder.path().join("drive/robot.toml")).unwrap();
+    assert!(robot.contains("arithmetic = \"fixed-kin\"") && robot.contains("registers = {"), "{robot}");
+
+    let replayed = racbot(folder.path(), &["replay", "drive", "--json"]).done().json();
+    let wheels = replayed["runs"][0]["wheels"].as_array().unwrap();
+    assert_eq!(wheels.len(), 3);
+    for wheel in wheels {
+        assert!(wheel["fpga_against_log"]["max_lsb"].as_f64().unwrap() < 0.1, "{wheel}");
+        assert!(wheel["fpga_against_log"]["ticks"].as_u64().unwrap() > 10_000, "{wheel}");
+    }
+}
+
+#[test]
+fn hidden_skew_leads_astray_the_camera_leads_back_and_calibration_finds_it() {
+    let folder = tempdir().unwrap();
+    let astray = ["simulate", "--skew-deg", "4,-3,2", "--out", "red"];
+    let outcome = racbot(folder.path(), &astray).done().fits_80_columns();
+    assert!(outcome.stdout.contains("missed"), "{}", outcome.stdout);
+
+    let hidden = data("robot-skewed.toml");
+    let corrected = ["--json", "simulate", "--hidden", hidden.to_str().unwrap(), "--camera", "--out", "blue"];
+    let json = racbot(folder.path(), &corrected).done().json();
+    assert!(json["time_s"].as_f64().is_some_and(|t| t < 20.0), "{json}");
+    assert!(json["path_error_max_m"].as_f64().unwrap() < 0.1, "{json}");
+
+    let found = racbot(folder.path(), &["calibrate", "red", "--json"]).done().json();
+    let skew = |i: usize| found["skew_rad"][i].as_f64().unwrap().to_degrees();
+    assert!((skew(0) - skew(1) - 7.0).abs() < 0.3 && (skew(0) - skew(2) - 2.0).abs() < 0.3, "{found}");
+    racbot(folder.path(), &["calibrate", "red", "--write", "calibrated.toml"]).done().fits_80_columns();
+    let again = ["simulate", "--robot", "calibrated.toml", "--hidden", hidden.to_str().unwrap(), "--out", "green"];
+    let outcome = racbot(folder.path(), &again).done();
+    assert!(!outcome.stdout.contains("missed"), "{}", outcome.stdout);
+}
+
+#[test]
+fn the_seed_decides_the_run() {
+    let folder = tempdir().unwrap();
+    let drive = |seed: &str, out: &str| {
+        racbot(folder.path(), &["simulate", "--limit-s", "0.3", "--seed", seed, "--out", out]).done();
+        fs::read(folder.path().join(out).join("run.csv")).unwrap()
+    };
+    let first = drive("7", "a");
+    assert_eq!(first, drive("7", "b"));
+    assert_ne!(first, drive("8", "c"));
+}
+
+#[test]
+fn example_set_points_and_four_wheels_are_driven() {
+    let folder = tempdir().unwrap();
+    let (points, robot) = (data("set-points/fig-6.csv"), data("robot-four-wheels.toml"));
+    for arguments in [&["--setpoints", points.to_str().unwrap()], &["--robot", robot.to_str().unwrap()]] {
+        let outcome = racbot(folder.path(), &[&["simulate"], &arguments[..]].concat()).done().fits_80_columns();
+        assert!(!outcome.stdout.contains("missed"), "{}", outcome.stdout);
+    }
+    let square = data("set-points/square.toml");
+    let outcome = racbot(folder.path(), &["simulate", "--setpoints", square.to_str().unwrap()]).done();
+    assert!(outcome.stdout.contains("stop"), "{}", outcome.stdout);
+}
+
+#[test]
+fn the_measured_log_replays_within_its_rounding() {
+    let folder = tempdir().unwrap();
+    let set = data("runs/wheel-skew");
+    let replay = |more: &[&str]| {
+        racbot(folder.path(), &[&["replay", set.to_str().unwrap()], more].concat()).done().fits_80_columns()
+    };
+    let outcome = replay(&["--out", "pictures"]);
+    assert!(outcome.stdout.contains("run_04"), "{}", outcome.stdout);
+    assert!(folder.path().join("pictures/run_01-wheel-3.svg").exists());
+    let json = replay(&["--json", "--from", "1000", "--ticks", "500"]).json();
+    for run in json["runs"].as_array().unwrap() {
+        assert_eq!((run["from"].as_u64(), run["ticks"].as_u64()), (Some(1_000), Some(500)));
+        for wheel in run["wheels"].as_array().unwrap() {
+            assert!(wheel["fpga_against_log"]["max"].as_f64().unwrap() < 0.000_53, "{wheel}");
+            assert_eq!(wheel["law_against_log"]["beyond"].as_u64(), Some(0));
+        }
+    }
+    let late = replay(&["--from", "6300"]);
+    assert!(late.stdout.contains("run_02: only 6000 ticks"), "{}", late.stdout);
+}
+
+#[test]
+fn one_tick_on_rust_hdl_is_the_same_as_on_the_bit_true_model() {
+    let folder = tempdir().unwrap();
+    let set = data("runs/wheel-skew");
+    let wheels = |fpga: &str| {
+        let arguments = ["replay", set.to_str().unwrap(), "--from", "3000", "--ticks", "1", "--json", "--fpga", fpga];
+        let mut json = racbot(folder.path(), &arguments).done().json();
+        json["runs"].as_array_mut().unwrap().iter_mut().map(|run| run["wheels"].take()).collect::<Vec<_>>()
+    };
+    assert_eq!(wheels("bit-true"), wheels("rust-hdl"));
+}
+
+#[test]
+fn the_committed_gateware_is_current() {
+    let folder = tempdir().unwrap();
+    let generated = data("../generated");
+    let arguments = ["generate", "--check", "--out", generated.to_str().unwrap(), "--json"];
+    assert_eq!(racbot(folder.path(), &arguments).done().json()["current"], true);
+    racbot(folder.path(), &["generate", "--out", "fresh"]).done();
+    let name = "rac4i65.v";
+    assert!(fs::read(folder.path().join("fresh").join(name)).unwrap() == fs::read(generated.join(name)).unwrap());
+}
+
+#[test]
+fn the_demo_runs_anywhere_and_all_is_well() {
+    let folder = tempdir().unwrap();
+    let outcome = racbot(folder.path(), &["demo", "--ticks", "2"]).done().fits_80_columns();
+    assert!(outcome.stdout.contains("0 words differ") && !outcome.stdout.contains("WRONG"), "{}", outcome.stdout);
+    let page = fs::read_to_string(folder.path().join("out/demo/index.html")).unwrap();
+    assert!(page.matches("<svg ").count() >= 3 && !page.contains("http://") | page.contains("www.w3.org"));
+    let json = racbot(folder.path(), &["demo", "--ticks", "1", "--json"]).done().json();
+    assert_eq!((json["good"].as_bool(), json["parts"].as_array().map(Vec::len)), (Some(true), Some(4)));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let folder = tempdir().unwrap();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("racbot"))
+        .args(["replay", data("runs/wheel-skew").to_str().unwrap()])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
+}
