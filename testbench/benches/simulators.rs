@@ -43,11 +43,8 @@ fn simulators(c: &mut Criterion) {
     group.throughput(Throughput::Elements(INTERPRETED as u64));
     let core = hdl::emit::verilog::emit(&*core, "chip");
     let ports = Ports::parse(&core, "chip", &["lclk", "synclk"]).expect("the core");
-    let stimulus: Vec<u32> = (0..INTERPRETED)
-        .flat_map(|_| {
-            ports.inputs().map(|port| u32::from(port.name.ends_with("_n")))
-        })
-        .collect();
+    let stimulus: Vec<u32> =
+        (0..INTERPRETED).flat_map(|_| ports.inputs().map(|port| u32::from(port.name.ends_with("_n")))).collect();
     match icarus::run("chip", &core, "chip", &ports, &stimulus) {
         Ok(_) => {
             group.bench_function("icarus, compilation included", |b| {
