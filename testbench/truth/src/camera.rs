@@ -17,7 +17,7 @@ pub struct Frame {
     pub pose: [f64; 3],
 }
 
-/// All frames of a run: `phase` in [0, 1) places the first one within a frame period.
+/// All frames of a run of `ticks` ticks; the first capture lies anywhere within the first frame period.
 pub(crate) fn film(camera: &Camera, track: &Track, rate_hz: f64, ticks: usize, rng: &mut ChaCha8Rng) -> Vec<Frame> {
     let mut frames: Vec<Frame> = Vec::new();
     let period = 1.0 / camera.rate_hz;

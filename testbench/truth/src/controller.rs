@@ -38,8 +38,10 @@ impl<'a> Control<'a> {
             .iter()
             .map(|&row| {
                 let sign = f64::from(row.signum());
-                let rim =
-                    self.mounts.get(row.unsigned_abs() as usize - 1).map_or(0.0, |mount| mount.rim_speed(command));
+                let rim = self
+                    .mounts
+                    .get((row.unsigned_abs() as usize).saturating_sub(1))
+                    .map_or(0.0, |mount| mount.rim_speed(command));
                 round_to(sign * rim / self.robot.wheel_radius_m, self.robot.ref_quantum)
             })
             .collect()

@@ -1,6 +1,6 @@
 //! A simulated robot whose logs hide effects, to test blind whether a workflow finds them.
 //!
-//! [`draw`] makes a [`Case`] from a seed and a [`Kind`]: a nominal robot, a true one, drawn runs. [`write`] simulates it
+//! [`draw`] makes a [`Case`] from a seed and a [`Kind`]: a nominal robot, a true one, drawn runs. [`write()`] simulates it
 //! and writes the data set (`robot.toml`, `run_NN.csv`) into one folder; the [`Truth`] is returned, to be kept elsewhere.
 //!
 //! The physics is this crate's own and shares no code with any model of the robot: soft contacts with creep and a

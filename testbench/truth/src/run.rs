@@ -114,10 +114,15 @@ fn remember(track: &mut Track, plant: &Plant<'_>, machine: &Machine) {
 /// Duties of the axes at the wheels they are wired to.
 fn wire(applied: &mut [f64], duties: Option<&[f64]>, wheel_of_axis: &[i32]) {
     for (axis, &wheel) in wheel_of_axis.iter().enumerate() {
-        if let Some(slot) = applied.get_mut(wheel.unsigned_abs() as usize - 1) {
+        if let Some(slot) = applied.get_mut(index_of(wheel)) {
             *slot = duties.map_or(0.0, |d| d[axis] * f64::from(wheel.signum()));
         }
     }
+}
+
+/// Index of a wheel that is numbered from 1 and negative where inverted.
+fn index_of(wheel: i32) -> usize {
+    (wheel.unsigned_abs() as usize).saturating_sub(1)
 }
 
 /// Counters of all axes.
@@ -145,7 +150,7 @@ impl<'a> Encoders<'a> {
     fn read(&mut self, plant: &Plant<'_>, track: &Track, time: f64, rng: &mut ChaCha8Rng) -> Vec<i64> {
         let lag = self.machine.power.encoder_lag_s;
         for (axis, &wire) in self.machine.controller.wheel_of_axis.iter().enumerate() {
-            let index = wire.unsigned_abs() as usize - 1;
+            let index = index_of(wire);
             let wheel = &self.machine.wheels[index];
             let angle = if lag > 0.0 { track.angle(index, time - lag) } else { plant.rotor_angle(index) };
             let scaled = angle * f64::from(wire.signum()) * self.counts_per_rad * (1.0 + wheel.encoder_scale);
