@@ -1,44 +1,25 @@
-//! `racbot calibrate`
+//! All skews at once from logs of encoders and camera.
 
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
-use clap::Args;
 use model::calibration::{SkewEstimate, estimate_skew};
 use model::robot::Robot;
 use model::run::DataSet;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::Path;
 
-/// Options of `calibrate`.
-#[derive(Args, Debug)]
-pub(crate) struct Options {
-    /// Folder with robot.toml and runs (*.csv) of encoders and camera
-    #[arg(value_name = "DATASET")]
-    data_set: PathBuf,
-
-    /// Another robot.toml than the data set's own
-    #[arg(long, value_name = "FILE")]
-    robot: Option<PathBuf>,
-
-    /// Write the calibrated robot.toml here
-    #[arg(long, value_name = "FILE")]
-    write: Option<PathBuf>,
-}
-
-impl Options {
-    pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        let set = match &self.robot {
-            None => DataSet::open(&self.data_set)?,
-            Some(file) => DataSet::open_as(&self.data_set, Robot::load(file)?)?,
-        };
-        let estimate = estimate_skew(&set.robot, &set.runs)
-            .map_err(|error| Failure::data(format!("{}: {error}", self.data_set.display())))?;
-        let mut text = text(&estimate);
-        if let Some(path) = &self.write {
-            save(path, &estimate.apply(&set.robot).to_toml())?;
-            let _ = writeln!(text, "written      {}", path.display());
-        }
-        Ok(Answer { text, json: estimate.to_json(), wrong: None })
+pub(super) fn run(data_set: &Path, robot: Option<&Path>, write: Option<&Path>) -> Result<Answer, Failure> {
+    let set = match robot {
+        None => DataSet::open(data_set)?,
+        Some(file) => DataSet::open_as(data_set, Robot::load(file)?)?,
+    };
+    let estimate = estimate_skew(&set.robot, &set.runs)
+        .map_err(|error| Failure::data(format!("{}: {error}", data_set.display())))?;
+    let mut text = text(&estimate);
+    if let Some(path) = write {
+        save(path, &estimate.apply(&set.robot).to_toml())?;
+        let _ = writeln!(text, "written      {}", path.display());
     }
+    Ok(Answer { text, json: estimate.to_json(), wrong: None })
 }
 
 fn text(estimate: &SkewEstimate) -> String {
