@@ -45,6 +45,8 @@ pub(crate) fn draw_robot(conditions: &Conditions, rng: &mut ChaCha8Rng) -> Robot
     if rng.random_bool(0.12) && !conditions.standard_robot {
         robot.soften();
     }
+    robot.kp = (robot.kp * 1.0e5).round() / 1.0e5;
+    robot.ki = (robot.ki * 1.0e5).round() / 1.0e5;
     if !conditions.blocks && rng.random_bool(0.15) {
         robot.camera_latency_s = Some(f64::from(rng.random_range(5..40_u8)) * 1.0e-3);
     }

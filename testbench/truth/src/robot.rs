@@ -143,7 +143,8 @@ impl Robot {
         if let Some(latency) = self.camera_latency_s {
             line(&mut out, "camera_latency_s", latency);
         }
-        if let Some([x, y, theta]) = self.camera_noise {
+        if let Some(noise) = self.camera_noise {
+            let [x, y, theta] = noise.map(|sd| (sd * 1.0e4).round() / 1.0e4);
             let _ = writeln!(out, "camera_noise = [{x:?}, {y:?}, {theta:?}]");
         }
         if self.quanta_stated {

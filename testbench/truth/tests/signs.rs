@@ -1,6 +1,6 @@
 //! Every effect acts in the direction that its parameters state.
 
-use truth::{Case, Kind, Log, Plant, Shake, draw, simulate};
+use truth::{Case, Drive, Kind, Log, Machine, Plant, Robot, Shake, draw, simulate, simulate_run};
 
 /// The robot of this seed with the effect, and without.
 fn pair(seed: u64, effect: &str) -> (Case, Case) {
@@ -169,4 +169,20 @@ fn skews_turn_drive_directions_clockwise_and_angles_turn_wheels_counter_clockwis
             }
         }
     }
+}
+
+#[test]
+fn lost_edges_make_the_wheels_turn_further_than_they_count() {
+    let robot = Robot::standard();
+    let mut machine = Machine::ideal(&robot);
+    machine.wheels.iter_mut().for_each(|wheel| wheel.encoder_loss = 0.1);
+    let commands = (0..400).map(|k| [0.0, 0.0, if (20..360).contains(&k) { 1.5 } else { 0.0 }]).collect();
+    let drive = Drive { name: "turn".into(), commands, period_s: 0.005, start: [0.0; 3], hits: Vec::new() };
+    let log = simulate_run(&robot, &machine, &drive, 1, 0);
+    let seen = log.frames.last().unwrap().pose[2];
+    let counts: i64 = log.rows.last().unwrap().counts.iter().sum();
+    let rim = counts as f64 * robot.speed_quantum() / robot.control_rate_hz * robot.wheel_radius_m;
+    let counted = -rim / (3.0 * 0.085);
+    assert!((counted - 1.5 * 1.7).abs() < 0.1, "the loop follows what it counts: {counted}");
+    assert!((seen / counted - 1.0 / 0.9).abs() < 0.02, "turned {seen}, counted {counted}");
 }
