@@ -139,7 +139,7 @@ pub fn skew_fan(nominal: &Robot, largest_rad: f64) -> Option<String> {
         let label = format!("α₂ = α₃ = {:+.0}°", skew.to_degrees());
         map = map.with(Series::line(label, line).color(color).headings(arrows));
     }
-    Some(Figure::new("A line along the axle of wheel 1, for different skews of the others").with(map).to_svg())
+    Some(Figure::new("Along the axle of wheel 1, the other wheels skewed").with(map).to_svg())
 }
 
 #[cfg(test)]
