@@ -1,72 +1,52 @@
-//! Scratch.
-use gap::{drive::*, effect::*, effects, motion::*, options::*, problem::*, segment, select::*, state::*};
-use std::sync::Arc;
-fn main() {
+//! Analyses every set a truth file lists and prints truth and result side by side: `bank TRUTH.json [FILTER]`.
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args: Vec<String> = std::env::args().collect();
-    let text = std::fs::read_to_string(&args[1]).unwrap();
-    let truth: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let base = std::path::Path::new(&args[1]).parent().unwrap();
-    let only = args.get(2);
-    for entry in truth["sets"].as_array().unwrap() {
-        let name = entry["set"].as_str().unwrap();
-        let hidden: Vec<String> = entry["effects"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|e| format!("{}{}{}", e["name"].as_str().unwrap(), e["wheels"], e["parameters"]))
-            .collect();
-        let hidden = format!("{}{}", hidden.join(" + "), entry["outside"]);
-        if only.is_some_and(|o| !name.contains(o.as_str()) && !hidden.contains(o.as_str())) {
+    let truth: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&args[1])?)?;
+    let base = std::path::Path::new(&args[1]).parent().ok_or("no folder")?;
+    for entry in truth["sets"].as_array().ok_or("no sets")? {
+        let name = entry["set"].as_str().unwrap_or_default();
+        let list = |v: &serde_json::Value| -> Vec<String> {
+            v.as_array()
+                .into_iter()
+                .flatten()
+                .map(|e| format!("{}{}{}", e["name"].as_str().unwrap_or(""), e["wheels"], e["parameters"]))
+                .collect()
+        };
+        let hidden = [list(&entry["effects"]), list(&entry["outside"])].concat().join(" + ");
+        if args.get(2).is_some_and(|o| !name.contains(o.as_str()) && !hidden.contains(o.as_str())) {
             continue;
         }
-        let set = model::run::DataSet::open(base.join(name)).unwrap();
-        let g = set.robot.geometry().unwrap();
-        let t = std::time::Instant::now();
-        let segments = segment::segments(&set.robot, &g, &set.runs);
-        let noise = set.robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise(&set.runs));
-        let mut state = State { robot: set.robot.clone(), active: vec![] };
-        let catalogue: Vec<Arc<dyn Effect>> = effects::catalogue().into_iter().map(Arc::from).collect();
-        let mut th = Thresholds::default();
-        let mut line = String::new();
-        let mut seen = 0;
-        let mut report = |s: &Selection, seen: usize| {
-            let mut out = String::new();
-            for a in &s.state.active[seen..] {
-                let mat = if a.immaterial || !is_material(a, &a.parameters()) { "~" } else { "" };
-                let v: Vec<String> = a.values.0.iter().map(|(n, v)| format!("{n}={v:.4}")).collect();
-                out += &format!(" {mat}{}({})", a.effect.name(), v.join(","));
+        let set = model::run::DataSet::open(base.join(name))?;
+        let start = std::time::Instant::now();
+        let a = match gap::analyse(&set, &gap::Options::default()) {
+            Ok(a) => a,
+            Err(e) => {
+                println!("{name} TRUE {hidden}\n   ERROR {e}");
+                continue;
             }
-            let next = s.bench.trials(&Thresholds::default());
-            let n = next
-                .first()
-                .map(|t| {
-                    format!(
-                        "{} {:.0}{}",
-                        s.bench.candidates[t.candidate].effect.name(),
-                        t.gain,
-                        if t.material { "!" } else { "" }
-                    )
-                })
-                .unwrap_or_default();
-            format!("{out} [{:.2}/{:.2} c{:.0} next {n}]", s.loss / s.bench.linear.gram.n(), s.bench.variance, s.costs)
         };
-        let ml = MotionLink::new(&segments, noise, 1.0);
-        if !ml.is_empty() {
-            let m = select(&Problem::Motion(&ml), &state, &catalogue, &th);
-            line += "M:";
-            line += &report(&m, 0);
-            state = m.state;
-            seen = state.active.len();
-        }
-        if let Some(mut dl) = DriveLink::new(&segments, &state.drive(None)) {
-            let r = dl.residuals(&state.drive(None)).unwrap();
-            let (f, corr) = floor(&dl, &r, Sizes::of(&set.robot).stall_nm);
-            dl.noise = f;
-            th.drive_correlation = corr;
-            let d = select(&Problem::Drive(&dl), &state, &catalogue, &th);
-            line += " D:";
-            line += &report(&d, seen);
-        }
-        println!("{name} TRUE {hidden}\n      {line} {:.1}s", t.elapsed().as_secs_f64());
+        let named: Vec<String> = a
+            .effects
+            .iter()
+            .map(|e| {
+                let p: Vec<String> =
+                    e.parameters.iter().map(|(n, v, ci)| format!("{n}={v:.4}[{:.4},{:.4}]", ci[0], ci[1])).collect();
+                format!("{}{:?}({}) g{:.2} p{:.4}", e.name, e.wheels, p.join(","), e.gain, e.p_value)
+            })
+            .collect();
+        let j = a.to_json();
+        println!(
+            "{name} TRUE {hidden}\n   {} {} | alt {:?} | left {:?} | gap {:.2}->{:.2} closed {} {:.1}s",
+            a.verdict.name(),
+            named.join("; "),
+            a.alternatives,
+            a.unexplained.iter().map(|u| u.structure.clone()).collect::<Vec<_>>(),
+            j["gap"]["before"].as_f64().unwrap_or(0.0),
+            j["gap"]["after"].as_f64().unwrap_or(0.0),
+            j["gap"]["closed"],
+            start.elapsed().as_secs_f64()
+        );
     }
+    Ok(())
 }

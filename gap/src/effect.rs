@@ -178,6 +178,14 @@ pub trait Effect: Send + Sync {
     fn motion(&self, _values: &Values, _model: &mut MotionModel) {}
     /// Acts on the drive link.
     fn drive(&self, _values: &Values, _model: &mut DriveModel) {}
+    /// Whether it only probes for structure and is never named.
+    fn probe(&self) -> bool {
+        false
+    }
+    /// What a probe found, in words.
+    fn describe(&self, _values: &Values) -> String {
+        self.equation().to_owned()
+    }
     /// A measurement without driving that settles it, and the minutes it takes.
     fn measurement(&self) -> Option<(&str, f64)> {
         None

@@ -1,15 +1,36 @@
 //! Finds where simulation and measured data of an omnidirectional robot disagree, names the missing
 //! physical effect, adds it to the model and shows how much of the gap it closes.
+//!
+//! ```no_run
+//! let set = model::run::DataSet::open("data/runs/wheel-skew")?;
+//! let analysis = gap::analyse(&set, &gap::Options::default())?;
+//! println!("{}", analysis.terminal_summary());
+//! analysis.write("out")?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+pub mod analysis;
+mod command;
+mod controller;
 pub mod drive;
 pub mod effect;
 pub mod effects;
+mod error;
+pub mod exact;
+pub mod experiment;
 pub mod gram;
+mod locate;
 pub mod motion;
 pub mod options;
 pub mod problem;
+mod report;
 pub mod ridge;
 pub mod segment;
 pub mod select;
 pub mod state;
 pub mod statistics;
+mod timing;
+
+pub use analysis::{Analysis, Verdict, analyse, undo};
+pub use error::GapError;
+pub use options::Options;

@@ -48,6 +48,11 @@ impl Active {
         out
     }
 
+    /// Whether it is material, and so named or reported.
+    pub fn worth(&self) -> bool {
+        !self.given && crate::select::is_material(self, &self.parameters())
+    }
+
     /// Whether it is switched on from a start value instead of growing from 0.
     pub fn switched(&self) -> bool {
         self.form.free.iter().any(|p| p.start.is_some())

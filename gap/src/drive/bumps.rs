@@ -88,6 +88,28 @@ impl<'a> DriveLink<'a> {
         (!bumps.is_empty()).then(|| Self { segments, inertia, noise: vec![1.0; n], bumps })
     }
 
+    /// Leaves out bumps in which a wheel slips by what the motion link found: Newton's law in wheel
+    /// coordinates needs wheels that roll.
+    pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel) {
+        /// Slip of a rolling wheel, rad/s: creep and noise stay below.
+        const ROLLING: f64 = 1.5;
+        if motion.angles.is_empty() {
+            return;
+        }
+        let changed: Vec<_> = self.segments.iter().map(|s| motion.angles(s)).collect();
+        for bump in &mut self.bumps {
+            let s = &self.segments[bump.segment];
+            let end = bump.first + bump.force.len();
+            let slips = (0..s.angle.len()).any(|i| {
+                let off = |k: usize| changed[bump.segment][i][k] - s.angle[i][k];
+                (off(end) - off(bump.first)).abs() > ROLLING * 0.5 * (s.t[end] - s.t[bump.first])
+            });
+            if slips {
+                bump.weights.fill(0.0);
+            }
+        }
+    }
+
     /// Number of bumps.
     pub fn len(&self) -> usize {
         self.bumps.len()

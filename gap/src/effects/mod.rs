@@ -24,6 +24,7 @@ mod lens_distortion;
 mod marker_heading;
 mod marker_offset;
 mod motor_heating;
+mod probes;
 mod robot_mass;
 mod roller_friction;
 mod roller_ripple;
@@ -33,6 +34,7 @@ mod torque_constant;
 mod viscous_friction;
 mod wheel_angle;
 mod wheel_creep;
+mod wheel_order;
 mod wheel_radius;
 mod wheel_radius_common;
 mod wheel_skew;
@@ -43,7 +45,7 @@ use crate::effect::Effect;
 
 /// All effects fitted on the motion and drive links, in the order in which equals are named.
 pub fn catalogue() -> Vec<Box<dyn Effect>> {
-    vec![
+    let named: Vec<Box<dyn Effect>> = vec![
         Box::new(wheel_skew::WheelSkew),
         Box::new(wheel_radius::WheelRadius),
         Box::new(wheel_radius_common::WheelRadiusCommon),
@@ -80,7 +82,25 @@ pub fn catalogue() -> Vec<Box<dyn Effect>> {
         Box::new(carpet_grain::CarpetGrain),
         Box::new(heading_drag::HeadingDrag),
         Box::new(actuation_latency::ActuationLatency),
-    ]
+        Box::new(wheel_order::WheelOrder),
+    ];
+    named.into_iter().chain(probes::all()).collect()
+}
+
+/// The equation of an effect on a deterministic link.
+pub fn exact_equation(name: &str) -> &'static str {
+    match name {
+        "command-latency" => "set point at t follows the command at t - latency_s",
+        "wheel-order" => "set point i follows row |axis_i| of the inverse kinematics, inverted where negative",
+        "pi-gain" => "gains of the speed loop are kp (1 + kp_scale), ki (1 + ki_scale)",
+        "integrator-windup" => "the integrator is not held at saturation but stops at limit_duty",
+        "quantisation" => "duties are rounded to duty_quantum",
+        "sample-order" => {
+            "the loop uses counts (signal 0) or set points (signal 1) that are shift_ticks older than logged"
+        }
+        "camera-timing" => "stamps of the camera frames scatter about their capture times by jitter_s",
+        _ => "",
+    }
 }
 
 /// The effect of this name.

@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 
 use crate::segment::{Frame, Segment};
 
-pub use windows::MotionLink;
+pub use windows::{MotionLink, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
 pub type AngleChange = Box<dyn Fn(&Segment, &mut [Vec<f64>]) + Send + Sync>;
@@ -37,6 +37,10 @@ pub struct MotionModel {
     pub angles: Vec<AngleChange>,
     /// What the camera does to a pose of the marker, in this order.
     pub observe: Vec<Observe>,
+    /// Drift of the camera's origin, m/s.
+    pub drift: [f64; 2],
+    /// Age of a frame beyond `latency_s` per speed of the robot, s²/m.
+    pub speed_delay: f64,
     /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
     pub inertia: DMatrix<f64>,
     /// Mass, kg.
@@ -57,6 +61,8 @@ impl MotionModel {
             marker: Pose::default(),
             angles: Vec::new(),
             observe: Vec::new(),
+            drift: [0.0; 2],
+            speed_delay: 0.0,
             inertia: crate::drive::DriveModel::new(robot)
                 .mechanics()
                 .map_or_else(|| DMatrix::zeros(robot.wheel_count(), robot.wheel_count()), |m| m.inertia),
@@ -91,7 +97,9 @@ impl MotionModel {
         let mut out = Vec::with_capacity(frames.len());
         let Some(first) = frames.first() else { return out };
         let last_tick = segment.t.len() - 1;
-        let mut tick = segment.tick_at(first.t - self.latency_s);
+        let early = if self.speed_delay == 0.0 { 0.0 } else { 0.1 };
+        let origin = segment.tick_at(first.t - self.latency_s - early);
+        let mut tick = origin;
         let moved = |k: usize, share: f64| {
             let mut sum = [0.0; 3];
             for (column, angle) in columns.iter().zip(angles) {
@@ -104,7 +112,14 @@ impl MotionModel {
         };
         let mut pose = Pose::default();
         for frame in frames {
-            let exposed = frame.t - self.latency_s;
+            let mut exposed = frame.t - self.latency_s;
+            if self.speed_delay != 0.0 {
+                exposed -= self.speed_delay * segment.twist[segment.tick_at(exposed)].speed();
+            }
+            if exposed < segment.t[tick] {
+                // Delays may differ from frame to frame: start over.
+                (tick, pose) = (origin, Pose::default());
+            }
             while tick < last_tick && segment.t[tick + 1] <= exposed {
                 pose = pose.compose(moved(tick, 1.0));
                 tick += 1;

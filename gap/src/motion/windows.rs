@@ -135,7 +135,7 @@ impl<'a> MotionLink<'a> {
             let (mut information, mut score) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros());
             for i in 0..n {
                 let placed = start.compose(track[i]);
-                let p = model.seen(placed);
+                let p = drifted(model, model.seen(placed), frames[i].t - frames[0].t);
                 predicted[i] = p;
                 let seen = frames[i].pose;
                 let raw = [seen.x - p.x, seen.y - p.y, wrap_angle(seen.theta - p.theta)];
@@ -180,7 +180,11 @@ impl<'a> MotionLink<'a> {
                 .zip(base)
                 .map(|(w, b)| {
                     let track = self.track(model, &angles, &columns, w);
-                    track.iter().map(|p| model.seen(b.start.compose(*p))).collect()
+                    track
+                        .iter()
+                        .zip(&b.t)
+                        .map(|(p, t)| drifted(model, model.seen(b.start.compose(*p)), t - b.t[0]))
+                        .collect()
                 })
                 .collect()
         };
@@ -220,6 +224,11 @@ impl<'a> MotionLink<'a> {
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
         Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
     }
+}
+
+/// A pose seen by a camera whose origin has drifted for `t` seconds.
+fn drifted(model: &MotionModel, p: Pose, t: f64) -> Pose {
+    Pose::new(p.x + model.drift[0] * t, p.y + model.drift[1] * t, p.theta)
 }
 
 /// Distance of a residual from the median of its neighbours.

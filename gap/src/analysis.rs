@@ -1,0 +1,683 @@
+//! The whole workflow on one data set.
+
+use std::sync::Arc;
+
+use model::robot::{Effect as RobotEffect, EffectParameter, Robot};
+use model::run::DataSet;
+
+use crate::drive::{DriveLink, DriveResiduals};
+use crate::effect::{Effect, Link, Sizes, Values};
+use crate::exact::{ExactLink, Finding};
+use crate::motion::{MotionLink, WindowResiduals};
+use crate::options::{Options, Thresholds};
+use crate::problem::{Owner, Problem};
+use crate::segment::{Segment, segments};
+use crate::select::{self, Bench, Selection};
+use crate::state::{Active, State};
+use crate::{GapError, command, controller, effects, timing};
+
+/// What the analysis comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Nothing material beyond noise.
+    Agrees,
+    /// One or more effects are missing, and named.
+    MissingEffect,
+    /// Several effects explain the gap equally well.
+    Ambiguous,
+    /// Something significant and structured is left that no effect explains.
+    Unexplained,
+}
+
+impl Verdict {
+    /// As in `gap.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::MissingEffect => "missing-effect",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// Where the model and the data part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located {
+    /// Link.
+    pub link: Link,
+    /// Signal, such as `enc_3`.
+    pub signal: String,
+    /// RMS residual in units of the noise floor.
+    pub excess: f64,
+    /// In words.
+    pub place: String,
+}
+
+/// A named effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// What it is.
+    pub equation: String,
+    /// Link it was found on.
+    pub link: Link,
+    /// Wheels from 1; empty for the whole robot.
+    pub wheels: Vec<usize>,
+    /// Parameters with 95 % intervals.
+    pub parameters: Vec<(String, f64, [f64; 2])>,
+    /// Share of the link's squared gap it closes, 0 to 1.
+    pub gain: f64,
+    /// By flipping the signs of clusters.
+    pub p_value: f64,
+}
+
+/// An effect that is detectable but immaterial, or the limit from which it would be named.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Name of the effect.
+    pub name: String,
+    /// Parameter.
+    pub parameter: String,
+    /// Its estimate if everything else unnamed is held near zero.
+    pub estimate: f64,
+    /// Its standard deviation.
+    pub sd: f64,
+    /// Size from which it is named.
+    pub limit: f64,
+    /// Materiality threshold.
+    pub material: f64,
+}
+
+/// Structure that no effect of the catalogue explains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leftover {
+    /// Link.
+    pub link: Link,
+    /// In words.
+    pub structure: String,
+}
+
+/// Gap figures of one link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkGap {
+    /// Link.
+    pub link: Link,
+    /// Held-out RMS in units of the noise floor, nominal.
+    pub before: f64,
+    /// With the named effects.
+    pub after: f64,
+    /// Physical floor per signal.
+    pub floor: Vec<f64>,
+    /// Physical RMS per signal, nominal and after.
+    pub rms: Vec<[f64; 2]>,
+    /// Unit of each signal.
+    pub units: Vec<&'static str>,
+    /// Number of signals.
+    pub signals: usize,
+}
+
+/// Everything found out about a data set.
+pub struct Analysis {
+    /// Verdict.
+    pub verdict: Verdict,
+    /// Where it disagrees, worst first.
+    pub located: Vec<Located>,
+    /// Named effects, largest gain first.
+    pub effects: Vec<Named>,
+    /// Sets of effects that cannot be told apart.
+    pub alternatives: Vec<Vec<String>>,
+    /// What is left.
+    pub unexplained: Vec<Leftover>,
+    /// Named effects that fit best but do not explain what is left.
+    pub nearest: Vec<String>,
+    /// What to do next.
+    pub next_experiment: Option<crate::experiment::Experiment>,
+    /// Gap per link.
+    pub links: Vec<LinkGap>,
+    /// Detection limits, and what is detectable but immaterial.
+    pub limits: Vec<Limit>,
+    /// The robot with the named effects.
+    pub robot: Robot,
+    /// Waterfall: label and held-out RMS in units of the floor.
+    pub waterfall: Vec<(String, f64)>,
+    /// Name of the data set.
+    pub name: String,
+    /// Names of its runs.
+    pub runs: Vec<String>,
+    /// Thresholds that were in force.
+    pub thresholds: Thresholds,
+    /// Motion residuals before and after, for plots.
+    pub motion: Option<[Vec<WindowResiduals>; 2]>,
+    /// Drive residuals before and after.
+    pub drive: Option<[DriveResiduals; 2]>,
+    /// Pieces of the runs.
+    pub segments: Vec<Segment>,
+    /// What could not be compared, and why.
+    pub remarks: Vec<String>,
+    /// Deterministic links.
+    pub exact: Vec<ExactLink>,
+}
+
+/// Analyses a data set.
+///
+/// # Errors
+/// [`GapError`] if the robot cannot drive, or the logs hold nothing that can be compared.
+pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
+    let robot = &set.robot;
+    let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
+    let catalogue: Vec<Arc<dyn Effect>> =
+        effects::catalogue().into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
+    let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
+    let mut remarks: Vec<String> = Vec::new();
+    let mut exact: Vec<ExactLink> = [
+        timing::analyse(robot, &set.runs),
+        command::analyse(robot, &geometry, &set.runs),
+        controller::analyse(robot, &set.runs),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    for link in &mut exact {
+        // What the robot's file already carries is no news.
+        if let Some(f) = &link.finding
+            && robot.effect(f.name).is_some()
+        {
+            link.finding = None;
+            link.before.clone_from(&link.after);
+        }
+    }
+    let pieces = segments(robot, &geometry, &set.runs);
+    if pieces.is_empty() {
+        return Err(GapError::NothingToCompare);
+    }
+    let mut thresholds = options.thresholds.clone();
+    let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise(&set.runs));
+    let motion_link = MotionLink::new(&pieces, noise, 1.0);
+    let mut links: Vec<LinkGap> = Vec::new();
+    let mut located = Vec::new();
+    let mut named = Vec::new();
+    let mut alternatives = Vec::new();
+    let mut limits = Vec::new();
+    let mut unexplained = Vec::new();
+    let mut waterfall_parts: Vec<(String, Link, f64)> = Vec::new();
+    let mut ambiguous = false;
+    let nominal = start.clone();
+    let mut found: Vec<Active> = Vec::new();
+
+    if let Some(order) = wheel_order(&motion_link, &start, &catalogue) {
+        let (active, gain) = order;
+        named.push(order_named(&active, gain));
+        found.push(active.clone());
+        start.active.push(active);
+    }
+    let mut motion_plots = None;
+    if motion_link.is_empty() || robot.support == model::robot::Support::Blocks {
+        remarks.push(missing(set));
+    } else {
+        let problem = Problem::Motion(&motion_link);
+        let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds);
+        located.extend(crate::locate::motion(&motion_link, &motion_link.residuals(&nominal.motion(None))));
+        let plots = [
+            motion_link.residuals(&nominal.motion(None)),
+            motion_link.residuals(&outcome.selection.state.motion(None)),
+        ];
+        links.push(motion_gap(&outcome, noise, &plots));
+        motion_plots = Some(plots);
+        collect(
+            &outcome,
+            Link::Motion,
+            &mut named,
+            &mut alternatives,
+            &mut limits,
+            &mut unexplained,
+            &mut waterfall_parts,
+            &mut ambiguous,
+        );
+        found.extend(outcome.selection.state.active[start.active.len()..].iter().filter(|a| a.worth()).cloned());
+        start = outcome.selection.state.clone();
+        start.active.iter_mut().for_each(|a| a.given = true);
+    }
+    let mut drive_plots = None;
+    if let Some(mut link) = DriveLink::new(&pieces, &start.drive(None)) {
+        link.mask_slip(&start.motion(None));
+        if let Some(residuals) = link.residuals(&start.drive(None)) {
+            let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(robot).stall_nm);
+            link.noise = floor.clone();
+            thresholds.drive_correlation = correlation;
+            let problem = Problem::Drive(&link);
+            let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds);
+            let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
+            located.extend(crate::locate::drive(&link, &before, &floor));
+            let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
+            let plots = [before, after];
+            links.push(drive_gap(&outcome, &floor, &plots));
+            collect(
+                &outcome,
+                Link::Drive,
+                &mut named,
+                &mut alternatives,
+                &mut limits,
+                &mut unexplained,
+                &mut waterfall_parts,
+                &mut ambiguous,
+            );
+            found.extend(outcome.selection.state.active[start.active.len()..].iter().filter(|a| a.worth()).cloned());
+            drive_plots = Some(plots);
+        }
+    } else {
+        remarks.push(
+            "No duties in the logs (or none that belong to the wheels): the drive link is not compared.".to_owned(),
+        );
+    }
+    for link in &exact {
+        if let Some(f) = &link.finding {
+            named.push(exact_named(f, link));
+        } else if link.unexplained {
+            let structure = format!(
+                "differs at {:.1} % of the ticks, and no hypothesis of the catalogue replays it",
+                100.0 * link.wrong_share
+            );
+            unexplained.push(Leftover { link: link.link, structure });
+        }
+        located.extend(crate::locate::exact(link));
+        links.push(exact_gap(link));
+    }
+    if links.is_empty() {
+        return Err(GapError::NothingToCompare);
+    }
+    let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
+    let nearest: Vec<String> =
+        named.iter().filter(|n| structural.contains(&n.link.name().to_owned())).map(|n| n.name.clone()).collect();
+    let verdict = match () {
+        () if !unexplained.is_empty() && named.iter().all(|n| nearest.contains(&n.name)) => Verdict::Unexplained,
+        () if named.is_empty() => Verdict::Agrees,
+        () if ambiguous => Verdict::Ambiguous,
+        () => Verdict::MissingEffect,
+    };
+    located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
+    let waterfall = waterfall(&links, &waterfall_parts);
+    let robot_with =
+        with_effects(robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
+    let next_experiment = crate::experiment::propose(verdict, &alternatives, &named, &catalogue, robot);
+    Ok(Analysis {
+        verdict,
+        located,
+        effects: named,
+        alternatives,
+        unexplained,
+        nearest,
+        next_experiment,
+        links,
+        limits,
+        robot: robot_with,
+        waterfall,
+        name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
+        runs: set.runs.iter().map(|r| r.name.clone()).collect(),
+        thresholds,
+        motion: motion_plots,
+        drive: drive_plots,
+        segments: pieces,
+        remarks,
+        exact,
+    })
+}
+
+fn missing(set: &DataSet) -> String {
+    let what = if set.robot.support == model::robot::Support::Blocks {
+        "The wheels are off the floor: the motion link is not compared."
+    } else if set.runs.iter().all(|r| r.counts.is_empty()) {
+        "No encoder counts in the logs: the motion link is not compared."
+    } else {
+        "No second of the logs has four camera poses: the motion link is not compared."
+    };
+    what.to_owned()
+}
+
+/// The effects that the robot's file carries already.
+fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+    robot
+        .effects
+        .iter()
+        .filter_map(|e| {
+            let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
+            let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
+            let link = effect.link();
+            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true })
+        })
+        .collect()
+}
+
+/// A link's selection with everything that is said about it.
+struct Outcome {
+    selection: Selection,
+    before: f64,
+    after: f64,
+    named: Vec<Named>,
+    sets: Vec<Vec<String>>,
+    ambiguous: bool,
+    limits: Vec<Limit>,
+    leftovers: Vec<String>,
+}
+
+fn study(
+    problem: &Problem,
+    nominal: &State,
+    start: &State,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Outcome {
+    let all = select::candidates(start, catalogue, problem.link());
+    let selection = select::select(problem, start, catalogue, thresholds);
+    let from = start.active.len();
+    let bench = &selection.bench;
+    let fit = bench.fit_roles(&bench.estimating());
+    let covariance = bench.covariance(&bench.estimating(), &fit);
+    let (plain, n) = problem.linearise_nothing(nominal).plain();
+    let before = (plain / n.max(1.0)).sqrt();
+    let (_, after) = select::figures(bench);
+    let (mut named, mut sets, mut leftovers, mut ambiguous) = (Vec::new(), Vec::new(), Vec::new(), false);
+    for index in from..selection.state.active.len() {
+        let active = &selection.state.active[index];
+        if !active.worth() {
+            continue;
+        }
+        if active.effect.probe() {
+            leftovers.push(active.effect.describe(&active.values));
+            continue;
+        }
+        let rivals = select::rivals(problem, &selection, index, &all, thresholds);
+        let own = rivals.bench.candidates.iter().position(|c| {
+            c.effect.name() == active.effect.name()
+                && c.form.wheels == active.form.wheels
+                && c.form.fixed == active.form.fixed
+        });
+        let p_value = own.map_or(1.0, |c| select::sign_flip(&rivals.bench, c));
+        let (_, without) = raw_pair(&rivals.bench);
+        sets.extend(rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe"))));
+        ambiguous |= rivals.ambiguous;
+        let half = |j: usize| {
+            let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
+            let df = (bench.linear.gram.clusters.len()).saturating_sub(active.form.free.len());
+            column.map_or(0.0, |c| model::fit::t_quantile_975(df) * covariance[(c, c)].max(0.0).sqrt())
+        };
+        let mut parameters: Vec<(String, f64, [f64; 2])> = active
+            .form
+            .free
+            .iter()
+            .enumerate()
+            .map(|(j, p)| {
+                let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
+                let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
+                (p.name.clone(), v, [v - half(j), v + half(j)])
+            })
+            .collect();
+        parameters.extend(active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])));
+        let with = after * after * n;
+        named.push(Named {
+            name: active.effect.name().to_owned(),
+            equation: active.effect.equation().to_owned(),
+            link: problem.link(),
+            wheels: material_wheels(active),
+            parameters,
+            gain: ((without - with) / plain.max(without)).clamp(0.0, 1.0),
+            p_value,
+        });
+    }
+    named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    Outcome { before, after, named, sets, ambiguous, limits: limits(bench, thresholds), leftovers, selection }
+}
+
+/// RMS and sum of squares of a bench as it stands.
+fn raw_pair(bench: &Bench) -> (f64, f64) {
+    let (square, n) = bench.linear.gram.plain();
+    ((square / n.max(1.0)).sqrt(), square)
+}
+
+fn material_wheels(active: &Active) -> Vec<usize> {
+    let per_wheel = active.form.wheels.len() > 1 && active.form.free.len() >= active.form.wheels.len();
+    if !per_wheel {
+        return active.form.wheels.iter().map(|w| w + 1).collect();
+    }
+    let each = active.form.free.len() / active.form.wheels.len();
+    active
+        .form
+        .wheels
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| {
+            (k * each..(k + 1) * each)
+                .any(|j| active.form.free[j].is_material(active.values.get(&active.form.free[j].name)))
+        })
+        .map(|(_, w)| w + 1)
+        .collect()
+}
+
+/// Detection limits: the size from which an effect would be named in these data.
+fn limits(bench: &Bench, thresholds: &Thresholds) -> Vec<Limit> {
+    let mut out: Vec<Limit> = Vec::new();
+    let needed = thresholds.gain + thresholds.costs[0];
+    for (c, candidate) in bench.candidates.iter().enumerate() {
+        if candidate.effect.probe() || candidate.switched() || candidate.form.free.len() > 3 {
+            continue;
+        }
+        let roles = bench.freeing(&[c]);
+        let fit = bench.fit(&[c]);
+        let covariance = bench.covariance(&roles, &fit);
+        for (j, p) in candidate.form.free.iter().enumerate().filter(|(_, p)| p.material.is_finite()) {
+            let known = out.iter().any(|l| l.name == candidate.effect.name() && l.parameter == p.name);
+            let Some(column) = bench.linear.of_candidate(c).get(j).copied() else { continue };
+            let sd = covariance[(column, column)].sqrt();
+            if known || !sd.is_finite() || sd == 0.0 {
+                continue;
+            }
+            let limit = p.material.max(needed.sqrt() * sd);
+            let name = candidate.effect.name().to_owned();
+            out.push(Limit {
+                name,
+                parameter: p.name.clone(),
+                estimate: fit.step[column],
+                sd,
+                limit,
+                material: p.material,
+            });
+        }
+    }
+    out
+}
+
+#[allow(clippy::too_many_arguments)]
+fn collect(
+    outcome: &Outcome,
+    link: Link,
+    named: &mut Vec<Named>,
+    alternatives: &mut Vec<Vec<String>>,
+    limits: &mut Vec<Limit>,
+    unexplained: &mut Vec<Leftover>,
+    parts: &mut Vec<(String, Link, f64)>,
+    ambiguous: &mut bool,
+) {
+    for n in &outcome.named {
+        parts.push((n.name.clone(), link, n.gain));
+    }
+    named.extend(outcome.named.iter().cloned());
+    alternatives.extend(outcome.sets.iter().cloned());
+    limits.extend(outcome.limits.iter().cloned());
+    unexplained.extend(outcome.leftovers.iter().map(|s| Leftover { link, structure: s.clone() }));
+    *ambiguous |= outcome.ambiguous;
+}
+
+fn motion_gap(outcome: &Outcome, noise: [f64; 3], plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
+    let rms = |side: usize, i: usize| {
+        noise[i]
+            * crate::statistics::rms(
+                plots[side]
+                    .iter()
+                    .flat_map(|w| w.residuals.iter().zip(&w.weights))
+                    .filter(|(_, w)| **w > 0.0)
+                    .map(|(r, _)| r[i]),
+            )
+    };
+    LinkGap {
+        link: Link::Motion,
+        before: outcome.before,
+        after: outcome.after,
+        floor: noise.to_vec(),
+        rms: (0..3).map(|i| [rms(0, i), rms(1, i)]).collect(),
+        units: vec!["m", "m", "rad"],
+        signals: 3,
+    }
+}
+
+fn drive_gap(outcome: &Outcome, floor: &[f64], plots: &[DriveResiduals; 2]) -> LinkGap {
+    let rms = |side: usize, i: usize| {
+        let d = &plots[side];
+        crate::statistics::rms(d.torque.iter().zip(&d.weights).filter(|(_, w)| w[i] > 0.0).map(|(t, _)| t[i]))
+    };
+    LinkGap {
+        link: Link::Drive,
+        before: outcome.before,
+        after: outcome.after,
+        floor: floor.to_vec(),
+        rms: (0..floor.len()).map(|i| [rms(0, i), rms(1, i)]).collect(),
+        units: vec!["Nm"; floor.len()],
+        signals: floor.len(),
+    }
+}
+
+fn exact_gap(link: &ExactLink) -> LinkGap {
+    let figure = |e: &[f64]| {
+        crate::statistics::rms(
+            e.iter().map(|x| if link.link == Link::Timing { x / link.floor } else { 1.0 + x / link.floor }),
+        )
+    };
+    LinkGap {
+        link: link.link,
+        before: figure(&link.before),
+        after: figure(&link.after),
+        floor: vec![link.floor; link.before.len()],
+        rms: link.before.iter().zip(&link.after).map(|(a, b)| [*a, *b]).collect(),
+        units: vec![link.unit; link.before.len()],
+        signals: link.before.len(),
+    }
+}
+
+fn exact_named(f: &Finding, link: &ExactLink) -> Named {
+    let square = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
+    let gain = 1.0 - square(&link.after) / square(&link.before).max(1e-300);
+    Named {
+        name: f.name.to_owned(),
+        equation: effects::exact_equation(f.name).to_owned(),
+        link: f.link,
+        wheels: f.wheels.iter().map(|w| w + 1).collect(),
+        parameters: f.parameters.clone(),
+        gain: gain.clamp(0.0, 1.0),
+        p_value: 2e-4,
+    }
+}
+
+/// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
+fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
+    let effect = catalogue.iter().find(|e| e.name() == "wheel-order")?;
+    if link.is_empty() || start.active.iter().any(|a| a.effect.name() == "wheel-order") {
+        return None;
+    }
+    let problem = Problem::Motion(link);
+    let plain = |s: &State| problem.linearise_nothing(s).plain();
+    let (before, n) = plain(start);
+    if before < 30.0 * n {
+        return None;
+    }
+    let wheels = start.robot.wheel_count();
+    let tried = crate::command::orders(wheels).into_iter().map(|order| {
+        let values = Values(
+            order.iter().enumerate().map(|(i, (w, s))| (format!("axis_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
+        );
+        let form = crate::effect::Form {
+            wheels: (0..wheels).filter(|i| order[*i] != (*i, 1.0)).collect(),
+            free: Vec::new(),
+            fixed: values.0.clone(),
+        };
+        let active =
+            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Command, given: true };
+        let mut state = start.clone();
+        state.active.push(active.clone());
+        (plain(&state).0, active)
+    });
+    let (after, active) = tried.filter(|(l, _)| l.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (after < 0.1 * before && !active.form.wheels.is_empty()).then_some((active, 1.0 - after / before))
+}
+
+fn order_named(active: &Active, gain: f64) -> Named {
+    Named {
+        name: "wheel-order".to_owned(),
+        equation: active.effect.equation().to_owned(),
+        link: Link::Command,
+        wheels: active.form.wheels.iter().map(|w| w + 1).collect(),
+        parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])).collect(),
+        gain,
+        p_value: 2e-4,
+    }
+}
+
+/// Gap over all signals: (before, after), in units of the floor.
+pub fn overall(links: &[LinkGap]) -> (f64, f64) {
+    let signals: f64 = links.iter().map(|l| l.signals as f64).sum();
+    let mean = |f: &dyn Fn(&LinkGap) -> f64| {
+        (links.iter().map(|l| l.signals as f64 * f(l).powi(2)).sum::<f64>() / signals.max(1.0)).sqrt()
+    };
+    (mean(&|l| l.before), mean(&|l| l.after))
+}
+
+fn waterfall(links: &[LinkGap], parts: &[(String, Link, f64)]) -> Vec<(String, f64)> {
+    let (before, after) = overall(links);
+    let mut out = vec![("nominal model".to_owned(), before)];
+    // The squares of the links fall by each effect's share.
+    let mut now: Vec<(Link, f64, f64)> = links.iter().map(|l| (l.link, l.before, l.signals as f64)).collect();
+    for (name, link, gain) in parts {
+        if let (Some(slot), Some(l)) = (now.iter_mut().find(|n| n.0 == *link), links.iter().find(|l| l.link == *link)) {
+            slot.1 = (slot.1.powi(2) - gain * l.before.powi(2)).max(l.after.powi(2)).sqrt();
+        }
+        let signals: f64 = now.iter().map(|n| n.2).sum();
+        let rms = (now.iter().map(|n| n.2 * n.1 * n.1).sum::<f64>() / signals.max(1.0)).sqrt();
+        out.push((format!("+ {name}"), rms));
+    }
+    out.push(("after, what is immaterial adjusted".to_owned(), after));
+    out.push(("noise floor".to_owned(), 1.0));
+    out
+}
+
+/// The robot with the named effects in its file, each with its evidence.
+fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<String>], runs: &[String]) -> Robot {
+    let mut out = robot.clone();
+    for n in named {
+        let mut other = toml::Table::new();
+        let strings = |v: &[String]| toml::Value::Array(v.iter().map(|s| toml::Value::String(s.clone())).collect());
+        other.insert("runs".to_owned(), strings(runs));
+        other.insert("gain".to_owned(), toml::Value::Float((n.gain * 1e4).round() / 1e4));
+        other.insert("p_value".to_owned(), toml::Value::Float(n.p_value));
+        let twins: Vec<String> =
+            alternatives.iter().filter(|a| a.contains(&n.name)).flatten().filter(|x| **x != n.name).cloned().collect();
+        if !twins.is_empty() {
+            other.insert("cannot_be_told_from".to_owned(), strings(&twins));
+        }
+        let parameters = n
+            .parameters
+            .iter()
+            .map(|(name, value, ci)| {
+                (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
+            })
+            .collect();
+        out.effects.retain(|e| e.name != n.name);
+        out.effects.push(RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other });
+    }
+    out
+}
+
+/// The robot without an effect; `None` if it has none of this name.
+pub fn undo(robot: &Robot, name: &str) -> Option<Robot> {
+    let mut out = robot.clone();
+    out.effects.retain(|e| e.name != name);
+    (out.effects.len() < robot.effects.len()).then_some(out)
+}

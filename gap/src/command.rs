@@ -1,0 +1,150 @@
+//! The `command` link: body command to wheel set points, by the inverse kinematics.
+
+use model::geometry::Geometry;
+use model::robot::Robot;
+use model::run::Run;
+
+use crate::effect::Link;
+use crate::exact::{ExactLink, Finding, beyond, quantum};
+
+/// Longest latency looked for, s.
+const LONGEST_S: f64 = 0.3;
+/// Share of ticks that may differ (a command that arrived within the tick).
+const WRONG_SHARE: f64 = 0.01;
+/// A hypothesis must remove this share of the error's square.
+const REMOVED: f64 = 0.9;
+
+/// Compares the logged set points with those the geometry makes of the logged commands.
+pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Option<ExactLink> {
+    let n = robot.wheel_count();
+    let runs: Vec<&Run> = runs.iter().filter(|r| r.command.is_some() && r.reference.len() == n).collect();
+    if runs.is_empty() {
+        return None;
+    }
+    let quantum_ref =
+        robot.ref_quantum.unwrap_or_else(|| quantum(runs.iter().flat_map(|r| r.reference.iter().flatten())));
+    let quantum_cmd = quantum(runs.iter().filter_map(|r| r.command.as_ref()).flat_map(|c| c.iter().flatten()));
+    let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
+    let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
+    let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
+    let errors = |order: &[(usize, f64)], delay: f64| -> Vec<f64> {
+        let mut sums = vec![0.0; n];
+        let mut count = 0.0_f64;
+        for run in &runs {
+            let Some(command) = &run.command else { continue };
+            let tick = run.tick_s().unwrap_or(1.0);
+            let back = (delay / tick).round() as usize;
+            for k in back..run.len() {
+                let c = [0, 1, 2].map(|j| command[j][k - back]);
+                count += 1.0;
+                for i in 0..n {
+                    let (row, sign) = order[i];
+                    let expected = sign * (0..3).map(|j| rows[row][j] * c[j]).sum::<f64>();
+                    let e = ((run.reference[i][k] - expected).abs() - tolerance).max(0.0);
+                    if e.is_finite() {
+                        sums[i] += e * e;
+                    }
+                }
+            }
+        }
+        sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect()
+    };
+    let straight: Vec<(usize, f64)> = (0..n).map(|i| (i, 1.0)).collect();
+    let before = errors(&straight, 0.0);
+    let size = beyond(runs.iter().flat_map(|r| r.reference.iter().flatten().copied()), 0.0).max(1e-9);
+    let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
+    let wrong = wrong_share(&runs, &rows, tolerance);
+    let floor = tolerance;
+    let mut link = ExactLink {
+        link: Link::Command,
+        unit: "rad/s",
+        floor,
+        after: before.clone(),
+        before,
+        wrong_share: wrong,
+        finding: None,
+        unexplained: false,
+    };
+    if wrong <= WRONG_SHARE || total(&link.before).sqrt() < 1e-3 * size {
+        return Some(link);
+    }
+    // Every order and sign of the rows, and every latency.
+    let mut best: (f64, Option<Finding>, Vec<f64>) = (total(&link.before), None, link.before.clone());
+    for order in orders(n) {
+        let e = errors(&order, 0.0);
+        if total(&e) < best.0 * 0.999 {
+            let wheels = (0..n).filter(|i| order[*i] != (*i, 1.0)).collect();
+            let parameters = order
+                .iter()
+                .enumerate()
+                .map(|(i, (row, sign))| {
+                    let v = sign * (*row as f64 + 1.0);
+                    (format!("axis_{}", i + 1), v, [v, v])
+                })
+                .collect();
+            best = (total(&e), Some(Finding { link: Link::Command, name: "wheel-order", wheels, parameters }), e);
+        }
+    }
+    let tick = runs[0].tick_s().unwrap_or(0.001);
+    let most = (LONGEST_S / tick) as usize;
+    let coarse = (most / 60).max(1);
+    let at = |ticks: usize| total(&errors(&straight, ticks as f64 * tick));
+    let start = (0..=most).step_by(coarse).map(|t| (at(t), t)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |b| b.1);
+    let range = start.saturating_sub(coarse)..=(start + coarse).min(most);
+    if let Some((e, ticks)) = range.map(|t| (at(t), t)).min_by(|a, b| a.0.total_cmp(&b.0))
+        && ticks > 0
+        && e < best.0 * 0.999
+    {
+        let latency = ticks as f64 * tick;
+        let parameters = vec![("latency_s".to_owned(), latency, [latency - tick, latency + tick])];
+        let finding = Finding { link: Link::Command, name: "command-latency", wheels: Vec::new(), parameters };
+        best = (e, Some(finding), errors(&straight, latency));
+    }
+    if best.0 < (1.0 - REMOVED) * total(&link.before) {
+        link.after = best.2;
+        link.finding = best.1;
+    } else {
+        link.unexplained = true;
+    }
+    Some(link)
+}
+
+fn wrong_share(runs: &[&Run], rows: &[[f64; 3]], tolerance: f64) -> f64 {
+    let (mut wrong, mut all) = (0.0, 0.0_f64);
+    for run in runs {
+        let Some(command) = &run.command else { continue };
+        for k in 0..run.len() {
+            for (i, row) in rows.iter().enumerate() {
+                let expected: f64 = (0..3).map(|j| row[j] * command[j][k]).sum();
+                let e = (run.reference[i][k] - expected).abs();
+                if e.is_finite() {
+                    all += 1.0;
+                    wrong += f64::from(u8::from(e > tolerance));
+                }
+            }
+        }
+    }
+    wrong / all.max(1.0)
+}
+
+/// Every order of `n` wheels with every sign: 48 for three.
+pub(crate) fn orders(n: usize) -> Vec<Vec<(usize, f64)>> {
+    if n > 4 {
+        return Vec::new();
+    }
+    let mut permutations: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..n {
+        permutations = permutations
+            .into_iter()
+            .flat_map(|p| (0..n).filter(|i| !p.contains(i)).map(|i| [p.clone(), vec![i]].concat()).collect::<Vec<_>>())
+            .collect();
+    }
+    let signs = 1_usize << n;
+    permutations
+        .iter()
+        .flat_map(|p| {
+            (0..signs)
+                .map(|s| p.iter().enumerate().map(|(i, w)| (*w, if s >> i & 1 == 1 { -1.0 } else { 1.0 })).collect())
+        })
+        .collect()
+}

@@ -1,0 +1,18 @@
+//! What can go wrong.
+
+/// Why there is no analysis.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum GapError {
+    /// The wheels cannot drive the robot.
+    #[error("robot.toml: {0}")]
+    Robot(String),
+    /// No link can be compared.
+    #[error("the logs hold no two neighbouring signals to compare; log counts with duties or camera poses")]
+    NothingToCompare,
+    /// A file could not be written.
+    #[error("{0}")]
+    Write(String),
+    /// A user's effect is wrong.
+    #[error("{0}")]
+    Effect(String),
+}

@@ -1,0 +1,53 @@
+//! What the deterministic links share: findings that are proved by replay, not fitted.
+
+use crate::effect::Link;
+
+/// An effect on a link that can be replayed to the last digit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Where.
+    pub link: Link,
+    /// Name of the effect.
+    pub name: &'static str,
+    /// Wheels from 0; empty for the whole robot.
+    pub wheels: Vec<usize>,
+    /// Parameters with their 95 % intervals.
+    pub parameters: Vec<(String, f64, [f64; 2])>,
+}
+
+/// How well a deterministic link agrees.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactLink {
+    /// Where.
+    pub link: Link,
+    /// Unit of the figures below.
+    pub unit: &'static str,
+    /// Half the rounding of what is logged: the floor.
+    pub floor: f64,
+    /// RMS of measured minus replayed, nominal and with the finding, one a wheel.
+    pub before: Vec<f64>,
+    /// With the finding; equal to `before` without one.
+    pub after: Vec<f64>,
+    /// Share of ticks that differ by more than rounding allows, nominal.
+    pub wrong_share: f64,
+    /// What explains it.
+    pub finding: Option<Finding>,
+    /// Whether it differs and nothing explains it.
+    pub unexplained: bool,
+}
+
+/// Root mean square of the part of errors beyond a tolerance.
+pub fn beyond(errors: impl Iterator<Item = f64>, tolerance: f64) -> f64 {
+    crate::statistics::rms(errors.map(|e| (e.abs() - tolerance).max(0.0)))
+}
+
+/// The step that all values of a signal are multiples of, if there is one above 1e-7.
+pub fn quantum<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    let values: Vec<f64> = values.copied().filter(|v| v.is_finite() && *v != 0.0).take(4000).collect();
+    for q in [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4, 1e-5, 1e-6] {
+        if !values.is_empty() && values.iter().all(|v| (v / q - (v / q).round()).abs() < 1e-4) {
+            return q;
+        }
+    }
+    0.0
+}

@@ -1,0 +1,104 @@
+//! Where the model and the data part, in words.
+
+use crate::analysis::Located;
+use crate::drive::{DriveLink, DriveResiduals};
+use crate::effect::Link;
+use crate::exact::ExactLink;
+use crate::motion::{MotionLink, WindowResiduals};
+use crate::statistics::rms;
+
+/// Signals whose residual is below this many floors are not listed.
+const WORTH: f64 = 1.3;
+
+/// The motion link: x, y and heading.
+pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Located> {
+    let names = ["cam_x", "cam_y", "cam_theta"];
+    let units = [("mm", 1e3), ("mm", 1e3), ("degrees", 57.295_779_5)];
+    (0..3)
+        .filter_map(|i| {
+            let used = |w: &WindowResiduals| {
+                w.residuals.iter().zip(&w.weights).filter(|(_, w)| **w > 0.0).map(|(r, _)| r[i]).collect::<Vec<_>>()
+            };
+            let excess = rms(windows.iter().flat_map(used));
+            let per_window: Vec<f64> = windows.iter().map(|w| rms(used(w))).collect();
+            let bad = per_window.iter().filter(|r| **r > 1.5).count();
+            let worst = windows.iter().zip(&per_window).max_by(|a, b| a.1.total_cmp(b.1))?;
+            let place = format!(
+                "{} is off by {:.2} {} (noise {:.2}) in {bad} of {} windows of 1 s, most in run {} at {:.1} s",
+                names[i],
+                excess * link.noise[i] * units[i].1,
+                units[i].0,
+                link.noise[i] * units[i].1,
+                windows.len(),
+                worst.0.run + 1,
+                worst.0.t[0]
+            );
+            (excess > WORTH).then(|| Located { link: Link::Motion, signal: names[i].to_owned(), excess, place })
+        })
+        .collect()
+}
+
+/// The drive link: each wheel, by direction, speed and time.
+pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64]) -> Vec<Located> {
+    (0..floor.len())
+        .filter_map(|i| {
+            let speed = link.mean(|s, k| s.speed[i][k]);
+            let used: Vec<(usize, f64)> =
+                residuals.torque.iter().enumerate().filter(|(b, _)| residuals.weights[*b][i] > 0.0).map(|(b, t)| (b, t[i])).collect();
+            let excess = rms(used.iter().map(|u| u.1)) / floor[i];
+            if used.is_empty() || excess < WORTH {
+                return None;
+            }
+            let mean = |keep: &dyn Fn(usize) -> bool| {
+                let part: Vec<f64> = used.iter().filter(|(b, _)| keep(*b)).map(|(_, t)| *t).collect();
+                if part.is_empty() { 0.0 } else { 1e3 * part.iter().sum::<f64>() / part.len() as f64 }
+            };
+            let (ahead, back) = (mean(&|b| speed[b] > 0.0), mean(&|b| speed[b] < 0.0));
+            let mut fast: Vec<f64> = used.iter().map(|(b, _)| speed[*b].abs()).collect();
+            let middle = crate::statistics::median(&mut fast);
+            let along = |keep: &dyn Fn(usize) -> bool| {
+                let part: Vec<f64> = used.iter().filter(|(b, _)| keep(*b)).map(|(b, t)| t * speed[*b].signum()).collect();
+                if part.is_empty() { 0.0 } else { 1e3 * part.iter().sum::<f64>() / part.len() as f64 }
+            };
+            let (slow_part, fast_part) = (along(&|b| speed[b].abs() < middle), along(&|b| speed[b].abs() >= middle));
+            let half = used.len() / 2;
+            let (early, late) = (along(&|b| b < used[half].0), along(&|b| b >= used[half].0));
+            let which = match (ahead < -floor[i] * 500.0, back > floor[i] * 500.0) {
+                (true, true) => "in both directions",
+                (true, false) => "turning forwards only",
+                (false, true) => "turning backwards only",
+                _ => "in no direction alone",
+            };
+            let place = format!(
+                "the drive of wheel {} is off by {:.1} mNm (floor {:.1}), {which}: {ahead:+.1} mNm forwards, {back:+.1} backwards; along the rotation {slow_part:+.1} slow, {fast_part:+.1} fast, {early:+.1} early, {late:+.1} late",
+                i + 1,
+                1e3 * excess * floor[i],
+                1e3 * floor[i]
+            );
+            Some(Located { link: Link::Drive, signal: format!("enc_{}", i + 1), excess, place })
+        })
+        .collect()
+}
+
+/// A deterministic link.
+pub(crate) fn exact(link: &ExactLink) -> Vec<Located> {
+    let signal = |i: usize| match link.link {
+        Link::Timing => "t".to_owned(),
+        Link::Command => format!("ref_{}", i + 1),
+        _ => format!("duty_{}", i + 1),
+    };
+    if link.finding.is_none() && !link.unexplained {
+        return Vec::new();
+    }
+    link.before
+        .iter()
+        .enumerate()
+        .filter(|(_, e)| **e > 0.0)
+        .map(|(i, e)| Located {
+            link: link.link,
+            signal: signal(i),
+            excess: 1.0 + e / link.floor,
+            place: format!("{} differs by {e:.4} {} RMS beyond rounding", signal(i), link.unit),
+        })
+        .collect()
+}

@@ -1,0 +1,272 @@
+//! `report.html`: one file, pictures inside, no script.
+
+use std::fmt::Write as _;
+
+use model::plot::{Axis, Color, Figure, Panel, Series};
+
+use super::{short, terminal};
+use crate::analysis::{Analysis, overall};
+
+/// Points a plot has at most.
+const POINTS: usize = 1500;
+
+const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;max-width:60rem;margin:0 auto;padding:1rem;color:#1a1a1a}\
+h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}svg{max-width:100%;height:auto}\
+table{border-collapse:collapse;width:100%;font-size:.9rem}td,th{text-align:left;padding:.25rem .5rem;border-bottom:1px solid #e2e2e2}\
+.v{font-size:1.2rem;background:#eef4f8;padding:.8rem;border-left:5px solid #0072b2}.t{overflow-x:auto}.s{color:#555;font-size:.9rem}\
+@media print{h2{break-after:avoid}svg{break-inside:avoid}}";
+
+pub(super) fn page(a: &Analysis) -> String {
+    let mut out = String::new();
+    let title = escape(&format!("Gap report: {}", a.name));
+    let _ = write!(
+        out,
+        "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1><p class=\"v\">{}</p>",
+        escape(&terminal::sentence(a))
+    );
+    effects(&mut out, a);
+    waterfall(&mut out, a);
+    located(&mut out, a);
+    plots(&mut out, a);
+    limits(&mut out, a);
+    statement(&mut out, a);
+    out.push_str("</body></html>\n");
+    out
+}
+
+fn effects(out: &mut String, a: &Analysis) {
+    if !a.effects.is_empty() {
+        out.push_str("<h2>What is missing</h2><div class=\"t\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>95 % interval</th><th>gap closed on its link</th><th>p</th></tr>");
+        for e in &a.effects {
+            for (k, (name, v, [lo, hi])) in e.parameters.iter().enumerate() {
+                let first = |s: String| if k == 0 { s } else { String::new() };
+                let _ = write!(
+                    out,
+                    "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td></tr>",
+                    first(escape(&e.name)),
+                    first(terminal::list(&e.wheels)),
+                    escape(name),
+                    short(*v),
+                    short(*lo),
+                    short(*hi),
+                    first(format!("{:.1} %", 100.0 * e.gain)),
+                    first(short(e.p_value))
+                );
+            }
+        }
+        out.push_str("</table></div>");
+        for e in &a.effects {
+            let _ = write!(out, "<p class=\"s\"><b>{}</b>: {}</p>", escape(&e.name), escape(&e.equation));
+        }
+    }
+    if !a.alternatives.is_empty() {
+        out.push_str("<p>Cannot be told apart in these data:</p><ul>");
+        for set in &a.alternatives {
+            let _ = write!(out, "<li>{}</li>", escape(&set.join(" / ")));
+        }
+        out.push_str("</ul>");
+    }
+    if let Some(e) = &a.next_experiment {
+        let _ = write!(
+            out,
+            "<p>Next: <b>{}</b> ({}, about {:.0} s): {}.</p>",
+            escape(&e.what),
+            e.kind,
+            e.seconds,
+            escape(&e.why)
+        );
+    }
+    if !a.unexplained.is_empty() {
+        out.push_str("<h2>What no effect explains</h2><ul>");
+        for u in &a.unexplained {
+            let _ = write!(out, "<li>{}: {}</li>", u.link.name(), escape(&u.structure));
+        }
+        out.push_str("</ul>");
+    }
+}
+
+fn waterfall(out: &mut String, a: &Analysis) {
+    let (before, after) = overall(&a.links);
+    let _ = write!(
+        out,
+        "<h2>How the gap shrinks</h2><p>Held-out RMS over all compared signals, in units of the noise floor: {before:.2} before, {after:.2} after.</p>"
+    );
+    let top = a.waterfall.iter().map(|w| w.1).fold(1.0, f64::max);
+    let (row, left, width) = (30.0, 250.0, 300.0);
+    let height = row * a.waterfall.len() as f64 + 10.0;
+    let _ = write!(
+        out,
+        "<svg viewBox=\"0 0 640 {height}\" role=\"img\" aria-label=\"waterfall of the gap\" font-family=\"sans-serif\" font-size=\"14\">"
+    );
+    for (k, (label, value)) in a.waterfall.iter().enumerate() {
+        let y = row * k as f64 + 5.0;
+        let color = if label == "noise floor" {
+            "#8c8c8c"
+        } else if k == 0 {
+            "#d55e00"
+        } else {
+            "#009e73"
+        };
+        let _ = write!(
+            out,
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text><rect x=\"{left}\" y=\"{y}\" width=\"{:.1}\" height=\"20\" fill=\"{color}\"/><text x=\"{:.1}\" y=\"{}\">{value:.2}</text>",
+            left - 8.0,
+            y + 15.0,
+            escape(label),
+            (width * value / top).max(1.0),
+            left + width * value / top + 6.0,
+            y + 15.0
+        );
+    }
+    out.push_str("</svg><div class=\"t\"><table><tr><th>link</th><th>signal</th><th>before</th><th>after</th><th>floor</th><th>unit</th></tr>");
+    for l in &a.links {
+        for (i, rms) in l.rms.iter().enumerate() {
+            let _ = write!(
+                out,
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                l.link.name(),
+                signal(l.link.name(), i),
+                short(rms[0]),
+                short(rms[1]),
+                short(l.floor.get(i).copied().unwrap_or(0.0)),
+                l.units.get(i).copied().unwrap_or("")
+            );
+        }
+    }
+    out.push_str("</table></div>");
+}
+
+fn signal(link: &str, i: usize) -> String {
+    match link {
+        "motion" => ["x", "y", "heading"].get(i).copied().unwrap_or("").to_owned(),
+        "timing" => "camera stamps".to_owned(),
+        "command" => format!("set point {}", i + 1),
+        "controller" => format!("duty {}", i + 1),
+        _ => format!("wheel {}", i + 1),
+    }
+}
+
+fn located(out: &mut String, a: &Analysis) {
+    out.push_str("<h2>Where it disagrees</h2>");
+    if a.located.is_empty() {
+        out.push_str("<p>Nowhere by more than 1.3 noise floors.</p>");
+        return;
+    }
+    out.push_str("<ul>");
+    for l in &a.located {
+        let _ = write!(
+            out,
+            "<li><b>{}</b> ({}), {:.1} noise floors: {}</li>",
+            l.signal,
+            l.link.name(),
+            l.excess,
+            escape(&l.place)
+        );
+    }
+    out.push_str("</ul>");
+}
+
+fn plots(out: &mut String, a: &Analysis) {
+    if let Some([before, after]) = &a.motion {
+        let mut panel = Panel::new(Axis::new("x", "m"), Axis::new("y", "m"))
+            .equal_aspect()
+            .title("Camera (grey) and prediction, windows of 1 s");
+        let seen: Vec<[f64; 2]> = a
+            .segments
+            .iter()
+            .flat_map(|s| s.frames.iter().map(|f| [f.pose.x, f.pose.y]).chain([[f64::NAN; 2]]))
+            .collect();
+        panel = panel.with(Series::line("camera", thin(&seen)).color(Color::Grey));
+        for (label, windows, color) in [("before", before, Color::Red), ("after", after, Color::Green)] {
+            let path: Vec<[f64; 2]> =
+                windows.iter().flat_map(|w| w.predicted.iter().map(|p| [p.x, p.y]).chain([[f64::NAN; 2]])).collect();
+            panel = panel.with(Series::line(label, thin(&path)).color(color));
+        }
+        out.push_str("<h2>Trajectories</h2>");
+        out.push_str(&Figure::new("Trajectories before and after").with(panel).to_svg());
+        out.push_str("<h2>Residuals of the motion link</h2>");
+        let mut figure = Figure::new("Motion residuals in units of the noise");
+        for (i, name) in ["x", "y", "heading"].iter().enumerate() {
+            let points = |w: &[crate::motion::WindowResiduals]| {
+                let all: Vec<[f64; 2]> = w
+                    .iter()
+                    .flat_map(|w| w.residuals.iter().map(|r| r[i]))
+                    .enumerate()
+                    .map(|(k, r)| [k as f64, r])
+                    .collect();
+                thin(&all)
+            };
+            figure = figure.with(
+                Panel::new(Axis::new("frame", ""), Axis::new(*name, "noise"))
+                    .height(150.0)
+                    .with(Series::points("before", points(before)).color(Color::Red))
+                    .with(Series::points("after", points(after)).color(Color::Green)),
+            );
+        }
+        out.push_str(&figure.to_svg());
+    }
+    if let Some([before, after]) = &a.drive {
+        out.push_str("<h2>Regime map of the drive link</h2><p class=\"s\">Unexplained torque against wheel speed: a step at zero is dry friction, a slope is viscous friction or a wrong constant.</p>");
+        let n = before.torque.first().map_or(0, Vec::len);
+        let mut figure = Figure::new("Unexplained torque of each wheel");
+        for i in 0..n {
+            let points = |d: &crate::drive::DriveResiduals| {
+                let all: Vec<[f64; 2]> = (0..d.torque.len())
+                    .filter(|b| d.weights[*b][i] > 0.0)
+                    .map(|b| [a.segments[d.at[b].0].speed[i][d.at[b].1], 1e3 * d.torque[b][i]])
+                    .collect();
+                thin(&all)
+            };
+            figure = figure.with(
+                Panel::new(Axis::new("wheel speed", "rad/s"), Axis::new(format!("wheel {}", i + 1), "mNm"))
+                    .height(190.0)
+                    .with(Series::points("before", points(before)).color(Color::Red))
+                    .with(Series::points("after", points(after)).color(Color::Green)),
+            );
+        }
+        out.push_str(&figure.to_svg());
+    }
+}
+
+fn thin(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let stride = points.len().div_ceil(POINTS).max(1);
+    points.iter().enumerate().filter(|(k, p)| k % stride == 0 || !p[0].is_finite()).map(|(_, p)| *p).collect()
+}
+
+fn limits(out: &mut String, a: &Analysis) {
+    out.push_str("<h2>Detection limits</h2><p class=\"s\">From this size on an effect is named in these data. Estimates below it that differ from 0 by more than two standard deviations are detectable but immaterial (bold).</p><div class=\"t\"><table><tr><th>effect</th><th>parameter</th><th>named from</th><th>estimate</th><th>standard deviation</th></tr>");
+    for l in &a.limits {
+        let (b, e) = if l.estimate.abs() > 2.0 * l.sd { ("<b>", "</b>") } else { ("", "") };
+        let _ = write!(
+            out,
+            "<tr><td>{b}{}{e}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            escape(&l.name),
+            escape(&l.parameter),
+            short(l.limit),
+            short(l.estimate),
+            short(l.sd)
+        );
+    }
+    out.push_str("</table></div>");
+}
+
+fn statement(out: &mut String, a: &Analysis) {
+    let t = &a.thresholds;
+    let _ = write!(
+        out,
+        "<h2>How it was decided</h2><p>Fixed before fitting: motion is compared in windows of 1 s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves. Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.</p>",
+        100.0 * t.held_share,
+        t.gain,
+        100.0 * t.shares[0],
+        100.0 * t.shares[1],
+        100.0 * t.share_of_excess,
+        if a.runs.len() > 1 { "one run at a time" } else { "blocks of the single run" }
+    );
+    for r in &a.remarks {
+        let _ = write!(out, "<p>{}</p>", escape(r));
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

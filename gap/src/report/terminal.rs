@@ -1,0 +1,120 @@
+//! The summary for a terminal.
+
+use std::fmt::Write as _;
+
+use super::short;
+use crate::analysis::{Analysis, Verdict, overall};
+
+/// Columns of a terminal.
+const WIDTH: usize = 80;
+
+pub(super) fn summary(a: &Analysis) -> String {
+    let mut out = String::new();
+    wrap(&mut out, "", &sentence(a));
+    if !a.located.is_empty() {
+        out.push_str("\nWhere\n");
+        for l in a.located.iter().take(8) {
+            wrap(&mut out, "  ", &format!("{} ({}): {:.1} x floor; {}", l.signal, l.link.name(), l.excess, l.place));
+        }
+    }
+    if !a.effects.is_empty() {
+        out.push_str("\nWhat\n");
+        for e in &a.effects {
+            let on = if e.wheels.is_empty() { String::new() } else { format!(" on wheel {}", list(&e.wheels)) };
+            wrap(
+                &mut out,
+                "  ",
+                &format!(
+                    "{}{on}: closes {:.0} % of the link's squared gap, p = {}",
+                    e.name,
+                    100.0 * e.gain,
+                    short(e.p_value)
+                ),
+            );
+            for (name, v, [lo, hi]) in &e.parameters {
+                let _ = writeln!(out, "    {name:<24} {:>12}   95 % {} to {}", short(*v), short(*lo), short(*hi));
+            }
+        }
+    }
+    for set in &a.alternatives {
+        wrap(&mut out, "  ", &format!("cannot be told apart: {}", set.join(", ")));
+    }
+    for u in &a.unexplained {
+        wrap(&mut out, "  ", &format!("unexplained ({}): {}", u.link.name(), u.structure));
+    }
+    if let Some(e) = &a.next_experiment {
+        wrap(&mut out, "  ", &format!("next: {} ({}, {:.0} s)", e.what, e.kind, e.seconds));
+    }
+    let (before, after) = overall(&a.links);
+    let _ = writeln!(out, "\nGap (held-out RMS in noise floors)   before {before:8.2}   after {after:8.2}");
+    for l in &a.links {
+        let _ = writeln!(
+            out,
+            "  {:<12}                        before {:8.2}   after {:8.2}",
+            l.link.name(),
+            l.before,
+            l.after
+        );
+    }
+    for r in &a.remarks {
+        wrap(&mut out, "  ", r);
+    }
+    if a.verdict == Verdict::Agrees {
+        out.push_str("\nWould be named from\n");
+        for l in &a.limits {
+            let _ = writeln!(out, "  {:<22} {:<20} {:>10}", l.name, l.parameter, short(l.limit));
+        }
+    }
+    out
+}
+
+/// The verdict in one sentence.
+pub(super) fn sentence(a: &Analysis) -> String {
+    let names: Vec<String> = a
+        .effects
+        .iter()
+        .map(|e| if e.wheels.is_empty() { e.name.clone() } else { format!("{} (wheel {})", e.name, list(&e.wheels)) })
+        .collect();
+    let (before, after) = overall(&a.links);
+    match a.verdict {
+        Verdict::Agrees => "Model and data agree: nothing material is missing.".to_owned(),
+        Verdict::MissingEffect => {
+            format!(
+                "Missing in the model: {}. The gap falls from {before:.2} to {after:.2} noise floors.",
+                names.join(", ")
+            )
+        }
+        Verdict::Ambiguous => format!(
+            "Something is missing: {}, or what cannot be told from it here. The gap falls from {before:.2} to {after:.2} noise floors.",
+            names.join(", ")
+        ),
+        Verdict::Unexplained => {
+            let first = a.unexplained.first().map_or(String::new(), |u| format!(": {}", u.structure));
+            let near = if a.nearest.is_empty() {
+                String::new()
+            } else {
+                format!(" Nearest in the catalogue: {}.", a.nearest.join(", "))
+            };
+            format!("Model and data disagree, and no effect of the catalogue explains it{first}.{near}")
+        }
+    }
+}
+
+pub(super) fn list(wheels: &[usize]) -> String {
+    wheels.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn wrap(out: &mut String, indent: &str, text: &str) {
+    let mut line = indent.to_owned();
+    for word in text.split_whitespace() {
+        if line.trim_end().chars().count() + 1 + word.chars().count() > WIDTH && line.trim() != "" {
+            out.push_str(line.trim_end());
+            out.push('\n');
+            line = format!("{indent}  ");
+        }
+        line.push_str(word);
+        line.push(' ');
+    }
+    out.push_str(line.trim_end());
+    out.push('\n');
+}
