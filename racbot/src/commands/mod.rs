@@ -4,6 +4,8 @@ mod calibrate;
 #[cfg(feature = "simulation")]
 mod demo;
 #[cfg(feature = "simulation")]
+mod fpga_options;
+#[cfg(feature = "simulation")]
 mod generate;
 #[cfg(feature = "simulation")]
 mod options;

@@ -1,58 +1,10 @@
-//! Options that several subcommands share.
+//! Options about robots that several subcommands share.
 
 use crate::terminal::Failure;
-use clap::ValueEnum;
-use fixed_kin::speed::SpeedMode;
+use clap::Args;
 use model::error::InputError;
 use model::robot::{Layout, Robot};
-use std::path::Path;
-use testbench::fpga::{Fpga, Kind};
-
-/// Which FPGA.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FpgaChoice {
-    /// The bit-true model in fixed-point arithmetic: fast, needs nothing
-    #[default]
-    BitTrue,
-    /// The rust-hdl description, simulated clock by clock: slow, needs nothing
-    RustHdl,
-    /// The emitted Verilog, compiled: needs Verilator
-    Verilog,
-}
-
-impl FpgaChoice {
-    pub(crate) fn kind(self) -> Kind {
-        match self {
-            Self::BitTrue => Kind::BitTrue,
-            Self::RustHdl => Kind::RustHdl,
-            Self::Verilog => Kind::Verilog,
-        }
-    }
-
-    /// A new FPGA, just configured.
-    pub(crate) fn open(self) -> Result<Box<dyn Fpga>, Failure> {
-        self.kind().open().map_err(Failure::data)
-    }
-}
-
-/// How the FPGA measures speeds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SpeedChoice {
-    /// Count difference of a control tick; the log then tells all the FPGA knew
-    #[default]
-    Difference,
-    /// Counts between edges over the time between them: smooth at low speed
-    CountAndTime,
-}
-
-impl From<SpeedChoice> for SpeedMode {
-    fn from(choice: SpeedChoice) -> Self {
-        match choice {
-            SpeedChoice::Difference => Self::Difference,
-            SpeedChoice::CountAndTime => Self::CountAndTime,
-        }
-    }
-}
+use std::path::{Path, PathBuf};
 
 /// A list of angles in degrees, such as `4,-3,2`.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,8 +22,43 @@ impl std::str::FromStr for Degrees {
     }
 }
 
+/// What the virtual robot really is.
+#[derive(Args, Debug)]
+pub(crate) struct Hidden {
+    /// Robot as it really is, unknown to the controller
+    #[arg(long, value_name = "FILE", conflicts_with = "skew_deg")]
+    hidden: Option<PathBuf>,
+
+    /// Skew of every wheel in degrees, clockwise, unknown to the controller, such as 4,-3,2
+    #[arg(long, value_name = "DEG,..", allow_hyphen_values = true)]
+    skew_deg: Option<Degrees>,
+}
+
+impl Hidden {
+    /// Whether anything is hidden.
+    pub(crate) fn is_given(&self) -> bool {
+        self.hidden.is_some() || self.skew_deg.is_some()
+    }
+
+    /// The robot as it is, where the controller believes in another.
+    pub(crate) fn robot(&self, believed: &Robot) -> Result<Robot, Failure> {
+        if let Some(skew) = &self.skew_deg {
+            let actual = skewed(believed, skew)?;
+            actual.geometry().map_err(|error| Failure::usage(format!("--skew-deg: {error}")))?;
+            return Ok(actual);
+        }
+        let Some(file) = &self.hidden else { return Ok(believed.clone()) };
+        let actual = Robot::load(file)?;
+        if actual.wheel_count() != believed.wheel_count() {
+            let what = format!("has {} wheels, but the robot {}", actual.wheel_count(), believed.wheel_count());
+            return Err(InputError::new(file, what, "hide a robot with as many wheels").into());
+        }
+        Ok(actual)
+    }
+}
+
 /// The robot with its wheels skewed by these angles more.
-pub(crate) fn skewed(robot: &Robot, skew: &Degrees) -> Result<Robot, Failure> {
+fn skewed(robot: &Robot, skew: &Degrees) -> Result<Robot, Failure> {
     if skew.0.len() != robot.wheel_count() {
         let (given, wheels) = (skew.0.len(), robot.wheel_count());
         return Err(Failure::usage(format!(

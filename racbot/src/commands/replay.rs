@@ -1,6 +1,6 @@
 //! `racbot replay`
 
-use super::options::FpgaChoice;
+use super::fpga_options::FpgaChoice;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save};
 use clap::Args;

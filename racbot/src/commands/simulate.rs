@@ -1,6 +1,7 @@
 //! `racbot simulate`
 
-use super::options::{Degrees, FpgaChoice, SpeedChoice, load_robot, remark_on_effects, skewed};
+use super::fpga_options::{FpgaChoice, SpeedChoice};
+use super::options::{Hidden, load_robot, remark_on_effects};
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
 use clap::{Args, ValueEnum};
@@ -8,7 +9,6 @@ use model::camera::CameraModel;
 use model::error::InputError;
 use model::frames::Pose;
 use model::plot::Color;
-use model::robot::Robot;
 use model::trajectory::{FIG_6, SetPoint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -29,13 +29,8 @@ pub(crate) struct Options {
     #[arg(long, value_name = "FILE")]
     setpoints: Option<PathBuf>,
 
-    /// Robot as it really is, unknown to the controller
-    #[arg(long, value_name = "FILE", conflicts_with = "skew_deg")]
-    hidden: Option<PathBuf>,
-
-    /// Skew of every wheel in degrees, clockwise, unknown to the controller, such as 4,-3,2
-    #[arg(long, value_name = "DEG,..", allow_hyphen_values = true)]
-    skew_deg: Option<Degrees>,
+    #[command(flatten)]
+    hidden: Hidden,
 
     /// What the overhead camera is for
     #[arg(long, value_name = "USE", num_args = 0..=1, default_value = "log", default_missing_value = "correct")]
@@ -123,7 +118,7 @@ struct Timed {
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let believed = load_robot(self.robot.as_deref())?;
-        let actual = self.actual(&believed)?;
+        let actual = self.hidden.robot(&believed)?;
         let set_points = self.set_points()?;
         let drive = Drive {
             actual: actual.clone(),
@@ -146,21 +141,6 @@ impl Options {
         });
         let files = self.save(&drive, &timed.driven, ideal.transpose()?.as_ref())?;
         Ok(self.answer(&drive, &timed, &files))
-    }
-
-    fn actual(&self, believed: &Robot) -> Result<Robot, Failure> {
-        if let Some(skew) = &self.skew_deg {
-            let actual = skewed(believed, skew)?;
-            actual.geometry().map_err(|error| Failure::usage(format!("--skew-deg: {error}")))?;
-            return Ok(actual);
-        }
-        let Some(file) = &self.hidden else { return Ok(believed.clone()) };
-        let actual = Robot::load(file)?;
-        if actual.wheel_count() != believed.wheel_count() {
-            let what = format!("has {} wheels, but the robot {}", actual.wheel_count(), believed.wheel_count());
-            return Err(InputError::new(file, what, "hide a robot with as many wheels").into());
-        }
-        Ok(actual)
     }
 
     fn set_points(&self) -> Result<Vec<SetPoint>, InputError> {
@@ -229,10 +209,10 @@ fn picture(drive: &Drive, driven: &Driven, ideal: Option<&Driven>) -> String {
     let title = format!("Trajectory over {} set points", drive.set_points.len());
     let hidden = if drive.fused { "hidden geometry, camera corrects" } else { "hidden geometry" };
     let curves = match ideal {
-        None => vec![Curve { label: "robot", driven, color: Color::Green }],
+        None => vec![Curve { label: "robot", driven, color: Color::Green, dashed: false }],
         Some(ideal) => vec![
-            Curve { label: "geometry as believed", driven: ideal, color: Color::Green },
-            Curve { label: hidden, driven, color: Color::Red },
+            Curve { label: "geometry as believed", driven: ideal, color: Color::Green, dashed: false },
+            Curve { label: hidden, driven, color: Color::Red, dashed: false },
         ],
     };
     trajectory(&title, &drive.set_points, &curves)

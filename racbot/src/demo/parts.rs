@@ -113,9 +113,9 @@ impl Report {
 
     fn picture_drives(&mut self, set_points: &[SetPoint], ideal: &Driven, skewed: &Driven, camera: &Driven) {
         let curves = [
-            Curve { label: "geometry as believed", driven: ideal, color: Color::Green },
-            Curve { label: "skew 4°, −3°, 2°, unknown", driven: skewed, color: Color::Red },
-            Curve { label: "the same, camera corrects", driven: camera, color: Color::Blue },
+            Curve { label: "geometry as believed", driven: ideal, color: Color::Green, dashed: false },
+            Curve { label: "skew 4°, −3°, 2°, unknown", driven: skewed, color: Color::Red, dashed: false },
+            Curve { label: "the same, camera corrects", driven: camera, color: Color::Blue, dashed: true },
         ];
         self.pictures.push(Picture {
             name: "trajectory",

@@ -25,7 +25,6 @@ impl Failure {
     }
 
     /// Something in or about a file is wrong.
-    #[cfg(feature = "simulation")]
     pub(crate) fn about(file: &Path, what: impl Display) -> Self {
         Self::data(format!("{}: {what}", file.display()))
     }

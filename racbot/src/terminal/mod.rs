@@ -2,6 +2,7 @@
 
 mod answer;
 mod failure;
+#[cfg(feature = "simulation")]
 pub(crate) mod progress;
 mod table;
 

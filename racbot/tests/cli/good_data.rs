@@ -42,10 +42,28 @@ fn hidden_skew_leads_astray_the_camera_leads_back_and_calibration_finds_it() {
     let found = racbot(folder.path(), &["calibrate", "red", "--json"]).done().json();
     let skew = |i: usize| found["skew_rad"][i].as_f64().unwrap().to_degrees();
     assert!((skew(0) - skew(1) - 7.0).abs() < 0.3 && (skew(0) - skew(2) - 2.0).abs() < 0.3, "{found}");
-    racbot(folder.path(), &["calibrate", "red", "--write", "calibrated.toml"]).done().fits_80_columns();
-    let again = ["simulate", "--robot", "calibrated.toml", "--hidden", hidden.to_str().unwrap(), "--out", "green"];
+    racbot(folder.path(), &["calibrate", "red", "--out", "found"]).done().fits_80_columns();
+    assert!(
+        fs::read_to_string(folder.path().join("found/configuration.csv")).unwrap().starts_with("offset,word\n0x400,")
+    );
+    let again = ["simulate", "--robot", "found/robot.toml", "--hidden", hidden.to_str().unwrap(), "--out", "green"];
     let outcome = racbot(folder.path(), &again).done();
     assert!(!outcome.stdout.contains("missed"), "{}", outcome.stdout);
+}
+
+#[test]
+fn the_papers_procedure_ends_where_its_mathematics_says() {
+    let folder = tempdir().unwrap();
+    let arguments = ["calibrate", "--procedure", "paper", "--skew-deg", "4,-3,2", "--out", "paper"];
+    let outcome = racbot(folder.path(), &arguments).done().fits_80_columns();
+    assert!(outcome.stdout.contains("straighten, round 2"), "{}", outcome.stdout);
+    assert!(folder.path().join("paper/trajectory.svg").exists());
+    let json = racbot(folder.path(), &[&arguments[..], &["--json"]].concat()).done().json();
+    for (i, truth) in [4.0, -3.0, 2.0].into_iter().enumerate() {
+        let found = json["skew_rad"][i].as_f64().unwrap().to_degrees();
+        assert!((found - truth).abs() < 0.4, "wheel {}: {found}", i + 1);
+    }
+    assert_eq!(json["configuration"].as_array().map(Vec::len), Some(40));
 }
 
 #[test]

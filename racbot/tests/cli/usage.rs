@@ -6,7 +6,7 @@ use tempfile::tempdir;
 #[test]
 fn what_is_not_a_command_or_option_is_refused() {
     let folder = tempdir().unwrap();
-    let table: [(&[&str], &str); 9] = [
+    let table: [(&[&str], &str); 13] = [
         (&["fly"], "unrecognized subcommand 'fly'"),
         (&["simulat"], "similar"),
         (&["simulate", "--speed"], "unexpected argument '--speed'"),
@@ -16,6 +16,10 @@ fn what_is_not_a_command_or_option_is_refused() {
         (&["simulate", "--start", "1,2"], "'1,2' is no pose"),
         (&["simulate", "--limit-s", "-1"], "not between 0 and 3600"),
         (&["replay"], "<DATASET>"),
+        (&["calibrate"], "<DATASET>"),
+        (&["calibrate", "--procedure", "paper"], "say what the virtual robot really is"),
+        (&["calibrate", "--procedure", "paper", "--skew-deg", "1,2,3", "logs"], "reads no data set"),
+        (&["calibrate", "logs", "--skew-deg", "1,2,3"], "for the virtual robot"),
     ];
     for (arguments, part) in table {
         racbot(folder.path(), arguments).refused(2, &[part]);

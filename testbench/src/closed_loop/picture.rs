@@ -18,6 +18,8 @@ pub struct Curve<'a> {
     pub driven: &'a Driven,
     /// Its colour.
     pub color: Color,
+    /// Dashed, for a curve that lies over another.
+    pub dashed: bool,
 }
 
 /// Where the robot went, with its heading at regular intervals and the set points.
@@ -30,7 +32,8 @@ pub fn trajectory(title: &str, set_points: &[SetPoint], curves: &[Curve<'_>]) ->
         let every = ((HEADING_EVERY_S / dt).round() as usize).max(1);
         let arrows = track.iter().step_by(every).map(|(_, p)| [p.x, p.y, p.theta]).collect();
         let line = thinned(track.len()).map(|i| [track[i].1.x, track[i].1.y]).collect();
-        map = map.with(Series::line(curve.label, line).color(curve.color).headings(arrows));
+        let series = if curve.dashed { Series::dashed(curve.label, line) } else { Series::line(curve.label, line) };
+        map = map.with(series.color(curve.color).headings(arrows));
     }
     let crosses = set_points.iter().map(|p| [p.x, p.y]).collect();
     map = map.with(Series::crosses("set points", crosses).color(Color::Black));
@@ -52,13 +55,14 @@ pub fn speeds(title: &str, driven: &Driven) -> String {
         let points = thinned(run.len()).map(|i| [run.t[i], reference[i]]).collect();
         speeds = speeds.with(Series::dashed(label, points).color(Color::Grey));
     }
-    let heading = |label: &str, of: &dyn Fn(usize) -> f64| {
-        Series::line(label, thinned(run.len()).map(|i| [run.t[i], of(i).to_degrees()]).collect())
+    let heading = |of: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
+        thinned(run.len()).map(|i| [run.t[i], of(i).to_degrees()]).collect()
     };
+    let believed = heading(&|i| driven.believed[i].theta);
     let headings = Panel::new(time(), Axis::new("heading", "°"))
         .height(150.0)
-        .with(heading("robot", &|i| driven.track[i].1.theta).color(Color::Blue))
-        .with(heading("as the controller believes", &|i| driven.believed[i].theta).color(Color::Orange));
+        .with(Series::line("robot", heading(&|i| driven.track[i].1.theta)).color(Color::Blue))
+        .with(Series::dashed("as the controller believes", believed).color(Color::Orange));
     let mut duties = Panel::new(time(), Axis::new("duty", "")).height(150.0);
     for (wheel, duty) in run.duty.iter().enumerate() {
         let points = averaged(&run.t, duty);

@@ -6,7 +6,9 @@ use model::plot::{Axis, Color, Figure, Panel, Series};
 use model::run::Run;
 
 /// Ticks of the close look.
-const CLOSE: usize = 400;
+const CLOSE: usize = 160;
+/// Points of the difference over the whole run.
+const POINTS: usize = 1_200;
 
 /// Logged duty and the FPGA's, close up and all along, and their difference.
 #[must_use]
@@ -23,12 +25,12 @@ pub fn duties(run: &Run, replayed: &Replayed, wheel: usize) -> String {
         .height(220.0)
         .with(Series::steps("FPGA", window().map(|i| [run.t[from + i], fpga(i)]).collect()).color(Color::Blue))
         .with(Series::points("log", window().map(|i| [run.t[from + i], logged(i)]).collect()).color(Color::Orange));
-    let step = (ticks / 3_000).max(1);
+    let step = (ticks / POINTS).max(1);
     let difference = (0..ticks).step_by(step).map(|i| [run.t[from + i], lsb(fpga(i) - logged(i))]).collect();
     let rounding = lsb(0.5 * replayed.quantum);
     let ends = [run.t[from], run.t[from + ticks.max(1) - 1]];
     let bound = |sign: f64| ends.iter().map(|t| [*t, sign * rounding]).collect();
-    let residual = Panel::new(time(), Axis::new("FPGA − log", "LSB of duty, 2⁻²⁴"))
+    let residual = Panel::new(time(), Axis::new("FPGA − log", "LSB, 2⁻²⁴"))
         .height(170.0)
         .with(Series::points("difference", difference).color(Color::Blue))
         .with(Series::dashed("half a quantum of the log", bound(1.0)).color(Color::Red))

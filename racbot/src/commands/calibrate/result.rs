@@ -1,4 +1,4 @@
-//! What a calibration leaves behind: robot.toml, words for the FPGA, a picture.
+//! What a calibration leaves behind: robot.toml, words for the FPGA, pictures.
 
 use crate::terminal::{Failure, save};
 use driver::Scale;
@@ -7,45 +7,28 @@ use model::robot::Robot;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A robot before and after.
-pub(super) struct Calibrated<'a> {
-    /// As its designers describe it.
-    pub(super) nominal: &'a Robot,
-    /// As it is, or as it is best known; for the picture.
-    #[cfg_attr(not(feature = "simulation"), expect(dead_code))]
-    pub(super) actual: &'a Robot,
-    /// As it was found to be.
-    pub(super) calibrated: &'a Robot,
+/// A robot after its calibration.
+pub(super) struct Calibrated {
+    robot: Robot,
+    /// The FPGA's configuration bank, offsets and words.
+    words: Vec<(u16, i32)>,
+    pictures: Vec<(&'static str, String)>,
+    #[cfg(feature = "simulation")]
+    path_errors_m: [f64; 3],
 }
 
-impl Calibrated<'_> {
-    /// The FPGA's configuration bank at the nominal clock: matrices with the skew, and gains.
-    pub(super) fn words(&self) -> Result<Vec<Value>, Failure> {
-        Ok(self.configuration()?.into_iter().map(|(offset, word)| json!({ "offset": offset, "word": word })).collect())
-    }
-
-    fn configuration(&self) -> Result<Vec<(u16, i32)>, Failure> {
-        let scale = Scale::new(self.calibrated, f64::from(NOMINAL_CLOCK_HZ)).map_err(Failure::data)?;
+impl Calibrated {
+    /// A robot that was believed to be `nominal`, is `actual`, and was found to be `calibrated`.
+    pub(super) fn new(nominal: &Robot, actual: &Robot, calibrated: &Robot) -> Result<Self, Failure> {
+        let scale = Scale::new(calibrated, f64::from(NOMINAL_CLOCK_HZ)).map_err(Failure::data)?;
         let words = scale.configuration().to_words().into_iter().enumerate();
-        Ok(words.map(|(index, word)| (CONFIGURATION.at(index), word)).collect())
+        let words = words.map(|(index, word)| (CONFIGURATION.at(index), word)).collect();
+        Self::drive(nominal, actual, calibrated, words)
     }
 
-    /// Writes the files; gives their names.
-    pub(super) fn save(&self, folder: &Path) -> Result<Vec<String>, Failure> {
-        let rows = self.configuration()?.into_iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
-        let words = format!("offset,word\n{}", rows.collect::<String>());
-        let mut files = vec![("robot.toml", self.calibrated.to_toml()), ("configuration.csv", words)];
-        #[cfg(feature = "simulation")]
-        files.push(("trajectory.svg", self.picture()?));
-        for (name, content) in &files {
-            save(&folder.join(name), content)?;
-        }
-        Ok(files.iter().map(|(name, _)| (*name).to_owned()).collect())
-    }
-
-    /// Fig. 6 with ideal geometry, before and after.
+    /// Fig. 6 with ideal geometry, before and after, on odometry alone.
     #[cfg(feature = "simulation")]
-    fn picture(&self) -> Result<String, Failure> {
+    fn drive(nominal: &Robot, actual: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
         use model::plot::Color;
         use model::trajectory::FIG_6;
         use testbench::closed_loop::Drive;
@@ -56,16 +39,50 @@ impl Calibrated<'_> {
             let drive = Drive { actual: actual.clone(), ..Drive::new(believed, &FIG_6) };
             drive.run(BitTrue::new(), |_| {}).map_err(Failure::data)
         };
-        let (ideal, before, after) = (
-            drive(self.nominal, self.nominal)?,
-            drive(self.nominal, self.actual)?,
-            drive(self.calibrated, self.actual)?,
-        );
+        let (ideal, before, after) = (drive(nominal, nominal)?, drive(nominal, actual)?, drive(calibrated, actual)?);
         let curves = [
             Curve { label: "before calibration", driven: &before, color: Color::Red, dashed: false },
             Curve { label: "after", driven: &after, color: Color::Green, dashed: false },
             Curve { label: "ideal geometry", driven: &ideal, color: Color::Grey, dashed: true },
         ];
-        Ok(trajectory("Before and after calibration", &FIG_6, &curves))
+        let pictures = vec![("trajectory.svg", trajectory("Before and after calibration", &FIG_6, &curves))];
+        let path_errors_m = [&ideal, &before, &after].map(|driven| driven.report.path_error_rms_m);
+        Ok(Self { robot: calibrated.clone(), words, pictures, path_errors_m })
+    }
+
+    /// Drives need the simulation.
+    #[cfg(not(feature = "simulation"))]
+    fn drive(_: &Robot, _: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
+        Ok(Self { robot: calibrated.clone(), words, pictures: Vec::new() })
+    }
+
+    /// Path errors (RMS, m) of those drives.
+    #[cfg(feature = "simulation")]
+    pub(super) fn path_errors_m(&self) -> [f64; 3] {
+        self.path_errors_m
+    }
+
+    /// One more picture, if there is one.
+    #[cfg(feature = "simulation")]
+    pub(super) fn with_picture(mut self, name: &'static str, svg: Option<String>) -> Self {
+        self.pictures.extend(svg.map(|svg| (name, svg)));
+        self
+    }
+
+    /// The FPGA's configuration bank at the nominal clock: matrices with the skew, and gains.
+    pub(super) fn words(&self) -> Value {
+        self.words.iter().map(|(offset, word)| json!({ "offset": offset, "word": word })).collect()
+    }
+
+    /// Writes the files; gives their names.
+    pub(super) fn save(&self, folder: &Path) -> Result<Vec<&'static str>, Failure> {
+        let rows = self.words.iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
+        let words = format!("offset,word\n{}", rows.collect::<String>());
+        let mut files = vec![("robot.toml", self.robot.to_toml()), ("configuration.csv", words)];
+        files.extend(self.pictures.iter().cloned());
+        for (name, content) in &files {
+            save(&folder.join(name), content)?;
+        }
+        Ok(files.into_iter().map(|(name, _)| name).collect())
     }
 }
