@@ -1,11 +1,9 @@
 //! The paper's calibration on the virtual robot: every drive goes through the FPGA, whose
 //! coefficient registers hold the skews believed in so far.
 
-use crate::closed_loop::{ClosedLoop, Drive, Driven, LoopError};
+use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::fpga::BitTrue;
-use driver::{Scale, ScaleError, Settings};
-use fixed_kin::AXES;
-use fixed_kin::registers::CONFIGURATION;
+use driver::Settings;
 use model::calibration::{DriveError, Drives};
 use model::camera::{Camera, CameraModel};
 use model::frames::{Pose, Twist};
@@ -13,7 +11,6 @@ use model::geometry::Geometry;
 use model::plant::{Contact, Plant};
 use model::plot::{Axis, Color, Figure, Panel, Series};
 use model::robot::{Layout, Robot};
-use model::trajectory::FIG_6;
 
 /// Speed of a calibration drive, m/s.
 const SPEED: f64 = 0.6;
@@ -87,38 +84,6 @@ impl Drives for BoardRobot {
     }
 }
 
-/// A word of the staged configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CoefficientWord {
-    /// Byte offset of the register.
-    pub offset: u16,
-    /// Raw word.
-    pub word: i32,
-}
-
-/// The coefficient registers that carry a robot's skews: both kinematics matrices, as the driver
-/// writes them at this clock.
-///
-/// # Errors
-/// [`ScaleError`] where the robot does not fit the card.
-pub fn coefficient_words(robot: &Robot, clock_hz: f64) -> Result<Vec<CoefficientWord>, ScaleError> {
-    let words = Scale::new(robot, clock_hz)?.configuration().to_words();
-    let matrices = words.into_iter().take(6 * AXES).enumerate();
-    Ok(matrices.map(|(index, word)| CoefficientWord { offset: CONFIGURATION.at(index), word }).collect())
-}
-
-/// The paper's Fig. 7 for any robot: the four set points with ideal geometry, with the skews unknown,
-/// and with the calibrated ones, on odometry alone.
-///
-/// # Errors
-/// [`LoopError`] where a robot does not fit the card.
-pub fn before_and_after(nominal: &Robot, actual: &Robot, calibrated: &Robot) -> Result<[Driven; 3], LoopError> {
-    let drive = |believed: &Robot, actual: &Robot| {
-        Drive { actual: actual.clone(), ..Drive::new(believed, &FIG_6) }.run(BitTrue::new(), |_| {})
-    };
-    Ok([drive(nominal, nominal)?, drive(nominal, actual)?, drive(calibrated, actual)?])
-}
-
 /// The paper's Fig. 9: where a robot goes that means to drive along the axle of wheel 1, for skews
 /// of the two wheels that drive then, from −`largest_rad` to it.
 ///
@@ -160,15 +125,5 @@ mod tests {
             assert!(error.to_degrees().abs() < 0.3, "{i} - {j}: {:.2}°", error.to_degrees());
         }
         assert!(robot.drives > 6);
-    }
-
-    #[test]
-    fn skews_change_the_coefficient_registers() {
-        let mut skewed = Robot::racbot();
-        let straight = coefficient_words(&skewed, 33_333_333.0).unwrap();
-        skewed.layout = Layout::Rac { body_radius_m: 0.085, skew_rad: [0.05; 3] };
-        let words = coefficient_words(&skewed, 33_333_333.0).unwrap();
-        assert_eq!((words.len(), words[0].offset), (24, 0x400));
-        assert_ne!(words, straight);
     }
 }
