@@ -188,12 +188,21 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             link.before.clone_from(&link.after);
         }
     }
-    let pieces = segments(robot, &geometry, &set.runs);
+    let mut pieces = segments(robot, &geometry, &set.runs);
+    let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise(&set.runs));
+    let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
+    if let Some((active, _)) = &order {
+        // Everything derived from the wheels follows their true order.
+        let mut wheels = crate::motion::MotionModel::new(robot);
+        active.effect.motion(&active.values, &mut wheels);
+        if let Ok(true_geometry) = model::geometry::Geometry::new(wheels.wheels, robot.wheel_radius_m) {
+            pieces = segments(robot, &true_geometry, &set.runs);
+        }
+    }
     if pieces.is_empty() {
         return Err(GapError::NothingToCompare);
     }
     let mut thresholds = options.thresholds.clone();
-    let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise(&set.runs));
     let motion_link = MotionLink::new(&pieces, noise, 1.0);
     let mut links: Vec<LinkGap> = Vec::new();
     let mut located = Vec::new();
@@ -206,8 +215,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let nominal = start.clone();
     let mut found: Vec<Active> = Vec::new();
 
-    if let Some(order) = wheel_order(&motion_link, &start, &catalogue) {
-        let (active, gain) = order;
+    if let Some((active, gain)) = order {
         named.push(order_named(&active, gain));
         found.push(active.clone());
         start.active.push(active);

@@ -77,8 +77,24 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
             offer(Law { shift, ..nominal }, "sample-order", parameters);
         }
     }
-    for coarse in [0.002, 0.004, 0.005, 0.008, 0.01, 0.0125, 0.016, 0.02, 0.025, 0.03, 0.04, 0.05, 0.0625, 0.1, logged]
-    {
+    for coarse in [
+        0.002,
+        0.004,
+        0.005,
+        0.008,
+        0.01,
+        0.0125,
+        0.016,
+        0.02,
+        0.025,
+        0.03,
+        0.04,
+        0.05,
+        0.0625,
+        0.1,
+        logged,
+        spacing(&runs),
+    ] {
         if coarse > step {
             offer(Law { duty_quantum: coarse, ..nominal }, "quantisation", vec![exact("duty_quantum", coarse)]);
         }
@@ -111,6 +127,30 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
     Some(link)
 }
 
+/// Distance between neighbouring values of the duties, by a line through all levels.
+fn spacing(runs: &[&Run]) -> f64 {
+    let mut values: Vec<f64> = runs
+        .iter()
+        .flat_map(|r| r.duty.iter().flatten())
+        .map(|d| d.abs())
+        .filter(|d| *d > 1e-6 && *d < 0.999)
+        .collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|a, b| (*a - *b).abs() < 1e-7);
+    let Some(mut q) = values.first().copied() else { return 0.0 };
+    // From the lowest level up, so that every next one is counted rightly.
+    let (mut kk, mut kv) = (0.0, 0.0);
+    for v in values {
+        let k = (v / q).round();
+        if k >= 1.0 {
+            kk += k * k;
+            kv += k * v;
+            q = kv / kk;
+        }
+    }
+    q
+}
+
 /// Pattern search over both gains, steps from 20 % down to 0.05 %.
 fn fit_gains(nominal: &Law, cost: impl Fn(&Law) -> f64) -> Law {
     let mut best = (cost(nominal), *nominal);
@@ -137,7 +177,8 @@ fn fit_gains(nominal: &Law, cost: impl Fn(&Law) -> f64) -> Law {
 fn replay(robot: &Robot, runs: &[&Run], wheel: usize, law: &Law, floor: f64) -> (f64, f64) {
     let rate = robot.control_rate_hz;
     let per_count = rate / robot.counts_per_wheel_rad();
-    let tolerance = floor + 0.5 * (law.duty_quantum - 2.0 * floor).max(0.0) * 0.0;
+    // A guess of the rounding shifts the highest level by some thousandths of it.
+    let tolerance = floor;
     let (mut square, mut wrong, mut all) = (0.0, 0.0, 0.0_f64);
     for run in runs {
         let (reference, counts, duty) = (&run.reference[wheel], &run.counts[wheel], &run.duty[wheel]);

@@ -9,6 +9,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Several signals and matrices are walked through together, by one index.
+#![allow(clippy::needless_range_loop)]
+
 pub mod analysis;
 mod command;
 mod controller;
@@ -30,6 +33,7 @@ pub mod select;
 pub mod state;
 pub mod statistics;
 mod timing;
+pub mod user;
 
 pub use analysis::{Analysis, Verdict, analyse, undo};
 pub use error::GapError;

@@ -18,7 +18,7 @@ const MOST: usize = 5;
 const SHORT_LIST: usize = 9;
 /// Rounds of relinearisation while the named effects still move.
 const ROUNDS: usize = 3;
-/// Squared cosine from which an effect is a look-alike of a named one and its share is the named one's.
+/// Share of a column that named columns span, from which it counts as their look-alike.
 const LOOKALIKE: f64 = 0.9;
 /// A removal that costs more than this in the linear approximation is not tried.
 const FAR: f64 = 40.0;
@@ -108,6 +108,7 @@ impl Bench {
             candidates: candidates.to_vec(),
             linear,
             variance: 1.0,
+            narrow: held.clone(),
             held,
             held_share: thresholds.held_share,
         };
@@ -150,6 +151,19 @@ impl Bench {
         for c in &self.linear.gram.clusters {
             jj += &c.jj;
         }
+        // What lies in the span of the named columns cannot be told from them: their share is the
+        // named ones'.
+        let active = self.linear.active();
+        let named = DMatrix::from_fn(active.len(), active.len(), |p, q| jj[(active[p], active[q])]);
+        for c in 0..m {
+            if active.is_empty() || !matches!(self.narrow[c], Role::Held(..)) || jj[(c, c)] <= 0.0 {
+                continue;
+            }
+            let mixed = nalgebra::DVector::from_fn(active.len(), |p, _| jj[(active[p], c)]);
+            if mixed.dot(&crate::gram::solve(&named, &mixed)) > LOOKALIKE * jj[(c, c)] {
+                self.narrow[c] = Role::Out;
+            }
+        }
         for index in 0..self.state.active.len() {
             let active = &self.state.active[index];
             let whole = self.linear.owners.iter().position(|o| *o == Owner::Whole(index));
@@ -178,9 +192,6 @@ impl Bench {
                 }
                 let overlap: f64 = columns.iter().zip(&p).map(|(a, x)| jj[(c, *a)] * x).sum();
                 let cos2 = overlap * overlap / (size2 * jj[(c, c)]);
-                if cos2 > LOOKALIKE {
-                    self.narrow[c] = Role::Out;
-                }
                 let wide = thresholds.law_share * cos2 * (size2 / jj[(c, c)]).sqrt();
                 self.held[c] = Role::Held(sd.max(wide), at);
             }

@@ -125,7 +125,9 @@ impl<'a> DriveLink<'a> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
         let mut out = Vec::with_capacity(self.bumps.len());
-        let mut current: Option<(usize, Vec<f64>, Vec<Vec<Vec<f64>>>)> = None;
+        /// Segment, forces at its ticks, and offsets of its angles.
+        type Prepared = (usize, Vec<f64>, Vec<Vec<Vec<f64>>>);
+        let mut current: Option<Prepared> = None;
         for b in &self.bumps {
             if current.as_ref().is_none_or(|c| c.0 != b.segment) {
                 let s = &self.segments[b.segment];

@@ -33,7 +33,7 @@ impl Effect for WheelSlip {
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
         let at = |mu| Parameter::new("friction_coefficient", 0.05, [0.02, 1.5], 0.0).from(mu).material_below(0.45);
-        [0.12, 0.17, 0.22, 0.28, 0.36, 0.48, 0.64, 0.85].into_iter().map(|mu| Form::whole(vec![at(mu)])).collect()
+        [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 0.9].into_iter().map(|mu| Form::whole(vec![at(mu)])).collect()
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
