@@ -6,6 +6,8 @@ mod demo;
 #[cfg(feature = "simulation")]
 mod fpga_options;
 #[cfg(feature = "simulation")]
+mod gap;
+#[cfg(feature = "simulation")]
 mod generate;
 #[cfg(feature = "simulation")]
 mod options;
@@ -34,6 +36,9 @@ pub(crate) enum Command {
     Replay(replay::Options),
     /// Find the skew of the wheels
     Calibrate(calibrate::Options),
+    /// Find where simulation and measured logs disagree, and name the missing effect
+    #[cfg(feature = "simulation")]
+    Gap(gap::Options),
 }
 
 impl Command {
@@ -57,6 +62,8 @@ impl Command {
             #[cfg(feature = "simulation")]
             Self::Replay(options) => options.run(),
             Self::Calibrate(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Gap(options) => options.run(),
         }
     }
 }

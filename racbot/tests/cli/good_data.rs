@@ -67,6 +67,26 @@ fn the_papers_procedure_ends_where_its_mathematics_says() {
 }
 
 #[test]
+fn the_gap_of_a_skewed_robot_is_named_and_taken_back() {
+    let folder = tempdir().unwrap();
+    let set = data("runs/wheel-skew");
+    let outcome = racbot(folder.path(), &["gap", set.to_str().unwrap(), "--out", "gap"]).done().fits_80_columns();
+    assert!(outcome.stdout.contains("wheel-skew"), "{}", outcome.stdout);
+    let json = fs::read_to_string(folder.path().join("gap/gap.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(
+        (json["verdict"].as_str(), json["effects"][0]["name"].as_str()),
+        (Some("missing-effect"), Some("wheel-skew"))
+    );
+    assert!(fs::read_to_string(folder.path().join("gap/report.html")).unwrap().contains("<svg"));
+
+    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"]).done();
+    assert!(!fs::read_to_string(folder.path().join("gap/robot.toml")).unwrap().contains("wheel-skew"));
+    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"])
+        .refused(1, &["gap/robot.toml: carries no effect wheel-skew"]);
+}
+
+#[test]
 fn the_seed_decides_the_run() {
     let folder = tempdir().unwrap();
     let drive = |seed: &str, out: &str| {

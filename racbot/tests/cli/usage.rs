@@ -6,7 +6,7 @@ use tempfile::tempdir;
 #[test]
 fn what_is_not_a_command_or_option_is_refused() {
     let folder = tempdir().unwrap();
-    let table: [(&[&str], &str); 13] = [
+    let table: [(&[&str], &str); 15] = [
         (&["fly"], "unrecognized subcommand 'fly'"),
         (&["simulat"], "similar"),
         (&["simulate", "--speed"], "unexpected argument '--speed'"),
@@ -17,6 +17,8 @@ fn what_is_not_a_command_or_option_is_refused() {
         (&["simulate", "--limit-s", "-1"], "not between 0 and 3600"),
         (&["replay"], "<DATASET>"),
         (&["calibrate"], "<DATASET>"),
+        (&["gap"], "<DATASET>"),
+        (&["gap", "--undo", "wheel-skew"], "say which robot.toml"),
         (&["calibrate", "--procedure", "paper"], "say what the virtual robot really is"),
         (&["calibrate", "--procedure", "paper", "--skew-deg", "1,2,3", "logs"], "reads no data set"),
         (&["calibrate", "logs", "--skew-deg", "1,2,3"], "for the virtual robot"),

@@ -1,0 +1,70 @@
+//! `racbot gap`
+
+use crate::terminal::progress::Progress;
+use crate::terminal::{Answer, Failure, save, wrapped};
+use clap::Args;
+use model::error::InputError;
+use model::robot::Robot;
+use model::run::DataSet;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Options of `gap`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Folder with robot.toml and runs (*.csv); with --undo it may be left out
+    #[arg(value_name = "DATASET", required_unless_present = "undo")]
+    data_set: Option<PathBuf>,
+
+    /// Another robot.toml than the data set's own; it may carry effects
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+
+    /// Folder for report.html, gap.json and the robot.toml with the named effects
+    #[arg(long, value_name = "DIR", default_value = "out/gap")]
+    out: PathBuf,
+
+    /// Take an effect out of a robot.toml (--robot, or that of the data set) again; analyse nothing
+    #[arg(long, value_name = "NAME")]
+    undo: Option<String>,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        if let Some(name) = &self.undo {
+            return self.undo(name);
+        }
+        let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
+        let set = match &self.robot {
+            None => DataSet::open(folder)?,
+            Some(file) => DataSet::open_as(folder, Robot::load(file)?)?,
+        };
+        let progress = Progress::new("looking for the missing effect", 1);
+        let analysis = gap::analyse(&set, &gap::Options::default()).map_err(|error| Failure::about(folder, error))?;
+        progress.at(1);
+        drop(progress);
+        analysis.write(&self.out).map_err(Failure::data)?;
+        let text = format!("{}\nreport in {}\n", analysis.terminal_summary().trim_end(), self.out.display());
+        Ok(Answer { text, json: analysis.to_json(), wrong: None })
+    }
+
+    fn undo(&self, name: &str) -> Result<Answer, Failure> {
+        let of_set = self.data_set.as_ref().map(|folder| folder.join("robot.toml"));
+        let Some(file) = self.robot.clone().or(of_set) else {
+            return Err(Failure::usage("--undo: say which robot.toml, with --robot or a data set"));
+        };
+        let robot = Robot::load(&file)?;
+        let Some(without) = gap::undo(&robot, name) else {
+            return Err(unknown_effect(&file, &robot, name).into());
+        };
+        save(&file, &without.to_toml())?;
+        let text = wrapped(&format!("{name} is taken out of {}", file.display()), 2);
+        Ok(Answer { text, json: json!({ "removed": name, "robot": file }), wrong: None })
+    }
+}
+
+fn unknown_effect(file: &Path, robot: &Robot, name: &str) -> InputError {
+    let names: Vec<&str> = robot.effects.iter().map(|effect| effect.name.as_str()).collect();
+    let hint = if names.is_empty() { "it carries none".to_owned() } else { format!("it carries {}", names.join(", ")) };
+    InputError::new(file, format!("carries no effect {name}"), hint)
+}
