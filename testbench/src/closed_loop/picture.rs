@@ -7,7 +7,7 @@ use model::trajectory::SetPoint;
 /// Seconds between two heading arrows.
 const HEADING_EVERY_S: f64 = 0.5;
 /// Points of a curve over time; more would not show.
-const POINTS: usize = 1_500;
+const POINTS: usize = 700;
 
 /// One curve of a [`trajectory`] picture.
 #[derive(Clone, Copy, Debug)]
