@@ -27,12 +27,14 @@
 
 pub mod calibration;
 pub mod camera;
+pub mod effects;
 pub mod error;
 pub mod fit;
 pub mod frames;
 pub mod fusion;
 pub mod geometry;
 pub mod localisation;
+pub mod manoeuvre;
 pub mod motor;
 pub mod odometry;
 pub mod pi;

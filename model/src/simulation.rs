@@ -60,6 +60,11 @@ impl VirtualRobot {
         self.log.len() as f64 * self.robot.tick_s()
     }
 
+    /// One control tick, s.
+    pub fn tick_s(&self) -> f64 {
+        self.robot.tick_s()
+    }
+
     /// Where the robot really is.
     pub fn pose(&self) -> Pose {
         self.plant.pose()
