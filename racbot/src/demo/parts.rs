@@ -126,8 +126,9 @@ impl Report {
         });
         self.pictures.push(Picture {
             name: "speeds",
-            caption: "The green drive over time: wheel speeds with their set points, heading, duties (means of some ticks)."
-                .to_owned(),
+            caption:
+                "The green drive over time: wheel speeds with their set points, heading, duties (means of some ticks)."
+                    .to_owned(),
             svg: speeds("Wheel speeds, heading and duties", ideal),
         });
     }
