@@ -1,5 +1,6 @@
 //! Where hardware and reference meet: co-simulation and the virtual robot.
 
+pub mod blind;
 pub mod calibration;
 pub mod closed_loop;
 pub mod cosim;

@@ -1,0 +1,84 @@
+//! Hides effects in simulated logs, lets the gap workflow look for them, and prints how often it is right.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use testbench::blind::{self, BlindError, Plan};
+
+/// Blind bench of the gap workflow.
+#[derive(Debug, Parser)]
+#[command(name = "blind", version, about)]
+struct Args {
+    /// Sets that hide nothing
+    #[arg(long, default_value_t = 0)]
+    effect_free: usize,
+    /// Sets of every effect at every size
+    #[arg(long, default_value_t = 0)]
+    single: usize,
+    /// Sizes of the single effects
+    #[arg(long, value_delimiter = ',', default_value = "1,2,3,4,5", value_parser = clap::value_parser!(u8).range(1..=5))]
+    sizes: Vec<u8>,
+    /// Single effects to be hidden [default: all]
+    #[arg(long, value_delimiter = ',', value_parser = known)]
+    only: Vec<String>,
+    /// Sets with two effects
+    #[arg(long, default_value_t = 0)]
+    pairs: usize,
+    /// Sets with an effect that no catalogue lists
+    #[arg(long, default_value_t = 0)]
+    outside: usize,
+    /// Sets with one effect and no rotation
+    #[arg(long, default_value_t = 0)]
+    translations_only: usize,
+    /// Seed of the whole series
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// JSON instead of the table
+    #[arg(long)]
+    json: bool,
+}
+
+fn known(name: &str) -> Result<String, String> {
+    truth::find(name).map(|e| e.name.to_owned()).map_err(|e| e.to_string())
+}
+
+fn main() -> ExitCode {
+    match run(Args::parse()) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn run(args: Args) -> Result<ExitCode, BlindError> {
+    let plan = Plan {
+        effect_free: args.effect_free,
+        single: args.single,
+        sizes: args.sizes,
+        only: args.only,
+        pairs: args.pairs,
+        outside: args.outside,
+        translations_only: args.translations_only,
+        ..Plan::new(args.seed)
+    };
+    let sets = plan.tasks().len();
+    if sets == 0 {
+        eprintln!("error: nothing to do; try --effect-free 20 --single 1");
+        return Ok(ExitCode::from(2));
+    }
+    // indicatif draws nothing where standard error is no terminal.
+    let style = ProgressStyle::with_template("{pos:>5} of {len} sets [{bar:30}] {percent:>3} % {eta:>4}");
+    let bar = ProgressBar::new(sets as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
+    let report = blind::run(&plan, |done| bar.set_position(done as u64))?;
+    bar.finish_and_clear();
+    if args.json {
+        println!("{:#}", report.to_json())
+    } else {
+        print!("{}", report.table())
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,186 @@
+//! Blind bench of the gap workflow: hides effects, lets the workflow look for them, scores.
+//!
+//! Every data set is written under an opaque name into a scratch folder of its own. The answer stays in memory and is
+//! compared only after the workflow has finished. Scoring reads what a user gets: the keys of `gap.json`.
+
+mod answer;
+mod binomial;
+mod score;
+mod table;
+
+use std::panic::AssertUnwindSafe;
+use std::time::Instant;
+
+use thiserror::Error;
+use truth::{Conditions, Kind};
+
+pub use answer::{Answer, NamedEffect};
+pub use binomial::{lower_bound, upper_bound};
+pub use score::{Grade, Scored, grade};
+pub use table::Report;
+
+/// What can stop the bench.
+#[derive(Debug, Error)]
+pub enum BlindError {
+    /// A case cannot be drawn or written.
+    #[error("the case cannot be made: {0}")]
+    Truth(#[from] truth::Error),
+    /// No scratch folder.
+    #[error("no scratch folder: {0}")]
+    Scratch(#[from] std::io::Error),
+}
+
+/// How many sets of which kind, and the seed of them all.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Seed of the whole series.
+    pub seed: u64,
+    /// Sets that hide nothing.
+    pub effect_free: usize,
+    /// Sets of every effect at every size.
+    pub single: usize,
+    /// Sizes of the single effects, 1 to 5.
+    pub sizes: Vec<u8>,
+    /// Single effects to be hidden; empty = all that can show.
+    pub only: Vec<String>,
+    /// Sets with two drawn effects, a look-alike pair every other time.
+    pub pairs: usize,
+    /// Sets with a drawn effect that no catalogue lists.
+    pub outside: usize,
+    /// Sets with a drawn effect of the catalogue whose runs have no rotation.
+    pub translations_only: usize,
+    /// Conditions of all sets.
+    pub conditions: Conditions,
+}
+
+impl Plan {
+    /// An empty plan: all sizes, all effects, the usual conditions.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            effect_free: 0,
+            single: 0,
+            sizes: vec![1, 2, 3, 4, 5],
+            only: Vec::new(),
+            pairs: 0,
+            outside: 0,
+            translations_only: 0,
+            conditions: Conditions::default(),
+        }
+    }
+
+    /// The sets in the order in which they are tried; the seed of a set does not depend on how many others there are.
+    pub fn tasks(&self) -> Vec<Task> {
+        let series = |group: Group| truth::set_seed(self.seed, group as u64);
+        let task = |group: Group, index: usize, kind: Kind| Task {
+            group,
+            seed: truth::set_seed(series(group), index as u64),
+            kind,
+            conditions: self.conditions.clone(),
+        };
+        let mut tasks = Vec::new();
+        for i in 0..self.effect_free {
+            tasks.push(task(Group::EffectFree, i, Kind::EffectFree));
+        }
+        for round in 0..self.single {
+            for (e, entry) in truth::catalogue().enumerate() {
+                let wanted = self.only.is_empty() || self.only.iter().any(|n| n == entry.name);
+                if !wanted || !truth::observable(entry, &self.conditions) {
+                    continue;
+                }
+                for &size in &self.sizes {
+                    let kind = Kind::Single { effect: Some(entry.name.to_owned()), size: Some(size) };
+                    tasks.push(task(Group::Single, round * 1000 + e * 10 + usize::from(size), kind));
+                }
+            }
+        }
+        for i in 0..self.pairs {
+            let kind =
+                if i % 2 == 0 { Kind::Pair { effects: None, size: None } } else { Kind::LookAlike { size: None } };
+            tasks.push(task(Group::Pair, i, kind));
+        }
+        for i in 0..self.outside {
+            tasks.push(task(Group::Outside, i, Kind::Outside { name: None, size: None }));
+        }
+        for i in 0..self.translations_only {
+            let mut task = task(Group::TranslationsOnly, i, Kind::Single { effect: None, size: None });
+            task.conditions.translations_only = true;
+            tasks.push(task);
+        }
+        tasks
+    }
+}
+
+/// Rows of the table that belong together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// Nothing hidden.
+    EffectFree,
+    /// One effect.
+    Single,
+    /// Two effects.
+    Pair,
+    /// An effect that no catalogue lists.
+    Outside,
+    /// One effect, runs without rotation.
+    TranslationsOnly,
+}
+
+impl Group {
+    /// As in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EffectFree => "effect-free",
+            Self::Single => "single",
+            Self::Pair => "pair",
+            Self::Outside => "outside",
+            Self::TranslationsOnly => "translations-only",
+        }
+    }
+}
+
+/// One set to be made, analysed and scored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Task {
+    /// Where it is counted.
+    pub group: Group,
+    /// Its own seed.
+    pub seed: u64,
+    /// What is hidden.
+    pub kind: Kind,
+    /// Under which conditions.
+    pub conditions: Conditions,
+}
+
+impl Task {
+    /// Makes the data, has them analysed, and scores the answer.
+    ///
+    /// # Errors
+    /// [`BlindError`] if the set cannot be made. A workflow that gives up is a score, not an error.
+    pub fn run(&self) -> Result<Scored, BlindError> {
+        let scratch = tempfile::tempdir()?;
+        let case = truth::draw_with(self.seed, &self.kind, &self.conditions)?;
+        let sealed = truth::write(&case, scratch.path())?;
+        let start = Instant::now();
+        let answer = std::panic::catch_unwind(AssertUnwindSafe(|| {
+            let set = model::run::DataSet::open(scratch.path()).map_err(|e| e.to_string())?;
+            let analysis = gap::analyse(&set, &gap::Options::default()).map_err(|e| e.to_string())?;
+            Answer::from_json(&analysis.to_json()).ok_or_else(|| "gap.json lacks a key".to_owned())
+        }))
+        .unwrap_or_else(|_| Err("the workflow panicked".to_owned()));
+        Ok(Scored::new(self, &sealed, answer, start.elapsed().as_secs_f64()))
+    }
+}
+
+/// Runs a plan; `done` is called after every set with the number done so far.
+///
+/// # Errors
+/// [`BlindError`] if a set cannot be made.
+pub fn run(plan: &Plan, mut done: impl FnMut(usize)) -> Result<Report, BlindError> {
+    let mut scored = Vec::new();
+    for (i, task) in plan.tasks().iter().enumerate() {
+        scored.push(task.run()?);
+        done(i + 1);
+    }
+    Ok(Report { seed: plan.seed, scored })
+}

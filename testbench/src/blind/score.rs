@@ -1,0 +1,253 @@
+//! How an answer compares with what was hidden.
+
+use truth::{Hidden, Truth};
+
+use super::{Answer, Group, Task};
+
+/// How good an answer is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Grade {
+    /// Exactly what is hidden, nothing else.
+    Right,
+    /// What is hidden stands in a set of look-alikes with what is named, and nothing else is named.
+    Within,
+    /// Right or within, and more besides.
+    Extra,
+    /// Several are hidden, some are found, nothing else is named.
+    Partial,
+    /// Nothing named.
+    Nothing,
+    /// Something else is named, or the right effect on the wrong wheel.
+    Wrong,
+    /// The workflow gave up.
+    Failed,
+}
+
+impl Grade {
+    /// In the order of the table.
+    pub const ALL: [Self; 7] =
+        [Self::Right, Self::Within, Self::Extra, Self::Partial, Self::Nothing, Self::Wrong, Self::Failed];
+
+    /// As in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Within => "within",
+            Self::Extra => "extra",
+            Self::Partial => "partial",
+            Self::Nothing => "nothing",
+            Self::Wrong => "wrong",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// Right, or within the stated set.
+    pub fn is_good(self) -> bool {
+        matches!(self, Self::Right | Self::Within)
+    }
+}
+
+/// Whether an effect was found by name, only as a look-alike, or not.
+fn found(hidden: &Hidden, answer: &Answer) -> Option<Grade> {
+    let named = answer.effects.iter().find(|e| e.name == hidden.name);
+    if let Some(named) = named {
+        let apart = !hidden.wheels.is_empty()
+            && !named.wheels.is_empty()
+            && !hidden.wheels.iter().any(|w| named.wheels.contains(w));
+        return (!apart).then_some(Grade::Right);
+    }
+    look_alike(hidden, answer).is_some().then_some(Grade::Within)
+}
+
+/// The named effect that stands for a hidden one in a set of look-alikes.
+fn look_alike<'a>(hidden: &Hidden, answer: &'a Answer) -> Option<&'a str> {
+    let set = |name: &str| {
+        answer.alternatives.iter().any(|a| a.iter().any(|n| *n == hidden.name) && a.iter().any(|n| n == name))
+    };
+    answer.effects.iter().map(|e| e.name.as_str()).find(|name| set(name))
+}
+
+/// Grades an answer against what is hidden. With nothing hidden, `Right` is to name nothing.
+pub fn grade(hidden: &[Hidden], answer: &Answer) -> Grade {
+    if hidden.is_empty() {
+        return if answer.effects.is_empty() { Grade::Right } else { Grade::Wrong };
+    }
+    if answer.effects.is_empty() {
+        return Grade::Nothing;
+    }
+    let hits: Vec<Grade> = hidden.iter().filter_map(|h| found(h, answer)).collect();
+    let stands = |name: &str| hidden.iter().any(|h| h.name == name || look_alike(h, answer) == Some(name));
+    let more = answer.effects.iter().any(|e| !stands(&e.name));
+    match (hits.len(), more) {
+        (0, _) => Grade::Wrong,
+        (n, true) if n == hidden.len() => Grade::Extra,
+        (_, true) => Grade::Wrong,
+        (n, false) if n < hidden.len() => Grade::Partial,
+        _ if hits.contains(&Grade::Within) => Grade::Within,
+        _ => Grade::Right,
+    }
+}
+
+/// One set and its score.
+#[derive(Debug, Clone)]
+pub struct Scored {
+    /// Where it is counted.
+    pub group: Group,
+    /// Seed of the set.
+    pub seed: u64,
+    /// Hidden effects, those of the catalogue and others.
+    pub hidden: Vec<Hidden>,
+    /// Grade; for an effect outside the catalogue, `Right` is to say "none of these".
+    pub grade: Grade,
+    /// The answer, or why there is none.
+    pub answer: Result<Answer, String>,
+    /// 95 % intervals of parameters that truth and answer share: how many, and how many hold the true value.
+    pub intervals: [usize; 2],
+    /// True size in units of the stated detection limit, where one is stated.
+    pub limits: Option<f64>,
+    /// Seconds of the analysis.
+    pub seconds: f64,
+}
+
+impl Scored {
+    pub(super) fn new(task: &Task, sealed: &Truth, answer: Result<Answer, String>, seconds: f64) -> Self {
+        let hidden: Vec<Hidden> = sealed.effects.iter().chain(&sealed.outside).cloned().collect();
+        let mut out = Self {
+            group: task.group,
+            seed: task.seed,
+            hidden,
+            grade: Grade::Failed,
+            answer,
+            intervals: [0, 0],
+            limits: None,
+            seconds,
+        };
+        if let Ok(answer) = &out.answer {
+            out.grade = if sealed.outside.is_empty() { grade(&sealed.effects, answer) } else { outside(answer) };
+            out.intervals = intervals(&sealed.effects, answer);
+            out.limits = in_limits(&sealed.effects, answer);
+        }
+        out
+    }
+
+    /// Largest size level hidden; 0 if nothing is.
+    pub fn size(&self) -> u8 {
+        self.hidden.iter().map(|h| h.size).max().unwrap_or(0)
+    }
+
+    /// Share of the gap closed, where something is named.
+    pub fn closed(&self) -> Option<f64> {
+        self.answer.as_ref().ok().and_then(|a| a.closed)
+    }
+}
+
+/// "None of these" is right; what is named must at least be called the nearest.
+fn outside(answer: &Answer) -> Grade {
+    let demoted = answer.effects.iter().all(|e| answer.nearest.contains(&e.name));
+    match () {
+        () if answer.verdict == "unexplained" && demoted => Grade::Right,
+        () if answer.effects.is_empty() => Grade::Nothing,
+        () if answer.unexplained > 0 => Grade::Extra,
+        () => Grade::Wrong,
+    }
+}
+
+fn intervals(hidden: &[Hidden], answer: &Answer) -> [usize; 2] {
+    let mut out = [0, 0];
+    for h in hidden {
+        for e in answer.effects.iter().filter(|e| e.name == h.name) {
+            for (name, _, [low, high]) in &e.parameters {
+                // A parameter that is known exactly has no interval to judge.
+                if let Some(x) = h.parameters.get(name).filter(|_| high > low) {
+                    out[0] += 1;
+                    out[1] += usize::from((*low..=*high).contains(x));
+                }
+            }
+        }
+    }
+    out
+}
+
+fn in_limits(hidden: &[Hidden], answer: &Answer) -> Option<f64> {
+    let [h] = hidden else { return None };
+    answer
+        .limits
+        .iter()
+        .filter(|(name, _, limit)| *name == h.name && *limit > 0.0)
+        .filter_map(|(_, parameter, limit)| Some(h.parameters.get(parameter)?.abs() / limit))
+        .max_by(f64::total_cmp)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::blind::NamedEffect;
+
+    fn hide(name: &str, wheels: &[usize]) -> Hidden {
+        Hidden {
+            name: name.to_owned(),
+            link: truth::Link::Motion,
+            size: 3,
+            wheels: wheels.to_vec(),
+            parameters: BTreeMap::from([("scale_1".to_owned(), 0.01)]),
+        }
+    }
+
+    fn say(names: &[(&str, &[usize])], alternatives: &[&[&str]]) -> Answer {
+        let effect = |(name, wheels): &(&str, &[usize])| NamedEffect {
+            name: (*name).to_owned(),
+            wheels: wheels.to_vec(),
+            parameters: vec![("scale_1".to_owned(), 0.011, [0.0095, 0.0125])],
+        };
+        Answer {
+            verdict: if names.is_empty() { "agrees" } else { "missing-effect" }.to_owned(),
+            effects: names.iter().map(effect).collect(),
+            alternatives: alternatives.iter().map(|a| a.iter().map(|n| (*n).to_owned()).collect()).collect(),
+            nearest: Vec::new(),
+            unexplained: 0,
+            closed: None,
+            limits: vec![("wheel-radius".to_owned(), "scale_1".to_owned(), 0.004)],
+        }
+    }
+
+    #[test]
+    fn an_answer_gets_the_grade_it_deserves() {
+        let radius = [hide("wheel-radius", &[1])];
+        let graded = |names: &[(&str, &[usize])], sets: &[&[&str]]| grade(&radius, &say(names, sets));
+        assert_eq!(graded(&[("wheel-radius", &[1])], &[]), Grade::Right);
+        assert_eq!(graded(&[("wheel-radius", &[2])], &[]), Grade::Wrong);
+        assert_eq!(graded(&[("encoder-scale", &[1])], &[&["encoder-scale", "wheel-radius"]]), Grade::Within);
+        assert_eq!(graded(&[("encoder-scale", &[1])], &[]), Grade::Wrong);
+        assert_eq!(graded(&[("encoder-scale", &[1])], &[&["body-radius", "wheel-radius"]]), Grade::Wrong);
+        assert_eq!(graded(&[("wheel-radius", &[1]), ("floor-tilt", &[])], &[]), Grade::Extra);
+        assert_eq!(graded(&[], &[]), Grade::Nothing);
+        assert_eq!(grade(&[], &say(&[], &[])), Grade::Right);
+        assert_eq!(grade(&[], &say(&[("floor-tilt", &[])], &[])), Grade::Wrong);
+        let both = [hide("wheel-radius", &[1]), hide("floor-tilt", &[])];
+        assert_eq!(grade(&both, &say(&[("floor-tilt", &[])], &[])), Grade::Partial);
+        assert_eq!(grade(&both, &say(&[("floor-tilt", &[]), ("wheel-radius", &[1])], &[])), Grade::Right);
+    }
+
+    #[test]
+    fn intervals_and_limits_are_counted_by_parameter_name() {
+        let answer = say(&[("wheel-radius", &[1])], &[]);
+        assert_eq!(intervals(&[hide("wheel-radius", &[1])], &answer), [1, 1]);
+        assert_eq!(intervals(&[hide("body-radius", &[])], &answer), [0, 0]);
+        let ratio = in_limits(&[hide("wheel-radius", &[1])], &answer);
+        assert!(ratio.is_some_and(|r| (r - 2.5).abs() < 1e-12));
+    }
+
+    #[test]
+    fn outside_the_catalogue_only_none_of_these_is_right() {
+        let mut answer = say(&[("floor-tilt", &[])], &[]);
+        assert_eq!(outside(&answer), Grade::Wrong);
+        answer.unexplained = 1;
+        assert_eq!(outside(&answer), Grade::Extra);
+        answer.verdict = "unexplained".to_owned();
+        answer.nearest = vec!["floor-tilt".to_owned()];
+        assert_eq!(outside(&answer), Grade::Right);
+        assert_eq!(outside(&say(&[], &[])), Grade::Nothing);
+    }
+}

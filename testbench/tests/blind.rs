@@ -1,0 +1,54 @@
+//! A small seeded part of the blind bench.
+
+use testbench::blind::{self, Grade, Group, Plan};
+
+/// Strong effects that nothing else in the catalogue looks like.
+const DISTINCT: [&str; 10] = [
+    "wheel-skew",
+    "wheel-radius",
+    "body-radius",
+    "camera-latency",
+    "coulomb-friction",
+    "viscous-friction",
+    "torque-constant",
+    "camera-scale",
+    "carpet-grain",
+    "floor-tilt",
+];
+
+#[test]
+fn gross_effects_are_named_and_clean_data_stay_clean() {
+    let plan = Plan {
+        effect_free: 6,
+        single: 1,
+        sizes: vec![4],
+        only: DISTINCT.iter().map(|n| (*n).to_owned()).collect(),
+        ..Plan::new(7)
+    };
+    let report = blind::run(&plan, |_| ()).expect("every case can be made");
+    let table = report.table();
+    assert!(table.lines().all(|l| l.chars().count() <= 80), "wider than 80 columns:\n{table}");
+    let single = report.group(Group::Single);
+    assert_eq!((report.group(Group::EffectFree).len(), single.len()), (6, DISTINCT.len()));
+    let false_names = report.count(Group::EffectFree, Grade::Wrong);
+    assert_eq!(false_names, 0, "names on clean data, 0 of 6 when measured:\n{table}");
+    let good = single.iter().filter(|s| s.grade.is_good()).count();
+    assert!(good >= 9, "{good} of 10 right or within the stated set, 10 when measured:\n{table}");
+    assert_eq!(report.count(Group::Single, Grade::Wrong), 0, "wrong names, 0 of 10 when measured:\n{table}");
+    assert!(report.scored.iter().all(|s| s.grade != Grade::Failed), "the workflow gave up:\n{table}");
+    let [all, held] = report.intervals();
+    assert!(all >= 10 && 10 * held >= 8 * all, "{held} of {all} intervals hold, 14 of 14 when measured:\n{table}");
+    let closed = report.median_closed().unwrap_or(0.0);
+    assert!(closed >= 0.9, "{closed} of the gap closed in the middle, 1.0 when measured:\n{table}");
+}
+
+#[test]
+fn a_plan_draws_the_same_sets_however_many_there_are() {
+    let plan = |effect_free, single| Plan { effect_free, single, sizes: vec![2, 5], ..Plan::new(3) };
+    let (small, large) = (plan(2, 1).tasks(), plan(9, 2).tasks());
+    assert!(small.iter().all(|t| large.contains(t)));
+    let mut seeds: Vec<u64> = large.iter().map(|t| t.seed).collect();
+    seeds.sort_unstable();
+    seeds.dedup();
+    assert_eq!(seeds.len(), large.len(), "two sets share a seed");
+}
