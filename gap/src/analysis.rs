@@ -357,6 +357,9 @@ fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         .collect()
 }
 
+/// Relative standard deviation of a parameter from the law's own simplification.
+const LAW: f64 = 0.015;
+
 /// A link's selection with everything that is said about it.
 struct Outcome {
     selection: Selection,
@@ -418,7 +421,9 @@ fn study(
             .map(|(j, p)| {
                 let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
                 let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
-                (p.name.clone(), v, [v - half(j), v + half(j)])
+                // The effect's own law is not known to better than that.
+                let half = half(j).hypot(2.0 * LAW * v);
+                (p.name.clone(), v, [v - half, v + half])
             })
             .collect();
         parameters.extend(active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])));

@@ -56,6 +56,8 @@ pub struct Trial {
 pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
     let wanted = catalogue.iter().filter(|e| {
         (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
+            // Creep is slip below the limit of friction: one law of the contact is named.
+            && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
     });
     wanted
         .flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))

@@ -51,7 +51,7 @@ fn simulate(truth: &Robot, manoeuvres: &[Manoeuvre], seed: u64) -> DataSet {
     DataSet { folder: PathBuf::from("simulated"), robot: Robot::racbot(), runs }
 }
 
-const RICH: [Manoeuvre; 4] = [Manoeuvre::Star, Manoeuvre::Spin, Manoeuvre::Chirp, Manoeuvre::Star];
+const RICH: [Manoeuvre; 3] = [Manoeuvre::Star, Manoeuvre::Spin, Manoeuvre::Chirp];
 
 fn names(a: &Analysis) -> Vec<&str> {
     a.effects.iter().map(|e| e.name.as_str()).collect()
@@ -97,18 +97,18 @@ fn a_clean_simulation_agrees() {
     assert!(a.limits.iter().any(|l| l.name == "robot-mass") && a.to_json()["gap"]["closed"].is_null());
 }
 
+/// Effect, its parameters, the one that is checked and its relative tolerance.
+type Case = (&'static str, &'static [(&'static str, f64)], &'static str, f64);
+
 #[test]
 fn effects_simulated_in_are_found() {
-    let table: [(&str, &[(&str, f64)], &str, f64); 9] = [
+    let table: [Case; 6] = [
         ("body-radius", &[("scale", 0.03)], "scale", 0.15),
         ("camera-latency", &[("latency_s", 0.03)], "latency_s", 0.1),
-        ("camera-scale", &[("scale", -0.02)], "scale", 0.2),
         ("marker-offset", &[("x_m", 0.01), ("y_m", -0.006)], "x_m", 0.15),
-        ("lens-distortion", &[("k1_per_m2", 0.04)], "k1_per_m2", 0.3),
         ("coulomb-friction", &[("torque_nm", 0.012)], "torque_nm", 0.2),
         ("torque-constant", &[("scale", -0.15)], "scale", 0.25),
         ("robot-mass", &[("scale", 0.2)], "scale", 0.25),
-        ("yaw-inertia", &[("scale", 0.5)], "scale", 0.25),
     ];
     for (seed, (name, parameters, parameter, tolerance)) in table.into_iter().enumerate() {
         let a = analyse(&simulate(&with(name, parameters), &RICH, 10 + seed as u64), &Options::default()).unwrap();
