@@ -76,9 +76,9 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
     let report = blind::run(&plan, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     if args.json {
-        println!("{:#}", report.to_json())
+        println!("{:#}", report.to_json());
     } else {
-        print!("{}", report.table())
+        print!("{}", report.table());
     }
     Ok(ExitCode::SUCCESS)
 }

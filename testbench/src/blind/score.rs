@@ -61,9 +61,7 @@ fn found(hidden: &Hidden, answer: &Answer) -> Option<Grade> {
 
 /// The named effect that stands for a hidden one in a set of look-alikes.
 fn look_alike<'a>(hidden: &Hidden, answer: &'a Answer) -> Option<&'a str> {
-    let set = |name: &str| {
-        answer.alternatives.iter().any(|a| a.iter().any(|n| *n == hidden.name) && a.iter().any(|n| n == name))
-    };
+    let set = |name: &str| answer.alternatives.iter().any(|a| a.contains(&hidden.name) && a.iter().any(|n| n == name));
     answer.effects.iter().map(|e| e.name.as_str()).find(|name| set(name))
 }
 
