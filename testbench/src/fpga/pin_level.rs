@@ -145,3 +145,33 @@ impl<C: Chip> Fpga for PinLevel<C> {
         QUIET_CLOCKS
     }
 }
+
+/// A newtype around a [`PinLevel`] is an FPGA.
+macro_rules! forward_to_pin_level {
+    ($fpga:ty) => {
+        impl driver::Registers for $fpga {
+            fn read(&mut self, offset: u16) -> Result<u32, driver::BusError> {
+                self.0.read(offset)
+            }
+            fn write(&mut self, offset: u16, data: u32) -> Result<(), driver::BusError> {
+                self.0.write(offset, data)
+            }
+            fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), driver::BusError> {
+                self.0.read_block(offset, words)
+            }
+        }
+
+        impl super::Fpga for $fpga {
+            fn kind(&self) -> Kind {
+                self.0.kind()
+            }
+            fn advance(&mut self, positions: &[f64; fixed_kin::AXES]) -> Result<(), FpgaError> {
+                self.0.advance(positions)
+            }
+            fn quiet_clocks(&self) -> u32 {
+                self.0.quiet_clocks()
+            }
+        }
+    };
+}
+pub(super) use forward_to_pin_level;

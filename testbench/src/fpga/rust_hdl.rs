@@ -1,9 +1,8 @@
 //! The rust-hdl core as an FPGA: simulated clock by clock, with a bus master on its pins.
 
-use super::pin_level::{Chip, Lines, PinLevel};
-use super::{Fpga, FpgaError, Kind};
-use driver::{BusError, Registers};
-use fixed_kin::AXES;
+use super::pin_level::{Chip, Lines, PinLevel, forward_to_pin_level};
+use super::{FpgaError, Kind};
+use driver::BusError;
 use hdl::blocks::core::Core;
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
@@ -113,26 +112,4 @@ impl Chip for Simulated {
     }
 }
 
-impl Registers for RustHdl {
-    fn read(&mut self, offset: u16) -> Result<u32, BusError> {
-        self.0.read(offset)
-    }
-    fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
-        self.0.write(offset, data)
-    }
-    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
-        self.0.read_block(offset, words)
-    }
-}
-
-impl Fpga for RustHdl {
-    fn kind(&self) -> Kind {
-        Kind::RustHdl
-    }
-    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
-        self.0.advance(positions)
-    }
-    fn quiet_clocks(&self) -> u32 {
-        self.0.quiet_clocks()
-    }
-}
+forward_to_pin_level!(RustHdl);

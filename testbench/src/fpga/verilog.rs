@@ -1,10 +1,8 @@
 //! The emitted Verilog, compiled by Verilator, as an FPGA.
 
-use super::pin_level::{Chip, Lines, PinLevel};
-use super::{Fpga, FpgaError, Kind};
+use super::pin_level::{Chip, Lines, PinLevel, forward_to_pin_level};
+use super::{FpgaError, Kind};
 use crate::cosim::{Change, Session, Verilated};
-use driver::{BusError, Registers};
-use fixed_kin::AXES;
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
 
@@ -62,26 +60,4 @@ impl Chip for Compiled {
     }
 }
 
-impl Registers for Verilog {
-    fn read(&mut self, offset: u16) -> Result<u32, BusError> {
-        self.0.read(offset)
-    }
-    fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
-        self.0.write(offset, data)
-    }
-    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
-        self.0.read_block(offset, words)
-    }
-}
-
-impl Fpga for Verilog {
-    fn kind(&self) -> Kind {
-        Kind::Verilog
-    }
-    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
-        self.0.advance(positions)
-    }
-    fn quiet_clocks(&self) -> u32 {
-        self.0.quiet_clocks()
-    }
-}
+forward_to_pin_level!(Verilog);
