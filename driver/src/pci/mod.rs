@@ -3,8 +3,13 @@
 //! [`PciCard`] is the seam of loading, as [`crate::Registers`] is that of control. Behind it stand the
 //! real card (sysfs) and virtual ones; a [`RegisterWindow`] makes the registers of the loaded FPGA from it.
 
+mod map;
+mod slot;
+mod sysfs;
 mod window;
 
+pub use slot::{FindError, Ids, SYSFS_DEVICES, Slot, devices, find};
+pub use sysfs::{OpenError, SysfsCard, Use};
 pub use window::RegisterWindow;
 
 use std::fmt;
