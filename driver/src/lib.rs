@@ -1,13 +1,19 @@
 //! The host's side of the card: registers, units, and the board that drives the robot.
 //!
+//! [`bitstream`] reads and checks files, [`load`] brings them onto the card and verifies what runs there.
+//!
 //! Two seams. [`PciCard`] is what loading needs: bytes and words in the card's windows.
 //! [`Registers`] is what control needs: whatever answers aligned 32-bit reads and writes can be driven,
 //! the bit-true model as well as compiled Verilog; a [`RegisterWindow`] makes it of a card.
 //! [`Scale`] is the one place that knows seconds and radians; [`Board`] is the protocol: identify,
 //! configure, arm, command, read snapshots.
 
+pub mod bitstream;
 mod board;
+pub mod design;
+pub mod load;
 pub mod pci;
+pub mod plx9030;
 mod registers;
 mod scale;
 

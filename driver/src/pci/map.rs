@@ -28,7 +28,7 @@ impl Mapping {
 
     fn at(&self, offset: u32, width: usize) -> Result<*mut u8, &'static str> {
         let offset = offset as usize;
-        if offset % width != 0 {
+        if !offset.is_multiple_of(width) {
             return Err("the offset is not aligned");
         }
         if offset + width > self.size {

@@ -1,0 +1,55 @@
+//! The real clock of the local bus, measured against the host's.
+
+use crate::pci::{PciCard, PciError, RegisterWindow};
+use crate::registers::{BusError, Registers};
+use fixed_kin::registers::TIME;
+use std::time::Duration;
+
+/// Readings at either end; the quickest counts, for it knows best when it was.
+const READINGS: u32 = 16;
+
+/// A clock that cannot be measured.
+#[derive(Debug, thiserror::Error)]
+pub enum ClockError {
+    /// The registers.
+    #[error(transparent)]
+    Bus(#[from] BusError),
+    /// An access the system refused.
+    #[error(transparent)]
+    Pci(#[from] PciError),
+    /// No clock.
+    #[error(
+        "the card's clock stands still: `time` reads {0} twice, {1:?} apart; without its clock the card does nothing"
+    )]
+    Still(u32, Duration),
+}
+
+/// Frequency of the local bus clock, Hz, over about this time.
+///
+/// # Errors
+/// [`ClockError`] where the card does not answer or its clock stands.
+pub fn measure_clock<C: PciCard>(card: &mut C, over: Duration) -> Result<f64, ClockError> {
+    let mut window = RegisterWindow::new(card);
+    let (first_at, first) = reading(&mut window)?;
+    window.card.sleep(over);
+    let (last_at, last) = reading(&mut window)?;
+    let (clocks, time) = (last.wrapping_sub(first), last_at.saturating_sub(first_at));
+    if clocks == 0 || time.is_zero() {
+        return Err(ClockError::Still(last, time));
+    }
+    Ok(f64::from(clocks) / time.as_secs_f64())
+}
+
+/// The card's time, and the host's at that moment.
+fn reading<C: PciCard>(window: &mut RegisterWindow<C>) -> Result<(Duration, u32), ClockError> {
+    let mut best: Option<(Duration, Duration, u32)> = None;
+    for _ in 0..READINGS {
+        let before = window.card.now();
+        let clocks = window.read(TIME.offset)?;
+        let took = window.card.now().saturating_sub(before);
+        if best.is_none_or(|(shortest, ..)| took < shortest) {
+            best = Some((took, before + took / 2, clocks));
+        }
+    }
+    best.map(|(_, at, clocks)| (at, clocks)).ok_or(ClockError::Still(0, Duration::ZERO))
+}

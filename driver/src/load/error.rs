@@ -1,0 +1,100 @@
+//! Why a card could not be loaded.
+
+use super::clock::ClockError;
+use crate::board::BoardError;
+use crate::pci::PciError;
+use std::time::Duration;
+
+/// See the module.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// An access the system refused.
+    #[error(transparent)]
+    Pci(#[from] PciError),
+    /// No card behind the bus.
+    #[error("the card does not answer: its bridge reads all ones ({when}); is it seated, powered, still there?")]
+    Absent {
+        /// When that was seen.
+        when: &'static str,
+    },
+    /// The FPGA did not clear.
+    #[error(
+        "the FPGA did not clear: {line} stays high while PROGRAM is low; PROGRAM does not reach it, or its power is bad"
+    )]
+    NotCleared {
+        /// Which line.
+        line: &'static str,
+    },
+    /// INIT did not rise.
+    #[error("INIT stayed low for {} ms after PROGRAM was released; the FPGA is not powered, or something holds INIT", .waited.as_millis())]
+    StuckInit {
+        /// Time waited.
+        waited: Duration,
+    },
+    /// INIT fell.
+    #[error(
+        "the FPGA found a CRC error (INIT fell) although the file's own CRC is right; bytes were lost or changed on the bus"
+    )]
+    Crc,
+    /// DONE did not rise.
+    #[error("DONE stayed low for {} ms after the last byte and INIT high: the FPGA saw no complete bitstream; bytes were lost, or DONE is held low", .waited.as_millis())]
+    NotDone {
+        /// Time waited.
+        waited: Duration,
+    },
+    /// Loaded, but the registers do not answer as they should.
+    #[error("loaded, but {0}")]
+    Verify(#[from] BoardError),
+    /// Another build.
+    #[error(
+        "loaded, but the design answers with hash {found:08x}, expected {expected:08x}: the file was made from other Verilog; build it from generated/, or name its hash with --hash"
+    )]
+    OtherDesign {
+        /// Its hash.
+        found: u32,
+        /// The hash wanted.
+        expected: u32,
+    },
+    /// The clock.
+    #[error(transparent)]
+    Clock(#[from] ClockError),
+    /// After several tries.
+    #[error("{error} (tried {tries} times; the FPGA is clear, its outputs off)")]
+    Tried {
+        /// The last failure.
+        error: Box<LoadError>,
+        /// How often.
+        tries: u32,
+    },
+    /// Failed, and the FPGA could not be cleared.
+    #[error("{error}; and the FPGA could not be cleared ({still}): cut the motors' power")]
+    Unsafe {
+        /// The failure.
+        error: Box<LoadError>,
+        /// Why clearing failed.
+        still: String,
+    },
+}
+
+impl LoadError {
+    /// Whether another try may go better.
+    pub(super) fn may_pass(&self) -> bool {
+        matches!(
+            self,
+            Self::NotCleared { .. } | Self::StuckInit { .. } | Self::Crc | Self::NotDone { .. } | Self::Verify(_)
+        )
+    }
+
+    pub(super) fn after(self, tries: u32) -> Self {
+        Self::Tried { error: Box::new(self), tries }
+    }
+
+    /// The failure itself, without what was done about it.
+    #[must_use]
+    pub fn cause(&self) -> &Self {
+        match self {
+            Self::Tried { error, .. } | Self::Unsafe { error, .. } => error.cause(),
+            _ => self,
+        }
+    }
+}
