@@ -1,4 +1,4 @@
-//! A data set: a folder with `robot.toml` and `*.csv`.
+//! A data set: a folder with `robot.toml` and `*.csv` or `*.mcap`.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,8 @@ pub struct DataSet {
 }
 
 impl DataSet {
-    /// Reads `robot.toml` and every `*.csv` of a folder, and checks that they belong together.
+    /// Reads `robot.toml` and every `*.csv` and `*.mcap` of a folder, and checks that they belong
+    /// together. Of a CSV and an MCAP of one name, the CSV is read: it is the same run twice.
     ///
     /// # Errors
     /// [`RunError`] about the folder or the first file that is wrong.
@@ -31,7 +32,7 @@ impl DataSet {
         Self::open_as(folder, Robot::load(robot)?)
     }
 
-    /// Reads every `*.csv` of a folder for a robot that is described elsewhere.
+    /// Reads every run of a folder for a robot that is described elsewhere.
     ///
     /// # Errors
     /// As [`DataSet::open`].
@@ -41,16 +42,17 @@ impl DataSet {
         let mut files = Vec::new();
         for entry in entries {
             let path = entry.map_err(|e| RunError::io(folder, &e))?.path();
-            let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+            let is_run = path.extension().is_some_and(|e| ["csv", "mcap"].iter().any(|x| e.eq_ignore_ascii_case(x)));
             let hidden = path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
-            if is_csv && !hidden && path.is_file() {
+            if is_run && !hidden && path.is_file() {
                 files.push(path);
             }
         }
         if files.is_empty() {
-            return Err(RunError::new(folder, "holds no runs", "put at least one *.csv log there"));
+            return Err(RunError::new(folder, "holds no runs", "put at least one *.csv or *.mcap log there"));
         }
         files.sort();
+        files.dedup_by(|later, earlier| later.file_stem() == earlier.file_stem());
         let runs = files.iter().map(|path| {
             let run = Run::read(path)?;
             run.check(&robot, path)?;

@@ -1,15 +1,19 @@
-//! Recorded runs: CSV logs of a drive, and folders of them.
+//! Recorded runs: logs of a drive, CSV or MCAP, and folders of them.
 
 mod check;
 mod columns;
 mod data_set;
+mod mcap;
 mod read;
+mod stream;
 mod write;
 
 use crate::error::InputError;
 use crate::frames::Pose;
 
 pub use data_set::DataSet;
+pub use mcap::McapStream;
+pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// What is wrong in a log, where, and what to do about it.
 pub type RunError = InputError;
@@ -18,7 +22,7 @@ pub type RunError = InputError;
 ///
 /// The file is a CSV with a header row, SI units, columns in any order:
 /// `t, cmd_vx, cmd_vy, cmd_w, ref_1..N, enc_1..N, duty_1..N, supply_v, cam_x, cam_y, cam_theta`.
-/// Only `t` must be there. An empty field means no sample at this tick: it is NaN in the columns
+/// An MCAP has fields of the same names. Only `t` must be there. An empty field means no sample at this tick: it is NaN in the columns
 /// of numbers here, and see [`Run::counts`] for the encoders.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Run {

@@ -1,7 +1,7 @@
 //! Reading a log.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use csv::ByteRecord;
@@ -12,7 +12,7 @@ use crate::error::nearest;
 use crate::frames::Pose;
 
 impl Run {
-    /// Reads a log.
+    /// Reads a log: MCAP where the name ends in `.mcap`, else CSV.
     ///
     /// # Errors
     /// [`RunError`] with line, column and field for an unreadable or empty file, a header without
@@ -21,7 +21,13 @@ impl Run {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, RunError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(|e| RunError::io(path, &e))?;
-        let mut run = Self::from_reader(file, path)?;
+        let mut run = if super::stream::is_mcap(path) {
+            let mut bytes = Vec::new();
+            BufReader::new(file).read_to_end(&mut bytes).map_err(|e| RunError::io(path, &e))?;
+            super::mcap::read(&bytes, path)?
+        } else {
+            Self::from_reader(file, path)?
+        };
         run.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(run)
     }

@@ -8,12 +8,17 @@ use super::columns::Column;
 use super::{Run, RunError};
 
 impl Run {
-    /// Writes the run as a CSV that [`Run::read`] reads back unchanged.
+    /// Writes the run so that [`Run::read`] reads it back unchanged: as CSV, or as MCAP where the
+    /// name ends in `.mcap`, which has no place for [`Run::other`].
     ///
     /// # Errors
     /// [`RunError`] if the file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), RunError> {
         let path = path.as_ref();
+        if super::stream::is_mcap(path) {
+            let mut stream = super::create(path, self.layout(), 0).map_err(|e| RunError::io(path, &e))?;
+            return self.stream_to(&mut *stream).map_err(|e| RunError::io(path, &e));
+        }
         let io = |e: std::io::Error| RunError::io(path, &e);
         let mut file = BufWriter::new(File::create(path).map_err(io)?);
         self.write_to(&mut file).and_then(|()| file.flush()).map_err(io)
@@ -25,7 +30,7 @@ impl Run {
     /// What the writer reports.
     pub fn write_to(&self, writer: impl Write) -> std::io::Result<()> {
         let mut csv = csv::Writer::from_writer(writer);
-        let columns = self.columns();
+        let columns = self.layout().columns();
         let others = self.other.iter().map(|(name, _)| name.clone());
         csv.write_record(columns.iter().map(|c| c.name()).chain(others))?;
         let mut camera = self.camera.iter().peekable();
@@ -56,22 +61,5 @@ impl Run {
             csv.write_record(None::<&[u8]>)?;
         }
         csv.flush()
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        let mut columns = vec![Column::Time];
-        if self.command.is_some() {
-            columns.extend((0..3).map(Column::Command));
-        }
-        columns.extend((0..self.reference.len()).map(Column::Reference));
-        columns.extend((0..self.counts.len()).map(Column::Counts));
-        columns.extend((0..self.duty.len()).map(Column::Duty));
-        if self.supply_v.is_some() {
-            columns.push(Column::Supply);
-        }
-        if self.has_camera {
-            columns.extend((0..3).map(Column::Camera));
-        }
-        columns
     }
 }

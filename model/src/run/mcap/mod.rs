@@ -1,0 +1,18 @@
+//! Runs as MCAP files, which Foxglove and Rerun open: <https://mcap.dev/spec>.
+//!
+//! Two protobuf topics, whose fields have the names and units of the CSV's columns:
+//! `/racbot/tick`, every tick, and `/racbot/camera`, where there is a pose. The reader takes any
+//! topic, protobuf or JSON, with fields of these names.
+
+mod fields;
+mod read;
+mod records;
+mod schema;
+mod write;
+
+pub use write::McapStream;
+
+pub(super) use read::read;
+
+#[cfg(test)]
+mod tests;

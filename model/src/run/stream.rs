@@ -1,0 +1,230 @@
+//! Writing a run while it is being driven, tick by tick.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::columns::Column;
+use super::{McapStream, Run};
+use crate::frames::Pose;
+
+/// Which columns a run will have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Commanded body twist.
+    pub command: bool,
+    /// Wheels with set points; 0 or the robot's number.
+    pub references: usize,
+    /// Wheels with encoders; 0 or the robot's number.
+    pub counts: usize,
+    /// Wheels with duties; 0 or the robot's number.
+    pub duties: usize,
+    /// Supply voltage.
+    pub supply: bool,
+    /// Camera poses, on the ticks that have one.
+    pub camera: bool,
+}
+
+impl Layout {
+    /// Everything that a robot's own computer knows.
+    pub fn of_robot(wheels: usize, camera: bool) -> Self {
+        Self { command: true, references: wheels, counts: wheels, duties: wheels, supply: true, camera }
+    }
+
+    pub(super) fn columns(self) -> Vec<Column> {
+        let group = |there: bool, group: fn(usize) -> Column| (0..if there { 3 } else { 0 }).map(group);
+        let mut columns = vec![Column::Time];
+        columns.extend(group(self.command, Column::Command));
+        columns.extend((0..self.references).map(Column::Reference));
+        columns.extend((0..self.counts).map(Column::Counts));
+        columns.extend((0..self.duties).map(Column::Duty));
+        columns.extend(self.supply.then_some(Column::Supply));
+        columns.extend(group(self.camera, Column::Camera));
+        columns
+    }
+}
+
+/// One tick to be written; what its [`Layout`] does not have is ignored, NaN is "no sample".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tick<'a> {
+    /// Time, s; greater than that of the tick before.
+    pub t: f64,
+    /// Commanded body twist: m/s, m/s, rad/s.
+    pub command: [f64; 3],
+    /// Wheel speed set points, rad/s at the wheel.
+    pub reference: &'a [f64],
+    /// Cumulative encoder counts.
+    pub counts: &'a [Option<i64>],
+    /// Duties in [−1, 1].
+    pub duty: &'a [f64],
+    /// Supply, V.
+    pub supply_v: f64,
+    /// Camera pose, where there is one at this tick.
+    pub camera: Option<Pose>,
+}
+
+impl Tick<'_> {
+    /// The number in a column; NaN where there is no sample.
+    pub(super) fn number(&self, column: Column) -> f64 {
+        let of = |numbers: &[f64], i: usize| numbers.get(i).copied().unwrap_or(f64::NAN);
+        match column {
+            Column::Time => self.t,
+            Column::Command(i) => self.command[i],
+            Column::Reference(wheel) => of(self.reference, wheel),
+            Column::Duty(wheel) => of(self.duty, wheel),
+            Column::Supply => self.supply_v,
+            Column::Camera(i) => self.camera.map_or(f64::NAN, |p| [p.x, p.y, p.theta][i]),
+            Column::Counts(_) | Column::Other => f64::NAN,
+        }
+    }
+
+    pub(super) fn count(&self, wheel: usize) -> Option<i64> {
+        self.counts.get(wheel).copied().flatten()
+    }
+}
+
+/// Where a run goes while it is being driven.
+///
+/// After [`RunStream::flush`] everything before it survives the death of the process: whatever
+/// comes after is either whole or recognised as cut off by the reader.
+pub trait RunStream: Send {
+    /// Takes a tick; it may stay in memory until the next flush.
+    ///
+    /// # Errors
+    /// What the medium reports.
+    fn tick(&mut self, tick: &Tick<'_>) -> io::Result<()>;
+
+    /// Hands all that was taken to the operating system.
+    ///
+    /// # Errors
+    /// What the medium reports.
+    fn flush(&mut self) -> io::Result<()>;
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// What the medium reports.
+    fn finish(&mut self) -> io::Result<()>;
+}
+
+/// A new run file, MCAP where the name ends in `.mcap`, else CSV.
+///
+/// `start_ns`: time of t = 0 in nanoseconds since 1970, for MCAP's own time stamps.
+///
+/// # Errors
+/// A file that cannot be created.
+pub fn create(path: &Path, layout: Layout, start_ns: u64) -> io::Result<Box<dyn RunStream>> {
+    let file = File::create(path)?;
+    Ok(if is_mcap(path) {
+        Box::new(McapStream::new(io::BufWriter::new(file), layout, start_ns)?)
+    } else {
+        Box::new(CsvStream::new(file, layout)?)
+    })
+}
+
+/// Whether a file's name says MCAP.
+pub(super) fn is_mcap(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap"))
+}
+
+/// A CSV that grows by whole lines only.
+#[derive(Debug)]
+pub struct CsvStream<W> {
+    writer: W,
+    columns: Vec<Column>,
+    lines: Vec<u8>,
+}
+
+/// Lines kept in memory before they are written without being asked.
+const MOST_BYTES: usize = 1 << 16;
+
+impl<W: Write> CsvStream<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// What the writer reports.
+    pub fn new(mut writer: W, layout: Layout) -> io::Result<Self> {
+        let columns = layout.columns();
+        let names: Vec<String> = columns.iter().map(|column| column.name()).collect();
+        writer.write_all((names.join(",") + "\n").as_bytes())?;
+        Ok(Self { writer, columns, lines: Vec::with_capacity(2 * MOST_BYTES) })
+    }
+}
+
+impl<W: Write + Send> RunStream for CsvStream<W> {
+    fn tick(&mut self, tick: &Tick<'_>) -> io::Result<()> {
+        for (index, column) in self.columns.iter().enumerate() {
+            if index > 0 {
+                self.lines.push(b',');
+            }
+            match *column {
+                Column::Counts(wheel) => {
+                    if let Some(count) = tick.count(wheel) {
+                        write!(self.lines, "{count}")?;
+                    }
+                }
+                column => {
+                    let number = tick.number(column);
+                    if !number.is_nan() {
+                        write!(self.lines, "{number}")?;
+                    }
+                }
+            }
+        }
+        self.lines.push(b'\n');
+        if self.lines.len() >= MOST_BYTES { self.flush() } else { Ok(()) }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        // One call for whole lines: a kill leaves no half line behind.
+        self.writer.write_all(&self.lines)?;
+        self.lines.clear();
+        self.writer.flush()
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.flush()
+    }
+}
+
+impl Run {
+    /// The columns of this run.
+    pub(super) fn layout(&self) -> Layout {
+        Layout {
+            command: self.command.is_some(),
+            references: self.reference.len(),
+            counts: self.counts.len(),
+            duties: self.duty.len(),
+            supply: self.supply_v.is_some(),
+            camera: self.has_camera,
+        }
+    }
+
+    /// Writes every tick of the run to a stream, and completes it. Columns that we do not know
+    /// ([`Run::other`]) are left out.
+    ///
+    /// # Errors
+    /// What the stream reports.
+    pub fn stream_to(&self, stream: &mut dyn RunStream) -> io::Result<()> {
+        let at = |columns: &[Vec<f64>], tick: usize| columns.iter().map(|c| c[tick]).collect::<Vec<_>>();
+        let mut camera = self.camera.iter().peekable();
+        for index in 0..self.len() {
+            let counts: Vec<Option<i64>> = self
+                .counts
+                .iter()
+                .zip(&self.count_gaps)
+                .map(|(counts, gaps)| gaps.binary_search(&index).is_err().then_some(counts[index]))
+                .collect();
+            stream.tick(&Tick {
+                t: self.t[index],
+                command: self.command.as_ref().map_or([f64::NAN; 3], |c| [c[0][index], c[1][index], c[2][index]]),
+                reference: &at(&self.reference, index),
+                counts: &counts,
+                duty: &at(&self.duty, index),
+                supply_v: self.supply_v.as_ref().map_or(f64::NAN, |s| s[index]),
+                camera: camera.next_if(|sample| sample.tick == index).map(|sample| sample.pose),
+            })?;
+        }
+        stream.finish()
+    }
+}
