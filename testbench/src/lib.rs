@@ -7,3 +7,4 @@ pub mod cosim;
 pub mod cross_check;
 pub mod fpga;
 pub mod replay;
+pub mod virtual_card;

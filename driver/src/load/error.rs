@@ -17,6 +17,12 @@ pub enum LoadError {
         /// When that was seen.
         when: &'static str,
     },
+    /// The card went away.
+    #[error("the card is gone: {error}")]
+    Gone {
+        /// What failed first.
+        error: String,
+    },
     /// The FPGA did not clear.
     #[error(
         "the FPGA did not clear: {line} stays high while PROGRAM is low; PROGRAM does not reach it, or its power is bad"

@@ -54,7 +54,7 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
     };
     // A blank FPGA answers nobody; do not ask it.
     if state.done {
-        let mut board = Board::new(RegisterWindow::new(card));
+        let mut board = Board::new(RegisterWindow::new(&mut *card));
         match board.identify() {
             Ok(identity) => {
                 state.identity = Some(identity);
@@ -64,7 +64,10 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
             Err(BoardError::Identity { register, found, .. }) => {
                 state.other = Some(format!("{register} reads {found:#010x}"));
             }
-            Err(error) => return Err(error.into()),
+            Err(error) if Bridge::new(card).read(GPIO_CONTROL)? == u32::MAX => {
+                return Err(LoadError::Gone { error: error.to_string() });
+            }
+            Err(error) => state.other = Some(error.to_string()),
         }
     }
     Ok(state)

@@ -5,6 +5,7 @@ use super::{Fpga, FpgaError, Kind};
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
+use fixed_kin::control::TickOutputs;
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -12,6 +13,7 @@ pub struct BitTrue {
     card: Card,
     counters: [Counter; AXES],
     quiet: u32,
+    outputs: TickOutputs,
     /// Pins other than the encoders.
     pub pins: Pins,
 }
@@ -30,6 +32,7 @@ impl BitTrue {
             card: Card::new(hdl::design::content_hash()),
             counters: [Counter::default(); AXES],
             quiet: 0,
+            outputs: TickOutputs::default(),
             pins: Pins::default(),
         }
     }
@@ -40,6 +43,14 @@ impl BitTrue {
     pub fn with_quiet_clocks(mut self, clocks: u32) -> Self {
         self.quiet = clocks;
         self
+    }
+}
+
+impl BitTrue {
+    /// What the last control tick computed.
+    #[must_use]
+    pub fn outputs(&self) -> &TickOutputs {
+        &self.outputs
     }
 }
 
@@ -66,7 +77,7 @@ impl Fpga for BitTrue {
             super::check_motion(axis, counter.position, to, period, self.quiet, filter)?;
             self.pins.encoders[axis] = counter.advance(to, now, period, self.quiet, filter);
         }
-        self.card.tick(&self.pins);
+        self.outputs = self.card.tick(&self.pins);
         Ok(())
     }
 

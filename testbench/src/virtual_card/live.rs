@@ -1,0 +1,100 @@
+//! A configured FPGA in time: clocks pass, encoders turn, duties drive.
+
+use super::Machine;
+use super::stand_in::StandIn;
+use crate::fpga::{BitTrue, Fpga, FpgaError};
+use driver::Registers;
+use fixed_kin::AXES;
+use fixed_kin::modulation::modulate;
+use fixed_kin::registers::{
+    BOARD, CONTENT_HASH, MIN_TICK_PERIOD, PWM_PERIOD, STATUS, STATUS_FIELDS, TICK_PERIOD, TIME,
+};
+
+/// An FPGA with a clock that runs, and a robot on its pins.
+pub trait Live: Send {
+    /// Lets clocks pass up to this one, counted from configuration.
+    ///
+    /// # Errors
+    /// A simulation that fails, or an encoder faster than its filter.
+    fn run_to(&mut self, clock: u64, clock_hz: f64, machine: &mut Machine) -> Result<(), FpgaError>;
+
+    /// Reads a register.
+    ///
+    /// # Errors
+    /// A simulation that fails.
+    fn read(&mut self, offset: u16) -> Result<u32, FpgaError>;
+
+    /// Writes a register.
+    ///
+    /// # Errors
+    /// A simulation that fails.
+    fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError>;
+}
+
+/// The bit-true FPGA, control tick by control tick; it keeps up with real time.
+///
+/// Registers read as of the last control tick, but for `time`, which runs.
+#[derive(Debug)]
+pub struct BitTrueLive {
+    fpga: BitTrue,
+    design: StandIn,
+    /// Clock of the last control tick, and now.
+    tick: u64,
+    now: u64,
+    failed: Option<String>,
+}
+
+impl BitTrueLive {
+    /// Just configured with a design.
+    #[must_use]
+    pub fn new(design: StandIn) -> Self {
+        Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None }
+    }
+
+    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+        if STATUS_FIELDS[0].of(self.fpga.read(STATUS.offset)?) == 0 {
+            return Ok([0.0; AXES]);
+        }
+        let period = self.fpga.read(PWM_PERIOD.offset)? as u16;
+        Ok(self.fpga.outputs().duties.map(|duty| {
+            let pwm = modulate(duty, period);
+            let share = if period == 0 { 0.0 } else { f64::from(pwm.compare) / f64::from(period) };
+            if pwm.reverse { -share } else { share }
+        }))
+    }
+}
+
+impl Live for BitTrueLive {
+    fn run_to(&mut self, clock: u64, clock_hz: f64, machine: &mut Machine) -> Result<(), FpgaError> {
+        self.now = clock.max(self.now);
+        if let Some(error) = &self.failed {
+            return Err(FpgaError::Emit(error.clone()));
+        }
+        loop {
+            let period = self.fpga.read(TICK_PERIOD.offset)?.max(MIN_TICK_PERIOD);
+            if self.tick + u64::from(period) > self.now {
+                return Ok(());
+            }
+            self.tick += u64::from(period);
+            let duties = self.duties()?;
+            machine.step(&duties, f64::from(period) / clock_hz);
+            if let Err(error) = self.fpga.advance(&machine.positions()) {
+                self.failed = Some(error.to_string());
+                return Err(error);
+            }
+        }
+    }
+
+    fn read(&mut self, offset: u16) -> Result<u32, FpgaError> {
+        Ok(match offset {
+            o if o == TIME.offset => self.now as u32,
+            o if o == CONTENT_HASH.offset => self.design.content_hash,
+            o if o == BOARD.offset => self.design.board,
+            _ => self.fpga.read(offset)?,
+        })
+    }
+
+    fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
+        Ok(self.fpga.write(offset, data)?)
+    }
+}
