@@ -58,6 +58,24 @@ pub enum BoardError {
         /// What was written.
         written: u32,
     },
+    /// The card did not switch off.
+    #[error("the card stayed armed after {0} writes that disarm; the watchdog switches off once nobody commits")]
+    StillArmed(u32),
+    /// The configuration in force is another than was committed.
+    #[error("{register} word {index} in force is {found:#x}, committed was {written:#x}; the bus changes words")]
+    InForce {
+        /// Register.
+        register: &'static str,
+        /// Word of it.
+        index: usize,
+        /// What it reads.
+        found: u32,
+        /// What was committed.
+        written: u32,
+    },
+    /// A commit that never acts.
+    #[error("the configuration still waits for a control tick after {0} looks; the card's clock or tick stands still")]
+    NoTick(u32),
     /// No coherent snapshot.
     #[error("no coherent snapshot in {0} tries; the bus loses or repeats reads")]
     Snapshot(u32),
@@ -172,6 +190,8 @@ pub struct Board<R> {
 
 /// Tries before a snapshot or commit is given up.
 const TRIES: u32 = 3;
+/// Looks at a tick that should come, a control period apart.
+const LOOKS: u32 = 20;
 
 impl<R: Registers> Board<R> {
     /// A board on this bus; nothing is touched yet.
@@ -237,11 +257,18 @@ impl<R: Registers> Board<R> {
         self.commit("the configuration", &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words)
     }
 
-    fn write_checked(&mut self, register: &map::Register, value: u32) -> Result<(), BoardError> {
-        self.bus.write(register.offset, value)?;
-        let found = self.bus.read(register.offset)?;
-        if found == value {
-            return Ok(());
+    /// Writes a register and reads it back, trying again where it reads otherwise.
+    ///
+    /// # Errors
+    /// [`BoardError::ReadBack`] where it keeps reading otherwise.
+    pub fn write_checked(&mut self, register: &map::Register, value: u32) -> Result<(), BoardError> {
+        let mut found = 0;
+        for _ in 0..TRIES {
+            self.bus.write(register.offset, value)?;
+            found = self.bus.read(register.offset)?;
+            if found == value {
+                return Ok(());
+            }
         }
         Err(BoardError::ReadBack { register: register.name, found, written: value })
     }
@@ -281,12 +308,16 @@ impl<R: Registers> Board<R> {
     /// # Errors
     /// [`BoardError::Arm`] while a cause stands.
     pub fn arm(&mut self) -> Result<(), BoardError> {
-        self.commit("the set points", &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[0; SET_POINT_WORDS])?;
-        self.bus.write(map::FAULTS.offset, u32::MAX)?;
-        self.bus.write(map::ARM.offset, ARM_FIRST)?;
-        self.bus.write(map::ARM.offset, ARM_SECOND)?;
-        if self.status()?.armed {
-            return Ok(());
+        for _ in 0..TRIES {
+            self.commit("the set points", &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[0; SET_POINT_WORDS])?;
+            self.bus.write(map::FAULTS.offset, u32::MAX)?;
+            self.bus.write(map::ENCODER_ERROR.offset, u32::MAX)?;
+            self.bus.write(map::FAULTS.offset, u32::MAX)?;
+            self.bus.write(map::ARM.offset, ARM_FIRST)?;
+            self.bus.write(map::ARM.offset, ARM_SECOND)?;
+            if self.status()?.armed {
+                return Ok(());
+            }
         }
         let faults = self.bus.read(map::FAULTS.offset)?;
         Err(BoardError::Arm { faults, names: fault_names(faults) })
@@ -295,9 +326,59 @@ impl<R: Registers> Board<R> {
     /// Outputs off at once.
     ///
     /// # Errors
-    /// A bus that fails; the card's watchdog then does it.
+    /// A bus that fails, or [`BoardError::StillArmed`]; the card's watchdog then does it.
     pub fn disarm(&mut self) -> Result<(), BoardError> {
-        Ok(self.bus.write(map::ARM.offset, 0)?)
+        for _ in 0..TRIES {
+            self.bus.write(map::ARM.offset, 0)?;
+            if !self.status()?.armed {
+                return Ok(());
+            }
+        }
+        Err(BoardError::StillArmed(TRIES))
+    }
+
+    /// Waits for the tick at which a committed configuration acts, by calling `wait`, and compares what is in
+    /// force with what was committed, word by word.
+    ///
+    /// # Errors
+    /// [`BoardError::NoTick`], or [`BoardError::InForce`].
+    pub fn configuration_in_force(&mut self, scale: &Scale, mut wait: impl FnMut()) -> Result<(), BoardError> {
+        let mut looks = 0;
+        while map::STATUS_FIELDS[5].of(self.bus.read(map::STATUS.offset)?) == 1 {
+            looks += 1;
+            if looks > LOOKS {
+                return Err(BoardError::NoTick(LOOKS));
+            }
+            wait();
+        }
+        let register = &map::ACTIVE_CONFIGURATION;
+        for (index, word) in scale.configuration().to_words().into_iter().enumerate() {
+            let mut found = self.bus.read(register.at(index))?;
+            if found != word as u32 {
+                // Once more: the read may be what went wrong.
+                found = self.bus.read(register.at(index))?;
+            }
+            if found != word as u32 {
+                return Err(BoardError::InForce { register: register.name, index, found, written: word as u32 });
+            }
+        }
+        Ok(())
+    }
+
+    /// Clears faults whose cause is gone.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn clear_faults(&mut self) -> Result<(), BoardError> {
+        Ok(self.bus.write(map::FAULTS.offset, u32::MAX)?)
+    }
+
+    /// The fault that came first since the last clear; more than one bit where they came at once.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn first_fault(&mut self) -> Result<u32, BoardError> {
+        Ok(self.bus.read(map::FIRST_FAULT.offset)?)
     }
 
     /// Live status.
@@ -344,7 +425,8 @@ impl<R: Registers> Board<R> {
 }
 
 /// Names of the set bits of a fault register.
-fn fault_names(faults: u32) -> String {
+#[must_use]
+pub fn fault_names(faults: u32) -> String {
     let names: Vec<_> =
         map::FAULT_FIELDS.iter().filter(|field| field.of(faults) == 1).map(|field| field.name).collect();
     if names.is_empty() { "none shown".to_owned() } else { names.join(", ") }

@@ -6,18 +6,22 @@
 //! [`Registers`] is what control needs: whatever answers aligned 32-bit reads and writes can be driven,
 //! the bit-true model as well as compiled Verilog; a [`RegisterWindow`] makes it of a card.
 //! [`Scale`] is the one place that knows seconds and radians; [`Board`] is the protocol: identify,
-//! configure, arm, command, read snapshots.
+//! configure, arm, command, read snapshots. [`drive`] is the control loop over all that, [`realtime`] its
+//! time, [`recording`] its way to a file.
 
 pub mod bitstream;
 mod board;
 pub mod design;
+pub mod drive;
 pub mod load;
 pub mod pci;
 pub mod plx9030;
+pub mod realtime;
+pub mod recording;
 mod registers;
 mod scale;
 
-pub use board::{Board, BoardError, Identity, Settings, Snapshot, Status};
+pub use board::{Board, BoardError, Identity, Settings, Snapshot, Status, fault_names};
 pub use pci::{Bar, PciCard, PciError, RegisterWindow};
 pub use registers::{BusError, Recorder, Registers, Transfer};
 pub use scale::{PWM_FREQUENCY_HZ, Scale, ScaleError};

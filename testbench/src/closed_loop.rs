@@ -12,14 +12,13 @@
 //! at k the FPGA latches its encoders and computes the duty that drives the motors until k + 1;
 //! after k the host reads what the FPGA saw.
 
-mod controller;
 mod drive;
 mod forward;
 pub mod picture;
 mod recording;
 
-pub use controller::Control;
 pub use drive::{Drive, Driven, Ending};
+pub use driver::drive::Control;
 
 use crate::fpga::{Fpga, FpgaError};
 use driver::{Board, BoardError, Scale, ScaleError, Settings, Snapshot};

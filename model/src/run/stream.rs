@@ -26,9 +26,9 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Everything that a robot's own computer knows.
+    /// Everything that a robot's own computer knows; nobody measures its supply.
     pub fn of_robot(wheels: usize, camera: bool) -> Self {
-        Self { command: true, references: wheels, counts: wheels, duties: wheels, supply: true, camera }
+        Self { command: true, references: wheels, counts: wheels, duties: wheels, supply: false, camera }
     }
 
     pub(super) fn columns(self) -> Vec<Column> {

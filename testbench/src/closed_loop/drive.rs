@@ -1,10 +1,11 @@
 //! A whole drive along set points, from arming to rest.
 
-use super::controller::Controller;
-use super::recording::{Recording, logged_robot};
+use super::recording::Recording;
 use super::{ClosedLoop, Control, LoopError};
 use crate::fpga::Fpga;
 use driver::Settings;
+use driver::drive::Controller;
+use driver::recording::logged_robot;
 use fixed_kin::registers::FAULT_FIELDS;
 use fixed_kin::speed::SpeedMode;
 use model::camera::{Camera, CameraModel};
@@ -148,11 +149,8 @@ impl Drive {
             for (speeds, speed) in wheel_speeds.iter_mut().zip(robot.plant().wheel_speeds()) {
                 speeds.push(speed);
             }
-            if let Some(frame) = seen {
-                recording.camera(frame);
-            }
             let snapshot = robot.tick(command)?;
-            recording.row(t, command, &snapshot, robot.scale(), self.actual.supply_v);
+            recording.row(t, command, &snapshot, robot.scale(), self.actual.supply_v, seen);
             for (count, word) in counts.iter_mut().zip(snapshot.counts) {
                 *count = i64::from(word);
             }

@@ -1,7 +1,7 @@
 //! Who makes body velocities out of set points.
 
-use super::LoopError;
 use model::frames::{Pose, Twist};
+use model::geometry::GeometryError;
 use model::robot::Robot;
 use model::trajectory::{Arrival, Follower, FollowerOptions, Limits, MotionController, SetPoint};
 
@@ -21,13 +21,28 @@ const PAPER_TOLERANCE_M: f64 = 0.05;
 
 /// A controller on its way.
 #[derive(Debug)]
-pub(super) enum Controller {
+pub enum Controller {
+    /// With limits.
     Follower(Box<Follower>),
-    Paper { motion: MotionController, points: Vec<SetPoint>, arrivals: Vec<Arrival>, t: f64 },
+    /// The paper's.
+    Paper {
+        /// Steers.
+        motion: MotionController,
+        /// Set points.
+        points: Vec<SetPoint>,
+        /// What became of them.
+        arrivals: Vec<Arrival>,
+        /// Time, s.
+        t: f64,
+    },
 }
 
 impl Controller {
-    pub(super) fn new(control: Control, robot: &Robot, points: &[SetPoint], start: Pose) -> Result<Self, LoopError> {
+    /// A controller at `start`, at rest.
+    ///
+    /// # Errors
+    /// [`GeometryError`] where the wheels cannot drive the robot.
+    pub fn new(control: Control, robot: &Robot, points: &[SetPoint], start: Pose) -> Result<Self, GeometryError> {
         Ok(match control {
             Control::Follower => {
                 let (geometry, limits) = (robot.geometry()?, Limits::of(robot)?);
@@ -43,7 +58,7 @@ impl Controller {
     }
 
     /// The body velocity for the coming `dt` seconds, or `None` once there is nothing left to do.
-    pub(super) fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist> {
+    pub fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist> {
         match self {
             Self::Follower(follower) => follower.command(pose, dt),
             Self::Paper { motion, points, arrivals, t } => {
@@ -58,7 +73,9 @@ impl Controller {
         }
     }
 
-    pub(super) fn arrivals(&self) -> &[Arrival] {
+    /// What became of each set point so far.
+    #[must_use]
+    pub fn arrivals(&self) -> &[Arrival] {
         match self {
             Self::Follower(follower) => follower.arrivals(),
             Self::Paper { arrivals, .. } => arrivals,

@@ -1,0 +1,100 @@
+//! What the loop knows of a tick, in the units of a run, and the `robot.toml` beside it.
+
+use crate::{Scale, Snapshot};
+use fixed_kin::AXES;
+use fixed_kin::format::{Format, Speed};
+use fixed_kin::speed::SpeedMode;
+use model::frames::{Pose, Twist, wrap_angle};
+use model::robot::Robot;
+use model::run::Tick;
+
+/// Decimals of a logged number: finer than any LSB of the card, so that words survive the log.
+const DECIMALS: f64 = 1e9;
+/// Decimals of a camera pose: the noise is a thousand times larger.
+const CAMERA_DECIMALS: f64 = 1e6;
+
+fn rounded(value: f64, decimals: f64) -> f64 {
+    (value * decimals).round() / decimals
+}
+
+/// A tick on its way to the file; plain data without a heap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Time, s.
+    pub t: f64,
+    /// Commanded body twist as the card got it: m/s, m/s, rad/s.
+    pub command: [f64; 3],
+    /// Wheel speed set points, rad/s.
+    pub reference: [f64; AXES],
+    /// Cumulative counts.
+    pub counts: [i64; AXES],
+    /// Duties.
+    pub duty: [f64; AXES],
+    /// Supply, V; NaN where nobody measures it.
+    pub supply_v: f64,
+    /// Camera pose that came at this tick.
+    pub camera: Option<Pose>,
+}
+
+impl Sample {
+    /// A tick as the card saw it, rounded for the log.
+    #[must_use]
+    pub fn of(t: f64, command: Twist, seen: &Snapshot, counts: [i64; AXES], scale: &Scale, supply_v: f64) -> Self {
+        // What the card got, to the last bit.
+        let command = scale.twist(scale.twist_words(command));
+        Self {
+            t: rounded(t, DECIMALS),
+            command: [command.vx, command.vy, command.omega].map(|v| rounded(v, DECIMALS)),
+            reference: seen.references.map(|word| rounded(scale.speed(word), DECIMALS)),
+            counts,
+            duty: seen.duties.map(|word| rounded(f64::from(word), DECIMALS)),
+            supply_v,
+            camera: None,
+        }
+    }
+
+    /// With what the camera delivered.
+    #[must_use]
+    pub fn with_camera(mut self, seen: Option<Pose>) -> Self {
+        self.camera = seen.map(|pose| {
+            let [x, y, theta] = [pose.x, pose.y, wrap_angle(pose.theta)].map(|v| rounded(v, CAMERA_DECIMALS));
+            Pose::new(x, y, theta)
+        });
+        self
+    }
+
+    /// As a tick of a run with so many wheels; `counts` is the space it needs.
+    pub(super) fn tick<'a>(&'a self, wheels: usize, counts: &'a mut [Option<i64>; AXES]) -> Tick<'a> {
+        *counts = self.counts.map(Some);
+        Tick {
+            t: self.t,
+            command: self.command,
+            reference: &self.reference[..wheels],
+            counts: &counts[..wheels],
+            duty: &self.duty[..wheels],
+            supply_v: self.supply_v,
+            camera: self.camera,
+        }
+    }
+}
+
+/// The robot as the log's `robot.toml` describes it: what the controller believes, and the words in
+/// which its speed loops computed.
+#[must_use]
+pub fn logged_robot(believed: &Robot, scale: &Scale, speed_mode: SpeedMode) -> Robot {
+    let gains = &scale.configuration().gains[0];
+    let mut robot = believed.clone();
+    robot.pi.arithmetic = Some("fixed-kin".to_owned());
+    let words = [
+        ("kp", gains.kp.to_bits()),
+        ("ki", gains.ki.to_bits()),
+        ("lower", gains.lower.to_bits()),
+        ("upper", gains.upper.to_bits()),
+        ("tick_period", scale.tick_period as i32),
+        ("count_and_time", i32::from(speed_mode == SpeedMode::CountAndTime)),
+    ];
+    robot.pi.registers = words.map(|(name, word)| (name.to_owned(), i64::from(word))).to_vec();
+    robot.duty_quantum = Some(Format::DUTY.lsb());
+    robot.ref_quantum = Some(scale.speed(Speed::from_bits(1)));
+    robot
+}
