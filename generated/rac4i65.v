@@ -1129,7 +1129,7 @@ module rac4i65_core_registers (
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
-    localparam content_hash = 32'h64136e1e;
+    localparam content_hash = 32'h6f14564d;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1749,11 +1749,11 @@ module rac4i65_core_commit (
         accepted_count_d = accepted_count_q;
         rejected_count_d = rejected_count_q;
         if (tick) begin
-            if (set_points_wait_q) begin
+            if (set_points_wait_q & ~stage_set_point) begin
                 set_point_bank_now_d = ~set_point_bank_now_q;
                 set_points_wait_d = 1'b0;
             end
-            if (configuration_waits_q) begin
+            if (configuration_waits_q & ~stage_configuration) begin
                 configuration_bank_now_d = ~configuration_bank_now_q;
                 configuration_waits_d = 1'b0;
             end
@@ -1875,7 +1875,7 @@ module rac4i65_core_snapshot (
 
     always @(*) begin
         target = ~latest_q;
-        if (held_q) begin
+        if (held_q & ~read_first) begin
             target = ~held_bank_q;
         end
     end

@@ -114,11 +114,11 @@ impl Logic for Commit {
         self.fault.next = self.committing.val() & !self.right.val();
 
         if self.tick.val() {
-            if self.set_points_wait.q.val() {
+            if self.set_points_wait.q.val() & !self.stage_set_point.val() {
                 self.set_point_bank_now.d.next = !self.set_point_bank_now.q.val();
                 self.set_points_wait.d.next = false;
             }
-            if self.configuration_waits.q.val() {
+            if self.configuration_waits.q.val() & !self.stage_configuration.val() {
                 self.configuration_bank_now.d.next = !self.configuration_bank_now.q.val();
                 self.configuration_waits.d.next = false;
             }

@@ -42,7 +42,8 @@ impl Logic for Snapshot {
     fn update(&mut self) {
         dff_setup!(self, clock, writing, latest, held, held_bank);
         self.target.next = !self.latest.q.val();
-        if self.held.q.val() {
+        // A reader that starts again in the clock of a tick takes the latest bank, not the held one.
+        if self.held.q.val() & !self.read_first.val() {
             self.target.next = !self.held_bank.q.val();
         }
         if self.tick.val() {

@@ -17,7 +17,7 @@
 
 mod bus;
 mod error;
-mod folder;
+pub(crate) mod folder;
 pub mod icarus;
 mod layout;
 pub mod lint;

@@ -1,0 +1,35 @@
+// Outputs are released only by the arm sequence and taken back by every cause, in bounded time.
+// Assumed: the time-out changes only while disarmed (registers.v), never within a clock of a write to
+// the arm register (writes come two clocks apart: bus.v).
+reg formal_running = 0, formal_armed = 0, formal_released = 0, formal_fault = 1, formal_write = 0;
+reg [23:0] formal_timeout = 0;
+reg formal_stopped = 1;         // the filtered emergency stop (filter.v: 18 clocks behind the pin)
+reg [24:0] formal_silence = 0;  // clocks since the last pet, or since the time-out changed
+reg formal_first = 0;           // the last write to the arm register was its first word
+
+wire formal_second = arm_write && arm_data == 32'h41524d32;
+always @(posedge clock) begin
+    formal_running <= 1;
+    formal_armed <= armed;
+    formal_fault <= encoder_fault || external_fault;
+    formal_timeout <= watchdog_timeout;
+    formal_stopped <= !released_value;
+    formal_silence <= pet || watchdog_timeout != formal_timeout ? 25'd0 : formal_silence + !(&formal_silence);
+    if (arm_write) formal_first <= arm_data == 32'h41524d31;
+    formal_write <= arm_write;
+    formal_released <= formal_second && formal_first && released_value && !encoder_fault && !external_fault;
+end
+
+always @(*) begin
+    if (formal_running && (formal_armed || formal_write || arm_write)) assume (watchdog_timeout == formal_timeout);
+    if (!formal_running) assert (!armed && !setpoints_valid);
+    if (formal_stopped || formal_fault) assert (!armed);
+    assert (released_pin == !emergency_stop && released_tick && !released_load);
+    if (armed) assert (formal_silence <= watchdog_timeout);
+    if (armed && !formal_armed) assert (formal_released);
+    if (setpoints_valid) assert (armed);
+    if (armed && formal_running) assert (|watchdog_timeout);
+    // Invariants that carry the induction.
+    assert (!first_word_q || formal_first);
+    assert (remaining_q == 0 || {2'd0, remaining_q} + formal_silence <= formal_timeout);
+end

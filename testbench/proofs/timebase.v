@@ -1,0 +1,15 @@
+// The strobes that others count: never more than 64 clocks between microseconds, never fewer than
+// 1000 between ticks, unless the host restarts the tick (registers.v: only while disarmed).
+reg [6:0] formal_gap = 0;      // clocks since the last microsecond strobe
+reg [23:0] formal_apart = 0;   // clocks since the last tick or restart
+always @(posedge clock) begin
+    formal_gap <= microsecond ? 7'd0 : formal_gap + 7'd1;
+    formal_apart <= tick || restart ? 24'd0 : formal_apart + 24'd1;
+end
+always @(*) begin
+    assert (formal_gap <= 63);
+    if (tick) assert (formal_apart >= 999 && !restart);
+    assert (period >= 1000);
+    // Invariants that carry the induction.
+    assert (formal_gap == part_q && formal_apart == phase_q);
+end

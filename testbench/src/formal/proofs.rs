@@ -1,0 +1,228 @@
+//! The claims, in the order of the README's table.
+
+use super::{Mutant, Proof};
+
+const fn proof(name: &'static str, module: &'static str, claim: &'static str, checker: &'static str) -> Proof {
+    Proof { name, claim, module, checker, inside: &[], depth: 4, cut: &[], free: &[], shrink: &[], mutants: &[] }
+}
+
+const fn mutant(what: &'static str, from: &'static str, to: &'static str) -> Mutant {
+    Mutant { what, from, to }
+}
+
+/// Every proof on `generated/rac4i65.v`.
+pub const PROOFS: &[Proof] = &[
+    Proof {
+        mutants: &[
+            mutant("turns at once", "& long_quiet & ~pwm_pin_q", "& ~pwm_pin_q"),
+            mutant("rises at once", "enable & (settled_q | long_quiet)", "enable"),
+            mutant("ignores the enable", "permitted & running & aligned", "running & aligned"),
+        ],
+        ..proof(
+            "pwm",
+            "rac4i65_core_drives",
+            "DIR changes only after PWM was low for the blanking time, PWM rises only as long after it; disabled = low",
+            include_str!("../../proofs/pwm.v"),
+        )
+    },
+    Proof {
+        inside: &[("rac4i65_core_encoders_line_a", include_str!("../../proofs/filter.v"))],
+        shrink: &[("stop_filter = 4'hf", "stop_filter = 4'h1"), ("LIMIT = 15", "LIMIT = 1")],
+        mutants: &[
+            mutant("a fault does not disarm", "stays_armed = is_armed_q & ~standing", "stays_armed = is_armed_q"),
+            mutant("one word arms", "is_second_word & first_word_q & ~standing", "is_second_word & ~standing"),
+            mutant("no watchdog", "standing = bitten | stopped", "standing = stopped"),
+        ],
+        ..proof(
+            "safety",
+            "rac4i65_core_safety",
+            "disarmed 19 clocks after the emergency stop, 1 after a fault, time-out + 1 after the last commit; armed \
+             only by both words in order with no fault standing",
+            include_str!("../../proofs/safety.v"),
+        )
+    },
+    Proof {
+        cut: &[
+            "rac4i65_core_bus",
+            "rac4i65_core_registers",
+            "rac4i65_core_timebase",
+            "rac4i65_core_decoder",
+            "rac4i65_core_commit",
+            "rac4i65_core_snapshot",
+            "rac4i65_core_safety",
+            "rac4i65_core_kicker",
+            "rac4i65_core_monitor",
+            "rac4i65_core_sequencer",
+            "rac4i65_core_encoders",
+            "rac4i65_core_drives",
+        ],
+        mutants: &[
+            mutant("a dead clock keeps the bridges on", "if (safety_armed & alive) begin", "if (safety_armed) begin"),
+            mutant(
+                "the trigger passes unarmed",
+                "~(kicker_trigger & safety_armed & alive)",
+                "~(kicker_trigger & alive)",
+            ),
+        ],
+        ..proof(
+            "gate",
+            "rac4i65_core",
+            "not armed or LCLK dead: PWM low, bridges disabled, charger and trigger off at the pins, in the same clock",
+            include_str!("../../proofs/gate.v"),
+        )
+    },
+    Proof {
+        free: &["toggle"],
+        shrink: &[("good_limit = 8'hff", "good_limit = 8'h3")],
+        mutants: &[mutant(
+            "silence is forgiven",
+            "silent_q == silent_limit",
+            "silent_q == silent_zero & good_q == 8'hfe",
+        )],
+        ..proof(
+            "monitor",
+            "rac4i65_core_monitor",
+            "everything off 35 crystal edges after LCLK stops; alive only after 256 changes",
+            include_str!("../../proofs/monitor.v"),
+        )
+    },
+    Proof {
+        shrink: &[
+            ("maximum_pulse = 14'b10011100010000", "maximum_pulse = 14'd3"),
+            ("commutation_time = 20'h4e20", "commutation_time = 20'd4"),
+            ("minimum_lockout = 20'h186a0", "minimum_lockout = 20'd6"),
+            ("charge_gap = 10'b1111101000", "charge_gap = 10'd2"),
+            (
+                "FORMAL_PULSE = 10000, FORMAL_LOCKOUT = 100000, FORMAL_COMMUTATION = 20000",
+                "FORMAL_PULSE = 3, FORMAL_LOCKOUT = 6, FORMAL_COMMUTATION = 4",
+            ),
+        ],
+        mutants: &[
+            mutant("no maximum", " | (short_elapsed >= maximum_pulse)", ""),
+            mutant("no least lock-out", " & (next_elapsed >= minimum_lockout)", ""),
+            mutant("charges while it fires", "~expired & may_charge", "~expired"),
+            mutant(
+                "fires on when disabled",
+                "if (~enable | (microsecond & pulse_over)) begin",
+                "if (microsecond & pulse_over) begin",
+            ),
+        ],
+        ..proof(
+            "kicker",
+            "rac4i65_core_kicker",
+            "pulse at most 10,000 strobes and 640,000 clocks, 100,000 strobes between pulses, charger off from before \
+             the pulse to 20,000 strobes after it, nothing while disabled",
+            include_str!("../../proofs/kicker.v"),
+        )
+    },
+    Proof {
+        mutants: &[
+            mutant("a reader that starts again is forgotten", "if (held_q & ~read_first) begin", "if (held_q) begin"),
+            mutant("the held bank is written", "target = ~held_bank_q", "target = ~latest_q"),
+        ],
+        ..proof(
+            "snapshot",
+            "rac4i65_core_snapshot",
+            "from word 0 to the last word all reads see one finished bank that nobody writes",
+            include_str!("../../proofs/snapshot.v"),
+        )
+    },
+    Proof {
+        shrink: &[("all_configuration = 6'b101000", "all_configuration = 6'd2"), ("WORDS = 40", "WORDS = 2")],
+        mutants: &[
+            mutant(
+                "a word staged at the tick acts",
+                "if (set_points_wait_q & ~stage_set_point) begin",
+                "if (set_points_wait_q) begin",
+            ),
+            mutant("no checksum", "right = sum_right & (set_points_q", "right = (set_points_q"),
+            mutant(
+                "a word too many",
+                "(configuration_q == all_configuration)",
+                "(configuration_q >= all_configuration)",
+            ),
+        ],
+        ..proof(
+            "commit",
+            "rac4i65_core_commit",
+            "banks change only at a tick after an accepted commit (checksum, word count) with nothing staged since",
+            include_str!("../../proofs/commit.v"),
+        )
+    },
+    Proof {
+        shrink: &[("held_limit = 6'b111111", "held_limit = 6'd3"), ("LONGEST = 65", "LONGEST = 5")],
+        mutants: &[
+            mutant("waits for ever", "if (write_busy & ~expired) begin", "if (write_busy) begin"),
+            mutant("drives on", "if (ends) begin", "if (last_q) begin"),
+        ],
+        ..proof(
+            "bus",
+            "rac4i65_core_bus",
+            "READY# at most 66 clocks after ADS# or the word before, never unasked; LAD driven only for owed read words",
+            include_str!("../../proofs/bus.v"),
+        )
+    },
+    Proof {
+        mutants: &[
+            mutant("no lock", "unlocked = ~armed", "unlocked = 1'b1"),
+            mutant("any word fires", "fire = data == fire_word", "fire = 1'b1"),
+        ],
+        ..proof(
+            "registers",
+            "rac4i65_core_registers",
+            "no locked setting changes while armed; strobes only from writes; a kick only by its word",
+            include_str!("../../proofs/registers.v"),
+        )
+    },
+    Proof {
+        mutants: &[
+            mutant("no microseconds", "microsecond = 1'b1", "microsecond = 1'b0"),
+            mutant("no shortest period", "if (tick_period < shortest) begin", "if (1'b0) begin"),
+        ],
+        ..proof(
+            "timebase",
+            "rac4i65_core_timebase",
+            "at most 64 clocks between microseconds, at least 1000 between ticks",
+            include_str!("../../proofs/timebase.v"),
+        )
+    },
+    Proof {
+        cut: &[
+            "rac4i65_core_sequencer_memory",
+            "rac4i65_core_sequencer_rom",
+            "rac4i65_core_sequencer_multiplier",
+            "rac4i65_core_sequencer_divider",
+        ],
+        mutants: &[
+            mutant("clamps one way", "(sum_top != three_clear) & (sum_top != three_set)", "sum_top == 3'b001"),
+            mutant("loses a write of the bus", "bus_write_taken = bus_write & ~storing", "bus_write_taken = bus_write"),
+        ],
+        ..proof(
+            "sequencer",
+            "rac4i65_core_sequencer",
+            "sums and differences of any 31-bit values clamp to a word; no write of bus or program is lost",
+            include_str!("../../proofs/sequencer.v"),
+        )
+    },
+    Proof {
+        mutants: &[mutant("no clamp", "fits = (top_5 == five_clear) | (top_5 == five_set)", "fits = 1'b1")],
+        ..proof(
+            "multiplier",
+            "rac4i65_core_sequencer_multiplier",
+            "no partial sum leaves 32 bits; the result is the 40-bit product clamped to a word",
+            include_str!("../../proofs/multiplier.v"),
+        )
+    },
+    Proof {
+        mutants: &[
+            mutant("overflow unseen", "overflow_d = ~difference[32'h19]", "overflow_d = 1'b0"),
+            mutant("sign lost", "if (negative_q) begin", "if (1'b0) begin"),
+        ],
+        ..proof(
+            "divider",
+            "rac4i65_core_sequencer_divider",
+            "the quotient is a clamped word with the sign of the numerator, also for a zero divisor",
+            include_str!("../../proofs/divider.v"),
+        )
+    },
+];
