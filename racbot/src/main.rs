@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done, whatever the verdict; 1 bad data; 2 wrong usage.
 
+mod card;
 mod commands;
 #[cfg(feature = "simulation")]
 mod demo;

@@ -6,6 +6,7 @@ use hdl::design::{File, files};
 use model::error::InputError;
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use testbench::virtual_card::StandIn;
 
 /// Options of `generate`.
 #[derive(Args, Debug)]
@@ -17,10 +18,20 @@ pub(crate) struct Options {
     /// Write nothing; fail if a file in the folder is not what would be written
     #[arg(long)]
     check: bool,
+
+    /// Write a stand-in bitstream for the virtual card to FILE instead; it configures nothing on a real one
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    stand_in: Option<PathBuf>,
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        if let Some(file) = &self.stand_in {
+            let bytes = StandIn::committed().bit();
+            save(file, &bytes)?;
+            let text = format!("{}: {} bytes, for the virtual card only\n", file.display(), bytes.len());
+            return Ok(Answer { text, json: json!({ "stand_in": file, "bytes": bytes.len() }), wrong: None });
+        }
         let files = files().map_err(Failure::data)?;
         if self.check {
             return check(&self.out, &files);

@@ -9,6 +9,8 @@ mod fpga_options;
 mod gap;
 #[cfg(feature = "simulation")]
 mod generate;
+mod info;
+mod load;
 #[cfg(feature = "simulation")]
 mod options;
 #[cfg(feature = "simulation")]
@@ -39,6 +41,10 @@ pub(crate) enum Command {
     /// Find where simulation and measured logs disagree, and name the missing effect
     #[cfg(feature = "simulation")]
     Gap(gap::Options),
+    /// Load the FPGA of a card over PCI and verify what runs there
+    Load(load::Options),
+    /// Show what a card is doing; change nothing
+    Info(info::Options),
 }
 
 impl Command {
@@ -64,6 +70,8 @@ impl Command {
             Self::Calibrate(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Gap(options) => options.run(),
+            Self::Load(options) => options.run(),
+            Self::Info(options) => options.run(),
         }
     }
 }

@@ -45,7 +45,7 @@ impl From<InputError> for Failure {
 }
 
 /// Writes a file and the folders above it.
-pub(crate) fn save(path: &Path, content: &str) -> Result<(), Failure> {
+pub(crate) fn save<C: AsRef<[u8]> + ?Sized>(path: &Path, content: &C) -> Result<(), Failure> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
     }

@@ -8,7 +8,7 @@ mod table;
 
 pub(crate) use answer::{Answer, print};
 pub(crate) use failure::{Failure, save};
-pub(crate) use table::{Table, wrapped};
+pub(crate) use table::{Table, entry, wrapped};
 
 use std::process::ExitCode;
 

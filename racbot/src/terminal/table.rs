@@ -60,6 +60,13 @@ pub(crate) fn wrapped(sentence: &str, indent: usize) -> String {
     out
 }
 
+/// A sentence behind its label, the lines below it under its first word.
+pub(crate) fn entry(label: &str, sentence: &str) -> String {
+    // Padding that is no white space to `wrapped`, and is taken off again.
+    let padded = format!("{label:-<8} {sentence}");
+    format!("{label:<8}{}", &wrapped(&padded, 9)[8..])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,6 +76,14 @@ mod tests {
         let mut table = Table::new(1, &["name", "°"]);
         table.row(["a".to_owned(), "12".to_owned()]);
         assert_eq!(table.render(), "name   °\n--------\na     12\n");
+    }
+
+    #[test]
+    fn entries_stand_under_each_other() {
+        let text = entry("clock", &"word ".repeat(20));
+        assert!(text.starts_with("clock    word word"));
+        assert!(text.lines().all(|line| line.len() <= COLUMNS));
+        assert!(text.lines().nth(1).unwrap().starts_with("         word"));
     }
 
     #[test]

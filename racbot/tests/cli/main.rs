@@ -2,6 +2,7 @@
 #![cfg(feature = "simulation")]
 
 mod bad_data;
+mod card;
 mod good_data;
 mod usage;
 
