@@ -14,6 +14,7 @@ mod board;
 pub mod design;
 pub mod drive;
 pub mod load;
+mod observation;
 pub mod pci;
 pub mod plx9030;
 pub mod realtime;
@@ -22,6 +23,7 @@ mod registers;
 mod scale;
 
 pub use board::{Board, BoardError, Identity, Settings, Snapshot, Status, fault_names};
+pub use observation::Observation;
 pub use pci::{Bar, PciCard, PciError, RegisterWindow};
 pub use registers::{BusError, Recorder, Registers, Transfer};
 pub use scale::{PWM_FREQUENCY_HZ, Scale, ScaleError};

@@ -2,7 +2,12 @@
 
 use crate::terminal::Failure;
 use clap::Args;
+use driver::RegisterWindow;
+use driver::drive::PoseSource;
+use driver::load::{Options as LoadOptions, inspect, measure_clock};
 use driver::pci::{PciCard, SYSFS_DEVICES, SysfsCard, Use, find};
+use driver::realtime::{Clock, MonotonicClock};
+use model::robot::Robot;
 use std::path::Path;
 
 /// Name that stands for the built-in card.
@@ -18,32 +23,115 @@ pub(crate) struct CardOptions {
     pub(crate) card: Option<String>,
 }
 
+/// Whose time passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// Everybody's.
+    Real,
+    /// The built-in card's own, as fast as it can be computed.
+    #[cfg(feature = "simulation")]
+    Simulated,
+}
+
 /// A card that was opened.
 pub(crate) struct OpenCard {
     /// Its name: the slot.
     pub(crate) name: String,
     /// The card.
     pub(crate) card: Box<dyn PciCard>,
+    /// The built-in one.
+    #[cfg(feature = "simulation")]
+    pub(crate) built_in: bool,
+    /// The time in which it lives.
+    pub(crate) clock: Box<dyn Clock>,
+    /// The camera above its robot, if there is one.
+    pub(crate) source: Option<Box<dyn PoseSource>>,
+}
+
+/// A card that runs our design.
+pub(crate) struct ReadyCard {
+    /// Its name: the slot.
+    pub(crate) name: String,
+    /// Its registers.
+    pub(crate) registers: RegisterWindow<Box<dyn PciCard>>,
+    /// Measured clock, Hz.
+    pub(crate) clock_hz: f64,
+    /// The time in which it lives.
+    pub(crate) clock: Box<dyn Clock>,
+    /// The camera above its robot, if there is one.
+    pub(crate) source: Option<Box<dyn PoseSource>>,
 }
 
 impl CardOptions {
-    /// The built-in card is meant.
+    /// Opens the card, loaded or not. The built-in one is new, and not loaded.
+    pub(crate) fn open(&self, purpose: Use) -> Result<OpenCard, Failure> {
+        self.open_with(purpose, &Robot::racbot(), Pace::Real)
+    }
+
+    /// The same, where behind a built-in card there is this robot in this time.
+    pub(crate) fn open_with(&self, purpose: Use, robot: &Robot, pace: Pace) -> Result<OpenCard, Failure> {
+        #[cfg(feature = "simulation")]
+        if self.is_built_in() {
+            return built_in(robot, pace);
+        }
+        let _ = (robot, pace);
+        let slot = find(Path::new(SYSFS_DEVICES), self.card.as_deref()).map_err(Failure::data)?;
+        let card = SysfsCard::open(&slot, purpose).map_err(Failure::data)?;
+        Ok(OpenCard {
+            name: slot.name,
+            card: Box::new(card),
+            #[cfg(feature = "simulation")]
+            built_in: false,
+            clock: Box::new(MonotonicClock),
+            source: None,
+        })
+    }
+
+    /// Whether it is the built-in card.
     #[cfg(feature = "simulation")]
     pub(crate) fn is_built_in(&self) -> bool {
         self.card.as_deref() == Some(VIRTUAL)
     }
 
-    /// Opens the card, loaded or not. The built-in one is new, and not loaded.
-    pub(crate) fn open(&self, purpose: Use) -> Result<OpenCard, Failure> {
+    /// Opens a card on which our design runs, and measures its clock. The built-in one is loaded first.
+    pub(crate) fn ready(&self, purpose: Use, robot: &Robot, pace: Pace) -> Result<ReadyCard, Failure> {
+        let mut open = self.open_with(purpose, robot, pace)?;
+        let about = |what: String| Failure::data(format!("{}: {what}", open.name));
         #[cfg(feature = "simulation")]
-        if self.is_built_in() {
-            use model::robot::Robot;
-            use testbench::virtual_card::VirtualCard;
-            let card = VirtualCard::new(&Robot::racbot()).map_err(Failure::data)?.in_host_time();
-            return Ok(OpenCard { name: VIRTUAL.to_owned(), card: Box::new(card) });
+        if open.built_in {
+            use driver::bitstream::Bitstream;
+            use testbench::virtual_card::StandIn;
+            let bitstream = Bitstream::parse(&StandIn::committed().bit()).map_err(Failure::data)?;
+            driver::load::load(&mut open.card, &bitstream, &LoadOptions::default(), |_| {})
+                .map_err(|error| about(error.to_string()))?;
         }
-        let slot = find(Path::new(SYSFS_DEVICES), self.card.as_deref()).map_err(Failure::data)?;
-        let card = SysfsCard::open(&slot, purpose).map_err(Failure::data)?;
-        Ok(OpenCard { name: slot.name, card: Box::new(card) })
+        let state = inspect(&mut open.card).map_err(|error| about(error.to_string()))?;
+        if state.identity.is_none() {
+            let why = state.other.unwrap_or_else(|| "its FPGA is not configured".to_owned());
+            return Err(about(format!("{why}; run racbot load first")));
+        }
+        let clock_hz = measure_clock(&mut open.card, LoadOptions::default().clock_time)
+            .map_err(|error| about(error.to_string()))?;
+        Ok(ReadyCard {
+            name: open.name,
+            registers: RegisterWindow::new(open.card),
+            clock_hz,
+            clock: open.clock,
+            source: open.source,
+        })
     }
+}
+
+/// The built-in card, new and not loaded.
+#[cfg(feature = "simulation")]
+fn built_in(robot: &Robot, pace: Pace) -> Result<OpenCard, Failure> {
+    use model::camera::CameraModel;
+    use testbench::virtual_card::{SharedCard, VirtualCard};
+    /// Seed of the camera's noise.
+    const SEED: u64 = 1;
+    let card = VirtualCard::new(robot).map_err(Failure::data)?;
+    let card = SharedCard::new(if pace == Pace::Real { card.in_host_time() } else { card });
+    let clock: Box<dyn Clock> = if pace == Pace::Real { Box::new(MonotonicClock) } else { Box::new(card.clone()) };
+    let source = Box::new(card.camera(CameraModel::of(robot), SEED));
+    Ok(OpenCard { name: VIRTUAL.to_owned(), card: Box::new(card), built_in: true, clock, source: Some(source) })
 }

@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     let Some(command) = cli.command.or_else(Command::preset) else {
         return terminal::print(&commands::help::<Cli>()).into();
     };
-    match command.run() {
+    match command.run(cli.json) {
         Ok(answer) => answer.print(cli.json).into(),
         Err(failure) => failure.print().into(),
     }

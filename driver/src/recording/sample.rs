@@ -84,6 +84,8 @@ impl Sample {
 pub fn logged_robot(believed: &Robot, scale: &Scale, speed_mode: SpeedMode) -> Robot {
     let gains = &scale.configuration().gains[0];
     let mut robot = believed.clone();
+    // As it was, not as it was asked for: an integrator adds up a difference of a millionth.
+    robot.control_rate_hz = 1.0 / scale.tick_s();
     robot.pi.arithmetic = Some("fixed-kin".to_owned());
     let words = [
         ("kp", gains.kp.to_bits()),

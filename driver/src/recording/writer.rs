@@ -51,6 +51,7 @@ pub struct Recording {
     file: PathBuf,
     ring: Producer<Sample>,
     lost: u64,
+    patient: bool,
     shared: Arc<Shared>,
     thread: Option<JoinHandle<io::Result<u64>>>,
 }
@@ -78,14 +79,32 @@ impl Recording {
         let shared = Arc::new(Shared::default());
         let writer = Writer { stream, wheels: wheels.min(AXES), ring: consumer, shared: Arc::clone(&shared) };
         let thread = std::thread::Builder::new().name("recording".to_owned()).spawn(move || writer.run())?;
-        Ok(Self { file: file.to_owned(), ring, lost: 0, shared, thread: Some(thread) })
+        Ok(Self { file: file.to_owned(), ring, lost: 0, patient: false, shared, thread: Some(thread) })
+    }
+
+    /// From now on a full ring is waited for: for loops that do not run in real time.
+    pub fn wait_where_full(&mut self) {
+        self.patient = true;
     }
 
     /// Hands a tick over; where the ring is full it is counted as lost. Neither waits nor allocates.
     pub fn push(&mut self, sample: Sample) {
-        if let Err(PushError::Full(_)) = self.ring.push(sample) {
+        let Err(PushError::Full(sample)) = self.ring.push(sample) else { return };
+        if !self.patient || !self.waited_for(sample) {
             self.lost += 1;
         }
+    }
+
+    /// Waits for the thread to make room; not where it has ended, for a full medium say.
+    fn waited_for(&mut self, sample: Sample) -> bool {
+        while let Some(thread) = self.thread.as_ref().filter(|thread| !thread.is_finished()) {
+            thread.thread().unpark();
+            std::thread::sleep(Duration::from_micros(100));
+            if self.ring.push(sample).is_ok() {
+                return true;
+            }
+        }
+        false
     }
 
     /// Ticks lost so far.
@@ -210,6 +229,18 @@ mod tests {
             std::thread::sleep(Duration::from_millis(5));
         }
         assert_eq!(Run::read(&path).unwrap().len(), 500);
+    }
+
+    #[test]
+    fn a_patient_recording_loses_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.mcap");
+        let mut recording = Recording::start(&path, Layout::of_robot(3, false)).unwrap();
+        recording.wait_where_full();
+        for tick in 0..4 * RING_SAMPLES as u32 {
+            recording.push(sample(tick));
+        }
+        assert_eq!(recording.finish().unwrap().ticks, 4 * RING_SAMPLES as u64);
     }
 
     /// A medium that is full after some ticks.

@@ -3,6 +3,7 @@
 mod calibrate;
 #[cfg(feature = "simulation")]
 mod demo;
+mod drive;
 #[cfg(feature = "simulation")]
 mod fpga_options;
 #[cfg(feature = "simulation")]
@@ -10,13 +11,17 @@ mod gap;
 #[cfg(feature = "simulation")]
 mod generate;
 mod info;
+mod kick;
+mod latency;
 mod load;
+mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
 #[cfg(feature = "simulation")]
 mod replay;
 #[cfg(feature = "simulation")]
 mod simulate;
+mod start;
 
 use crate::terminal::{Answer, Failure};
 use clap::{CommandFactory, Subcommand};
@@ -45,6 +50,14 @@ pub(crate) enum Command {
     Load(load::Options),
     /// Show what a card is doing; change nothing
     Info(info::Options),
+    /// Drive a robot along set points, over a card
+    Drive(Box<drive::Options>),
+    /// Charge and fire the kicker
+    Kick(kick::Options),
+    /// Watch a card in the terminal
+    Monitor(monitor::Options),
+    /// Measure how late the timer wakes the control loop on this machine
+    Latency(latency::Options),
 }
 
 impl Command {
@@ -56,8 +69,8 @@ impl Command {
         return None;
     }
 
-    /// Does it.
-    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+    /// Does it; with `json` the answer is for a program.
+    pub(crate) fn run(&self, json: bool) -> Result<Answer, Failure> {
         match self {
             #[cfg(feature = "simulation")]
             Self::Demo(options) => options.run(),
@@ -72,6 +85,10 @@ impl Command {
             Self::Gap(options) => options.run(),
             Self::Load(options) => options.run(),
             Self::Info(options) => options.run(),
+            Self::Drive(options) => options.run(),
+            Self::Kick(options) => options.run(),
+            Self::Monitor(options) => options.run(json),
+            Self::Latency(options) => options.run(),
         }
     }
 }

@@ -2,12 +2,12 @@
 
 use super::fpga_options::{FpgaChoice, SpeedChoice};
 use super::options::{Hidden, load_robot, remark_on_effects};
+use super::start::Start;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
 use clap::{Args, ValueEnum};
 use model::camera::CameraModel;
 use model::error::InputError;
-use model::frames::Pose;
 use model::plot::Color;
 use model::trajectory::{FIG_6, SetPoint};
 use serde_json::{Value, json};
@@ -88,24 +88,6 @@ enum ControllerChoice {
     Follower,
     /// As in the paper: straight at the next set point at its full speed
     Paper,
-}
-
-/// A start pose.
-#[derive(Clone, Copy, Debug)]
-struct Start(Pose);
-
-impl std::str::FromStr for Start {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers: Vec<f64> = text.split(',').filter_map(|field| field.trim().parse().ok()).collect();
-        match numbers[..] {
-            [x, y, degrees] if numbers.iter().all(|n| n.is_finite()) && text.split(',').count() == 3 => {
-                Ok(Self(Pose::new(x, y, degrees.to_radians())))
-            }
-            _ => Err(format!("'{text}' is no pose; give x, y in metres and the heading in degrees, such as 1,0.5,90")),
-        }
-    }
 }
 
 /// A drive, and how long it took.

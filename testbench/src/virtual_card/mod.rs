@@ -14,12 +14,14 @@ mod bridge;
 mod live;
 mod machine;
 mod select_map;
+mod shared;
 mod stand_in;
 
 pub use bridge::{Bridge, Eeprom};
 pub use live::{BitTrueLive, Live};
 pub use machine::Machine;
 pub use select_map::{DeviceCrc, SelectMap};
+pub use shared::{CameraAbove, SharedCard};
 pub use stand_in::StandIn;
 
 use driver::pci::{Bar, PciCard, PciError};

@@ -1,0 +1,296 @@
+//! `racbot drive`
+
+use super::start::Start;
+use crate::card::{CardOptions, Pace, ReadyCard};
+use crate::terminal::{Answer, Failure, Table, entry, save};
+use clap::{Args, ValueEnum};
+use driver::Board;
+use driver::drive::{Control, Driven, Ending, Plan};
+use driver::pci::Use;
+use driver::realtime::{Rights, stop_on_signals};
+use driver::recording::{Recorded, Recording, logged_robot};
+use fixed_kin::speed::SpeedMode;
+use model::robot::Robot;
+use model::run::Layout;
+use model::trajectory::{Arrival, SetPoint};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Options of `drive`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Set points: CSV lines `x, y, v, omega[, stop]`, or TOML
+    #[arg(long, value_name = "FILE")]
+    setpoints: PathBuf,
+
+    /// The robot; its effects are honoured: skew and radii go into the card [default: the paper's]
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+
+    #[command(flatten)]
+    card: CardOptions,
+
+    /// Record the run: .csv, or .mcap for Foxglove and Rerun; robot.toml is put beside it
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+
+    /// Let poses from a camera correct the controller's, where there is one
+    #[arg(long)]
+    camera: bool,
+
+    /// Start pose: x and y in metres, heading of the body's x axis in degrees
+    #[arg(long, value_name = "X,Y,DEG", default_value = "0,0,0", allow_hyphen_values = true)]
+    start: Start,
+
+    /// Who steers
+    #[arg(long, value_enum, default_value_t)]
+    controller: Steering,
+
+    /// How the FPGA measures speeds
+    #[arg(long, value_enum, default_value_t)]
+    speed_mode: Speeds,
+
+    /// Longest drive in seconds
+    #[arg(long, value_name = "S", default_value_t = 60.0)]
+    limit_s: f64,
+
+    /// Real-time priority asked for
+    #[arg(long, value_name = "N", default_value_t = 80, value_parser = clap::value_parser!(u8).range(1..=99))]
+    priority: u8,
+
+    #[cfg(feature = "simulation")]
+    #[command(flatten)]
+    hidden: super::options::Hidden,
+
+    /// Drive the built-in card in real time, not as fast as it can be computed
+    #[cfg(feature = "simulation")]
+    #[arg(long)]
+    real_time: bool,
+}
+
+/// Who steers.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Steering {
+    /// Limits of speed and acceleration, slows down for corners
+    #[default]
+    Follower,
+    /// As in the paper: straight at the next set point at its full speed
+    Paper,
+}
+
+/// How speeds are measured.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Speeds {
+    /// Count difference of a control tick
+    #[default]
+    Difference,
+    /// Counts between edges over the time between them
+    CountAndTime,
+}
+
+/// All that there is to tell.
+struct Report<'a> {
+    name: &'a str,
+    clock_hz: f64,
+    plan: &'a Plan,
+    driven: &'a Driven,
+    recorded: Option<&'a Recorded>,
+    robot_file: Option<String>,
+    remarks: Vec<String>,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        // Every file first: nothing may move for one that is wrong.
+        let set_points = SetPoint::read_file(&self.setpoints)?;
+        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        if !(self.limit_s > 0.0 && self.limit_s <= 3_600.0) {
+            return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
+        }
+        let plan = self.plan(&robot, &set_points);
+        let (actual, pace) = self.built_in(&robot)?;
+        let ready = self.card.ready(Use::Drive, &actual, pace)?;
+        let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
+        let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
+        let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
+        let stop = stop_on_signals().map_err(Failure::data)?;
+        let mut remarks = Vec::new();
+        if self.camera && source.is_none() {
+            remarks.push("there is no camera: the pose is odometry's alone".to_owned());
+        }
+        let mut recording = self.record(robot.wheel_count(), source.is_some())?;
+        if let Some(recording) = recording.as_mut().filter(|_| pace != Pace::Real) {
+            recording.wait_where_full();
+        }
+        if pace == Pace::Real {
+            let rights = Rights::acquire(self.priority);
+            remarks.extend(rights.remarks().map(str::to_owned));
+        }
+        let mut source = source.unwrap_or_else(|| Box::new(driver::drive::NoSource));
+        let driven = plan
+            .drive(Board::new(registers), &mut clock, clock_hz, &mut source, recording.as_mut(), &stop)
+            .map_err(|error| about(&error))?;
+        let recorded = recording.map(Recording::finish);
+        let robot_file = self.robot_beside(&logged_robot(&plan.believed(), &scale, plan.settings.speed_mode))?;
+        let (recorded, failed) = match recorded.transpose() {
+            Ok(recorded) => (recorded, None),
+            Err(error) => (None, Some(error.to_string())),
+        };
+        let report = Report {
+            name: &name,
+            clock_hz,
+            plan: &plan,
+            driven: &driven,
+            recorded: recorded.as_ref(),
+            robot_file,
+            remarks,
+        };
+        let wrong = match &driven.ending {
+            Ending::Fault(fault) => Some(format!("{name}: {fault}")),
+            _ => failed,
+        };
+        Ok(Answer { text: report.text(), json: report.json(), wrong })
+    }
+
+    /// The robot behind a built-in card, and its time.
+    #[cfg(feature = "simulation")]
+    fn built_in(&self, believed: &Robot) -> Result<(Robot, Pace), Failure> {
+        if !self.card.is_built_in() {
+            if self.hidden.is_given() || self.real_time {
+                return Err(Failure::usage("--hidden, --skew-deg and --real-time are for --card virtual"));
+            }
+            return Ok((believed.clone(), Pace::Real));
+        }
+        Ok((self.hidden.robot(believed)?, if self.real_time { Pace::Real } else { Pace::Simulated }))
+    }
+
+    #[cfg(not(feature = "simulation"))]
+    fn built_in(&self, believed: &Robot) -> Result<(Robot, Pace), Failure> {
+        Ok((believed.clone(), Pace::Real))
+    }
+
+    fn plan(&self, robot: &Robot, set_points: &[SetPoint]) -> Plan {
+        let mut plan = Plan::new(robot, set_points);
+        plan.control = match self.controller {
+            Steering::Follower => Control::Follower,
+            Steering::Paper => Control::Paper,
+        };
+        plan.settings.speed_mode = match self.speed_mode {
+            Speeds::Difference => SpeedMode::Difference,
+            Speeds::CountAndTime => SpeedMode::CountAndTime,
+        };
+        Plan { start: self.start.0, fused: self.camera, limit_s: self.limit_s, ..plan }
+    }
+
+    fn record(&self, wheels: usize, camera: bool) -> Result<Option<Recording>, Failure> {
+        let Some(file) = &self.record else { return Ok(None) };
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
+        }
+        Recording::start(file, Layout::of_robot(wheels, camera)).map(Some).map_err(Failure::data)
+    }
+
+    /// Makes a data set of the recording's folder, unless it is one already.
+    fn robot_beside(&self, robot: &Robot) -> Result<Option<String>, Failure> {
+        let Some(file) = &self.record else { return Ok(None) };
+        let path = file.parent().unwrap_or(Path::new("")).join("robot.toml");
+        if path.exists() {
+            return Ok(Some(format!("{}, as it was", path.display())));
+        }
+        save(&path, &robot.to_toml())?;
+        Ok(Some(path.display().to_string()))
+    }
+}
+
+impl Report<'_> {
+    fn text(&self) -> String {
+        let driven = self.driven;
+        let mut text = format!("card     {}, {:.4} MHz\n\n", self.name, self.clock_hz / 1e6);
+        let mut table = Table::new(2, &["", "set point", "reached at", "off by"]);
+        for (number, (point, arrival)) in self.plan.set_points.iter().zip(&driven.arrivals).enumerate() {
+            let stop = if point.stop { ", stop" } else { "" };
+            let place = format!("({}, {}) at {} m/s, {} rad/s{stop}", point.x, point.y, point.v, point.omega);
+            let (when, miss) = match arrival {
+                Arrival::Reached { t, miss_m } => (format!("{t:.2} s"), *miss_m),
+                Arrival::Stuck { t, distance_m } => (format!("gave up, {t:.2} s"), *distance_m),
+                Arrival::Pending => {
+                    let pose = driven.pose;
+                    ("not reached".to_owned(), (point.x - pose.x).hypot(point.y - pose.y))
+                }
+            };
+            table.row([(number + 1).to_string(), place, when, format!("{:.0} mm", 1e3 * miss)]);
+        }
+        text += &table.render();
+        let outputs = match &driven.switched_off {
+            Ok(()) => "outputs off".to_owned(),
+            Err(fault) => format!("the watchdog switches off: {fault}"),
+        };
+        text.push('\n');
+        text += &entry("ended", &format!("{} after {:.2} s, {outputs}", self.ending(), driven.t));
+        let [min, mean, max] = driven.latency.min_mean_max_us();
+        let _ =
+            writeln!(text, "ticks    {} seen, {} unseen, {} read again", driven.ticks, driven.unseen, driven.reread);
+        let _ = writeln!(text, "wake-up  {min:.0} / {mean:.0} / {max:.0} us, {} missed", driven.latency.missed);
+        if let Some(recorded) = self.recorded {
+            let lost = if recorded.lost > 0 { format!(", {} lost", recorded.lost) } else { String::new() };
+            let _ = writeln!(text, "recorded {}: {} ticks{lost}", recorded.file.display(), recorded.ticks);
+        }
+        if let Some(file) = &self.robot_file {
+            let _ = writeln!(text, "robot    {file}");
+        }
+        for remark in self.remarks.iter().chain(&self.late_remarks()) {
+            text += &entry("note", remark);
+        }
+        text
+    }
+
+    fn ending(&self) -> &'static str {
+        match &self.driven.ending {
+            Ending::Finished => "at rest",
+            Ending::TimeLimit => "at the time limit",
+            Ending::Stopped => "stopped on request",
+            Ending::Fault(_) => "with a fault",
+        }
+    }
+
+    fn late_remarks(&self) -> Vec<String> {
+        let gone = self.driven.source_gone.map(|since| {
+            format!("the camera was silent from {since:.2} s on; the pose since then is odometry's alone")
+        });
+        let refused = (self.driven.refused > 0)
+            .then(|| format!("the card refused {} commits by their checksum; each was sent anew", self.driven.refused));
+        gone.into_iter().chain(refused).collect()
+    }
+
+    fn json(&self) -> Value {
+        let driven = self.driven;
+        let arrivals = self.plan.set_points.iter().zip(&driven.arrivals).map(|(point, arrival)| {
+            let (state, t, off) = match arrival {
+                Arrival::Reached { t, miss_m } => ("reached", Some(*t), Some(*miss_m)),
+                Arrival::Stuck { t, distance_m } => ("stuck", Some(*t), Some(*distance_m)),
+                Arrival::Pending => ("pending", None, None),
+            };
+            json!({ "x": point.x, "y": point.y, "v": point.v, "omega": point.omega, "stop": point.stop,
+                    "state": state, "t_s": t, "off_m": off })
+        });
+        let [min, mean, max] = driven.latency.min_mean_max_us();
+        let ended = match &driven.ending {
+            Ending::Finished => "finished",
+            Ending::TimeLimit => "time-limit",
+            Ending::Stopped => "stopped",
+            Ending::Fault(_) => "fault",
+        };
+        json!({
+            "card": self.name, "clock_hz": self.clock_hz, "set_points": arrivals.collect::<Vec<_>>(),
+            "ended": ended,
+            "fault": match &driven.ending { Ending::Fault(fault) => Some(fault.to_string()), _ => None },
+            "outputs_off": driven.switched_off.is_ok(), "t_s": driven.t,
+            "pose": [driven.pose.x, driven.pose.y, driven.pose.theta],
+            "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,
+            "wake_up_us": { "min": min, "avg": mean, "max": max }, "missed": driven.latency.missed,
+            "recorded": self.recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
+            "remarks": self.remarks.iter().cloned().chain(self.late_remarks()).collect::<Vec<_>>(),
+        })
+    }
+}

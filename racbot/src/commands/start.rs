@@ -1,0 +1,21 @@
+//! A start pose on the command line.
+
+use model::frames::Pose;
+
+/// `X,Y,DEG`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start(pub(crate) Pose);
+
+impl std::str::FromStr for Start {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Vec<f64> = text.split(',').filter_map(|field| field.trim().parse().ok()).collect();
+        match numbers[..] {
+            [x, y, degrees] if numbers.iter().all(|n| n.is_finite()) && text.split(',').count() == 3 => {
+                Ok(Self(Pose::new(x, y, degrees.to_radians())))
+            }
+            _ => Err(format!("'{text}' is no pose; give x, y in metres and the heading in degrees, such as 1,0.5,90")),
+        }
+    }
+}
