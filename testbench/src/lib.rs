@@ -7,5 +7,7 @@ pub mod cosim;
 pub mod cross_check;
 pub mod formal;
 pub mod fpga;
+pub mod netlist;
+pub mod place;
 pub mod replay;
 pub mod virtual_card;

@@ -14,6 +14,14 @@ pub enum CosimError {
         /// The Debian package that has it.
         package: &'static str,
     },
+    /// A program of a Python package that is not installed.
+    #[error(
+        "`{tool}` is not on PATH; ./test.sh installs it from PyPI into target/python, then: PATH=target/python/bin:$PATH"
+    )]
+    MissingPythonTool {
+        /// The program.
+        tool: String,
+    },
     /// A program that ran and failed.
     #[error("{tool} failed on {what} (files kept in {}):\n{output}", folder.display())]
     Tool {

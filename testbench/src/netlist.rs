@@ -1,0 +1,97 @@
+//! The netlist of the real family: what yosys makes of a design for the Spartan-II, as a design again.
+//!
+//! ```text
+//! Verilog ──► yosys synth_xilinx -family xcv ──► cells (LUT4, MUXCY, FDRE, RAMB4…) ──┬─► simulation
+//!                       models: yosys' own cells_sim.v, and cells/ramb4.v of ours ───┘
+//!                                                                                  └─► longest paths
+//! ```
+//!
+//! Yosys has no model of the block memory; `cells/ramb4.v` is ours and has a test. A read that
+//! meets a write of the other port gives garbage there, because the device promises nothing.
+
+mod paths;
+
+pub use paths::{Path, Paths};
+
+use crate::cosim::{CosimError, folder};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The model of the block memories.
+pub const BLOCK_MEMORY: &str = include_str!("../cells/ramb4.v");
+
+/// A synthesised design.
+#[derive(Clone, Debug)]
+pub struct Netlist {
+    /// The netlist with the models of all its cells: a design of the same ports.
+    pub verilog: String,
+    /// How often every cell occurs.
+    pub cells: BTreeMap<String, usize>,
+    /// The graph for [`Paths`].
+    graph: serde_json::Value,
+    top: String,
+}
+
+impl Netlist {
+    /// Synthesises `top`, once per content.
+    ///
+    /// # Errors
+    /// A missing yosys, or a design that it does not take.
+    pub fn of(verilog: &str, top: &str) -> Result<Self, CosimError> {
+        let script = format!(
+            "read_verilog design.v; synth_xilinx -family xcv -top {top} -flatten; write_verilog -noattr netlist.v; \
+             write_json netlist.json"
+        );
+        let folder = folder::cached(&format!("netlist-{top}"), &[verilog, &script], |folder| {
+            folder::write(&folder.join("design.v"), verilog)?;
+            folder::must("yosys", &["-q", "-p", &script], folder, top).map(|_| ())
+        })?;
+        let read = |name: &str| {
+            let path = folder.join(name);
+            std::fs::read_to_string(&path).map_err(CosimError::file("read", &path))
+        };
+        let graph: serde_json::Value = serde_json::from_str(&read("netlist.json")?)
+            .map_err(|error| CosimError::file("understand", &folder.join("netlist.json"))(error.into()))?;
+        let mut cells = BTreeMap::new();
+        for cell in graph["modules"][top]["cells"].as_object().into_iter().flatten() {
+            *cells.entry(cell.1["type"].as_str().unwrap_or("").to_owned()).or_default() += 1;
+        }
+        let verilog = [&read("netlist.v")?, &models(cells.keys())?, BLOCK_MEMORY].join("\n");
+        Ok(Self { verilog, cells, graph, top: top.into() })
+    }
+
+    /// The longest paths between flip-flops, memories and pins.
+    #[must_use]
+    pub fn paths(&self) -> Paths {
+        Paths::of(&self.graph["modules"][&self.top])
+    }
+}
+
+/// Where yosys keeps its models: beside itself.
+fn models_file() -> PathBuf {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let beside = |folder: PathBuf| folder.join("../share/yosys/xilinx/cells_sim.v");
+    let all: Vec<_> = std::env::split_paths(&folders).map(beside).collect();
+    all.iter().find(|path| path.is_file()).cloned().unwrap_or_else(|| "/usr/share/yosys/xilinx/cells_sim.v".into())
+}
+
+/// Yosys' own simulation models of these cells, without their timing of another family.
+fn models<'a>(cells: impl Iterator<Item = &'a String>) -> Result<String, CosimError> {
+    let path = models_file();
+    let all = std::fs::read_to_string(&path).map_err(CosimError::file("read", &path))?;
+    let mut text = String::new();
+    for cell in cells.filter(|cell| !cell.starts_with("RAMB4")) {
+        let begin = [" ", "("].iter().find_map(|next| all.find(&format!("\nmodule {cell}{next}")));
+        let model = begin.and_then(|begin| Some(&all[begin..begin + all[begin..].find("\nendmodule")?]));
+        let Some(model) = model else {
+            let (tool, what) = ("yosys".to_owned(), format!("no simulation model of the cell {cell}"));
+            return Err(CosimError::Tool { tool, what, folder: path, output: String::new() });
+        };
+        match (model.find("specify"), model.rfind("endspecify")) {
+            (Some(from), Some(to)) => text.extend([&model[..from], &model[to + "endspecify".len()..]]),
+            _ => text.push_str(model),
+        }
+        text.push_str("\nendmodule\n");
+    }
+    Ok(text)
+}

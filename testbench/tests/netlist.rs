@@ -1,0 +1,300 @@
+//! Gate level: the netlist for the real family against fixed-kin, and pin by pin against the
+//! Verilog that it was made from.
+
+use fixed_kin::registers as map;
+use fixed_kin::speed::SpeedMode;
+use hdl::design::{COMMITTED_VERILOG, NAME};
+use hdl::emit::ports::Ports;
+use model::frames::Twist;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use testbench::closed_loop::Drive;
+use testbench::cosim::{Layout, Verilated};
+use testbench::cross_check::{Traced, play};
+use testbench::fpga::{BitTrue, QUIET_CLOCKS, Verilog};
+use testbench::netlist::{BLOCK_MEMORY, Netlist};
+
+/// Control ticks of the chip at 8 kHz.
+const TICKS: usize = 400;
+/// Accesses of the bus in the comparison of all pins.
+const ACCESSES: usize = 3_000;
+
+fn chip() -> Netlist {
+    Netlist::of(COMMITTED_VERILOG, NAME).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_netlist_equals_fixed_kin() {
+    let mut drive = Drive { speed_mode: SpeedMode::CountAndTime, limit_s: TICKS as f64 / 8_000.0, ..Drive::fig_6() };
+    drive.moving = Twist::new(0.6, 0.5, 0.5);
+    drive.believed.control_rate_hz = 8_000.0;
+    let mut traced = Traced::new(BitTrue::new().with_quiet_clocks(QUIET_CLOCKS));
+    drive.run(&mut traced, |_| {}).unwrap();
+    let trace = traced.into_trace();
+    let netlist = Verilog::of("rac4i65-netlist", &chip().verilog).unwrap_or_else(|error| panic!("{error}"));
+    let check = play(&trace, netlist, |_| {}).unwrap();
+    assert_eq!(check.difference, None);
+    assert!(check.ticks >= TICKS && check.live_words > 10 * TICKS, "{check:?}");
+    println!("netlist: {} ticks, {} clocks, {} words, 0 differ", check.ticks, check.clocks, check.words);
+}
+
+/// The host's bus and every other pin, a row of inputs a clock.
+struct Stimulus {
+    random: ChaCha8Rng,
+    columns: [usize; 10],
+    width: usize,
+    rows: Vec<u32>,
+    encoders: [u32; 4],
+    stop: u32,
+}
+
+const ADS: usize = 0;
+const BLAST: usize = 1;
+const LW_R: usize = 2;
+const LAD: usize = 3;
+const DRIVE: usize = 4;
+
+impl Stimulus {
+    fn new(layout: &Layout) -> Self {
+        let names = [
+            "ads_n",
+            "blast_n",
+            "lw_r",
+            "lad",
+            "lad.drive",
+            "encoder_a",
+            "encoder_b",
+            "encoder_index",
+            "emergency_stop",
+            "ball_sensor",
+        ];
+        let columns = names.map(|name| layout.input(name).unwrap());
+        let (width, rows) = (layout.inputs.len(), Vec::new());
+        Self { random: ChaCha8Rng::seed_from_u64(11), columns, width, rows, encoders: [0; 4], stop: 0 }
+    }
+
+    fn clock(&mut self, bus: [u32; 5]) {
+        for position in &mut self.encoders {
+            if self.random.random_range(0..40) == 0 {
+                *position = position.wrapping_add(if self.random.random_range(0..8) == 0 { u32::MAX } else { 1 });
+            }
+        }
+        let gray = self.encoders.map(|position| (position ^ position >> 1) & 3);
+        let line = |bit: u32| gray.iter().enumerate().fold(0, |word, (axis, lines)| word | (lines >> bit & 1) << axis);
+        let [ads, blast, lw_r, lad, drive] = bus;
+        let ball = u32::from(self.random.random_range(0..100) == 0);
+        let index = self.random.random_range(0..16);
+        let values = [ads, blast, lw_r, lad, drive, line(0), line(1), index, self.stop, ball];
+        let mut row = vec![0; self.width];
+        for (column, value) in self.columns.iter().zip(values) {
+            row[*column] = value;
+        }
+        self.rows.extend(row);
+    }
+
+    fn idle(&mut self, clocks: usize) {
+        (0..clocks).for_each(|_| self.clock([1, 1, 0, 0, 0]));
+    }
+
+    /// An access with time for the longest answer. Data stand long enough for every outcome.
+    fn access(&mut self, offset: u16, write: Option<u32>) {
+        let mut bus = [1, 1, 0, 0, 0];
+        (bus[ADS], bus[LW_R], bus[LAD], bus[DRIVE]) = (0, u32::from(write.is_some()), offset.into(), 1);
+        self.clock(bus);
+        (bus[ADS], bus[BLAST], bus[LAD], bus[DRIVE]) = (1, 0, write.unwrap_or(0), u32::from(write.is_some()));
+        (0..5).for_each(|_| self.clock(bus));
+        self.idle(64);
+    }
+
+    fn commit(&mut self, base: &map::Register, at: &map::Register) {
+        let mut sum = map::CHECKSUM_SEED;
+        for index in 0..usize::from(base.words) {
+            let shift = self.random.random_range(0..24);
+            let word = (self.random.next_u32() as i32 >> shift) as u32;
+            self.access(base.at(index), Some(word));
+            sum = map::checksum(sum, base.at(index) / 4, word);
+        }
+        self.access(at.offset, Some(sum));
+    }
+
+    fn arm(&mut self) {
+        self.access(map::FAULTS.offset, Some(u32::MAX));
+        self.access(map::ARM.offset, Some(fixed_kin::safety::ARM_FIRST));
+        self.access(map::ARM.offset, Some(fixed_kin::safety::ARM_SECOND));
+    }
+
+    fn any(&mut self) {
+        match self.random.random_range(0..400) {
+            0..8 => self.commit(&map::SET_POINTS, &map::COMMIT_SET_POINTS),
+            8 => self.commit(&map::CONFIGURATION, &map::COMMIT_CONFIGURATION),
+            9..12 => self.arm(),
+            12 => {
+                self.stop = 1;
+                self.idle(40);
+                self.stop = 0;
+                self.idle(40);
+            }
+            13..20 => self.access(map::KICKER_FIRE.offset, Some(map::KICKER_FIRE_WORD)),
+            20..200 => {
+                let register = map::REGISTERS[self.random.random_range(0..map::REGISTERS.len())];
+                let index = self.random.random_range(0..usize::from(register.words));
+                let locks = [map::ARM.offset, map::WATCHDOG_TIMEOUT.offset, map::TICK_PERIOD.offset];
+                let write = self.random.random_bool(0.5) && !locks.contains(&register.offset);
+                let word = self.random.next_u32() >> self.random.random_range(0..32);
+                self.access(register.at(index), write.then_some(word));
+            }
+            _ => {
+                let offset = map::SNAPSHOT_SEQUENCE.offset + 4 * self.random.random_range(0..24_u16);
+                self.access(offset, None);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_pin_of_the_netlist_equals_the_verilog_at_every_clock() {
+    let ports = Ports::parse(COMMITTED_VERILOG, NAME, &["lclk", "synclk"]).unwrap();
+    let build =
+        |name: &str, text: &str| Verilated::build(name, text, NAME, &ports).unwrap_or_else(|error| panic!("{error}"));
+    let verilog = build(NAME, COMMITTED_VERILOG);
+    let mut stimulus = Stimulus::new(verilog.layout());
+    stimulus.idle(600);
+    for (register, value) in
+        [(map::TICK_PERIOD, 1_000), (map::PWM_PERIOD, 800), (map::KICKER_PULSE, 3), (map::KICKER_CONTROL, 1)]
+    {
+        stimulus.access(register.offset, Some(value));
+    }
+    stimulus.access(map::KICKER_CHARGE_TIMEOUT.offset, Some(500));
+    stimulus.commit(&map::CONFIGURATION, &map::COMMIT_CONFIGURATION);
+    stimulus.commit(&map::SET_POINTS, &map::COMMIT_SET_POINTS);
+    stimulus.arm();
+    (0..ACCESSES).for_each(|_| stimulus.any());
+
+    let expected = verilog.run(&stimulus.rows).unwrap();
+    let got = build("rac4i65-netlist", &chip().verilog).run(&stimulus.rows).unwrap();
+    let outputs = verilog.layout().outputs.len();
+    for (clock, (got, expected)) in got.chunks(outputs).zip(expected.chunks(outputs)).enumerate() {
+        let pairs = verilog.layout().outputs.iter().zip(got.iter().zip(expected));
+        let wrong: Vec<_> = pairs.filter(|(_, (got, expected))| got != expected).collect();
+        assert!(wrong.is_empty(), "clock {clock}: {wrong:x?}");
+    }
+    // Every output but the interrupt moved, so equality says something.
+    for (column, output) in verilog.layout().outputs.iter().enumerate() {
+        let changes = expected.chunks(outputs).skip(1_000).filter(|row| row[column] != expected[column]).count();
+        assert!(changes > 20 || output.name.starts_with("int_n"), "{} changed {changes} times", output.name);
+    }
+    println!("netlist: {} clocks, all pins, 0 differ", expected.len() / outputs);
+}
+
+#[test]
+fn a_wrong_lookup_table_is_seen() {
+    let block = "rac4i65_core_sequencer_multiplier";
+    let netlist = Netlist::of(COMMITTED_VERILOG, block).unwrap_or_else(|error| panic!("{error}"));
+    let table = ".INIT(16'h";
+    let at = netlist.verilog.match_indices(table).nth(20).expect("a lookup table").0 + table.len();
+    let mut broken = netlist.verilog.clone();
+    let digit = u32::from_str_radix(&broken[at..=at], 16).expect("hexadecimal");
+    broken.replace_range(at..=at, &format!("{:x}", digit ^ 0xF));
+    let ports = Ports::parse(COMMITTED_VERILOG, block, &["clock"]).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    let rows: Vec<u32> = (0..20_000)
+        .flat_map(|step| {
+            [u32::from(step % 20 == 0), random.random_range(0..4), random.next_u32() >> 3, random.next_u32() >> 3]
+        })
+        .collect();
+    assert_eq!(ports.inputs().map(|p| p.name.clone()).collect::<Vec<_>>(), ["start", "scale", "a", "b"]);
+    let run = |name: &str, text: &str| Verilated::build(name, text, block, &ports).unwrap().run(&rows).unwrap();
+    let expected = run("multiplier", COMMITTED_VERILOG);
+    assert_eq!(run("multiplier-netlist", &netlist.verilog), expected);
+    assert_ne!(run("multiplier-broken", &broken), expected);
+}
+
+/// The memory as a list of words, with what its two ports show.
+#[derive(Clone)]
+struct Memory {
+    words: Vec<u16>,
+    shown: [u16; 2],
+}
+
+/// Enable, reset, write, address, data of a port.
+type Access = [u32; 5];
+
+impl Memory {
+    fn clock(&mut self, ports: [Access; 2]) {
+        let before = self.words.clone();
+        for (port, [enable, reset, write, address, data]) in ports.into_iter().enumerate() {
+            if enable == 0 {
+                continue;
+            }
+            let [other_enable, _, other_write, other_address, _] = ports[1 - port];
+            let collides = other_enable & other_write == 1 && other_address == address;
+            let word = before[address as usize];
+            self.shown[port] = match (reset, write) {
+                (1, _) => 0,
+                (_, 1) => data as u16,
+                _ if collides => !word,
+                _ => word,
+            };
+            if write == 1 {
+                self.words[address as usize] = data as u16;
+            }
+        }
+    }
+}
+
+#[test]
+fn the_model_of_the_block_memory_is_that_of_the_data_sheet() {
+    let words: Vec<u16> = (0..256_u32).map(|word| (word * 40_503 + 7) as u16).collect();
+    let initial: String = words
+        .chunks(16)
+        .enumerate()
+        .map(|(row, words)| {
+            let digits: String = words.iter().rev().map(|word| format!("{word:04x}")).collect();
+            format!("{}.INIT_0{row:X}(256'h{digits})", if row == 0 { "" } else { ", " })
+        })
+        .collect();
+    let both = ["A", "B"].map(|p| {
+        format!("input wire en{p}, input wire rst{p}, input wire we{p}, input wire [7:0] addr{p}, input wire [15:0] di{p}, output wire [15:0] do{p}")
+    });
+    let pins = ["A", "B"].map(|p| {
+        format!(".EN{p}(en{p}), .RST{p}(rst{p}), .WE{p}(we{p}), .ADDR{p}(addr{p}), .DI{p}(di{p}), .DO{p}(do{p}), .CLK{p}(clock)")
+    });
+    let text = format!(
+        "module memory (\n    input wire clock, {},\n    {}, output wire [15:0] single\n);\n\
+         RAMB4_S16_S16 #({initial}) dual ({}, {});\n\
+         RAMB4_S16 #({initial}) one (.EN(enA), .RST(rstA), .WE(weA), .ADDR(addrA), .DI(diA), .DO(single), .CLK(clock));\n\
+         endmodule\n{BLOCK_MEMORY}",
+        both[0], both[1], pins[0], pins[1]
+    );
+    let ports = Ports::parse(&text, "memory", &["clock"]).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let mut dual = Memory { words: words.clone(), shown: [0; 2] };
+    let mut single = Memory { words, shown: [0; 2] };
+    let (mut rows, mut expected, mut collisions) = (Vec::new(), Vec::new(), 0);
+    for _ in 0..100_000 {
+        let mut port = || -> Access {
+            let often = u32::from(random.random_range(0..4) != 0);
+            [
+                often,
+                u32::from(random.random_range(0..8) == 0),
+                random.random_range(0..2),
+                random.random_range(0..256),
+                random.random_range(0..0x1_0000),
+            ]
+        };
+        let (a, mut b) = (port(), port());
+        if random.random_range(0..4) == 0 {
+            b[3] = a[3];
+        }
+        // Two writes to one word at a time leave it undefined; no netlist of ours has two writing ports.
+        b[2] &= u32::from(a[2] == 0 || a[3] != b[3]);
+        collisions += usize::from(a[0] & b[0] == 1 && a[3] == b[3] && a[2] != b[2]);
+        rows.extend(a.into_iter().chain(b));
+        dual.clock([a, b]);
+        single.clock([a, [0; 5]]);
+        expected.extend([dual.shown[0], dual.shown[1], single.shown[0]].map(u32::from));
+    }
+    assert!(collisions > 1_000, "{collisions}");
+    let built = Verilated::build("block-memory", &text, "memory", &ports).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(built.run(&rows).unwrap(), expected);
+}
