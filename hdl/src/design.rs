@@ -2,7 +2,7 @@
 
 use crate::blocks::core::Core;
 use crate::board::{Board, BoardError};
-use crate::emit::{hash, registers, top, ucf};
+use crate::emit::{hash, ise, registers, top, ucf};
 use rust_hdl::prelude::Block;
 
 /// Name of the top module and of the files.
@@ -68,6 +68,10 @@ pub fn files() -> Result<Vec<File>, DesignError> {
     Ok(vec![
         file("rac4i65.v", verilog),
         file("rac4i65.ucf", ucf::ucf(&board, NAME)?),
+        file("rac4i65.prj", ise::project(NAME)),
+        file("rac4i65.xst", ise::synthesis(NAME)),
+        file("rac4i65.ut", ise::bitstream(hash)),
+        file("Makefile", ise::makefile(NAME)),
         file("registers.md", registers::markdown()),
         file("registers.h", registers::c_header()),
         file("registers.json", registers::json(hash)),

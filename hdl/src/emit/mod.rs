@@ -3,10 +3,12 @@
 //! ```text
 //! block --> verilog  readable modules  --> top  joined to the board's pins --> hash  signed
 //! board --> ucf      pins and timing
+//!           ise      the project that makes a bitstream of them
 //! ```
 
 mod always;
 pub mod hash;
+pub mod ise;
 mod module;
 mod pins;
 pub mod ports;
