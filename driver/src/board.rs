@@ -281,9 +281,10 @@ impl<R: Registers> Board<R> {
         commit: &map::Register,
         words: &[u32],
     ) -> Result<(), BoardError> {
-        let before = self.bus.read(map::COMMITS.offset)?;
-        let mut after = before;
+        let mut after = 0;
         for _ in 0..TRIES {
+            // Read anew at every try: it may be the read that went wrong.
+            let before = self.bus.read(map::COMMITS.offset)?;
             self.stage(base, commit, words)?;
             after = self.bus.read(map::COMMITS.offset)?;
             if map::COMMITS_ACCEPTED.of(after) == map::COMMITS_ACCEPTED.of(before.wrapping_add(1)) {

@@ -5,6 +5,7 @@ pub mod calibration;
 pub mod closed_loop;
 pub mod cosim;
 pub mod cross_check;
+pub mod faults;
 pub mod formal;
 pub mod fpga;
 pub mod netlist;

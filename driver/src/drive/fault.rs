@@ -26,6 +26,20 @@ pub enum Fault {
         /// Share of the measured clock.
         ratio: f64,
     },
+    /// A word of a snapshot that cannot be.
+    Misread {
+        /// From 1.
+        wheel: usize,
+        /// What of it.
+        what: &'static str,
+    },
+    /// The robot no longer comes nearer to where it should go.
+    GaveUp {
+        /// Set point, from 1.
+        point: usize,
+        /// Distance by the controller's pose, m.
+        distance_m: f64,
+    },
     /// A count that no wheel can make.
     CountJump {
         /// From 1.
@@ -88,6 +102,14 @@ impl fmt::Display for Fault {
                 f,
                 "the card's clock runs at {ratio:.3} of what was measured, so that every speed is wrong by as much; \
                  look at the bus clock, then start again"
+            ),
+            Self::Misread { wheel, what } => {
+                write!(f, "wheel {wheel}: the {what} in the snapshot is beyond what can be; the bus changes reads")
+            }
+            Self::GaveUp { point, distance_m } => write!(
+                f,
+                "set point {point}: the robot no longer comes nearer and is {distance_m:.2} m away; look for an \
+                 obstacle, a wrong start pose, or a motor or encoder on the wrong axis"
             ),
             Self::CountJump { wheel, counts, limit } => write!(
                 f,

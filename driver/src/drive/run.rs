@@ -133,7 +133,7 @@ impl Plan {
 /// Why a drive ended.
 #[derive(Debug)]
 pub enum Ending {
-    /// At rest after the last set point, or given up: see the arrivals.
+    /// At rest after the last set point.
     Finished,
     /// The longest time was over.
     TimeLimit,
@@ -245,7 +245,7 @@ impl<'a> State<'a> {
     }
 
     /// A snapshot that can be true. A word that was misread is read again; what stays is a fault.
-    fn look<R: Registers>(&mut self, armed: &mut Armed<R>) -> Result<(Snapshot, u32), Fault> {
+    fn look<R: Registers>(&mut self, armed: &mut Armed<R>, scale: &Scale) -> Result<(Snapshot, u32), Fault> {
         let mut doubt = None;
         for _ in 0..2 {
             let now = armed.snapshot()?;
@@ -256,7 +256,7 @@ impl<'a> State<'a> {
                 // Backwards: the design was loaded anew, or the word was misread.
                 Err(Some(Fault::NoTick { silence: Duration::ZERO }))
             } else {
-                self.watch.plausible(&self.before, &now, ticks).map_err(Some)
+                self.watch.plausible(&self.before, &now, scale, ticks).map_err(Some)
             };
             match fine {
                 Ok(()) => return Ok((now, ticks)),
@@ -279,7 +279,7 @@ impl<'a> State<'a> {
         source: &mut impl PoseSource,
         recording: Option<&mut Recording>,
     ) -> Result<Step, Fault> {
-        let (now, ticks) = self.look(armed)?;
+        let (now, ticks) = self.look(armed, scale)?;
         let host = clock.now();
         if ticks == 0 {
             return self.wait_for_tick(armed, scale, host);
@@ -309,12 +309,21 @@ impl<'a> State<'a> {
 
         self.settling_s = if wanted.is_none() { self.settling_s + elapsed } else { 0.0 };
         Ok(match () {
-            () if self.settling_s > SETTLING_S => Step::Ends(Ending::Finished),
+            () if self.settling_s > SETTLING_S => Step::Ends(self.arrived()),
             () if t >= self.plan.limit_s => Step::Ends(Ending::TimeLimit),
             // Two ticks although the timer missed none: the beat of two clocks.
             () if ticks == 2 => Step::Beat,
             () => Step::Goes,
         })
+    }
+
+    /// At rest: there, or given up.
+    fn arrived(&self) -> Ending {
+        let stuck = self.controller.arrivals().iter().enumerate().find_map(|(index, arrival)| match arrival {
+            Arrival::Stuck { distance_m, .. } => Some(Fault::GaveUp { point: index + 1, distance_m: *distance_m }),
+            _ => None,
+        });
+        stuck.map_or(Ending::Finished, Ending::Fault)
     }
 
     /// No new tick: the host was early, or the card stands.

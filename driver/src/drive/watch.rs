@@ -19,14 +19,18 @@ const FULL_DUTY: f64 = 0.9;
 const STILL_S: f64 = 0.2;
 /// Counts that a single cut line still makes: it toggles by one.
 const STILL_COUNTS: i64 = 2;
-/// Full drive against the motion for so long is no braking, s.
-const BACKWARDS_S: f64 = 0.15;
-/// Share of the no-load speed below which braking at full drive is ordinary.
-const BACKWARDS_SHARE: f64 = 0.3;
+/// Full drive against the motion for so long is no braking, s: it would have brought the robot to rest.
+const BACKWARDS_S: f64 = 0.3;
+/// Share of the no-load speed below which a wheel counts as at rest.
+const REST_SHARE: f64 = 0.02;
 /// A speed this far from its set point, as a share of the no-load speed ...
-const FOLLOW_SHARE: f64 = 0.3;
-/// ... for so long does not follow, s.
+const FOLLOW_SHARE: f64 = 0.1;
+/// ... for so long does not follow, s; nor does one at full drive that is off by more than rest for ...
 const FOLLOW_S: f64 = 0.5;
+/// ... so long, s.
+const SATURATED_S: f64 = 1.0;
+/// Speeds that are believed, as a multiple of the no-load speed: a disturbed count is a large one for a tick.
+const BELIEVED: f64 = 8.0;
 /// Time over which clocks are compared, and the least ticks in it.
 const CLOCK_WINDOW: Duration = Duration::from_millis(250);
 const CLOCK_TICKS: u32 = 50;
@@ -47,6 +51,7 @@ pub(super) struct Watch {
     still_at: [i64; AXES],
     backwards: [f64; AXES],
     lost: [f64; AXES],
+    saturated: [f64; AXES],
     clock: Option<(Duration, u32)>,
     refused: u32,
 }
@@ -63,19 +68,28 @@ impl Watch {
             still_at: [0; AXES],
             backwards: [0.0; AXES],
             lost: [0.0; AXES],
+            saturated: [0.0; AXES],
             clock: None,
             refused: 0,
         }
     }
 
     /// Whether a snapshot can follow another, `ticks` later; if not, one of the two was misread.
-    pub(super) fn plausible(&self, before: &Snapshot, now: &Snapshot, ticks: u32) -> Result<(), Fault> {
+    pub(super) fn plausible(&self, before: &Snapshot, now: &Snapshot, scale: &Scale, ticks: u32) -> Result<(), Fault> {
         let limit = self.counts_per_s * self.tick_s * f64::from(ticks) + COUNT_MARGIN;
         for wheel in 0..self.wheels {
             let counts = i64::from(now.counts[wheel].wrapping_sub(before.counts[wheel]));
             if counts.abs() as f64 > limit {
                 return Err(Fault::CountJump { wheel: wheel + 1, counts, limit });
             }
+            let believed = |speed: f64| speed.abs() <= BELIEVED * self.no_load;
+            let what = match () {
+                () if f64::from(now.duties[wheel]).abs() > 1.0 => "duty",
+                () if !believed(scale.speed(now.speeds[wheel])) => "speed",
+                () if !believed(scale.speed(now.references[wheel])) => "set point",
+                () => continue,
+            };
+            return Err(Fault::Misread { wheel: wheel + 1, what });
         }
         Ok(())
     }
@@ -107,12 +121,14 @@ impl Watch {
             if lasts(&mut self.still[wheel], full && !moved, elapsed, STILL_S) {
                 return Err(Fault::StandsStill { wheel: wheel + 1 });
             }
-            let against = full && speed * duty < 0.0 && speed.abs() > BACKWARDS_SHARE * self.no_load;
+            let against = full && speed * duty < 0.0 && speed.abs() > REST_SHARE * self.no_load;
             if lasts(&mut self.backwards[wheel], against, elapsed, BACKWARDS_S) {
                 return Err(Fault::Backwards { wheel: wheel + 1 });
             }
-            let off = (speed - reference).abs() > FOLLOW_SHARE * self.no_load;
-            if lasts(&mut self.lost[wheel], off, elapsed, FOLLOW_S) {
+            let off = (speed - reference).abs() / self.no_load;
+            let lost = lasts(&mut self.lost[wheel], off > FOLLOW_SHARE, elapsed, FOLLOW_S);
+            let weak = full && off > REST_SHARE;
+            if lost | lasts(&mut self.saturated[wheel], weak, elapsed, SATURATED_S) {
                 return Err(Fault::DoesNotFollow { wheel: wheel + 1, speed, reference });
             }
         }
@@ -213,15 +229,19 @@ mod tests {
         let bench = Bench::new();
         let mut jumped = bench.seen;
         jumped.counts[2] = 1 << 12;
-        assert!(matches!(bench.watch.plausible(&bench.seen, &jumped, 1), Err(Fault::CountJump { wheel: 3, .. })));
+        assert!(matches!(
+            bench.watch.plausible(&bench.seen, &jumped, &bench.scale, 1),
+            Err(Fault::CountJump { wheel: 3, .. })
+        ));
         jumped.counts[2] = 200;
-        assert!(bench.watch.plausible(&bench.seen, &jumped, 1).is_ok());
+        assert!(bench.watch.plausible(&bench.seen, &jumped, &bench.scale, 1).is_ok());
         assert!(
             bench
                 .watch
                 .plausible(
                     &Snapshot { counts: [i32::MAX; AXES], ..jumped },
                     &Snapshot { counts: [i32::MIN; AXES], ..jumped },
+                    &bench.scale,
                     1
                 )
                 .is_ok(),

@@ -1,7 +1,6 @@
 //! Reading a log.
 
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 
 use csv::ByteRecord;
@@ -20,19 +19,21 @@ impl Run {
     /// infinity, time that does not increase, and lines with too few or too many fields.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, RunError> {
         let path = path.as_ref();
-        let file = File::open(path).map_err(|e| RunError::io(path, &e))?;
-        let mut run = if super::stream::is_mcap(path) {
-            let mut bytes = Vec::new();
-            BufReader::new(file).read_to_end(&mut bytes).map_err(|e| RunError::io(path, &e))?;
-            super::mcap::read(&bytes, path)?
-        } else {
-            Self::from_reader(file, path)?
-        };
+        let bytes = std::fs::read(path).map_err(|e| RunError::io(path, &e))?;
+        let mut run = Self::from_bytes(&bytes, path)?;
         run.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(run)
     }
 
-    /// Reads a log from anywhere; `path` is for the error messages.
+    /// Reads a log in memory, of the kind that the name of `path` says.
+    ///
+    /// # Errors
+    /// As [`Run::read`].
+    pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Self, RunError> {
+        if super::stream::is_mcap(path) { super::mcap::read(bytes, path) } else { Self::from_reader(bytes, path) }
+    }
+
+    /// Reads a CSV log from anywhere; `path` is for the error messages.
     ///
     /// # Errors
     /// As [`Run::read`].

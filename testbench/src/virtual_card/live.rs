@@ -78,6 +78,7 @@ impl Live for BitTrueLive {
             self.tick += u64::from(period);
             let duties = self.duties()?;
             machine.step(&duties, f64::from(period) / clock_hz);
+            self.fpga.pins.encoder_errors = machine.illegal_steps();
             if let Err(error) = self.fpga.advance(&machine.positions()) {
                 self.failed = Some(error.to_string());
                 return Err(error);

@@ -16,6 +16,7 @@ mod machine;
 mod select_map;
 mod shared;
 mod stand_in;
+mod wiring;
 
 pub use bridge::{Bridge, Eeprom};
 pub use live::{BitTrueLive, Live};
@@ -23,6 +24,7 @@ pub use machine::Machine;
 pub use select_map::{DeviceCrc, SelectMap};
 pub use shared::{CameraAbove, SharedCard};
 pub use stand_in::StandIn;
+pub use wiring::Wiring;
 
 use driver::pci::{Bar, PciCard, PciError};
 use fixed_kin::registers::NOMINAL_CLOCK_HZ;
