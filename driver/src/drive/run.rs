@@ -250,7 +250,8 @@ impl<'a> State<'a> {
         for _ in 0..2 {
             let now = armed.snapshot()?;
             let ticks = now.sequence.wrapping_sub(self.before.sequence);
-            let fine = if !now.status.armed {
+            // The snapshot of a tick before arming shows a card at rest.
+            let fine = if !now.status.armed && ticks > 0 {
                 Err(None)
             } else if ticks > u32::MAX / 2 {
                 // Backwards: the design was loaded anew, or the word was misread.
@@ -268,6 +269,8 @@ impl<'a> State<'a> {
         if let Some(fault) = why {
             return Err(fault);
         }
+        // A card that was pulled out may read as zeros.
+        armed.identify()?;
         Err(Fault::Disarmed { faults: now.faults, first: armed.first_fault()?, silence: self.driven.silence })
     }
 

@@ -65,7 +65,7 @@ pub enum LoadError {
     #[error(transparent)]
     Clock(#[from] ClockError),
     /// After several tries.
-    #[error("{error} (tried {tries} times; the FPGA is clear, its outputs off)")]
+    #[error("{error} (tries: {tries}; the FPGA is clear, its outputs off)")]
     Tried {
         /// The last failure.
         error: Box<LoadError>,
