@@ -60,11 +60,18 @@ install_python_tools() {
 export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never}
 stage "tools from Debian" install_tools
 stage "tools from PyPI" install_python_tools
-left_out=()
+left_out=(--)
 if [ -n "$(missing_python)" ]; then
     skipped+=("tests of ECP5, FuseSoC and cocotb: install the Python packages of $(missing_python)")
     failed=("${failed[@]/tools from PyPI/}")
-    left_out=(-- --skip ecp5 --skip fusesoc --skip cocotb)
+    left_out+=(--skip ecp5 --skip fusesoc --skip cocotb)
+fi
+# QEMU and a kernel are only unpacked below target/, not installed.
+stage "QEMU and Linux from Debian" testbench/qemu/fetch.sh
+if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
+    skipped+=("the driver in a virtual machine: testbench/qemu/fetch.sh failed")
+    failed=("${failed[@]/QEMU and Linux from Debian/}")
+    left_out+=(--skip virtual_machine)
 fi
 stage "build" cargo build --workspace --all-targets --release
 if [ -z "$(missing)" ]; then

@@ -116,17 +116,17 @@ fn prom_order_loads_as_well() {
 #[test]
 fn faults_of_the_card_are_named_and_end_safe() {
     let quiet = Faults::default();
-    refused(Faults { init_low: true, ..quiet }, &["INIT stayed low for 20 ms", "tried 3 times", "outputs off"]);
-    refused(Faults { done_low: true, ..quiet }, &["DONE stayed low", "tried 3 times"]);
+    refused(Faults { init_low: true, ..quiet }, &["INIT stayed low for 20 ms", "tries: 3", "outputs off"]);
+    refused(Faults { done_low: true, ..quiet }, &["DONE stayed low", "tries: 3"]);
     refused(Faults { done_high: true, ..quiet }, &["did not clear: DONE stays high"]);
     refused(Faults { write_high: true, ..quiet }, &["DONE stayed low", "no complete bitstream"]);
     refused(Faults { clock_still: true, ..quiet }, &["clock stands still"]);
     let lost = Faults { lost_byte: Some(100_000), hurt_loads: u32::MAX, ..quiet };
-    refused(lost, &["tried 3 times"]);
+    refused(lost, &["tries: 3"]);
     let flipped = Faults { flipped_byte: Some((166_000, 0x10)), hurt_loads: u32::MAX, ..quiet };
     assert!(matches!(refused(flipped, &["CRC error"]).cause(), LoadError::Crc));
     let doubled = Faults { doubled_byte: Some(5), hurt_loads: u32::MAX, ..quiet };
-    refused(doubled, &["tried 3 times"]);
+    refused(doubled, &["tries: 3"]);
 }
 
 #[test]

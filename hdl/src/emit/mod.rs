@@ -10,7 +10,6 @@ mod always;
 pub mod hash;
 pub mod ise;
 mod module;
-pub mod open_board;
 mod pins;
 pub mod ports;
 pub mod registers;

@@ -5,9 +5,11 @@ use super::stand_in::StandIn;
 use crate::fpga::{BitTrue, Fpga, FpgaError};
 use driver::Registers;
 use fixed_kin::AXES;
+use fixed_kin::kicker::State;
 use fixed_kin::modulation::modulate;
 use fixed_kin::registers::{
-    BOARD, CONTENT_HASH, MIN_TICK_PERIOD, PWM_PERIOD, STATUS, STATUS_FIELDS, TICK_PERIOD, TIME,
+    BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, PWM_PERIOD, STATUS, STATUS_FIELDS, TICK_PERIOD,
+    TIME,
 };
 
 /// An FPGA with a clock that runs, and a robot on its pins.
@@ -29,6 +31,9 @@ pub trait Live: Send {
     /// # Errors
     /// A simulation that fails.
     fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError>;
+
+    /// Pulses of the kicker's trigger since configuration.
+    fn kicks(&self) -> u32;
 }
 
 /// The bit-true FPGA, control tick by control tick; it keeps up with real time.
@@ -42,13 +47,24 @@ pub struct BitTrueLive {
     tick: u64,
     now: u64,
     failed: Option<String>,
+    kicks: u32,
+    kicking: bool,
 }
 
 impl BitTrueLive {
     /// Just configured with a design.
     #[must_use]
     pub fn new(design: StandIn) -> Self {
-        Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None }
+        Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None, kicks: 0, kicking: false }
+    }
+
+    /// A pulse may be shorter than a tick, but the lock-out after it is not.
+    fn count_kicks(&mut self) -> Result<(), FpgaError> {
+        let state = KICKER_STATE.of(self.fpga.read(KICKER_STATUS.offset)?);
+        let kicking = state >= State::Pulse as u32;
+        self.kicks += u32::from(kicking && !self.kicking);
+        self.kicking = kicking;
+        Ok(())
     }
 
     fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
@@ -83,6 +99,7 @@ impl Live for BitTrueLive {
                 self.failed = Some(error.to_string());
                 return Err(error);
             }
+            self.count_kicks()?;
         }
     }
 
@@ -97,5 +114,9 @@ impl Live for BitTrueLive {
 
     fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
         Ok(self.fpga.write(offset, data)?)
+    }
+
+    fn kicks(&self) -> u32 {
+        self.kicks
     }
 }

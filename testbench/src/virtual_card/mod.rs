@@ -92,6 +92,8 @@ pub struct VirtualCard {
     accesses: u64,
     bytes: u64,
     loads: u32,
+    /// Kicks of the designs before this one.
+    kicks: u32,
     /// Why the simulation behind the card failed.
     failure: Option<String>,
 }
@@ -124,6 +126,7 @@ impl VirtualCard {
             accesses: 0,
             bytes: 0,
             loads: 0,
+            kicks: 0,
             failure: None,
         })
     }
@@ -172,6 +175,12 @@ impl VirtualCard {
     #[must_use]
     pub fn configured(&self) -> bool {
         self.fpga.is_some()
+    }
+
+    /// Kicks that the kicker's trigger has seen.
+    #[must_use]
+    pub fn kicks(&self) -> u32 {
+        self.kicks + self.fpga.as_ref().map_or(0, |fpga| fpga.kicks())
     }
 
     /// Why the simulation behind the card failed, if it did; the card then reads all ones.
@@ -230,8 +239,10 @@ impl VirtualCard {
         let now = self.elapsed();
         let program = self.bridge.program();
         self.device.program(program, now);
-        if self.fpga.is_some() && !self.device.done(now) {
-            self.fpga = None;
+        if !self.device.done(now)
+            && let Some(fpga) = self.fpga.take()
+        {
+            self.kicks += fpga.kicks();
         }
         if !program {
             self.bytes = 0;

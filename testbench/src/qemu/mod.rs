@@ -1,0 +1,16 @@
+//! The virtual card on the PCI bus of a virtual machine with a real Linux kernel.
+//!
+//! QEMU's `x-pci-proxy-dev` forwards every access to configuration space and windows over a socket; the
+//! card stays in this process, where tests watch the robot behind it.
+
+mod config_space;
+mod guest;
+mod initramfs;
+mod remote;
+mod tools;
+
+pub use config_space::ConfigSpace;
+pub use guest::{Options, Outcome, Running, run};
+pub use initramfs::Initramfs;
+pub use remote::{LockedCard, serve};
+pub use tools::{MissingTool, Tools};

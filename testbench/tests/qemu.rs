@@ -1,0 +1,216 @@
+//! End to end: the robot's own binary in a real Linux kernel under QEMU, on whose PCI bus the virtual card
+//! sits. `testbench/qemu/guest.sh` is what happens inside; here is what the host sees of it.
+//!
+//! The card has the bit-true FPGA and runs in the host's time, with its nominal 33.33 MHz.
+
+use driver::pci::Ids;
+use model::robot::Robot;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+use testbench::qemu::{Initramfs, LockedCard, Options, Outcome, Tools, run};
+use testbench::virtual_card::{Faults, StandIn, VirtualCard};
+
+/// One machine at a time: two would starve each other of processors.
+static MACHINE: Mutex<()> = Mutex::new(());
+const TARGET: &str = "x86_64-unknown-linux-gnu";
+/// Every access is a message to another process, and the host may be busy: the watchdog gives five periods.
+const CONTROL_RATE_HZ: f64 = 40.0;
+const TWO_POINTS: &str = "x,y,v,omega\n0.4,0,0.5,0\n0.4,0.3,0.5,0\n";
+const FAR: &str = "x,y,v,omega\n0,100,0.6,0\n";
+
+fn target_folder() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap().to_owned()
+}
+
+/// The robot's binary: no gateware, no simulation, one static file.
+fn binary() -> Vec<u8> {
+    let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
+    let built = Command::new(cargo)
+        .args(["build", "--quiet", "--profile", "robot", "--target", TARGET, "-p", "racbot", "--no-default-features"])
+        .arg("--target-dir")
+        .arg(target_folder())
+        .env("RUSTFLAGS", "-C target-feature=+crt-static")
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+        .status()
+        .unwrap();
+    assert!(built.success(), "the robot's binary does not build");
+    fs::read(target_folder().join(TARGET).join("robot/racbot")).unwrap()
+}
+
+fn robot() -> Robot {
+    let mut robot = Robot { control_rate_hz: CONTROL_RATE_HZ, ..Robot::racbot() };
+    // A slow tick has little room for integral gain in its format.
+    robot.pi.ki = 0.4;
+    robot
+}
+
+fn initramfs(tools: &Tools) -> Vec<u8> {
+    let good = StandIn::committed();
+    let mut corrupt = good.bit();
+    corrupt[90_000] ^= 0x10;
+    let mut root = Initramfs::default();
+    for folder in ["bin", "dev", "proc", "sys", "tmp"] {
+        root = root.directory(folder);
+    }
+    root.file("init", include_bytes!("../qemu/guest.sh"))
+        .file("bin/busybox", &fs::read(&tools.busybox).unwrap())
+        .file("bin/racbot", &binary())
+        .file("rac4i65.bit", &good.bit())
+        .file("corrupt.bit", &corrupt)
+        .file("other.bit", &StandIn { content_hash: 0xDEAD_BEEF, ..good }.bit())
+        .file("robot.toml", robot().to_toml().as_bytes())
+        .file("two.csv", TWO_POINTS.as_bytes())
+        .file("far.csv", FAR.as_bytes())
+        .finish()
+}
+
+/// The card and its robot at a moment.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    configured: bool,
+    armed: bool,
+    speed: f64,
+    kicks: u32,
+}
+
+fn look(card: &LockedCard) -> Look {
+    let mut card = card.lock().unwrap();
+    assert_eq!(card.failure(), None);
+    let twist = card.machine().plant().twist();
+    let register = |card: &mut VirtualCard, register: &fixed_kin::registers::Register| card.peek(register.offset);
+    Look {
+        configured: card.configured(),
+        armed: register(&mut card, &fixed_kin::registers::STATUS).is_some_and(|status| status & 1 == 1),
+        speed: twist.vx.hypot(twist.vy),
+        kicks: card.kicks(),
+    }
+}
+
+/// Runs a machine; returns what came of it and how the card looked at every mark.
+fn session(ids: Ids, folder: &Path, first_boot: &str) -> (Outcome, BTreeMap<String, Look>) {
+    let _one = MACHINE.lock().unwrap_or_else(PoisonError::into_inner);
+    let tools = Tools::in_folder(&target_folder().join("qemu")).unwrap_or_else(|missing| panic!("{missing}"));
+    let card: LockedCard = Arc::new(Mutex::new(VirtualCard::new(&robot()).unwrap().in_host_time()));
+    let initramfs = initramfs(&tools);
+    let options = Options {
+        tools: &tools,
+        initramfs: &initramfs,
+        card: Some((card.clone(), ids)),
+        disk_bytes: 16 << 20,
+        folder,
+        limit: Duration::from_secs(300),
+    };
+    let mut looks = BTreeMap::new();
+    let mut boots = 0;
+    let outcome = run(&options, |line, machine| {
+        let mut words = line.split(' ');
+        match (words.next(), words.next()) {
+            (Some("boot"), None) => {
+                boots += 1;
+                return if boots == 1 { first_boot.to_owned() } else { boots.to_string() };
+            }
+            (Some("unplug"), None) => machine.unplug().unwrap(),
+            (Some("mark"), Some(name)) => {
+                looks.insert(name.to_owned(), look(&card));
+            }
+            (Some("fault"), Some(name)) => {
+                let quiet = Faults::default();
+                card.lock().unwrap().faults = match name {
+                    "none" => quiet,
+                    "absent" => Faults { absent: true, ..quiet },
+                    "done-low" => Faults { done_low: true, ..quiet },
+                    "init-low" => Faults { init_low: true, ..quiet },
+                    "lost-byte" => Faults { lost_byte: Some(70_000), hurt_loads: u32::MAX, ..quiet },
+                    _ => panic!("the guest asks for the fault {name}"),
+                };
+            }
+            _ => panic!("the guest says {line}"),
+        }
+        "done".to_owned()
+    })
+    .unwrap();
+    println!("{}\n{}", outcome.console, outcome.qemu);
+    println!("{looks:#?}");
+    assert!(outcome.in_time, "the guest did not end in time");
+    (outcome, looks)
+}
+
+/// What the guest printed in a scene.
+fn scene<'a>(console: &'a str, name: &str) -> &'a str {
+    let Some((_, rest)) = console.split_once(&format!("== {name}\n")) else { panic!("no scene {name}") };
+    rest.split("\n== ").next().unwrap_or(rest)
+}
+
+#[track_caller]
+fn says(scene: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(scene.contains(part), "no {part:?} in:\n{scene}");
+    }
+}
+
+#[test]
+fn virtual_machine_from_power_up_to_reset() {
+    let folder = tempfile::tempdir().unwrap();
+    let (outcome, looks) = session(Ids::MESA_4I65, folder.path(), "1");
+    let scene = |name| scene(&outcome.console, name);
+    says(scene("find"), &["0000:00:05.0  Mesa 4I65", "not configured"]);
+    says(scene("load"), &["2 CRC words right", "try 1", "the committed gateware", "disarmed"]);
+    says(scene("kept"), &["kept, the right design runs already"]);
+    says(scene("drive"), &["exit 0"]);
+    says(scene("kick"), &["exit 0"]);
+    says(scene("kill"), &["exit 137"]);
+    says(scene("reload"), &["try 1", "exit 0"]);
+    says(scene("corrupt"), &["corrupt.bit: the CRC word at byte", "exit 1"]);
+    says(scene("other"), &["answers with hash deadbeef", "outputs off", "exit 1"]);
+    says(scene("done-low"), &["DONE stayed low", "outputs off", "exit 1"]);
+    says(scene("init-low"), &["INIT stayed low", "exit 1"]);
+    says(scene("lost-byte"), &["outputs off", "exit 1"]);
+    says(scene("gone"), &["gone", "exit 1"]);
+    says(scene("reset"), &["kept, the right design runs already"]);
+    says(scene("unplugged"), &["cookie reads", "exit 1", "no Mesa 4I65"]);
+
+    let at = |mark: &str| looks.get(mark).unwrap_or_else(|| panic!("the guest never came to {mark}"));
+    assert!(at("loaded").configured && !at("loaded").armed);
+    assert!(!at("driven").armed && at("driven").speed < 0.1, "{:?}", at("driven"));
+    assert_eq!((at("driven").kicks, at("kicked").kicks), (0, 1));
+    assert!(!at("kicked").armed);
+    for moving in ["moving", "before-gone", "before-reset", "before-unplugged"] {
+        assert!(at(moving).armed && at(moving).speed > 0.2, "{moving}: {:?}", at(moving));
+    }
+    for stopped in ["silent", "reloaded", "gone", "after-reset", "unplugged"] {
+        assert!(!at(stopped).armed, "{stopped}: {:?}", at(stopped));
+    }
+    // A bad file touches no card; a bad card ends clear.
+    assert!(at("reloaded").configured && at("corrupt").configured);
+    assert!(!at("other").configured && !at("done-low").configured);
+    assert!(at("after-reset").configured, "a PCI reset clears the FPGA");
+    recorded(&outcome.disk, folder.path());
+}
+
+/// The recorded run leaves the guest, and the analysis reads it.
+fn recorded(disk: &Path, folder: &Path) {
+    let set = folder.join("set");
+    fs::create_dir(&set).unwrap();
+    let untarred = Command::new("tar").arg("xf").arg(disk).arg("-C").arg(&set).status().unwrap();
+    assert!(untarred.success());
+    let set = model::run::DataSet::open(&set).unwrap();
+    let run = &set.runs[0];
+    assert!(run.duration_s() > 1.0 && run.len() > 40, "{} ticks in {} s", run.len(), run.duration_s());
+    let analysis = gap::analyse(&set, &gap::Options::default()).unwrap();
+    println!("{}", analysis.terminal_summary());
+    assert!(analysis.terminal_summary().contains("controller"));
+}
+
+#[test]
+fn virtual_machine_with_another_card_and_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let (outcome, _) = session(Ids { subsystem_device: 0x1234, ..Ids::MESA_4I65 }, folder.path(), "other");
+    let scene = |name| scene(&outcome.console, name);
+    says(scene("other-card"), &["no Mesa card among", "0000:00:05.0 has the same bridge", "10b5:1234", "exit 1"]);
+    says(scene("no-card"), &["no Mesa 4I65", "exit 1"]);
+    assert!(!scene("no-card").contains("same bridge"));
+}
