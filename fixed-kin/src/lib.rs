@@ -78,6 +78,7 @@ pub mod pi;
 pub mod pwm;
 pub mod registers;
 pub mod safety;
+pub mod serial_host;
 pub mod speed;
 pub mod word;
 

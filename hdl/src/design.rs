@@ -1,8 +1,9 @@
 //! The design as a whole: every file in `generated/`, made afresh, and the committed Verilog.
 
 use crate::blocks::core::Core;
+use crate::blocks::serial_host::SerialHost;
 use crate::board::{Board, BoardError};
-use crate::emit::{hash, ise, registers, top, ucf};
+use crate::emit::{hash, ise, open_board, registers, top, ucf, verilog};
 use rust_hdl::prelude::Block;
 
 /// Name of the top module and of the files.
@@ -10,6 +11,9 @@ pub const NAME: &str = "rac4i65";
 
 /// The committed `generated/rac4i65.v`; a test proves that it is current.
 pub const COMMITTED_VERILOG: &str = include_str!("../../generated/rac4i65.v");
+
+/// The committed `generated/rac_hx8k.v`: top and serial host for the open board.
+pub const COMMITTED_OPEN_BOARD: &str = include_str!("../../generated/rac_hx8k.v");
 
 /// A file of `generated/`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +33,9 @@ pub enum DesignError {
     /// The board table contradicts itself.
     #[error(transparent)]
     Board(#[from] BoardError),
+    /// The core does not fit the open board.
+    #[error(transparent)]
+    OpenBoard(#[from] open_board::OpenBoardError),
 }
 
 /// The hash that a card with the committed design answers with.
@@ -56,6 +63,18 @@ pub fn verilog(board: &Board) -> Result<String, DesignError> {
     Ok(hash::embed(&text).unwrap_or(text))
 }
 
+/// The open board's top and serial host; the core is in the chip's own file, `chip`.
+///
+/// # Errors
+/// [`DesignError::OpenBoard`] where the core does not fit the board.
+pub fn open_board(chip: &str) -> Result<String, DesignError> {
+    let mut host = SerialHost::default();
+    host.connect_all();
+    let host_name = format!("{}_host", open_board::NAME);
+    let top = open_board::top(chip, &format!("{NAME}_core"), &host_name)?;
+    Ok(verilog::file(open_board::NAME, &[&top, &verilog::modules(&host, &host_name)]))
+}
+
 /// Every file of `generated/`.
 ///
 /// # Errors
@@ -64,6 +83,8 @@ pub fn files() -> Result<Vec<File>, DesignError> {
     let board = Board::mesa_4i65_7i30();
     let verilog = verilog(&board)?;
     let hash = hash::content_hash(&verilog);
+    let open_board = open_board(&verilog)?;
+    let open_pins = open_board::constraints(&verilog, &format!("{NAME}_core"))?;
     let file = |name: &str, text: String| File { name: name.to_owned(), text };
     Ok(vec![
         file("rac4i65.v", verilog),
@@ -72,6 +93,8 @@ pub fn files() -> Result<Vec<File>, DesignError> {
         file("rac4i65.xst", ise::synthesis(NAME)),
         file("rac4i65.ut", ise::bitstream(hash)),
         file("Makefile", ise::makefile(NAME)),
+        file("rac_hx8k.v", open_board),
+        file("rac_hx8k.pcf", open_pins),
         file("registers.md", registers::markdown()),
         file("registers.h", registers::c_header()),
         file("registers.json", registers::json(hash)),

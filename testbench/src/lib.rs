@@ -9,6 +9,7 @@ pub mod faults;
 pub mod formal;
 pub mod fpga;
 pub mod netlist;
+pub mod open_board;
 pub mod place;
 pub mod qemu;
 pub mod replay;

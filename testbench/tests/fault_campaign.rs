@@ -5,7 +5,7 @@ use testbench::faults::campaign::{run, table};
 
 #[test]
 fn after_every_fault_the_robot_obeys_or_is_off() {
-    let size = std::env::var("RACBOT_CAMPAIGN").ok().and_then(|text| text.parse().ok()).unwrap_or(0.6);
+    let size = std::env::var("RACBOT_CAMPAIGN").ok().and_then(|text| text.parse().ok()).unwrap_or(0.5);
     let lines = run(2005, size).unwrap();
     println!("{}", table(&lines));
     let violations: Vec<&str> = lines.iter().flat_map(testbench::faults::campaign::Line::violations).collect();
@@ -18,5 +18,6 @@ fn after_every_fault_the_robot_obeys_or_is_off() {
     // A campaign whose faults do nothing would pass too.
     let all = |outcome| lines.iter().map(|line| line.count(outcome)).sum::<usize>();
     let cases: usize = lines.iter().map(|line| line.cases.len()).sum();
+    assert!(all(Outcome::Unnoticed) <= cases / 200);
     assert!(all(Outcome::Ended) > cases / 10 && all(Outcome::Watchdog) > cases / 40);
 }

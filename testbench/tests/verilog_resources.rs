@@ -14,6 +14,7 @@ use hdl::blocks::pwm::Pwm;
 use hdl::blocks::register_file::RegisterFile;
 use hdl::blocks::safety::Safety;
 use hdl::blocks::sequencer::Sequencer;
+use hdl::blocks::serial_host::SerialHost;
 use hdl::blocks::snapshot::Snapshot;
 use hdl::blocks::timebase::Timebase;
 use hdl::emit::verilog::emit;
@@ -98,6 +99,7 @@ fn bus_and_registers() {
     check("decoder", Decoder::default(), 60, 0);
     check("commit", Commit::default(), 200, 100);
     check("snapshot", Snapshot::default(), 10, 5);
+    check("serial_host", SerialHost::default(), 300, 170);
     check("timebase", Timebase::default(), 110, 70);
     check("register_file", RegisterFile::default(), 450, 260);
 }

@@ -49,7 +49,7 @@ pub enum Fault {
         /// What the motor can do in the time.
         limit: f64,
     },
-    /// Full drive, and the encoder stands still.
+    /// Driven hard, and the encoder stands still.
     StandsStill {
         /// From 1.
         wheel: usize,
@@ -118,7 +118,7 @@ impl fmt::Display for Fault {
             ),
             Self::StandsStill { wheel } => write!(
                 f,
-                "wheel {wheel}: full drive, but the encoder stands still; look for a cut encoder line, a cut motor \
+                "wheel {wheel}: driven hard, but the encoder stands still; look for a cut encoder line, a cut motor \
                  line or a blocked wheel"
             ),
             Self::Backwards { wheel } => write!(

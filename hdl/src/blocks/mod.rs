@@ -13,5 +13,6 @@ pub mod pwm;
 pub mod register_file;
 pub mod safety;
 pub mod sequencer;
+pub mod serial_host;
 pub mod snapshot;
 pub mod timebase;

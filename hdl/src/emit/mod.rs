@@ -10,6 +10,7 @@ mod always;
 pub mod hash;
 pub mod ise;
 mod module;
+pub mod open_board;
 mod pins;
 pub mod ports;
 pub mod registers;

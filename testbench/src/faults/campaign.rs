@@ -148,31 +148,33 @@ pub fn run(seed: u64, size: f64) -> Result<Vec<Line>, String> {
 #[must_use]
 pub fn table(lines: &[Line]) -> String {
     let mut text = String::from(
-        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | off after, at most | violations |\n\
-         |---|---|---|---|---|---|---|\n",
+        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | over before noticed | off after, at most | violations |\n\
+         |---|---|---|---|---|---|---|---|\n",
     );
     for line in lines {
         let slowest = line.slowest().map_or_else(String::new, |time| format!("{} ms", time.as_millis()));
         let count = |outcome| line.count(outcome);
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {slowest} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {slowest} | {} |",
             line.fault,
             line.cases.len(),
             count(Outcome::Drove),
             count(Outcome::Ended),
             count(Outcome::Watchdog),
+            count(Outcome::Unnoticed),
             line.violations().count()
         );
     }
     let total = |f: fn(&Line) -> usize| lines.iter().map(f).sum::<usize>();
     let _ = writeln!(
         text,
-        "| all | {} | {} | {} | {} | | {} |",
+        "| all | {} | {} | {} | {} | {} | | {} |",
         total(|l| l.cases.len()),
         total(|l| l.count(Outcome::Drove)),
         total(|l| l.count(Outcome::Ended)),
         total(|l| l.count(Outcome::Watchdog)),
+        total(|l| l.count(Outcome::Unnoticed)),
         total(|l| l.violations().count())
     );
     text

@@ -36,6 +36,9 @@ pub enum Outcome {
     Ended,
     /// The host could not switch off any more; the card's watchdog did.
     Watchdog,
+    /// A broken cable led the robot astray by a little, and the drive was over, outputs off, in less than the
+    /// stated time, before anybody could be sure.
+    Unnoticed,
 }
 
 /// A judged case.
@@ -146,9 +149,6 @@ impl Course {
             return Err(format!("{} ticks seen, {} recorded", driven.ticks, recorded.ticks));
         }
         memory.cut(share).map_err(|why| format!("the recording: {why}"))?;
-        if finished {
-            self.on_track(&run.rig)?;
-        }
         if let Some(message) = &message {
             names_the_cause(fault, message)?;
         }
@@ -156,7 +156,15 @@ impl Course {
             Injected::Rig(at, _) => Some(at),
             Injected::Bus(_) => None,
         };
-        let off_after = onset.zip(run.rig.last_armed()).filter(|_| !finished).map(|(on, off)| off.saturating_sub(on));
+        let off_after = onset.zip(run.rig.last_armed()).map(|(on, off)| off.saturating_sub(on));
+        if finished && let Err(astray) = self.on_track(&run.rig) {
+            let cable = matches!(fault, Injected::Rig(_, RigFault::Cable(..)));
+            if !cable || off_after.is_none_or(|after| after > SLOW) {
+                return Err(astray);
+            }
+            return Ok(Verdict { outcome: Ok(Outcome::Unnoticed), off_after: None, message: None });
+        }
+        let off_after = off_after.filter(|_| !finished);
         if let Some(after) = off_after.filter(|after| *after > SLOW) {
             return Err(format!("off only {after:?} after the fault: {message:?}"));
         }
