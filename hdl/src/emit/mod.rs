@@ -18,3 +18,4 @@ pub mod token;
 pub mod top;
 pub mod ucf;
 pub mod verilog;
+pub mod wavejson;
