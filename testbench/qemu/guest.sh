@@ -100,6 +100,25 @@ case $reply in
     run info
     poweroff -f
     ;;
+verilog)
+    scene load
+    run load /rac4i65.bit
+    scene drive
+    mkdir /tmp/run
+    run drive --robot /robot.toml --setpoints /two.csv --record /tmp/run/run.csv
+    tar c -C /tmp/run . >/dev/nvme0n1
+    sync
+    scene kick
+    run kick --robot /robot.toml --charge-s 0.2
+    scene kill
+    far
+    host mark moving
+    kill -9 $pid
+    ended
+    sleep 0.3
+    host mark silent
+    poweroff -f
+    ;;
 other)
     scene other-card
     run info --list

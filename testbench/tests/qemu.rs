@@ -1,7 +1,8 @@
 //! End to end: the robot's own binary in a real Linux kernel under QEMU, on whose PCI bus the virtual card
 //! sits. `testbench/qemu/guest.sh` is what happens inside; here is what the host sees of it.
 //!
-//! The card has the bit-true FPGA and runs in the host's time, with its nominal 33.33 MHz.
+//! The card runs in the host's time: with the bit-true FPGA at its nominal 33.33 MHz; with the compiled Verilog
+//! as a card whose clock is slow, 1 MHz, which the driver measures as it would any other.
 
 use driver::pci::Ids;
 use model::robot::Robot;
@@ -91,10 +92,10 @@ fn look(card: &LockedCard) -> Look {
 }
 
 /// Runs a machine; returns what came of it and how the card looked at every mark.
-fn session(ids: Ids, folder: &Path, first_boot: &str) -> (Outcome, BTreeMap<String, Look>) {
+fn session(card: VirtualCard, ids: Ids, folder: &Path, first_boot: &str) -> (Outcome, BTreeMap<String, Look>) {
     let _one = MACHINE.lock().unwrap_or_else(PoisonError::into_inner);
     let tools = Tools::in_folder(&target_folder().join("qemu")).unwrap_or_else(|missing| panic!("{missing}"));
-    let card: LockedCard = Arc::new(Mutex::new(VirtualCard::new(&robot()).unwrap().in_host_time()));
+    let card: LockedCard = Arc::new(Mutex::new(card.in_host_time()));
     let initramfs = initramfs(&tools);
     let options = Options {
         tools: &tools,
@@ -155,7 +156,7 @@ fn says(scene: &str, parts: &[&str]) {
 #[test]
 fn virtual_machine_from_power_up_to_reset() {
     let folder = tempfile::tempdir().unwrap();
-    let (outcome, looks) = session(Ids::MESA_4I65, folder.path(), "1");
+    let (outcome, looks) = session(VirtualCard::new(&robot()).unwrap(), Ids::MESA_4I65, folder.path(), "1");
     let scene = |name| scene(&outcome.console, name);
     says(scene("find"), &["0000:00:05.0  Mesa 4I65", "not configured"]);
     says(scene("load"), &["2 CRC words right", "try 1", "the committed gateware", "disarmed"]);
@@ -208,9 +209,25 @@ fn recorded(disk: &Path, folder: &Path) {
 #[test]
 fn virtual_machine_with_another_card_and_none() {
     let folder = tempfile::tempdir().unwrap();
-    let (outcome, _) = session(Ids { subsystem_device: 0x1234, ..Ids::MESA_4I65 }, folder.path(), "other");
+    let ids = Ids { subsystem_device: 0x1234, ..Ids::MESA_4I65 };
+    let (outcome, _) = session(VirtualCard::new(&robot()).unwrap(), ids, folder.path(), "other");
     let scene = |name| scene(&outcome.console, name);
     says(scene("other-card"), &["no Mesa card among", "0000:00:05.0 has the same bridge", "10b5:1234", "exit 1"]);
     says(scene("no-card"), &["no Mesa 4I65", "exit 1"]);
     assert!(!scene("no-card").contains("same bridge"));
+}
+
+#[test]
+fn virtual_machine_with_compiled_verilog() {
+    let folder = tempfile::tempdir().unwrap();
+    let card = VirtualCard::new(&robot()).unwrap().with_clock(1e6).with_verilog().unwrap();
+    let (outcome, looks) = session(card, Ids::MESA_4I65, folder.path(), "verilog");
+    let scene = |name| scene(&outcome.console, name);
+    says(scene("load"), &["the committed gateware", "exit 0"]);
+    says(scene("drive"), &["at rest", "exit 0"]);
+    says(scene("kick"), &["kicked", "exit 0"]);
+    says(scene("kill"), &["exit 137"]);
+    assert!(looks["moving"].armed && looks["moving"].speed > 0.2, "{:?}", looks["moving"]);
+    assert!(!looks["silent"].armed && looks["silent"].kicks == 1, "{:?}", looks["silent"]);
+    recorded(&outcome.disk, folder.path());
 }

@@ -45,7 +45,9 @@ fn a_good_card_loads_and_a_right_design_is_kept() {
     assert_eq!(loaded.identity.content_hash, hdl::design::content_hash());
     assert!((loaded.clock_hz / 33_333_333.0 - 1.0).abs() < 1e-4, "{}", loaded.clock_hz);
     // One 8-bit store a byte, and nothing between them: the time is that of the stores.
-    assert_eq!(loaded.transfer, 166_980 * Duration::from_nanos(300));
+    // The last dummy bytes already reach the design, which takes a bus cycle each.
+    let stores = 166_980 * Duration::from_nanos(300);
+    assert!(loaded.transfer >= stores && loaded.transfer < stores + Duration::from_micros(10));
     let accesses = card.accesses();
     assert!(try_load(&mut card).unwrap().kept);
     assert!(card.accesses() - accesses < 100);

@@ -11,6 +11,7 @@
 //! simulated (every access takes some) or the host's.
 
 mod bridge;
+mod compiled;
 mod live;
 mod machine;
 mod select_map;
@@ -19,6 +20,7 @@ mod stand_in;
 mod wiring;
 
 pub use bridge::{Bridge, Eeprom};
+pub use compiled::CompiledLive;
 pub use live::{BitTrueLive, Live};
 pub use machine::Machine;
 pub use select_map::{DeviceCrc, SelectMap};
@@ -26,6 +28,7 @@ pub use shared::{CameraAbove, SharedCard};
 pub use stand_in::StandIn;
 pub use wiring::Wiring;
 
+use crate::fpga::FpgaError;
 use driver::pci::{Bar, PciCard, PciError};
 use fixed_kin::registers::NOMINAL_CLOCK_HZ;
 use model::geometry::GeometryError;
@@ -36,6 +39,8 @@ use std::time::{Duration, Instant};
 /// What an access takes in simulated time: a read waits for its answer, a write is posted.
 const READ_TIME: Duration = Duration::from_nanos(900);
 const WRITE_TIME: Duration = Duration::from_nanos(300);
+/// Clocks of the local bus that a register access takes besides.
+const BUS_CLOCKS: f64 = 10.0;
 /// Longest step of a robot whose FPGA is not configured.
 const IDLE_STEP_S: f64 = 1e-3;
 
@@ -152,6 +157,20 @@ impl VirtualCard {
         self
     }
 
+    /// The compiled Verilog as FPGA; it takes only the design that it is.
+    ///
+    /// # Errors
+    /// A missing Verilator, by the name of its package, or a compilation that fails.
+    pub fn with_verilog(self) -> Result<Self, FpgaError> {
+        // The first to be configured; it also proves that there will be more.
+        let mut first = Some(CompiledLive::new()?);
+        Ok(self.with_fabric(Box::new(move |design| {
+            design.filter(|design| *design == StandIn::committed())?;
+            let chip = first.take().map_or_else(CompiledLive::new, Ok).ok()?;
+            Some(Box::new(chip) as Box<dyn Live>)
+        })))
+    }
+
     /// In the host's time from now on.
     #[must_use]
     pub fn in_host_time(mut self) -> Self {
@@ -206,6 +225,11 @@ impl VirtualCard {
             Time::Simulated(now) => now,
             Time::Host(begun) => begun.elapsed(),
         }
+    }
+
+    /// An access reaches the FPGA's registers.
+    fn spend_bus_cycle(&mut self) {
+        self.spend(Duration::from_secs_f64(BUS_CLOCKS / self.clock_hz));
     }
 
     fn spend(&mut self, time: Duration) {
@@ -282,6 +306,7 @@ impl VirtualCard {
             }
             Bar::Memory32 | Bar::Ports32 => {
                 self.start_design();
+                self.spend_bus_cycle();
                 let Some(fpga) = &mut self.fpga else { return ones };
                 let word = if self.bridge.waits(bar.index() - 2) {
                     match fpga.read((offset & 0xFFFC) as u16) {
@@ -317,6 +342,7 @@ impl VirtualCard {
             _ if self.fpga.is_none() && !self.device.done(self.elapsed()) => self.configure(offset, data),
             Bar::Memory32 | Bar::Ports32 => {
                 self.start_design();
+                self.spend_bus_cycle();
                 if let Some(fpga) = &mut self.fpga
                     && let Err(error) = fpga.write((offset & 0xFFFC) as u16, data)
                 {
