@@ -47,6 +47,7 @@ missing_python() {
     for tool in "${python_tools[@]}"; do
         command -v "$tool" >/dev/null || printf '%s ' "$tool"
     done
+    python3 -c 'import mcap_protobuf' 2>/dev/null || printf 'mcap-protobuf-support '
 }
 
 install_python_tools() {
