@@ -1,5 +1,7 @@
 //! The whole workflow on one data set.
 
+mod gaps;
+
 use std::sync::Arc;
 
 use model::robot::{Effect as RobotEffect, EffectParameter, Robot};
@@ -15,6 +17,8 @@ use crate::segment::{Segment, segments};
 use crate::select::{self, Bench, Selection};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
+
+pub use gaps::{LinkGap, overall};
 
 /// What the analysis comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,25 +101,6 @@ pub struct Leftover {
     pub link: Link,
     /// In words.
     pub structure: String,
-}
-
-/// Gap figures of one link.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinkGap {
-    /// Link.
-    pub link: Link,
-    /// Held-out RMS in units of the noise floor, nominal.
-    pub before: f64,
-    /// With the named effects.
-    pub after: f64,
-    /// Physical floor per signal.
-    pub floor: Vec<f64>,
-    /// Physical RMS per signal, nominal and after.
-    pub rms: Vec<[f64; 2]>,
-    /// Unit of each signal.
-    pub units: Vec<&'static str>,
-    /// Number of signals.
-    pub signals: usize,
 }
 
 /// Everything found out about a data set.
@@ -220,6 +205,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         found.push(active.clone());
         start.active.push(active);
     }
+    unexplained.extend(frozen(&pieces));
     let mut motion_plots = None;
     if motion_link.is_empty() || robot.support == model::robot::Support::Blocks {
         remarks.push(missing(set));
@@ -231,7 +217,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             motion_link.residuals(&nominal.motion(None)),
             motion_link.residuals(&outcome.selection.state.motion(None)),
         ];
-        links.push(motion_gap(&outcome, noise, &plots));
+        links.push(gaps::motion_gap([outcome.before, outcome.after], noise, &plots));
         motion_plots = Some(plots);
         collect(
             &outcome,
@@ -260,7 +246,22 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             located.extend(crate::locate::drive(&link, &before, &floor));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
             let plots = [before, after];
-            links.push(drive_gap(&outcome, &floor, &plots));
+            links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
+            let model = outcome.selection.state.drive(None);
+            let rolls = |run: usize, t: f64| !motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t));
+            let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
+            // Beside a named effect only what its law's inexactness cannot leave.
+            let explained = if outcome.named.is_empty() { 0.0 } else { outcome.before.powi(2) - outcome.after.powi(2) };
+            for structure in leftover.structures {
+                if structure.share * outcome.after.powi(2) >= LAW_LEAVES * explained {
+                    unexplained.push(Leftover { link: Link::Drive, structure: structure.text });
+                } else {
+                    remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
+                }
+            }
+            if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none()) {
+                named.push(ripple_named(&ripple, &catalogue));
+            }
             collect(
                 &outcome,
                 Link::Drive,
@@ -280,7 +281,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         );
     }
     for link in &exact {
-        if let Some(f) = &link.finding {
+        if let Some(f) = link.finding.as_ref().filter(|f| !named.iter().any(|n: &Named| n.name == f.name)) {
             named.push(exact_named(f, link));
         } else if link.unexplained {
             let structure = format!(
@@ -290,7 +291,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             unexplained.push(Leftover { link: link.link, structure });
         }
         located.extend(crate::locate::exact(link));
-        links.push(exact_gap(link));
+        links.push(gaps::exact_gap(link));
     }
     if links.is_empty() {
         return Err(GapError::NothingToCompare);
@@ -305,7 +306,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         () => Verdict::MissingEffect,
     };
     located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
-    let waterfall = waterfall(&links, &waterfall_parts);
+    let waterfall = gaps::waterfall(&links, &waterfall_parts);
     let robot_with =
         with_effects(robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
     let next_experiment = crate::experiment::propose(verdict, &alternatives, &named, &catalogue, robot);
@@ -357,8 +358,60 @@ fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         .collect()
 }
 
-/// Relative standard deviation of a parameter from the law's own simplification.
-const LAW: f64 = 0.015;
+/// Camera frames that repeat the one before while the wheels turn: the tracker lost the robot.
+fn frozen(pieces: &[Segment]) -> Option<Leftover> {
+    /// Share of all frames, and number, from which it is said.
+    const WORTH: (f64, usize) = (0.015, 8);
+    let lost: usize = pieces.iter().map(|s| s.frozen).sum();
+    let all = lost + pieces.iter().map(|s| s.frames.len()).sum::<usize>();
+    let share = lost as f64 / all.max(1) as f64;
+    (lost >= WORTH.1 && share >= WORTH.0).then(|| Leftover {
+        link: Link::Timing,
+        structure: format!(
+            "{:.1} % of the camera frames repeat the one before while the wheels turn (tracking lost); they are left out",
+            100.0 * share
+        ),
+    })
+}
+
+/// Whether the camera saw something else than the wheels said in the second round a time.
+fn misses(windows: &[WindowResiduals], run: usize, t: f64) -> bool {
+    /// Far from what a second of noise reaches.
+    const FAR: f64 = 1.35;
+    let mut near = windows.iter().filter(|w| {
+        let span = w.t.first().zip(w.t.last());
+        w.run == run && span.is_some_and(|(a, b)| t > a - 0.3 && t < b + 0.3)
+    });
+    near.any(|w| {
+        let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
+        crate::statistics::rms(used.flat_map(|(r, _)| *r)) > FAR
+    })
+}
+
+/// Share of the explained gap that the inexactness of a law may leave as structure.
+const LAW_LEAVES: f64 = 0.05;
+
+fn ripple_named(ripple: &crate::leftover::Ripple, catalogue: &[Arc<dyn Effect>]) -> Named {
+    let n = ripple.wheels.len().max(1) as f64;
+    let amplitude = (ripple.wheels.iter().map(|w| w.1 * w.1).sum::<f64>() / n).sqrt();
+    let sd = (ripple.wheels.iter().map(|w| w.2 * w.2).sum::<f64>()).sqrt() / n;
+    // Amplitudes of single wheels scatter by more than noise: load, speed, slip of the rollers.
+    let half = 1.96 * sd.hypot(0.06 * amplitude);
+    let count = ripple.count as f64;
+    let equation = catalogue.iter().find(|e| e.name() == "roller-ripple").map_or("", |e| e.equation());
+    Named {
+        name: "roller-ripple".to_owned(),
+        equation: equation.to_owned(),
+        link: Link::Drive,
+        wheels: ripple.wheels.iter().map(|w| w.0 + 1).collect(),
+        parameters: vec![
+            ("amplitude".to_owned(), amplitude, [amplitude - half, amplitude + half]),
+            ("count".to_owned(), count, [count; 2]),
+        ],
+        gain: 0.0,
+        p_value: ripple.p_value,
+    }
+}
 
 /// A link's selection with everything that is said about it.
 struct Outcome {
@@ -422,7 +475,7 @@ fn study(
                 let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
                 let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
                 // The effect's own law is not known to better than that.
-                let half = half(j).hypot(2.0 * LAW * v);
+                let half = half(j).hypot(2.0 * active.effect.law_uncertainty() * v);
                 (p.name.clone(), v, [v - half, v + half])
             })
             .collect();
@@ -439,7 +492,16 @@ fn study(
         });
     }
     named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    Outcome { before, after, named, sets, ambiguous, limits: limits(bench, thresholds), leftovers, selection }
+    Outcome {
+        before,
+        after,
+        named,
+        sets,
+        ambiguous,
+        limits: crate::limits::limits(problem.link(), bench, from, thresholds),
+        leftovers,
+        selection,
+    }
 }
 
 /// RMS and sum of squares of a bench as it stands.
@@ -467,39 +529,6 @@ fn material_wheels(active: &Active) -> Vec<usize> {
         .collect()
 }
 
-/// Detection limits: the size from which an effect would be named in these data.
-fn limits(bench: &Bench, thresholds: &Thresholds) -> Vec<Limit> {
-    let mut out: Vec<Limit> = Vec::new();
-    let needed = thresholds.gain + thresholds.costs[0];
-    for (c, candidate) in bench.candidates.iter().enumerate() {
-        if candidate.effect.probe() || candidate.switched() || candidate.form.free.len() > 3 {
-            continue;
-        }
-        let roles = bench.freeing(&[c]);
-        let fit = bench.fit(&[c]);
-        let covariance = bench.covariance(&roles, &fit);
-        for (j, p) in candidate.form.free.iter().enumerate().filter(|(_, p)| p.material.is_finite()) {
-            let known = out.iter().any(|l| l.name == candidate.effect.name() && l.parameter == p.name);
-            let Some(column) = bench.linear.of_candidate(c).get(j).copied() else { continue };
-            let sd = covariance[(column, column)].sqrt();
-            if known || !sd.is_finite() || sd == 0.0 {
-                continue;
-            }
-            let limit = p.material.max(needed.sqrt() * sd);
-            let name = candidate.effect.name().to_owned();
-            out.push(Limit {
-                name,
-                parameter: p.name.clone(),
-                estimate: fit.step[column],
-                sd,
-                limit,
-                material: p.material,
-            });
-        }
-    }
-    out
-}
-
 #[allow(clippy::too_many_arguments)]
 fn collect(
     outcome: &Outcome,
@@ -519,61 +548,6 @@ fn collect(
     limits.extend(outcome.limits.iter().cloned());
     unexplained.extend(outcome.leftovers.iter().map(|s| Leftover { link, structure: s.clone() }));
     *ambiguous |= outcome.ambiguous;
-}
-
-fn motion_gap(outcome: &Outcome, noise: [f64; 3], plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
-    let rms = |side: usize, i: usize| {
-        noise[i]
-            * crate::statistics::rms(
-                plots[side]
-                    .iter()
-                    .flat_map(|w| w.residuals.iter().zip(&w.weights))
-                    .filter(|(_, w)| **w > 0.0)
-                    .map(|(r, _)| r[i]),
-            )
-    };
-    LinkGap {
-        link: Link::Motion,
-        before: outcome.before,
-        after: outcome.after,
-        floor: noise.to_vec(),
-        rms: (0..3).map(|i| [rms(0, i), rms(1, i)]).collect(),
-        units: vec!["m", "m", "rad"],
-        signals: 3,
-    }
-}
-
-fn drive_gap(outcome: &Outcome, floor: &[f64], plots: &[DriveResiduals; 2]) -> LinkGap {
-    let rms = |side: usize, i: usize| {
-        let d = &plots[side];
-        crate::statistics::rms(d.torque.iter().zip(&d.weights).filter(|(_, w)| w[i] > 0.0).map(|(t, _)| t[i]))
-    };
-    LinkGap {
-        link: Link::Drive,
-        before: outcome.before,
-        after: outcome.after,
-        floor: floor.to_vec(),
-        rms: (0..floor.len()).map(|i| [rms(0, i), rms(1, i)]).collect(),
-        units: vec!["Nm"; floor.len()],
-        signals: floor.len(),
-    }
-}
-
-fn exact_gap(link: &ExactLink) -> LinkGap {
-    let figure = |e: &[f64]| {
-        crate::statistics::rms(
-            e.iter().map(|x| if link.link == Link::Timing { x / link.floor } else { 1.0 + x / link.floor }),
-        )
-    };
-    LinkGap {
-        link: link.link,
-        before: figure(&link.before),
-        after: figure(&link.after),
-        floor: vec![link.floor; link.before.len()],
-        rms: link.before.iter().zip(&link.after).map(|(a, b)| [*a, *b]).collect(),
-        units: vec![link.unit; link.before.len()],
-        signals: link.before.len(),
-    }
 }
 
 fn exact_named(f: &Finding, link: &ExactLink) -> Named {
@@ -632,33 +606,6 @@ fn order_named(active: &Active, gain: f64) -> Named {
         gain,
         p_value: 2e-4,
     }
-}
-
-/// Gap over all signals: (before, after), in units of the floor.
-pub fn overall(links: &[LinkGap]) -> (f64, f64) {
-    let signals: f64 = links.iter().map(|l| l.signals as f64).sum();
-    let mean = |f: &dyn Fn(&LinkGap) -> f64| {
-        (links.iter().map(|l| l.signals as f64 * f(l).powi(2)).sum::<f64>() / signals.max(1.0)).sqrt()
-    };
-    (mean(&|l| l.before), mean(&|l| l.after))
-}
-
-fn waterfall(links: &[LinkGap], parts: &[(String, Link, f64)]) -> Vec<(String, f64)> {
-    let (before, after) = overall(links);
-    let mut out = vec![("nominal model".to_owned(), before)];
-    // The squares of the links fall by each effect's share.
-    let mut now: Vec<(Link, f64, f64)> = links.iter().map(|l| (l.link, l.before, l.signals as f64)).collect();
-    for (name, link, gain) in parts {
-        if let (Some(slot), Some(l)) = (now.iter_mut().find(|n| n.0 == *link), links.iter().find(|l| l.link == *link)) {
-            slot.1 = (slot.1.powi(2) - gain * l.before.powi(2)).max(l.after.powi(2)).sqrt();
-        }
-        let signals: f64 = now.iter().map(|n| n.2).sum();
-        let rms = (now.iter().map(|n| n.2 * n.1 * n.1).sum::<f64>() / signals.max(1.0)).sqrt();
-        out.push((format!("+ {name}"), rms));
-    }
-    out.push(("after, what is immaterial adjusted".to_owned(), after));
-    out.push(("noise floor".to_owned(), 1.0));
-    out
 }
 
 /// The robot with the named effects in its file, each with its evidence.

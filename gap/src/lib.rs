@@ -22,6 +22,8 @@ mod error;
 pub mod exact;
 pub mod experiment;
 pub mod gram;
+mod leftover;
+mod limits;
 mod locate;
 pub mod motion;
 pub mod options;

@@ -23,8 +23,9 @@ pub struct Thresholds {
     pub held_out_t: f64,
     /// An effect is dropped, or simplified, if the objective gets no worse than this.
     pub slack: f64,
-    /// Objectives that differ by less are a tie, which the order of the catalogue breaks.
-    pub tie: f64,
+    /// Objectives that differ by less are a tie, which the order of the catalogue breaks; and the
+    /// share of what an effect gains that its law is not exact enough to decide by.
+    pub ties: [f64; 2],
     /// Correlation of drive residuals: how many count as one.
     pub drive_correlation: f64,
 }
@@ -41,7 +42,7 @@ impl Default for Thresholds {
             share_of_excess: 0.12,
             held_out_t: 2.0,
             slack: 0.0,
-            tie: 4.0,
+            ties: [4.0, 0.01],
             drive_correlation: 1.5,
         }
     }
@@ -51,6 +52,11 @@ impl Thresholds {
     /// Cost of freeing an effect with this many parameters.
     pub fn cost(&self, parameters: usize) -> f64 {
         self.costs[0] + self.costs[1] * parameters.saturating_sub(1) as f64
+    }
+
+    /// Difference below which two explanations that gain this much are a tie.
+    pub fn tie(&self, gain: f64) -> f64 {
+        self.ties[0].max(self.ties[1] * gain)
     }
 
     /// Share of the held-out sum of squares.

@@ -69,20 +69,21 @@ impl Problem<'_> {
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
-        let mut moves: Vec<(State, State, f64)> = Vec::new();
+        // Low and high side of each difference; no low side where that is the state itself.
+        let mut moves: Vec<(Option<State>, State, f64)> = Vec::new();
         for index in state.fitted_on(self.link()) {
             let a = &state.active[index];
             for (j, p) in a.form.free.iter().enumerate() {
                 let h = 0.05 * p.scale;
                 owners.push(Owner::Active(index, j));
-                moves.push((state.with(index, a.moved(j, -h)), state.with(index, a.moved(j, h)), 2.0 * h));
+                moves.push((Some(state.with(index, a.moved(j, -h))), state.with(index, a.moved(j, h)), 2.0 * h));
             }
         }
         for index in state.fitted_on(self.link()).into_iter().filter(|i| state.active[*i].switched()) {
             let mut off = state.clone();
             off.active.remove(index);
             owners.push(Owner::Whole(index));
-            moves.push((off, state.clone(), 1.0));
+            moves.push((Some(off), state.clone(), 1.0));
         }
         for (c, candidate) in candidates.iter().enumerate() {
             if candidate.switched() {
@@ -90,7 +91,7 @@ impl Problem<'_> {
                 owners.push(Owner::Candidate(c, 0));
                 let mut on = state.clone();
                 on.active.push(candidate.clone());
-                moves.push((state.clone(), on, 1.0));
+                moves.push((None, on, 1.0));
                 continue;
             }
             for (j, p) in candidate.form.free.iter().enumerate() {
@@ -103,18 +104,18 @@ impl Problem<'_> {
                 };
                 // One-sided where the negative makes no sense.
                 let low = if p.bounds[0] >= 0.0 { 0.0 } else { -h };
-                moves.push((side(low), side(h), h - low));
+                moves.push(((low < 0.0).then(|| side(low)), side(h), h - low));
             }
         }
         let clusters: Vec<Cluster> = match self {
             Self::Motion(link) => {
-                let sides: Vec<(MotionModel, MotionModel, f64)> =
-                    moves.iter().map(|(a, b, h)| (a.motion(None), b.motion(None), *h)).collect();
+                let sides: Vec<(Option<MotionModel>, MotionModel, f64)> =
+                    moves.iter().map(|(a, b, h)| (a.as_ref().map(|a| a.motion(None)), b.motion(None), *h)).collect();
                 link.linearise(&state.motion(None), &sides)
             }
             Self::Drive(link) => {
-                let sides: Vec<(DriveModel, DriveModel, f64)> =
-                    moves.iter().map(|(a, b, h)| (a.drive(None), b.drive(None), *h)).collect();
+                let sides: Vec<(Option<DriveModel>, DriveModel, f64)> =
+                    moves.iter().map(|(a, b, h)| (a.as_ref().map(|a| a.drive(None)), b.drive(None), *h)).collect();
                 link.linearise(&state.drive(None), &sides)
             }
         };

@@ -58,8 +58,13 @@ pub struct DriveResiduals {
 }
 
 impl<'a> DriveLink<'a> {
-    /// Lays bumps over the segments; `noise` is set by [`Self::estimate_noise`].
+    /// Lays bumps of the usual length over the segments.
     pub fn new(segments: &'a [Segment], nominal: &DriveModel) -> Option<Self> {
+        Self::with_bumps(segments, nominal, BUMP_S)
+    }
+
+    /// Lays bumps of a length in s over the segments.
+    pub fn with_bumps(segments: &'a [Segment], nominal: &DriveModel, bump_s: f64) -> Option<Self> {
         let inertia = nominal.mechanics()?.inertia;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
@@ -69,7 +74,7 @@ impl<'a> DriveLink<'a> {
                 continue;
             }
             let tick = (s.t[s.t.len() - 1] - s.t[0]) / (s.t.len() - 1) as f64;
-            let length = BUMP_S.max(FEWEST_TICKS * tick);
+            let length = bump_s.max(FEWEST_TICKS * tick);
             let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length);
             let mut start = s.t[0];
             let mut opened = start;
@@ -108,6 +113,26 @@ impl<'a> DriveLink<'a> {
                 bump.weights.fill(0.0);
             }
         }
+    }
+
+    /// Segment and middle tick of the bumps that count for no wheel.
+    pub fn masked(&self) -> Vec<(usize, usize)> {
+        let out = self.bumps.iter().filter(|b| b.weights.iter().all(|w| *w == 0.0));
+        out.map(|b| (b.segment, b.first + b.force.len() / 2)).collect()
+    }
+
+    /// Length of a bump, s.
+    pub fn length(&self) -> f64 {
+        self.bumps.first().map_or(0.0, |b| {
+            let t = &self.segments[b.segment].t;
+            t[b.first + b.force.len()] - t[b.first]
+        })
+    }
+
+    /// Ticks in a time, by the first bump.
+    pub fn tick_count(&self, seconds: f64) -> usize {
+        let ticks = self.bumps.first().map_or(1, |b| b.force.len());
+        (seconds / self.length().max(1e-9) * ticks as f64).ceil() as usize
     }
 
     /// Number of bumps.
@@ -151,7 +176,7 @@ impl<'a> DriveLink<'a> {
     }
 
     /// What the encoders measured, in the same units.
-    fn measured(&self) -> Vec<DVector<f64>> {
+    pub fn measured(&self) -> Vec<DVector<f64>> {
         let n = self.noise.len();
         self.bumps
             .iter()
@@ -163,6 +188,41 @@ impl<'a> DriveLink<'a> {
                 &self.inertia * a
             })
             .collect()
+    }
+
+    /// Unexplained wheel acceleration at every inner tick of a segment, rad/s², and the torque it
+    /// stands for, Nm, `[wheel][tick]`; as noisy as counts are, for what is averaged over many ticks.
+    pub fn raw(&self, model: &DriveModel, segment: usize) -> Option<[Vec<Vec<f64>>; 2]> {
+        let mechanics = model.mechanics()?;
+        let (n, s) = (self.noise.len(), &self.segments[segment]);
+        let (width, ticks) = (n + 3, s.t.len());
+        let forces = model.forces(s);
+        let acceleration = |k: usize| {
+            let row = &forces[k * width..(k + 1) * width];
+            let mut a = &mechanics.response * DVector::from_column_slice(&row[..n]);
+            if let Some(body) = &mechanics.body {
+                a += body * DVector::from_column_slice(&row[n..]);
+            }
+            a
+        };
+        let mut out = [vec![vec![0.0; ticks]; n], vec![vec![0.0; ticks]; n]];
+        let mut before = acceleration(0);
+        for k in 1..ticks - 1 {
+            let now = acceleration(k);
+            let (h, g) = (s.t[k] - s.t[k - 1], s.t[k + 1] - s.t[k]);
+            let a = DVector::from_fn(n, |i, _| {
+                let angle = &s.angle[i];
+                let measured = ((angle[k + 1] - angle[k]) / g - (angle[k] - angle[k - 1]) / h) * 2.0 / (g + h);
+                measured - (before[i] * h + now[i] * g) / (h + g) / model.axes[i].encoder_scale
+            });
+            let torque = &self.inertia * &a;
+            for i in 0..n {
+                out[0][i][k] = a[i];
+                out[1][i][k] = torque[i];
+            }
+            before = now;
+        }
+        Some(out)
     }
 
     /// Unexplained torques under a model.
@@ -201,14 +261,20 @@ impl<'a> DriveLink<'a> {
         (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
-    /// Linearises: residuals and derivatives along each pair of models (low, high, step), per cluster.
-    pub fn linearise(&self, model: &DriveModel, sides: &[(DriveModel, DriveModel, f64)]) -> Vec<Cluster> {
-        let Some(residuals) = self.residuals(model) else { return Vec::new() };
+    /// Linearises: residuals and derivatives along each pair of models (low, high, step), per cluster;
+    /// no low side is the model itself.
+    pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
+        let Some(base) = self.predict(model) else { return Vec::new() };
+        let torque: Vec<DVector<f64>> = self.measured().iter().zip(&base).map(|(m, p)| m - p).collect();
         let columns: Vec<Option<Vec<DVector<f64>>>> = sides
             .par_iter()
             .map(|(low, high, step)| {
-                let (a, b) = (self.predict(low)?, self.predict(high)?);
-                Some(a.iter().zip(&b).map(|(a, b)| (b - a) / *step).collect())
+                let b = self.predict(high)?;
+                let difference = |a: &[DVector<f64>]| a.iter().zip(&b).map(|(a, b)| (b - a) / *step).collect();
+                match low {
+                    Some(low) => Some(difference(&self.predict(low)?)),
+                    None => Some(difference(&base)),
+                }
             })
             .collect();
         let n = self.noise.len();
@@ -220,7 +286,7 @@ impl<'a> DriveLink<'a> {
             }
             let rows = (end - first) * n;
             let weight = |r: usize| self.bumps[first + r / n].weights[r % n] / self.noise[r % n];
-            let residual = DVector::from_fn(rows, |r, _| residuals.torque[first + r / n][r % n] * weight(r));
+            let residual = DVector::from_fn(rows, |r, _| torque[first + r / n][r % n] * weight(r));
             let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
                 columns[c].as_ref().map_or(0.0, |column| column[first + r / n][r % n] * weight(r))
             });

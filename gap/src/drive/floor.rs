@@ -8,50 +8,88 @@ use crate::gram::solve;
 /// Torque below which no drive is predicted, Nm as a share of the stall torque.
 const LEAST: f64 = 0.001;
 
-/// Scatter of the unexplained torque of one bump, Nm, one a wheel, and how many neighbouring bumps
-/// count as one.
-///
-/// What a generic regression leaves: smooth functions of the wheel's own and the other wheels'
-/// speed, direction, duty and sideways motion, and of the heading. It knows nothing of the
-/// catalogue and is fixed before any effect is fitted; what it cannot follow is noise.
-pub fn floor(link: &DriveLink, residuals: &DriveResiduals, stall_nm: f64) -> (Vec<f64>, f64) {
-    let n = link.noise.len();
-    let mut shared: Vec<Vec<f64>> = Vec::new();
-    for i in 0..n {
-        shared.push(link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4)));
-        shared.push(link.mean(|s, k| s.speed[i][k]));
-        shared.push(link.mean(|s, k| s.duty[i][k]));
+/// A generic regression of unexplained torques: smooth functions of the wheel's own and the other
+/// wheels' speed, direction, duty and sideways motion, and of the heading. It knows nothing of the
+/// catalogue and is fixed before any effect is fitted.
+pub struct Generic {
+    shared: Vec<Vec<f64>>,
+    /// Columns of each wheel alone.
+    own: Vec<Vec<Vec<f64>>>,
+}
+
+/// What a generic regression leaves of one wheel's torques.
+pub struct Left {
+    /// The bumps that count.
+    pub bumps: Vec<usize>,
+    /// Torque left, Nm, one a bump.
+    pub torque: Vec<f64>,
+    /// Standard deviation, Nm.
+    pub scatter: f64,
+}
+
+impl Generic {
+    /// Its columns.
+    pub fn new(link: &DriveLink) -> Self {
+        let n = link.noise.len();
+        let mut shared: Vec<Vec<f64>> = Vec::new();
+        for i in 0..n {
+            shared.push(link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4)));
+            shared.push(link.mean(|s, k| s.speed[i][k]));
+            shared.push(link.mean(|s, k| s.duty[i][k]));
+        }
+        shared.push(link.mean(|s, k| s.heading[k].cos()));
+        shared.push(link.mean(|s, k| s.heading[k].sin()));
+        shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vx, SLIDE_WIDTH)));
+        shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vy, SLIDE_WIDTH)));
+        shared.push(link.mean(|s, k| s.twist[k].vx * s.twist[k].omega));
+        shared.push(link.mean(|s, k| s.twist[k].vy * s.twist[k].omega));
+        let own = (0..n)
+            .map(|i| {
+                vec![
+                    link.mean(|s, k| s.speed[i][k] * s.speed[i][k].abs()),
+                    link.mean(|s, k| s.duty[i][k].abs() * smooth_sign(s.speed[i][k], 0.4)),
+                    link.mean(|s, k| s.duty[i][k].powi(3)),
+                    link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4).abs()),
+                ]
+            })
+            .collect();
+        Self { shared, own }
     }
-    shared.push(link.mean(|s, k| s.heading[k].cos()));
-    shared.push(link.mean(|s, k| s.heading[k].sin()));
-    shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vx, SLIDE_WIDTH)));
-    shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vy, SLIDE_WIDTH)));
-    shared.push(link.mean(|s, k| s.twist[k].vx * s.twist[k].omega));
-    shared.push(link.mean(|s, k| s.twist[k].vy * s.twist[k].omega));
-    let mut noise = vec![stall_nm * LEAST; n];
+
+    /// What it leaves of a wheel's torques; `None` where the logs are too short to say.
+    pub fn leaves(&self, link: &DriveLink, residuals: &DriveResiduals, wheel: usize) -> Option<Left> {
+        let columns: Vec<&Vec<f64>> = self.shared.iter().chain(&self.own[wheel]).collect();
+        let bumps: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[wheel] > 0.0).collect();
+        if bumps.len() < 3 * columns.len() {
+            return None;
+        }
+        let design = DMatrix::from_fn(bumps.len(), columns.len(), |r, c| columns[c][bumps[r]]);
+        let torque = DVector::from_fn(bumps.len(), |r, _| residuals.torque[bumps[r]][wheel]);
+        let x = solve(&(design.transpose() * &design), &(design.transpose() * &torque));
+        let left = torque - &design * x;
+        let scatter = (left.norm_squared() / (bumps.len() - columns.len()) as f64).sqrt();
+        Some(Left { bumps, torque: left.iter().copied().collect(), scatter })
+    }
+}
+
+/// Scatter of the unexplained torque of one bump, Nm, one a wheel, and how many neighbouring bumps
+/// count as one: what a generic regression leaves is noise.
+pub fn floor(link: &DriveLink, residuals: &DriveResiduals, stall_nm: f64) -> (Vec<f64>, f64) {
+    let generic = Generic::new(link);
+    let mut noise = vec![stall_nm * LEAST; link.noise.len()];
     let (mut lagged, mut power) = (0.0, 0.0);
     for (i, slot) in noise.iter_mut().enumerate() {
-        let mut columns = shared.clone();
-        columns.push(link.mean(|s, k| s.speed[i][k] * s.speed[i][k].abs()));
-        columns.push(link.mean(|s, k| s.duty[i][k].abs() * smooth_sign(s.speed[i][k], 0.4)));
-        columns.push(link.mean(|s, k| s.duty[i][k].powi(3)));
-        columns.push(link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4).abs()));
-        let used: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0).collect();
-        if used.len() < 3 * columns.len() {
+        let Some(left) = generic.leaves(link, residuals, i) else {
             // Too short for that: the scatter of neighbours.
             *slot = slot.max(neighbours(residuals, i));
             continue;
-        }
-        let design = DMatrix::from_fn(used.len(), columns.len(), |r, c| columns[c][used[r]]);
-        let torque = DVector::from_fn(used.len(), |r, _| residuals.torque[used[r]][i]);
-        let x = solve(&(design.transpose() * &design), &(design.transpose() * &torque));
-        let left = torque - &design * x;
-        *slot = slot.max((left.norm_squared() / (used.len() - columns.len()) as f64).sqrt());
-        for (r, pair) in used.windows(2).enumerate() {
+        };
+        *slot = slot.max(left.scatter);
+        for (r, pair) in left.bumps.windows(2).enumerate() {
             if pair[1] == pair[0] + 1 && link.place(pair[1]).0 == link.place(pair[0]).0 {
-                lagged += left[r] * left[r + 1] / (*slot * *slot);
+                lagged += left.torque[r] * left.torque[r + 1] / (*slot * *slot);
             }
-            power += left[r] * left[r] / (*slot * *slot);
+            power += left.torque[r] * left.torque[r] / (*slot * *slot);
         }
     }
     // A first-order correlation and its sum over all lags.

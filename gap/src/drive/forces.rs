@@ -116,17 +116,17 @@ impl DriveModel {
             }
             let mut supply = s.supply[k];
             if !self.supply_maps.is_empty() {
-                for i in 0..n {
-                    let axis = &self.axes[i];
-                    currents[i] = (duty[i] * supply - axis.back_emf * g * speed[i]) / axis.resistance;
-                }
-                for map in &self.supply_maps {
+                let mut mapped = |from: f64| {
+                    for i in 0..n {
+                        let axis = &self.axes[i];
+                        currents[i] = (duty[i] * from - axis.back_emf * g * speed[i]) / axis.resistance;
+                    }
                     let now = Instant {
                         segment: s,
                         tick: k,
                         time_s: s.t[k] - start,
                         duty: &duty,
-                        supply,
+                        supply: s.supply[k],
                         speed: &speed,
                         sign: &sign,
                         winding: &winding,
@@ -136,8 +136,13 @@ impl DriveModel {
                         position: s.position[k],
                         prepared: &prepared,
                     };
-                    supply = map(&now, supply, &currents);
-                }
+                    self.supply_maps.iter().fold(s.supply[k], |v, map| map(&now, v, &currents))
+                };
+                // The supply sets the currents and they the supply: the fixed point, by a secant.
+                let first = mapped(supply);
+                let second = mapped(first);
+                let slope = if first == supply { 0.0 } else { (second - first) / (first - supply) };
+                supply = if slope < 0.95 { first + (second - first) / (1.0 - slope) } else { second };
             }
             for i in 0..n {
                 let axis = &self.axes[i];

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, Matrix3};
 use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
-pub use floor::floor;
+pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads, SIGN_WIDTH, SLIDE_WIDTH, smooth_sign};
 
 /// Adds torques and forces at one instant.

@@ -32,8 +32,9 @@ impl Effect for BatterySag {
         let d = Parameter::new(
             "drop_v",
             0.02 * robot.supply_v,
-            [-0.3 * robot.supply_v, 0.6 * robot.supply_v],
-            0.06 * robot.supply_v,
+            [-0.08 * robot.supply_v, 0.6 * robot.supply_v],
+            // A supply that is low whatever the load looks like a weak motor; it sags only under load.
+            f64::INFINITY,
         );
         vec![Form::whole(vec![r.clone()]), Form::whole(vec![r, d])]
     }

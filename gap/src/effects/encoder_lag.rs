@@ -27,7 +27,7 @@ impl Effect for EncoderLag {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [0.0, 0.3], 0.004)])]
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [0.0, 0.3], 0.003)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

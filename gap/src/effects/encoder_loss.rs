@@ -26,11 +26,13 @@ impl Effect for EncoderLoss {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let limit = Sizes::of(robot).no_load;
+        // Speeds robots drive at, about a quarter apart, up to half the no-load speed.
+        let most = 0.5 * Sizes::of(robot).no_load;
+        let steps = std::iter::successors(Some(5.0), |w| Some(1.27 * w)).take_while(|w| *w < most.min(60.0));
         let mut forms = Vec::new();
-        for share in [0.0, 0.05, 0.1, 0.2, 0.35, 0.6] {
+        for threshold in std::iter::once(0.0).chain(steps) {
             for form in Form::alone(robot, |i| Parameter::new(wheel_name("loss", i, ""), 0.01, [0.0, 0.9], 0.02)) {
-                forms.push(form.fixing("threshold_rad_s", (share * limit).round()));
+                forms.push(form.fixing("threshold_rad_s", (2.0_f64 * threshold).round() / 2.0));
             }
         }
         forms

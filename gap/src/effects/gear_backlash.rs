@@ -30,7 +30,7 @@ impl Effect for GearBacklash {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let _ = robot;
-        let p = |name: String| Parameter::new(name, 0.02, [0.0, 2.0], 0.08);
+        let p = |name: String| Parameter::new(name, 0.02, [0.0, 2.0], 0.03);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
         forms
@@ -52,18 +52,22 @@ impl Effect for GearBacklash {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
-        let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
-        model.offsets.push(Box::new(move |_, segment| {
+        model.offsets.push(Box::new(move |model, segment| {
             (0..segment.angle.len())
                 .map(|i| {
                     let half = 0.5 * values.wheel("play", i, "rad") / ratio;
                     if half == 0.0 {
                         return vec![0.0; segment.t.len()];
                     }
-                    side(segment, &inertia, i).into_iter().map(|s| half * s).collect()
+                    flank(model, segment, i).into_iter().map(|s| half * s).collect()
                 })
                 .collect()
         }));
+    }
+
+    fn law_uncertainty(&self) -> f64 {
+        // The rotor bounces between the flanks.
+        0.05
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {
@@ -71,8 +75,35 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Which flank of the teeth carries, −1 to 1: the sign of the torque through the gear, which is what
-/// accelerates the robot at this wheel.
+/// Time over which the motor's torque is averaged, s: a rotor crosses its play in about that.
+const CROSSING_S: f64 = 0.012;
+
+/// Which flank of the teeth carries, −1 to 1: the sign of the torque that the motor puts on the gear.
+fn flank(model: &DriveModel, segment: &Segment, wheel: usize) -> Vec<f64> {
+    let (axis, g) = (&model.axes[wheel], model.gear_ratio);
+    let n = segment.t.len();
+    let stall = g * axis.torque_constant * segment.supply[0] / axis.resistance;
+    let torque: Vec<f64> = (0..n)
+        .map(|k| {
+            let volts = segment.duty[wheel][k] * segment.supply[k] - axis.back_emf * g * segment.speed[wheel][k];
+            g * (axis.torque_constant * volts / axis.resistance - axis.friction * segment.sign[wheel][k])
+        })
+        .collect();
+    let tick = (segment.t[n - 1] - segment.t[0]) / (n - 1) as f64;
+    let back = (CROSSING_S / tick).round().max(1.0) as usize;
+    let mut sum = 0.0;
+    (0..n)
+        .map(|k| {
+            sum += torque[k];
+            if k >= back {
+                sum -= torque[k - back];
+            }
+            smooth_sign(sum / back.min(k + 1) as f64, 0.02 * stall)
+        })
+        .collect()
+}
+
+/// The same from the motion alone: the sign of the torque that accelerates the robot at this wheel.
 fn side(segment: &Segment, inertia: &DMatrix<f64>, wheel: usize) -> Vec<f64> {
     let n = segment.speed.len();
     let momentum: Vec<f64> =

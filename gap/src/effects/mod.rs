@@ -8,6 +8,7 @@ mod battery_sag;
 mod body_radius;
 mod camera_latency;
 mod camera_scale;
+mod camera_timing;
 mod carpet_grain;
 mod centre_of_mass;
 mod coulomb_friction;
@@ -59,6 +60,7 @@ pub fn catalogue() -> Vec<Box<dyn Effect>> {
         Box::new(roller_ripple::RollerRipple),
         Box::new(camera_latency::CameraLatency),
         Box::new(camera_scale::CameraScale),
+        Box::new(camera_timing::CameraTiming),
         Box::new(marker_heading::MarkerHeading),
         Box::new(marker_offset::MarkerOffset),
         Box::new(lens_distortion::LensDistortion),
@@ -106,4 +108,78 @@ pub fn exact_equation(name: &str) -> &'static str {
 /// The effect of this name.
 pub fn find(name: &str) -> Option<Box<dyn Effect>> {
     catalogue().into_iter().find(|e| e.name() == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use model::robot::Robot;
+
+    use super::*;
+
+    /// The contract: names of parameters, `#` for a wheel's number.
+    const NAMES: [(&str, &[&str]); 26] = [
+        ("wheel-skew", &["skew_#_rad"]),
+        ("wheel-radius", &["scale_#"]),
+        ("wheel-radius-common", &["scale"]),
+        ("body-radius", &["scale"]),
+        ("encoder-scale", &["scale", "scale_#"]),
+        ("camera-scale", &["scale"]),
+        ("torque-constant", &["scale"]),
+        ("robot-mass", &["scale"]),
+        ("yaw-inertia", &["scale"]),
+        ("rotor-inertia", &["scale"]),
+        ("wheel-angle", &["angle_#_rad"]),
+        ("encoder-loss", &["loss_#"]),
+        ("camera-latency", &["latency_s"]),
+        ("actuation-latency", &["latency_s"]),
+        ("marker-heading", &["angle_rad"]),
+        ("marker-offset", &["x_m", "y_m"]),
+        ("centre-of-mass", &["x_m", "y_m"]),
+        ("coulomb-friction", &["torque_nm", "torque_#_nm"]),
+        ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
+        ("roller-friction", &["force_n"]),
+        ("dead-band", &["duty"]),
+        ("gear-backlash", &["play_rad", "play_#_rad"]),
+        ("battery-sag", &["resistance_ohm", "drop_v"]),
+        ("floor-tilt", &["x_rad", "y_rad"]),
+        ("carpet-grain", &["force_n", "azimuth_rad"]),
+        ("wheel-slip", &["friction_coefficient"]),
+    ];
+
+    #[test]
+    fn parameters_are_named_as_agreed() {
+        let robot = Robot::racbot();
+        for (name, allowed) in NAMES {
+            let effect = find(name).unwrap_or_else(|| panic!("{name} is not in the catalogue"));
+            for form in effect.forms(&robot) {
+                for p in &form.free {
+                    let plain: String = p.name.chars().map(|c| if c.is_ascii_digit() { '#' } else { c }).collect();
+                    assert!(allowed.contains(&plain.as_str()), "{name}: {}", p.name);
+                }
+            }
+        }
+        assert_eq!(find("wheel-creep").unwrap().forms(&robot)[0].free[0].name, "creep_s_per_kg");
+    }
+
+    #[test]
+    fn names_are_unique_and_bounds_hold_every_start() {
+        let robot = Robot::racbot();
+        let mut names: Vec<String> = catalogue().iter().map(|e| e.name().to_owned()).collect();
+        names.sort();
+        let all = names.len();
+        names.dedup();
+        assert_eq!(names.len(), all);
+        for effect in catalogue() {
+            for p in effect.forms(&robot).iter().flat_map(|f| &f.free) {
+                let start = p.start.unwrap_or(0.0);
+                assert!(
+                    p.scale > 0.0 && p.material >= 0.0 && p.bounds[0] <= start && start <= p.bounds[1]
+                        || p.below.is_some(),
+                    "{} {}",
+                    effect.name(),
+                    p.name
+                );
+            }
+        }
+    }
 }

@@ -30,9 +30,10 @@ impl Effect for StribeckFriction {
         [1.5, 3.0, 6.0]
             .into_iter()
             .map(|w| {
-                let p =
+                let torque =
                     Parameter::new("torque_nm", 0.01 * s.stall_nm, [-0.1 * s.stall_nm, s.stall_nm], 0.05 * s.stall_nm);
-                Form::whole(vec![p]).fixing("speed_rad_s", w)
+                let speed = Parameter::new("speed_rad_s", 0.3, [0.7, 12.0], f64::INFINITY);
+                Form::whole(vec![torque.from(0.1 * s.stall_nm), speed.from(w)])
             })
             .collect()
     }
@@ -44,6 +45,11 @@ impl Effect for StribeckFriction {
                 loads.wheel[i] -= t * (-(now.speed[i] / w).powi(2)).exp() * now.sign[i];
             }
         }));
+    }
+
+    fn law_uncertainty(&self) -> f64 {
+        // How the extra friction falls with speed is a convention, and at rest it is not seen.
+        0.05
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

@@ -55,6 +55,11 @@ impl Effect for WheelCreep {
         }));
     }
 
+    fn law_uncertainty(&self) -> f64 {
+        // Creep grows with speed as well as with force.
+        0.04
+    }
+
     fn also(&self) -> Option<Link> {
         Some(Link::Drive)
     }

@@ -88,6 +88,11 @@ impl Effect for WheelSlip {
         }));
     }
 
+    fn law_uncertainty(&self) -> f64 {
+        // One coefficient stands for static and sliding friction, 5 to 20 % apart, and for all loads.
+        0.06
+    }
+
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("pull the robot sideways with a spring scale until it slides", 5.0))
     }

@@ -39,6 +39,8 @@ pub struct MotionModel {
     pub observe: Vec<Observe>,
     /// Drift of the camera's origin, m/s.
     pub drift: [f64; 2],
+    /// Seconds by which the camera's clock runs ahead per second of a run.
+    pub clock_drift: f64,
     /// Age of a frame beyond `latency_s` per speed of the robot, s²/m.
     pub speed_delay: f64,
     /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
@@ -62,6 +64,7 @@ impl MotionModel {
             angles: Vec::new(),
             observe: Vec::new(),
             drift: [0.0; 2],
+            clock_drift: 0.0,
             speed_delay: 0.0,
             inertia: crate::drive::DriveModel::new(robot)
                 .mechanics()
@@ -97,8 +100,9 @@ impl MotionModel {
         let mut out = Vec::with_capacity(frames.len());
         let Some(first) = frames.first() else { return out };
         let last_tick = segment.t.len() - 1;
+        let age = |stamp: f64| self.latency_s + self.clock_drift * (stamp - segment.t[0]);
         let early = if self.speed_delay == 0.0 { 0.0 } else { 0.1 };
-        let origin = segment.tick_at(first.t - self.latency_s - early);
+        let origin = segment.tick_at(first.t - age(first.t) - early);
         let mut tick = origin;
         let moved = |k: usize, share: f64| {
             let mut sum = [0.0; 3];
@@ -112,7 +116,7 @@ impl MotionModel {
         };
         let mut pose = Pose::default();
         for frame in frames {
-            let mut exposed = frame.t - self.latency_s;
+            let mut exposed = frame.t - age(frame.t);
             if self.speed_delay != 0.0 {
                 exposed -= self.speed_delay * segment.twist[segment.tick_at(exposed)].speed();
             }

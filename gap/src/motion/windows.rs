@@ -157,21 +157,32 @@ impl<'a> MotionLink<'a> {
     }
 
     /// Linearises: per window, the residuals and the derivatives of the prediction along each pair
-    /// of models (low, high, step between them), start poses projected out.
-    pub fn linearise(&self, model: &MotionModel, sides: &[(MotionModel, MotionModel, f64)]) -> Vec<Cluster> {
+    /// of models (low, high, step between them; no low side is the model itself), start poses
+    /// projected out.
+    pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
         let base = self.residuals(model);
         self.linearise_at(&base, sides)
     }
 
     /// As [`Self::linearise`], at residuals already known.
-    pub fn linearise_at(&self, base: &[WindowResiduals], sides: &[(MotionModel, MotionModel, f64)]) -> Vec<Cluster> {
+    pub fn linearise_at(
+        &self,
+        base: &[WindowResiduals],
+        sides: &[(Option<MotionModel>, MotionModel, f64)],
+    ) -> Vec<Cluster> {
         let columns: Vec<Vec<DVector<f64>>> =
-            sides.par_iter().map(|(low, high, step)| self.column(base, low, high, *step)).collect();
+            sides.par_iter().map(|(low, high, step)| self.column(base, low.as_ref(), high, *step)).collect();
         base.iter().enumerate().map(|(w, aligned)| self.cluster(w, aligned, &columns)).collect()
     }
 
     /// Derivative of the predictions of every window, in units of the noise.
-    fn column(&self, base: &[WindowResiduals], low: &MotionModel, high: &MotionModel, step: f64) -> Vec<DVector<f64>> {
+    fn column(
+        &self,
+        base: &[WindowResiduals],
+        low: Option<&MotionModel>,
+        high: &MotionModel,
+        step: f64,
+    ) -> Vec<DVector<f64>> {
         let predict = |model: &MotionModel| -> Vec<Vec<Pose>> {
             let Some(columns) = model.columns() else { return Vec::new() };
             let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
@@ -188,7 +199,8 @@ impl<'a> MotionLink<'a> {
                 })
                 .collect()
         };
-        let (a, b) = (predict(low), predict(high));
+        let b = predict(high);
+        let a = low.map_or_else(|| base.iter().map(|w| w.predicted.clone()).collect(), predict);
         if a.is_empty() || b.is_empty() {
             return base.iter().map(|w| DVector::zeros(3 * w.t.len())).collect();
         }

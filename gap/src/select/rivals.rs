@@ -81,13 +81,20 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
     let mut sets: Vec<Vec<String>> = Vec::new();
     let mut ambiguous = false;
     let mut tried: Vec<String> = vec![name.clone()];
+    let mut told: Vec<String> = vec![name.clone()];
     for t in &trials {
         let candidate = &bench.candidates[t.candidate];
         let rival_name = candidate.effect.name().to_owned();
-        if t.gain < own_gain - 12.0 - 0.05 * own_gain || tried.len() > 4 {
+        if t.gain < own_gain - 12.0 - 0.05 * own_gain || tried.len() > MOST_TRIED {
             break;
         }
-        if tried.contains(&rival_name) || !t.material || without.active.iter().any(|a| a.effect.name() == rival_name) {
+        // An effect has several shapes, and which one is the twin shows only after a fit.
+        let shapes = tried.iter().filter(|n| **n == rival_name).count();
+        if told.contains(&rival_name)
+            || shapes >= MOST_SHAPES
+            || !t.material
+            || without.active.iter().any(|a| a.effect.name() == rival_name)
+        {
             continue;
         }
         tried.push(rival_name.clone());
@@ -100,8 +107,9 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         let rival_cost = thresholds.cost(candidate.form.free.len());
         // Without the price of parameters: what the data say.
         let difference = rival.against(found) + own_cost - rival_cost;
-        if difference < TIED && is_material(candidate, &values) {
+        if difference < thresholds.tie(own_gain).max(TIED) && is_material(candidate, &values) {
             sets.push(vec![name.clone(), rival_name.clone()]);
+            told.push(rival_name.clone());
             let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == rival_name);
             ambiguous |= candidate.form.free.len() <= own.form.free.len() && !preferred;
         }
@@ -111,6 +119,10 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
     }
     Rivals { bench, sets, ambiguous }
 }
+
+/// Shapes of one rival, and rivals in all, that are fitted.
+const MOST_SHAPES: usize = 3;
+const MOST_TRIED: usize = 6;
 
 /// Objectives closer than this are a tie.
 const TIED: f64 = 6.0;
@@ -143,7 +155,7 @@ fn pair_rivals(
                 let v = bench.values(&fit, *c);
                 bench.within_bounds(*c, &v, &fit) && bench.material(*c, &v)
             });
-            (sound && gain > own_gain - TIED).then_some((gain, a, b))
+            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, a, b))
         })
         .max_by(|x, y| x.0.total_cmp(&y.0))?;
     let n = |c: usize| bench.candidates[c].effect.name().to_owned();

@@ -1,0 +1,156 @@
+//! Bursts and stretches of time in which a wheel's torque is unlike the rest of the log.
+
+use std::collections::BTreeMap;
+
+use super::{Series, Structure};
+use crate::statistics::median;
+
+/// Torque of a burst, share of the stall torque, ...
+const MATERIAL: f64 = 0.1;
+/// ... in robust standard deviations, ...
+const OUT: f64 = 9.0;
+/// ... and in units of what a tenth of the time exceeds: bursts are rare.
+const RARE: f64 = 5.0;
+/// Fewer bursts than this may be anything.
+const FEWEST: usize = 2;
+/// Length of a stretch, s, and the mean torque along the rotation worth mentioning in it.
+const STRETCH_S: f64 = 2.0;
+const STRETCH_MATERIAL: f64 = 0.05;
+/// Its size in standard errors.
+const STRETCH_OUT: f64 = 8.0;
+
+/// Moments between two that belong to one event.
+const NEAR: i64 = 8;
+/// Moments round an event that its impulse is taken over.
+const ROUND: i64 = 4;
+/// Net impulse over all impulse: a push changes the robot's momentum; a wheel that slips, or crosses
+/// its gear's play, gives back what it took.
+const NET: f64 = 0.6;
+
+/// Moments in a row that stand out.
+struct Event {
+    segment: usize,
+    first: i64,
+    last: i64,
+    torque: f64,
+}
+
+/// Share of an event's impulse that stays, at the wheel that felt most of it.
+fn pushed(series: &Series, e: &Event) -> f64 {
+    series
+        .wheels
+        .iter()
+        .map(|w| {
+            let inside = |b: &usize| {
+                let k = (w.t[*b] / series.hop).round() as i64;
+                w.segment[*b] == e.segment && k >= e.first - ROUND && k <= e.last + ROUND
+            };
+            let (net, all) = (0..w.t.len())
+                .filter(inside)
+                .fold((0.0, 0.0), |(net, all), b| (net + w.torque[b], all + w.torque[b].abs()));
+            (all, net.abs() / all.max(1e-300))
+        })
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or(0.0, |x| x.1)
+}
+
+/// Short pushes: collisions, kicks, a foot on the field.
+pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, stall_nm: f64) -> Option<Structure> {
+    // Norm over the wheels and largest torque of every moment.
+    let mut moments: BTreeMap<(usize, i64), (f64, f64)> = BTreeMap::new();
+    for w in &series.wheels {
+        for (b, x) in w.torque.iter().enumerate() {
+            let slot = moments.entry((w.segment[b], (w.t[b] / series.hop).round() as i64)).or_insert((0.0, 0.0));
+            slot.0 += (x / w.scatter.max(1e-12)).powi(2);
+            slot.1 = slot.1.max(x.abs());
+        }
+    }
+    if moments.len() < 40 {
+        return None;
+    }
+    let n = series.wheels.len() as f64;
+    let mut norms: Vec<f64> = moments.values().map(|m| (m.0 / n).sqrt()).collect();
+    norms.sort_by(f64::total_cmp);
+    let usual = norms[norms.len() * 9 / 10];
+    let limit = OUT.max(RARE * usual);
+    let mut events: Vec<Event> = Vec::new();
+    let total: f64 = moments.values().map(|m| m.0).sum();
+    for (at, (square, torque)) in &moments {
+        if (square / n).sqrt() < limit || *torque < MATERIAL * stall_nm {
+            continue;
+        }
+        match events.last_mut() {
+            Some(e) if e.segment == at.0 && at.1 - e.last < NEAR => {
+                e.last = at.1;
+                e.torque = e.torque.max(*torque);
+            }
+            _ => events.push(Event { segment: at.0, first: at.1, last: at.1, torque: *torque }),
+        }
+    }
+    let run_of = |segment: usize| {
+        series.wheels.iter().find_map(|w| w.segment.iter().position(|s| *s == segment).map(|b| w.run[b])).unwrap_or(0)
+    };
+    events.retain(|e| pushed(series, e) > NET && rolls(run_of(e.segment), e.first as f64 * series.hop));
+    let power: f64 = events
+        .iter()
+        .map(|e| moments.range((e.segment, e.first - 1)..=(e.segment, e.last + 1)).map(|m| m.1.0).sum::<f64>())
+        .sum();
+    if events.len() < FEWEST {
+        return None;
+    }
+    let largest = events.iter().max_by(|a, b| a.torque.total_cmp(&b.torque))?;
+    let mut sizes: Vec<f64> = events.iter().map(|e| e.torque).collect();
+    let run = run_of(largest.segment);
+    Some(Structure {
+        text: format!(
+            "{} short pushes of about {:.0} mNm at a wheel, the largest in run {} at {:.2} s; nothing between them",
+            events.len(),
+            1e3 * median(&mut sizes),
+            run + 1,
+            largest.first as f64 * series.hop
+        ),
+        share: power / total.max(1e-300),
+    })
+}
+
+/// A wheel that is braked or pushed for seconds in one run and not in the others.
+pub(super) fn stretches(series: &Series, stall_nm: f64) -> Option<Structure> {
+    let length = (STRETCH_S / series.hop) as usize;
+    let mut worst: Option<(f64, f64, usize, usize, f64)> = None;
+    for (i, w) in series.wheels.iter().enumerate() {
+        let along: Vec<f64> = w.torque.iter().zip(&w.sign).map(|(x, s)| x * s).collect();
+        // Means over stretches; their own scatter is the error of a mean, whatever the correlation.
+        let mut means: Vec<(usize, f64)> = Vec::new();
+        let mut first = 0;
+        while first + length <= along.len() {
+            let last = first + length - 1;
+            if w.segment[first] == w.segment[last] && w.t[last] - w.t[first] < 1.5 * STRETCH_S {
+                means.push((first, along[first..=last].iter().sum::<f64>() / length as f64));
+            }
+            first += length / 2;
+        }
+        if means.len() < 10 {
+            continue;
+        }
+        let mut sizes: Vec<f64> = means.iter().map(|m| m.1.abs()).collect();
+        let error = (1.4826 * median(&mut sizes)).max(1e-12);
+        for (first, mean) in means {
+            if mean.abs() > STRETCH_MATERIAL * stall_nm && mean.abs() > STRETCH_OUT * error {
+                let size = mean.abs() / error;
+                if worst.is_none_or(|o| size > o.4) {
+                    worst = Some((mean, w.t[first], w.run[first], i, size));
+                }
+            }
+        }
+    }
+    let (mean, t, run, wheel, _) = worst?;
+    Some(Structure {
+        text: format!(
+            "wheel {} has {:+.1} mNm along its rotation in run {} from {t:.1} s on for about {STRETCH_S:.0} s, not elsewhere",
+            wheel + 1,
+            1e3 * mean,
+            run + 1
+        ),
+        share: 1.0,
+    })
+}

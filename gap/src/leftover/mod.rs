@@ -1,0 +1,130 @@
+//! Structure in what is left of the drive link, whatever its cause: lines of a spectrum, bursts, and
+//! stretches of time. Effects of the catalogue are fitted before; what shows here is none of them.
+//!
+//! Every search is held against the data's own, coloured scatter, pays for the number of places it
+//! looked at, and asks for a size that matters beside the motors' stall torque.
+
+mod bursts;
+mod orders;
+mod spectrum;
+
+use crate::drive::{DriveLink, DriveModel, Generic, Left};
+use crate::effect::Sizes;
+use crate::segment::Segment;
+
+pub(crate) use orders::Ripple;
+
+/// Length of the bumps the torques are averaged over, s: a tenth of a second is over before the
+/// loop has answered, and lines up to 15 Hz pass.
+const BUMP_S: f64 = 0.05;
+/// Torques this near a masked bump are left out, s.
+const MASK_S: f64 = 0.06;
+/// Probability of any false alarm of one kind in a data set.
+const FALSE_ALARM: f64 = 1e-3;
+
+/// Something that no smooth law of the catalogue leaves.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Structure {
+    /// In words.
+    pub text: String,
+    /// Share of the squared torque left that it makes up.
+    pub share: f64,
+}
+
+/// What is left of the drive.
+pub(crate) struct Leftover {
+    /// Structure outside the catalogue.
+    pub structures: Vec<Structure>,
+    /// A rolling radius that varies with the wheel's angle, by order analysis.
+    pub ripple: Option<Ripple>,
+}
+
+/// Looks through what a model of the drive leaves.
+///
+/// `mask` holds segment and tick of what slips; `rolls` says of a run and a time whether the camera saw
+/// the robot roll as its wheels turned.
+pub(crate) fn drive(
+    segments: &[Segment],
+    model: &DriveModel,
+    mask: &[(usize, usize)],
+    rolls: &dyn Fn(usize, f64) -> bool,
+    sizes: Sizes,
+) -> Leftover {
+    let mut out = Leftover { structures: Vec::new(), ripple: None };
+    let Some(link) = DriveLink::with_bumps(segments, model, BUMP_S) else { return out };
+    let Some(residuals) = link.residuals(model) else { return out };
+    let generic = Generic::new(&link);
+    let near = link.tick_count(MASK_S);
+    let mut lefts: Vec<Option<Left>> = Vec::new();
+    for wheel in 0..link.noise.len() {
+        let left = generic.leaves(&link, &residuals, wheel).map(|l| {
+            // What is masked as slip on the link itself is masked here.
+            let rolls = |b: &usize| {
+                let (segment, tick) = residuals.at[*b];
+                !mask.iter().any(|m| m.0 == segment && m.1.abs_diff(tick) < near)
+            };
+            let (bumps, torque) =
+                l.bumps.iter().zip(&l.torque).filter(|(b, _)| rolls(b)).map(|(b, t)| (*b, *t)).unzip();
+            Left { bumps, torque, scatter: l.scatter }
+        });
+        lefts.push(left);
+    }
+    let series = Series::new(&link, &residuals.at, &lefts);
+    out.structures.extend(spectrum::lines(&series, sizes.stall_nm));
+    out.structures.extend(bursts::bursts(&series, rolls, sizes.stall_nm));
+    out.structures.extend(bursts::stretches(&series, sizes.stall_nm));
+    let (ripple, structures) = orders::orders(&link, model, segments, sizes.stall_nm);
+    out.ripple = ripple;
+    out.structures.extend(structures);
+    out
+}
+
+/// One wheel's torque left, at the times of its bumps.
+struct Wheel {
+    /// Run of each.
+    run: Vec<usize>,
+    /// Segment of each.
+    segment: Vec<usize>,
+    /// Middle of each, s.
+    t: Vec<f64>,
+    /// Nm.
+    torque: Vec<f64>,
+    /// Direction of rotation.
+    sign: Vec<f64>,
+    /// Torque that the measured acceleration takes, Nm: what the drive did at all.
+    done: Vec<f64>,
+    /// Robust standard deviation, Nm.
+    scatter: f64,
+}
+
+/// All wheels.
+struct Series {
+    wheels: Vec<Wheel>,
+    /// Distance of two bumps, s.
+    hop: f64,
+}
+
+impl Series {
+    fn new(link: &DriveLink, at: &[(usize, usize)], lefts: &[Option<Left>]) -> Self {
+        let done = link.measured();
+        let wheels = lefts
+            .iter()
+            .enumerate()
+            .filter_map(|(i, left)| {
+                let left = left.as_ref()?;
+                let place = |b: &usize| (&link.segments[at[*b].0], at[*b].1);
+                let mut sizes: Vec<f64> = left.torque.iter().map(|x| x.abs()).collect();
+                Some(Wheel {
+                    run: left.bumps.iter().map(|b| place(b).0.run).collect(),
+                    segment: left.bumps.iter().map(|b| at[*b].0).collect(),
+                    t: left.bumps.iter().map(|b| place(b).0.t[place(b).1]).collect(),
+                    sign: left.bumps.iter().map(|b| place(b).0.sign[i][place(b).1]).collect(),
+                    done: left.bumps.iter().map(|b| done[*b][i]).collect(),
+                    scatter: 1.4826 * crate::statistics::median(&mut sizes),
+                    torque: left.torque.clone(),
+                })
+            })
+            .collect::<Vec<_>>();
+        Self { hop: 0.5 * link.length(), wheels }
+    }
+}

@@ -1,0 +1,247 @@
+//! Order analysis: what repeats with the angle of a wheel.
+//!
+//! The unexplained acceleration of every tick is multiplied by cos and sin of n times the wheel's
+//! angle and averaged over blocks of a quarter of a second. Noise (that of counts grows with the
+//! fourth power of the frequency) is taken from all orders at the same frequency, so that a block
+//! counts by what it can say. Counters start anywhere, so phases are free in every piece of a log.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{FALSE_ALARM, Structure};
+use crate::drive::{DriveLink, DriveModel};
+use crate::segment::Segment;
+use crate::statistics::{chi2_upper, median};
+use rayon::prelude::*;
+
+/// Length of a block, s.
+const BLOCK_S: f64 = 0.25;
+/// Frequencies a block can tell apart from the drive itself and from the noise of counts, Hz.
+const RANGE_HZ: [f64; 2] = [3.0, 120.0];
+/// Slowest wheel, rad/s.
+const SLOWEST: f64 = 1.0;
+/// Highest order looked at: rollers of a wheel.
+const HIGHEST: usize = 40;
+/// Relative amplitude of a rolling radius worth naming, and of a torque beside the stall torque.
+const MATERIAL: [f64; 2] = [0.0028, 0.07];
+/// No omni wheel has fewer rollers.
+const FEWEST_ROLLERS: f64 = 6.0;
+/// Chance of phases that agree as well in noise, whatever the amplitudes: bursts are no lines.
+const PHASES: f64 = 1e-4;
+/// Bins a factor of ten of frequency, for the noise.
+const BINS: f64 = 8.0;
+
+/// A rolling radius that varies with the wheel's angle.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Ripple {
+    /// Ripples a turn.
+    pub count: usize,
+    /// Wheel from 0, relative amplitude, standard deviation.
+    pub wheels: Vec<(usize, f64, f64)>,
+    /// Chance of the strongest, all places looked at paid for.
+    pub p_value: f64,
+}
+
+/// One block of one wheel at one order.
+#[derive(Clone, Copy)]
+struct Block {
+    segment: usize,
+    speed: f64,
+    /// Mean of the acceleration times e^(−i n φ), and the same of the torque.
+    demodulated: [[f64; 2]; 2],
+}
+
+/// What one wheel says at one order: chance of it in noise, amplitude, its deviation.
+#[derive(Clone, Copy)]
+struct Line {
+    p: f64,
+    amplitude: f64,
+    sd: f64,
+}
+
+/// Looks through all orders of all wheels.
+pub(super) fn orders(
+    link: &DriveLink,
+    model: &DriveModel,
+    segments: &[Segment],
+    stall_nm: f64,
+) -> (Option<Ripple>, Vec<Structure>) {
+    let n = link.noise.len();
+    let mut candidates: Vec<f64> = (2..=HIGHEST).map(|k| k as f64).collect();
+    // Whatever turns with the motor.
+    candidates.extend((1..=6).map(|k| f64::from(k) * model.gear_ratio).filter(|o| (o - o.round()).abs() > 0.05));
+    let raw: Vec<Option<[Vec<Vec<f64>>; 2]>> = (0..segments.len())
+        .map(|s| {
+            let fits = segments[s].duty.len() == n && segments[s].angle.len() == n && segments[s].t.len() > 50;
+            fits.then(|| link.raw(model, s)).flatten()
+        })
+        .collect();
+    let tests = 2.0 * n as f64 * candidates.len() as f64;
+    let mut ripples: Vec<(usize, usize, Line)> = Vec::new();
+    let mut structures = Vec::new();
+    for wheel in 0..n {
+        let blocks: Vec<Vec<Block>> = candidates.par_iter().map(|o| demodulate(segments, &raw, wheel, *o)).collect();
+        let noise = [0, 1].map(|of| Noise::new(&blocks, &candidates, of));
+        let lines: Vec<[Line; 2]> = blocks
+            .iter()
+            .zip(&candidates)
+            .map(|(b, o)| [line(b, *o, 0, &noise[0], |speed| o * speed * speed), line(b, *o, 1, &noise[1], |_| 1.0)])
+            .collect();
+        let Some((best, _)) = lines.iter().enumerate().min_by(|a, b| {
+            let least = |l: &[Line; 2]| l[0].p.min(l[1].p);
+            least(a.1).total_cmp(&least(b.1))
+        }) else {
+            continue;
+        };
+        let [radius, torque] = lines[best];
+        let order = candidates[best];
+        let whole = (order - order.round()).abs() < 1e-9;
+        if whole && order >= FEWEST_ROLLERS && radius.p <= torque.p && radius.p * tests < FALSE_ALARM {
+            if radius.amplitude >= MATERIAL[0] {
+                ripples.push((wheel, order as usize, radius));
+            }
+        } else if !(whole && order >= FEWEST_ROLLERS)
+            && torque.p * tests < FALSE_ALARM
+            && torque.amplitude >= MATERIAL[1] * stall_nm
+        {
+            structures.push(Structure {
+                text: format!(
+                    "the torque of wheel {} repeats {order:.2} times a turn, amplitude {:.1} mNm",
+                    wheel + 1,
+                    1e3 * torque.amplitude
+                ),
+                share: 1.0,
+            });
+        }
+    }
+    // Rollers are alike on all wheels: the count that shows best.
+    let best = ripples.iter().min_by(|a, b| a.2.p.total_cmp(&b.2.p)).map(|r| (r.1, r.2.p));
+    let ripple = best.map(|(count, p)| Ripple {
+        count,
+        wheels: ripples.iter().filter(|r| r.1 == count).map(|r| (r.0, r.2.amplitude, r.2.sd)).collect(),
+        p_value: (p * tests).max(1e-12),
+    });
+    (ripple, structures)
+}
+
+fn demodulate(segments: &[Segment], raw: &[Option<[Vec<Vec<f64>>; 2]>], wheel: usize, order: f64) -> Vec<Block> {
+    let mut out = Vec::new();
+    for (index, (s, raw)) in segments.iter().zip(raw).enumerate() {
+        let Some(raw) = raw else { continue };
+        let rate = (s.t.len() - 1) as f64 / (s.t[s.t.len() - 1] - s.t[0]);
+        let length = (BLOCK_S * rate).round() as usize;
+        if length < 20 {
+            continue;
+        }
+        let window: Vec<f64> = (0..length).map(|j| (PI * (j as f64 + 0.5) / length as f64).sin().powi(2)).collect();
+        let total: f64 = window.iter().sum();
+        let mut first = 1;
+        while first + length < s.t.len() {
+            let speeds = &s.speed[wheel][first..first + length];
+            let mean = speeds.iter().sum::<f64>() / length as f64;
+            let f = order * mean.abs() / TAU;
+            let steady = speeds.iter().all(|w| w * mean > 0.0 && w.abs() > 0.5 * mean.abs());
+            if steady && mean.abs() > SLOWEST && f > RANGE_HZ[0] && f < RANGE_HZ[1].min(0.2 * rate) {
+                let mut demodulated = [[0.0; 2]; 2];
+                let mean_of =
+                    |x: &[f64]| x[first..first + length].iter().zip(&window).map(|(a, w)| a * w).sum::<f64>() / total;
+                let means = [mean_of(&raw[0][wheel]), mean_of(&raw[1][wheel])];
+                for (j, w) in window.iter().enumerate() {
+                    let k = first + j;
+                    let (sin, cos) = (order * s.angle[wheel][k]).sin_cos();
+                    for of in 0..2 {
+                        let x = w * (raw[of][wheel][k] - means[of]) / total;
+                        demodulated[of][0] += x * cos;
+                        demodulated[of][1] -= x * sin;
+                    }
+                }
+                out.push(Block { segment: index, speed: mean.abs(), demodulated });
+            }
+            first += length / 2;
+        }
+    }
+    out
+}
+
+/// Mean square of demodulated noise by frequency.
+struct Noise {
+    bins: Vec<f64>,
+}
+
+impl Noise {
+    fn new(blocks: &[Vec<Block>], orders: &[f64], of: usize) -> Self {
+        let most = bin(RANGE_HZ[1] * 1.01) + 1;
+        let mut powers: Vec<Vec<f64>> = vec![Vec::new(); most];
+        for (list, order) in blocks.iter().zip(orders) {
+            for b in list {
+                let [c, s] = b.demodulated[of];
+                powers[bin(order * b.speed / TAU).min(most - 1)].push(c * c + s * s);
+            }
+        }
+        // The median of an exponential variable is ln 2 times its mean.
+        let mut bins: Vec<f64> = powers
+            .iter_mut()
+            .map(|p| if p.len() < 12 { f64::INFINITY } else { median(p) / std::f64::consts::LN_2 })
+            .collect();
+        bins.iter_mut().filter(|b| **b <= 0.0).for_each(|b| *b = f64::INFINITY);
+        Self { bins }
+    }
+
+    fn at(&self, f: f64) -> f64 {
+        self.bins[bin(f).min(self.bins.len() - 1)]
+    }
+}
+
+fn bin(f: f64) -> usize {
+    (BINS * (f / RANGE_HZ[0]).log10()).max(0.0) as usize
+}
+
+/// Fits amplitude times `basis` to one wheel's blocks, phase free in every run.
+fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, basis: impl Fn(f64) -> f64) -> Line {
+    let mut runs: Vec<(usize, [f64; 2], f64)> = Vec::new();
+    let mut phases: Vec<[f64; 3]> = Vec::new();
+    for b in blocks {
+        let variance = noise.at(order * b.speed / TAU);
+        if !variance.is_finite() {
+            continue;
+        }
+        // A cosine of amplitude A has a demodulated mean of A/2.
+        let x = 0.5 * basis(b.speed);
+        let at = match runs.iter().position(|r| r.0 == b.segment) {
+            Some(at) => at,
+            None => {
+                runs.push((b.segment, [0.0; 2], 0.0));
+                phases.push([0.0; 3]);
+                runs.len() - 1
+            }
+        };
+        let (slot, phase) = (&mut runs[at], &mut phases[at]);
+        let size = b.demodulated[of][0].hypot(b.demodulated[of][1]).max(1e-300);
+        phase[2] += 1.0;
+        for part in 0..2 {
+            phase[part] += b.demodulated[of][part] / size;
+        }
+        for part in 0..2 {
+            slot.1[part] += x * b.demodulated[of][part] / variance;
+        }
+        slot.2 += x * x / variance;
+    }
+    runs.retain(|r| r.2 > 0.0);
+    if runs.is_empty() {
+        return Line { p: 1.0, amplitude: 0.0, sd: f64::INFINITY };
+    }
+    // Blocks overlap by half: two count as 1.33 (Welch 1967).
+    let overlap = 1.5;
+    let statistic: f64 = runs.iter().map(|r| (r.1[0].powi(2) + r.1[1].powi(2)) / r.2 / overlap).sum();
+    // Rayleigh's test of the phases alone (Mardia and Jupp 2000), all pieces together.
+    let rayleigh: f64 =
+        phases.iter().filter(|p| p[2] > 0.0).map(|p| (p[0] * p[0] + p[1] * p[1]) / p[2] / overlap).sum();
+    let by_phase = chi2_upper(2.0 * rayleigh, 2.0 * runs.len() as f64);
+    let weight: f64 = runs.iter().map(|r| r.2).sum();
+    let square: f64 = runs.iter().map(|r| (r.1[0].powi(2) + r.1[1].powi(2)) / r.2).sum::<f64>() / weight;
+    let bias = runs.len() as f64 * overlap / weight;
+    Line {
+        p: if by_phase < PHASES { chi2_upper(2.0 * statistic, 2.0 * runs.len() as f64) } else { 1.0 },
+        amplitude: (square - bias).max(0.0).sqrt(),
+        sd: (0.5 * overlap / weight).sqrt(),
+    }
+}
