@@ -6,17 +6,20 @@
 mod answer;
 mod binomial;
 mod score;
+mod series;
 mod table;
 
 use std::panic::AssertUnwindSafe;
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use truth::{Conditions, Kind};
+use truth::{Ablation, Conditions, Kind};
 
 pub use answer::{Answer, NamedEffect};
 pub use binomial::{lower_bound, upper_bound};
 pub use score::{Grade, Scored, grade};
+pub use series::{Series, run};
 pub use table::Report;
 
 /// What can stop the bench.
@@ -28,6 +31,14 @@ pub enum BlindError {
     /// No scratch folder.
     #[error("no scratch folder: {0}")]
     Scratch(#[from] std::io::Error),
+    /// The file of scores cannot be read or written.
+    #[error("{path}: {why}")]
+    Scores {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What is wrong with it, and where.
+        why: String,
+    },
 }
 
 /// How many sets of which kind, and the seed of them all.
@@ -49,6 +60,8 @@ pub struct Plan {
     pub outside: usize,
     /// Sets with a drawn effect of the catalogue whose runs have no rotation.
     pub translations_only: usize,
+    /// Sets whose data or truth are spoiled, each of the three ablations in turn.
+    pub ablations: usize,
     /// Conditions of all sets.
     pub conditions: Conditions,
 }
@@ -65,6 +78,7 @@ impl Plan {
             pairs: 0,
             outside: 0,
             translations_only: 0,
+            ablations: 0,
             conditions: Conditions::default(),
         }
     }
@@ -107,12 +121,16 @@ impl Plan {
             task.conditions.translations_only = true;
             tasks.push(task);
         }
+        for (i, which) in (0..self.ablations).zip(Ablation::ALL.into_iter().cycle()) {
+            tasks.push(task(Group::Ablation, i, Kind::Ablation(Some(which))));
+        }
         tasks
     }
 }
 
 /// Rows of the table that belong together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Group {
     /// Nothing hidden.
     EffectFree,
@@ -124,6 +142,8 @@ pub enum Group {
     Outside,
     /// One effect, runs without rotation.
     TranslationsOnly,
+    /// Data or truth spoiled: to be right is a failure of the bench.
+    Ablation,
 }
 
 impl Group {
@@ -135,6 +155,7 @@ impl Group {
             Self::Pair => "pair",
             Self::Outside => "outside",
             Self::TranslationsOnly => "translations-only",
+            Self::Ablation => "ablation",
         }
     }
 }
@@ -170,17 +191,4 @@ impl Task {
         .unwrap_or_else(|_| Err("the workflow panicked".to_owned()));
         Ok(Scored::new(self, &sealed, answer, start.elapsed().as_secs_f64()))
     }
-}
-
-/// Runs a plan; `done` is called after every set with the number done so far.
-///
-/// # Errors
-/// [`BlindError`] if a set cannot be made.
-pub fn run(plan: &Plan, mut done: impl FnMut(usize)) -> Result<Report, BlindError> {
-    let mut scored = Vec::new();
-    for (i, task) in plan.tasks().iter().enumerate() {
-        scored.push(task.run()?);
-        done(i + 1);
-    }
-    Ok(Report { seed: plan.seed, scored })
 }

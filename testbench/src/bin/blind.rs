@@ -1,10 +1,11 @@
 //! Hides effects in simulated logs, lets the gap workflow look for them, and prints how often it is right.
 
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use testbench::blind::{self, BlindError, Plan};
+use testbench::blind::{self, BlindError, Plan, Series};
 
 /// Blind bench of the gap workflow.
 #[derive(Debug, Parser)]
@@ -31,6 +32,18 @@ struct Args {
     /// Sets with one effect and no rotation
     #[arg(long, default_value_t = 0)]
     translations_only: usize,
+    /// Sets with data or truth spoiled on purpose: a right answer is a fault
+    #[arg(long, default_value_t = 0)]
+    ablations: usize,
+    /// Begin no set after this many minutes
+    #[arg(long)]
+    minutes: Option<f64>,
+    /// File to which every score is added as soon as it is known; what it holds already is not tried again
+    #[arg(long, value_name = "FILE")]
+    scores: Option<std::path::PathBuf>,
+    /// Sets at a time; 0 = one a core
+    #[arg(long, default_value_t = 0)]
+    workers: usize,
     /// Seed of the whole series
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -62,6 +75,7 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
         pairs: args.pairs,
         outside: args.outside,
         translations_only: args.translations_only,
+        ablations: args.ablations,
         ..Plan::new(args.seed)
     };
     let sets = plan.tasks().len();
@@ -73,7 +87,12 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
     let style = ProgressStyle::with_template("{pos:>5} of {len} sets [{bar:30}] {percent:>3} % {eta:>4}");
     let bar = ProgressBar::new(sets as u64)
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
-    let report = blind::run(&plan, |done| bar.set_position(done as u64))?;
+    let series = Series {
+        budget: args.minutes.map(|m| Duration::from_secs_f64(60.0 * m.max(0.0))),
+        scores: args.scores,
+        workers: args.workers,
+    };
+    let report = blind::run(&plan, &series, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     if args.json {
         println!("{:#}", report.to_json());

@@ -1,9 +1,10 @@
 //! What the workflow says, as read from the keys of `gap.json`.
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// A named effect.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NamedEffect {
     /// Name.
     pub name: String,
@@ -14,7 +15,7 @@ pub struct NamedEffect {
 }
 
 /// The workflow's answer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// `agrees`, `missing-effect`, `ambiguous` or `unexplained`.
     pub verdict: String,
@@ -24,8 +25,8 @@ pub struct Answer {
     pub alternatives: Vec<Vec<String>>,
     /// Named effects that are only the nearest of the catalogue.
     pub nearest: Vec<String>,
-    /// Links with unexplained structure.
-    pub unexplained: usize,
+    /// Unexplained structure, in words.
+    pub unexplained: Vec<String>,
     /// Share of the gap that the named effects close.
     pub closed: Option<f64>,
     /// Stated detection limits: effect, parameter, limit.
@@ -43,7 +44,7 @@ impl Answer {
             effects,
             alternatives,
             nearest: texts(&json["nearest"]).unwrap_or_default(),
-            unexplained: json["unexplained"].as_array()?.len(),
+            unexplained: json["unexplained"].as_array()?.iter().map(structure).collect::<Option<_>>()?,
             closed: json["gap"].as_object()?.get("closed")?.as_f64(),
             limits: limits
                 .iter()
@@ -58,6 +59,10 @@ impl Answer {
     pub fn names(&self) -> Vec<&str> {
         self.effects.iter().map(|e| e.name.as_str()).collect()
     }
+}
+
+fn structure(json: &Value) -> Option<String> {
+    Some(format!("{}: {}", json["link"].as_str()?, json["structure"].as_str()?))
 }
 
 fn texts(json: &Value) -> Option<Vec<String>> {

@@ -1,11 +1,12 @@
 //! How an answer compares with what was hidden.
 
+use serde::{Deserialize, Serialize};
 use truth::{Hidden, Truth};
 
 use super::{Answer, Group, Task};
 
 /// How good an answer is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Grade {
     /// Exactly what is hidden, nothing else.
     Right,
@@ -87,7 +88,7 @@ pub fn grade(hidden: &[Hidden], answer: &Answer) -> Grade {
 }
 
 /// One set and its score.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scored {
     /// Where it is counted.
     pub group: Group,
@@ -145,7 +146,7 @@ fn outside(answer: &Answer) -> Grade {
     match () {
         () if answer.verdict == "unexplained" && demoted => Grade::Right,
         () if answer.effects.is_empty() => Grade::Nothing,
-        () if answer.unexplained > 0 => Grade::Extra,
+        () if !answer.unexplained.is_empty() => Grade::Extra,
         () => Grade::Wrong,
     }
 }
@@ -204,7 +205,7 @@ mod tests {
             effects: names.iter().map(effect).collect(),
             alternatives: alternatives.iter().map(|a| a.iter().map(|n| (*n).to_owned()).collect()).collect(),
             nearest: Vec::new(),
-            unexplained: 0,
+            unexplained: Vec::new(),
             closed: None,
             limits: vec![("wheel-radius".to_owned(), "scale_1".to_owned(), 0.004)],
         }
@@ -241,7 +242,7 @@ mod tests {
     fn outside_the_catalogue_only_none_of_these_is_right() {
         let mut answer = say(&[("floor-tilt", &[])], &[]);
         assert_eq!(outside(&answer), Grade::Wrong);
-        answer.unexplained = 1;
+        answer.unexplained = vec!["drive: a burst".to_owned()];
         assert_eq!(outside(&answer), Grade::Extra);
         answer.verdict = "unexplained".to_owned();
         answer.nearest = vec!["floor-tilt".to_owned()];

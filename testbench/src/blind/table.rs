@@ -12,6 +12,8 @@ use super::{Grade, Group, Scored, upper_bound};
 pub struct Report {
     /// Seed of the series.
     pub seed: u64,
+    /// Sets that were planned; fewer are scored where time ran out.
+    pub planned: usize,
     /// The sets in the order in which they were tried.
     pub scored: Vec<Scored>,
 }
@@ -55,7 +57,7 @@ impl Report {
         }
         let above = single.iter().filter(|s| s.limits.is_some_and(|r| r >= WELL_ABOVE)).copied().collect();
         rows.push((format!("single, >= {WELL_ABOVE} limits"), above));
-        for group in [Group::Pair, Group::Outside, Group::TranslationsOnly] {
+        for group in [Group::Pair, Group::Outside, Group::TranslationsOnly, Group::Ablation] {
             rows.push((group.name().to_owned(), self.group(group)));
         }
         rows.retain(|(_, sets)| !sets.is_empty());
@@ -86,7 +88,7 @@ impl Report {
 
     /// The tables, at most 80 columns wide.
     pub fn table(&self) -> String {
-        let mut out = format!("blind bench, seed {}, {} sets\n\n", self.seed, self.scored.len());
+        let mut out = format!("blind bench, seed {}, {} of {} sets\n\n", self.seed, self.scored.len(), self.planned);
         let mut head = format!("{:<22}{:>5}", "hidden", "sets");
         for g in Grade::ALL {
             let _ = write!(head, "{:>7}", g.name().chars().take(6).collect::<String>());
@@ -186,6 +188,7 @@ impl Report {
         let [n, k] = self.intervals();
         json!({
             "seed": self.seed,
+            "planned": self.planned,
             "confidence": CONFIDENCE,
             "rows": rows,
             "intervals": n,
