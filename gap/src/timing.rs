@@ -34,8 +34,13 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
     let floor = (SCATTER_TICKS * tick).max(SCATTER_S);
     let named = scatter > floor;
     let lost = missing / frames.max(1.0);
-    // Beyond a fifth of a period stamps are nearer to a neighbour's place: the scatter is more than it looks.
-    let folded = if scatter > 0.2 / robot.camera_rate_hz { 1.5 } else { 1.0 };
+    // From a fifth of a period on, stamps lie nearer to a neighbour's place and the scatter is more than it looks; from
+    // a quarter on it hardly grows any more, whatever the truth.
+    let folded = match scatter * robot.camera_rate_hz {
+        periods if periods > 0.25 => 3.0,
+        periods if periods > 0.2 => 1.5,
+        _ => 1.0,
+    };
     let error = 2.0 / (2.0 * n).sqrt();
     let mut parameters =
         vec![("jitter_s".to_owned(), scatter, [scatter * (1.0 - error), scatter * (1.0 + error) * folded])];
