@@ -1,86 +1,49 @@
-// Block memory of the Spartan-II with 256 words of 16 bits, as Xilinx describes it: a write shows the
-// new word at its own port, a reset clears the output. A port that reads the word which the other
-// port writes in the same clock gets garbage here, on purpose: on the device it is not defined.
-module RAMB4_S16_S16 #(
-    parameter [255:0]
-    INIT_00 = 256'd0, INIT_01 = 256'd0, INIT_02 = 256'd0, INIT_03 = 256'd0,
-    INIT_04 = 256'd0, INIT_05 = 256'd0, INIT_06 = 256'd0, INIT_07 = 256'd0,
-    INIT_08 = 256'd0, INIT_09 = 256'd0, INIT_0A = 256'd0, INIT_0B = 256'd0,
-    INIT_0C = 256'd0, INIT_0D = 256'd0, INIT_0E = 256'd0, INIT_0F = 256'd0
+// Block memory of the Spartan-II, 4096 bits behind two ports of 1 to 16 bits, as Xilinx describes it: a
+// write shows the new word at its own port, a reset clears the output. A port that reads bits which the
+// other port writes in the same clock gets garbage here, on purpose: on the device it is not defined.
+module ramb4 #(
+    parameter WA = 16,
+    parameter WB = 16,
+    parameter AA = 8,
+    parameter AB = 8,
+    parameter [4095:0] INIT = 0
 ) (
-    output reg [15:0] DOA,
-    output reg [15:0] DOB,
-    input wire [7:0] ADDRA,
-    input wire [7:0] ADDRB,
-    input wire [15:0] DIA,
-    input wire [15:0] DIB,
-    input wire ENA,
-    input wire ENB,
-    input wire CLKA,
-    input wire CLKB,
-    input wire RSTA,
-    input wire RSTB,
-    input wire WEA,
-    input wire WEB
+    output reg [WA-1:0] doa,
+    output reg [WB-1:0] dob,
+    input wire [AA-1:0] addra,
+    input wire [AB-1:0] addrb,
+    input wire [WA-1:0] dia,
+    input wire [WB-1:0] dib,
+    input wire ena,
+    input wire enb,
+    input wire clka,
+    input wire clkb,
+    input wire rsta,
+    input wire rstb,
+    input wire wea,
+    input wire web
 );
-    reg [15:0] mem [0:255];
-    wire same = ENA && ENB && ADDRA == ADDRB;
+    // Words of the wider port: both ports then address whole words or parts of one.
+    localparam W = WA > WB ? WA : WB;
+    localparam A = AA < AB ? AA : AB;
+    reg [W-1:0] mem [0:(1 << A) - 1];
+    wire [A-1:0] worda = addra >> (AA - A);
+    wire [A-1:0] wordb = addrb >> (AB - A);
+    wire [11:0] bita = (addra * WA) % W;
+    wire [11:0] bitb = (addrb * WB) % W;
+    wire meets = ena && enb && worda == wordb && bita < bitb + WB && bitb < bita + WA;
     integer word;
     initial begin
-        DOA = 0;
-        DOB = 0;
-        for (word = 0; word < 16; word = word + 1) begin
-            mem[0 + word] = INIT_00[16 * word +: 16];
-            mem[16 + word] = INIT_01[16 * word +: 16];
-            mem[32 + word] = INIT_02[16 * word +: 16];
-            mem[48 + word] = INIT_03[16 * word +: 16];
-            mem[64 + word] = INIT_04[16 * word +: 16];
-            mem[80 + word] = INIT_05[16 * word +: 16];
-            mem[96 + word] = INIT_06[16 * word +: 16];
-            mem[112 + word] = INIT_07[16 * word +: 16];
-            mem[128 + word] = INIT_08[16 * word +: 16];
-            mem[144 + word] = INIT_09[16 * word +: 16];
-            mem[160 + word] = INIT_0A[16 * word +: 16];
-            mem[176 + word] = INIT_0B[16 * word +: 16];
-            mem[192 + word] = INIT_0C[16 * word +: 16];
-            mem[208 + word] = INIT_0D[16 * word +: 16];
-            mem[224 + word] = INIT_0E[16 * word +: 16];
-            mem[240 + word] = INIT_0F[16 * word +: 16];
-        end
+        doa = 0;
+        dob = 0;
+        for (word = 0; word < 1 << A; word = word + 1) mem[word] = INIT[word * W +: W];
     end
-    always @(posedge CLKA) if (ENA) begin
-        if (WEA) mem[ADDRA] <= DIA;
-        DOA <= RSTA ? 16'd0 : WEA ? DIA : same && WEB ? ~mem[ADDRA] : mem[ADDRA];
+    always @(posedge clka) if (ena) begin
+        if (wea) mem[worda][bita +: WA] <= dia;
+        doa <= rsta ? {WA{1'b0}} : wea ? dia : meets && web ? ~mem[worda][bita +: WA] : mem[worda][bita +: WA];
     end
-    always @(posedge CLKB) if (ENB) begin
-        if (WEB) mem[ADDRB] <= DIB;
-        DOB <= RSTB ? 16'd0 : WEB ? DIB : same && WEA ? ~mem[ADDRB] : mem[ADDRB];
+    always @(posedge clkb) if (enb) begin
+        if (web) mem[wordb][bitb +: WB] <= dib;
+        dob <= rstb ? {WB{1'b0}} : web ? dib : meets && wea ? ~mem[wordb][bitb +: WB] : mem[wordb][bitb +: WB];
     end
-endmodule
-
-module RAMB4_S16 #(
-    parameter [255:0]
-    INIT_00 = 256'd0, INIT_01 = 256'd0, INIT_02 = 256'd0, INIT_03 = 256'd0,
-    INIT_04 = 256'd0, INIT_05 = 256'd0, INIT_06 = 256'd0, INIT_07 = 256'd0,
-    INIT_08 = 256'd0, INIT_09 = 256'd0, INIT_0A = 256'd0, INIT_0B = 256'd0,
-    INIT_0C = 256'd0, INIT_0D = 256'd0, INIT_0E = 256'd0, INIT_0F = 256'd0
-) (
-    output wire [15:0] DO,
-    input wire [7:0] ADDR,
-    input wire [15:0] DI,
-    input wire EN,
-    input wire CLK,
-    input wire RST,
-    input wire WE
-);
-    wire [15:0] unused;
-    RAMB4_S16_S16 #(
-        .INIT_00(INIT_00), .INIT_01(INIT_01), .INIT_02(INIT_02), .INIT_03(INIT_03),
-        .INIT_04(INIT_04), .INIT_05(INIT_05), .INIT_06(INIT_06), .INIT_07(INIT_07),
-        .INIT_08(INIT_08), .INIT_09(INIT_09), .INIT_0A(INIT_0A), .INIT_0B(INIT_0B),
-        .INIT_0C(INIT_0C), .INIT_0D(INIT_0D), .INIT_0E(INIT_0E), .INIT_0F(INIT_0F)
-    ) both (
-        .DOA(DO), .DOB(unused), .ADDRA(ADDR), .ADDRB(8'd0), .DIA(DI), .DIB(16'd0), .ENA(EN), .ENB(1'b0),
-        .CLKA(CLK), .CLKB(CLK), .RSTA(RST), .RSTB(1'b0), .WEA(WE), .WEB(1'b0)
-    );
 endmodule

@@ -14,3 +14,4 @@ pub mod place;
 pub mod qemu;
 pub mod replay;
 pub mod virtual_card;
+pub mod wave;

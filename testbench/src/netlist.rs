@@ -56,7 +56,8 @@ impl Netlist {
         for cell in graph["modules"][top]["cells"].as_object().into_iter().flatten() {
             *cells.entry(cell.1["type"].as_str().unwrap_or("").to_owned()).or_default() += 1;
         }
-        let verilog = [&read("netlist.v")?, &models(cells.keys())?, BLOCK_MEMORY].join("\n");
+        let mut verilog = [&read("netlist.v")?, &models(cells.keys())?, BLOCK_MEMORY].join("\n");
+        verilog.extend(cells.keys().filter_map(|cell| block_memory(cell)));
         Ok(Self { verilog, cells, graph, top: top.into() })
     }
 
@@ -65,6 +66,50 @@ impl Netlist {
     pub fn paths(&self) -> Paths {
         Paths::of(&self.graph["modules"][&self.top])
     }
+}
+
+/// The block memory of this name, `RAMB4_Sn` or `RAMB4_Sn_Sm`, around [`BLOCK_MEMORY`].
+#[must_use]
+pub fn block_memory(cell: &str) -> Option<String> {
+    let widths = cell.strip_prefix("RAMB4_S")?.split("_S").map(str::parse).collect::<Result<Vec<u32>, _>>().ok()?;
+    let both: &[(&str, u32)] = match widths[..] {
+        [width] => &[("", width)],
+        [a, b] => &[("A", a), ("B", b)],
+        _ => return None,
+    };
+    let address = |width: u32| 12 - width.ilog2();
+    let (mut header, mut pins, mut sizes) = (Vec::new(), Vec::new(), String::new());
+    for (port, inner) in ["a", "b"].into_iter().enumerate() {
+        let Some((name, width)) = both.get(port) else {
+            pins.push(format!(
+                ".do{inner}(), .addr{inner}({0}'d0), .di{inner}({1}'d0), .en{inner}(1'b0), .clk{inner}(1'b0), \
+                 .rst{inner}(1'b0), .we{inner}(1'b0)",
+                address(widths[0]),
+                widths[0]
+            ));
+            sizes += &format!(", .WB({}), .AB({})", widths[0], address(widths[0]));
+            continue;
+        };
+        let (word, line) = (width - 1, address(*width) - 1);
+        header.push(format!(
+            "output wire [{word}:0] DO{name}, input wire [{line}:0] ADDR{name}, input wire [{word}:0] DI{name}, \
+             input wire EN{name}, input wire CLK{name}, input wire RST{name}, input wire WE{name}"
+        ));
+        pins.push(
+            ["do", "addr", "di", "en", "clk", "rst", "we"]
+                .map(|pin| format!(".{pin}{inner}({}{name})", pin.to_uppercase()))
+                .join(", "),
+        );
+        sizes += &format!(", .W{0}({width}), .A{0}({1})", inner.to_uppercase(), address(*width));
+    }
+    let rows: Vec<_> = (0..16).map(|row| format!("INIT_0{row:X}")).collect();
+    let initial = rows.iter().map(|row| format!("{row} = 256'd0")).collect::<Vec<_>>().join(", ");
+    let joined = rows.into_iter().rev().collect::<Vec<_>>().join(", ");
+    Some(format!(
+        "\nmodule {cell} #(\n    parameter [255:0] {initial}\n) (\n    {}\n);\n    ramb4 #(.INIT({{{joined}}}){sizes}) memory (\n        {}\n    );\nendmodule\n",
+        header.join(",\n    "),
+        pins.join(",\n        ")
+    ))
 }
 
 /// Where yosys keeps its models: beside itself.

@@ -12,7 +12,7 @@ use testbench::closed_loop::Drive;
 use testbench::cosim::{Layout, Verilated};
 use testbench::cross_check::{Traced, play};
 use testbench::fpga::{BitTrue, QUIET_CLOCKS, Verilog};
-use testbench::netlist::{BLOCK_MEMORY, Netlist};
+use testbench::netlist::{BLOCK_MEMORY, Netlist, block_memory};
 
 /// Control ticks of the chip at 8 kHz.
 const TICKS: usize = 400;
@@ -209,11 +209,11 @@ fn a_wrong_lookup_table_is_seen() {
     assert_ne!(run("multiplier-broken", &broken), expected);
 }
 
-/// The memory as a list of words, with what its two ports show.
-#[derive(Clone)]
+/// The memory as bits, with what its two ports show.
 struct Memory {
-    words: Vec<u16>,
-    shown: [u16; 2],
+    bits: Vec<bool>,
+    widths: [u32; 2],
+    shown: [u32; 2],
 }
 
 /// Enable, reset, write, address, data of a port.
@@ -221,80 +221,98 @@ type Access = [u32; 5];
 
 impl Memory {
     fn clock(&mut self, ports: [Access; 2]) {
-        let before = self.words.clone();
-        for (port, [enable, reset, write, address, data]) in ports.into_iter().enumerate() {
+        let before = self.bits.clone();
+        let place = |port: usize| {
+            let (width, [_, _, _, address, _]) = (self.widths[port], ports[port]);
+            (address * width) as usize..((address + 1) * width) as usize
+        };
+        for port in 0..2 {
+            let [enable, reset, write, _, data] = ports[port];
             if enable == 0 {
                 continue;
             }
-            let [other_enable, _, other_write, other_address, _] = ports[1 - port];
-            let collides = other_enable & other_write == 1 && other_address == address;
-            let word = before[address as usize];
+            let ([other_enable, _, other_write, ..], mine, other) = (ports[1 - port], place(port), place(1 - port));
+            let meets = other_enable & other_write == 1 && mine.start < other.end && other.start < mine.end;
+            let word = mine.clone().rev().fold(0, |word, bit| word << 1 | u32::from(before[bit] != meets));
             self.shown[port] = match (reset, write) {
                 (1, _) => 0,
-                (_, 1) => data as u16,
-                _ if collides => !word,
+                (_, 1) => data,
                 _ => word,
             };
             if write == 1 {
-                self.words[address as usize] = data as u16;
+                for (n, bit) in mine.enumerate() {
+                    self.bits[bit] = data >> n & 1 == 1;
+                }
             }
         }
     }
 }
 
-#[test]
-fn the_model_of_the_block_memory_is_that_of_the_data_sheet() {
-    let words: Vec<u16> = (0..256_u32).map(|word| (word * 40_503 + 7) as u16).collect();
-    let initial: String = words
-        .chunks(16)
+/// A memory with ports of these widths (one or two) against the list of bits.
+fn memory_is_right(widths: &[u32]) {
+    let names = if widths.len() == 1 { &[""][..] } else { &["A", "B"] };
+    let cell = format!("RAMB4{}", widths.iter().map(|width| format!("_S{width}")).collect::<String>());
+    let bits: Vec<bool> = (0..4096_u32).map(|bit| (bit.wrapping_mul(2_654_435_761) >> 13) & 1 == 1).collect();
+    let row = |row: &[bool]| row.chunks(4).rev().map(|b| (0..4).map(|n| u32::from(b[n]) << n).sum::<u32>()).collect();
+    let rows: Vec<Vec<u32>> = bits.chunks(256).map(row).collect();
+    let initial: Vec<String> = rows
+        .iter()
         .enumerate()
-        .map(|(row, words)| {
-            let digits: String = words.iter().rev().map(|word| format!("{word:04x}")).collect();
-            format!("{}.INIT_0{row:X}(256'h{digits})", if row == 0 { "" } else { ", " })
-        })
+        .map(|(n, row)| format!(".INIT_0{n:X}(256'h{})", row.iter().map(|d| format!("{d:x}")).collect::<String>()))
         .collect();
-    let both = ["A", "B"].map(|p| {
-        format!("input wire en{p}, input wire rst{p}, input wire we{p}, input wire [7:0] addr{p}, input wire [15:0] di{p}, output wire [15:0] do{p}")
-    });
-    let pins = ["A", "B"].map(|p| {
-        format!(".EN{p}(en{p}), .RST{p}(rst{p}), .WE{p}(we{p}), .ADDR{p}(addr{p}), .DI{p}(di{p}), .DO{p}(do{p}), .CLK{p}(clock)")
-    });
+    let (mut header, mut pins) = (Vec::new(), Vec::new());
+    for (p, width) in names.iter().zip(widths) {
+        let (word, line) = (width - 1, 11 - width.ilog2());
+        header.push(format!(
+            "input wire en{p}, input wire rst{p}, input wire we{p}, input wire [{line}:0] addr{p}, \
+             input wire [{word}:0] di{p}, output wire [{word}:0] q{p}"
+        ));
+        pins.push(format!(
+            ".EN{p}(en{p}), .RST{p}(rst{p}), .WE{p}(we{p}), .ADDR{p}(addr{p}), .DI{p}(di{p}), .DO{p}(q{p}), .CLK{p}(clock)"
+        ));
+    }
     let text = format!(
-        "module memory (\n    input wire clock, {},\n    {}, output wire [15:0] single\n);\n\
-         RAMB4_S16_S16 #({initial}) dual ({}, {});\n\
-         RAMB4_S16 #({initial}) one (.EN(enA), .RST(rstA), .WE(weA), .ADDR(addrA), .DI(diA), .DO(single), .CLK(clock));\n\
-         endmodule\n{BLOCK_MEMORY}",
-        both[0], both[1], pins[0], pins[1]
-    );
+        "module memory (\n    input wire clock, {}\n);\n{cell} #({}) cell ({});\nendmodule\n{BLOCK_MEMORY}{}",
+        header.join(",\n    "),
+        initial.join(", "),
+        pins.join(", "),
+        block_memory(&cell).expect("a block memory")
+    )
+    .replace(" cell (", " inside_it (");
     let ports = Ports::parse(&text, "memory", &["clock"]).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(4);
-    let mut dual = Memory { words: words.clone(), shown: [0; 2] };
-    let mut single = Memory { words, shown: [0; 2] };
-    let (mut rows, mut expected, mut collisions) = (Vec::new(), Vec::new(), 0);
-    for _ in 0..100_000 {
-        let mut port = || -> Access {
+    let mut memory = Memory { bits, widths: [widths[0], *widths.last().unwrap()], shown: [0; 2] };
+    let (mut rows, mut expected, mut collisions) = (Vec::new(), Vec::<u32>::new(), 0);
+    for _ in 0..20_000 {
+        let mut port = |width: u32| -> Access {
             let often = u32::from(random.random_range(0..4) != 0);
-            [
-                often,
-                u32::from(random.random_range(0..8) == 0),
-                random.random_range(0..2),
-                random.random_range(0..256),
-                random.random_range(0..0x1_0000),
-            ]
+            let (reset, write) = (u32::from(random.random_range(0..8) == 0), random.random_range(0..2));
+            [often, reset, write, random.random_range(0..4096 / width), random.random_range(0..1 << width)]
         };
-        let (a, mut b) = (port(), port());
-        if random.random_range(0..4) == 0 {
-            b[3] = a[3];
+        let (a, mut b) = (port(memory.widths[0]), port(memory.widths[1]));
+        if widths.len() == 1 {
+            b = [0; 5];
+        } else if random.random_range(0..4) == 0 {
+            b[3] = a[3] * memory.widths[0] / memory.widths[1];
         }
+        let overlap = (a[3] * memory.widths[0]).abs_diff(b[3] * memory.widths[1]) < 16;
         // Two writes to one word at a time leave it undefined; no netlist of ours has two writing ports.
-        b[2] &= u32::from(a[2] == 0 || a[3] != b[3]);
-        collisions += usize::from(a[0] & b[0] == 1 && a[3] == b[3] && a[2] != b[2]);
-        rows.extend(a.into_iter().chain(b));
-        dual.clock([a, b]);
-        single.clock([a, [0; 5]]);
-        expected.extend([dual.shown[0], dual.shown[1], single.shown[0]].map(u32::from));
+        b[2] &= u32::from(a[2] == 0 || !overlap);
+        collisions += usize::from(a[0] & b[0] == 1 && overlap && a[2] != b[2]);
+        let used = widths.len();
+        rows.extend([a, b].into_iter().take(used).flatten());
+        memory.clock([a, b]);
+        expected.extend(&memory.shown[..used]);
     }
-    assert!(collisions > 1_000, "{collisions}");
+    assert!(collisions > 500 || widths.len() == 1, "{collisions}");
     let built = Verilated::build("block-memory", &text, "memory", &ports).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(built.run(&rows).unwrap(), expected);
+    assert_eq!(built.run(&rows).unwrap(), expected, "{cell}");
+}
+
+#[test]
+fn the_model_of_the_block_memory_is_that_of_the_data_sheet() {
+    memory_is_right(&[16]);
+    memory_is_right(&[8]);
+    memory_is_right(&[16, 16]);
+    memory_is_right(&[2, 8]);
 }

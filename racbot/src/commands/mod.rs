@@ -22,6 +22,8 @@ mod replay;
 #[cfg(feature = "simulation")]
 mod simulate;
 mod start;
+#[cfg(feature = "simulation")]
+mod wave;
 
 use crate::terminal::{Answer, Failure};
 use clap::{CommandFactory, Subcommand};
@@ -56,6 +58,9 @@ pub(crate) enum Command {
     Kick(kick::Options),
     /// Watch a card in the terminal
     Monitor(monitor::Options),
+    /// Write a scene of the chip's life as a waveform (VCD)
+    #[cfg(feature = "simulation")]
+    Wave(wave::Options),
     /// Measure how late the timer wakes the control loop on this machine
     Latency(latency::Options),
 }
@@ -88,6 +93,8 @@ impl Command {
             Self::Drive(options) => options.run(),
             Self::Kick(options) => options.run(),
             Self::Monitor(options) => options.run(json),
+            #[cfg(feature = "simulation")]
+            Self::Wave(options) => options.run(),
             Self::Latency(options) => options.run(),
         }
     }

@@ -181,3 +181,13 @@ fn a_reader_that_goes_away_is_no_error() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
 }
+
+#[test]
+fn wave_writes_a_scene_and_lists_those_that_exist() {
+    let folder = tempdir().unwrap();
+    let json = racbot(folder.path(), &["wave", "bus", "--json"]).done().json();
+    let vcd = fs::read_to_string(folder.path().join("out/bus.vcd")).unwrap();
+    assert!(vcd.contains("$var wire 32 % lad [31:0] $end") && vcd.contains("$enddefinitions $end"));
+    assert!(json["clocks"].as_u64().is_some_and(|clocks| clocks > 600), "{json}");
+    racbot(folder.path(), &["wave", "dance"]).refused(2, &["bus, arm, reversal, kick, stop"]);
+}

@@ -1,0 +1,51 @@
+//! `racbot wave`
+
+use crate::terminal::{Answer, Failure, save};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use std::path::PathBuf;
+use testbench::wave::{Scene, record};
+
+/// Options of `wave`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// What to show
+    #[arg(value_enum)]
+    scene: SceneChoice,
+
+    /// File to write [default: out/SCENE.vcd]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SceneChoice {
+    /// A burst read, a write, reserved words
+    Bus,
+    /// Commit, arm sequence, control ticks, PWM
+    Arm,
+    /// Wheels that are told to turn the other way
+    Reversal,
+    /// Charging, trigger pulse, lock-out
+    Kick,
+    /// Driving, then the emergency stop opens
+    Stop,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let (scene, name) = match self.scene {
+            SceneChoice::Bus => (Scene::Bus, "bus"),
+            SceneChoice::Arm => (Scene::Arm, "arm"),
+            SceneChoice::Reversal => (Scene::Reversal, "reversal"),
+            SceneChoice::Kick => (Scene::Kick, "kick"),
+            SceneChoice::Stop => (Scene::Stop, "stop"),
+        };
+        let path = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("out/{name}.vcd")));
+        let (text, clocks) = record(scene).map_err(Failure::data)?;
+        save(&path, &text)?;
+        let shown = path.display();
+        let text = format!("{shown}: {clocks} clocks of the chip's pins; open it with gtkwave or surfer\n");
+        Ok(Answer { text, json: json!({ "file": path, "clocks": clocks }), wrong: None })
+    }
+}
