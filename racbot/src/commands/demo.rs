@@ -38,6 +38,7 @@ impl Options {
         let begun = Instant::now();
         let mut report = Report::default();
         report.check_generated(&self.generated)?;
+        report.board(&self.out.join("board"))?;
         report.drive()?;
         report.cross_check(self.ticks)?;
         report.replay()?;

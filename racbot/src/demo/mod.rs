@@ -1,5 +1,6 @@
 //! The parts of `racbot demo`: everything once, with what is built in.
 
+mod board;
 mod page;
 mod parts;
 
