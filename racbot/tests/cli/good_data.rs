@@ -164,7 +164,7 @@ fn the_demo_runs_anywhere_and_all_is_well() {
     let page = fs::read_to_string(folder.path().join("out/demo/index.html")).unwrap();
     assert!(page.matches("<svg ").count() >= 3 && !page.contains("http://") | page.contains("www.w3.org"));
     let json = racbot(folder.path(), &["demo", "--ticks", "1", "--json"]).done().json();
-    assert_eq!((json["good"].as_bool(), json["parts"].as_array().map(Vec::len)), (Some(true), Some(4)));
+    assert_eq!((json["good"].as_bool(), json["parts"].as_array().map(Vec::len)), (Some(true), Some(5)));
 }
 
 #[test]
