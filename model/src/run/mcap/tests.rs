@@ -178,6 +178,18 @@ fn errors_say_where_what_and_what_to_do() {
     }
 }
 
+/// What the fuzzer found in the crate's own reader: a length that no file has.
+#[test]
+fn lengths_beyond_the_file_are_refused() {
+    let good = bytes_of(&example(), 400, true);
+    for length in [u64::MAX, u64::MAX / 2, good.len() as u64] {
+        // The first record: its length stands behind the magic and the kind of record.
+        let mut bytes = good.clone();
+        bytes[9..17].copy_from_slice(&length.to_le_bytes());
+        assert!(read_bytes(&bytes).is_err_and(|shown| shown.starts_with("run.mcap: byte 8: ")));
+    }
+}
+
 /// `RACBOT_FUZZ_S=600 cargo test --release -p model mcap::tests::no_damage` runs for ten minutes.
 #[test]
 fn no_damage_panics_the_reader() {
