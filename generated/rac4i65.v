@@ -1,5 +1,5 @@
 // rac4i65
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 1.0.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.0.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -22,6 +22,8 @@ module rac4i65 (
     output wire [3:0] pwm,
     output wire kicker_charge_n,
     output wire kicker_trigger_n,
+    output wire kicker_discharge,
+    input wire kicker_full,
     input wire emergency_stop,
     input wire ball_sensor
 );
@@ -50,6 +52,8 @@ module rac4i65 (
         .pwm(pwm),
         .kicker_charge_n(kicker_charge_n),
         .kicker_trigger_n(kicker_trigger_n),
+        .kicker_discharge(kicker_discharge),
+        .kicker_full(kicker_full),
         .emergency_stop(emergency_stop),
         .ball_sensor(ball_sensor)
     );
@@ -75,6 +79,8 @@ module rac4i65_core (
     output reg [3:0] enable_n,
     output reg kicker_charge_n,
     output reg kicker_trigger_n,
+    output reg kicker_discharge,
+    input wire kicker_full,
     input wire emergency_stop,
     input wire ball_sensor
 );
@@ -87,6 +93,9 @@ module rac4i65_core (
     localparam mask_30 = 32'h3fffffff;
     localparam none = 4'h0;
     localparam all = 4'hf;
+    localparam port_direction = 2'b0;
+    localparam port_compare = 2'b1;
+    localparam port_angle = 2'b10;
 
     // Pins of the parts
 
@@ -110,18 +119,26 @@ module rac4i65_core (
 
     wire [23:0] registers_tick_period;
     wire registers_tick_period_written;
-    wire [1:0] registers_mode;
+    wire [3:0] registers_mode;
     wire [3:0] registers_encoder_filter;
     wire [3:0] registers_encoder_fault_mask;
     wire [12:0] registers_pwm_period;
     wire [9:0] registers_pwm_blanking;
     wire [23:0] registers_watchdog_timeout;
-    wire [1:0] registers_kicker_control;
+    wire [3:0] registers_kicker_control;
     wire [13:0] registers_kicker_pulse;
     wire [19:0] registers_kicker_lockout;
     wire [23:0] registers_kicker_charge_timeout;
     wire [5:0] registers_clocks_per_microsecond;
     wire [7:0] registers_leds;
+    wire [15:0] registers_set_point_timeout;
+    wire [15:0] registers_stall_window;
+    wire [12:0] registers_stall_compare;
+    wire [1:0] registers_interrupt_enable;
+    wire [3:0] registers_clear_stall;
+    wire [3:0] registers_index_arm;
+    wire [3:0] registers_index_clear;
+    wire [1:0] registers_clear_interrupt;
     wire registers_arm_write;
     wire registers_clear_faults;
     wire [3:0] registers_clear_encoder_error;
@@ -133,6 +150,7 @@ module rac4i65_core (
     wire [23:0] timebase_period;
     wire timebase_tick;
     wire timebase_microsecond;
+    wire timebase_window;
 
     wire decoder_in_registers;
     wire decoder_in_memory;
@@ -160,33 +178,37 @@ module rac4i65_core (
     wire snapshot_read_bank;
 
     reg safety_encoder_fault;
+    reg safety_stall_fault;
 
     wire safety_armed;
     wire safety_setpoints_valid;
     wire [7:0] safety_faults;
     wire [7:0] safety_first_fault;
+    wire safety_stopped;
 
     reg kicker_charge_request;
 
     reg kicker_arm_on_ball;
 
+    reg kicker_by_time;
     wire kicker_charge;
     wire kicker_trigger;
     wire kicker_ready;
     wire [2:0] kicker_state;
     wire kicker_timed_out;
     wire kicker_dropped;
+    wire kicker_is_full;
 
     wire monitor_lclk_dead;
 
     wire sequencer_running;
     wire sequencer_done;
 
-    wire [3:0] sequencer_input_port;
+    wire [4:0] sequencer_input_port;
     wire [1:0] sequencer_axis;
     reg [31:0] sequencer_input_data;
     wire sequencer_output_strobe;
-    wire sequencer_output_port;
+    wire [1:0] sequencer_output_port;
     wire [31:0] sequencer_output_data;
 
     wire [31:0] sequencer_bus_read_data;
@@ -195,77 +217,157 @@ module rac4i65_core (
     wire sequencer_bus_blocked;
     wire sequencer_bus_write_taken;
 
+    reg trigonometry_load;
+
+    wire [17:0] trigonometry_sine;
+    wire [17:0] trigonometry_cosine;
+    wire [17:0] trigonometry_fraction;
+
+    wire interrupt_int_n;
+    wire [1:0] interrupt_status_2;
+
     reg encoders_0_a;
     reg encoders_0_b;
 
     reg [23:0] encoders_0_now;
     reg encoders_0_clear_error;
+    reg encoders_0_index;
+    reg encoders_0_arm_index;
     wire [15:0] encoders_0_count;
     wire [23:0] encoders_0_edge_time;
     wire encoders_0_direction;
     wire encoders_0_error;
     wire encoders_0_live_a;
     wire encoders_0_live_b;
+    wire encoders_0_step;
+    wire encoders_0_up;
+    wire encoders_0_live_index;
+    wire [15:0] encoders_0_index_count;
+    wire encoders_0_index_event;
+    wire encoders_0_index_waiting;
+    wire encoders_0_index_seen;
 
     reg encoders_1_a;
     reg encoders_1_b;
 
     reg [23:0] encoders_1_now;
     reg encoders_1_clear_error;
+    reg encoders_1_index;
+    reg encoders_1_arm_index;
     wire [15:0] encoders_1_count;
     wire [23:0] encoders_1_edge_time;
     wire encoders_1_direction;
     wire encoders_1_error;
     wire encoders_1_live_a;
     wire encoders_1_live_b;
+    wire encoders_1_step;
+    wire encoders_1_up;
+    wire encoders_1_live_index;
+    wire [15:0] encoders_1_index_count;
+    wire encoders_1_index_event;
+    wire encoders_1_index_waiting;
+    wire encoders_1_index_seen;
 
     reg encoders_2_a;
     reg encoders_2_b;
 
     reg [23:0] encoders_2_now;
     reg encoders_2_clear_error;
+    reg encoders_2_index;
+    reg encoders_2_arm_index;
     wire [15:0] encoders_2_count;
     wire [23:0] encoders_2_edge_time;
     wire encoders_2_direction;
     wire encoders_2_error;
     wire encoders_2_live_a;
     wire encoders_2_live_b;
+    wire encoders_2_step;
+    wire encoders_2_up;
+    wire encoders_2_live_index;
+    wire [15:0] encoders_2_index_count;
+    wire encoders_2_index_event;
+    wire encoders_2_index_waiting;
+    wire encoders_2_index_seen;
 
     reg encoders_3_a;
     reg encoders_3_b;
 
     reg [23:0] encoders_3_now;
     reg encoders_3_clear_error;
+    reg encoders_3_index;
+    reg encoders_3_arm_index;
     wire [15:0] encoders_3_count;
     wire [23:0] encoders_3_edge_time;
     wire encoders_3_direction;
     wire encoders_3_error;
     wire encoders_3_live_a;
     wire encoders_3_live_b;
+    wire encoders_3_step;
+    wire encoders_3_up;
+    wire encoders_3_live_index;
+    wire [15:0] encoders_3_index_count;
+    wire encoders_3_index_event;
+    wire encoders_3_index_waiting;
+    wire encoders_3_index_seen;
+
+    reg stalls_0_load;
+
+    reg stalls_0_clear;
+    wire stalls_0_stalled;
+
+    reg stalls_1_load;
+
+    reg stalls_1_clear;
+    wire stalls_1_stalled;
+
+    reg stalls_2_load;
+
+    reg stalls_2_clear;
+    wire stalls_2_stalled;
+
+    reg stalls_3_load;
+
+    reg stalls_3_clear;
+    wire stalls_3_stalled;
 
     reg drives_0_load;
 
+    reg drives_0_sync;
+    reg drives_0_up_down;
     wire drives_0_pwm;
     wire drives_0_dir;
     wire drives_0_period_start;
+    wire [12:0] drives_0_position;
 
     reg drives_1_load;
 
+    reg drives_1_sync;
+    reg drives_1_up_down;
     wire drives_1_pwm;
     wire drives_1_dir;
     wire drives_1_period_start;
+    wire [12:0] drives_1_position;
 
     reg drives_2_load;
 
+    reg drives_2_sync;
+    reg drives_2_up_down;
     wire drives_2_pwm;
     wire drives_2_dir;
     wire drives_2_period_start;
+    wire [12:0] drives_2_position;
 
     reg drives_3_load;
 
+    reg drives_3_sync;
+    reg drives_3_up_down;
     wire drives_3_pwm;
     wire drives_3_dir;
     wire drives_3_period_start;
+    wire [12:0] drives_3_position;
+    reg [3:0] clear_at_tick_d;
+    wire [3:0] clear_at_tick_q;
+
     reg [7:0] status_at_tick_d;
     wire [7:0] status_at_tick_q;
 
@@ -299,20 +401,11 @@ module rac4i65_core (
     reg ball_live_d;
     wire ball_live_q;
 
-    reg [3:0] index_sync_d;
-    wire [3:0] index_sync_q;
-
-    reg [3:0] index_live_d;
-    wire [3:0] index_live_q;
-
     reg dead_sync_d;
     wire dead_sync_q;
 
     reg dead_live_d;
     wire dead_live_q;
-
-    reg interrupt_d;
-    wire interrupt_q;
 
     // Intermediate values
     reg tick;
@@ -327,6 +420,18 @@ module rac4i65_core (
     reg [15:0] count;
     reg [23:0] edge_time;
     reg direction;
+    reg [15:0] index_count;
+    reg index_event;
+    reg index_clear;
+    reg [3:0] indices;
+    reg [7:0] index_status;
+    reg [3:0] stalled;
+    reg [3:0] masked_stalls;
+    reg [12:0] quarter;
+    reg [12:0] half;
+    reg [12:0] three_quarters;
+    reg shut;
+    reg holds;
     reg [15:0] line;
     reg [12:0] compare;
     reg [3:0] pwm_pins;
@@ -365,6 +470,9 @@ module rac4i65_core (
         .encoder_error(errors),
         .encoder_lines(lines),
         .kicker_status(kicker_status),
+        .stall(stalled),
+        .index_status(index_status),
+        .interrupt_status(interrupt_status_2),
         .tick_period(registers_tick_period),
         .tick_period_written(registers_tick_period_written),
         .mode(registers_mode),
@@ -379,6 +487,14 @@ module rac4i65_core (
         .kicker_charge_timeout(registers_kicker_charge_timeout),
         .clocks_per_microsecond(registers_clocks_per_microsecond),
         .leds(registers_leds),
+        .set_point_timeout(registers_set_point_timeout),
+        .stall_window(registers_stall_window),
+        .stall_compare(registers_stall_compare),
+        .interrupt_enable(registers_interrupt_enable),
+        .clear_stall(registers_clear_stall),
+        .index_arm(registers_index_arm),
+        .index_clear(registers_index_clear),
+        .clear_interrupt(registers_clear_interrupt),
         .arm_write(registers_arm_write),
         .clear_faults(registers_clear_faults),
         .clear_encoder_error(registers_clear_encoder_error),
@@ -391,10 +507,12 @@ module rac4i65_core (
         .tick_period(registers_tick_period),
         .restart(registers_tick_period_written),
         .clocks_per_microsecond(registers_clocks_per_microsecond),
+        .stall_window(registers_stall_window),
         .clock_count(timebase_clock_count),
         .period(timebase_period),
         .tick(timebase_tick),
-        .microsecond(timebase_microsecond)
+        .microsecond(timebase_microsecond),
+        .window(timebase_window)
     );
     rac4i65_core_decoder decoder(
         .address(bus_address_2),
@@ -444,13 +562,17 @@ module rac4i65_core (
         .pet(commit_pet),
         .watchdog_timeout(registers_watchdog_timeout),
         .encoder_fault(safety_encoder_fault),
+        .stall_fault(safety_stall_fault),
         .commit_fault(commit_fault_2),
         .external_fault(dead_live_q),
         .clear_faults(registers_clear_faults),
+        .tick(tick),
+        .set_point_timeout(registers_set_point_timeout),
         .armed(safety_armed),
         .setpoints_valid(safety_setpoints_valid),
         .faults(safety_faults),
-        .first_fault(safety_first_fault)
+        .first_fault(safety_first_fault),
+        .stopped(safety_stopped)
     );
     rac4i65_core_kicker kicker(
         .clock(lclk),
@@ -464,12 +586,15 @@ module rac4i65_core (
         .ball(ball_sensor),
         .arm_on_ball(kicker_arm_on_ball),
         .clear(registers_clear_faults),
+        .full(kicker_full),
+        .by_time(kicker_by_time),
         .charge(kicker_charge),
         .trigger(kicker_trigger),
         .ready(kicker_ready),
         .state(kicker_state),
         .timed_out(kicker_timed_out),
-        .dropped(kicker_dropped)
+        .dropped(kicker_dropped),
+        .is_full(kicker_is_full)
     );
     rac4i65_core_monitor monitor (.lclk(lclk), .synclk(synclk), .lclk_dead(monitor_lclk_dead));
     rac4i65_core_sequencer sequencer(
@@ -493,6 +618,23 @@ module rac4i65_core (
         .bus_blocked(sequencer_bus_blocked),
         .bus_write_taken(sequencer_bus_write_taken)
     );
+    rac4i65_core_trigonometry trigonometry(
+        .clock(lclk),
+        .load(trigonometry_load),
+        .angle(sequencer_output_data),
+        .sine(trigonometry_sine),
+        .cosine(trigonometry_cosine),
+        .fraction(trigonometry_fraction)
+    );
+    rac4i65_core_interrupt interrupt(
+        .clock(lclk),
+        .done(sequencer_done),
+        .armed(safety_armed),
+        .enable(registers_interrupt_enable),
+        .clear(registers_clear_interrupt),
+        .int_n(interrupt_int_n),
+        .status(interrupt_status_2)
+    );
     rac4i65_core_encoders encoders_0(
         .clock(lclk),
         .a(encoders_0_a),
@@ -501,12 +643,21 @@ module rac4i65_core (
         .sample(tick),
         .now(encoders_0_now),
         .clear_error(encoders_0_clear_error),
+        .index(encoders_0_index),
+        .arm_index(encoders_0_arm_index),
         .count(encoders_0_count),
         .edge_time(encoders_0_edge_time),
         .direction(encoders_0_direction),
         .error(encoders_0_error),
         .live_a(encoders_0_live_a),
-        .live_b(encoders_0_live_b)
+        .live_b(encoders_0_live_b),
+        .step(encoders_0_step),
+        .up(encoders_0_up),
+        .live_index(encoders_0_live_index),
+        .index_count(encoders_0_index_count),
+        .index_event(encoders_0_index_event),
+        .index_waiting(encoders_0_index_waiting),
+        .index_seen(encoders_0_index_seen)
     );
     rac4i65_core_encoders encoders_1(
         .clock(lclk),
@@ -516,12 +667,21 @@ module rac4i65_core (
         .sample(tick),
         .now(encoders_1_now),
         .clear_error(encoders_1_clear_error),
+        .index(encoders_1_index),
+        .arm_index(encoders_1_arm_index),
         .count(encoders_1_count),
         .edge_time(encoders_1_edge_time),
         .direction(encoders_1_direction),
         .error(encoders_1_error),
         .live_a(encoders_1_live_a),
-        .live_b(encoders_1_live_b)
+        .live_b(encoders_1_live_b),
+        .step(encoders_1_step),
+        .up(encoders_1_up),
+        .live_index(encoders_1_live_index),
+        .index_count(encoders_1_index_count),
+        .index_event(encoders_1_index_event),
+        .index_waiting(encoders_1_index_waiting),
+        .index_seen(encoders_1_index_seen)
     );
     rac4i65_core_encoders encoders_2(
         .clock(lclk),
@@ -531,12 +691,21 @@ module rac4i65_core (
         .sample(tick),
         .now(encoders_2_now),
         .clear_error(encoders_2_clear_error),
+        .index(encoders_2_index),
+        .arm_index(encoders_2_arm_index),
         .count(encoders_2_count),
         .edge_time(encoders_2_edge_time),
         .direction(encoders_2_direction),
         .error(encoders_2_error),
         .live_a(encoders_2_live_a),
-        .live_b(encoders_2_live_b)
+        .live_b(encoders_2_live_b),
+        .step(encoders_2_step),
+        .up(encoders_2_up),
+        .live_index(encoders_2_live_index),
+        .index_count(encoders_2_index_count),
+        .index_event(encoders_2_index_event),
+        .index_waiting(encoders_2_index_waiting),
+        .index_seen(encoders_2_index_seen)
     );
     rac4i65_core_encoders encoders_3(
         .clock(lclk),
@@ -546,12 +715,69 @@ module rac4i65_core (
         .sample(tick),
         .now(encoders_3_now),
         .clear_error(encoders_3_clear_error),
+        .index(encoders_3_index),
+        .arm_index(encoders_3_arm_index),
         .count(encoders_3_count),
         .edge_time(encoders_3_edge_time),
         .direction(encoders_3_direction),
         .error(encoders_3_error),
         .live_a(encoders_3_live_a),
-        .live_b(encoders_3_live_b)
+        .live_b(encoders_3_live_b),
+        .step(encoders_3_step),
+        .up(encoders_3_up),
+        .live_index(encoders_3_live_index),
+        .index_count(encoders_3_index_count),
+        .index_event(encoders_3_index_event),
+        .index_waiting(encoders_3_index_waiting),
+        .index_seen(encoders_3_index_seen)
+    );
+    rac4i65_core_stalls stalls_0(
+        .clock(lclk),
+        .enable(safety_armed),
+        .step(encoders_0_step),
+        .up(encoders_0_up),
+        .load(stalls_0_load),
+        .compare(compare),
+        .threshold(registers_stall_compare),
+        .window(timebase_window),
+        .clear(stalls_0_clear),
+        .stalled(stalls_0_stalled)
+    );
+    rac4i65_core_stalls stalls_1(
+        .clock(lclk),
+        .enable(safety_armed),
+        .step(encoders_1_step),
+        .up(encoders_1_up),
+        .load(stalls_1_load),
+        .compare(compare),
+        .threshold(registers_stall_compare),
+        .window(timebase_window),
+        .clear(stalls_1_clear),
+        .stalled(stalls_1_stalled)
+    );
+    rac4i65_core_stalls stalls_2(
+        .clock(lclk),
+        .enable(safety_armed),
+        .step(encoders_2_step),
+        .up(encoders_2_up),
+        .load(stalls_2_load),
+        .compare(compare),
+        .threshold(registers_stall_compare),
+        .window(timebase_window),
+        .clear(stalls_2_clear),
+        .stalled(stalls_2_stalled)
+    );
+    rac4i65_core_stalls stalls_3(
+        .clock(lclk),
+        .enable(safety_armed),
+        .step(encoders_3_step),
+        .up(encoders_3_up),
+        .load(stalls_3_load),
+        .compare(compare),
+        .threshold(registers_stall_compare),
+        .window(timebase_window),
+        .clear(stalls_3_clear),
+        .stalled(stalls_3_stalled)
     );
     rac4i65_core_drives drives_0(
         .clock(lclk),
@@ -561,9 +787,12 @@ module rac4i65_core (
         .load(drives_0_load),
         .compare(compare),
         .direction(reverse_q),
+        .sync(drives_0_sync),
+        .up_down(drives_0_up_down),
         .pwm(drives_0_pwm),
         .dir(drives_0_dir),
-        .period_start(drives_0_period_start)
+        .period_start(drives_0_period_start),
+        .position(drives_0_position)
     );
     rac4i65_core_drives drives_1(
         .clock(lclk),
@@ -573,9 +802,12 @@ module rac4i65_core (
         .load(drives_1_load),
         .compare(compare),
         .direction(reverse_q),
+        .sync(drives_1_sync),
+        .up_down(drives_1_up_down),
         .pwm(drives_1_pwm),
         .dir(drives_1_dir),
-        .period_start(drives_1_period_start)
+        .period_start(drives_1_period_start),
+        .position(drives_1_position)
     );
     rac4i65_core_drives drives_2(
         .clock(lclk),
@@ -585,9 +817,12 @@ module rac4i65_core (
         .load(drives_2_load),
         .compare(compare),
         .direction(reverse_q),
+        .sync(drives_2_sync),
+        .up_down(drives_2_up_down),
         .pwm(drives_2_pwm),
         .dir(drives_2_dir),
-        .period_start(drives_2_period_start)
+        .period_start(drives_2_period_start),
+        .position(drives_2_position)
     );
     rac4i65_core_drives drives_3(
         .clock(lclk),
@@ -597,10 +832,14 @@ module rac4i65_core (
         .load(drives_3_load),
         .compare(compare),
         .direction(reverse_q),
+        .sync(drives_3_sync),
+        .up_down(drives_3_up_down),
         .pwm(drives_3_pwm),
         .dir(drives_3_dir),
-        .period_start(drives_3_period_start)
+        .period_start(drives_3_period_start),
+        .position(drives_3_position)
     );
+    rac4i65_core_dff_4 clear_at_tick (.d(clear_at_tick_d), .q(clear_at_tick_q), .clock(lclk));
     rac4i65_core_dff_8 status_at_tick (.d(status_at_tick_d), .q(status_at_tick_q), .clock(lclk));
     rac4i65_core_dff_8 faults_at_tick (.d(faults_at_tick_d), .q(faults_at_tick_q), .clock(lclk));
     rac4i65_core_dff_24_2 now (.d(now_d), .q(now_q), .clock(lclk));
@@ -612,26 +851,26 @@ module rac4i65_core (
     rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(lclk));
     rac4i65_core_dff_1 ball_sync (.d(ball_sync_d), .q(ball_sync_q), .clock(lclk));
     rac4i65_core_dff_1 ball_live (.d(ball_live_d), .q(ball_live_q), .clock(lclk));
-    rac4i65_core_dff_4 index_sync (.d(index_sync_d), .q(index_sync_q), .clock(lclk));
-    rac4i65_core_dff_4 index_live (.d(index_live_d), .q(index_live_q), .clock(lclk));
     rac4i65_core_dff_1 dead_sync (.d(dead_sync_d), .q(dead_sync_q), .clock(lclk));
     rac4i65_core_dff_1 dead_live (.d(dead_live_d), .q(dead_live_q), .clock(lclk));
-    rac4i65_core_dff_1 interrupt (.d(interrupt_d), .q(interrupt_q), .clock(lclk));
 
     always @(*) begin
+        clear_at_tick_d = clear_at_tick_q;
         status_at_tick_d = status_at_tick_q;
         faults_at_tick_d = faults_at_tick_q;
         now_d = now_q;
         if (tick) begin
             status_at_tick_d = status & live_status;
+            clear_at_tick_d = registers_index_clear;
             faults_at_tick_d = safety_faults;
             now_d = timebase_clock_count[(32'h0)+:(24)];
         end
+        drives_0_sync = 1'b0;
     end
 
     always @(*) begin
         reverse_d = reverse_q;
-        if (sequencer_output_strobe & ~sequencer_output_port) begin
+        if (sequencer_output_strobe & (sequencer_output_port == port_direction)) begin
             reverse_d = sequencer_output_data[32'h1f];
         end
     end
@@ -678,16 +917,6 @@ module rac4i65_core (
     end
 
     always @(*) begin
-        index_sync_d = index_sync_q;
-        index_sync_d = encoder_index;
-    end
-
-    always @(*) begin
-        index_live_d = index_live_q;
-        index_live_d = index_sync_q;
-    end
-
-    always @(*) begin
         dead_sync_d = dead_sync_q;
         dead_sync_d = monitor_lclk_dead;
     end
@@ -697,15 +926,10 @@ module rac4i65_core (
         dead_live_d = dead_sync_q;
     end
 
-    always @(*) begin
-        interrupt_d = interrupt_q;
-        interrupt_d = 1'b1;
-    end
-
     always @(*) lad_out = bus_lad_out;
     always @(*) lad_drive = bus_lad_drive;
     always @(*) ready_n = bus_ready_n;
-    always @(*) int_n = interrupt_q;
+    always @(*) int_n = interrupt_int_n;
     always @(*) led_n = ~registers_leds;
     always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
     always @(*) tick = timebase_tick & ~sequencer_running;
@@ -755,8 +979,33 @@ module rac4i65_core (
         encoders_3_clear_error = registers_clear_encoder_error[3];
     end
 
+    always @(*) begin
+        encoders_0_index = encoder_index[0];
+        encoders_1_index = encoder_index[1];
+        encoders_2_index = encoder_index[2];
+        encoders_3_index = encoder_index[3];
+    end
+
+    always @(*) begin
+        encoders_0_arm_index = registers_index_arm[0];
+        encoders_1_arm_index = registers_index_arm[1];
+        encoders_2_arm_index = registers_index_arm[2];
+        encoders_3_arm_index = registers_index_arm[3];
+    end
+
+    always @(*) begin
+        stalls_0_clear = registers_clear_stall[0];
+        stalls_1_clear = registers_clear_stall[1];
+        stalls_2_clear = registers_clear_stall[2];
+        stalls_3_clear = registers_clear_stall[3];
+    end
+
+    always @(*) indices = ((encoders_0_live_index) & 4'hf) | (((encoders_1_live_index) & 4'hf) << 32'h1) | (((encoders_2_live_index) & 4'hf) << 32'h2) | (((encoders_3_live_index) & 4'hf) << 32'h3);
+    always @(*) index_status = ((encoders_0_index_waiting) & 8'hff) | (((encoders_1_index_waiting) & 8'hff) << 32'h1) | (((encoders_2_index_waiting) & 8'hff) << 32'h2) | (((encoders_3_index_waiting) & 8'hff) << 32'h3) | (((encoders_0_index_seen) & 8'hff) << 32'h4) | (((encoders_1_index_seen) & 8'hff) << 32'h5) | (((encoders_2_index_seen) & 8'hff) << 32'h6) | (((encoders_3_index_seen) & 8'hff) << 32'h7);
+    always @(*) stalled = ((stalls_0_stalled) & 4'hf) | (((stalls_1_stalled) & 4'hf) << 32'h1) | (((stalls_2_stalled) & 4'hf) << 32'h2) | (((stalls_3_stalled) & 4'hf) << 32'h3);
+    always @(*) masked_stalls = stalled & registers_encoder_fault_mask;
     always @(*) errors = ((encoders_0_error) & 4'hf) | (((encoders_1_error) & 4'hf) << 32'h1) | (((encoders_2_error) & 4'hf) << 32'h2) | (((encoders_3_error) & 4'hf) << 32'h3);
-    always @(*) lines = ((encoders_0_live_a) & 12'hfff) | (((encoders_0_live_b) & 12'hfff) << 32'h1) | (((encoders_1_live_a) & 12'hfff) << 32'h2) | (((encoders_1_live_b) & 12'hfff) << 32'h3) | (((encoders_2_live_a) & 12'hfff) << 32'h4) | (((encoders_2_live_b) & 12'hfff) << 32'h5) | (((encoders_3_live_a) & 12'hfff) << 32'h6) | (((encoders_3_live_b) & 12'hfff) << 32'h7) | (((index_live_q) & 12'hfff) << 32'h8);
+    always @(*) lines = ((encoders_0_live_a) & 12'hfff) | (((encoders_0_live_b) & 12'hfff) << 32'h1) | (((encoders_1_live_a) & 12'hfff) << 32'h2) | (((encoders_1_live_b) & 12'hfff) << 32'h3) | (((encoders_2_live_a) & 12'hfff) << 32'h4) | (((encoders_2_live_b) & 12'hfff) << 32'h5) | (((encoders_3_live_a) & 12'hfff) << 32'h6) | (((encoders_3_live_b) & 12'hfff) << 32'h7) | (((indices) & 12'hfff) << 32'h8);
     always @(*) masked_errors = errors & registers_encoder_fault_mask;
 
     always @(*) begin
@@ -766,24 +1015,36 @@ module rac4i65_core (
                 count = encoders_0_count;
                 edge_time = encoders_0_edge_time;
                 direction = encoders_0_direction;
+                index_count = encoders_0_index_count;
+                index_event = encoders_0_index_event;
+                index_clear = clear_at_tick_q[(32'h0)+:(1)];
             end
             1:
             begin
                 count = encoders_1_count;
                 edge_time = encoders_1_edge_time;
                 direction = encoders_1_direction;
+                index_count = encoders_1_index_count;
+                index_event = encoders_1_index_event;
+                index_clear = clear_at_tick_q[(32'h1)+:(1)];
             end
             2:
             begin
                 count = encoders_2_count;
                 edge_time = encoders_2_edge_time;
                 direction = encoders_2_direction;
+                index_count = encoders_2_index_count;
+                index_event = encoders_2_index_event;
+                index_clear = clear_at_tick_q[(32'h2)+:(1)];
             end
             default:
             begin
                 count = encoders_3_count;
                 edge_time = encoders_3_edge_time;
                 direction = encoders_3_direction;
+                index_count = encoders_3_index_count;
+                index_event = encoders_3_index_event;
+                index_clear = clear_at_tick_q[(32'h3)+:(1)];
             end
         endcase
     end
@@ -841,43 +1102,108 @@ module rac4i65_core (
             begin
                 sequencer_input_data = ((status_at_tick_q) & 32'hffffffff);
             end
-            default:
+            11:
             begin
                 sequencer_input_data = ((faults_at_tick_q) & 32'hffffffff);
+            end
+            12:
+            begin
+                sequencer_input_data = ((index_event) & 32'hffffffff);
+            end
+            13:
+            begin
+                sequencer_input_data = ((index_clear) & 32'hffffffff);
+            end
+            14:
+            begin
+                sequencer_input_data = ((index_count) & 32'hffffffff);
+            end
+            15:
+            begin
+                sequencer_input_data = ((registers_mode[(32'h2)+:(1)]) & 32'hffffffff);
+            end
+            16:
+            begin
+                sequencer_input_data = ((trigonometry_fraction) & 32'hffffffff);
+            end
+            17:
+            begin
+                sequencer_input_data = ((trigonometry_sine) & 32'hffffffff);
+            end
+            default:
+            begin
+                sequencer_input_data = ((trigonometry_cosine) & 32'hffffffff);
             end
         endcase
     end
 
+    always @(*) trigonometry_load = sequencer_output_strobe & (sequencer_output_port == port_angle);
     always @(*) compare = sequencer_output_data[(32'hc)+:(13)];
     always @(*) alive = ~monitor_lclk_dead;
 
     always @(*) begin
         drives_0_load = 1'b0;
+        stalls_0_load = 1'b0;
         drives_1_load = 1'b0;
+        stalls_1_load = 1'b0;
         drives_2_load = 1'b0;
+        stalls_2_load = 1'b0;
         drives_3_load = 1'b0;
-        if (sequencer_output_strobe & sequencer_output_port) begin
+        stalls_3_load = 1'b0;
+        if (sequencer_output_strobe & (sequencer_output_port == port_compare)) begin
             case (sequencer_axis)
                 0:
                 begin
                     drives_0_load = 1'b1;
+                    stalls_0_load = 1'b1;
                 end
                 1:
                 begin
                     drives_1_load = 1'b1;
+                    stalls_1_load = 1'b1;
                 end
                 2:
                 begin
                     drives_2_load = 1'b1;
+                    stalls_2_load = 1'b1;
                 end
                 default:
                 begin
                     drives_3_load = 1'b1;
+                    stalls_3_load = 1'b1;
                 end
             endcase
         end
     end
 
+    always @(*) begin
+        drives_0_up_down = registers_mode[32'h3];
+        drives_1_up_down = registers_mode[32'h3];
+        drives_2_up_down = registers_mode[32'h3];
+        drives_3_up_down = registers_mode[32'h3];
+    end
+
+    always @(*) begin
+        drives_1_sync = 1'b0;
+        drives_1_sync = drives_0_position == quarter;
+    end
+
+    always @(*) begin
+        drives_2_sync = 1'b0;
+        drives_2_sync = drives_0_position == half;
+    end
+
+    always @(*) begin
+        drives_3_sync = 1'b0;
+        drives_3_sync = drives_0_position == three_quarters;
+    end
+
+    always @(*) begin
+        quarter = registers_pwm_period >> 32'h2;
+        half = registers_pwm_period >> 32'h1;
+    end
+
+    always @(*) three_quarters = half + quarter;
     always @(*) pwm_pins = ((drives_0_pwm) & 4'hf) | (((drives_1_pwm) & 4'hf) << 32'h1) | (((drives_2_pwm) & 4'hf) << 32'h2) | (((drives_3_pwm) & 4'hf) << 32'h3);
     always @(*) dir_pins = ((drives_0_dir) & 4'hf) | (((drives_1_dir) & 4'hf) << 32'h1) | (((drives_2_dir) & 4'hf) << 32'h2) | (((drives_3_dir) & 4'hf) << 32'h3);
 
@@ -892,18 +1218,29 @@ module rac4i65_core (
         end
     end
 
-    always @(*) dir = dir_pins;
+    always @(*) begin
+        dir = dir_pins;
+        if (registers_mode[32'h3] & ~(safety_armed & alive)) begin
+            dir = none;
+        end
+    end
+
     always @(*) safety_encoder_fault = masked_errors != none;
+    always @(*) safety_stall_fault = masked_stalls != none;
 
     always @(*) begin
         kicker_charge_request = registers_kicker_control[32'h0];
         kicker_arm_on_ball = registers_kicker_control[32'h1];
+        kicker_by_time = registers_kicker_control[32'h3];
     end
 
     always @(*) kicker_charge_n = ~(kicker_charge & safety_armed & alive);
     always @(*) kicker_trigger_n = ~(kicker_trigger & safety_armed & alive);
+    always @(*) shut = ~(safety_armed & alive);
+    always @(*) holds = registers_kicker_control[32'h2] & ~safety_stopped & alive;
+    always @(*) kicker_discharge = shut & ~holds;
     always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
-    always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6);
+    always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6) | (((kicker_is_full) & 8'hff) << 32'h7);
 endmodule
 
 module rac4i65_core_bus (
@@ -1098,20 +1435,31 @@ module rac4i65_core_registers (
     input wire [3:0] encoder_error,
     input wire [11:0] encoder_lines,
     input wire [7:0] kicker_status,
+    input wire [3:0] stall,
+    input wire [7:0] index_status,
+    input wire [1:0] interrupt_status,
     output reg [23:0] tick_period,
     output reg tick_period_written,
-    output reg [1:0] mode,
+    output reg [3:0] mode,
     output reg [3:0] encoder_filter,
     output reg [3:0] encoder_fault_mask,
     output reg [12:0] pwm_period,
     output reg [9:0] pwm_blanking,
     output reg [23:0] watchdog_timeout,
-    output reg [1:0] kicker_control,
+    output reg [3:0] kicker_control,
     output reg [13:0] kicker_pulse,
     output reg [19:0] kicker_lockout,
     output reg [23:0] kicker_charge_timeout,
     output reg [5:0] clocks_per_microsecond,
     output reg [7:0] leds,
+    output reg [15:0] set_point_timeout,
+    output reg [15:0] stall_window,
+    output reg [12:0] stall_compare,
+    output reg [1:0] interrupt_enable,
+    output reg [3:0] clear_stall,
+    output reg [3:0] index_arm,
+    output reg [3:0] index_clear,
+    output reg [1:0] clear_interrupt,
     output reg arm_write,
     output reg clear_faults,
     output reg [3:0] clear_encoder_error,
@@ -1122,21 +1470,23 @@ module rac4i65_core_registers (
 
     // Constants
     localparam cookie = 32'h52414334;
-    localparam version = 32'h10000;
+    localparam version = 32'h20000;
     localparam board = 32'h34493635;
     localparam clock_hz = 32'h1fca055;
+    localparam blocks = 32'h7f444;
     localparam axes = 32'h4;
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
-    localparam content_hash = 32'h6f14564d;
+    localparam no_causes = 2'b0;
+    localparam content_hash = 32'h4996b973;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
     wire [23:0] tick_period_q_q;
 
-    reg [1:0] mode_q_d;
-    wire [1:0] mode_q_q;
+    reg [3:0] mode_q_d;
+    wire [3:0] mode_q_q;
 
     reg [3:0] encoder_filter_q_d;
     wire [3:0] encoder_filter_q_q;
@@ -1153,8 +1503,8 @@ module rac4i65_core_registers (
     reg [23:0] watchdog_timeout_q_d;
     wire [23:0] watchdog_timeout_q_q;
 
-    reg [1:0] kicker_control_q_d;
-    wire [1:0] kicker_control_q_q;
+    reg [3:0] kicker_control_q_d;
+    wire [3:0] kicker_control_q_q;
 
     reg [13:0] kicker_pulse_q_d;
     wire [13:0] kicker_pulse_q_q;
@@ -1171,6 +1521,21 @@ module rac4i65_core_registers (
     reg [7:0] leds_q_d;
     wire [7:0] leds_q_q;
 
+    reg [15:0] set_point_timeout_q_d;
+    wire [15:0] set_point_timeout_q_q;
+
+    reg [15:0] stall_window_q_d;
+    wire [15:0] stall_window_q_q;
+
+    reg [12:0] stall_compare_q_d;
+    wire [12:0] stall_compare_q_q;
+
+    reg [1:0] interrupt_enable_q_d;
+    wire [1:0] interrupt_enable_q_q;
+
+    reg [3:0] index_clear_q_d;
+    wire [3:0] index_clear_q_q;
+
     reg [31:0] read_q_d;
     wire [31:0] read_q_q;
 
@@ -1179,7 +1544,7 @@ module rac4i65_core_registers (
 
     // Parts
     rac4i65_core_dff_24_from_8235 tick_period_q (.d(tick_period_q_d), .q(tick_period_q_q), .clock(clock));
-    rac4i65_core_dff_2 mode_q (.d(mode_q_d), .q(mode_q_q), .clock(clock));
+    rac4i65_core_dff_4 mode_q (.d(mode_q_d), .q(mode_q_q), .clock(clock));
     rac4i65_core_dff_4_from_3 encoder_filter_q (.d(encoder_filter_q_d), .q(encoder_filter_q_q), .clock(clock));
     rac4i65_core_dff_4_from_f encoder_fault_mask_q(
         .d(encoder_fault_mask_q_d),
@@ -1189,7 +1554,7 @@ module rac4i65_core_registers (
     rac4i65_core_dff_13 pwm_period_q (.d(pwm_period_q_d), .q(pwm_period_q_q), .clock(clock));
     rac4i65_core_dff_10_from_21 pwm_blanking_q (.d(pwm_blanking_q_d), .q(pwm_blanking_q_q), .clock(clock));
     rac4i65_core_dff_24 watchdog_timeout_q (.d(watchdog_timeout_q_d), .q(watchdog_timeout_q_q), .clock(clock));
-    rac4i65_core_dff_2 kicker_control_q (.d(kicker_control_q_d), .q(kicker_control_q_q), .clock(clock));
+    rac4i65_core_dff_4 kicker_control_q (.d(kicker_control_q_d), .q(kicker_control_q_q), .clock(clock));
     rac4i65_core_dff_14 kicker_pulse_q (.d(kicker_pulse_q_d), .q(kicker_pulse_q_q), .clock(clock));
     rac4i65_core_dff_20 kicker_lockout_q (.d(kicker_lockout_q_d), .q(kicker_lockout_q_q), .clock(clock));
     rac4i65_core_dff_24_2 kicker_charge_timeout_q(
@@ -1203,6 +1568,15 @@ module rac4i65_core_registers (
         .clock(clock)
     );
     rac4i65_core_dff_8 leds_q (.d(leds_q_d), .q(leds_q_q), .clock(clock));
+    rac4i65_core_dff_16_from_1e set_point_timeout_q(
+        .d(set_point_timeout_q_d),
+        .q(set_point_timeout_q_q),
+        .clock(clock)
+    );
+    rac4i65_core_dff_16_from_c8 stall_window_q (.d(stall_window_q_d), .q(stall_window_q_q), .clock(clock));
+    rac4i65_core_dff_13 stall_compare_q (.d(stall_compare_q_d), .q(stall_compare_q_q), .clock(clock));
+    rac4i65_core_dff_2 interrupt_enable_q (.d(interrupt_enable_q_d), .q(interrupt_enable_q_q), .clock(clock));
+    rac4i65_core_dff_4 index_clear_q (.d(index_clear_q_d), .q(index_clear_q_q), .clock(clock));
     rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(clock));
 
     always @(*) begin
@@ -1219,6 +1593,11 @@ module rac4i65_core_registers (
         kicker_charge_timeout_q_d = kicker_charge_timeout_q_q;
         clocks_per_microsecond_q_d = clocks_per_microsecond_q_q;
         leds_q_d = leds_q_q;
+        set_point_timeout_q_d = set_point_timeout_q_q;
+        stall_window_q_d = stall_window_q_q;
+        stall_compare_q_d = stall_compare_q_q;
+        interrupt_enable_q_d = interrupt_enable_q_q;
+        index_clear_q_d = index_clear_q_q;
         tick_period_written = 1'b0;
         arm_write = 1'b0;
         clear_faults = 1'b0;
@@ -1226,6 +1605,9 @@ module rac4i65_core_registers (
         commit_configuration = 1'b0;
         fire = 1'b0;
         clear_encoder_error = no_axes;
+        clear_stall = no_axes;
+        index_arm = no_axes;
+        clear_interrupt = no_causes;
         if (write) begin
             case (address)
                 8:
@@ -1238,7 +1620,7 @@ module rac4i65_core_registers (
                 9:
                 begin
                     if (unlocked) begin
-                        mode_q_d = data[(32'h0)+:(2)];
+                        mode_q_d = data[(32'h0)+:(4)];
                     end
                 end
                 10:
@@ -1293,7 +1675,7 @@ module rac4i65_core_registers (
                 end
                 24:
                 begin
-                    kicker_control_q_d = data[(32'h0)+:(2)];
+                    kicker_control_q_d = data[(32'h0)+:(4)];
                 end
                 25:
                 begin
@@ -1324,6 +1706,41 @@ module rac4i65_core_registers (
                 31:
                 begin
                     leds_q_d = data[(32'h0)+:(8)];
+                end
+                32:
+                begin
+                    if (unlocked) begin
+                        set_point_timeout_q_d = data[(32'h0)+:(16)];
+                    end
+                end
+                33:
+                begin
+                    if (unlocked) begin
+                        stall_window_q_d = data[(32'h0)+:(16)];
+                    end
+                end
+                34:
+                begin
+                    if (unlocked) begin
+                        stall_compare_q_d = data[(32'h0)+:(13)];
+                    end
+                end
+                35:
+                begin
+                    clear_stall = data[(32'h0)+:(4)];
+                end
+                36:
+                begin
+                    index_arm = data[(32'h0)+:(4)];
+                    index_clear_q_d = (index_clear_q_q & ~data[(32'h0)+:(4)]) | (data[(32'h4)+:(4)] & data[(32'h0)+:(4)]);
+                end
+                38:
+                begin
+                    interrupt_enable_q_d = data[(32'h0)+:(2)];
+                end
+                39:
+                begin
+                    clear_interrupt = data[(32'h0)+:(2)];
                 end
                 default:
                 begin
@@ -1363,6 +1780,10 @@ module rac4i65_core_registers (
             6:
             begin
                 read_q_d = clock_count;
+            end
+            7:
+            begin
+                read_q_d = blocks;
             end
             8:
             begin
@@ -1444,6 +1865,34 @@ module rac4i65_core_registers (
             begin
                 read_q_d = ((leds_q_q) & 32'hffffffff);
             end
+            32:
+            begin
+                read_q_d = ((set_point_timeout_q_q) & 32'hffffffff);
+            end
+            33:
+            begin
+                read_q_d = ((stall_window_q_q) & 32'hffffffff);
+            end
+            34:
+            begin
+                read_q_d = ((stall_compare_q_q) & 32'hffffffff);
+            end
+            35:
+            begin
+                read_q_d = ((stall) & 32'hffffffff);
+            end
+            37:
+            begin
+                read_q_d = ((index_status) & 32'hffffffff);
+            end
+            38:
+            begin
+                read_q_d = ((interrupt_enable_q_q) & 32'hffffffff);
+            end
+            39:
+            begin
+                read_q_d = ((interrupt_status) & 32'hffffffff);
+            end
             default:
             begin
                 read_q_d = zero;
@@ -1466,6 +1915,11 @@ module rac4i65_core_registers (
     always @(*) kicker_charge_timeout = kicker_charge_timeout_q_q;
     always @(*) clocks_per_microsecond = clocks_per_microsecond_q_q;
     always @(*) leds = leds_q_q;
+    always @(*) set_point_timeout = set_point_timeout_q_q;
+    always @(*) stall_window = stall_window_q_q;
+    always @(*) stall_compare = stall_compare_q_q;
+    always @(*) interrupt_enable = interrupt_enable_q_q;
+    always @(*) index_clear = index_clear_q_q;
 endmodule
 
 module rac4i65_core_timebase (
@@ -1473,39 +1927,52 @@ module rac4i65_core_timebase (
     input wire [23:0] tick_period,
     input wire restart,
     input wire [5:0] clocks_per_microsecond,
+    input wire [15:0] stall_window,
     output reg [31:0] clock_count,
     output reg [23:0] period,
     output reg tick,
-    output reg microsecond
+    output reg microsecond,
+    output reg window
 );
 
     // Constants
     localparam one = 32'h1;
     localparam one_phase = 24'h1;
-    localparam phase_start = 24'h0;
     localparam one_part = 6'b1;
-    localparam part_start = 6'b0;
+    localparam one_tick = 16'h1;
     localparam shortest = 24'h3e8;
+    localparam shortest_part = 6'b11001;
+    localparam longest_part = 6'b100010;
 
     // Pins of the parts
     reg [31:0] clocks_d;
     wire [31:0] clocks_q;
 
+    reg [23:0] limit_d;
+    wire [23:0] limit_q;
+
     reg [23:0] phase_d;
     wire [23:0] phase_q;
+
+    reg [5:0] part_limit_d;
+    wire [5:0] part_limit_q;
 
     reg [5:0] part_d;
     wire [5:0] part_q;
 
+    reg [15:0] ticks_d;
+    wire [15:0] ticks_q;
+
     // Intermediate values
-    reg [23:0] bounded;
-    reg [23:0] next_phase;
-    reg [5:0] next_part;
+    reg tick_now;
 
     // Parts
     rac4i65_core_dff_32 clocks (.d(clocks_d), .q(clocks_q), .clock(clock));
-    rac4i65_core_dff_24_2 phase (.d(phase_d), .q(phase_q), .clock(clock));
-    rac4i65_core_dff_6 part (.d(part_d), .q(part_q), .clock(clock));
+    rac4i65_core_dff_24_from_8235 limit (.d(limit_d), .q(limit_q), .clock(clock));
+    rac4i65_core_dff_24_from_1 phase (.d(phase_d), .q(phase_q), .clock(clock));
+    rac4i65_core_dff_6_from_21 part_limit (.d(part_limit_d), .q(part_limit_q), .clock(clock));
+    rac4i65_core_dff_6_from_1 part (.d(part_d), .q(part_q), .clock(clock));
+    rac4i65_core_dff_16_from_1 ticks (.d(ticks_d), .q(ticks_q), .clock(clock));
 
     always @(*) begin
         clocks_d = clocks_q;
@@ -1513,40 +1980,62 @@ module rac4i65_core_timebase (
     end
 
     always @(*) begin
-        phase_d = phase_q;
-        phase_d = next_phase;
-        tick = 1'b0;
-        if (restart) begin
-            phase_d = phase_start;
+        limit_d = limit_q;
+        limit_d = tick_period;
+        if (tick_period < shortest) begin
+            limit_d = shortest;
         end
-        else if (next_phase >= bounded) begin
-            phase_d = phase_start;
-            tick = 1'b1;
+    end
+
+    always @(*) begin
+        phase_d = phase_q;
+        phase_d = phase_q + one_phase;
+        tick_now = 1'b0;
+        if (restart) begin
+            phase_d = one_phase;
+        end
+        else if (phase_q >= limit_q) begin
+            phase_d = one_phase;
+            tick_now = 1'b1;
+        end
+    end
+
+    always @(*) begin
+        part_limit_d = part_limit_q;
+        part_limit_d = clocks_per_microsecond;
+        if (clocks_per_microsecond < shortest_part) begin
+            part_limit_d = shortest_part;
+        end
+        if (clocks_per_microsecond > longest_part) begin
+            part_limit_d = longest_part;
         end
     end
 
     always @(*) begin
         part_d = part_q;
-        part_d = next_part;
+        part_d = part_q + one_part;
         microsecond = 1'b0;
-        if (next_part >= clocks_per_microsecond) begin
-            part_d = part_start;
+        if (part_q >= part_limit_q) begin
+            part_d = one_part;
             microsecond = 1'b1;
         end
     end
 
-    always @(*) clock_count = clocks_q;
-
     always @(*) begin
-        bounded = tick_period;
-        if (tick_period < shortest) begin
-            bounded = shortest;
+        ticks_d = ticks_q;
+        window = 1'b0;
+        if (tick_now) begin
+            ticks_d = ticks_q + one_tick;
+            if (ticks_q >= stall_window) begin
+                ticks_d = one_tick;
+                window = 1'b1;
+            end
         end
     end
 
-    always @(*) period = bounded;
-    always @(*) next_phase = phase_q + one_phase;
-    always @(*) next_part = part_q + one_part;
+    always @(*) clock_count = clocks_q;
+    always @(*) period = limit_q;
+    always @(*) tick = tick_now;
 endmodule
 
 module rac4i65_core_decoder (
@@ -1576,10 +2065,12 @@ module rac4i65_core_decoder (
     localparam page_set_points = 8'h6;
     localparam page_state = 8'h7;
     localparam page_snapshot = 8'h8;
-    localparam configuration_end = 6'b101000;
+    localparam configuration_end = 6'b110100;
     localparam set_points_end = 6'b100;
     localparam active_start = 6'b10000;
     localparam active_end = 6'b10100;
+    localparam index_start = 6'b11100;
+    localparam index_end = 6'b100000;
     localparam integrals_start = 6'b100100;
     localparam integrals_end = 6'b101000;
     localparam snapshot_end = 6'b11000;
@@ -1644,7 +2135,7 @@ module rac4i65_core_decoder (
             end
         end
         if (page == page_state) begin
-            in_memory = (index >= integrals_start) & (index < integrals_end);
+            in_memory = ((index >= integrals_start) & (index < integrals_end)) | ((index >= index_start) & (index < index_end));
             base = wide | at_set_points;
         end
         if (page == page_snapshot) begin
@@ -1686,7 +2177,7 @@ module rac4i65_core_commit (
     localparam one = 6'b1;
     localparam full = 6'b111111;
     localparam all_set_points = 6'b100;
-    localparam all_configuration = 6'b101000;
+    localparam all_configuration = 6'b110100;
     localparam one_count = 16'h1;
 
     // Pins of the parts
@@ -1891,13 +2382,17 @@ module rac4i65_core_safety (
     input wire pet,
     input wire [23:0] watchdog_timeout,
     input wire encoder_fault,
+    input wire stall_fault,
     input wire commit_fault,
     input wire external_fault,
     input wire clear_faults,
+    input wire tick,
+    input wire [15:0] set_point_timeout,
     output reg armed,
     output reg setpoints_valid,
     output reg [7:0] faults,
-    output reg [7:0] first_fault
+    output reg [7:0] first_fault,
+    output reg stopped
 );
 
     // Constants
@@ -1908,10 +2403,13 @@ module rac4i65_core_safety (
     localparam commit_bit = 8'h8;
     localparam external_bit = 8'h10;
     localparam refused_bit = 8'h20;
+    localparam stall_bit = 8'h40;
     localparam arm_1 = 32'h41524d31;
     localparam arm_2 = 32'h41524d32;
     localparam stop_filter = 4'hf;
     localparam one = 24'h1;
+    localparam no_ticks = 16'h0;
+    localparam one_tick = 16'h1;
 
     // Pins of the parts
 
@@ -1923,6 +2421,9 @@ module rac4i65_core_safety (
     wire released_value;
     reg [23:0] remaining_d;
     wire [23:0] remaining_q;
+
+    reg [15:0] age_d;
+    wire [15:0] age_q;
 
     reg first_word_d;
     wire first_word_q;
@@ -1940,8 +2441,9 @@ module rac4i65_core_safety (
     wire [7:0] first_q;
 
     // Intermediate values
+    reg stale;
+    reg is_stopped;
     reg bitten;
-    reg stopped;
     reg standing;
     reg is_first_word;
     reg is_second_word;
@@ -1953,6 +2455,7 @@ module rac4i65_core_safety (
     reg [7:0] event_commit;
     reg [7:0] event_external;
     reg [7:0] event_refused;
+    reg [7:0] event_stall;
     reg [7:0] events;
 
     // Parts
@@ -1966,6 +2469,7 @@ module rac4i65_core_safety (
         .value(released_value)
     );
     rac4i65_core_dff_24_2 remaining (.d(remaining_d), .q(remaining_q), .clock(clock));
+    rac4i65_core_dff_16 age (.d(age_d), .q(age_q), .clock(clock));
     rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(clock));
     rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(clock));
     rac4i65_core_dff_1 has_setpoint (.d(has_setpoint_d), .q(has_setpoint_q), .clock(clock));
@@ -1982,6 +2486,16 @@ module rac4i65_core_safety (
         end
         if (pet | (remaining_q > watchdog_timeout)) begin
             remaining_d = watchdog_timeout;
+        end
+    end
+
+    always @(*) begin
+        age_d = age_q;
+        if (tick & ~stale) begin
+            age_d = age_q + one_tick;
+        end
+        if (pet) begin
+            age_d = no_ticks;
         end
     end
 
@@ -2004,7 +2518,7 @@ module rac4i65_core_safety (
 
     always @(*) begin
         has_setpoint_d = has_setpoint_q;
-        has_setpoint_d = stays_armed & (has_setpoint_q | (is_armed_q & pet));
+        has_setpoint_d = stays_armed & ((has_setpoint_q & ~stale) | (is_armed_q & pet));
     end
 
     always @(*) begin
@@ -2023,9 +2537,11 @@ module rac4i65_core_safety (
     end
 
     always @(*) released_pin = ~emergency_stop;
-    always @(*) stopped = ~released_value;
+    always @(*) is_stopped = ~released_value;
+    always @(*) stopped = is_stopped;
     always @(*) bitten = ~|remaining_q;
-    always @(*) standing = bitten | stopped | encoder_fault | external_fault;
+    always @(*) stale = age_q >= set_point_timeout;
+    always @(*) standing = bitten | is_stopped | encoder_fault | stall_fault | external_fault;
     always @(*) is_first_word = arm_data == arm_1;
     always @(*) is_second_word = arm_write & (arm_data == arm_2);
     always @(*) arms = is_second_word & first_word_q & ~standing;
@@ -2039,7 +2555,7 @@ module rac4i65_core_safety (
 
     always @(*) begin
         event_stop = none;
-        if (stopped) begin
+        if (is_stopped) begin
             event_stop = stop_bit;
         end
     end
@@ -2072,7 +2588,14 @@ module rac4i65_core_safety (
         end
     end
 
-    always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused;
+    always @(*) begin
+        event_stall = none;
+        if (stall_fault) begin
+            event_stall = stall_bit;
+        end
+    end
+
+    always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused | event_stall;
     always @(*) armed = is_armed_q;
     always @(*) setpoints_valid = has_setpoint_q;
     always @(*) faults = sticky_q;
@@ -2161,12 +2684,15 @@ module rac4i65_core_kicker (
     input wire ball,
     input wire arm_on_ball,
     input wire clear,
+    input wire full,
+    input wire by_time,
     output reg charge,
     output reg trigger,
     output reg ready,
     output reg [2:0] state,
     output reg timed_out,
-    output reg dropped
+    output reg dropped,
+    output reg is_full
 );
 
     // Constants
@@ -2193,6 +2719,13 @@ module rac4i65_core_kicker (
     reg ball_filter_load;
     wire ball_filter_synchronised;
     wire ball_filter_value;
+
+    reg hungry_filter_pin;
+
+    reg [3:0] hungry_filter_limit;
+    reg hungry_filter_load;
+    wire hungry_filter_synchronised;
+    wire hungry_filter_value;
     reg [2:0] now_d;
     wire [2:0] now_q;
 
@@ -2224,6 +2757,7 @@ module rac4i65_core_kicker (
     wire dropped_flag_q;
 
     // Intermediate values
+    reg stuffed;
     reg in_ready;
     reg in_pending;
     reg in_pulse;
@@ -2252,6 +2786,15 @@ module rac4i65_core_kicker (
         .synchronised(ball_filter_synchronised),
         .value(ball_filter_value)
     );
+    rac4i65_core_encoders_line_a hungry_filter(
+        .clock(clock),
+        .pin(hungry_filter_pin),
+        .tick(microsecond),
+        .limit(hungry_filter_limit),
+        .load(hungry_filter_load),
+        .synchronised(hungry_filter_synchronised),
+        .value(hungry_filter_value)
+    );
     rac4i65_core_dff_3 now (.d(now_d), .q(now_q), .clock(clock));
     rac4i65_core_dff_20 elapsed (.d(elapsed_d), .q(elapsed_q), .clock(clock));
     rac4i65_core_dff_10 gap (.d(gap_d), .q(gap_q), .clock(clock));
@@ -2267,6 +2810,8 @@ module rac4i65_core_kicker (
         now_d = now_q;
         ball_filter_limit = ball_limit;
         ball_filter_load = 1'b0;
+        hungry_filter_limit = ball_limit;
+        hungry_filter_load = 1'b0;
         now_d = next_state;
     end
 
@@ -2333,7 +2878,7 @@ module rac4i65_core_kicker (
         if (microsecond & charge_pin_q & ~expired) begin
             charged_d = charged_q + charged_one;
         end
-        if (~charge_request | in_pulse | (clear & expired)) begin
+        if (~charge_request | stuffed | in_pulse | (clear & expired)) begin
             charged_d = charged_zero;
         end
     end
@@ -2345,7 +2890,7 @@ module rac4i65_core_kicker (
 
     always @(*) begin
         charge_pin_d = charge_pin_q;
-        charge_pin_d = enable & charge_request & ~expired & may_charge;
+        charge_pin_d = enable & charge_request & ~stuffed & ~expired & may_charge;
     end
 
     always @(*) begin
@@ -2367,6 +2912,10 @@ module rac4i65_core_kicker (
         dropped_flag_d = dropped_flag_q;
         dropped_flag_d = (dropped_flag_q & ~clear) | (fire & ~takes) | cancels;
     end
+
+    always @(*) hungry_filter_pin = ~full;
+    always @(*) stuffed = ~hungry_filter_value & ~by_time;
+    always @(*) is_full = ~hungry_filter_value;
 
     always @(*) begin
         in_ready = now_q == ready_state;
@@ -2500,11 +3049,11 @@ module rac4i65_core_sequencer (
     input wire configuration_bank,
     input wire set_point_bank,
     input wire snapshot_bank,
-    output reg [3:0] input_port,
+    output reg [4:0] input_port,
     output reg [1:0] axis,
     input wire [31:0] input_data,
     output reg output_strobe,
-    output reg output_port,
+    output reg [1:0] output_port,
     output reg [31:0] output_data,
     input wire [7:0] bus_address,
     output reg [31:0] bus_read_data,
@@ -2516,8 +3065,9 @@ module rac4i65_core_sequencer (
 
     // Constants
     localparam zero = 32'h0;
-    localparam one_8 = 8'h1;
-    localparam start_pc = 8'h0;
+    localparam one_pc = 9'b1;
+    localparam start_pc = 9'b0;
+    localparam no_bank = 8'h0;
     localparam first_axis = 2'b0;
     localparam last_axis = 2'b11;
     localparam one_axis = 2'b1;
@@ -2548,7 +3098,7 @@ module rac4i65_core_sequencer (
     wire [31:0] mirror_read_data;
 
     reg multiplier_start;
-    reg [1:0] multiplier_scale;
+    reg [2:0] multiplier_scale;
 
     wire multiplier_busy;
     wire [31:0] multiplier_result;
@@ -2560,17 +3110,17 @@ module rac4i65_core_sequencer (
     reg active_d;
     wire active_q;
 
-    reg [7:0] pc_d;
-    wire [7:0] pc_q;
+    reg [8:0] pc_d;
+    wire [8:0] pc_q;
 
     reg [15:0] instruction_d;
     wire [15:0] instruction_q;
 
+    reg subtracts_d;
+    wire subtracts_q;
+
     reg valid_d;
     wire valid_q;
-
-    reg issued_d;
-    wire issued_q;
 
     reg [31:0] accumulator_d;
     wire [31:0] accumulator_q;
@@ -2579,11 +3129,13 @@ module rac4i65_core_sequencer (
     wire [1:0] axis_number_q;
 
     // Intermediate values
-    reg [7:0] pc_next;
+    reg [8:0] pc_next;
     reg stall;
     reg branch;
     reg storing;
     reg [15:0] read_instruction;
+    reg [4:0] read_op;
+    reg read_subtracts;
     reg [7:0] read_address;
     reg [7:0] read_bank;
     reg [7:0] write_address;
@@ -2633,25 +3185,27 @@ module rac4i65_core_sequencer (
         .quotient(divider_quotient)
     );
     rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(clock));
-    rac4i65_core_dff_8 pc (.d(pc_d), .q(pc_q), .clock(clock));
+    rac4i65_core_dff_9 pc (.d(pc_d), .q(pc_q), .clock(clock));
     rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(clock));
+    rac4i65_core_dff_1 subtracts (.d(subtracts_d), .q(subtracts_q), .clock(clock));
     rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(clock));
-    rac4i65_core_dff_1 issued (.d(issued_d), .q(issued_q), .clock(clock));
     rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(clock));
     rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(clock));
 
     always @(*) begin
         active_d = active_q;
         instruction_d = instruction_q;
+        subtracts_d = subtracts_q;
         valid_d = valid_q;
         pc_next = pc_q;
         if (active_q & ~stall) begin
-            pc_next = pc_q + one_8;
+            pc_next = pc_q + one_pc;
             instruction_d = read_instruction;
+            subtracts_d = read_subtracts;
             valid_d = 1'b1;
         end
         if (branch) begin
-            pc_next = instruction_q[(32'h0)+:(8)];
+            pc_next = instruction_q[(32'h0)+:(9)];
             valid_d = 1'b0;
         end
         if (done) begin
@@ -2670,7 +3224,6 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) begin
-        issued_d = issued_q;
         accumulator_d = accumulator_q;
         axis_number_d = axis_number_q;
         storing = 1'b0;
@@ -2682,18 +3235,7 @@ module rac4i65_core_sequencer (
         divider_start = 1'b0;
         if (valid_q) begin
             if (op[32'h4] & op[32'h3]) begin
-                if (~issued_q) begin
-                    multiplier_start = 1'b1;
-                    issued_d = 1'b1;
-                    stall = 1'b1;
-                end
-                else if (multiplier_busy) begin
-                    stall = 1'b1;
-                end
-                else begin
-                    accumulator_d = multiplier_result;
-                    issued_d = 1'b0;
-                end
+                multiplier_start = 1'b1;
             end
             else begin
                 case (op)
@@ -2796,6 +3338,11 @@ module rac4i65_core_sequencer (
                         accumulator_d = divider_quotient;
                         stall = divider_busy;
                     end
+                    23:
+                    begin
+                        accumulator_d = multiplier_result;
+                        stall = multiplier_busy;
+                    end
                     default:
                     begin
                         accumulator_d = accumulator_q;
@@ -2815,7 +3362,7 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) begin
-        read_bank = start_pc;
+        read_bank = no_bank;
         if (configuration_bank & (read_address[(32'h6)+:(2)] == region_0)) begin
             read_bank = configuration_region;
         end
@@ -2828,41 +3375,44 @@ module rac4i65_core_sequencer (
 
     always @(*) begin
         op = instruction_q[(32'hb)+:(5)];
-        input_port = instruction_q[(32'h0)+:(4)];
-        output_port = instruction_q[32'h0];
+        input_port = instruction_q[(32'h0)+:(5)];
+        output_port = instruction_q[(32'h0)+:(2)];
     end
 
     always @(*) word = memory_read_data;
+    always @(*) read_op = read_instruction[(32'hb)+:(5)];
 
     always @(*) begin
-        subtracting = 1'b0;
-        case (op)
+        read_subtracts = 1'b0;
+        case (read_op)
             4:
             begin
-                subtracting = 1'b1;
+                read_subtracts = 1'b1;
             end
             6:
             begin
-                subtracting = 1'b1;
+                read_subtracts = 1'b1;
             end
             7:
             begin
-                subtracting = 1'b1;
+                read_subtracts = 1'b1;
             end
             8:
             begin
-                subtracting = 1'b1;
+                read_subtracts = 1'b1;
             end
             9:
             begin
-                subtracting = 1'b1;
+                read_subtracts = 1'b1;
             end
             default:
             begin
-                subtracting = 1'b0;
+                read_subtracts = 1'b0;
             end
         endcase
     end
+
+    always @(*) subtracting = subtracts_q;
 
     always @(*) begin
         sum = accumulator_q + word;
@@ -2897,7 +3447,7 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) multiplier_scale = op[(32'h0)+:(2)];
+    always @(*) multiplier_scale = op[(32'h0)+:(3)];
     always @(*) running = active_q;
 
     always @(*) begin
@@ -2908,7 +3458,7 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) begin
-        write_bank = start_pc;
+        write_bank = no_bank;
         if (snapshot_bank & (write_address[(32'h6)+:(2)] == region_3)) begin
             write_bank = snapshot_region;
         end
@@ -2936,11 +3486,11 @@ endmodule
 
 module rac4i65_core_sequencer_rom (
     input wire clock,
-    input wire [7:0] read_address,
+    input wire [8:0] read_address,
     output reg [15:0] read_data
 );
 
-    reg [15:0] mem [0:255];
+    reg [15:0] mem [0:511];
 
     initial begin
         read_data = 16'h0;
@@ -2953,253 +3503,509 @@ module rac4i65_core_sequencer_rom (
         mem[6] = 16'h58b0;
         mem[7] = 16'h2c90;
         mem[8] = 16'h5c90;
-        mem[9] = 16'h5cc4;
-        mem[10] = 16'h6005;
-        mem[11] = 16'h8011;
-        mem[12] = 16'h6004;
-        mem[13] = 16'h58b2;
-        mem[14] = 16'h8b0;
-        mem[15] = 16'ha8b2;
-        mem[16] = 16'h7025;
-        mem[17] = 16'h6001;
-        mem[18] = 16'h3c94;
-        mem[19] = 16'h7827;
-        mem[20] = 16'h58b2;
-        mem[21] = 16'hc9c;
-        mem[22] = 16'h781b;
-        mem[23] = 16'h6002;
-        mem[24] = 16'h3498;
-        mem[25] = 16'ha8b2;
-        mem[26] = 16'h701f;
-        mem[27] = 16'h6004;
-        mem[28] = 16'h58b2;
-        mem[29] = 16'h8b0;
-        mem[30] = 16'ha8b2;
-        mem[31] = 16'h6001;
-        mem[32] = 16'h5c94;
-        mem[33] = 16'h6002;
-        mem[34] = 16'h5c98;
-        mem[35] = 16'h1001;
-        mem[36] = 16'h5c9c;
-        mem[37] = 16'h1000;
-        mem[38] = 16'h7035;
-        mem[39] = 16'hc9c;
-        mem[40] = 16'h7832;
-        mem[41] = 16'h6003;
-        mem[42] = 16'h3c94;
-        mem[43] = 16'h58b2;
-        mem[44] = 16'h20bc;
-        mem[45] = 16'h9032;
-        mem[46] = 16'h1001;
-        mem[47] = 16'ha8b2;
-        mem[48] = 16'h1001;
-        mem[49] = 16'h7035;
-        mem[50] = 16'h1000;
-        mem[51] = 16'h5c9c;
-        mem[52] = 16'h10ff;
-        mem[53] = 16'h58b1;
-        mem[54] = 16'h6008;
-        mem[55] = 16'h7847;
-        mem[56] = 16'h6006;
-        mem[57] = 16'h803c;
-        mem[58] = 16'hc80;
-        mem[59] = 16'h7048;
-        mem[60] = 16'hc00;
-        mem[61] = 16'hc080;
-        mem[62] = 16'h58b9;
-        mem[63] = 16'hc04;
-        mem[64] = 16'hc081;
-        mem[65] = 16'h18b9;
-        mem[66] = 16'h58b9;
-        mem[67] = 16'hc08;
-        mem[68] = 16'hc082;
-        mem[69] = 16'h18b9;
-        mem[70] = 16'h7048;
-        mem[71] = 16'h1000;
-        mem[72] = 16'h58b3;
-        mem[73] = 16'h5ccc;
-        mem[74] = 16'h8b1;
-        mem[75] = 16'h7859;
-        mem[76] = 16'h8857;
-        mem[77] = 16'hb0b1;
-        mem[78] = 16'h58b9;
-        mem[79] = 16'hca0;
-        mem[80] = 16'h8853;
-        mem[81] = 16'h40b9;
-        mem[82] = 16'h705a;
+        mem[9] = 16'h8b0;
+        mem[10] = 16'he40c;
+        mem[11] = 16'h600c;
+        mem[12] = 16'h781b;
+        mem[13] = 16'h600e;
+        mem[14] = 16'h3490;
+        mem[15] = 16'h2c90;
+        mem[16] = 16'h58b9;
+        mem[17] = 16'h2c8c;
+        mem[18] = 16'h5c9c;
+        mem[19] = 16'h600d;
+        mem[20] = 16'h781b;
+        mem[21] = 16'h8b9;
+        mem[22] = 16'h50be;
+        mem[23] = 16'h58b9;
+        mem[24] = 16'h1001;
+        mem[25] = 16'h28b9;
+        mem[26] = 16'h5c8c;
+        mem[27] = 16'hc90;
+        mem[28] = 16'h2c8c;
+        mem[29] = 16'h5cc4;
+        mem[30] = 16'hb800;
+        mem[31] = 16'h18a8;
+        mem[32] = 16'h58a8;
+        mem[33] = 16'h8b0;
+        mem[34] = 16'he410;
+        mem[35] = 16'h6005;
+        mem[36] = 16'h802a;
+        mem[37] = 16'h6004;
+        mem[38] = 16'h58b2;
+        mem[39] = 16'h8b0;
+        mem[40] = 16'ha8b2;
+        mem[41] = 16'h703c;
+        mem[42] = 16'h6001;
+        mem[43] = 16'h3c94;
+        mem[44] = 16'h783e;
+        mem[45] = 16'h58b2;
+        mem[46] = 16'hc98;
+        mem[47] = 16'h8834;
+        mem[48] = 16'h6002;
+        mem[49] = 16'h3498;
+        mem[50] = 16'ha8b2;
+        mem[51] = 16'h7038;
+        mem[52] = 16'h6004;
+        mem[53] = 16'h58b2;
+        mem[54] = 16'h8b0;
+        mem[55] = 16'ha8b2;
+        mem[56] = 16'h6001;
+        mem[57] = 16'h5c94;
+        mem[58] = 16'h6002;
+        mem[59] = 16'h5c98;
+        mem[60] = 16'h1000;
+        mem[61] = 16'h704b;
+        mem[62] = 16'hc98;
+        mem[63] = 16'h8849;
+        mem[64] = 16'h6003;
+        mem[65] = 16'h3c94;
+        mem[66] = 16'h58b2;
+        mem[67] = 16'h20bc;
+        mem[68] = 16'h9049;
+        mem[69] = 16'h1001;
+        mem[70] = 16'ha8b2;
+        mem[71] = 16'h1001;
+        mem[72] = 16'h704b;
+        mem[73] = 16'h10ff;
+        mem[74] = 16'h5c98;
+        mem[75] = 16'h58b1;
+        mem[76] = 16'hb800;
+        mem[77] = 16'h18a9;
+        mem[78] = 16'h58a9;
+        mem[79] = 16'h6007;
+        mem[80] = 16'h8057;
+        mem[81] = 16'h1000;
+        mem[82] = 16'h706c;
         mem[83] = 16'h1000;
-        mem[84] = 16'h20b9;
-        mem[85] = 16'h4ca0;
-        mem[86] = 16'h705a;
-        mem[87] = 16'h1000;
-        mem[88] = 16'h705a;
-        mem[89] = 16'hb0b1;
-        mem[90] = 16'h5ca0;
-        mem[91] = 16'h5cc8;
-        mem[92] = 16'hc0c;
-        mem[93] = 16'hc4a0;
-        mem[94] = 16'h18a8;
-        mem[95] = 16'h58a8;
-        mem[96] = 16'hc10;
-        mem[97] = 16'hc4a0;
-        mem[98] = 16'h18a9;
-        mem[99] = 16'h58a9;
-        mem[100] = 16'hc14;
-        mem[101] = 16'hc4a0;
-        mem[102] = 16'h18aa;
-        mem[103] = 16'h58aa;
-        mem[104] = 16'h6007;
-        mem[105] = 16'h7887;
-        mem[106] = 16'h8b3;
-        mem[107] = 16'h24a0;
-        mem[108] = 16'h58b4;
-        mem[109] = 16'hc18;
-        mem[110] = 16'hd0b4;
-        mem[111] = 16'h58b5;
-        mem[112] = 16'hc1c;
-        mem[113] = 16'hc8b4;
-        mem[114] = 16'h1ca4;
-        mem[115] = 16'h58b6;
-        mem[116] = 16'h18b5;
-        mem[117] = 16'h58b7;
-        mem[118] = 16'h4424;
-        mem[119] = 16'h4c20;
-        mem[120] = 16'h58b8;
-        mem[121] = 16'h20b7;
-        mem[122] = 16'h807e;
-        mem[123] = 16'h8b6;
-        mem[124] = 16'h5ca4;
-        mem[125] = 16'h708a;
-        mem[126] = 16'h8b7;
-        mem[127] = 16'h50b4;
-        mem[128] = 16'h887b;
-        mem[129] = 16'h8b5;
-        mem[130] = 16'h1ca4;
-        mem[131] = 16'h4424;
-        mem[132] = 16'h4c20;
-        mem[133] = 16'h58b8;
-        mem[134] = 16'h708a;
-        mem[135] = 16'h1000;
-        mem[136] = 16'h58b8;
-        mem[137] = 16'h5ca4;
-        mem[138] = 16'h8b8;
-        mem[139] = 16'h5cd0;
-        mem[140] = 16'h6800;
-        mem[141] = 16'h9090;
-        mem[142] = 16'h1000;
-        mem[143] = 16'h20b8;
-        mem[144] = 16'h58b9;
-        mem[145] = 16'h6009;
-        mem[146] = 16'hd8b9;
-        mem[147] = 16'h18bd;
-        mem[148] = 16'h6801;
-        mem[149] = 16'h9804;
-        mem[150] = 16'h8a8;
-        mem[151] = 16'h58d4;
-        mem[152] = 16'h8a9;
-        mem[153] = 16'h58d5;
-        mem[154] = 16'h8aa;
-        mem[155] = 16'h58d6;
-        mem[156] = 16'h600a;
-        mem[157] = 16'h58c1;
-        mem[158] = 16'h600b;
-        mem[159] = 16'h58c3;
-        mem[160] = 16'h6003;
-        mem[161] = 16'h58c2;
-        mem[162] = 16'h1001;
-        mem[163] = 16'h28ab;
-        mem[164] = 16'h58ab;
-        mem[165] = 16'h58c0;
-        mem[166] = 16'h58d7;
-        mem[167] = 16'ha000;
-        mem[168] = 16'h0;
-        mem[169] = 16'h0;
-        mem[170] = 16'h0;
-        mem[171] = 16'h0;
-        mem[172] = 16'h0;
-        mem[173] = 16'h0;
-        mem[174] = 16'h0;
-        mem[175] = 16'h0;
-        mem[176] = 16'h0;
-        mem[177] = 16'h0;
-        mem[178] = 16'h0;
-        mem[179] = 16'h0;
-        mem[180] = 16'h0;
-        mem[181] = 16'h0;
-        mem[182] = 16'h0;
-        mem[183] = 16'h0;
-        mem[184] = 16'h0;
-        mem[185] = 16'h0;
-        mem[186] = 16'h0;
-        mem[187] = 16'h0;
-        mem[188] = 16'h0;
-        mem[189] = 16'h0;
-        mem[190] = 16'h0;
-        mem[191] = 16'h0;
-        mem[192] = 16'h0;
-        mem[193] = 16'h0;
-        mem[194] = 16'h0;
-        mem[195] = 16'h0;
-        mem[196] = 16'h0;
-        mem[197] = 16'h0;
-        mem[198] = 16'h0;
-        mem[199] = 16'h0;
-        mem[200] = 16'h0;
-        mem[201] = 16'h0;
-        mem[202] = 16'h0;
-        mem[203] = 16'h0;
-        mem[204] = 16'h0;
-        mem[205] = 16'h0;
-        mem[206] = 16'h0;
-        mem[207] = 16'h0;
-        mem[208] = 16'h0;
-        mem[209] = 16'h0;
-        mem[210] = 16'h0;
-        mem[211] = 16'h0;
-        mem[212] = 16'h0;
-        mem[213] = 16'h0;
-        mem[214] = 16'h0;
-        mem[215] = 16'h0;
-        mem[216] = 16'h0;
-        mem[217] = 16'h0;
-        mem[218] = 16'h0;
-        mem[219] = 16'h0;
-        mem[220] = 16'h0;
-        mem[221] = 16'h0;
-        mem[222] = 16'h0;
-        mem[223] = 16'h0;
-        mem[224] = 16'h0;
-        mem[225] = 16'h0;
-        mem[226] = 16'h0;
-        mem[227] = 16'h0;
-        mem[228] = 16'h0;
-        mem[229] = 16'h0;
-        mem[230] = 16'h0;
-        mem[231] = 16'h0;
-        mem[232] = 16'h0;
-        mem[233] = 16'h0;
-        mem[234] = 16'h0;
-        mem[235] = 16'h0;
-        mem[236] = 16'h0;
-        mem[237] = 16'h0;
-        mem[238] = 16'h0;
-        mem[239] = 16'h0;
-        mem[240] = 16'h0;
-        mem[241] = 16'h0;
-        mem[242] = 16'h0;
-        mem[243] = 16'h0;
-        mem[244] = 16'h0;
-        mem[245] = 16'h0;
-        mem[246] = 16'h0;
-        mem[247] = 16'h0;
-        mem[248] = 16'h0;
-        mem[249] = 16'h0;
-        mem[250] = 16'h0;
-        mem[251] = 16'h0;
-        mem[252] = 16'h0;
-        mem[253] = 16'h0;
-        mem[254] = 16'h0;
-        mem[255] = 16'h0;
+        mem[84] = 16'h7068;
+        mem[85] = 16'hc80;
+        mem[86] = 16'h7068;
+        mem[87] = 16'h6008;
+        mem[88] = 16'h7853;
+        mem[89] = 16'h6006;
+        mem[90] = 16'h7855;
+        mem[91] = 16'hc00;
+        mem[92] = 16'hc080;
+        mem[93] = 16'hb800;
+        mem[94] = 16'h58b9;
+        mem[95] = 16'hc04;
+        mem[96] = 16'hc081;
+        mem[97] = 16'hb800;
+        mem[98] = 16'h18b9;
+        mem[99] = 16'h58b9;
+        mem[100] = 16'hc08;
+        mem[101] = 16'hc082;
+        mem[102] = 16'hb800;
+        mem[103] = 16'h18b9;
+        mem[104] = 16'h24ac;
+        mem[105] = 16'h4430;
+        mem[106] = 16'h4c2c;
+        mem[107] = 16'h1cac;
+        mem[108] = 16'h5cac;
+        mem[109] = 16'h5ccc;
+        mem[110] = 16'hc28;
+        mem[111] = 16'hc4ac;
+        mem[112] = 16'h8b1;
+        mem[113] = 16'h787f;
+        mem[114] = 16'h887d;
+        mem[115] = 16'hb000;
+        mem[116] = 16'h58b9;
+        mem[117] = 16'hca0;
+        mem[118] = 16'h8879;
+        mem[119] = 16'h40b9;
+        mem[120] = 16'h7080;
+        mem[121] = 16'h1000;
+        mem[122] = 16'h20b9;
+        mem[123] = 16'h4ca0;
+        mem[124] = 16'h7080;
+        mem[125] = 16'h1000;
+        mem[126] = 16'h7080;
+        mem[127] = 16'hb000;
+        mem[128] = 16'h5ca0;
+        mem[129] = 16'h5cc8;
+        mem[130] = 16'hb800;
+        mem[131] = 16'h58b3;
+        mem[132] = 16'hcac;
+        mem[133] = 16'h24a0;
+        mem[134] = 16'h58b4;
+        mem[135] = 16'hc18;
+        mem[136] = 16'hd0b4;
+        mem[137] = 16'h6007;
+        mem[138] = 16'h78a9;
+        mem[139] = 16'hb800;
+        mem[140] = 16'h18b3;
+        mem[141] = 16'h58b5;
+        mem[142] = 16'hc1c;
+        mem[143] = 16'hc8b4;
+        mem[144] = 16'hb800;
+        mem[145] = 16'h1ca4;
+        mem[146] = 16'h58b2;
+        mem[147] = 16'h8b0;
+        mem[148] = 16'he414;
+        mem[149] = 16'h8b2;
+        mem[150] = 16'h18b5;
+        mem[151] = 16'h58b7;
+        mem[152] = 16'h4424;
+        mem[153] = 16'h4c20;
+        mem[154] = 16'h58b8;
+        mem[155] = 16'h20b7;
+        mem[156] = 16'h80a0;
+        mem[157] = 16'h8b2;
+        mem[158] = 16'h5ca4;
+        mem[159] = 16'h70af;
+        mem[160] = 16'h8b7;
+        mem[161] = 16'h50b4;
+        mem[162] = 16'h889d;
+        mem[163] = 16'h8b5;
+        mem[164] = 16'h1ca4;
+        mem[165] = 16'h4424;
+        mem[166] = 16'h4c20;
+        mem[167] = 16'h58b8;
+        mem[168] = 16'h70af;
+        mem[169] = 16'hb800;
+        mem[170] = 16'h8b0;
+        mem[171] = 16'he414;
+        mem[172] = 16'h1000;
+        mem[173] = 16'h58b8;
+        mem[174] = 16'h5ca4;
+        mem[175] = 16'hb800;
+        mem[176] = 16'h18aa;
+        mem[177] = 16'h58aa;
+        mem[178] = 16'h8b8;
+        mem[179] = 16'h5cd0;
+        mem[180] = 16'h6800;
+        mem[181] = 16'h90b8;
+        mem[182] = 16'h1000;
+        mem[183] = 16'h20b8;
+        mem[184] = 16'h58b9;
+        mem[185] = 16'h6009;
+        mem[186] = 16'hd8b9;
+        mem[187] = 16'hb800;
+        mem[188] = 16'h18bd;
+        mem[189] = 16'h6801;
+        mem[190] = 16'h9804;
+        mem[191] = 16'h600f;
+        mem[192] = 16'h80c9;
+        mem[193] = 16'h1000;
+        mem[194] = 16'h58ba;
+        mem[195] = 16'h58bb;
+        mem[196] = 16'h58b6;
+        mem[197] = 16'h58d4;
+        mem[198] = 16'h58d5;
+        mem[199] = 16'h58d6;
+        mem[200] = 16'h70f4;
+        mem[201] = 16'h8b6;
+        mem[202] = 16'h28aa;
+        mem[203] = 16'h6802;
+        mem[204] = 16'h28aa;
+        mem[205] = 16'h58b6;
+        mem[206] = 16'h58d6;
+        mem[207] = 16'h6010;
+        mem[208] = 16'hc0bf;
+        mem[209] = 16'hb800;
+        mem[210] = 16'h58b9;
+        mem[211] = 16'hc8a9;
+        mem[212] = 16'hb800;
+        mem[213] = 16'h58b0;
+        mem[214] = 16'h8a8;
+        mem[215] = 16'h20b0;
+        mem[216] = 16'h58b4;
+        mem[217] = 16'h8b9;
+        mem[218] = 16'hc8a8;
+        mem[219] = 16'hb800;
+        mem[220] = 16'h18a9;
+        mem[221] = 16'h58b7;
+        mem[222] = 16'h6011;
+        mem[223] = 16'hc0b7;
+        mem[224] = 16'hb800;
+        mem[225] = 16'h58b0;
+        mem[226] = 16'h6012;
+        mem[227] = 16'hc0b4;
+        mem[228] = 16'hb800;
+        mem[229] = 16'h20b0;
+        mem[230] = 16'h28ba;
+        mem[231] = 16'h58ba;
+        mem[232] = 16'h58d4;
+        mem[233] = 16'h6011;
+        mem[234] = 16'hc0b4;
+        mem[235] = 16'hb800;
+        mem[236] = 16'h58b0;
+        mem[237] = 16'h6012;
+        mem[238] = 16'hc0b7;
+        mem[239] = 16'hb800;
+        mem[240] = 16'h18b0;
+        mem[241] = 16'h28bb;
+        mem[242] = 16'h58bb;
+        mem[243] = 16'h58d5;
+        mem[244] = 16'h600a;
+        mem[245] = 16'h58c1;
+        mem[246] = 16'h600b;
+        mem[247] = 16'h58c3;
+        mem[248] = 16'h6003;
+        mem[249] = 16'h58c2;
+        mem[250] = 16'h1001;
+        mem[251] = 16'h28ab;
+        mem[252] = 16'h58ab;
+        mem[253] = 16'h58c0;
+        mem[254] = 16'h58d7;
+        mem[255] = 16'ha000;
+        mem[256] = 16'h0;
+        mem[257] = 16'h0;
+        mem[258] = 16'h0;
+        mem[259] = 16'h0;
+        mem[260] = 16'h0;
+        mem[261] = 16'h0;
+        mem[262] = 16'h0;
+        mem[263] = 16'h0;
+        mem[264] = 16'h0;
+        mem[265] = 16'h0;
+        mem[266] = 16'h0;
+        mem[267] = 16'h0;
+        mem[268] = 16'h0;
+        mem[269] = 16'h0;
+        mem[270] = 16'h0;
+        mem[271] = 16'h0;
+        mem[272] = 16'h0;
+        mem[273] = 16'h0;
+        mem[274] = 16'h0;
+        mem[275] = 16'h0;
+        mem[276] = 16'h0;
+        mem[277] = 16'h0;
+        mem[278] = 16'h0;
+        mem[279] = 16'h0;
+        mem[280] = 16'h0;
+        mem[281] = 16'h0;
+        mem[282] = 16'h0;
+        mem[283] = 16'h0;
+        mem[284] = 16'h0;
+        mem[285] = 16'h0;
+        mem[286] = 16'h0;
+        mem[287] = 16'h0;
+        mem[288] = 16'h0;
+        mem[289] = 16'h0;
+        mem[290] = 16'h0;
+        mem[291] = 16'h0;
+        mem[292] = 16'h0;
+        mem[293] = 16'h0;
+        mem[294] = 16'h0;
+        mem[295] = 16'h0;
+        mem[296] = 16'h0;
+        mem[297] = 16'h0;
+        mem[298] = 16'h0;
+        mem[299] = 16'h0;
+        mem[300] = 16'h0;
+        mem[301] = 16'h0;
+        mem[302] = 16'h0;
+        mem[303] = 16'h0;
+        mem[304] = 16'h0;
+        mem[305] = 16'h0;
+        mem[306] = 16'h0;
+        mem[307] = 16'h0;
+        mem[308] = 16'h0;
+        mem[309] = 16'h0;
+        mem[310] = 16'h0;
+        mem[311] = 16'h0;
+        mem[312] = 16'h0;
+        mem[313] = 16'h0;
+        mem[314] = 16'h0;
+        mem[315] = 16'h0;
+        mem[316] = 16'h0;
+        mem[317] = 16'h0;
+        mem[318] = 16'h0;
+        mem[319] = 16'h0;
+        mem[320] = 16'h0;
+        mem[321] = 16'h0;
+        mem[322] = 16'h0;
+        mem[323] = 16'h0;
+        mem[324] = 16'h0;
+        mem[325] = 16'h0;
+        mem[326] = 16'h0;
+        mem[327] = 16'h0;
+        mem[328] = 16'h0;
+        mem[329] = 16'h0;
+        mem[330] = 16'h0;
+        mem[331] = 16'h0;
+        mem[332] = 16'h0;
+        mem[333] = 16'h0;
+        mem[334] = 16'h0;
+        mem[335] = 16'h0;
+        mem[336] = 16'h0;
+        mem[337] = 16'h0;
+        mem[338] = 16'h0;
+        mem[339] = 16'h0;
+        mem[340] = 16'h0;
+        mem[341] = 16'h0;
+        mem[342] = 16'h0;
+        mem[343] = 16'h0;
+        mem[344] = 16'h0;
+        mem[345] = 16'h0;
+        mem[346] = 16'h0;
+        mem[347] = 16'h0;
+        mem[348] = 16'h0;
+        mem[349] = 16'h0;
+        mem[350] = 16'h0;
+        mem[351] = 16'h0;
+        mem[352] = 16'h0;
+        mem[353] = 16'h0;
+        mem[354] = 16'h0;
+        mem[355] = 16'h0;
+        mem[356] = 16'h0;
+        mem[357] = 16'h0;
+        mem[358] = 16'h0;
+        mem[359] = 16'h0;
+        mem[360] = 16'h0;
+        mem[361] = 16'h0;
+        mem[362] = 16'h0;
+        mem[363] = 16'h0;
+        mem[364] = 16'h0;
+        mem[365] = 16'h0;
+        mem[366] = 16'h0;
+        mem[367] = 16'h0;
+        mem[368] = 16'h0;
+        mem[369] = 16'h0;
+        mem[370] = 16'h0;
+        mem[371] = 16'h0;
+        mem[372] = 16'h0;
+        mem[373] = 16'h0;
+        mem[374] = 16'h0;
+        mem[375] = 16'h0;
+        mem[376] = 16'h0;
+        mem[377] = 16'h0;
+        mem[378] = 16'h0;
+        mem[379] = 16'h0;
+        mem[380] = 16'h0;
+        mem[381] = 16'h0;
+        mem[382] = 16'h0;
+        mem[383] = 16'h0;
+        mem[384] = 16'h0;
+        mem[385] = 16'h0;
+        mem[386] = 16'h0;
+        mem[387] = 16'h0;
+        mem[388] = 16'h0;
+        mem[389] = 16'h0;
+        mem[390] = 16'h0;
+        mem[391] = 16'h0;
+        mem[392] = 16'h0;
+        mem[393] = 16'h0;
+        mem[394] = 16'h0;
+        mem[395] = 16'h0;
+        mem[396] = 16'h0;
+        mem[397] = 16'h0;
+        mem[398] = 16'h0;
+        mem[399] = 16'h0;
+        mem[400] = 16'h0;
+        mem[401] = 16'h0;
+        mem[402] = 16'h0;
+        mem[403] = 16'h0;
+        mem[404] = 16'h0;
+        mem[405] = 16'h0;
+        mem[406] = 16'h0;
+        mem[407] = 16'h0;
+        mem[408] = 16'h0;
+        mem[409] = 16'h0;
+        mem[410] = 16'h0;
+        mem[411] = 16'h0;
+        mem[412] = 16'h0;
+        mem[413] = 16'h0;
+        mem[414] = 16'h0;
+        mem[415] = 16'h0;
+        mem[416] = 16'h0;
+        mem[417] = 16'h0;
+        mem[418] = 16'h0;
+        mem[419] = 16'h0;
+        mem[420] = 16'h0;
+        mem[421] = 16'h0;
+        mem[422] = 16'h0;
+        mem[423] = 16'h0;
+        mem[424] = 16'h0;
+        mem[425] = 16'h0;
+        mem[426] = 16'h0;
+        mem[427] = 16'h0;
+        mem[428] = 16'h0;
+        mem[429] = 16'h0;
+        mem[430] = 16'h0;
+        mem[431] = 16'h0;
+        mem[432] = 16'h0;
+        mem[433] = 16'h0;
+        mem[434] = 16'h0;
+        mem[435] = 16'h0;
+        mem[436] = 16'h0;
+        mem[437] = 16'h0;
+        mem[438] = 16'h0;
+        mem[439] = 16'h0;
+        mem[440] = 16'h0;
+        mem[441] = 16'h0;
+        mem[442] = 16'h0;
+        mem[443] = 16'h0;
+        mem[444] = 16'h0;
+        mem[445] = 16'h0;
+        mem[446] = 16'h0;
+        mem[447] = 16'h0;
+        mem[448] = 16'h0;
+        mem[449] = 16'h0;
+        mem[450] = 16'h0;
+        mem[451] = 16'h0;
+        mem[452] = 16'h0;
+        mem[453] = 16'h0;
+        mem[454] = 16'h0;
+        mem[455] = 16'h0;
+        mem[456] = 16'h0;
+        mem[457] = 16'h0;
+        mem[458] = 16'h0;
+        mem[459] = 16'h0;
+        mem[460] = 16'h0;
+        mem[461] = 16'h0;
+        mem[462] = 16'h0;
+        mem[463] = 16'h0;
+        mem[464] = 16'h0;
+        mem[465] = 16'h0;
+        mem[466] = 16'h0;
+        mem[467] = 16'h0;
+        mem[468] = 16'h0;
+        mem[469] = 16'h0;
+        mem[470] = 16'h0;
+        mem[471] = 16'h0;
+        mem[472] = 16'h0;
+        mem[473] = 16'h0;
+        mem[474] = 16'h0;
+        mem[475] = 16'h0;
+        mem[476] = 16'h0;
+        mem[477] = 16'h0;
+        mem[478] = 16'h0;
+        mem[479] = 16'h0;
+        mem[480] = 16'h0;
+        mem[481] = 16'h0;
+        mem[482] = 16'h0;
+        mem[483] = 16'h0;
+        mem[484] = 16'h0;
+        mem[485] = 16'h0;
+        mem[486] = 16'h0;
+        mem[487] = 16'h0;
+        mem[488] = 16'h0;
+        mem[489] = 16'h0;
+        mem[490] = 16'h0;
+        mem[491] = 16'h0;
+        mem[492] = 16'h0;
+        mem[493] = 16'h0;
+        mem[494] = 16'h0;
+        mem[495] = 16'h0;
+        mem[496] = 16'h0;
+        mem[497] = 16'h0;
+        mem[498] = 16'h0;
+        mem[499] = 16'h0;
+        mem[500] = 16'h0;
+        mem[501] = 16'h0;
+        mem[502] = 16'h0;
+        mem[503] = 16'h0;
+        mem[504] = 16'h0;
+        mem[505] = 16'h0;
+        mem[506] = 16'h0;
+        mem[507] = 16'h0;
+        mem[508] = 16'h0;
+        mem[509] = 16'h0;
+        mem[510] = 16'h0;
+        mem[511] = 16'h0;
     end
 
     always @(posedge clock) begin
@@ -3372,10 +4178,10 @@ module rac4i65_core_sequencer_memory (
         mem[149] = 32'h0;
         mem[150] = 32'h0;
         mem[151] = 32'h0;
-        mem[152] = 32'h0;
-        mem[153] = 32'h0;
-        mem[154] = 32'h0;
-        mem[155] = 32'h0;
+        mem[152] = 32'hffffffff;
+        mem[153] = 32'hffffffff;
+        mem[154] = 32'hffffffff;
+        mem[155] = 32'hffffffff;
         mem[156] = 32'h0;
         mem[157] = 32'h0;
         mem[158] = 32'h0;
@@ -3410,8 +4216,8 @@ module rac4i65_core_sequencer_memory (
         mem[187] = 32'h0;
         mem[188] = 32'h800000;
         mem[189] = 32'h800;
-        mem[190] = 32'h0;
-        mem[191] = 32'h0;
+        mem[190] = 32'hffffffff;
+        mem[191] = 32'h1922;
         mem[192] = 32'h0;
         mem[193] = 32'h0;
         mem[194] = 32'h0;
@@ -3487,7 +4293,7 @@ endmodule
 module rac4i65_core_sequencer_multiplier (
     input wire clock,
     input wire start,
-    input wire [1:0] scale,
+    input wire [2:0] scale,
     input wire [31:0] a,
     input wire [31:0] b,
     output reg busy,
@@ -3504,6 +4310,8 @@ module rac4i65_core_sequencer_multiplier (
     localparam half_coefficient = 32'h8000;
     localparam half_fine = 32'h200000;
     localparam half_wide = 32'h8000;
+    localparam steps_counts = 4'h8;
+    localparam half_counts = 32'h80;
     localparam half_period = 32'h800;
     localparam sign_extension = 32'hc0000000;
     localparam word_max = 32'h1fffffff;
@@ -3589,10 +4397,16 @@ module rac4i65_core_sequencer_multiplier (
                     steps_d = steps_gain;
                     guard_8_d = 1'b1;
                 end
-                default:
+                3:
                 begin
                     p_d = half_period;
                     steps_d = steps_period;
+                end
+                default:
+                begin
+                    p_d = half_counts;
+                    steps_d = steps_counts;
+                    guard_8_d = 1'b1;
                 end
             endcase
         end
@@ -3804,6 +4618,419 @@ module rac4i65_core_sequencer_divider (
     end
 endmodule
 
+module rac4i65_core_trigonometry (
+    input wire clock,
+    input wire load,
+    input wire [31:0] angle,
+    output reg [17:0] sine,
+    output reg [17:0] cosine,
+    output reg [17:0] fraction
+);
+
+    // Constants
+    localparam odd = 18'b1;
+    localparam middle = 18'b100000000000000000;
+
+    // Pins of the parts
+
+    reg [7:0] sines_read_address;
+    wire [15:0] sines_read_data;
+
+    reg [7:0] cosines_read_address;
+    wire [15:0] cosines_read_data;
+    reg [27:0] held_d;
+    wire [27:0] held_q;
+
+    // Intermediate values
+    reg [1:0] quadrant;
+    reg [7:0] index;
+    reg [15:0] sine_entry;
+    reg [15:0] cosine_entry;
+    reg sine_sign;
+    reg cosine_sign;
+
+    // Parts
+    rac4i65_core_trigonometry_cosines sines(
+        .clock(clock),
+        .read_address(sines_read_address),
+        .read_data(sines_read_data)
+    );
+    rac4i65_core_trigonometry_cosines cosines(
+        .clock(clock),
+        .read_address(cosines_read_address),
+        .read_data(cosines_read_data)
+    );
+    rac4i65_core_dff_28 held (.d(held_d), .q(held_q), .clock(clock));
+
+    always @(*) begin
+        held_d = held_q;
+        if (load) begin
+            held_d = angle[(32'h4)+:(28)];
+        end
+    end
+
+    always @(*) begin
+        quadrant = held_q[(32'h1a)+:(2)];
+        index = held_q[(32'h12)+:(8)];
+        fraction = held_q[(32'h0)+:(18)] ^ middle;
+    end
+
+    always @(*) begin
+        sines_read_address = index;
+        cosines_read_address = ~index;
+        if (quadrant[32'h0]) begin
+            sines_read_address = ~index;
+            cosines_read_address = index;
+        end
+    end
+
+    always @(*) begin
+        sine_entry = sines_read_data;
+        if (sine_sign) begin
+            sine_entry = ~sines_read_data;
+        end
+    end
+
+    always @(*) begin
+        sine_sign = quadrant[32'h1];
+        cosine_sign = quadrant[32'h1] ^ quadrant[32'h0];
+    end
+
+    always @(*) sine = (((sine_entry) & 18'h3ffff) << 32'h1) | (((sine_sign) & 18'h3ffff) << 32'h11) | odd;
+
+    always @(*) begin
+        cosine_entry = cosines_read_data;
+        if (cosine_sign) begin
+            cosine_entry = ~cosines_read_data;
+        end
+    end
+
+    always @(*) cosine = (((cosine_entry) & 18'h3ffff) << 32'h1) | (((cosine_sign) & 18'h3ffff) << 32'h11) | odd;
+endmodule
+
+module rac4i65_core_trigonometry_cosines (
+    input wire clock,
+    input wire [7:0] read_address,
+    output reg [15:0] read_data
+);
+
+    reg [15:0] mem [0:255];
+
+    initial begin
+        read_data = 16'h0;
+        mem[0] = 16'hc9;
+        mem[1] = 16'h25b;
+        mem[2] = 16'h3ed;
+        mem[3] = 16'h57f;
+        mem[4] = 16'h711;
+        mem[5] = 16'h8a3;
+        mem[6] = 16'ha35;
+        mem[7] = 16'hbc6;
+        mem[8] = 16'hd58;
+        mem[9] = 16'heea;
+        mem[10] = 16'h107b;
+        mem[11] = 16'h120c;
+        mem[12] = 16'h139d;
+        mem[13] = 16'h152e;
+        mem[14] = 16'h16bf;
+        mem[15] = 16'h184f;
+        mem[16] = 16'h19df;
+        mem[17] = 16'h1b6f;
+        mem[18] = 16'h1cff;
+        mem[19] = 16'h1e8e;
+        mem[20] = 16'h201d;
+        mem[21] = 16'h21ac;
+        mem[22] = 16'h233b;
+        mem[23] = 16'h24c9;
+        mem[24] = 16'h2656;
+        mem[25] = 16'h27e4;
+        mem[26] = 16'h2971;
+        mem[27] = 16'h2afe;
+        mem[28] = 16'h2c8a;
+        mem[29] = 16'h2e15;
+        mem[30] = 16'h2fa1;
+        mem[31] = 16'h312c;
+        mem[32] = 16'h32b6;
+        mem[33] = 16'h3440;
+        mem[34] = 16'h35c9;
+        mem[35] = 16'h3752;
+        mem[36] = 16'h38db;
+        mem[37] = 16'h3a62;
+        mem[38] = 16'h3bea;
+        mem[39] = 16'h3d70;
+        mem[40] = 16'h3ef6;
+        mem[41] = 16'h407c;
+        mem[42] = 16'h4201;
+        mem[43] = 16'h4385;
+        mem[44] = 16'h4508;
+        mem[45] = 16'h468b;
+        mem[46] = 16'h480e;
+        mem[47] = 16'h498f;
+        mem[48] = 16'h4b10;
+        mem[49] = 16'h4c90;
+        mem[50] = 16'h4e0f;
+        mem[51] = 16'h4f8e;
+        mem[52] = 16'h510c;
+        mem[53] = 16'h5289;
+        mem[54] = 16'h5405;
+        mem[55] = 16'h5581;
+        mem[56] = 16'h56fb;
+        mem[57] = 16'h5875;
+        mem[58] = 16'h59ee;
+        mem[59] = 16'h5b66;
+        mem[60] = 16'h5cdd;
+        mem[61] = 16'h5e53;
+        mem[62] = 16'h5fc9;
+        mem[63] = 16'h613d;
+        mem[64] = 16'h62b1;
+        mem[65] = 16'h6423;
+        mem[66] = 16'h6595;
+        mem[67] = 16'h6705;
+        mem[68] = 16'h6875;
+        mem[69] = 16'h69e4;
+        mem[70] = 16'h6b51;
+        mem[71] = 16'h6cbe;
+        mem[72] = 16'h6e29;
+        mem[73] = 16'h6f94;
+        mem[74] = 16'h70fd;
+        mem[75] = 16'h7265;
+        mem[76] = 16'h73cd;
+        mem[77] = 16'h7533;
+        mem[78] = 16'h7698;
+        mem[79] = 16'h77fb;
+        mem[80] = 16'h795e;
+        mem[81] = 16'h7ac0;
+        mem[82] = 16'h7c20;
+        mem[83] = 16'h7d7f;
+        mem[84] = 16'h7edd;
+        mem[85] = 16'h803a;
+        mem[86] = 16'h8195;
+        mem[87] = 16'h82ef;
+        mem[88] = 16'h8448;
+        mem[89] = 16'h85a0;
+        mem[90] = 16'h86f6;
+        mem[91] = 16'h884b;
+        mem[92] = 16'h899f;
+        mem[93] = 16'h8af1;
+        mem[94] = 16'h8c42;
+        mem[95] = 16'h8d92;
+        mem[96] = 16'h8ee0;
+        mem[97] = 16'h902d;
+        mem[98] = 16'h9179;
+        mem[99] = 16'h92c3;
+        mem[100] = 16'h940c;
+        mem[101] = 16'h9553;
+        mem[102] = 16'h9699;
+        mem[103] = 16'h97de;
+        mem[104] = 16'h9921;
+        mem[105] = 16'h9a62;
+        mem[106] = 16'h9ba2;
+        mem[107] = 16'h9ce1;
+        mem[108] = 16'h9e1e;
+        mem[109] = 16'h9f59;
+        mem[110] = 16'ha093;
+        mem[111] = 16'ha1cb;
+        mem[112] = 16'ha302;
+        mem[113] = 16'ha438;
+        mem[114] = 16'ha56b;
+        mem[115] = 16'ha69d;
+        mem[116] = 16'ha7ce;
+        mem[117] = 16'ha8fd;
+        mem[118] = 16'haa2a;
+        mem[119] = 16'hab56;
+        mem[120] = 16'hac80;
+        mem[121] = 16'hada8;
+        mem[122] = 16'haece;
+        mem[123] = 16'haff3;
+        mem[124] = 16'hb117;
+        mem[125] = 16'hb238;
+        mem[126] = 16'hb358;
+        mem[127] = 16'hb476;
+        mem[128] = 16'hb592;
+        mem[129] = 16'hb6ad;
+        mem[130] = 16'hb7c6;
+        mem[131] = 16'hb8dd;
+        mem[132] = 16'hb9f2;
+        mem[133] = 16'hbb06;
+        mem[134] = 16'hbc17;
+        mem[135] = 16'hbd27;
+        mem[136] = 16'hbe35;
+        mem[137] = 16'hbf41;
+        mem[138] = 16'hc04c;
+        mem[139] = 16'hc154;
+        mem[140] = 16'hc25b;
+        mem[141] = 16'hc360;
+        mem[142] = 16'hc463;
+        mem[143] = 16'hc564;
+        mem[144] = 16'hc663;
+        mem[145] = 16'hc760;
+        mem[146] = 16'hc85b;
+        mem[147] = 16'hc955;
+        mem[148] = 16'hca4c;
+        mem[149] = 16'hcb41;
+        mem[150] = 16'hcc35;
+        mem[151] = 16'hcd26;
+        mem[152] = 16'hce16;
+        mem[153] = 16'hcf04;
+        mem[154] = 16'hcfef;
+        mem[155] = 16'hd0d9;
+        mem[156] = 16'hd1c0;
+        mem[157] = 16'hd2a6;
+        mem[158] = 16'hd389;
+        mem[159] = 16'hd46b;
+        mem[160] = 16'hd54a;
+        mem[161] = 16'hd627;
+        mem[162] = 16'hd703;
+        mem[163] = 16'hd7dc;
+        mem[164] = 16'hd8b3;
+        mem[165] = 16'hd988;
+        mem[166] = 16'hda5b;
+        mem[167] = 16'hdb2c;
+        mem[168] = 16'hdbfb;
+        mem[169] = 16'hdcc7;
+        mem[170] = 16'hdd92;
+        mem[171] = 16'hde5a;
+        mem[172] = 16'hdf20;
+        mem[173] = 16'hdfe4;
+        mem[174] = 16'he0a6;
+        mem[175] = 16'he166;
+        mem[176] = 16'he224;
+        mem[177] = 16'he2df;
+        mem[178] = 16'he398;
+        mem[179] = 16'he44f;
+        mem[180] = 16'he504;
+        mem[181] = 16'he5b7;
+        mem[182] = 16'he667;
+        mem[183] = 16'he715;
+        mem[184] = 16'he7c1;
+        mem[185] = 16'he86b;
+        mem[186] = 16'he912;
+        mem[187] = 16'he9b7;
+        mem[188] = 16'hea5a;
+        mem[189] = 16'heafb;
+        mem[190] = 16'heb99;
+        mem[191] = 16'hec36;
+        mem[192] = 16'hecd0;
+        mem[193] = 16'hed67;
+        mem[194] = 16'hedfc;
+        mem[195] = 16'hee8f;
+        mem[196] = 16'hef20;
+        mem[197] = 16'hefaf;
+        mem[198] = 16'hf03b;
+        mem[199] = 16'hf0c5;
+        mem[200] = 16'hf14c;
+        mem[201] = 16'hf1d1;
+        mem[202] = 16'hf254;
+        mem[203] = 16'hf2d4;
+        mem[204] = 16'hf353;
+        mem[205] = 16'hf3ce;
+        mem[206] = 16'hf448;
+        mem[207] = 16'hf4bf;
+        mem[208] = 16'hf534;
+        mem[209] = 16'hf5a6;
+        mem[210] = 16'hf616;
+        mem[211] = 16'hf684;
+        mem[212] = 16'hf6ef;
+        mem[213] = 16'hf758;
+        mem[214] = 16'hf7be;
+        mem[215] = 16'hf822;
+        mem[216] = 16'hf884;
+        mem[217] = 16'hf8e3;
+        mem[218] = 16'hf940;
+        mem[219] = 16'hf99b;
+        mem[220] = 16'hf9f3;
+        mem[221] = 16'hfa49;
+        mem[222] = 16'hfa9c;
+        mem[223] = 16'hfaed;
+        mem[224] = 16'hfb3b;
+        mem[225] = 16'hfb87;
+        mem[226] = 16'hfbd1;
+        mem[227] = 16'hfc18;
+        mem[228] = 16'hfc5d;
+        mem[229] = 16'hfc9f;
+        mem[230] = 16'hfcdf;
+        mem[231] = 16'hfd1c;
+        mem[232] = 16'hfd57;
+        mem[233] = 16'hfd90;
+        mem[234] = 16'hfdc6;
+        mem[235] = 16'hfdfa;
+        mem[236] = 16'hfe2b;
+        mem[237] = 16'hfe5a;
+        mem[238] = 16'hfe86;
+        mem[239] = 16'hfeb0;
+        mem[240] = 16'hfed7;
+        mem[241] = 16'hfefc;
+        mem[242] = 16'hff1f;
+        mem[243] = 16'hff3f;
+        mem[244] = 16'hff5c;
+        mem[245] = 16'hff78;
+        mem[246] = 16'hff90;
+        mem[247] = 16'hffa6;
+        mem[248] = 16'hffba;
+        mem[249] = 16'hffcb;
+        mem[250] = 16'hffda;
+        mem[251] = 16'hffe7;
+        mem[252] = 16'hfff0;
+        mem[253] = 16'hfff8;
+        mem[254] = 16'hfffd;
+        mem[255] = 16'hffff;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+    end
+endmodule
+
+module rac4i65_core_interrupt (
+    input wire clock,
+    input wire done,
+    input wire armed,
+    input wire [1:0] enable,
+    input wire [1:0] clear,
+    output reg int_n,
+    output reg [1:0] status
+);
+
+    // Pins of the parts
+    reg was_armed_d;
+    wire was_armed_q;
+
+    reg [1:0] causes_d;
+    wire [1:0] causes_q;
+
+    reg low_d;
+    wire low_q;
+
+    // Intermediate values
+    reg disarms;
+    reg [1:0] events;
+
+    // Parts
+    rac4i65_core_dff_1 was_armed (.d(was_armed_d), .q(was_armed_q), .clock(clock));
+    rac4i65_core_dff_2 causes (.d(causes_d), .q(causes_q), .clock(clock));
+    rac4i65_core_dff_1 low (.d(low_d), .q(low_q), .clock(clock));
+
+    always @(*) begin
+        was_armed_d = was_armed_q;
+        was_armed_d = armed;
+    end
+
+    always @(*) begin
+        causes_d = causes_q;
+        causes_d = (causes_q & ~clear) | events;
+    end
+
+    always @(*) begin
+        low_d = low_q;
+        low_d = |(causes_q & enable);
+    end
+
+    always @(*) disarms = was_armed_q & ~armed;
+    always @(*) events = ((done) & 2'h3) | (((disarms) & 2'h3) << 32'h1);
+    always @(*) int_n = ~low_q;
+    always @(*) status = causes_q;
+endmodule
+
 module rac4i65_core_encoders (
     input wire clock,
     input wire a,
@@ -3812,12 +5039,21 @@ module rac4i65_core_encoders (
     input wire sample,
     input wire [23:0] now,
     input wire clear_error,
+    input wire index,
+    input wire arm_index,
     output reg [15:0] count,
     output reg [23:0] edge_time,
     output reg direction,
     output reg error,
     output reg live_a,
-    output reg live_b
+    output reg live_b,
+    output reg step,
+    output reg up,
+    output reg live_index,
+    output reg [15:0] index_count,
+    output reg index_event,
+    output reg index_waiting,
+    output reg index_seen
 );
 
     // Constants
@@ -3837,6 +5073,33 @@ module rac4i65_core_encoders (
     reg line_b_load;
     wire line_b_synchronised;
     wire line_b_value;
+
+    reg line_index_tick;
+
+    reg line_index_load;
+    wire line_index_synchronised;
+    wire line_index_value;
+    reg last_index_d;
+    wire last_index_q;
+
+    reg [15:0] captured_d;
+    wire [15:0] captured_q;
+
+    reg waiting_d;
+    wire waiting_q;
+
+    reg seen_d;
+    wire seen_q;
+
+    reg fresh_d;
+    wire fresh_q;
+
+    reg sampled_event_d;
+    wire sampled_event_q;
+
+    reg [15:0] sampled_capture_d;
+    wire [15:0] sampled_capture_q;
+
     reg settled_0_d;
     wire settled_0_q;
 
@@ -3874,10 +5137,12 @@ module rac4i65_core_encoders (
     wire sticky_error_q;
 
     // Intermediate values
+    reg captures;
     reg change_a;
     reg change_b;
-    reg up;
-    reg [15:0] step;
+    reg counts;
+    reg upward;
+    reg [15:0] change;
 
     // Parts
     rac4i65_core_encoders_line_a line_a(
@@ -3898,6 +5163,22 @@ module rac4i65_core_encoders (
         .synchronised(line_b_synchronised),
         .value(line_b_value)
     );
+    rac4i65_core_encoders_line_a line_index(
+        .clock(clock),
+        .pin(index),
+        .tick(line_index_tick),
+        .limit(filter),
+        .load(line_index_load),
+        .synchronised(line_index_synchronised),
+        .value(line_index_value)
+    );
+    rac4i65_core_dff_1 last_index (.d(last_index_d), .q(last_index_q), .clock(clock));
+    rac4i65_core_dff_16 captured (.d(captured_d), .q(captured_q), .clock(clock));
+    rac4i65_core_dff_1 waiting (.d(waiting_d), .q(waiting_q), .clock(clock));
+    rac4i65_core_dff_1 seen (.d(seen_d), .q(seen_q), .clock(clock));
+    rac4i65_core_dff_1 fresh (.d(fresh_d), .q(fresh_q), .clock(clock));
+    rac4i65_core_dff_1 sampled_event (.d(sampled_event_d), .q(sampled_event_q), .clock(clock));
+    rac4i65_core_dff_16 sampled_capture (.d(sampled_capture_d), .q(sampled_capture_q), .clock(clock));
     rac4i65_core_dff_1 settled_0 (.d(settled_0_d), .q(settled_0_q), .clock(clock));
     rac4i65_core_dff_1 settled_1 (.d(settled_1_d), .q(settled_1_q), .clock(clock));
     rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(clock));
@@ -3912,10 +5193,51 @@ module rac4i65_core_encoders (
     rac4i65_core_dff_1 sticky_error (.d(sticky_error_d), .q(sticky_error_q), .clock(clock));
 
     always @(*) begin
-        settled_0_d = settled_0_q;
-        settled_0_d = 1'b1;
+        last_index_d = last_index_q;
+        last_a_d = last_a_q;
+        last_b_d = last_b_q;
         line_a_tick = 1'b1;
         line_b_tick = 1'b1;
+        line_index_tick = 1'b1;
+        last_a_d = line_a_value;
+        last_b_d = line_b_value;
+        last_index_d = line_index_value;
+        if (~settled_q) begin
+            last_a_d = line_a_synchronised;
+            last_b_d = line_b_synchronised;
+            last_index_d = line_index_synchronised;
+        end
+    end
+
+    always @(*) begin
+        captured_d = captured_q;
+        waiting_d = waiting_q;
+        seen_d = seen_q;
+        fresh_d = fresh_q;
+        sampled_event_d = sampled_event_q;
+        sampled_capture_d = sampled_capture_q;
+        if (sample) begin
+            sampled_event_d = fresh_q;
+            sampled_capture_d = captured_q;
+            fresh_d = 1'b0;
+        end
+        if (arm_index) begin
+            seen_d = 1'b0;
+        end
+        if (captures) begin
+            captured_d = live_count_q;
+            waiting_d = 1'b0;
+            seen_d = 1'b1;
+            fresh_d = 1'b1;
+        end
+        if (arm_index) begin
+            waiting_d = 1'b1;
+        end
+    end
+
+    always @(*) begin
+        settled_0_d = settled_0_q;
+        settled_0_d = 1'b1;
     end
 
     always @(*) begin
@@ -3929,24 +5251,13 @@ module rac4i65_core_encoders (
     end
 
     always @(*) begin
-        last_a_d = last_a_q;
-        last_b_d = last_b_q;
-        last_a_d = line_a_value;
-        last_b_d = line_b_value;
-        if (~settled_q) begin
-            last_a_d = line_a_synchronised;
-            last_b_d = line_b_synchronised;
-        end
-    end
-
-    always @(*) begin
         live_count_d = live_count_q;
         live_time_d = live_time_q;
         live_direction_d = live_direction_q;
-        if (change_a ^ change_b) begin
-            live_count_d = live_count_q + step;
+        if (counts) begin
+            live_count_d = live_count_q + change;
             live_time_d = now;
-            live_direction_d = up;
+            live_direction_d = upward;
         end
     end
 
@@ -3974,25 +5285,137 @@ module rac4i65_core_encoders (
     always @(*) begin
         line_a_load = ~settled_q;
         line_b_load = ~settled_q;
+        line_index_load = ~settled_q;
     end
 
     always @(*) change_a = settled_q & (line_a_value ^ last_a_q);
     always @(*) change_b = settled_q & (line_b_value ^ last_b_q);
-    always @(*) up = line_a_value ^ last_b_q;
+    always @(*) upward = line_a_value ^ last_b_q;
 
     always @(*) begin
-        step = backward;
-        if (up) begin
-            step = forward;
+        change = backward;
+        if (upward) begin
+            change = forward;
         end
     end
 
+    always @(*) counts = change_a ^ change_b;
+    always @(*) captures = settled_q & line_index_value & ~last_index_q & waiting_q;
     always @(*) count = sampled_count_q;
     always @(*) edge_time = sampled_time_q;
     always @(*) direction = sampled_direction_q;
     always @(*) error = sticky_error_q;
     always @(*) live_a = line_a_value;
     always @(*) live_b = line_b_value;
+    always @(*) step = counts;
+    always @(*) up = upward;
+    always @(*) live_index = line_index_value;
+    always @(*) index_count = sampled_capture_q;
+    always @(*) index_event = sampled_event_q;
+    always @(*) index_waiting = waiting_q;
+    always @(*) index_seen = seen_q;
+endmodule
+
+module rac4i65_core_stalls (
+    input wire clock,
+    input wire enable,
+    input wire step,
+    input wire up,
+    input wire load,
+    input wire [12:0] compare,
+    input wire [12:0] threshold,
+    input wire window,
+    input wire clear,
+    output reg stalled
+);
+
+    // Constants
+    localparam zero = 3'b0;
+    localparam one = 3'b1;
+    localparam three = 3'b11;
+    localparam minus_three = 3'b101;
+
+    // Pins of the parts
+    reg [2:0] net_d;
+    wire [2:0] net_q;
+
+    reg moved_d;
+    wire moved_q;
+
+    reg driven_d;
+    wire driven_q;
+
+    reg sticky_d;
+    wire sticky_q;
+
+    // Intermediate values
+    reg [2:0] start;
+    reg highest;
+    reg lowest;
+    reg idles;
+
+    // Parts
+    rac4i65_core_dff_3 net (.d(net_d), .q(net_q), .clock(clock));
+    rac4i65_core_dff_1 moved (.d(moved_d), .q(moved_q), .clock(clock));
+    rac4i65_core_dff_1 driven (.d(driven_d), .q(driven_q), .clock(clock));
+    rac4i65_core_dff_1 sticky (.d(sticky_d), .q(sticky_q), .clock(clock));
+
+    always @(*) begin
+        net_d = net_q;
+        moved_d = moved_q;
+        driven_d = driven_q;
+        sticky_d = sticky_q;
+        net_d = start;
+        if (step) begin
+            if (up) begin
+                if (start != three) begin
+                    net_d = start + one;
+                end
+                if (highest) begin
+                    moved_d = 1'b1;
+                end
+            end
+            else begin
+                if (start != minus_three) begin
+                    net_d = start - one;
+                end
+                if (lowest) begin
+                    moved_d = 1'b1;
+                end
+            end
+        end
+        if (idles) begin
+            driven_d = 1'b0;
+        end
+        if (clear) begin
+            sticky_d = 1'b0;
+        end
+        if (window) begin
+            moved_d = 1'b0;
+            driven_d = ~idles;
+            if (enable & driven_q & ~moved_q) begin
+                sticky_d = 1'b1;
+            end
+        end
+        if (~enable) begin
+            driven_d = 1'b0;
+        end
+    end
+
+    always @(*) begin
+        start = net_q;
+        if (window) begin
+            start = zero;
+        end
+    end
+
+    always @(*) begin
+        highest = net_q == three;
+        lowest = net_q == minus_three;
+    end
+
+    always @(*) idles = load & ~(compare > threshold);
+    always @(*) stalled = sticky_q;
 endmodule
 
 module rac4i65_core_drives (
@@ -4003,9 +5426,12 @@ module rac4i65_core_drives (
     input wire load,
     input wire [12:0] compare,
     input wire direction,
+    input wire sync,
+    input wire up_down,
     output reg pwm,
     output reg dir,
-    output reg period_start
+    output reg period_start,
+    output reg [12:0] position
 );
 
     // Constants
@@ -4129,15 +5555,28 @@ module rac4i65_core_drives (
     end
 
     always @(*) running = |period;
-    always @(*) next_phase = phase_q + phase_one;
-    always @(*) last = next_phase >= period;
+
+    always @(*) begin
+        next_phase = phase_q + phase_one;
+        position = phase_q;
+    end
+
+    always @(*) last = (next_phase >= period) | sync;
     always @(*) wraps = last & running;
     always @(*) long_quiet = quiet_q >= blanking;
     always @(*) aligned = ~(active_direction_q ^ dir_pin_q);
     always @(*) turns = enable & ~aligned & |active_compare_q & long_quiet & ~pwm_pin_q;
     always @(*) permitted = enable & (settled_q | long_quiet);
-    always @(*) pwm = pwm_pin_q;
-    always @(*) dir = dir_pin_q;
+
+    always @(*) begin
+        pwm = pwm_pin_q;
+        dir = dir_pin_q;
+        if (up_down) begin
+            pwm = pwm_pin_q & ~dir_pin_q;
+            dir = pwm_pin_q & dir_pin_q;
+        end
+    end
+
     always @(*) period_start = start_q;
 endmodule
 
@@ -4261,6 +5700,21 @@ module rac4i65_core_dff_6 (
     end
 endmodule
 
+module rac4i65_core_dff_6_from_1 (
+    input wire [5:0] d,
+    output reg [5:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 6'h1;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
 module rac4i65_core_dff_6_from_21 (
     input wire [5:0] d,
     output reg [5:0] q,
@@ -4284,6 +5738,21 @@ module rac4i65_core_dff_8 (
 
     initial begin
         q = 8'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_9 (
+    input wire [8:0] d,
+    output reg [8:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 9'h0;
     end
 
     always @(posedge clock) begin
@@ -4366,6 +5835,51 @@ module rac4i65_core_dff_16 (
     end
 endmodule
 
+module rac4i65_core_dff_16_from_1 (
+    input wire [15:0] d,
+    output reg [15:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 16'h1;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_16_from_1e (
+    input wire [15:0] d,
+    output reg [15:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 16'h1e;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_16_from_c8 (
+    input wire [15:0] d,
+    output reg [15:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 16'hc8;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
 module rac4i65_core_dff_20 (
     input wire [19:0] d,
     output reg [19:0] q,
@@ -4411,6 +5925,21 @@ module rac4i65_core_dff_24_2 (
     end
 endmodule
 
+module rac4i65_core_dff_24_from_1 (
+    input wire [23:0] d,
+    output reg [23:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 24'h1;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
 module rac4i65_core_dff_24_from_8235 (
     input wire [23:0] d,
     output reg [23:0] q,
@@ -4434,6 +5963,21 @@ module rac4i65_core_dff_25 (
 
     initial begin
         q = 25'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_28 (
+    input wire [27:0] d,
+    output reg [27:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 28'h0;
     end
 
     always @(posedge clock) begin

@@ -1,5 +1,5 @@
 // rac_hx8k
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 1.0.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.0.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -19,6 +19,8 @@ module rac_hx8k (
     output wire [3:0] enable_n,
     output wire kicker_charge_n,
     output wire kicker_trigger_n,
+    output wire kicker_discharge,
+    input wire kicker_full,
     input wire ball_sensor
 );
 
@@ -45,6 +47,8 @@ module rac_hx8k (
         .enable_n(enable_n),
         .kicker_charge_n(kicker_charge_n),
         .kicker_trigger_n(kicker_trigger_n),
+        .kicker_discharge(kicker_discharge),
+        .kicker_full(kicker_full),
         .ball_sensor(ball_sensor)
     );
 endmodule
@@ -65,6 +69,8 @@ module rac_hx8k_logic (
     output wire [3:0] enable_n,
     output wire kicker_charge_n,
     output wire kicker_trigger_n,
+    output wire kicker_discharge,
+    input wire kicker_full,
     input wire ball_sensor
 );
 
@@ -111,6 +117,8 @@ module rac_hx8k_logic (
         .enable_n(enable_n),
         .kicker_charge_n(kicker_charge_n),
         .kicker_trigger_n(kicker_trigger_n),
+        .kicker_discharge(kicker_discharge),
+        .kicker_full(kicker_full),
         .ball_sensor(ball_sensor)
     );
 endmodule

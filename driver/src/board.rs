@@ -105,6 +105,16 @@ pub struct Settings {
     pub pwm_hz: f64,
     /// Silence of the host after which the outputs go off, s.
     pub watchdog_s: f64,
+    /// Silence of the host after which the wheels are to stand, s; at least five control periods.
+    pub set_point_s: f64,
+    /// Whether the card keeps a pose.
+    pub odometry: bool,
+    /// PWM and DIR pins pulse forward and backward, instead of magnitude and sign.
+    pub up_down: bool,
+    /// Duty above which a wheel must move; 1 or more switches the stall detection off.
+    pub stall_duty: f64,
+    /// Time in which it must, s.
+    pub stall_s: f64,
 }
 
 impl Default for Settings {
@@ -114,6 +124,11 @@ impl Default for Settings {
             set_point_mode: SetPointMode::Twist,
             pwm_hz: PWM_FREQUENCY_HZ,
             watchdog_s: 0.05,
+            set_point_s: 0.03,
+            odometry: true,
+            up_down: false,
+            stall_duty: 0.5,
+            stall_s: 0.2,
         }
     }
 }
@@ -157,8 +172,8 @@ pub struct Snapshot {
     pub references: [Speed; AXES],
     /// Duties.
     pub duties: [Duty; AXES],
-    /// Measured body velocity.
-    pub twist: [i32; 3],
+    /// Pose, see [`Scale::pose`]; zero while the card keeps none.
+    pub pose: [i32; 3],
 }
 
 impl Snapshot {
@@ -176,7 +191,7 @@ impl Snapshot {
             speeds: std::array::from_fn(|i| Speed::from_bits(signed(&map::SNAPSHOT_SPEED, i))),
             references: std::array::from_fn(|i| Speed::from_bits(signed(&map::SNAPSHOT_REFERENCE, i))),
             duties: std::array::from_fn(|i| Duty::from_bits(signed(&map::SNAPSHOT_DUTY, i))),
-            twist: std::array::from_fn(|k| signed(&map::SNAPSHOT_TWIST, k)),
+            pose: std::array::from_fn(|k| signed(&map::SNAPSHOT_POSE, k)),
         }
     }
 }
@@ -242,14 +257,26 @@ impl<R: Registers> Board<R> {
         self.disarm()?;
         let clocks = |seconds: f64| (seconds * scale.clock_hz).round().clamp(0.0, 16_777_215.0) as u32;
         let mode = map::MODE_COUNT_AND_TIME.place(u32::from(settings.speed_mode == SpeedMode::CountAndTime))
-            | map::MODE_TWIST.place(u32::from(settings.set_point_mode == SetPointMode::Twist));
+            | map::MODE_TWIST.place(u32::from(settings.set_point_mode == SetPointMode::Twist))
+            | map::MODE_ODOMETRY.place(u32::from(settings.odometry && scale.has_odometry()))
+            | map::MODE_UP_DOWN.place(u32::from(settings.up_down));
+        let ticks = |seconds: f64, least: f64| (seconds / scale.tick_s()).ceil().clamp(least, 65_535.0) as u32;
+        let pwm_period = scale.pwm_period(settings.pwm_hz);
+        let stall_compare = if settings.stall_duty < 1.0 {
+            (settings.stall_duty.max(0.0) * f64::from(pwm_period)).round() as u32
+        } else {
+            8_191
+        };
         let per_microsecond = (scale.clock_hz / 1e6).round().clamp(1.0, 63.0) as u32;
         for (register, value) in [
             (&map::TICK_PERIOD, scale.tick_period),
             (&map::MODE, mode),
-            (&map::PWM_PERIOD, scale.pwm_period(settings.pwm_hz)),
+            (&map::PWM_PERIOD, pwm_period),
             (&map::WATCHDOG_TIMEOUT, clocks(settings.watchdog_s)),
             (&map::CLOCKS_PER_MICROSECOND, per_microsecond),
+            (&map::SET_POINT_TIMEOUT, ticks(settings.set_point_s, 5.0)),
+            (&map::STALL_WINDOW, ticks(settings.stall_s, 1.0)),
+            (&map::STALL_COMPARE, stall_compare),
         ] {
             self.write_checked(register, value)?;
         }
@@ -382,6 +409,44 @@ impl<R: Registers> Board<R> {
         Ok(self.bus.read(map::FIRST_FAULT.offset)?)
     }
 
+    /// Axes that the card saw driven without moving, a bit each; [`Board::clear_axes`] clears them.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn stalled(&mut self) -> Result<u32, BoardError> {
+        Ok(self.bus.read(map::STALL.offset)?)
+    }
+
+    /// Clears the stall and the encoder error of these axes, a bit each: they disarm as long as they stand.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn clear_axes(&mut self, axes: u32) -> Result<(), BoardError> {
+        self.bus.write(map::STALL.offset, axes)?;
+        Ok(self.bus.write(map::ENCODER_ERROR.offset, axes)?)
+    }
+
+    /// Captures the next index of these axes, a bit each; those of `clear` count from zero there.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn arm_index(&mut self, axes: u32, clear: u32) -> Result<(), BoardError> {
+        let word = map::INDEX_ARM_LATCH.place(axes) | map::INDEX_ARM_CLEAR.place(clear);
+        Ok(self.bus.write(map::INDEX_ARM.offset, word)?)
+    }
+
+    /// Counts at an axis' captured index; `None` until a control tick after it was seen.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn index_position(&mut self, axis: usize) -> Result<Option<i32>, BoardError> {
+        let status = self.bus.read(map::INDEX_STATUS.offset)?;
+        if axis >= AXES || map::INDEX_SEEN.of(status) >> axis & 1 == 0 {
+            return Ok(None);
+        }
+        Ok(Some(self.bus.read(map::INDEX_POSITION.at(axis))? as i32))
+    }
+
     /// Live status.
     ///
     /// # Errors
@@ -462,6 +527,42 @@ mod tests {
             assert!((scale.speed(snapshot.references[axis]) - expected).abs() < 2e-3);
             assert_eq!(snapshot.duties[axis] > 0, expected > 0.0);
         }
+    }
+
+    #[test]
+    fn a_pose_comes_back_in_metres_and_radians() {
+        let (mut board, scale) = ready();
+        let robot = Robot::racbot();
+        let twist = Twist { vx: 0.3, vy: 1.0, omega: 0.8 };
+        let speeds = robot.geometry().unwrap().wheel_speeds(twist);
+        let mut pins = Pins::default();
+        for tick in 1..=1_000 {
+            for (axis, speed) in speeds.iter().enumerate() {
+                let turned = speed * f64::from(tick) * scale.tick_s();
+                pins.encoders[axis].count = (turned * robot.counts_per_wheel_rad()).floor() as i64 as u16;
+            }
+            board.bus.inner.tick(&pins);
+        }
+        let exact = model::frames::Pose::default().advance(twist, 1_000.0 * scale.tick_s());
+        let pose = scale.pose(board.snapshot().unwrap().pose);
+        assert!((pose.x - exact.x).hypot(pose.y - exact.y) < 2e-4, "{pose:?} for {exact:?}");
+        assert!((pose.theta - exact.theta).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_index_is_captured_and_zeroes_its_axis() {
+        let (mut board, _) = ready();
+        assert_eq!(board.index_position(1).unwrap(), None);
+        board.arm_index(0b0010, 0b0010).unwrap();
+        let mut pins = Pins::default();
+        pins.encoders[1].count = 100;
+        board.bus.inner.tick(&pins);
+        pins.encoders[1].count = 140;
+        pins.indices = [Some(7), Some(120), None, None];
+        board.bus.inner.tick(&pins);
+        assert_eq!(board.index_position(1).unwrap(), Some(120));
+        assert_eq!(board.index_position(0).unwrap(), None, "not armed");
+        assert_eq!(board.snapshot().unwrap().counts[1], 20);
     }
 
     #[test]

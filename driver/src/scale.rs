@@ -8,17 +8,22 @@
 //! | wheel speed | clock / (2³² · counts per wheel radian) rad/s |
 //! | body velocity x, y | 2⁻ᵃ m/s, a chosen so that the largest coefficient is in (½, 1] |
 //! | body velocity ω | 2⁻ᵇ rad/s, b likewise |
+//! | position x, y; heading | 2⁻²⁸ m; 2⁻³² turn |
 //! | duty | 2⁻²⁴ of the supply |
 
 use fixed_kin::AXES;
 use fixed_kin::control::Configuration;
-use fixed_kin::format::{Coefficient, Duty, Format, IntegralGain, OutOfRange, ProportionalGain, Speed};
+use fixed_kin::format::{
+    Coefficient, Displacement, Duty, FeedForwardGain, Format, IntegralGain, OutOfRange, ProportionalGain, Speed,
+};
 use fixed_kin::pi::PiGains;
 use fixed_kin::registers::MIN_TICK_PERIOD;
+use fixed_kin::slew::SlewLimits;
 use fixed_kin::word::WORD_BITS;
-use model::frames::Twist;
+use model::frames::{Pose, Twist};
 use model::geometry::GeometryError;
 use model::robot::Robot;
+use std::f64::consts::{PI, TAU};
 
 /// PWM frequency. At 20 kHz the current of a coreless 2224 motor (L/R = 23 µs) follows the voltage
 /// almost completely in every period; the 7I30 is specified for it, so it is the default.
@@ -69,8 +74,16 @@ pub struct Scale {
     words_per_rad_s: f64,
     /// Body velocity words per m/s and rad/s are 2 to these.
     exponents: [i32; 3],
+    /// Body velocity per wheel speed: m/s and rad/s per rad/s, a row a component.
+    direct: [[f64; AXES]; 3],
+    odometry: bool,
     configuration: Configuration,
 }
+
+/// Position words per metre.
+const POSITION_PER_M: f64 = 268_435_456.0;
+/// Heading words per radian.
+const HEADING_PER_RAD: f64 = 4_294_967_296.0 / TAU;
 
 impl Scale {
     /// Conversions and the configuration bank for a robot, calibrated skew included.
@@ -93,11 +106,14 @@ impl Scale {
             wheels,
             words_per_rad_s,
             exponents: [0; 3],
+            direct: [[0.0; AXES]; 3],
+            odometry: false,
             configuration: Configuration::default(),
         };
         scale.set_gains(robot)?;
         if wheels >= 3 {
             scale.set_kinematics(robot)?;
+            scale.odometry = scale.set_odometry(robot.counts_per_wheel_rad()).is_ok();
         }
         Ok(scale)
     }
@@ -110,10 +126,12 @@ impl Scale {
         let gains = PiGains {
             kp: ProportionalGain::from_bits(kp),
             ki: IntegralGain::from_bits(ki),
+            kff: FeedForwardGain::ZERO,
             lower: -Duty::ONE,
             upper: Duty::ONE,
         };
         self.configuration.gains[..self.wheels].fill(gains);
+        self.configuration.slew[..self.wheels].fill(SlewLimits::NONE);
         Ok(())
     }
 
@@ -131,13 +149,25 @@ impl Scale {
             for k in 0..3 {
                 let words_per_unit = f64::from(self.exponents[k]).exp2();
                 let forth = inverse[(i, k)] * self.words_per_rad_s / words_per_unit;
-                let back = direct[(k, i)] / self.words_per_rad_s * words_per_unit;
                 let forth = fit("inverse kinematics", i, Format::COEFFICIENT, forth)?;
-                let back = fit("direct kinematics", i, Format::COEFFICIENT, back)?;
                 self.configuration.inverse[i][k] = Coefficient::from_bits(forth);
-                self.configuration.direct[k][i] = Coefficient::from_bits(back);
+                self.direct[k][i] = direct[(k, i)];
             }
         }
+        Ok(())
+    }
+
+    /// Rows x and y are in two words of position, as the card doubles them, the third is half the turn.
+    fn set_odometry(&mut self, counts_per_wheel_rad: f64) -> Result<(), OutOfRange> {
+        let words = [POSITION_PER_M / 2.0, POSITION_PER_M / 2.0, HEADING_PER_RAD / 2.0];
+        let mut matrix = self.configuration.direct;
+        for (k, words) in words.into_iter().enumerate() {
+            for i in 0..self.wheels {
+                let entry = Format::DISPLACEMENT.round(self.direct[k][i] / counts_per_wheel_rad * words)?;
+                matrix[k][i] = Displacement::from_bits(entry);
+            }
+        }
+        self.configuration.direct = matrix;
         Ok(())
     }
 
@@ -151,6 +181,32 @@ impl Scale {
     #[must_use]
     pub fn wheels(&self) -> usize {
         self.wheels
+    }
+
+    /// Whether the card can keep a pose for this robot: from three wheels on, and while a count turns the
+    /// robot by less than 2⁻¹¹ of a turn.
+    #[must_use]
+    pub fn has_odometry(&self) -> bool {
+        self.odometry
+    }
+
+    /// Feed-forward gain for all wheels, in duty per rad/s at the wheel: what the speed costs anyway.
+    ///
+    /// # Errors
+    /// [`ScaleError::OutOfRange`] where the card cannot hold it.
+    pub fn set_feed_forward(&mut self, duty_per_rad_s: f64) -> Result<(), ScaleError> {
+        let gain = duty_per_rad_s / Format::DUTY.lsb() / self.words_per_rad_s;
+        let kff = fit("feed-forward gain", 0, Format::FEED_FORWARD, gain)?;
+        for gains in &mut self.configuration.gains[..self.wheels] {
+            gains.kff = FeedForwardGain::from_bits(kff);
+        }
+        Ok(())
+    }
+
+    /// Slew limit of all wheels' set points, in rad/s² at the wheel; beyond the range, none.
+    pub fn set_slew_limit(&mut self, rad_s2: f64) {
+        let rise = self.speed_word(rad_s2.abs() * self.tick_s());
+        self.configuration.slew[..self.wheels].fill(SlewLimits { fall: -rise, rise });
     }
 
     /// Control period in seconds.
@@ -184,6 +240,22 @@ impl Scale {
         [0, 1, 2].map(|k| nearest(components[k] * f64::from(self.exponents[k]).exp2()))
     }
 
+    /// Pose from the words of a snapshot: position in metres, within ±8 m of where it wraps, heading in
+    /// (−π, π].
+    #[must_use]
+    pub fn pose(&self, [x, y, heading]: [i32; 3]) -> Pose {
+        let theta = f64::from(heading) / HEADING_PER_RAD;
+        let theta = if theta <= -PI { PI } else { theta };
+        Pose::new(f64::from(x) / POSITION_PER_M, f64::from(y) / POSITION_PER_M, theta)
+    }
+
+    /// Body velocity from measured wheel speeds, in m/s and rad/s; zero for fewer than three wheels.
+    #[must_use]
+    pub fn measured_twist(&self, speeds: &[Speed; AXES]) -> Twist {
+        let component = |k: usize| (0..self.wheels).map(|i| self.direct[k][i] * self.speed(speeds[i])).sum();
+        Twist { vx: component(0), vy: component(1), omega: component(2) }
+    }
+
     /// Body velocity in m/s and rad/s.
     #[must_use]
     pub fn twist(&self, words: [i32; 3]) -> Twist {
@@ -205,7 +277,8 @@ fn fit(what: &'static str, wheel: usize, format: Format, value: f64) -> Result<i
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fixed_kin::kinematics::{direct, inverse};
+    use fixed_kin::kinematics::inverse;
+    use fixed_kin::pose::displacement;
     use model::robot::Layout;
 
     const CLOCK: f64 = 33_333_333.0;
@@ -227,11 +300,41 @@ mod tests {
                 speeds[axis] = inverse(&scale.configuration().inverse[axis], &words);
                 assert!((scale.speed(speeds[axis]) - exact).abs() < 2e-3, "axis {axis}");
             }
-            let back = scale.twist(direct(&scale.configuration().direct, &speeds));
+            let back = scale.measured_twist(&speeds);
             for (got, want) in [(back.vx, twist.vx), (back.vy, twist.vy), (back.omega, twist.omega)] {
                 assert!((got - want).abs() < 1e-4 * (1.0 + want.abs()), "{got} for {want}");
             }
         }
+    }
+
+    #[test]
+    fn the_odometry_matrix_agrees_with_the_model() {
+        let robot = Robot::racbot();
+        let scale = Scale::new(&robot, CLOCK).unwrap();
+        assert!(scale.has_odometry());
+        let counts = [300, -200, 50, 0];
+        let turns: Vec<f64> = counts[..3].iter().map(|n| f64::from(*n) / robot.counts_per_wheel_rad()).collect();
+        let exact = robot.geometry().unwrap().twist(&turns);
+        let [x, y, half] = displacement(&scale.configuration().direct, &counts);
+        for (got, want, lsb) in [
+            (x, exact.vx, 2.0 / POSITION_PER_M),
+            (y, exact.vy, 2.0 / POSITION_PER_M),
+            (half, exact.omega, 2.0 / HEADING_PER_RAD),
+        ] {
+            assert!((f64::from(got) * lsb - want).abs() < 3.0 * lsb, "{} for {want}", f64::from(got) * lsb);
+        }
+    }
+
+    #[test]
+    fn slew_and_feed_forward_have_their_units() {
+        let mut scale = Scale::new(&Robot::racbot(), CLOCK).unwrap();
+        scale.set_slew_limit(2_000.0);
+        assert!((scale.speed(scale.configuration().slew[1].rise) - 2.0).abs() < 1e-4);
+        assert_eq!(scale.configuration().slew[1].fall, -scale.configuration().slew[1].rise);
+        scale.set_feed_forward(0.01).unwrap();
+        let duty = f64::from(scale.configuration().gains[2].kff) * f64::from(scale.speed_word(20.0).to_bits());
+        assert!((duty * Format::DUTY.lsb() - 0.2).abs() < 1e-4, "{duty}");
+        assert!(scale.set_feed_forward(1e6).is_err());
     }
 
     #[test]

@@ -8,12 +8,14 @@
 use crate::AXES;
 use crate::commit::{Commit, Group};
 use crate::control::{
-    CONFIGURATION_WORDS, Configuration, Core, SET_POINT_WORDS, SetPointMode, TickInputs, TickOutputs,
+    CONFIGURATION_WORDS, Configuration, Core, IndexCapture, SET_POINT_WORDS, SetPointMode, TickInputs, TickOutputs,
 };
+use crate::interrupt::{self, Interrupt};
 use crate::kicker::{self, Kicker};
 use crate::registers as map;
 use crate::safety::{self, Safety};
 use crate::speed::{EncoderSample, SpeedMode, TIME_BITS};
+use crate::stall::{self, Stall, Window};
 
 /// What reaches the card from outside, at a control tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,10 +24,14 @@ pub struct Pins {
     pub encoders: [EncoderSample; AXES],
     /// Illegal transitions in this tick, a bit per axis.
     pub encoder_errors: u8,
+    /// First rise of the index in this tick, per axis: the encoder's count at it.
+    pub indices: [Option<u16>; AXES],
     /// Emergency stop, high = stop.
     pub emergency_stop: bool,
     /// Ball sensor.
     pub ball: bool,
+    /// The kicker's capacitor is full.
+    pub kicker_full: bool,
 }
 
 /// Plain registers.
@@ -44,13 +50,17 @@ struct Plain {
     kicker_charge_timeout: u32,
     clocks_per_microsecond: u32,
     leds: u32,
+    set_point_timeout: u32,
+    stall_window: u32,
+    stall_compare: u32,
+    interrupt_enable: u32,
 }
 
 impl Plain {
     fn of(&mut self, register: &map::Register) -> Option<(&mut u32, u32)> {
         let bits = match register.kind {
             map::Kind::Unsigned(bits) => bits,
-            map::Kind::Fields(_) => 2,
+            map::Kind::Fields(fields) => fields.iter().map(|field| field.width).sum(),
             map::Kind::Fixed(_) | map::Kind::Text => return None,
         };
         let place = match register.offset {
@@ -67,6 +77,10 @@ impl Plain {
             o if o == map::KICKER_CHARGE_TIMEOUT.offset => &mut self.kicker_charge_timeout,
             o if o == map::CLOCKS_PER_MICROSECOND.offset => &mut self.clocks_per_microsecond,
             o if o == map::LEDS.offset => &mut self.leds,
+            o if o == map::SET_POINT_TIMEOUT.offset => &mut self.set_point_timeout,
+            o if o == map::STALL_WINDOW.offset => &mut self.stall_window,
+            o if o == map::STALL_COMPARE.offset => &mut self.stall_compare,
+            o if o == map::INTERRUPT_ENABLE.offset => &mut self.interrupt_enable,
             _ => return None,
         };
         Some((place, u32::MAX >> (32 - bits)))
@@ -80,6 +94,12 @@ pub struct Card {
     commit: Commit,
     safety: Safety,
     kicker: Kicker,
+    interrupt: Interrupt,
+    stalls: [Stall; AXES],
+    window: Window,
+    index_waiting: u8,
+    index_seen: u8,
+    index_clear: u8,
     plain: Plain,
     content_hash: u32,
     configuration: [[i32; CONFIGURATION_WORDS]; 2],
@@ -104,6 +124,12 @@ impl Card {
             commit: Commit::default(),
             safety: Safety::default(),
             kicker: Kicker::default(),
+            interrupt: Interrupt::default(),
+            stalls: [Stall::default(); AXES],
+            window: Window::default(),
+            index_waiting: 0,
+            index_seen: 0,
+            index_clear: 0,
             plain: Plain {
                 tick_period: map::TICK_PERIOD.reset,
                 mode: map::MODE.reset,
@@ -118,6 +144,10 @@ impl Card {
                 kicker_charge_timeout: map::KICKER_CHARGE_TIMEOUT.reset,
                 clocks_per_microsecond: map::CLOCKS_PER_MICROSECOND.reset,
                 leds: map::LEDS.reset,
+                set_point_timeout: map::SET_POINT_TIMEOUT.reset,
+                stall_window: map::STALL_WINDOW.reset,
+                stall_compare: map::STALL_COMPARE.reset,
+                interrupt_enable: map::INTERRUPT_ENABLE.reset,
             },
             content_hash,
             configuration: [[0; CONFIGURATION_WORDS]; 2],
@@ -181,6 +211,11 @@ impl Card {
             }
             o if o == map::ENCODER_ERROR.offset => u32::from(self.encoder_errors),
             o if o == map::KICKER_STATUS.offset => self.kicker_status(),
+            o if o == map::STALL.offset => self.stalled(),
+            o if o == map::INDEX_STATUS.offset => {
+                map::INDEX_WAITING.place(self.index_waiting.into()) | map::INDEX_SEEN.place(self.index_seen.into())
+            }
+            o if o == map::INTERRUPT_STATUS.offset => u32::from(self.interrupt.outputs().status),
             o if o == map::CONFIGURATION.offset => {
                 self.configuration[1 - self.commit.bank(Group::Configuration)][index] as u32
             }
@@ -191,6 +226,7 @@ impl Card {
             o if o == map::ACTIVE_SET_POINTS.offset => {
                 self.set_points[self.commit.bank(Group::SetPoints)][index] as u32
             }
+            o if o == map::INDEX_POSITION.offset => self.core.index_positions[index] as u32,
             o if o == map::INTEGRALS.offset => self.core.loops[index].integral.to_bits() as u32,
             o if o >= map::SNAPSHOT_SEQUENCE.offset => self.read_snapshot(usize::from(o - 0x800) / 4 + index),
             _ if register.access == map::Access::ReadOnly => register.reset,
@@ -229,6 +265,14 @@ impl Card {
                 self.kicker.clock(&kicker::Inputs { clear: true, ..self.kicker_inputs() });
             }
             o if o == map::ENCODER_ERROR.offset => self.encoder_errors &= !(data as u8),
+            o if o == map::STALL.offset => {
+                for (axis, detector) in self.stalls.iter_mut().enumerate() {
+                    let enable = self.safety.outputs().armed;
+                    detector.clock(&stall::Inputs { clear: data >> axis & 1 == 1, enable, ..stall::Inputs::default() });
+                }
+            }
+            o if o == map::INDEX_ARM.offset => self.arm_index(data),
+            o if o == map::INTERRUPT_STATUS.offset => self.interrupt(false, data as u8),
             o if o == map::COMMIT_SET_POINTS.offset => self.commit(Group::SetPoints, data),
             o if o == map::COMMIT_CONFIGURATION.offset => self.commit(Group::Configuration, data),
             o if o == map::KICKER_FIRE.offset && data == map::KICKER_FIRE_WORD => {
@@ -258,7 +302,7 @@ impl Card {
         self.pins = *pins;
         self.encoder_errors |= pins.encoder_errors;
         self.time = self.time.wrapping_add(period);
-        self.safety.advance(&self.safety_inputs(), period);
+        self.advance_safety(period - 1);
         self.advance_kicker(period);
 
         if self.commit.pending(Group::Configuration) {
@@ -266,35 +310,104 @@ impl Card {
         }
         self.commit.tick();
         let safe = self.safety.outputs();
-        let inputs = TickInputs {
-            encoders: pins.encoders,
+        let inputs = self.tick_inputs(safe);
+        let outputs = self.core.tick(&self.parsed, &inputs);
+        self.publish(&outputs, inputs.now, safe);
+        self.judge_stalls(&outputs);
+        // The clock of the tick itself.
+        self.safety.clock(&safety::Inputs { tick: true, ..self.safety_inputs() });
+        self.interrupt(true, 0);
+        outputs
+    }
+
+    /// The line to the bridge, low = interrupt.
+    #[must_use]
+    pub fn int_n(&self) -> bool {
+        u32::from(self.interrupt.outputs().status) & self.plain.interrupt_enable == 0
+    }
+
+    /// Whether the kicker's capacitor is being discharged.
+    #[must_use]
+    pub fn kicker_discharges(&self) -> bool {
+        let holds = map::KICKER_HOLD.of(self.plain.kicker_control) == 1 && !self.safety.outputs().stopped;
+        !self.armed() && !holds
+    }
+
+    fn tick_inputs(&mut self, safe: safety::Outputs) -> TickInputs {
+        let mode = |field: map::Field| field.of(self.plain.mode) == 1;
+        let speed_mode = if mode(map::MODE_COUNT_AND_TIME) { SpeedMode::CountAndTime } else { SpeedMode::Difference };
+        let set_point_mode = if mode(map::MODE_TWIST) { SetPointMode::Twist } else { SetPointMode::Wheels };
+        let odometry = mode(map::MODE_ODOMETRY);
+        TickInputs {
+            encoders: self.pins.encoders,
+            indices: core::array::from_fn(|axis| self.capture(axis)),
             now: self.time & ((1 << TIME_BITS) - 1),
-            tick_period: period,
-            speed_mode: if map::MODE_COUNT_AND_TIME.of(self.plain.mode) == 1 {
-                SpeedMode::CountAndTime
-            } else {
-                SpeedMode::Difference
-            },
-            set_point_mode: if map::MODE_TWIST.of(self.plain.mode) == 1 {
-                SetPointMode::Twist
-            } else {
-                SetPointMode::Wheels
-            },
+            tick_period: self.tick_period(),
+            speed_mode,
+            set_point_mode,
+            odometry,
             set_points: self.set_points[self.commit.bank(Group::SetPoints)],
             set_points_valid: safe.setpoints_valid,
             armed: safe.armed,
             pwm_period: self.plain.pwm_period as u16,
-        };
-        let outputs = self.core.tick(&self.parsed, &inputs);
-        self.publish(&outputs, inputs.now);
-        outputs
+        }
     }
 
-    fn publish(&mut self, outputs: &TickOutputs, now: u32) {
+    fn arm_index(&mut self, data: u32) {
+        let (latch, clear) = (map::INDEX_ARM_LATCH.of(data) as u8, map::INDEX_ARM_CLEAR.of(data) as u8);
+        self.index_waiting |= latch;
+        self.index_seen &= !latch;
+        self.index_clear = (self.index_clear & !latch) | (clear & latch);
+    }
+
+    fn capture(&mut self, axis: usize) -> IndexCapture {
+        let mask = 1 << axis;
+        match self.pins.indices[axis] {
+            Some(count) if self.index_waiting & mask != 0 => {
+                self.index_waiting &= !mask;
+                self.index_seen |= mask;
+                IndexCapture { event: true, clear: self.index_clear & mask != 0, count }
+            }
+            _ => IndexCapture::default(),
+        }
+    }
+
+    /// Counts of the tick, the end of a window, and the drive from now on, in the order of the clocks.
+    fn judge_stalls(&mut self, outputs: &TickOutputs) {
+        let enable = self.safety.outputs().armed;
+        let window = self.window.tick(self.plain.stall_window as u16);
+        for (axis, detector) in self.stalls.iter_mut().enumerate() {
+            let moved = outputs.moved[axis];
+            let quiet =
+                stall::Inputs { enable, threshold: self.plain.stall_compare as u16, ..stall::Inputs::default() };
+            for _ in 0..moved.unsigned_abs().min(2 * stall::STALL_COUNTS as u32) {
+                detector.clock(&stall::Inputs { step: true, up: moved > 0, ..quiet });
+            }
+            detector.clock(&stall::Inputs { window, ..quiet });
+            detector.clock(&stall::Inputs { load: true, compare: outputs.modulation[axis].compare, ..quiet });
+        }
+    }
+
+    fn stalled(&self) -> u32 {
+        self.stalls.iter().enumerate().fold(0, |word, (axis, s)| word | u32::from(s.outputs().stalled) << axis)
+    }
+
+    fn interrupt(&mut self, done: bool, clear: u8) {
+        let armed = self.safety.outputs().armed;
+        self.interrupt.clock(&interrupt::Inputs { done, armed, enable: self.plain.interrupt_enable as u8, clear });
+    }
+
+    /// The safety block for some clocks; the interrupt sees what they changed.
+    fn advance_safety(&mut self, clocks: u32) {
+        self.safety.advance(&self.safety_inputs(), clocks);
+        self.interrupt(false, 0);
+    }
+
+    fn publish(&mut self, outputs: &TickOutputs, now: u32, safe: safety::Outputs) {
         let bank = 1 - self.held.unwrap_or(self.latest);
         self.sequence = self.sequence.wrapping_add(1);
         // What is pending is over at the tick.
-        let (status, faults) = (self.status() & 0x0F, u32::from(self.safety.outputs().faults));
+        let (status, faults) = (self.status() & 0x0F, u32::from(safe.faults));
         let words = &mut self.snapshots[bank];
         words[0] = self.sequence;
         words[1] = status;
@@ -306,7 +419,7 @@ impl Card {
             words[12 + axis] = outputs.references[axis].to_bits() as u32;
             words[16 + axis] = outputs.duties[axis].to_bits() as u32;
         }
-        for (word, component) in words[20..23].iter_mut().zip(outputs.twist) {
+        for (word, component) in words[20..23].iter_mut().zip(outputs.pose.words()) {
             *word = component as u32;
         }
         words[23] = self.sequence;
@@ -332,6 +445,7 @@ impl Card {
             | map::KICKER_READY.place(outputs.ready.into())
             | map::KICKER_TIMED_OUT.place(outputs.timed_out.into())
             | map::KICKER_DROPPED.place(outputs.dropped.into())
+            | map::KICKER_FULL.place(outputs.is_full.into())
     }
 
     fn safety_inputs(&self) -> safety::Inputs {
@@ -339,6 +453,8 @@ impl Card {
             emergency_stop: self.pins.emergency_stop,
             watchdog_timeout: self.plain.watchdog_timeout,
             encoder_fault: u32::from(self.encoder_errors) & self.plain.encoder_fault_mask != 0,
+            stall_fault: self.stalled() & self.plain.encoder_fault_mask != 0,
+            set_point_timeout: self.plain.set_point_timeout as u16,
             ..safety::Inputs::default()
         }
     }
@@ -352,13 +468,15 @@ impl Card {
             pulse: self.plain.kicker_pulse as u16,
             lockout: self.plain.kicker_lockout,
             ball: self.pins.ball,
+            full: self.pins.kicker_full,
+            by_time: map::KICKER_BY_TIME.of(self.plain.kicker_control) == 1,
             ..kicker::Inputs::default()
         }
     }
 
     fn advance_kicker(&mut self, clocks: u32) {
         let quiet = self.kicker_inputs();
-        for _ in 0..clocks / self.plain.clocks_per_microsecond.max(1) {
+        for _ in 0..clocks / kicker::microsecond_clocks(self.plain.clocks_per_microsecond) {
             let before = self.kicker;
             self.kicker.clock(&kicker::Inputs { microsecond: true, ..quiet });
             self.kicker.clock(&quiet);
@@ -393,7 +511,9 @@ mod tests {
             ki: crate::format::IntegralGain::from_num(0.1),
             lower: -Duty::ONE,
             upper: Duty::ONE,
+            ..PiGains::default()
         };
+        configuration.slew[0] = crate::slew::SlewLimits::NONE;
         stage(&mut card, &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &configuration.to_words());
         card.write(map::PWM_PERIOD.offset, 1_667);
         card.tick(&Pins::default());
@@ -432,6 +552,61 @@ mod tests {
         assert_eq!(card.tick(&Pins::default()).duties[0], Duty::ZERO);
         stage(&mut card, &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[1 << 22, 0, 0, 0]);
         assert_eq!(card.tick(&Pins::default()).duties[0], Duty::ZERO, "stays off until armed again");
+    }
+
+    #[test]
+    fn a_driven_wheel_that_only_toggles_disarms_by_name() {
+        let mut card = driving();
+        card.write(map::ARM.offset, 0);
+        card.write(map::STALL_WINDOW.offset, 10);
+        card.write(map::STALL_COMPARE.offset, 400);
+        card.write(map::FAULTS.offset, u32::MAX);
+        card.write(map::ARM.offset, safety::ARM_FIRST);
+        card.write(map::ARM.offset, safety::ARM_SECOND);
+        let mut pins = Pins::default();
+        let mut ticks = 0;
+        while card.armed() {
+            stage(&mut card, &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[1 << 22, 0, 0, 0]);
+            pins.encoders[0].count ^= 1;
+            card.tick(&pins);
+            ticks += 1;
+            assert!(ticks <= 25, "a cut wire goes unseen");
+        }
+        assert_eq!(card.read(map::STALL.offset), 1);
+        card.tick(&pins);
+        assert_eq!(card.read(map::FIRST_FAULT.offset), u32::from(safety::Fault::Stall.mask()));
+        card.write(map::STALL.offset, 0b1110);
+        assert_eq!(card.read(map::STALL.offset), 1, "cleared per axis");
+        card.write(map::STALL.offset, 1);
+        assert_eq!(card.read(map::STALL.offset), 0);
+    }
+
+    #[test]
+    fn interrupts_come_with_the_tick_and_with_disarming() {
+        let mut card = driving();
+        card.write(map::INTERRUPT_STATUS.offset, 3);
+        assert!(card.int_n());
+        card.tick(&Pins::default());
+        assert!(card.int_n(), "off at reset");
+        card.write(map::INTERRUPT_ENABLE.offset, 1);
+        assert!(!card.int_n());
+        card.write(map::INTERRUPT_STATUS.offset, 1);
+        assert!(card.int_n());
+        card.write(map::INTERRUPT_ENABLE.offset, 2);
+        card.tick(&Pins { emergency_stop: true, ..Pins::default() });
+        assert!(!card.int_n());
+        assert_eq!(card.read(map::INTERRUPT_STATUS.offset), 3);
+    }
+
+    #[test]
+    fn the_capacitor_is_discharged_unless_held_and_always_at_an_emergency_stop() {
+        let mut card = Card::new(0);
+        assert!(card.kicker_discharges());
+        card.write(map::KICKER_CONTROL.offset, map::KICKER_HOLD.place(1));
+        card.tick(&Pins::default());
+        assert!(!card.kicker_discharges());
+        card.tick(&Pins { emergency_stop: true, ..Pins::default() });
+        assert!(card.kicker_discharges());
     }
 
     #[test]

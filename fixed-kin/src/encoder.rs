@@ -1,4 +1,4 @@
-//! Bit-true twin of the quadrature encoder block: filter, ×4 decoding, count and edge time.
+//! Bit-true twin of the quadrature encoder block: filter, ×4 decoding, count, edge time and index.
 //!
 //! One [`Encoder::clock`] is one rising edge of the FPGA clock; the outputs are those that hold
 //! until the next edge. Formats: count 16 bits and times 24 bits, both unsigned and wrapping, which
@@ -6,6 +6,9 @@
 //!
 //! Convention: A leads B counts up. A transition of both lines at once is illegal: it sets the
 //! sticky error and does not count.
+//!
+//! The index line passes the same filter. Its first rise after `arm_index` latches the count as it
+//! stands then; one capture an arming, so that a trembling index cannot move it.
 
 /// Width mask of the free-running time.
 pub const TIME_MASK: u32 = 0x00FF_FFFF;
@@ -78,6 +81,10 @@ pub struct Inputs {
     pub now: u32,
     /// Clears the sticky error, unless a new one comes at the same clock.
     pub clear_error: bool,
+    /// Raw index line.
+    pub index: bool,
+    /// Strobe: the next rise of the index is to be captured.
+    pub arm_index: bool,
 }
 
 /// Outputs of the encoder after a clock.
@@ -95,6 +102,20 @@ pub struct Outputs {
     pub live_a: bool,
     /// Filtered line B.
     pub live_b: bool,
+    /// An edge is counted in the clock to come.
+    pub step: bool,
+    /// Its direction, true = up.
+    pub up: bool,
+    /// Filtered index line.
+    pub live_index: bool,
+    /// Count at the last index captured before the last sample.
+    pub index_count: u16,
+    /// An index was captured between the last two samples.
+    pub index_event: bool,
+    /// An index is waited for.
+    pub index_waiting: bool,
+    /// One was captured since the last arming.
+    pub index_seen: bool,
 }
 
 /// State of one encoder channel.
@@ -102,9 +123,14 @@ pub struct Outputs {
 pub struct Encoder {
     line_a: GlitchFilter,
     line_b: GlitchFilter,
+    line_index: GlitchFilter,
     settling: u32,
     last_a: bool,
     last_b: bool,
+    last_index: bool,
+    /// Captured since the last sample.
+    index_new: bool,
+    index_count: u16,
     count: u16,
     edge_time: u32,
     direction: bool,
@@ -127,6 +153,7 @@ impl Encoder {
         }
         self.line_a.clock(inputs.a, true, inputs.filter, !settled);
         self.line_b.clock(inputs.b, true, inputs.filter, !settled);
+        self.line_index.clock(inputs.index, true, inputs.filter, !settled);
 
         let (a, b) = (before.line_a.value, before.line_b.value);
         self.last_a = if settled { a } else { before.line_a.synchronised() };
@@ -144,9 +171,31 @@ impl Encoder {
             self.outputs.direction = before.direction;
         }
         self.outputs.error = (before.outputs.error && !inputs.clear_error) || (change_a && change_b);
+        self.capture(&before, inputs, settled);
         self.outputs.live_a = self.line_a.value;
         self.outputs.live_b = self.line_b.value;
+        self.outputs.live_index = self.line_index.value;
+        let settled = self.settling >= SETTLING_CLOCKS;
+        let changes = [self.line_a.value != self.last_a, self.line_b.value != self.last_b];
+        self.outputs.step = settled && changes[0] != changes[1];
+        self.outputs.up = self.line_a.value != self.last_b;
         self.outputs
+    }
+
+    fn capture(&mut self, before: &Self, inputs: &Inputs, settled: bool) {
+        let index = before.line_index.value;
+        self.last_index = if settled { index } else { before.line_index.synchronised() };
+        let captures = settled && index && !before.last_index && before.outputs.index_waiting;
+        if captures {
+            self.index_count = before.count;
+        }
+        self.outputs.index_waiting = inputs.arm_index || (before.outputs.index_waiting && !captures);
+        self.outputs.index_seen = captures || (before.outputs.index_seen && !inputs.arm_index);
+        self.index_new = captures || (before.index_new && !inputs.sample);
+        if inputs.sample {
+            self.outputs.index_event = before.index_new;
+            self.outputs.index_count = before.index_count;
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 
 use crate::word::{Scale, WORD_BITS};
 use fixed::FixedI32;
-use fixed::types::extra::{U16, U22, U24, U32};
+use fixed::types::extra::{U8, U16, U22, U24, U32};
 
 /// Wheel speed in encoder counts per clock of the local bus: 2⁻³² counts a clock is one LSB
 /// (0.0078 counts/s at 33.33 MHz), 30 bits, ±0.125 counts a clock (±4.2 million counts/s).
@@ -19,6 +19,10 @@ pub type Speed = FixedI32<U32>;
 pub type Duty = FixedI32<U24>;
 /// Entry of a kinematics matrix: 18 bits, [−2, 2).
 pub type Coefficient = FixedI32<U16>;
+/// Entry of the odometry matrix, LSB of displacement per count: 30 bits, [−2²¹, 2²¹).
+pub type Displacement = FixedI32<U8>;
+/// Feed-forward gain, duty LSB per speed LSB: 18 bits, [−2, 2).
+pub type FeedForwardGain = FixedI32<U16>;
 /// Proportional gain, duty LSB per speed LSB: 24 bits, [−128, 128).
 pub type ProportionalGain = FixedI32<U16>;
 /// Integral gain times the control period, duty LSB per speed LSB: 24 bits, [−2, 2).
@@ -67,6 +71,10 @@ impl Format {
     pub const DUTY: Self = Self::new("duty", WORD_BITS, 24);
     /// Format of [`Coefficient`].
     pub const COEFFICIENT: Self = Self::of_operand("kinematics coefficient", Scale::COEFFICIENT);
+    /// Format of [`Displacement`].
+    pub const DISPLACEMENT: Self = Self::new("odometry coefficient", WORD_BITS, 8);
+    /// Format of [`FeedForwardGain`].
+    pub const FEED_FORWARD: Self = Self::new("feed-forward gain", 18, 16);
     /// Format of [`ProportionalGain`].
     pub const PROPORTIONAL: Self = Self::of_operand("proportional gain", Scale::WIDE);
     /// Format of [`IntegralGain`].

@@ -10,6 +10,13 @@
 //! same point as `fire`: two clocks and [`BALL_FILTER_US`] strobes. `enable` low takes everything
 //! low in one clock; commutation and lock-out run on, so that switching off and on shortens neither.
 //!
+//! A microsecond is what the time base says: [`microsecond_clocks`] clocks, bounded, so that no register
+//! value stretches the longest pulse beyond [`MAXIMUM_PULSE_CLOCKS`].
+//!
+//! Charging pauses while the capacitor is full and goes on when it is not; the comparator in front of
+//! `full` has the hysteresis. An open wire reads as full. The time-out counts the charging since it was
+//! last full.
+//!
 //! The pulse is not the kick strength where a triac switches: it conducts until its current ends.
 //! Hence the commutation time before charging.
 
@@ -17,6 +24,24 @@ use crate::encoder::GlitchFilter;
 
 /// Longest trigger pulse; a longer setting acts as this one.
 pub const MAXIMUM_PULSE_US: u16 = 10_000;
+/// Bounds of the clocks that count as a microsecond: the local bus runs at 25 to 33.3 MHz.
+pub const MICROSECOND_CLOCKS: [u32; 2] = [25, 34];
+/// Longest pulse in clocks, whatever the registers say: 10.2 ms at 33.33 MHz.
+pub const MAXIMUM_PULSE_CLOCKS: u32 = MAXIMUM_PULSE_US as u32 * MICROSECOND_CLOCKS[1];
+
+/// Clocks between two strobes of `microsecond` for a value of the register.
+#[must_use]
+pub const fn microsecond_clocks(register: u32) -> u32 {
+    let [low, high] = MICROSECOND_CLOCKS;
+    if register < low {
+        low
+    } else if register > high {
+        high
+    } else {
+        register
+    }
+}
+
 /// Shortest lock-out, from the end of a pulse: ten of the longest pulses, so that the solenoid and
 /// its switch are never on for more than a tenth of the time whatever the registers say.
 pub const MINIMUM_LOCKOUT_US: u32 = 100_000;
@@ -25,7 +50,7 @@ pub const MINIMUM_LOCKOUT_US: u32 = 100_000;
 pub const COMMUTATION_US: u32 = 20_000;
 /// Time between charging and a pulse: many periods of the charger's oscillator.
 pub const CHARGE_GAP_US: u16 = 1_000;
-/// Strobes for which the ball sensor must differ.
+/// Strobes for which the ball sensor, and the input for a full capacitor, must differ.
 pub const BALL_FILTER_US: u8 = 8;
 
 const PULSE_MASK: u16 = 0x3FFF;
@@ -74,6 +99,10 @@ pub struct Inputs {
     pub arm_on_ball: bool,
     /// Strobe: clears the sticky flags and a charging time-out.
     pub clear: bool,
+    /// Raw pin, high or open: the capacitor is full.
+    pub full: bool,
+    /// Level: charge by time alone, `full` is ignored.
+    pub by_time: bool,
 }
 
 /// Outputs of the kicker after a clock.
@@ -91,12 +120,16 @@ pub struct Outputs {
     pub timed_out: bool,
     /// Sticky: a fire request was dropped.
     pub dropped: bool,
+    /// The capacitor is full, filtered.
+    pub is_full: bool,
 }
 
 /// State of the kicker block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kicker {
     ball: GlitchFilter,
+    /// Filters the inverted pin, so that the power-up state is "full".
+    hungry: GlitchFilter,
     state: State,
     /// Strobes since the pulse began or ended.
     elapsed: u32,
@@ -122,6 +155,8 @@ impl Kicker {
         let pulse = inputs.pulse & PULSE_MASK;
         let idle = if inputs.enable { State::Ready } else { State::Off };
         self.ball.clock(inputs.ball, inputs.microsecond, BALL_FILTER_US - 1, false);
+        self.hungry.clock(!inputs.full, inputs.microsecond, BALL_FILTER_US - 1, false);
+        let full = !before.hungry.value && !inputs.by_time;
 
         let takes = before.state == State::Ready && inputs.enable && pulse != 0;
         let by_ball = inputs.arm_on_ball && before.ball.value && !before.spent;
@@ -162,7 +197,7 @@ impl Kicker {
         self.spent = inputs.arm_on_ball && (before.spent || !inputs.enable || accepts);
 
         let expired = before.charged >= inputs.charge_timeout & CHARGE_MASK;
-        if !inputs.charge_request || before.state == State::Pulse || (inputs.clear && expired) {
+        if !inputs.charge_request || full || before.state == State::Pulse || (inputs.clear && expired) {
             self.charged = 0;
         } else if inputs.microsecond && before.outputs.charge && !expired {
             self.charged = before.charged + 1;
@@ -175,12 +210,13 @@ impl Kicker {
 
         let may_charge = matches!(self.state, State::Ready | State::Lockout);
         self.outputs = Outputs {
-            charge: inputs.enable && inputs.charge_request && !expired && may_charge,
+            charge: inputs.enable && inputs.charge_request && !full && !expired && may_charge,
             trigger: self.state == State::Pulse,
             ready: self.state == State::Ready && pulse != 0,
             state: self.state as u8,
             timed_out: (before.outputs.timed_out && !inputs.clear) || (before.outputs.charge && expired),
             dropped: (before.outputs.dropped && !inputs.clear) || (inputs.fire && !takes) || cancels,
+            is_full: !self.hungry.value,
         };
         self.outputs
     }

@@ -1,4 +1,4 @@
-//! Bit-true twin of the PWM generator of one axis: sign-magnitude, double-buffered, blanked.
+//! Bit-true twin of the PWM generator of one axis: double-buffered, blanked, sign-magnitude or up/down.
 //!
 //! One [`Pwm::clock`] is one rising edge of the FPGA clock; the outputs are those that hold until
 //! the next edge. Period and compare are unsigned clocks in 13 bits, blanking in 10; a compare of
@@ -15,6 +15,12 @@
 //!
 //! While disabled, `dir` holds; a compare of zero does not ask for a direction, so crossing
 //! zero costs one blanking time and trembling around it none.
+//!
+//! In up/down mode the `pwm` pin carries the pulses forward and the `dir` pin those backward. Both
+//! come from the same gated pulse, so they are never high together and the blanking lies between.
+//!
+//! `sync` starts a period: axes that are synchronised a quarter of a period apart share the current
+//! peaks of the supply among them. In step with the generator's own period it changes nothing.
 
 /// Width mask of period and compare.
 pub const PERIOD_MASK: u16 = 0x1FFF;
@@ -36,17 +42,23 @@ pub struct Inputs {
     pub compare: u16,
     /// Level of `dir` for this compare.
     pub direction: bool,
+    /// Strobe: a period starts with the next clock.
+    pub sync: bool,
+    /// Up/down instead of sign and magnitude.
+    pub up_down: bool,
 }
 
 /// Outputs of the generator after a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// The PWM pin.
+    /// The PWM pin; in up/down mode the pulses forward.
     pub pwm: bool,
-    /// The DIR pin.
+    /// The DIR pin; in up/down mode the pulses backward.
     pub dir: bool,
     /// Strobe: the next clock is the first of a period at the pin.
     pub period_start: bool,
+    /// Clocks since the period started, one ahead of the pin.
+    pub position: u16,
 }
 
 /// State of one generator.
@@ -61,7 +73,9 @@ pub struct Pwm {
     quiet: u16,
     /// `quiet` has reached the blanking time since `dir` changed or `enable` was low.
     settled: bool,
-    outputs: Outputs,
+    pulse: bool,
+    reverse: bool,
+    period_start: bool,
 }
 
 impl Pwm {
@@ -69,10 +83,10 @@ impl Pwm {
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let period = inputs.period & PERIOD_MASK;
-        let last = before.phase + 1 >= period;
+        let last = before.phase + 1 >= period || inputs.sync;
         let wraps = last && period != 0;
         self.phase = if last { 0 } else { before.phase + 1 };
-        self.outputs.period_start = wraps;
+        self.period_start = wraps;
 
         if inputs.load {
             self.shadow_compare = inputs.compare & PERIOD_MASK;
@@ -90,24 +104,30 @@ impl Pwm {
         }
 
         let long_quiet = before.quiet >= inputs.blanking & BLANKING_MASK;
-        let aligned = before.active_direction == before.outputs.dir;
-        let turns = inputs.enable && !aligned && before.active_compare != 0 && long_quiet && !before.outputs.pwm;
+        let aligned = before.active_direction == before.reverse;
+        let turns = inputs.enable && !aligned && before.active_compare != 0 && long_quiet && !before.pulse;
         if turns {
-            self.outputs.dir = before.active_direction;
+            self.reverse = before.active_direction;
         }
         if !long_quiet {
             self.quiet = before.quiet + 1;
         }
-        if turns || before.outputs.pwm || !inputs.enable {
+        if turns || before.pulse || !inputs.enable {
             self.quiet = 0;
         }
         self.settled = inputs.enable && !turns && (before.settled || long_quiet);
-        self.outputs.pwm = inputs.enable
+        self.pulse = inputs.enable
             && period != 0
             && aligned
             && (before.settled || long_quiet)
             && before.phase < before.active_compare;
-        self.outputs
+        self.outputs(inputs.up_down)
+    }
+
+    fn outputs(&self, up_down: bool) -> Outputs {
+        let (pulse, reverse) = (self.pulse, self.reverse);
+        let (pwm, dir) = if up_down { (pulse && !reverse, pulse && reverse) } else { (pulse, reverse) };
+        Outputs { pwm, dir, period_start: self.period_start, position: self.phase }
     }
 }
 
@@ -116,6 +136,17 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use std::vec::Vec;
+
+    const OFF: Inputs = Inputs {
+        enable: false,
+        period: 0,
+        blanking: 0,
+        load: false,
+        compare: 0,
+        direction: false,
+        sync: false,
+        up_down: false,
+    };
 
     /// Runs until `compare` and `direction` are in force, then from the next start strobe on.
     fn steady(pwm: &mut Pwm, inputs: Inputs) {
@@ -135,17 +166,18 @@ mod tests {
         for period in [1, 2, 3, 100, 1_667] {
             for compare in (0..=period + 2).chain([8_191]) {
                 for direction in [false, true] {
-                    let inputs = Inputs { enable: true, period, blanking: 33, load: false, compare, direction };
+                    let inputs = Inputs { enable: true, period, blanking: 33, load: false, compare, direction, ..OFF };
                     let mut pwm = Pwm::default();
                     steady(&mut pwm, inputs);
                     let high = high_clocks(&mut pwm, &inputs);
                     assert_eq!(high, u32::from(compare.min(period)), "{compare} of {period}");
-                    assert!(compare == 0 || pwm.outputs.dir == direction);
+                    assert!(compare == 0 || pwm.reverse == direction);
                 }
             }
         }
         for (compare, high) in [(0, 0), (1, 1), (8_190, 8_190), (8_191, 8_191)] {
-            let inputs = Inputs { enable: true, period: 8_191, blanking: 0, load: false, compare, direction: true };
+            let inputs =
+                Inputs { enable: true, period: 8_191, blanking: 0, load: false, compare, direction: true, ..OFF };
             let mut pwm = Pwm::default();
             steady(&mut pwm, inputs);
             assert_eq!(high_clocks(&mut pwm, &inputs), high);
@@ -154,7 +186,8 @@ mod tests {
 
     #[test]
     fn a_period_is_one_pulse_from_its_start() {
-        let inputs = Inputs { enable: true, period: 50, blanking: 4, load: false, compare: 20, direction: false };
+        let inputs =
+            Inputs { enable: true, period: 50, blanking: 4, load: false, compare: 20, direction: false, ..OFF };
         let mut pwm = Pwm::default();
         steady(&mut pwm, inputs);
         let wave: Vec<bool> = (0..100).map(|_| pwm.clock(&inputs).pwm).collect();
@@ -165,7 +198,8 @@ mod tests {
     #[test]
     fn zero_and_full_have_no_glitch_at_the_wrap() {
         for (compare, level) in [(0, false), (50, true), (51, true), (8_191, true)] {
-            let inputs = Inputs { enable: true, period: 50, blanking: 4, load: false, compare, direction: false };
+            let inputs =
+                Inputs { enable: true, period: 50, blanking: 4, load: false, compare, direction: false, ..OFF };
             let mut pwm = Pwm::default();
             steady(&mut pwm, inputs);
             for n in 0..1_000_u32 {
@@ -177,7 +211,8 @@ mod tests {
 
     #[test]
     fn a_load_waits_for_the_period_start() {
-        let inputs = Inputs { enable: true, period: 40, blanking: 0, load: false, compare: 10, direction: false };
+        let inputs =
+            Inputs { enable: true, period: 40, blanking: 0, load: false, compare: 10, direction: false, ..OFF };
         let mut pwm = Pwm::default();
         steady(&mut pwm, inputs);
         let next = Inputs { compare: 30, ..inputs };
@@ -194,22 +229,24 @@ mod tests {
 
     #[test]
     fn a_duty_of_zero_asks_for_no_direction() {
-        let forward = Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 25, direction: true };
+        let forward =
+            Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 25, direction: true, ..OFF };
         let mut pwm = Pwm::default();
         steady(&mut pwm, forward);
         let zero = Inputs { compare: 0, direction: false, ..forward };
         steady(&mut pwm, zero);
-        assert!(pwm.outputs.dir);
+        assert!(pwm.reverse);
         steady(&mut pwm, Inputs { compare: 1, ..zero });
-        assert!(!pwm.outputs.dir);
+        assert!(!pwm.reverse);
     }
 
     #[test]
     fn disabling_acts_in_one_clock_and_forgets() {
-        let inputs = Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 50, direction: true };
+        let inputs =
+            Inputs { enable: true, period: 50, blanking: 20, load: false, compare: 50, direction: true, ..OFF };
         let mut pwm = Pwm::default();
         steady(&mut pwm, inputs);
-        assert!(pwm.outputs.pwm && pwm.outputs.dir);
+        assert!(pwm.pulse && pwm.reverse);
         let out = pwm.clock(&Inputs { enable: false, load: true, ..inputs });
         assert!(!out.pwm && out.dir);
         for _ in 0..500 {
@@ -220,13 +257,42 @@ mod tests {
     #[test]
     fn enabling_begins_with_a_blanking_time() {
         for blanking in [0, 1, 7, 1_023] {
-            let on = Inputs { enable: true, period: 10, blanking, load: true, compare: 10, direction: false };
+            let on = Inputs { enable: true, period: 10, blanking, load: true, compare: 10, direction: false, ..OFF };
             let mut pwm = Pwm::default();
             for _ in 0..30 {
                 pwm.clock(&Inputs { enable: false, ..on });
             }
             let low = (0..).find(|_| pwm.clock(&on).pwm).unwrap_or(u32::MAX);
             assert!(low >= u32::from(blanking) && low <= u32::from(blanking) + 22, "{blanking}: {low}");
+        }
+    }
+
+    #[test]
+    fn up_and_down_carry_the_same_pulses_on_either_pin() {
+        let signed = Inputs { enable: true, period: 50, blanking: 8, compare: 20, ..OFF };
+        let (mut one, mut other) = (Pwm::default(), Pwm::default());
+        for clock in 0..20_000_u32 {
+            let inputs = Inputs { load: clock % 50 == 0, direction: clock / 500 % 2 == 1, ..signed };
+            let (plain, up_down) = (one.clock(&inputs), other.clock(&Inputs { up_down: true, ..inputs }));
+            assert_eq!(up_down.pwm, plain.pwm && !plain.dir);
+            assert_eq!(up_down.dir, plain.pwm && plain.dir);
+        }
+    }
+
+    #[test]
+    fn a_sync_moves_the_period_and_one_in_step_changes_nothing() {
+        let inputs = Inputs { enable: true, period: 40, blanking: 0, compare: 10, ..OFF };
+        let mut pwm = Pwm::default();
+        steady(&mut pwm, inputs);
+        for _ in 0..13 {
+            pwm.clock(&inputs);
+        }
+        assert!(pwm.clock(&Inputs { sync: true, ..inputs }).period_start);
+        let mut alone = pwm;
+        for clock in 1..=400 {
+            let sync = clock % 40 == 0;
+            let out = pwm.clock(&Inputs { sync, ..inputs });
+            assert_eq!((out, out.period_start), (alone.clock(&inputs), sync), "clock {clock}");
         }
     }
 
@@ -244,7 +310,7 @@ mod tests {
             // Clocks for which the condition has held, over the output stream.
             let (mut low, mut same_direction, mut enabled) = (1_u32, 0_u32, 0_u32);
             for (enable, load, compare, direction) in stream {
-                let out = pwm.clock(&Inputs { enable, period, blanking, load, compare, direction });
+                let out = pwm.clock(&Inputs { enable, period, blanking, load, compare, direction, ..OFF });
                 let turned = out.dir != before.dir;
                 prop_assert!(!turned || (low > u32::from(blanking) && !out.pwm && !before.pwm));
                 enabled = if enable { enabled + 1 } else { 0 };

@@ -8,9 +8,12 @@
 //! | cause | edges |
 //! |---|---|
 //! | a write to the arm register | 1 |
-//! | `encoder_fault`, `external_fault` | 1 |
+//! | `encoder_fault`, `stall_fault`, `external_fault` | 1 |
 //! | no pet: after the edge of the last one | timeout + 1 |
 //! | emergency stop pin | [`EMERGENCY_STOP_CLOCKS`] |
+//!
+//! Set points time out before the watchdog bites: at the `set_point_timeout`-th control tick after a
+//! pet `setpoints_valid` falls, the wheels are to stand, and the outputs stay armed.
 
 use crate::encoder::GlitchFilter;
 
@@ -43,12 +46,21 @@ pub enum Fault {
     External = 4,
     /// A second arm word out of order or while a fault stood; reported only.
     ArmRefused = 5,
+    /// A driven wheel does not move. Disarms.
+    Stall = 6,
 }
 
 impl Fault {
     /// Every fault, in the order of its bit.
-    pub const ALL: [Self; 6] =
-        [Self::Watchdog, Self::EmergencyStop, Self::Encoder, Self::CommitChecksum, Self::External, Self::ArmRefused];
+    pub const ALL: [Self; 7] = [
+        Self::Watchdog,
+        Self::EmergencyStop,
+        Self::Encoder,
+        Self::CommitChecksum,
+        Self::External,
+        Self::ArmRefused,
+        Self::Stall,
+    ];
 
     /// The fault's bit in the registers.
     #[must_use]
@@ -82,12 +94,18 @@ pub struct Inputs {
     pub watchdog_timeout: u32,
     /// Level: an encoder is broken.
     pub encoder_fault: bool,
+    /// Level: a driven wheel does not move.
+    pub stall_fault: bool,
     /// Strobe: a commit with a wrong checksum.
     pub commit_fault: bool,
     /// Level: link loss or another block's fault.
     pub external_fault: bool,
     /// Strobe: clears both fault registers; what still stands appears again at the same clock.
     pub clear_faults: bool,
+    /// Strobe: a control tick.
+    pub tick: bool,
+    /// Control ticks a set point lasts, 16 bits; 0 = none at all.
+    pub set_point_timeout: u16,
 }
 
 /// Outputs of the block after a clock.
@@ -95,12 +113,14 @@ pub struct Inputs {
 pub struct Outputs {
     /// The outputs of the card may be on.
     pub armed: bool,
-    /// A set point has come since arming.
+    /// A set point has come since arming and has not timed out.
     pub setpoints_valid: bool,
     /// Sticky faults, bits as in [`Fault`].
     pub faults: u8,
     /// Those that came first since the last clearing.
     pub first_fault: u8,
+    /// The emergency stop stands, synchronised and filtered.
+    pub stopped: bool,
 }
 
 /// State of the safety block.
@@ -109,6 +129,8 @@ pub struct Safety {
     /// Filters the inverted pin, so that the power-up state is "stopped".
     released: GlitchFilter,
     remaining: u32,
+    /// Control ticks since the last pet; stops at the time-out.
+    age: u16,
     first_word: bool,
     outputs: Outputs,
 }
@@ -122,24 +144,34 @@ impl Safety {
         self.remaining =
             if inputs.pet || before.remaining > timeout { timeout } else { before.remaining.saturating_sub(1) };
 
+        let stale = before.age >= inputs.set_point_timeout;
+        if inputs.pet {
+            self.age = 0;
+        } else if inputs.tick && !stale {
+            self.age = before.age + 1;
+        }
+
         let bitten = before.remaining == 0;
         let stopped = !before.released.value;
-        let standing = bitten || stopped || inputs.encoder_fault || inputs.external_fault;
+        let broken = inputs.encoder_fault || inputs.stall_fault || inputs.external_fault;
+        let standing = bitten || stopped || broken;
         let second_word = inputs.arm_write && inputs.arm_data == ARM_SECOND;
         let arms = second_word && before.first_word && !standing;
         let refused = second_word && !arms;
 
         self.first_word = !standing && if inputs.arm_write { inputs.arm_data == ARM_FIRST } else { before.first_word };
         self.outputs.armed = if inputs.arm_write { arms } else { before.outputs.armed && !standing };
-        self.outputs.setpoints_valid =
-            self.outputs.armed && (before.outputs.setpoints_valid || (before.outputs.armed && inputs.pet));
+        let kept = before.outputs.setpoints_valid && !stale;
+        self.outputs.setpoints_valid = self.outputs.armed && (kept || (before.outputs.armed && inputs.pet));
+        self.outputs.stopped = !self.released.value;
 
         let events = Fault::Watchdog.when(bitten)
             | Fault::EmergencyStop.when(stopped)
             | Fault::Encoder.when(inputs.encoder_fault)
             | Fault::CommitChecksum.when(inputs.commit_fault)
             | Fault::External.when(inputs.external_fault)
-            | Fault::ArmRefused.when(refused);
+            | Fault::ArmRefused.when(refused)
+            | Fault::Stall.when(inputs.stall_fault);
         if inputs.clear_faults {
             self.outputs.faults = events;
             self.outputs.first_fault = events;

@@ -7,7 +7,7 @@
 //! | operation | result | rounding | clocks in gateware |
 //! |---|---|---|---|
 //! | [`add`], [`subtract`] | saturates at ±(2²⁹−1), −2²⁹ | exact | 1 |
-//! | [`multiply`] | saturates | half up: ⌊x + ½⌋ | 2 + digits |
+//! | [`multiply`] | saturates | half up: ⌊x + ½⌋ | 2 + digits, beside other work |
 //! | [`divide`] | saturates at ±(2²⁹−1) | towards zero | 34, beside other work |
 //!
 //! Nothing here wraps and nothing panics, whatever the arguments.
@@ -54,6 +54,8 @@ impl Scale {
     pub const FINE: Self = Self { digits: 12, guard: 2 };
     /// 24-bit gain with 16 fraction bits, [−128, 128): proportional gain.
     pub const WIDE: Self = Self { digits: 12, guard: 8 };
+    /// 16-bit number of counts, the product in 2⁸: odometry.
+    pub const COUNTS: Self = Self { digits: 8, guard: 8 };
     /// 14-bit factor with 12 fraction bits, [−2, 2): a PWM period of up to 8191 clocks, over 2¹².
     pub const PERIOD: Self = Self { digits: 7, guard: 2 };
 
@@ -147,8 +149,8 @@ mod tests {
     proptest! {
         /// Within half an LSB of the real product wherever that fits a word.
         #[test]
-        fn multiply_is_within_half_an_lsb(a in words(), b in words(), which in 0_usize..4) {
-            let scale = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD][which];
+        fn multiply_is_within_half_an_lsb(a in words(), b in words(), which in 0_usize..5) {
+            let scale = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD, Scale::COUNTS][which];
             let operand = (b << (32 - scale.operand_bits())) >> (32 - scale.operand_bits());
             let exact = f64::from(a) * f64::from(operand) / f64::from(1_u32 << scale.fraction_bits());
             let got = f64::from(multiply(a, b, scale));

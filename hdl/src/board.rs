@@ -203,6 +203,8 @@ impl Board {
         board.add_7i30();
         board.add("kicker_charge_n", None, Place::Io(24), CABLE);
         board.add("kicker_trigger_n", None, Place::Io(25), CABLE);
+        board.add("kicker_discharge", None, Place::Io(28), CABLE);
+        board.add("kicker_full", None, Place::Io(29), Buffer::PulledUp);
         board.add("emergency_stop", None, Place::Io(26), Buffer::PulledUp);
         board.add("ball_sensor", None, Place::Io(27), Buffer::PulledUp);
         board
@@ -325,7 +327,7 @@ mod tests {
     fn every_port_has_its_width() {
         let ports = Board::mesa_4i65_7i30().check().unwrap();
         let width = |name: &str| ports.iter().find(|(port, _)| port == name).unwrap().1;
-        assert_eq!(ports.len(), 19);
+        assert_eq!(ports.len(), 21);
         assert_eq!((width("lad"), width("led_n"), width("pwm"), width("lclk")), (Some(32), Some(8), Some(4), None));
     }
 

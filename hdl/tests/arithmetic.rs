@@ -60,7 +60,7 @@ fn a_million_products_equal_the_reference() {
     let mut bench = Bench::new();
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..operations {
-        let scale = random.random_range(0..4);
+        let scale = random.random_range(0..SCALES.len());
         let (a, b) = (word(&mut random), random.next_u32() as i32);
         assert_eq!(bench.multiply(scale, a, b), multiply(a, b, SCALES[scale]), "{a} * {b}, scale {scale}");
     }

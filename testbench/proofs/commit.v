@@ -1,7 +1,7 @@
 // Set points and configuration act all at once, at a tick, and only with the right checksum and the
 // right number of words: a bank changes only at a tick that follows an accepted commit, with no word
 // staged in between, not even in the clock of the tick.
-localparam FORMAL_WORDS = 40;
+localparam FORMAL_WORDS = 52;
 reg formal_running = 0, formal_tick, formal_stage_set_point, formal_stage_configuration;
 reg formal_set_point_bank, formal_configuration_bank;
 reg formal_set_points = 0, formal_configuration = 0;  // accepted, and nothing staged since

@@ -1,9 +1,10 @@
 // The one gate that everything passes which can move a motor or fire the kicker: not armed, or no
 // bus clock, and every pin is off.
-wire formal_on = |pwm || !(&enable_n) || !kicker_charge_n || !kicker_trigger_n;
+wire formal_on = |pwm || (registers_mode[3] && |dir) || !(&enable_n) || !kicker_charge_n || !kicker_trigger_n;
 always @(*) begin
     if (formal_on) assert (safety_armed && !monitor_lclk_dead);
     if (!kicker_trigger_n) assert (kicker_trigger);
     if (!kicker_charge_n) assert (kicker_charge);
+    if (kicker_discharge) assert (kicker_charge_n && kicker_trigger_n);
     assert ((pwm & ~{drives_3_pwm, drives_2_pwm, drives_1_pwm, drives_0_pwm}) == 0);
 end

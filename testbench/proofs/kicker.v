@@ -1,7 +1,7 @@
 // The pulse ends after 10,000 microsecond strobes at the latest (and the requested ones), so within
-// 640,000 clocks; 100,000 strobes pass before the next one; the charger is off from before the
+// 340,000 clocks; 100,000 strobes pass before the next one; the charger is off from before the
 // pulse until 20,000 strobes after it; nothing fires or charges while disabled.
-// Assumed: at most 64 clocks between strobes (proven in timebase.v); the lock-out changes only
+// Assumed: at most 34 clocks between strobes (proven in timebase.v); the lock-out changes only
 // while disabled (registers.v).
 localparam FORMAL_PULSE = 10000, FORMAL_LOCKOUT = 100000, FORMAL_COMMUTATION = 20000;
 reg formal_running = 0, formal_trigger = 0, formal_enable = 0;
@@ -22,8 +22,8 @@ always @(posedge clock) begin
 end
 
 always @(*) begin
-    assume (microsecond || formal_gap < 63);
-    if (trigger) assert (formal_strobes < FORMAL_PULSE && formal_clocks < 64 * FORMAL_PULSE);
+    assume (microsecond || formal_gap < 33);
+    if (trigger) assert (formal_strobes < FORMAL_PULSE && formal_clocks < 34 * FORMAL_PULSE);
     if (trigger) assert (!charge);
     if (trigger && !formal_trigger) assert (formal_rest >= FORMAL_LOCKOUT);
     if (charge) assert (formal_rest >= FORMAL_COMMUTATION);
@@ -31,7 +31,7 @@ always @(*) begin
     // Invariants that carry the induction.
     assert (formal_rest <= FORMAL_LOCKOUT && elapsed_q != 20'hFFFFF);
     assert (trigger == (now_q == pulse_state) && now_q <= 5);
-    if (trigger) assert (elapsed_q == formal_strobes && formal_clocks <= 64 * formal_strobes + formal_gap);
+    if (trigger) assert (elapsed_q == formal_strobes && formal_clocks <= 34 * formal_strobes + formal_gap);
     if (!trigger && now_q < 4) assert (formal_rest >= FORMAL_LOCKOUT && elapsed_q == 0);
     if (now_q == commutation_state || now_q == lockout_state)
         assert (elapsed_q < FORMAL_LOCKOUT ? formal_rest == elapsed_q : formal_rest == FORMAL_LOCKOUT);

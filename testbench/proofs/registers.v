@@ -1,8 +1,9 @@
 // What the other proofs assume of the settings: while armed nothing but pulse, kicker control and
-// LEDs can change, and strobes come from writes only.
-localparam FORMAL_BITS = 24 + 2 + 4 + 13 + 10 + 24 + 4 + 20 + 24 + 6;
+// LEDs, interrupts and index capture can change, and strobes come from writes only.
+localparam FORMAL_BITS = 24 + 4 + 4 + 13 + 10 + 24 + 4 + 20 + 24 + 6 + 16 + 16 + 13;
 wire [FORMAL_BITS-1:0] formal_locked = {tick_period, mode, encoder_filter, pwm_period, pwm_blanking,
-    watchdog_timeout, encoder_fault_mask, kicker_lockout, kicker_charge_timeout, clocks_per_microsecond};
+    watchdog_timeout, encoder_fault_mask, kicker_lockout, kicker_charge_timeout, clocks_per_microsecond,
+    set_point_timeout, stall_window, stall_compare};
 reg [FORMAL_BITS-1:0] formal_before;
 reg formal_running = 0, formal_armed, formal_wrote;
 reg [5:0] formal_address;
@@ -17,11 +18,11 @@ end
 
 always @(*) begin
     if (formal_running && (formal_armed || !formal_wrote)) assert (formal_locked == formal_before);
-    if (arm_write || fire || clear_faults || |clear_encoder_error || commit_set_points || commit_configuration)
+    if (arm_write || fire || clear_faults || |clear_encoder_error || |clear_stall || |index_arm || |clear_interrupt || commit_set_points || commit_configuration)
         assert (write);
     assert (!(fire && arm_write) && !(commit_set_points && commit_configuration));
     if (fire) assert (data == 32'h4b49434b);
     if (tick_period_written) assert (!armed && write);
     assert (unlocked == !armed);
-    if (formal_running && formal_address > 31) assert (read_data == 0);
+    if (formal_running && formal_address > 39) assert (read_data == 0);
 end

@@ -7,17 +7,20 @@ reg formal_stopped = 1;         // the filtered emergency stop (filter.v: 18 clo
 reg [24:0] formal_silence = 0;  // clocks since the last pet, or since the time-out changed
 reg formal_first = 0;           // the last write to the arm register was its first word
 
+reg formal_stale = 1;           // no pet, and as many ticks since the last as a set point lasts
+
 wire formal_second = arm_write && arm_data == 32'h41524d32;
 always @(posedge clock) begin
     formal_running <= 1;
     formal_armed <= armed;
-    formal_fault <= encoder_fault || external_fault;
+    formal_fault <= encoder_fault || stall_fault || external_fault;
     formal_timeout <= watchdog_timeout;
     formal_stopped <= !released_value;
     formal_silence <= pet || watchdog_timeout != formal_timeout ? 25'd0 : formal_silence + !(&formal_silence);
     if (arm_write) formal_first <= arm_data == 32'h41524d31;
     formal_write <= arm_write;
-    formal_released <= formal_second && formal_first && released_value && !encoder_fault && !external_fault;
+    formal_stale <= !pet && age_q >= set_point_timeout;
+    formal_released <= formal_second && formal_first && released_value && !encoder_fault && !stall_fault && !external_fault;
 end
 
 always @(*) begin
@@ -28,6 +31,9 @@ always @(*) begin
     if (armed) assert (formal_silence <= watchdog_timeout);
     if (armed && !formal_armed) assert (formal_released);
     if (setpoints_valid) assert (armed);
+    // Stale set points: one clock after their last tick they are not valid, whatever else happens.
+    if (formal_stale) assert (!setpoints_valid);
+    assert (stopped == !released_value);
     if (armed && formal_running) assert (|watchdog_timeout);
     // Invariants that carry the induction.
     assert (!first_word_q || formal_first);

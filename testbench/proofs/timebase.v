@@ -1,4 +1,4 @@
-// The strobes that others count: never more than 64 clocks between microseconds, never fewer than
+// The strobes that others count: never more than 34 clocks between microseconds, never fewer than
 // 1000 between ticks, unless the host restarts the tick (registers.v: only while disarmed).
 reg [6:0] formal_gap = 0;      // clocks since the last microsecond strobe
 reg [23:0] formal_apart = 0;   // clocks since the last tick or restart
@@ -7,9 +7,11 @@ always @(posedge clock) begin
     formal_apart <= tick || restart ? 24'd0 : formal_apart + 24'd1;
 end
 always @(*) begin
-    assert (formal_gap <= 63);
+    assert (formal_gap <= 33);
+    if (microsecond) assert (formal_gap >= 24);
     if (tick) assert (formal_apart >= 999 && !restart);
     assert (period >= 1000);
     // Invariants that carry the induction.
-    assert (formal_gap == part_q && formal_apart == phase_q);
+    assert (formal_gap + 1 == part_q && formal_apart + 24'd1 == phase_q);
+    assert (part_limit_q >= 25 && part_limit_q <= 34 && limit_q >= 1000);
 end

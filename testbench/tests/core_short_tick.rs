@@ -18,6 +18,12 @@ use testbench::fpga::edges::{Counter, Motion, lines};
 
 const PERIOD: u32 = map::MIN_TICK_PERIOD;
 const TICKS: usize = 12_000;
+/// Clocks after a tick in which encoders stand still: the host still reads the snapshot of the tick before.
+const QUIET: u32 = 150;
+/// Clocks after a tick in which the program has ended.
+const PROGRAM: u64 = 970;
+/// Clocks after a tick at rest at which an index rises, and falls.
+const INDEX: [u64; 2] = [700, 800];
 
 struct Chip(Session);
 
@@ -60,7 +66,7 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
     let built = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports).unwrap_or_else(|error| panic!("{error}"));
     let mut session = built.start().unwrap();
     session.set_port("emergency_stop", 0).unwrap();
-    let (a, b) = (session.layout().input("encoder_a").unwrap(), session.layout().input("encoder_b").unwrap());
+    let [a, b, index] = ["encoder_a", "encoder_b", "encoder_index"].map(|name| session.layout().input(name).unwrap());
 
     let clock_hz = 33_333_333.0;
     let mut robot = Robot::racbot();
@@ -91,7 +97,7 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
     let mut counters = [Counter::default(); AXES];
     let mut levels = [0_u32; AXES];
     let mut speeds = [0.0; AXES];
-    let mut duties = 0_u32;
+    let (mut duties, mut captured, mut rising) = (0_u32, 0_u32, 0_u32);
     card.bus.set_time(tick as u32);
     let filter = card.bus.encoder_filter();
     for number in 0..TICKS / 2 {
@@ -108,7 +114,7 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
         let targets: [f64; AXES] = std::array::from_fn(|axis| counters[axis].position + speeds[axis]);
         let mut changes = Vec::new();
         for axis in 0..AXES {
-            for edge in Motion::new(counters[axis].position, targets[axis], PERIOD, 0).edges() {
+            for edge in Motion::new(counters[axis].position, targets[axis], PERIOD, QUIET).edges() {
                 changes.push((rest + 1 + u64::from(edge.clock), axis, lines(edge.count)));
             }
         }
@@ -120,10 +126,16 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
             scheduled.push(Change { clock, port: a, value: bit(0) });
             scheduled.push(Change { clock, port: b, value: bit(1) });
         }
+        // Now and then indices rise in the rest that follows; those that are armed are captured.
+        let risen = rising;
+        rising = if number % 4 == 1 { random.random_range(0..16_u32) } else { 0 };
+        let pulse = INDEX.into_iter().zip([rising, 0]);
+        scheduled.extend(pulse.map(|(after, value)| Change { clock: end + after, port: index, value }));
         chip.bus.0.schedule(&scheduled).unwrap();
 
         let encoders = pins(&mut counters, [None; AXES], rest, filter);
-        card.bus.tick(&Pins { encoders, ..Pins::default() });
+        let indices = std::array::from_fn(|axis| (risen >> axis & 1 == 1).then_some(encoders[axis].count));
+        card.bus.tick(&Pins { encoders, indices, ..Pins::default() });
         run_to(&mut chip.bus, rest + 3);
         // The host writes while the program runs; it acts at the next tick.
         if number % 3 == 0 {
@@ -138,16 +150,27 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
             let both: [&mut dyn Registers; 2] = [&mut chip.bus, &mut card.bus];
             commit(both, &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words);
         }
+        if number % 5 == 2 {
+            let word = random.random_range(0..256);
+            chip.bus.write(map::INDEX_ARM.offset, word).unwrap();
+            card.bus.write(map::INDEX_ARM.offset, word);
+        }
         compare(&mut chip.bus, &mut card.bus, rest, number);
 
         let encoders = pins(&mut counters, targets.map(Some), end, filter);
         let moved = card.bus.tick(&Pins { encoders, ..Pins::default() });
         duties += u32::from(moved.duties.iter().any(|duty| *duty != 0));
         compare(&mut chip.bus, &mut card.bus, end, number);
+        let offset = [map::INDEX_POSITION.at(number % AXES), map::INDEX_STATUS.offset][usize::from(number % 8 == 7)];
+        // The status would already show an index that the card sees at its next tick: there is none in every 8th.
+        let (got, expected) = (chip.bus.read(offset).unwrap(), card.bus.read(offset));
+        assert_eq!(got, expected, "tick {number}, offset {offset:#x}");
+        captured += u32::from(offset != map::INDEX_STATUS.offset && got != 0);
         tick = end;
-        assert!(chip.bus.0.clock() < tick + u64::from(PERIOD), "the host is slower than a tick");
+        assert!(chip.bus.0.clock() < tick + u64::from(PERIOD + QUIET), "the host is slower than a tick");
     }
     assert!(duties as usize > TICKS / 3, "only {duties} ticks had a duty: the comparison is empty");
+    assert!(captured as usize > TICKS / 8, "only {captured} reads of a captured index");
     let status = chip.status().unwrap();
     assert!(status.armed, "disarmed on the way");
 }
@@ -161,7 +184,7 @@ fn pins(
 ) -> [fixed_kin::speed::EncoderSample; AXES] {
     std::array::from_fn(|axis| {
         let to = targets[axis].unwrap_or(counters[axis].position);
-        counters[axis].advance(to, now as u32, PERIOD, 0, filter)
+        counters[axis].advance(to, now as u32, PERIOD, QUIET, filter)
     })
 }
 
@@ -171,7 +194,7 @@ fn run_to(chip: &mut Chip, clock: u64) {
 }
 
 fn compare(chip: &mut Chip, card: &mut Card, tick: u64, number: usize) {
-    run_to(chip, tick + 860);
+    run_to(chip, tick + PROGRAM);
     let mut got = snapshot(chip);
     let mut expected = [0; map::SNAPSHOT_WORDS];
     card.read_block(map::SNAPSHOT_SEQUENCE.offset, &mut expected).unwrap();

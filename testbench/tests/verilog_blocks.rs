@@ -2,7 +2,7 @@
 //! operation by operation; and broken blocks, which must be caught.
 
 use fixed_kin::word::{WORD_MAX, WORD_MIN, divide, multiply};
-use fixed_kin::{clock_monitor, encoder, kicker, pwm, safety};
+use fixed_kin::{clock_monitor, encoder, interrupt, kicker, pwm, safety, stall};
 use hdl::blocks;
 use hdl::blocks::divider::DIVISION_STEPS;
 use hdl::blocks::multiplier::SCALES;
@@ -75,6 +75,8 @@ macro_rules! equals_its_twin {
 equals_its_twin!(encoder_equals_its_twin, encoder, blocks::encoder::Encoder, encoder::Encoder);
 equals_its_twin!(safety_equals_its_twin, safety, blocks::safety::Safety, safety::Safety);
 equals_its_twin!(pwm_equals_its_twin, pwm, blocks::pwm::Pwm, pwm::Pwm);
+equals_its_twin!(stall_equals_its_twin, stall, blocks::stall::Stall, stall::Stall);
+equals_its_twin!(interrupt_equals_its_twin, interrupt, blocks::interrupt::Interrupt, interrupt::Interrupt);
 equals_its_twin!(kicker_equals_its_twin, kicker, blocks::kicker::Kicker, kicker::Kicker);
 
 #[test]
@@ -108,7 +110,7 @@ fn a_million_products_equal_the_reference() {
         let mut rows = Vec::new();
         let wanted: Vec<(usize, i32)> = (0..OPERATIONS / 10)
             .map(|_| {
-                let scale = random.random_range(0..4);
+                let scale = random.random_range(0..SCALES.len());
                 let (a, b) = (word(&mut random), random.next_u32() as i32);
                 operation(&mut rows, &[scale as u32, a as u32, b as u32], SCALES[scale].digits);
                 (rows.len() / 4 - 1, multiply(a, b, SCALES[scale]))
@@ -151,6 +153,36 @@ fn a_broken_pwm_is_caught() {
     let mut twin = pwm::Pwm::default();
     let difference = first_difference("pwm", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
     assert!(difference.is_some());
+}
+
+/// See [`a_broken_pwm_is_caught`]: a stall detector whose count runs on from window to window.
+#[test]
+fn a_stall_detector_that_forgets_nothing_is_caught() {
+    let (verilog, ports) = compile("stall", blocks::stall::Stall::default());
+    let broken = mutate(&verilog, "start = zero", "start = net_q");
+    let inputs = stimulus::stall::stimulus(11, 200_000);
+    let mut twin = stall::Stall::default();
+    let difference = first_difference("stall", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
+    assert!(difference.is_some());
+}
+
+/// Sine, cosine and fraction of every entry's two ends and a million more angles.
+#[test]
+fn a_million_angles_equal_the_reference() {
+    use fixed_kin::pose::{fraction, sine};
+    let (verilog, ports) = compile("trigonometry", blocks::trigonometry::Trigonometry::default());
+    let mut random = ChaCha8Rng::seed_from_u64(24);
+    let ends = (0..1_024_u32).flat_map(|entry| [entry << 22, (entry << 22) | 0x3F_FFFF]);
+    let angles: Vec<u32> = ends.chain((0..OPERATIONS).map(|_| random.next_u32())).collect();
+    for angles in angles.chunks(100_000) {
+        let mut rows = Vec::with_capacity(6 * angles.len());
+        angles.iter().for_each(|&angle| rows.extend([1, angle, 0, !angle]));
+        let response = respond("trigonometry", &verilog, &ports, &Clocks::Together, &rows);
+        for (angle, got) in angles.iter().zip(response.chunks_exact(6)) {
+            let expected = [sine(*angle, 0), sine(*angle, 1), fraction(*angle)].map(|word| word as u32 & 0x3_FFFF);
+            assert_eq!(got[3..], expected, "{angle:#x}");
+        }
+    }
 }
 
 /// See [`a_broken_pwm_is_caught`].

@@ -7,6 +7,7 @@ use hdl::blocks::core::Core;
 use hdl::blocks::decoder::Decoder;
 use hdl::blocks::divider::Divider;
 use hdl::blocks::encoder::Encoder;
+use hdl::blocks::interrupt::Interrupt;
 use hdl::blocks::kicker::Kicker;
 use hdl::blocks::local_bus::LocalBus;
 use hdl::blocks::multiplier::Multiplier;
@@ -16,7 +17,9 @@ use hdl::blocks::safety::Safety;
 use hdl::blocks::sequencer::Sequencer;
 use hdl::blocks::serial_host::SerialHost;
 use hdl::blocks::snapshot::Snapshot;
+use hdl::blocks::stall::Stall;
 use hdl::blocks::timebase::Timebase;
+use hdl::blocks::trigonometry::Trigonometry;
 use hdl::emit::verilog::emit;
 use hdl::program::control_tick;
 use rust_hdl::prelude::Block;
@@ -63,12 +66,14 @@ fn check<B: Block>(name: &str, mut block: B, luts: usize, flip_flops: usize) {
 
 #[test]
 fn encoder() {
-    check("encoder", Encoder::default(), 100, 120);
+    check("encoder", Encoder::default(), 100, 150);
+    check("stall", Stall::default(), 40, 10);
 }
 
 #[test]
 fn safety() {
-    check("safety", Safety::default(), 150, 90);
+    check("safety", Safety::default(), 180, 100);
+    check("interrupt", Interrupt::default(), 15, 8);
 }
 
 #[test]
@@ -90,6 +95,7 @@ fn clock_monitor() {
 fn arithmetic() {
     check("multiplier", Multiplier::default(), 330, 120);
     check("divider", Divider::default(), 260, 130);
+    check("trigonometry", Trigonometry::default(), 60, 35);
     check("sequencer", Sequencer::new(&control_tick()), 1_200, 350);
 }
 
@@ -100,8 +106,8 @@ fn bus_and_registers() {
     check("commit", Commit::default(), 200, 100);
     check("snapshot", Snapshot::default(), 10, 5);
     check("serial_host", SerialHost::default(), 300, 170);
-    check("timebase", Timebase::default(), 110, 70);
-    check("register_file", RegisterFile::default(), 450, 260);
+    check("timebase", Timebase::default(), 180, 130);
+    check("register_file", RegisterFile::default(), 500, 320);
 }
 
 /// 60 % of the 4704 lookup tables and flip-flops of the XC2S200.

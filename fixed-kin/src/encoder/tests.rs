@@ -27,7 +27,7 @@ impl Bench {
 
     fn hold(&mut self, (a, b): (bool, bool), clocks: u32) {
         for _ in 0..clocks {
-            let inputs = Inputs { a, b, filter: self.filter, sample: true, now: self.now, clear_error: false };
+            let inputs = Inputs { a, b, filter: self.filter, sample: true, now: self.now, ..Inputs::default() };
             self.out = self.encoder.clock(&inputs);
             self.now = (self.now + 1) & TIME_MASK;
         }

@@ -15,6 +15,8 @@ const IDLE: Inputs = Inputs {
     ball: false,
     arm_on_ball: false,
     clear: false,
+    full: false,
+    by_time: true,
 };
 const CHARGING: Inputs = Inputs { charge_request: true, ..IDLE };
 
@@ -88,6 +90,34 @@ fn charging_stops_at_its_time_out_until_asked_again() {
     }
     let never = Inputs { charge_timeout: 0, ..CHARGING };
     assert_eq!(clocks_until(&mut ready(), &never, 1_000, |o| o.charge || o.timed_out), u32::MAX);
+}
+
+#[test]
+fn charging_follows_the_input_for_a_full_capacitor() {
+    let hungry = Inputs { by_time: false, ..CHARGING };
+    let full = Inputs { full: true, ..hungry };
+    let delay = 2 + u32::from(BALL_FILTER_US) + 1;
+    let mut kicker = ready();
+    for _ in 0..20 {
+        assert!(!kicker.clock(&full).charge, "an open wire never charges");
+    }
+    assert_eq!(clocks_until(&mut kicker, &hungry, 100, |o| o.charge), delay);
+    // Topping up does not add up to a time-out.
+    for _ in 0..20 {
+        assert_eq!(clocks_until(&mut kicker, &hungry, 1_000, |o| o.timed_out), u32::MAX);
+        assert_eq!(clocks_until(&mut kicker, &full, 100, |o| !o.charge), delay);
+        assert!(kicker.outputs().is_full);
+        assert_eq!(clocks_until(&mut kicker, &hungry, 100, |o| o.charge), delay);
+    }
+    assert!(clocks_until(&mut kicker, &hungry, 10_000, |o| o.timed_out) <= CHARGING.charge_timeout + 1);
+}
+
+#[test]
+fn no_register_value_stretches_the_longest_pulse() {
+    for register in 0..64 {
+        let clocks = u32::from(MAXIMUM_PULSE_US) * microsecond_clocks(register);
+        assert!((250_000..=MAXIMUM_PULSE_CLOCKS).contains(&clocks), "{register}");
+    }
 }
 
 #[test]

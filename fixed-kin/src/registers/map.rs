@@ -18,6 +18,10 @@ pub const MIN_TICK_PERIOD: u32 = 1_000;
 pub const DEFAULT_TICK_PERIOD: u32 = 33_333;
 /// Reset value of [`WATCHDOG_TIMEOUT`]: 50 ms at the nominal clock.
 pub const DEFAULT_WATCHDOG_TIMEOUT: u32 = 1_666_667;
+/// Reset value of [`SET_POINT_TIMEOUT`]: 30 ms at the nominal clock and period.
+pub const DEFAULT_SET_POINT_TIMEOUT: u32 = 30;
+/// Reset value of [`STALL_WINDOW`]: 0.2 s at the nominal clock and period.
+pub const DEFAULT_STALL_WINDOW: u32 = 200;
 /// Word of [`KICKER_FIRE`] that fires: "KICK". Any other value does nothing.
 pub const KICKER_FIRE_WORD: u32 = u32::from_be_bytes(*b"KICK");
 /// Words of a snapshot, the two sequence numbers included.
@@ -103,6 +107,16 @@ pub const AXIS_COUNT: Register =
 pub const TIME: Register =
     register("time", 0x018, Access::ReadOnly, Kind::Unsigned(32), 0, "clocks since configuration, wrapping");
 
+/// Block list.
+pub const BLOCKS: Register = register(
+    "blocks",
+    0x01C,
+    Access::ReadOnly,
+    Kind::Fields(&BLOCK_FIELDS),
+    BLOCKS_VALUE,
+    "block list: what the design holds, and how many of each",
+);
+
 /// Control period.
 pub const TICK_PERIOD: Register = register(
     "tick_period",
@@ -117,9 +131,9 @@ pub const MODE: Register = register(
     "mode",
     0x024,
     Access::LockedWhileArmed,
-    Kind::Fields(&[MODE_COUNT_AND_TIME, MODE_TWIST]),
+    Kind::Fields(&[MODE_COUNT_AND_TIME, MODE_TWIST, MODE_ODOMETRY, MODE_UP_DOWN]),
     0,
-    "speed measurement and kind of set points",
+    "speed measurement, kind of set points, odometry, kind of PWM",
 );
 /// Speed by count and time.
 pub const MODE_COUNT_AND_TIME: Field =
@@ -127,6 +141,12 @@ pub const MODE_COUNT_AND_TIME: Field =
 /// Set points are a body velocity.
 pub const MODE_TWIST: Field =
     bit("twist", 1, "1: set points are a body velocity, inverse kinematics in gateware; 0: wheel speeds");
+/// Odometry.
+pub const MODE_ODOMETRY: Field =
+    bit("odometry", 2, "1: a pose is kept from the encoders at every tick; 0: bypassed, the pose is zero");
+/// Kind of PWM.
+pub const MODE_UP_DOWN: Field =
+    bit("up-down", 3, "1: PWM pin pulses forward, DIR pin backward, never both; 0: magnitude on PWM, sign on DIR");
 /// Encoder filter.
 pub const ENCODER_FILTER: Register = register(
     "encoder_filter",
@@ -250,14 +270,20 @@ pub const KICKER_CONTROL: Register = register(
     "kicker_control",
     0x060,
     Access::ReadWrite,
-    Kind::Fields(&[KICKER_CHARGE, KICKER_ARM_ON_BALL]),
+    Kind::Fields(&[KICKER_CHARGE, KICKER_ARM_ON_BALL, KICKER_HOLD, KICKER_BY_TIME]),
     0,
-    "charging and automatic trigger",
+    "charging, discharging and automatic trigger",
 );
 /// Charge request.
 pub const KICKER_CHARGE: Field = bit("charge", 0, "charge the capacitor, until the time-out");
 /// Trigger on the ball sensor.
 pub const KICKER_ARM_ON_BALL: Field = bit("arm-on-ball", 1, "fire when the ball sensor sees the ball");
+/// Keep the charge while disarmed.
+pub const KICKER_HOLD: Field =
+    bit("hold", 2, "keep the charge while disarmed; an emergency stop or a dead clock discharges all the same");
+/// Charge without the input for a full capacitor.
+pub const KICKER_BY_TIME: Field =
+    bit("by-time", 3, "1: charge until the time-out whatever `kicker_full` says; 0: stop charging while it is high");
 /// Kicker fire.
 pub const KICKER_FIRE: Register =
     register("kicker_fire", 0x064, Access::WriteOnly, Kind::Text, 0, "\"KICK\" fires, when armed and not locked out");
@@ -293,7 +319,7 @@ pub const KICKER_STATUS: Register = register(
     "kicker_status",
     0x074,
     Access::ReadOnly,
-    Kind::Fields(&[KICKER_STATE, KICKER_READY, KICKER_TIMED_OUT, KICKER_DROPPED]),
+    Kind::Fields(&[KICKER_STATE, KICKER_READY, KICKER_TIMED_OUT, KICKER_DROPPED, KICKER_FULL]),
     0,
     "state of the kicker; a write to `faults` clears its flags",
 );
@@ -305,6 +331,8 @@ pub const KICKER_READY: Field = bit("ready", 4, "a fire request would be taken")
 pub const KICKER_TIMED_OUT: Field = bit("charge-timed-out", 5, "charging took longer than its time-out");
 /// A fire request was dropped.
 pub const KICKER_DROPPED: Field = bit("fire-dropped", 6, "a fire request came while disarmed or locked out");
+/// The capacitor is full.
+pub const KICKER_FULL: Field = bit("full", 7, "the filtered input for a full capacitor; high or open = full");
 /// Clocks per microsecond.
 pub const CLOCKS_PER_MICROSECOND: Register = register(
     "clocks_per_us",
@@ -312,10 +340,94 @@ pub const CLOCKS_PER_MICROSECOND: Register = register(
     Access::LockedWhileArmed,
     Kind::Unsigned(6),
     33,
-    "clocks in what the kicker takes for a microsecond",
+    "clocks in what the kicker takes for a microsecond; below 25 acts as 25, above 34 as 34",
 );
 /// LEDs.
 pub const LEDS: Register = register("leds", 0x07C, Access::ReadWrite, Kind::Unsigned(8), 0, "the eight LEDs, 1 = on");
+
+/// Time-out of set points.
+pub const SET_POINT_TIMEOUT: Register = register(
+    "set_point_timeout",
+    0x080,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(16),
+    DEFAULT_SET_POINT_TIMEOUT,
+    "control ticks after which a set point is zero until the next commit; the watchdog disarms later",
+);
+/// Stall window.
+pub const STALL_WINDOW: Register = register(
+    "stall_window",
+    0x084,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(16),
+    DEFAULT_STALL_WINDOW,
+    "control ticks in which a driven wheel must move 4 counts net",
+);
+/// Drive from which on a wheel must move.
+pub const STALL_COMPARE: Register = register(
+    "stall_compare",
+    0x088,
+    Access::LockedWhileArmed,
+    Kind::Unsigned(13),
+    0,
+    "PWM clocks above which a wheel counts as driven; 8191 switches the stall detection off",
+);
+/// Stalled axes.
+pub const STALL: Register = register(
+    "stall",
+    0x08C,
+    Access::WriteOneToClear,
+    Kind::Unsigned(AXES as u32),
+    0,
+    "per axis: driven through a whole window without net counts; a broken wire, or a blocked wheel",
+);
+/// Index capture.
+pub const INDEX_ARM: Register = register(
+    "index_arm",
+    0x090,
+    Access::WriteOnly,
+    Kind::Fields(&[INDEX_ARM_LATCH, INDEX_ARM_CLEAR]),
+    0,
+    "axes whose next index is captured, and how; all others are left alone",
+);
+/// Axes to capture at the next index.
+pub const INDEX_ARM_LATCH: Field =
+    bits("latch", 0, AXES as u32, "per axis: latch the position at the next rising index");
+/// Axes to zero at the next index.
+pub const INDEX_ARM_CLEAR: Field =
+    bits("clear", 4, AXES as u32, "per axis with its latch bit: counts begin at zero there");
+/// State of the index capture.
+pub const INDEX_STATUS: Register = register(
+    "index_status",
+    0x094,
+    Access::ReadOnly,
+    Kind::Fields(&[INDEX_WAITING, INDEX_SEEN]),
+    0,
+    "state of the index capture",
+);
+/// Axes that wait for an index.
+pub const INDEX_WAITING: Field = bits("waiting", 0, AXES as u32, "per axis: armed, no index yet");
+/// Axes that saw one.
+pub const INDEX_SEEN: Field =
+    bits("seen", 4, AXES as u32, "per axis: captured; `index_position` is there after the next control tick");
+/// Interrupt enable.
+pub const INTERRUPT_ENABLE: Register = register(
+    "interrupt_enable",
+    0x098,
+    Access::ReadWrite,
+    Kind::Fields(&INTERRUPT_FIELDS),
+    0,
+    "causes that pull INT# low; none after configuration",
+);
+/// Interrupt causes.
+pub const INTERRUPT_STATUS: Register = register(
+    "interrupt_status",
+    0x09C,
+    Access::WriteOneToClear,
+    Kind::Fields(&INTERRUPT_FIELDS),
+    0,
+    "causes since they were cleared, enabled or not; INT# is low while an enabled one is set",
+);
 
 /// Staged configuration.
 pub const CONFIGURATION: Register = array(
@@ -341,6 +453,15 @@ pub const SET_POINTS: Register = array(
 /// Set points in force.
 pub const ACTIVE_SET_POINTS: Register =
     array("active_set_points", 0x640, SET_POINT_WORDS, Access::ReadOnly, WORD, "set points in force");
+/// Index positions.
+pub const INDEX_POSITION: Register = array(
+    "index_position",
+    0x770,
+    AXES,
+    Access::ReadOnly,
+    Kind::Unsigned(32),
+    "counts at the last captured index, in the frame before it was cleared, two's complement",
+);
 /// Integrators.
 pub const INTEGRALS: Register =
     array("integrals", 0x790, AXES, Access::ReadOnly, DUTY, "integrators of the speed loops; not part of a snapshot");
@@ -385,14 +506,14 @@ pub const SNAPSHOT_REFERENCE: Register =
     array("snapshot_reference", 0x830, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
 /// Snapshot: duties.
 pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x840, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
-/// Snapshot: body velocity.
-pub const SNAPSHOT_TWIST: Register = array(
-    "snapshot_twist",
+/// Snapshot: pose.
+pub const SNAPSHOT_POSE: Register = array(
+    "snapshot_pose",
     0x850,
     3,
     Access::ReadOnly,
-    WORD,
-    "measured body velocity x, y, rotation, in the driver's unit",
+    Kind::Unsigned(32),
+    "pose x, y in the driver's unit, heading in 2^-32 turn; two's complement, wrapping",
 );
 /// Snapshot: sequence number again.
 pub const SNAPSHOT_SEQUENCE_END: Register = array(
@@ -405,24 +526,56 @@ pub const SNAPSHOT_SEQUENCE_END: Register = array(
 );
 
 /// Bits of [`FAULTS`] and [`FIRST_FAULT`]; the order of [`crate::safety::Fault`].
-pub const FAULT_FIELDS: [Field; 6] = [
+pub const FAULT_FIELDS: [Field; 7] = [
     bit("watchdog", 0, "no valid set-point commit for `watchdog_timeout`"),
     bit("emergency-stop", 1, "emergency stop input high or open"),
     bit("encoder", 2, "an encoder of `encoder_fault_mask` saw an illegal transition"),
     bit("commit", 3, "a commit had the wrong checksum or number of words; nothing changed"),
     bit("external", 4, "another block asked to stop"),
     bit("arm-refused", 5, "arming was tried while a fault stood, or out of sequence"),
+    bit("stall", 6, "an axis of `encoder_fault_mask` was driven and did not move: see `stall`"),
 ];
 
 /// Bits of [`STATUS`].
 pub const STATUS_FIELDS: [Field; 6] = [
     bit("armed", 0, "outputs may be on"),
-    bit("set-points-valid", 1, "a set point was committed since arming"),
+    bit("set-points-valid", 1, "a set point was committed since arming and has not timed out"),
     bit("emergency-stop", 2, "emergency stop input, live"),
     bit("ball", 3, "ball sensor, live"),
     bit("set-points-pending", 4, "a commit of set points waits for the next tick"),
     bit("configuration-pending", 5, "a commit of the configuration waits for the next tick"),
 ];
+
+/// Bits of [`INTERRUPT_ENABLE`] and [`INTERRUPT_STATUS`].
+pub const INTERRUPT_FIELDS: [Field; 2] = [
+    bit("tick", 0, "a control tick has ended: its snapshot is there"),
+    bit("disarmed", 1, "the outputs went off, by a fault or by the host"),
+];
+
+/// Fields of [`BLOCKS`].
+pub const BLOCK_FIELDS: [Field; 10] = [
+    bits("encoders", 0, 4, "quadrature counters with index capture and stall detection"),
+    bits("drives", 4, 4, "PWM generators"),
+    bits("loops", 8, 4, "PI speed loops with feed-forward"),
+    bit("count-and-time", 12, "speed by count and time"),
+    bit("inverse-kinematics", 13, "body velocity to wheel speeds"),
+    bit("odometry", 14, "pose"),
+    bit("kicker", 15, "kicker"),
+    bit("snapshot", 16, "coherent snapshots"),
+    bit("clock-monitor", 17, "monitor on the 50 MHz crystal"),
+    bit("interrupt", 18, "control-tick interrupt"),
+];
+/// Value of [`BLOCKS`].
+pub const BLOCKS_VALUE: u32 = {
+    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1];
+    let mut value = 0;
+    let mut field = 0;
+    while field < BLOCK_FIELDS.len() {
+        value |= BLOCK_FIELDS[field].place(counts[field]);
+        field += 1;
+    }
+    value
+};
 
 /// All registers, by offset.
 pub const REGISTERS: &[&Register] = &[
@@ -433,6 +586,7 @@ pub const REGISTERS: &[&Register] = &[
     &CONTENT_HASH,
     &AXIS_COUNT,
     &TIME,
+    &BLOCKS,
     &TICK_PERIOD,
     &MODE,
     &ENCODER_FILTER,
@@ -457,10 +611,19 @@ pub const REGISTERS: &[&Register] = &[
     &KICKER_STATUS,
     &CLOCKS_PER_MICROSECOND,
     &LEDS,
+    &SET_POINT_TIMEOUT,
+    &STALL_WINDOW,
+    &STALL_COMPARE,
+    &STALL,
+    &INDEX_ARM,
+    &INDEX_STATUS,
+    &INTERRUPT_ENABLE,
+    &INTERRUPT_STATUS,
     &CONFIGURATION,
     &ACTIVE_CONFIGURATION,
     &SET_POINTS,
     &ACTIVE_SET_POINTS,
+    &INDEX_POSITION,
     &INTEGRALS,
     &SNAPSHOT_SEQUENCE,
     &SNAPSHOT_STATUS,
@@ -470,6 +633,6 @@ pub const REGISTERS: &[&Register] = &[
     &SNAPSHOT_SPEED,
     &SNAPSHOT_REFERENCE,
     &SNAPSHOT_DUTY,
-    &SNAPSHOT_TWIST,
+    &SNAPSHOT_POSE,
     &SNAPSHOT_SEQUENCE_END,
 ];

@@ -15,7 +15,7 @@ mod map;
 pub use map::*;
 
 /// Version of this map: major in the high half, minor in the low half. The driver refuses another major.
-pub const VERSION: u32 = 0x0001_0000;
+pub const VERSION: u32 = 0x0002_0000;
 
 /// Who may do what with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,13 +126,33 @@ impl Register {
     }
 }
 
+/// Words of the window that registers stand in; what lies above is reserved.
+const WINDOW_WORDS: usize = 0x240;
+
+/// For every word of the window its place in [`REGISTERS`] plus one; 0 is reserved.
+static PLACES: [u8; WINDOW_WORDS] = {
+    let mut places = [0; WINDOW_WORDS];
+    let mut register = 0;
+    while register < REGISTERS.len() {
+        let mut word = 0;
+        while word < REGISTERS[register].words {
+            places[(REGISTERS[register].word_address() + word) as usize] = register as u8 + 1;
+            word += 1;
+        }
+        register += 1;
+    }
+    places
+};
+
 /// The register at a byte offset, and which of its words.
 #[must_use]
 pub fn lookup(offset: u16) -> Option<(&'static Register, usize)> {
-    REGISTERS.iter().find_map(|register| {
-        let index = usize::from(offset.checked_sub(register.offset)?) / 4;
-        (offset.is_multiple_of(4) && index < usize::from(register.words)).then_some((*register, index))
-    })
+    if !offset.is_multiple_of(4) {
+        return None;
+    }
+    let place = PLACES.get(usize::from(offset / 4))?.checked_sub(1)?;
+    let register = REGISTERS[usize::from(place)];
+    Some((register, usize::from(offset / 4 - register.word_address())))
 }
 
 /// Checksum of a sequence of staged writes, for the commit registers.

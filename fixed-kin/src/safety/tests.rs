@@ -13,6 +13,9 @@ const QUIET: Inputs = Inputs {
     commit_fault: false,
     external_fault: false,
     clear_faults: false,
+    stall_fault: false,
+    tick: false,
+    set_point_timeout: 3,
 };
 const PET: Inputs = Inputs { pet: true, ..QUIET };
 const ARM: [Inputs; 2] = [
@@ -110,6 +113,7 @@ fn the_emergency_stop_acts_after_the_stated_clocks_and_glitches_do_not() {
 fn disarming_faults_act_in_one_clock_and_the_others_only_report() {
     let cases = [
         (Fault::Encoder, Inputs { encoder_fault: true, ..QUIET }),
+        (Fault::Stall, Inputs { stall_fault: true, ..QUIET }),
         (Fault::External, Inputs { external_fault: true, ..QUIET }),
         (Fault::CommitChecksum, Inputs { commit_fault: true, ..QUIET }),
     ];
@@ -141,6 +145,54 @@ fn set_points_are_valid_from_the_first_pet_after_arming() {
 }
 
 #[test]
+fn set_points_time_out_without_disarming_and_come_back() {
+    let mut safety = armed();
+    let tick = Inputs { tick: true, ..QUIET };
+    for timeout in [0, 1, 2, 30, u16::MAX] {
+        let tick = Inputs { set_point_timeout: timeout, ..tick };
+        let pet = Inputs { pet: true, set_point_timeout: timeout, ..QUIET };
+        assert!(safety.clock(&pet).setpoints_valid);
+        if timeout < 100 {
+            for n in 1..=timeout {
+                assert!(safety.clock(&tick).setpoints_valid, "tick {n} of {timeout}");
+            }
+            let out = safety.clock(&Inputs { tick: false, ..tick });
+            assert_eq!((out.armed, out.setpoints_valid), (true, false));
+        }
+    }
+}
+
+#[test]
+fn the_first_fault_stays_the_first() {
+    let causes = [
+        (Fault::Encoder, Inputs { encoder_fault: true, ..QUIET }),
+        (Fault::Stall, Inputs { stall_fault: true, ..QUIET }),
+        (Fault::CommitChecksum, Inputs { commit_fault: true, ..QUIET }),
+        (Fault::External, Inputs { external_fault: true, ..QUIET }),
+    ];
+    for (first, cause) in causes {
+        for (second, other) in causes {
+            let mut safety = armed();
+            safety.clock(&cause);
+            run(&mut safety, &QUIET, 3);
+            let out = safety.clock(&other);
+            assert_eq!(out.first_fault, first.mask(), "{first:?} then {second:?}");
+            assert_eq!(out.faults, first.mask() | second.mask());
+            // Both at one clock are both first.
+            let mut safety = armed();
+            let both = Inputs {
+                encoder_fault: cause.encoder_fault || other.encoder_fault,
+                stall_fault: cause.stall_fault || other.stall_fault,
+                commit_fault: cause.commit_fault || other.commit_fault,
+                external_fault: cause.external_fault || other.external_fault,
+                ..QUIET
+            };
+            assert_eq!(safety.clock(&both).first_fault, first.mask() | second.mask());
+        }
+    }
+}
+
+#[test]
 fn any_other_write_disarms_and_breaks_the_sequence() {
     for data in [0, 1, ARM_FIRST, ARM_SECOND, !ARM_FIRST, u32::MAX] {
         let write = Inputs { arm_write: true, arm_data: data, ..QUIET };
@@ -169,6 +221,7 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
             commit_fault: commit,
             clear_faults: clear,
             external_fault: external,
+            ..QUIET
         })
 }
 

@@ -4,17 +4,21 @@
 //!  local bus ─┬─ register file ── safety, kicker, timebase
 //!             ├─ commit ───────── banks of set points and configuration
 //!             └─ memory of the sequencer ── snapshot
-//!  encoders ──► sequencer (speed, kinematics, PI) ──► PWM
+//!  encoders ─┬► sequencer (speed, kinematics, PI, pose) ──► PWM
+//!            └► stall detectors ──► safety
 //! ```
 //!
 //! Ports carry the names and levels of the pins, but for `lad`, which the emitted top file joins
 //! from `lad_in`, `lad_out` and `lad_drive`. Whatever can move a motor or fire the kicker passes
-//! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal.
+//! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal. The kicker's
+//! capacitor is discharged, active high as an unconfigured pin is, whenever that gate is shut, unless
+//! the host asked to hold the charge and neither the emergency stop nor a dead clock overrules it.
 
 use crate::blocks::clock_monitor::ClockMonitor;
 use crate::blocks::commit::Commit;
 use crate::blocks::decoder::Decoder;
 use crate::blocks::encoder::Encoder;
+use crate::blocks::interrupt::Interrupt;
 use crate::blocks::kicker::Kicker;
 use crate::blocks::local_bus::LocalBus;
 use crate::blocks::pwm::Pwm;
@@ -22,9 +26,11 @@ use crate::blocks::register_file::RegisterFile;
 use crate::blocks::safety::Safety;
 use crate::blocks::sequencer::Sequencer;
 use crate::blocks::snapshot::Snapshot;
+use crate::blocks::stall::Stall;
 use crate::blocks::timebase::Timebase;
+use crate::blocks::trigonometry::Trigonometry;
 use crate::primitives::Literal;
-use crate::program::control_tick;
+use crate::program::{OutputPort, control_tick};
 use rust_hdl::prelude::*;
 
 /// See the module.
@@ -48,7 +54,7 @@ pub struct Core {
     pub lad_drive: Signal<Out, Bit>,
     /// Ready.
     pub ready_n: Signal<Out, Bit>,
-    /// Interrupt; not used yet, high.
+    /// Interrupt, low = a cause that the host enabled.
     pub int_n: Signal<Out, Bit>,
     /// LEDs, low = on.
     pub led_n: Signal<Out, Bits<8>>,
@@ -56,7 +62,7 @@ pub struct Core {
     pub encoder_a: Signal<In, Bits<4>>,
     /// Encoder lines B.
     pub encoder_b: Signal<In, Bits<4>>,
-    /// Encoder index lines; shown, not counted.
+    /// Encoder index lines.
     pub encoder_index: Signal<In, Bits<4>>,
     /// PWM pins.
     pub pwm: Signal<Out, Bits<4>>,
@@ -68,6 +74,10 @@ pub struct Core {
     pub kicker_charge_n: Signal<Out, Bit>,
     /// Trigger of the kicker, low = fire.
     pub kicker_trigger_n: Signal<Out, Bit>,
+    /// Discharge of the kicker, high = discharge.
+    pub kicker_discharge: Signal<Out, Bit>,
+    /// The kicker's capacitor is full, high or open = full.
+    pub kicker_full: Signal<In, Bit>,
     /// Emergency stop, high or open = stop.
     pub emergency_stop: Signal<In, Bit>,
     /// Ball sensor, high = ball.
@@ -83,9 +93,13 @@ pub struct Core {
     kicker: Kicker,
     monitor: ClockMonitor,
     sequencer: Sequencer,
+    trigonometry: Trigonometry,
+    interrupt: Interrupt,
     encoders: [Encoder; 4],
+    stalls: [Stall; 4],
     drives: [Pwm; 4],
 
+    clear_at_tick: DFF<Bits<4>>,
     status_at_tick: DFF<Bits<8>>,
     faults_at_tick: DFF<Bits<8>>,
     now: DFF<Bits<24>>,
@@ -97,11 +111,8 @@ pub struct Core {
     stop_live: DFF<Bit>,
     ball_sync: DFF<Bit>,
     ball_live: DFF<Bit>,
-    index_sync: DFF<Bits<4>>,
-    index_live: DFF<Bits<4>>,
     dead_sync: DFF<Bit>,
     dead_live: DFF<Bit>,
-    interrupt: DFF<Bit>,
 
     tick: Signal<Local, Bit>,
     alive: Signal<Local, Bit>,
@@ -115,6 +126,18 @@ pub struct Core {
     count: Signal<Local, Bits<16>>,
     edge_time: Signal<Local, Bits<24>>,
     direction: Signal<Local, Bit>,
+    index_count: Signal<Local, Bits<16>>,
+    index_event: Signal<Local, Bits<1>>,
+    index_clear: Signal<Local, Bits<1>>,
+    indices: Signal<Local, Bits<4>>,
+    index_status: Signal<Local, Bits<8>>,
+    stalled: Signal<Local, Bits<4>>,
+    masked_stalls: Signal<Local, Bits<4>>,
+    quarter: Signal<Local, Bits<13>>,
+    half: Signal<Local, Bits<13>>,
+    three_quarters: Signal<Local, Bits<13>>,
+    shut: Signal<Local, Bit>,
+    holds: Signal<Local, Bit>,
     line: Signal<Local, Bits<16>>,
     compare: Signal<Local, Bits<13>>,
     pwm_pins: Signal<Local, Bits<4>>,
@@ -128,6 +151,9 @@ pub struct Core {
     mask_30: Literal<32, 0x3FFF_FFFF>,
     none: Literal<4, 0>,
     all: Literal<4, 0xF>,
+    port_direction: Literal<2, { OutputPort::Direction as u64 }>,
+    port_compare: Literal<2, { OutputPort::Compare as u64 }>,
+    port_angle: Literal<2, { OutputPort::Angle as u64 }>,
 }
 
 impl Core {
@@ -148,6 +174,7 @@ impl Logic for Core {
         dff_setup!(
             self,
             lclk,
+            clear_at_tick,
             status_at_tick,
             faults_at_tick,
             now,
@@ -159,15 +186,26 @@ impl Logic for Core {
             stop_live,
             ball_sync,
             ball_live,
-            index_sync,
-            index_live,
             dead_sync,
-            dead_live,
+            dead_live
+        );
+        clock!(
+            self,
+            lclk,
+            bus,
+            registers,
+            timebase,
+            commit,
+            snapshot,
+            safety,
+            kicker,
+            sequencer,
+            trigonometry,
             interrupt
         );
-        clock!(self, lclk, bus, registers, timebase, commit, snapshot, safety, kicker, sequencer);
         for i in 0..4 {
             self.encoders[i].clock.next = self.lclk.val();
+            self.stalls[i].clock.next = self.lclk.val();
             self.drives[i].clock.next = self.lclk.val();
         }
         self.monitor.lclk.next = self.lclk.val();
@@ -181,15 +219,16 @@ impl Logic for Core {
         self.lad_out.next = self.bus.lad_out.val();
         self.lad_drive.next = self.bus.lad_drive.val();
         self.ready_n.next = self.bus.ready_n.val();
-        self.interrupt.d.next = true;
-        self.int_n.next = self.interrupt.q.val();
+        self.interrupt.done.next = self.sequencer.done.val();
+        self.interrupt.armed.next = self.safety.armed.val();
+        self.interrupt.enable.next = self.registers.interrupt_enable.val();
+        self.interrupt.clear.next = self.registers.clear_interrupt.val();
+        self.int_n.next = self.interrupt.int_n.val();
         self.led_n.next = !self.registers.leds.val();
         self.stop_sync.d.next = self.emergency_stop.val();
         self.stop_live.d.next = self.stop_sync.q.val();
         self.ball_sync.d.next = self.ball_sensor.val();
         self.ball_live.d.next = self.ball_sync.q.val();
-        self.index_sync.d.next = self.encoder_index.val();
-        self.index_live.d.next = self.index_sync.q.val();
         self.dead_sync.d.next = self.monitor.lclk_dead.val();
         self.dead_live.d.next = self.dead_sync.q.val();
 
@@ -204,6 +243,7 @@ impl Logic for Core {
         self.timebase.tick_period.next = self.registers.tick_period.val();
         self.timebase.restart.next = self.registers.tick_period_written.val();
         self.timebase.clocks_per_microsecond.next = self.registers.clocks_per_microsecond.val();
+        self.timebase.stall_window.next = self.registers.stall_window.val();
         self.tick.next = self.timebase.tick.val() & !self.sequencer.running.val();
         self.sequencer.tick.next = self.tick.val();
         self.sequencer.configuration_bank.next = self.commit.configuration_bank.val();
@@ -213,6 +253,7 @@ impl Logic for Core {
         self.snapshot.done.next = self.sequencer.done.val();
         if self.tick.val() {
             self.status_at_tick.d.next = self.status.val() & self.live_status.val();
+            self.clear_at_tick.d.next = self.registers.index_clear.val();
             self.faults_at_tick.d.next = self.safety.faults.val();
             self.now.d.next = self.timebase.clock_count.val().get_bits::<24>(0);
         }
@@ -267,7 +308,32 @@ impl Logic for Core {
             self.encoders[i].sample.next = self.tick.val();
             self.encoders[i].now.next = self.timebase.clock_count.val().get_bits::<24>(0);
             self.encoders[i].clear_error.next = self.registers.clear_encoder_error.val().get_bit(i);
+            self.encoders[i].index.next = self.encoder_index.val().get_bit(i);
+            self.encoders[i].arm_index.next = self.registers.index_arm.val().get_bit(i);
+            self.stalls[i].enable.next = self.safety.armed.val();
+            self.stalls[i].step.next = self.encoders[i].step.val();
+            self.stalls[i].up.next = self.encoders[i].up.val();
+            self.stalls[i].threshold.next = self.registers.stall_compare.val();
+            self.stalls[i].window.next = self.timebase.window.val();
+            self.stalls[i].clear.next = self.registers.clear_stall.val().get_bit(i);
         }
+        self.indices.next = bit_cast::<4, 1>(self.encoders[0].live_index.val().into())
+            | (bit_cast::<4, 1>(self.encoders[1].live_index.val().into()) << 1)
+            | (bit_cast::<4, 1>(self.encoders[2].live_index.val().into()) << 2)
+            | (bit_cast::<4, 1>(self.encoders[3].live_index.val().into()) << 3);
+        self.index_status.next = bit_cast::<8, 1>(self.encoders[0].index_waiting.val().into())
+            | (bit_cast::<8, 1>(self.encoders[1].index_waiting.val().into()) << 1)
+            | (bit_cast::<8, 1>(self.encoders[2].index_waiting.val().into()) << 2)
+            | (bit_cast::<8, 1>(self.encoders[3].index_waiting.val().into()) << 3)
+            | (bit_cast::<8, 1>(self.encoders[0].index_seen.val().into()) << 4)
+            | (bit_cast::<8, 1>(self.encoders[1].index_seen.val().into()) << 5)
+            | (bit_cast::<8, 1>(self.encoders[2].index_seen.val().into()) << 6)
+            | (bit_cast::<8, 1>(self.encoders[3].index_seen.val().into()) << 7);
+        self.stalled.next = bit_cast::<4, 1>(self.stalls[0].stalled.val().into())
+            | (bit_cast::<4, 1>(self.stalls[1].stalled.val().into()) << 1)
+            | (bit_cast::<4, 1>(self.stalls[2].stalled.val().into()) << 2)
+            | (bit_cast::<4, 1>(self.stalls[3].stalled.val().into()) << 3);
+        self.masked_stalls.next = self.stalled.val() & self.registers.encoder_fault_mask.val();
         self.errors.next = bit_cast::<4, 1>(self.encoders[0].error.val().into())
             | (bit_cast::<4, 1>(self.encoders[1].error.val().into()) << 1)
             | (bit_cast::<4, 1>(self.encoders[2].error.val().into()) << 2)
@@ -280,7 +346,7 @@ impl Logic for Core {
             | (bit_cast::<12, 1>(self.encoders[2].live_b.val().into()) << 5)
             | (bit_cast::<12, 1>(self.encoders[3].live_a.val().into()) << 6)
             | (bit_cast::<12, 1>(self.encoders[3].live_b.val().into()) << 7)
-            | (bit_cast::<12, 4>(self.index_live.q.val()) << 8);
+            | (bit_cast::<12, 4>(self.indices.val()) << 8);
         self.masked_errors.next = self.errors.val() & self.registers.encoder_fault_mask.val();
 
         // Input ports of the sequencer.
@@ -289,21 +355,33 @@ impl Logic for Core {
                 self.count.next = self.encoders[0].count.val();
                 self.edge_time.next = self.encoders[0].edge_time.val();
                 self.direction.next = self.encoders[0].direction.val();
+                self.index_count.next = self.encoders[0].index_count.val();
+                self.index_event.next = self.encoders[0].index_event.val().into();
+                self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(0);
             }
             1 => {
                 self.count.next = self.encoders[1].count.val();
                 self.edge_time.next = self.encoders[1].edge_time.val();
                 self.direction.next = self.encoders[1].direction.val();
+                self.index_count.next = self.encoders[1].index_count.val();
+                self.index_event.next = self.encoders[1].index_event.val().into();
+                self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(1);
             }
             2 => {
                 self.count.next = self.encoders[2].count.val();
                 self.edge_time.next = self.encoders[2].edge_time.val();
                 self.direction.next = self.encoders[2].direction.val();
+                self.index_count.next = self.encoders[2].index_count.val();
+                self.index_event.next = self.encoders[2].index_event.val().into();
+                self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(2);
             }
             _ => {
                 self.count.next = self.encoders[3].count.val();
                 self.edge_time.next = self.encoders[3].edge_time.val();
                 self.direction.next = self.encoders[3].direction.val();
+                self.index_count.next = self.encoders[3].index_count.val();
+                self.index_event.next = self.encoders[3].index_event.val().into();
+                self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(3);
             }
         }
         self.line.next = self.count.val();
@@ -344,13 +422,37 @@ impl Logic for Core {
             10 => {
                 self.sequencer.input_data.next = bit_cast::<32, 8>(self.status_at_tick.q.val());
             } // Status
-            _ => {
+            11 => {
                 self.sequencer.input_data.next = bit_cast::<32, 8>(self.faults_at_tick.q.val());
             } // Faults
+            12 => {
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.index_event.val());
+            } // IndexEvent
+            13 => {
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.index_clear.val());
+            } // IndexClear
+            14 => {
+                self.sequencer.input_data.next = bit_cast::<32, 16>(self.index_count.val());
+            } // IndexCount
+            15 => {
+                self.sequencer.input_data.next = bit_cast::<32, 1>(self.registers.mode.val().get_bits::<1>(2));
+            } // Odometry
+            16 => {
+                self.sequencer.input_data.next = bit_cast::<32, 18>(self.trigonometry.fraction.val());
+            } // Fraction
+            17 => {
+                self.sequencer.input_data.next = bit_cast::<32, 18>(self.trigonometry.sine.val());
+            } // Sine
+            _ => {
+                self.sequencer.input_data.next = bit_cast::<32, 18>(self.trigonometry.cosine.val());
+            } // Cosine
         }
 
         // PWM.
-        if self.sequencer.output_strobe.val() & !self.sequencer.output_port.val() {
+        self.trigonometry.angle.next = self.sequencer.output_data.val();
+        self.trigonometry.load.next =
+            self.sequencer.output_strobe.val() & (self.sequencer.output_port.val() == self.port_angle.val());
+        if self.sequencer.output_strobe.val() & (self.sequencer.output_port.val() == self.port_direction.val()) {
             self.reverse.d.next = self.sequencer.output_data.val().get_bit(31);
         }
         self.compare.next = self.sequencer.output_data.val().get_bits::<13>(12);
@@ -362,20 +464,35 @@ impl Logic for Core {
             self.drives[i].compare.next = self.compare.val();
             self.drives[i].direction.next = self.reverse.q.val();
             self.drives[i].load.next = false;
+            self.drives[i].sync.next = false;
+            self.drives[i].up_down.next = self.registers.mode.val().get_bit(3);
+            self.stalls[i].compare.next = self.compare.val();
+            self.stalls[i].load.next = false;
         }
-        if self.sequencer.output_strobe.val() & self.sequencer.output_port.val() {
+        // Axes 1, 2, 3 start their periods a quarter, a half and three quarters after axis 0.
+        self.quarter.next = self.registers.pwm_period.val() >> 2;
+        self.half.next = self.registers.pwm_period.val() >> 1;
+        self.three_quarters.next = self.half.val() + self.quarter.val();
+        self.drives[1].sync.next = self.drives[0].position.val() == self.quarter.val();
+        self.drives[2].sync.next = self.drives[0].position.val() == self.half.val();
+        self.drives[3].sync.next = self.drives[0].position.val() == self.three_quarters.val();
+        if self.sequencer.output_strobe.val() & (self.sequencer.output_port.val() == self.port_compare.val()) {
             match self.sequencer.axis.val().index() {
                 0 => {
                     self.drives[0].load.next = true;
+                    self.stalls[0].load.next = true;
                 }
                 1 => {
                     self.drives[1].load.next = true;
+                    self.stalls[1].load.next = true;
                 }
                 2 => {
                     self.drives[2].load.next = true;
+                    self.stalls[2].load.next = true;
                 }
                 _ => {
                     self.drives[3].load.next = true;
+                    self.stalls[3].load.next = true;
                 }
             }
         }
@@ -389,6 +506,9 @@ impl Logic for Core {
             | (bit_cast::<4, 1>(self.drives[3].dir.val().into()) << 3);
         self.pwm.next = self.pwm_pins.val();
         self.dir.next = self.dir_pins.val();
+        if self.registers.mode.val().get_bit(3) & !(self.safety.armed.val() & self.alive.val()) {
+            self.dir.next = self.none.val();
+        }
         self.enable_n.next = self.all.val();
         if self.safety.armed.val() & self.alive.val() {
             self.enable_n.next = self.none.val();
@@ -403,6 +523,9 @@ impl Logic for Core {
         self.safety.pet.next = self.commit.pet.val();
         self.safety.watchdog_timeout.next = self.registers.watchdog_timeout.val();
         self.safety.encoder_fault.next = self.masked_errors.val() != self.none.val();
+        self.safety.stall_fault.next = self.masked_stalls.val() != self.none.val();
+        self.safety.tick.next = self.tick.val();
+        self.safety.set_point_timeout.next = self.registers.set_point_timeout.val();
         self.safety.commit_fault.next = self.commit.fault.val();
         self.safety.external_fault.next = self.dead_live.q.val();
         self.safety.clear_faults.next = self.registers.clear_faults.val();
@@ -415,11 +538,21 @@ impl Logic for Core {
         self.kicker.pulse.next = self.registers.kicker_pulse.val();
         self.kicker.lockout.next = self.registers.kicker_lockout.val();
         self.kicker.ball.next = self.ball_sensor.val();
+        self.kicker.full.next = self.kicker_full.val();
+        self.kicker.by_time.next = self.registers.kicker_control.val().get_bit(3);
         self.kicker.clear.next = self.registers.clear_faults.val();
         self.kicker_charge_n.next = !(self.kicker.charge.val() & self.safety.armed.val() & self.alive.val());
         self.kicker_trigger_n.next = !(self.kicker.trigger.val() & self.safety.armed.val() & self.alive.val());
 
+        self.shut.next = !(self.safety.armed.val() & self.alive.val());
+        self.holds.next =
+            self.registers.kicker_control.val().get_bit(2) & !self.safety.stopped.val() & self.alive.val();
+        self.kicker_discharge.next = self.shut.val() & !self.holds.val();
+
         // What the register file shows.
+        self.registers.stall.next = self.stalled.val();
+        self.registers.index_status.next = self.index_status.val();
+        self.registers.interrupt_status.next = self.interrupt.status.val();
         self.registers.armed.next = self.safety.armed.val();
         self.registers.clock_count.next = self.timebase.clock_count.val();
         self.registers.faults.next = self.safety.faults.val();
@@ -432,7 +565,8 @@ impl Logic for Core {
         self.kicker_status.next = bit_cast::<8, 3>(self.kicker.state.val())
             | (bit_cast::<8, 1>(self.kicker.ready.val().into()) << 4)
             | (bit_cast::<8, 1>(self.kicker.timed_out.val().into()) << 5)
-            | (bit_cast::<8, 1>(self.kicker.dropped.val().into()) << 6);
+            | (bit_cast::<8, 1>(self.kicker.dropped.val().into()) << 6)
+            | (bit_cast::<8, 1>(self.kicker.is_full.val().into()) << 7);
         self.registers.kicker_status.next = self.kicker_status.val();
     }
 }

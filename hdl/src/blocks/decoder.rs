@@ -3,9 +3,9 @@
 //! | page (byte offset) | to | words |
 //! |---|---|---|
 //! | 000 | register file | 64 |
-//! | 400, 500 | configuration: staged bank, bank in force | 40 |
+//! | 400, 500 | configuration: staged bank, bank in force | 52 |
 //! | 600, 640 | set points: staged bank, bank in force | 4 |
-//! | 790 | integrators | 4 |
+//! | 770, 790 | index positions, integrators | 4 |
 //! | 800 | snapshot: bank the reader holds | 24 |
 //!
 //! Anything else is reserved: reads zero, writes nothing.
@@ -14,8 +14,8 @@ use crate::primitives::Literal;
 use fixed_kin::AXES;
 use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use fixed_kin::registers::{
-    ACTIVE_CONFIGURATION, ACTIVE_SET_POINTS, CONFIGURATION, INTEGRALS, Register, SET_POINTS, SNAPSHOT_SEQUENCE,
-    SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
+    ACTIVE_CONFIGURATION, ACTIVE_SET_POINTS, CONFIGURATION, INDEX_POSITION, INTEGRALS, Register, SET_POINTS,
+    SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
 };
 use rust_hdl::prelude::*;
 
@@ -78,6 +78,8 @@ pub struct Decoder {
     set_points_end: Literal<6, { SET_POINT_WORDS as u64 }>,
     active_start: Literal<6, { index(&ACTIVE_SET_POINTS) }>,
     active_end: Literal<6, { index(&ACTIVE_SET_POINTS) + SET_POINT_WORDS as u64 }>,
+    index_start: Literal<6, { index(&INDEX_POSITION) }>,
+    index_end: Literal<6, { index(&INDEX_POSITION) + AXES as u64 }>,
     integrals_start: Literal<6, { index(&INTEGRALS) }>,
     integrals_end: Literal<6, { index(&INTEGRALS) + AXES as u64 }>,
     snapshot_end: Literal<6, { SNAPSHOT_WORDS as u64 }>,
@@ -131,8 +133,9 @@ impl Logic for Decoder {
             }
         }
         if self.page.val() == self.page_state.val() {
-            self.in_memory.next =
-                (self.index.val() >= self.integrals_start.val()) & (self.index.val() < self.integrals_end.val());
+            self.in_memory.next = ((self.index.val() >= self.integrals_start.val())
+                & (self.index.val() < self.integrals_end.val()))
+                | ((self.index.val() >= self.index_start.val()) & (self.index.val() < self.index_end.val()));
             self.base.next = self.wide.val() | self.at_set_points.val();
         }
         if self.page.val() == self.page_snapshot.val() {

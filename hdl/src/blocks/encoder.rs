@@ -13,6 +13,10 @@
 //! (`fixed_kin::encoder::edge_delay`); one more clock and a `sample` until it is seen. Fastest
 //! input: one edge per line every `filter + 1` clocks. For the first three clocks after
 //! configuration the levels are taken over uncounted, so lines that idle high are no error.
+//!
+//! The index passes the same filter; its first rise after `arm_index` latches the count as it stands
+//! then, and a `sample` later `index_event` tells the program, which keeps the position and may begin the
+//! counts at zero there. Serves `encoder_error`, `encoder_lines`, `encoder_filter`, `index_arm`, `index_status`.
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
@@ -88,6 +92,10 @@ pub struct Encoder {
     pub now: Signal<In, Bits<24>>,
     /// Clears the sticky error, unless a new one comes at the same clock.
     pub clear_error: Signal<In, Bit>,
+    /// Raw index line.
+    pub index: Signal<In, Bit>,
+    /// Strobe: the next rise of the index is to be captured.
+    pub arm_index: Signal<In, Bit>,
     /// Count at the last sample, wrapping.
     pub count: Signal<Out, Bits<16>>,
     /// Time of the last counted edge at the last sample.
@@ -100,8 +108,31 @@ pub struct Encoder {
     pub live_a: Signal<Out, Bit>,
     /// Filtered line B.
     pub live_b: Signal<Out, Bit>,
+    /// An edge is counted in this clock.
+    pub step: Signal<Out, Bit>,
+    /// Its direction, true = up.
+    pub up: Signal<Out, Bit>,
+    /// Filtered index line.
+    pub live_index: Signal<Out, Bit>,
+    /// Count at the last index captured before the last sample.
+    pub index_count: Signal<Out, Bits<16>>,
+    /// An index was captured between the last two samples.
+    pub index_event: Signal<Out, Bit>,
+    /// An index is waited for.
+    pub index_waiting: Signal<Out, Bit>,
+    /// One was captured since the last arming.
+    pub index_seen: Signal<Out, Bit>,
     line_a: GlitchFilter,
     line_b: GlitchFilter,
+    line_index: GlitchFilter,
+    last_index: DFF<Bit>,
+    captured: DFF<Bits<16>>,
+    waiting: DFF<Bit>,
+    seen: DFF<Bit>,
+    fresh: DFF<Bit>,
+    sampled_event: DFF<Bit>,
+    sampled_capture: DFF<Bits<16>>,
+    captures: Signal<Local, Bit>,
     settled_0: DFF<Bit>,
     settled_1: DFF<Bit>,
     settled: DFF<Bit>,
@@ -116,8 +147,9 @@ pub struct Encoder {
     sticky_error: DFF<Bit>,
     change_a: Signal<Local, Bit>,
     change_b: Signal<Local, Bit>,
-    up: Signal<Local, Bit>,
-    step: Signal<Local, Bits<16>>,
+    counts: Signal<Local, Bit>,
+    upward: Signal<Local, Bit>,
+    change: Signal<Local, Bits<16>>,
     forward: Literal<16, 1>,
     backward: Literal<16, 0xFFFF>,
 }
@@ -125,7 +157,8 @@ pub struct Encoder {
 impl Logic for Encoder {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, line_a, line_b);
+        clock!(self, clock, line_a, line_b, line_index);
+        dff_setup!(self, clock, last_index, captured, waiting, seen, fresh, sampled_event, sampled_capture);
         dff_setup!(self, clock, settled_0, settled_1, settled, last_a, last_b);
         dff_setup!(self, clock, live_count, live_time, live_direction);
         dff_setup!(self, clock, sampled_count, sampled_time, sampled_direction, sticky_error);
@@ -142,24 +175,51 @@ impl Logic for Encoder {
         self.line_b.limit.next = self.filter.val();
         self.line_a.load.next = !self.settled.q.val();
         self.line_b.load.next = !self.settled.q.val();
+        self.line_index.pin.next = self.index.val();
+        self.line_index.tick.next = true;
+        self.line_index.limit.next = self.filter.val();
+        self.line_index.load.next = !self.settled.q.val();
 
         self.last_a.d.next = self.line_a.value.val();
         self.last_b.d.next = self.line_b.value.val();
+        self.last_index.d.next = self.line_index.value.val();
         if !self.settled.q.val() {
             self.last_a.d.next = self.line_a.synchronised.val();
             self.last_b.d.next = self.line_b.synchronised.val();
+            self.last_index.d.next = self.line_index.synchronised.val();
         }
         self.change_a.next = self.settled.q.val() & (self.line_a.value.val() ^ self.last_a.q.val());
         self.change_b.next = self.settled.q.val() & (self.line_b.value.val() ^ self.last_b.q.val());
-        self.up.next = self.line_a.value.val() ^ self.last_b.q.val();
-        self.step.next = self.backward.val();
-        if self.up.val() {
-            self.step.next = self.forward.val();
+        self.upward.next = self.line_a.value.val() ^ self.last_b.q.val();
+        self.change.next = self.backward.val();
+        if self.upward.val() {
+            self.change.next = self.forward.val();
         }
-        if self.change_a.val() ^ self.change_b.val() {
-            self.live_count.d.next = self.live_count.q.val() + self.step.val();
+        self.counts.next = self.change_a.val() ^ self.change_b.val();
+        if self.counts.val() {
+            self.live_count.d.next = self.live_count.q.val() + self.change.val();
             self.live_time.d.next = self.now.val();
-            self.live_direction.d.next = self.up.val();
+            self.live_direction.d.next = self.upward.val();
+        }
+
+        self.captures.next =
+            self.settled.q.val() & self.line_index.value.val() & !self.last_index.q.val() & self.waiting.q.val();
+        if self.sample.val() {
+            self.sampled_event.d.next = self.fresh.q.val();
+            self.sampled_capture.d.next = self.captured.q.val();
+            self.fresh.d.next = false;
+        }
+        if self.arm_index.val() {
+            self.seen.d.next = false;
+        }
+        if self.captures.val() {
+            self.captured.d.next = self.live_count.q.val();
+            self.waiting.d.next = false;
+            self.seen.d.next = true;
+            self.fresh.d.next = true;
+        }
+        if self.arm_index.val() {
+            self.waiting.d.next = true;
         }
 
         if self.sample.val() {
@@ -180,5 +240,12 @@ impl Logic for Encoder {
         self.error.next = self.sticky_error.q.val();
         self.live_a.next = self.line_a.value.val();
         self.live_b.next = self.line_b.value.val();
+        self.step.next = self.counts.val();
+        self.up.next = self.upward.val();
+        self.live_index.next = self.line_index.value.val();
+        self.index_count.next = self.sampled_capture.q.val();
+        self.index_event.next = self.sampled_event.q.val();
+        self.index_waiting.next = self.waiting.q.val();
+        self.index_seen.next = self.seen.q.val();
     }
 }

@@ -16,9 +16,14 @@
 //! Timing: outputs are flip-flops. `enable` low takes all of them low in one clock; commutation
 //! and lock-out run on. Trigger edges come with the microsecond strobe, so a pulse is exact; it
 //! starts two clocks and up to one strobe after `fire`, and 1 ms more if the charger was on. The
-//! ball pin adds two clocks and eight strobes. Limits, in gateware: pulse ≤ 10 ms, lock-out
+//! ball pin adds two clocks and eight strobes. Charging pauses while `full` is high, filtered alike,
+//! unless `by_time`; the time-out counts the charging since it was last full. Limits, in gateware: pulse ≤ 10 ms
+//! (340 000 clocks at the most, because the time base bounds a microsecond to 25 … 34 clocks), lock-out
 //! ≥ 100 ms, charging ≥ 20 ms after a pulse. Charge and trigger are active high here; the
-//! connector inverts them, because an unconfigured FPGA pulls its pins high.
+//! connector inverts them, because an unconfigured FPGA pulls its pins high. A triac conducts on
+//! after its gate: pulse length then is not kick strength.
+//! Serves `kicker_control`, `kicker_fire`, `kicker_pulse`, `kicker_lockout`, `kicker_charge_timeout`,
+//! `kicker_status`.
 
 use super::encoder::GlitchFilter;
 use crate::primitives::Literal;
@@ -50,6 +55,10 @@ pub struct Kicker {
     pub arm_on_ball: Signal<In, Bit>,
     /// Strobe: clears the sticky flags and a charging time-out.
     pub clear: Signal<In, Bit>,
+    /// Raw pin, high or open: the capacitor is full.
+    pub full: Signal<In, Bit>,
+    /// Level: charge by time alone, `full` is ignored.
+    pub by_time: Signal<In, Bit>,
     /// Charger on.
     pub charge: Signal<Out, Bit>,
     /// Trigger on.
@@ -62,7 +71,11 @@ pub struct Kicker {
     pub timed_out: Signal<Out, Bit>,
     /// Sticky: a fire request was dropped.
     pub dropped: Signal<Out, Bit>,
+    /// The capacitor is full, filtered.
+    pub is_full: Signal<Out, Bit>,
     ball_filter: GlitchFilter,
+    hungry_filter: GlitchFilter,
+    stuffed: Signal<Local, Bit>,
     now: DFF<Bits<3>>,
     elapsed: DFF<Bits<20>>,
     gap: DFF<Bits<10>>,
@@ -111,13 +124,20 @@ pub struct Kicker {
 impl Logic for Kicker {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, ball_filter);
+        clock!(self, clock, ball_filter, hungry_filter);
         dff_setup!(self, clock, now, elapsed, gap, charged, spent);
         dff_setup!(self, clock, charge_pin, trigger_pin, is_ready, timed_out_flag, dropped_flag);
         self.ball_filter.pin.next = self.ball.val();
         self.ball_filter.tick.next = self.microsecond.val();
         self.ball_filter.limit.next = self.ball_limit.val();
         self.ball_filter.load.next = false;
+        // Inverted before its first flop, so that the power-up zero means "full".
+        self.hungry_filter.pin.next = !self.full.val();
+        self.hungry_filter.tick.next = self.microsecond.val();
+        self.hungry_filter.limit.next = self.ball_limit.val();
+        self.hungry_filter.load.next = false;
+        self.stuffed.next = !self.hungry_filter.value.val() & !self.by_time.val();
+        self.is_full.next = !self.hungry_filter.value.val();
 
         self.in_ready.next = self.now.q.val() == self.ready_state.val();
         self.in_pending.next = self.now.q.val() == self.pending_state.val();
@@ -186,7 +206,11 @@ impl Logic for Kicker {
         if self.microsecond.val() & self.charge_pin.q.val() & !self.expired.val() {
             self.charged.d.next = self.charged.q.val() + self.charged_one.val();
         }
-        if !self.charge_request.val() | self.in_pulse.val() | (self.clear.val() & self.expired.val()) {
+        if !self.charge_request.val()
+            | self.stuffed.val()
+            | self.in_pulse.val()
+            | (self.clear.val() & self.expired.val())
+        {
             self.charged.d.next = self.charged_zero.val();
         }
         if self.charge_pin.q.val() {
@@ -197,8 +221,11 @@ impl Logic for Kicker {
 
         self.may_charge.next =
             (self.next_state.val() == self.ready_state.val()) | (self.next_state.val() == self.lockout_state.val());
-        self.charge_pin.d.next =
-            self.enable.val() & self.charge_request.val() & !self.expired.val() & self.may_charge.val();
+        self.charge_pin.d.next = self.enable.val()
+            & self.charge_request.val()
+            & !self.stuffed.val()
+            & !self.expired.val()
+            & self.may_charge.val();
         self.trigger_pin.d.next = self.next_state.val() == self.pulse_state.val();
         self.is_ready.d.next = (self.next_state.val() == self.ready_state.val()) & self.has_pulse.val();
         self.timed_out_flag.d.next =

@@ -7,7 +7,7 @@
 //!          ▲ ± 0, a, 2a on one 32-bit carry chain, by the low bits of lo
 //! ```
 //!
-//! `result` = `fixed_kin::word::multiply(a, b, scale)`; scale 0–3 take 9, 12, 12, 7 steps.
+//! `result` = `fixed_kin::word::multiply(a, b, scale)`; scale 0–4 take 9, 12, 12, 7, 8 steps.
 //! Radix-4 Booth recoding; half an LSB is the start value of `p`, so rounding costs nothing.
 //! `start` is taken while `busy` is low; `result` is valid from the clock in which `busy` falls.
 
@@ -16,7 +16,7 @@ use fixed_kin::word::{Scale, WORD_MAX, WORD_MIN};
 use rust_hdl::prelude::*;
 
 /// The scales in the order of the port `scale`.
-pub const SCALES: [Scale; 4] = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD];
+pub const SCALES: [Scale; 5] = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD, Scale::COUNTS];
 
 const fn half(scale: Scale) -> u64 {
     1 << (scale.fraction_bits() - 1)
@@ -30,7 +30,7 @@ pub struct Multiplier {
     /// Takes the request below.
     pub start: Signal<In, Bit>,
     /// Scale, index into [`SCALES`].
-    pub scale: Signal<In, Bits<2>>,
+    pub scale: Signal<In, Bits<3>>,
     /// Multiplicand, a word.
     pub a: Signal<In, Bits<32>>,
     /// Multiplier, as wide as the scale says.
@@ -67,6 +67,8 @@ pub struct Multiplier {
     half_coefficient: Literal<32, { half(Scale::COEFFICIENT) }>,
     half_fine: Literal<32, { half(Scale::FINE) }>,
     half_wide: Literal<32, { half(Scale::WIDE) }>,
+    steps_counts: Literal<4, { Scale::COUNTS.digits as u64 }>,
+    half_counts: Literal<32, { half(Scale::COUNTS) }>,
     half_period: Literal<32, { half(Scale::PERIOD) }>,
     sign_extension: Literal<32, 0xC000_0000>,
     word_max: Literal<32, { WORD_MAX as u64 }>,
@@ -149,9 +151,14 @@ impl Logic for Multiplier {
                     self.steps.d.next = self.steps_gain.val();
                     self.guard_8.d.next = true;
                 }
-                _ => {
+                3 => {
                     self.p.d.next = self.half_period.val();
                     self.steps.d.next = self.steps_period.val();
+                }
+                _ => {
+                    self.p.d.next = self.half_counts.val();
+                    self.steps.d.next = self.steps_counts.val();
+                    self.guard_8.d.next = true;
                 }
             }
         }

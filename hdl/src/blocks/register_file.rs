@@ -11,8 +11,8 @@
 use crate::primitives::{Literal, Preset, Setting};
 use fixed_kin::AXES;
 use fixed_kin::registers::{
-    BOARD_VALUE, COOKIE_VALUE, DEFAULT_TICK_PERIOD, DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, NOMINAL_CLOCK_HZ,
-    VERSION,
+    BLOCKS_VALUE, BOARD_VALUE, COOKIE_VALUE, DEFAULT_SET_POINT_TIMEOUT, DEFAULT_STALL_WINDOW, DEFAULT_TICK_PERIOD,
+    DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, NOMINAL_CLOCK_HZ, VERSION,
 };
 use rust_hdl::prelude::*;
 
@@ -48,13 +48,19 @@ pub struct RegisterFile {
     pub encoder_lines: Signal<In, Bits<12>>,
     /// Live `kicker_status`.
     pub kicker_status: Signal<In, Bits<8>>,
+    /// Live `stall`.
+    pub stall: Signal<In, Bits<4>>,
+    /// Live `index_status`.
+    pub index_status: Signal<In, Bits<8>>,
+    /// Live `interrupt_status`.
+    pub interrupt_status: Signal<In, Bits<2>>,
 
     /// `tick_period`.
     pub tick_period: Signal<Out, Bits<24>>,
     /// `tick_period` is written.
     pub tick_period_written: Signal<Out, Bit>,
     /// `mode`.
-    pub mode: Signal<Out, Bits<2>>,
+    pub mode: Signal<Out, Bits<4>>,
     /// `encoder_filter`.
     pub encoder_filter: Signal<Out, Bits<4>>,
     /// `encoder_fault_mask`.
@@ -66,7 +72,7 @@ pub struct RegisterFile {
     /// `watchdog_timeout`.
     pub watchdog_timeout: Signal<Out, Bits<24>>,
     /// `kicker_control`.
-    pub kicker_control: Signal<Out, Bits<2>>,
+    pub kicker_control: Signal<Out, Bits<4>>,
     /// `kicker_pulse`.
     pub kicker_pulse: Signal<Out, Bits<14>>,
     /// `kicker_lockout`.
@@ -77,6 +83,22 @@ pub struct RegisterFile {
     pub clocks_per_microsecond: Signal<Out, Bits<6>>,
     /// `leds`.
     pub leds: Signal<Out, Bits<8>>,
+    /// `set_point_timeout`.
+    pub set_point_timeout: Signal<Out, Bits<16>>,
+    /// `stall_window`.
+    pub stall_window: Signal<Out, Bits<16>>,
+    /// `stall_compare`.
+    pub stall_compare: Signal<Out, Bits<13>>,
+    /// `interrupt_enable`.
+    pub interrupt_enable: Signal<Out, Bits<2>>,
+    /// `stall` is written: the bits to clear.
+    pub clear_stall: Signal<Out, Bits<4>>,
+    /// `index_arm` is written: axes to capture.
+    pub index_arm: Signal<Out, Bits<4>>,
+    /// Of those captured, axes whose counts begin at zero at the index; lasts.
+    pub index_clear: Signal<Out, Bits<4>>,
+    /// `interrupt_status` is written: the bits to clear.
+    pub clear_interrupt: Signal<Out, Bits<2>>,
     /// `arm` is written.
     pub arm_write: Signal<Out, Bit>,
     /// `faults` is written.
@@ -91,18 +113,23 @@ pub struct RegisterFile {
     pub fire: Signal<Out, Bit>,
 
     tick_period_q: Preset<24, { DEFAULT_TICK_PERIOD as u64 }>,
-    mode_q: DFF<Bits<2>>,
+    mode_q: DFF<Bits<4>>,
     encoder_filter_q: Preset<4, 3>,
     encoder_fault_mask_q: Preset<4, 0xF>,
     pwm_period_q: DFF<Bits<13>>,
     pwm_blanking_q: Preset<10, 33>,
     watchdog_timeout_q: Preset<24, { DEFAULT_WATCHDOG_TIMEOUT as u64 }>,
-    kicker_control_q: DFF<Bits<2>>,
+    kicker_control_q: DFF<Bits<4>>,
     kicker_pulse_q: DFF<Bits<14>>,
     kicker_lockout_q: DFF<Bits<20>>,
     kicker_charge_timeout_q: DFF<Bits<24>>,
     clocks_per_microsecond_q: Preset<6, 33>,
     leds_q: DFF<Bits<8>>,
+    set_point_timeout_q: Preset<16, { DEFAULT_SET_POINT_TIMEOUT as u64 }>,
+    stall_window_q: Preset<16, { DEFAULT_STALL_WINDOW as u64 }>,
+    stall_compare_q: DFF<Bits<13>>,
+    interrupt_enable_q: DFF<Bits<2>>,
+    index_clear_q: DFF<Bits<4>>,
     read_q: DFF<Bits<32>>,
 
     unlocked: Signal<Local, Bit>,
@@ -111,10 +138,12 @@ pub struct RegisterFile {
     version: Literal<32, { VERSION as u64 }>,
     board: Literal<32, { BOARD_VALUE as u64 }>,
     clock_hz: Literal<32, { NOMINAL_CLOCK_HZ as u64 }>,
+    blocks: Literal<32, { BLOCKS_VALUE as u64 }>,
     axes: Literal<32, { AXES as u64 }>,
     fire_word: Literal<32, { KICKER_FIRE_WORD as u64 }>,
     zero: Literal<32, 0>,
     no_axes: Literal<4, 0>,
+    no_causes: Literal<2, 0>,
     /// Set by the emitter; the hash is taken with this constant zero.
     content_hash: Setting<32>,
 }
@@ -146,6 +175,11 @@ impl Logic for RegisterFile {
             kicker_charge_timeout_q,
             clocks_per_microsecond_q,
             leds_q,
+            set_point_timeout_q,
+            stall_window_q,
+            stall_compare_q,
+            interrupt_enable_q,
+            index_clear_q,
             read_q
         );
 
@@ -157,6 +191,9 @@ impl Logic for RegisterFile {
         self.commit_configuration.next = false;
         self.fire.next = false;
         self.clear_encoder_error.next = self.no_axes.val();
+        self.clear_stall.next = self.no_axes.val();
+        self.index_arm.next = self.no_axes.val();
+        self.clear_interrupt.next = self.no_causes.val();
         if self.write.val() {
             match self.address.val().index() {
                 8 => {
@@ -167,7 +204,7 @@ impl Logic for RegisterFile {
                 } // TICK_PERIOD
                 9 => {
                     if self.unlocked.val() {
-                        self.mode_q.d.next = self.data.val().get_bits::<2>(0);
+                        self.mode_q.d.next = self.data.val().get_bits::<4>(0);
                     }
                 } // MODE
                 10 => {
@@ -211,7 +248,7 @@ impl Logic for RegisterFile {
                     }
                 } // ENCODER_FAULT_MASK
                 24 => {
-                    self.kicker_control_q.d.next = self.data.val().get_bits::<2>(0);
+                    self.kicker_control_q.d.next = self.data.val().get_bits::<4>(0);
                 } // KICKER_CONTROL
                 25 => {
                     self.fire.next = self.data.val() == self.fire_word.val();
@@ -237,6 +274,35 @@ impl Logic for RegisterFile {
                 31 => {
                     self.leds_q.d.next = self.data.val().get_bits::<8>(0);
                 } // LEDS
+                32 => {
+                    if self.unlocked.val() {
+                        self.set_point_timeout_q.d.next = self.data.val().get_bits::<16>(0);
+                    }
+                } // SET_POINT_TIMEOUT
+                33 => {
+                    if self.unlocked.val() {
+                        self.stall_window_q.d.next = self.data.val().get_bits::<16>(0);
+                    }
+                } // STALL_WINDOW
+                34 => {
+                    if self.unlocked.val() {
+                        self.stall_compare_q.d.next = self.data.val().get_bits::<13>(0);
+                    }
+                } // STALL_COMPARE
+                35 => {
+                    self.clear_stall.next = self.data.val().get_bits::<4>(0);
+                } // STALL
+                36 => {
+                    self.index_arm.next = self.data.val().get_bits::<4>(0);
+                    self.index_clear_q.d.next = (self.index_clear_q.q.val() & !self.data.val().get_bits::<4>(0))
+                        | (self.data.val().get_bits::<4>(4) & self.data.val().get_bits::<4>(0));
+                } // INDEX_ARM
+                38 => {
+                    self.interrupt_enable_q.d.next = self.data.val().get_bits::<2>(0);
+                } // INTERRUPT_ENABLE
+                39 => {
+                    self.clear_interrupt.next = self.data.val().get_bits::<2>(0);
+                } // INTERRUPT_STATUS
                 _ => {
                     self.fire.next = false;
                 }
@@ -265,11 +331,14 @@ impl Logic for RegisterFile {
             6 => {
                 self.read_q.d.next = self.clock_count.val();
             }
+            7 => {
+                self.read_q.d.next = self.blocks.val();
+            }
             8 => {
                 self.read_q.d.next = bit_cast::<32, 24>(self.tick_period_q.q.val());
             }
             9 => {
-                self.read_q.d.next = bit_cast::<32, 2>(self.mode_q.q.val());
+                self.read_q.d.next = bit_cast::<32, 4>(self.mode_q.q.val());
             }
             10 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.encoder_filter_q.q.val());
@@ -305,7 +374,7 @@ impl Logic for RegisterFile {
                 self.read_q.d.next = bit_cast::<32, 4>(self.encoder_fault_mask_q.q.val());
             }
             24 => {
-                self.read_q.d.next = bit_cast::<32, 2>(self.kicker_control_q.q.val());
+                self.read_q.d.next = bit_cast::<32, 4>(self.kicker_control_q.q.val());
             }
             26 => {
                 self.read_q.d.next = bit_cast::<32, 14>(self.kicker_pulse_q.q.val());
@@ -324,6 +393,27 @@ impl Logic for RegisterFile {
             }
             31 => {
                 self.read_q.d.next = bit_cast::<32, 8>(self.leds_q.q.val());
+            }
+            32 => {
+                self.read_q.d.next = bit_cast::<32, 16>(self.set_point_timeout_q.q.val());
+            }
+            33 => {
+                self.read_q.d.next = bit_cast::<32, 16>(self.stall_window_q.q.val());
+            }
+            34 => {
+                self.read_q.d.next = bit_cast::<32, 13>(self.stall_compare_q.q.val());
+            }
+            35 => {
+                self.read_q.d.next = bit_cast::<32, 4>(self.stall.val());
+            }
+            37 => {
+                self.read_q.d.next = bit_cast::<32, 8>(self.index_status.val());
+            }
+            38 => {
+                self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_enable_q.q.val());
+            }
+            39 => {
+                self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_status.val());
             }
             _ => {
                 self.read_q.d.next = self.zero.val();
@@ -344,5 +434,10 @@ impl Logic for RegisterFile {
         self.kicker_charge_timeout.next = self.kicker_charge_timeout_q.q.val();
         self.clocks_per_microsecond.next = self.clocks_per_microsecond_q.q.val();
         self.leds.next = self.leds_q.q.val();
+        self.set_point_timeout.next = self.set_point_timeout_q.q.val();
+        self.stall_window.next = self.stall_window_q.q.val();
+        self.stall_compare.next = self.stall_compare_q.q.val();
+        self.interrupt_enable.next = self.interrupt_enable_q.q.val();
+        self.index_clear.next = self.index_clear_q.q.val();
     }
 }

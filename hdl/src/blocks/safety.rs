@@ -3,7 +3,7 @@
 //! ```text
 //! pin ─►[invert]─►[sync 2]─►[filter 16]─► released ─┐
 //! pet ─►[down counter from watchdog_timeout]─► 0? ──┤
-//! encoder_fault, external_fault ────────────────────┴─► fault ─► disarm, stays until re-armed
+//! encoder_, stall_, external_fault ─────────────────┴─► fault ─► disarm, stays until re-armed
 //!
 //! write to the arm register │ armed
 //! ARM1                      │ off, sequence begins (unless a fault stands)
@@ -15,6 +15,9 @@
 //! Timing, edge of the cause included, until `armed` is low: arm register and fault levels 1,
 //! watchdog `watchdog_timeout` + 1 after the last pet, emergency stop pin 19
 //! (`fixed_kin::safety::EMERGENCY_STOP_CLOCKS`). Power-up is stopped, bitten and disarmed.
+//! `setpoints_valid` falls at the `set_point_timeout`-th control tick without a pet, long before the
+//! watchdog bites; the outputs stay armed. Serves `arm`, `faults`, `first_fault`, `watchdog_timeout`,
+//! `set_point_timeout`.
 //! Limits: the longest time-out is 2²⁴ − 1 clocks, 0.5 s at 33 MHz.
 
 use super::encoder::GlitchFilter;
@@ -41,12 +44,18 @@ pub struct Safety {
     pub watchdog_timeout: Signal<In, Bits<24>>,
     /// Level: an encoder is broken.
     pub encoder_fault: Signal<In, Bit>,
+    /// Level: a driven wheel does not move.
+    pub stall_fault: Signal<In, Bit>,
     /// Strobe: a commit with a wrong checksum; reported only.
     pub commit_fault: Signal<In, Bit>,
     /// Level: link loss or another block's fault.
     pub external_fault: Signal<In, Bit>,
     /// Strobe: clears both fault registers; what still stands appears again at the same clock.
     pub clear_faults: Signal<In, Bit>,
+    /// Strobe: a control tick.
+    pub tick: Signal<In, Bit>,
+    /// Control ticks a set point lasts; 0 = none at all.
+    pub set_point_timeout: Signal<In, Bits<16>>,
     /// The outputs of the card may be on.
     pub armed: Signal<Out, Bit>,
     /// A set point has come since arming.
@@ -55,15 +64,19 @@ pub struct Safety {
     pub faults: Signal<Out, Bits<8>>,
     /// Those that came first since the last clearing.
     pub first_fault: Signal<Out, Bits<8>>,
+    /// The emergency stop stands, synchronised and filtered.
+    pub stopped: Signal<Out, Bit>,
     released: GlitchFilter,
     remaining: DFF<Bits<24>>,
+    age: DFF<Bits<16>>,
+    stale: Signal<Local, Bit>,
+    is_stopped: Signal<Local, Bit>,
     first_word: DFF<Bit>,
     is_armed: DFF<Bit>,
     has_setpoint: DFF<Bit>,
     sticky: DFF<Bits<8>>,
     first: DFF<Bits<8>>,
     bitten: Signal<Local, Bit>,
-    stopped: Signal<Local, Bit>,
     standing: Signal<Local, Bit>,
     is_first_word: Signal<Local, Bit>,
     is_second_word: Signal<Local, Bit>,
@@ -75,6 +88,7 @@ pub struct Safety {
     event_commit: Signal<Local, Bits<8>>,
     event_external: Signal<Local, Bits<8>>,
     event_refused: Signal<Local, Bits<8>>,
+    event_stall: Signal<Local, Bits<8>>,
     events: Signal<Local, Bits<8>>,
     none: FaultBit<0>,
     watchdog_bit: FaultBit<{ Fault::Watchdog.mask() as u64 }>,
@@ -83,24 +97,28 @@ pub struct Safety {
     commit_bit: FaultBit<{ Fault::CommitChecksum.mask() as u64 }>,
     external_bit: FaultBit<{ Fault::External.mask() as u64 }>,
     refused_bit: FaultBit<{ Fault::ArmRefused.mask() as u64 }>,
+    stall_bit: FaultBit<{ Fault::Stall.mask() as u64 }>,
     arm_1: Literal<32, { ARM_FIRST as u64 }>,
     arm_2: Literal<32, { ARM_SECOND as u64 }>,
     stop_filter: Literal<4, { EMERGENCY_STOP_FILTER as u64 }>,
     one: Literal<24, 1>,
+    no_ticks: Literal<16, 0>,
+    one_tick: Literal<16, 1>,
 }
 
 impl Logic for Safety {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, released);
-        dff_setup!(self, clock, remaining, first_word, is_armed, has_setpoint, sticky, first);
+        dff_setup!(self, clock, remaining, age, first_word, is_armed, has_setpoint, sticky, first);
 
         // Inverted before its first flop, so that the power-up zero means "stopped".
         self.released.pin.next = !self.emergency_stop.val();
         self.released.tick.next = true;
         self.released.limit.next = self.stop_filter.val();
         self.released.load.next = false;
-        self.stopped.next = !self.released.value.val();
+        self.is_stopped.next = !self.released.value.val();
+        self.stopped.next = self.is_stopped.val();
 
         self.bitten.next = !self.remaining.q.val().any();
         if !self.bitten.val() {
@@ -110,8 +128,19 @@ impl Logic for Safety {
             self.remaining.d.next = self.watchdog_timeout.val();
         }
 
-        self.standing.next =
-            self.bitten.val() | self.stopped.val() | self.encoder_fault.val() | self.external_fault.val();
+        self.stale.next = self.age.q.val() >= self.set_point_timeout.val();
+        if self.tick.val() & !self.stale.val() {
+            self.age.d.next = self.age.q.val() + self.one_tick.val();
+        }
+        if self.pet.val() {
+            self.age.d.next = self.no_ticks.val();
+        }
+
+        self.standing.next = self.bitten.val()
+            | self.is_stopped.val()
+            | self.encoder_fault.val()
+            | self.stall_fault.val()
+            | self.external_fault.val();
         self.is_first_word.next = self.arm_data.val() == self.arm_1.val();
         self.is_second_word.next = self.arm_write.val() & (self.arm_data.val() == self.arm_2.val());
         self.arms.next = self.is_second_word.val() & self.first_word.q.val() & !self.standing.val();
@@ -124,8 +153,8 @@ impl Logic for Safety {
             self.first_word.d.next = false;
         }
         self.is_armed.d.next = self.stays_armed.val();
-        self.has_setpoint.d.next =
-            self.stays_armed.val() & (self.has_setpoint.q.val() | (self.is_armed.q.val() & self.pet.val()));
+        self.has_setpoint.d.next = self.stays_armed.val()
+            & ((self.has_setpoint.q.val() & !self.stale.val()) | (self.is_armed.q.val() & self.pet.val()));
 
         self.event_watchdog.next = self.none.val();
         self.event_stop.next = self.none.val();
@@ -133,10 +162,11 @@ impl Logic for Safety {
         self.event_commit.next = self.none.val();
         self.event_external.next = self.none.val();
         self.event_refused.next = self.none.val();
+        self.event_stall.next = self.none.val();
         if self.bitten.val() {
             self.event_watchdog.next = self.watchdog_bit.val();
         }
-        if self.stopped.val() {
+        if self.is_stopped.val() {
             self.event_stop.next = self.stop_bit.val();
         }
         if self.encoder_fault.val() {
@@ -151,12 +181,16 @@ impl Logic for Safety {
         if self.is_second_word.val() & !self.arms.val() {
             self.event_refused.next = self.refused_bit.val();
         }
+        if self.stall_fault.val() {
+            self.event_stall.next = self.stall_bit.val();
+        }
         self.events.next = self.event_watchdog.val()
             | self.event_stop.val()
             | self.event_encoder.val()
             | self.event_commit.val()
             | self.event_external.val()
-            | self.event_refused.val();
+            | self.event_refused.val()
+            | self.event_stall.val();
         self.sticky.d.next = self.sticky.q.val() | self.events.val();
         if self.clear_faults.val() {
             self.sticky.d.next = self.events.val();

@@ -8,9 +8,10 @@
 //!     ▲ pc               ▲ address          └────────────────┘
 //! ```
 //!
-//! One instruction a clock; a taken branch kills the instruction behind it; a multiplication holds
-//! the pipe; a division runs beside it, until its quotient is asked for. A second copy of the memory, written together with the first, serves
-//! the bus, which may also write where the program does not write in the same clock.
+//! One instruction a clock; a taken branch kills the instruction behind it. Multiplication and division
+//! run beside the program, until their result is asked for; the program takes every product before it
+//! starts the next. A second copy of the memory, written together with the first, serves the bus,
+//! which may also write where the program does not write in the same clock.
 //!
 //! `tick` starts the program and is ignored while it runs; `done` is high in the clock of its last
 //! instruction.
@@ -42,7 +43,7 @@ pub struct Sequencer {
     pub snapshot_bank: Signal<In, Bit>,
 
     /// Input port that the program asks for, an `InputPort`.
-    pub input_port: Signal<Out, Bits<4>>,
+    pub input_port: Signal<Out, Bits<5>>,
     /// The axis the program is at.
     pub axis: Signal<Out, Bits<2>>,
     /// What stands at that port, in the same clock.
@@ -50,7 +51,7 @@ pub struct Sequencer {
     /// The program writes an output port.
     pub output_strobe: Signal<Out, Bit>,
     /// Which one, an `OutputPort`.
-    pub output_port: Signal<Out, Bit>,
+    pub output_port: Signal<Out, Bits<2>>,
     /// With what.
     pub output_data: Signal<Out, Bits<32>>,
 
@@ -67,25 +68,27 @@ pub struct Sequencer {
     /// The write is done at this clock.
     pub bus_write_taken: Signal<Out, Bit>,
 
-    rom: Rom<16, 8>,
+    rom: Rom<16, 9>,
     memory: Memory<32, 8>,
     mirror: Memory<32, 8>,
     multiplier: Multiplier,
     divider: Divider,
 
     active: DFF<Bit>,
-    pc: DFF<Bits<8>>,
+    pc: DFF<Bits<9>>,
     instruction: DFF<Bits<16>>,
+    subtracts: DFF<Bit>,
     valid: DFF<Bit>,
-    issued: DFF<Bit>,
     accumulator: DFF<Bits<32>>,
     axis_number: DFF<Bits<2>>,
 
-    pc_next: Signal<Local, Bits<8>>,
+    pc_next: Signal<Local, Bits<9>>,
     stall: Signal<Local, Bit>,
     branch: Signal<Local, Bit>,
     storing: Signal<Local, Bit>,
     read_instruction: Signal<Local, Bits<16>>,
+    read_op: Signal<Local, Bits<5>>,
+    read_subtracts: Signal<Local, Bit>,
     read_address: Signal<Local, Bits<8>>,
     read_bank: Signal<Local, Bits<8>>,
     write_address: Signal<Local, Bits<8>>,
@@ -100,8 +103,9 @@ pub struct Sequencer {
     immediate: Signal<Local, Bits<32>>,
 
     zero: Literal<32, 0>,
-    one_8: Literal<8, 1>,
-    start_pc: Literal<8, 0>,
+    one_pc: Literal<9, 1>,
+    start_pc: Literal<9, 0>,
+    no_bank: Literal<8, 0>,
     first_axis: Literal<2, 0>,
     last_axis: Literal<2, { AXES as u64 - 1 }>,
     one_axis: Literal<2, 1>,
@@ -133,7 +137,7 @@ impl Sequencer {
 impl Logic for Sequencer {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, active, pc, instruction, valid, issued, accumulator, axis_number);
+        dff_setup!(self, clock, active, pc, instruction, subtracts, valid, accumulator, axis_number);
         clock!(self, clock, rom, memory, mirror, multiplier, divider);
 
         // Read stage: the instruction at pc, its word is there one clock later.
@@ -143,7 +147,7 @@ impl Logic for Sequencer {
             self.read_address.next =
                 self.read_instruction.val().get_bits::<8>(0) | bit_cast::<8, 2>(self.axis_number.q.val());
         }
-        self.read_bank.next = self.start_pc.val();
+        self.read_bank.next = self.no_bank.val();
         if self.configuration_bank.val() & (self.read_address.val().get_bits::<2>(6) == self.region_0.val()) {
             self.read_bank.next = self.configuration_region.val();
         }
@@ -162,27 +166,30 @@ impl Logic for Sequencer {
         self.output_strobe.next = false;
         self.multiplier.start.next = false;
         self.divider.start.next = false;
-        self.subtracting.next = false;
-        match self.op.val().index() {
+        // Decoded a clock ahead, so that it does not stand before the carry chain.
+        self.read_op.next = self.read_instruction.val().get_bits::<5>(11);
+        self.read_subtracts.next = false;
+        match self.read_op.val().index() {
             4 => {
-                self.subtracting.next = true;
+                self.read_subtracts.next = true;
             } // Subtract
             6 => {
-                self.subtracting.next = true;
+                self.read_subtracts.next = true;
             } // Subtract16
             7 => {
-                self.subtracting.next = true;
+                self.read_subtracts.next = true;
             } // Subtract24
             8 => {
-                self.subtracting.next = true;
+                self.read_subtracts.next = true;
             } // Minimum
             9 => {
-                self.subtracting.next = true;
+                self.read_subtracts.next = true;
             } // Maximum
             _ => {
-                self.subtracting.next = false;
+                self.read_subtracts.next = false;
             }
         }
+        self.subtracting.next = self.subtracts.q.val();
         self.sum.next = self.accumulator.q.val() + self.word.val();
         if self.subtracting.val() {
             self.sum.next = self.accumulator.q.val() - self.word.val();
@@ -206,23 +213,13 @@ impl Logic for Sequencer {
 
         self.multiplier.a.next = self.word.val();
         self.multiplier.b.next = self.accumulator.q.val();
-        self.multiplier.scale.next = self.op.val().get_bits::<2>(0);
+        self.multiplier.scale.next = self.op.val().get_bits::<3>(0);
         self.divider.numerator.next = self.accumulator.q.val();
         self.divider.denominator.next = self.word.val();
 
         if self.valid.q.val() {
             if self.op.val().get_bit(4) & self.op.val().get_bit(3) {
-                // Multiply: start, wait, take the product.
-                if !self.issued.q.val() {
-                    self.multiplier.start.next = true;
-                    self.issued.d.next = true;
-                    self.stall.next = true;
-                } else if self.multiplier.busy.val() {
-                    self.stall.next = true;
-                } else {
-                    self.accumulator.d.next = self.multiplier.result.val();
-                    self.issued.d.next = false;
-                }
+                self.multiplier.start.next = true;
             } else {
                 match self.op.val().index() {
                     1 => {
@@ -301,6 +298,10 @@ impl Logic for Sequencer {
                         self.accumulator.d.next = self.divider.quotient.val();
                         self.stall.next = self.divider.busy.val();
                     } // Quotient
+                    23 => {
+                        self.accumulator.d.next = self.multiplier.result.val();
+                        self.stall.next = self.multiplier.busy.val();
+                    } // Product
                     _ => {
                         self.accumulator.d.next = self.accumulator.q.val();
                     }
@@ -311,12 +312,13 @@ impl Logic for Sequencer {
         // Pipe control.
         self.pc_next.next = self.pc.q.val();
         if self.active.q.val() & !self.stall.val() {
-            self.pc_next.next = self.pc.q.val() + self.one_8.val();
+            self.pc_next.next = self.pc.q.val() + self.one_pc.val();
             self.instruction.d.next = self.read_instruction.val();
+            self.subtracts.d.next = self.read_subtracts.val();
             self.valid.d.next = true;
         }
         if self.branch.val() {
-            self.pc_next.next = self.instruction.q.val().get_bits::<8>(0);
+            self.pc_next.next = self.instruction.q.val().get_bits::<9>(0);
             self.valid.d.next = false;
         }
         if self.done.val() {
@@ -337,7 +339,7 @@ impl Logic for Sequencer {
             self.write_address.next =
                 self.instruction.q.val().get_bits::<8>(0) | bit_cast::<8, 2>(self.axis_number.q.val());
         }
-        self.write_bank.next = self.start_pc.val();
+        self.write_bank.next = self.no_bank.val();
         if self.snapshot_bank.val() & (self.write_address.val().get_bits::<2>(6) == self.region_3.val()) {
             self.write_bank.next = self.snapshot_region.val();
         }
@@ -356,9 +358,9 @@ impl Logic for Sequencer {
         self.bus_blocked.next = self.storing.val();
         self.bus_write_taken.next = self.bus_write.val() & !self.storing.val();
 
-        self.input_port.next = self.instruction.q.val().get_bits::<4>(0);
+        self.input_port.next = self.instruction.q.val().get_bits::<5>(0);
         self.axis.next = self.axis_number.q.val();
-        self.output_port.next = self.instruction.q.val().get_bit(0);
+        self.output_port.next = self.instruction.q.val().get_bits::<2>(0);
         self.output_data.next = self.accumulator.q.val();
     }
 }

@@ -1,40 +1,31 @@
-//! Direct and inverse kinematics: the twin of `fixed_kin::kinematics`.
+//! Inverse kinematics and slew limit: the twins of `fixed_kin::kinematics` and `fixed_kin::slew`.
 
-use super::layout::{REFERENCE, SCRATCH, SET_POINT, SNAPSHOT_REFERENCE, SPEED, TWIST, direct_row, inverse_column};
+use super::layout::{FALL, REFERENCE, RISE, SCRATCH, SET_POINT, SNAPSHOT_REFERENCE, inverse_column};
 use super::{Assembler, InputPort, Op};
-
-pub(super) fn clear_twist(p: &mut Assembler) {
-    p.immediate(0);
-    for k in 0..3 {
-        p.store(TWIST.word(k));
-    }
-}
-
-/// Adds what this axis' speed contributes to the body velocity.
-pub(super) fn accumulate_twist(p: &mut Assembler) {
-    for k in 0..3 {
-        p.load(direct_row(k)).op(Op::MultiplyCoefficient, SPEED);
-        p.op(Op::Add, TWIST.word(k)).store(TWIST.word(k));
-    }
-}
 
 /// The speed set point of this axis.
 pub(super) fn reference(p: &mut Assembler) {
-    let [none, inverse, done] = [(); 3].map(|()| p.label());
+    let [on, wheels, none, slew, done] = [(); 5].map(|()| p.label());
+    p.input(InputPort::Armed).jump(Op::JumpNotZero, on);
+    p.immediate(0).jump(Op::Jump, done);
+    p.here(none);
+    p.immediate(0).jump(Op::Jump, slew);
+    p.here(wheels);
+    p.load(SET_POINT).jump(Op::Jump, slew);
+    p.here(on);
     p.input(InputPort::SetPointsValid).jump(Op::JumpZero, none);
-    p.input(InputPort::Twist).jump(Op::JumpNotZero, inverse);
-    p.load(SET_POINT).jump(Op::Jump, done);
-    p.here(inverse);
-    p.load(inverse_column(0)).op(Op::MultiplyCoefficient, SET_POINT.word(0)).store(SCRATCH);
-    for k in 1..3 {
-        p.load(inverse_column(k)).op(Op::MultiplyCoefficient, SET_POINT.word(k)).op(Op::Add, SCRATCH);
-        if k == 1 {
+    p.input(InputPort::Twist).jump(Op::JumpZero, wheels);
+    for k in 0..3 {
+        p.load(inverse_column(k)).op(Op::MultiplyCoefficient, SET_POINT.word(k)).product();
+        if k > 0 {
+            p.op(Op::Add, SCRATCH);
+        }
+        if k < 2 {
             p.store(SCRATCH);
         }
     }
-    p.jump(Op::Jump, done);
-    p.here(none);
-    p.immediate(0);
+    p.here(slew);
+    p.op(Op::Subtract, REFERENCE).op(Op::Minimum, RISE).op(Op::Maximum, FALL).op(Op::Add, REFERENCE);
     p.here(done);
     p.store(REFERENCE).store(SNAPSHOT_REFERENCE);
 }

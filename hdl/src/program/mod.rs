@@ -4,12 +4,14 @@
 //! accumulator machine on one memory; this module is its instruction set and assembler.
 //!
 //! An instruction has 16 bits: operation in 15:11, bit 10 = "add the axis number to the address",
-//! address, immediate or branch target in 7:0. Every instruction takes one clock, but: a taken branch
-//! two, a multiplication 2 + digits, the quotient of a division 34 from its start.
+//! address or immediate in 7:0, branch target in 8:0. Every instruction takes one clock, but: a taken
+//! branch two, a product 2 + digits and a quotient 34 from their start, less what is done in between.
+//! So the parts of the tick are woven: a product is started, something else done, then it is asked for.
 
 mod kinematics;
 pub mod layout;
 mod modulation;
+mod odometry;
 mod pi;
 mod speed;
 
@@ -17,7 +19,7 @@ use layout::Cell;
 use std::collections::HashMap;
 
 /// Words of the program memory.
-pub const PROGRAM_WORDS: usize = 256;
+pub const PROGRAM_WORDS: usize = 512;
 
 /// Operations. `m` is the addressed word, `acc` the accumulator; see `fixed_kin::word` for the arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -69,14 +71,18 @@ pub enum Op {
     Divide,
     /// acc = the quotient, when it is there.
     Quotient,
-    /// acc = m · coefficient in acc.
+    /// acc = the product, when it is there.
+    Product,
+    /// Starts m · coefficient in acc; the program goes on.
     MultiplyCoefficient = 24,
-    /// acc = m · integral gain in acc.
+    /// Starts m · integral gain in acc.
     MultiplyFine,
-    /// acc = m · proportional gain in acc.
+    /// Starts m · proportional gain in acc.
     MultiplyWide,
-    /// acc = m · PWM period in acc.
+    /// Starts m · PWM period in acc.
     MultiplyPeriod,
+    /// Starts m · counts in acc.
+    MultiplyCounts,
 }
 
 /// Input ports of the sequencer.
@@ -107,6 +113,20 @@ pub enum InputPort {
     Status,
     /// The fault register.
     Faults,
+    /// An index of this axis was captured since the last tick.
+    IndexEvent,
+    /// Counts of this axis are to begin at zero at its index.
+    IndexClear,
+    /// Count of this axis at its index, 16 bits.
+    IndexCount,
+    /// Mode bit: a pose is kept.
+    Odometry,
+    /// Of the angle: place in its interval of the table.
+    Fraction,
+    /// Of the angle.
+    Sine,
+    /// Of the angle.
+    Cosine,
 }
 
 /// Output ports of the sequencer.
@@ -117,6 +137,8 @@ pub enum OutputPort {
     Direction,
     /// acc / 2¹² is the compare value of this axis' PWM generator; takes effect with its next period.
     Compare,
+    /// The angle whose sine and cosine stand at the input ports two clocks later.
+    Angle,
 }
 
 /// A place in the program.
@@ -175,6 +197,16 @@ impl Assembler {
         self
     }
 
+    fn product(&mut self) -> &mut Self {
+        self.words.push((Op::Product, 0));
+        self
+    }
+
+    fn quotient(&mut self) -> &mut Self {
+        self.words.push((Op::Quotient, 0));
+        self
+    }
+
     fn jump(&mut self, op: Op, target: Label) -> &mut Self {
         self.targets.push((self.words.len(), target));
         self.words.push((op, 0));
@@ -208,7 +240,7 @@ impl Op {
     fn reads_memory(self) -> bool {
         use Op::{
             Halt, Immediate, Input, Jump, JumpNegative, JumpNotNegative, JumpNotZero, JumpZero, NextAxis, Nop, Output,
-            Quotient, Store,
+            Product, Quotient, Store,
         };
         !matches!(
             self,
@@ -222,6 +254,7 @@ impl Op {
                 | JumpNegative
                 | JumpNotNegative
                 | NextAxis
+                | Product
                 | Quotient
                 | Halt
         )
@@ -232,25 +265,30 @@ impl Op {
 #[must_use]
 pub fn control_tick() -> Vec<u16> {
     let mut program = Assembler::default();
-    kinematics::clear_twist(&mut program);
+    odometry::clear(&mut program);
     let axis = program.label();
     program.here(axis);
+    speed::count(&mut program);
+    odometry::start(&mut program, 0);
+    speed::publish(&mut program);
+    odometry::add(&mut program, 0);
+    odometry::start(&mut program, 1);
     speed::start(&mut program);
+    odometry::add(&mut program, 1);
     kinematics::reference(&mut program);
+    pi::start_feed_forward(&mut program);
     speed::finish(&mut program);
-    kinematics::accumulate_twist(&mut program);
+    pi::take_feed_forward(&mut program);
     pi::step(&mut program);
     modulation::drive(&mut program);
     program.jump(Op::NextAxis, axis);
+    odometry::step(&mut program);
     publish(&mut program);
     program.finish()
 }
 
 /// The words of the snapshot that are not written on the way.
 fn publish(program: &mut Assembler) {
-    for k in 0..3 {
-        program.load(layout::TWIST.word(k)).store(layout::SNAPSHOT_TWIST.word(k));
-    }
     program.input(InputPort::Status).store(layout::SNAPSHOT_STATUS);
     program.input(InputPort::Faults).store(layout::SNAPSHOT_FAULTS);
     program.input(InputPort::Now).store(layout::SNAPSHOT_TIME);

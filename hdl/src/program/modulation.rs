@@ -10,6 +10,6 @@ pub(super) fn drive(p: &mut Assembler) {
     p.negated(DUTY);
     p.here(forward);
     p.store(SCRATCH);
-    p.input(InputPort::PwmPeriod).op(Op::MultiplyPeriod, SCRATCH);
+    p.input(InputPort::PwmPeriod).op(Op::MultiplyPeriod, SCRATCH).product();
     p.op(Op::Add, ROUNDING).output(OutputPort::Compare);
 }

@@ -1,17 +1,30 @@
-//! The PI speed loop of one axis: the twin of `fixed_kin::pi::PiState::step`.
+//! The PI speed loop of one axis: the twin of `fixed_kin::pi::PiState::step`, in parts with room for
+//! other work while the multiplier runs.
 
 use super::layout::{
-    DUTY, ERROR, INTEGRAL, KI, KP, LOWER, NEW_INTEGRAL, PROPORTIONAL, REFERENCE, SNAPSHOT_DUTY, SPEED, SUM, UPPER,
+    DUTY, ERROR, FORWARD, INTEGRAL, KFF, KI, KP, LOWER, NEW_INTEGRAL, PROPORTIONAL, REFERENCE, SNAPSHOT_DUTY, SPEED,
+    SUM, UPPER,
 };
-use super::{Assembler, InputPort, Op};
+use super::{Assembler, InputPort, Op, odometry};
 
+pub(super) fn start_feed_forward(p: &mut Assembler) {
+    p.load(KFF).op(Op::MultiplyCoefficient, REFERENCE);
+}
+
+pub(super) fn take_feed_forward(p: &mut Assembler) {
+    p.product().store(FORWARD);
+}
+
+/// The duty; the third row of the odometry is started on the way, and done when this ends.
 pub(super) fn step(p: &mut Assembler) {
     let [off, outside, accept, done] = [(); 4].map(|()| p.label());
-    p.input(InputPort::Armed).jump(Op::JumpZero, off);
     p.load(REFERENCE).op(Op::Subtract, SPEED).store(ERROR);
-    p.load(KP).op(Op::MultiplyWide, ERROR).store(PROPORTIONAL);
-    p.load(KI).op(Op::MultiplyFine, ERROR).op(Op::Add, INTEGRAL).store(NEW_INTEGRAL);
-    p.op(Op::Add, PROPORTIONAL).store(SUM);
+    p.load(KP).op(Op::MultiplyWide, ERROR);
+    p.input(InputPort::Armed).jump(Op::JumpZero, off);
+    p.product().op(Op::Add, FORWARD).store(PROPORTIONAL);
+    p.load(KI).op(Op::MultiplyFine, ERROR).product().op(Op::Add, INTEGRAL).store(NEW_INTEGRAL);
+    odometry::start(p, 2);
+    p.load(NEW_INTEGRAL).op(Op::Add, PROPORTIONAL).store(SUM);
     p.op(Op::Minimum, UPPER).op(Op::Maximum, LOWER).store(DUTY);
     p.op(Op::Subtract, SUM).jump(Op::JumpNotZero, outside);
     p.here(accept);
@@ -22,7 +35,10 @@ pub(super) fn step(p: &mut Assembler) {
     p.load(PROPORTIONAL).op(Op::Add, INTEGRAL);
     p.op(Op::Minimum, UPPER).op(Op::Maximum, LOWER).store(DUTY).jump(Op::Jump, done);
     p.here(off);
+    p.product();
+    odometry::start(p, 2);
     p.immediate(0).store(DUTY).store(INTEGRAL);
     p.here(done);
+    odometry::add(p, 2);
     p.load(DUTY).store(SNAPSHOT_DUTY);
 }

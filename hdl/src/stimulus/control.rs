@@ -1,7 +1,7 @@
 //! Control ticks for the core: random walks with every corner of the arithmetic.
 
 use fixed_kin::AXES;
-use fixed_kin::control::{CONFIGURATION_WORDS, Configuration, SetPointMode, TickInputs};
+use fixed_kin::control::{CONFIGURATION_WORDS, Configuration, IndexCapture, SetPointMode, TickInputs};
 use fixed_kin::registers::MIN_TICK_PERIOD;
 use fixed_kin::speed::{SpeedMode, TIME_BITS};
 use fixed_kin::word::{WORD_MAX, WORD_MIN};
@@ -44,11 +44,15 @@ pub fn scenario(seed: u64, ticks: usize) -> Vec<Scenario> {
                 let wild = random.random_range(0..3) == 0;
                 let words: [i32; CONFIGURATION_WORDS] = std::array::from_fn(|i| match (wild, i / AXES) {
                     (true, _) => word(&mut random),
-                    (false, 0..=5) => random.random_range(-(1 << 17)..1 << 17),
+                    (false, 0..=2) => random.random_range(-(1 << 17)..1 << 17),
+                    (false, 3..=5) => random.random_range(-(1 << 25)..1 << 25),
                     (false, 6) => random.random_range(0..1 << 22),
                     (false, 7) => random.random_range(0..1 << 19),
                     (false, 8) => -random.random_range(0..=1 << 24),
-                    (false, _) => random.random_range(0..=1 << 24),
+                    (false, 9) => random.random_range(0..=1 << 24),
+                    (false, 10) => random.random_range(-(1 << 16)..1 << 16),
+                    (false, 11) => -random.random_range(0..=1 << 26),
+                    (false, _) => random.random_range(0..=1 << 26),
                 });
                 configuration = Configuration::from_words(&words);
                 inputs.speed_mode = if random.random() { SpeedMode::CountAndTime } else { SpeedMode::Difference };
@@ -60,6 +64,7 @@ pub fn scenario(seed: u64, ticks: usize) -> Vec<Scenario> {
                     _ => random.random_range(MIN_TICK_PERIOD..200_000),
                 };
                 inputs.pwm_period = [0, 1, 333, 1_667, 8_191][random.random_range(0..5)];
+                inputs.odometry = random.random_range(0..8) != 0;
                 inputs.armed = random.random_range(0..8) != 0;
                 inputs.set_points_valid = random.random_range(0..8) != 0;
                 regime = std::array::from_fn(|_| random.random_range(0..6));
@@ -68,6 +73,11 @@ pub fn scenario(seed: u64, ticks: usize) -> Vec<Scenario> {
             for (axis, &regime) in regime.iter().enumerate() {
                 step_encoder(&mut random, &mut inputs, axis, regime);
             }
+            inputs.indices = std::array::from_fn(|axis| IndexCapture {
+                event: random.random_range(0..6) == 0,
+                clear: random.random(),
+                count: inputs.encoders[axis].count.wrapping_add(random.random_range(0..2_000)),
+            });
             inputs.set_points = std::array::from_fn(|_| match random.random_range(0..4) {
                 0 => word(&mut random),
                 _ => random.random_range(-(1 << 25)..1 << 25),

@@ -7,8 +7,22 @@ use fixed_kin::encoder::{Inputs, Outputs, TIME_MASK};
 use rand::RngExt;
 use rust_hdl::prelude::*;
 
-columns!(Inputs { a, b, filter, sample, now, clear_error });
-columns!(Outputs { count, edge_time, direction, error, live_a, live_b });
+columns!(Inputs { a, b, filter, sample, now, clear_error, index, arm_index });
+columns!(Outputs {
+    count,
+    edge_time,
+    direction,
+    error,
+    live_a,
+    live_b,
+    step,
+    up,
+    live_index,
+    index_count,
+    index_event,
+    index_waiting,
+    index_seen,
+});
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -21,6 +35,8 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         block.sample.next = inputs.sample;
         block.now.next = inputs.now.to_bits();
         block.clear_error.next = inputs.clear_error;
+        block.index.next = inputs.index;
+        block.arm_index.next = inputs.arm_index;
         cycle(&mut block, |b, level| b.clock.next = level.into());
         Outputs {
             count: block.count.val().to_u16(),
@@ -29,6 +45,13 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
             error: block.error.val(),
             live_a: block.live_a.val(),
             live_b: block.live_b.val(),
+            step: block.step.val(),
+            up: block.up.val(),
+            live_index: block.live_index.val(),
+            index_count: block.index_count.val().to_u16(),
+            index_event: block.index_event.val(),
+            index_waiting: block.index_waiting.val(),
+            index_seen: block.index_seen.val(),
         }
     }
 }
@@ -56,6 +79,7 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
         let up_of_8 = *[0, 1, 4, 7, 8].get(random.random_range(0..5)).unwrap_or(&8);
         let glitches_of_256 = [0, 0, 4, 64, 200][random.random_range(0..5)];
         let illegal_of_256 = [0, 0, 0, 20][random.random_range(0..4)];
+        let index_every = [8, 40, 2_048][random.random_range(0..3)];
         let sampling = [1, 2, 50, 333][random.random_range(0..4)];
         let mut length = random.random_range(1..3_000);
         // Now and then a long run in one direction at full speed, so that the 16-bit count wraps.
@@ -88,6 +112,8 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 sample: random.random_range(0..sampling) == 0,
                 now,
                 clear_error: random.random_range(0..64) == 0,
+                index: position % index_every < 2 && random.random_range(0..256) >= glitches_of_256,
+                arm_index: random.random_range(0..32) == 0,
             });
             now = if random.random_range(0..5_000) == 0 { random.random() } else { now.wrapping_add(1) } & TIME_MASK;
         }

@@ -18,8 +18,10 @@ columns!(Inputs {
     ball,
     arm_on_ball,
     clear,
+    full,
+    by_time,
 });
-columns!(Outputs { charge, trigger, ready, state, timed_out, dropped });
+columns!(Outputs { charge, trigger, ready, state, timed_out, dropped, is_full });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -36,6 +38,8 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         block.ball.next = inputs.ball;
         block.arm_on_ball.next = inputs.arm_on_ball;
         block.clear.next = inputs.clear;
+        block.full.next = inputs.full;
+        block.by_time.next = inputs.by_time;
         cycle(&mut block, |b, level| b.clock.next = level.into());
         Outputs {
             charge: block.charge.val(),
@@ -44,6 +48,7 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
             state: block.state.val().to_u8(),
             timed_out: block.timed_out.val(),
             dropped: block.dropped.val(),
+            is_full: block.is_full.val(),
         }
     }
 }
@@ -82,7 +87,7 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
         let off_clocks = [1, 3, 200, 30_000][random.random_range(0..4)];
         let level_interval = [20, 2_000, 50_000][random.random_range(0..3)];
         let clear_interval = [2, 100, 5_000][random.random_range(0..3)];
-        let mut levels: (bool, bool, bool) = random.random();
+        let mut levels: (bool, bool, bool, bool, bool) = random.random();
         let mut off = 0_u32;
         for clock in 0..random.random_range(1..90_000_u32) {
             if random.random_range(0..drop_interval) == 0 {
@@ -93,7 +98,7 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
             if random.random_range(0..level_interval) == 0 {
                 levels = random.random();
             }
-            let (charge_request, ball, arm_on_ball) = levels;
+            let (charge_request, ball, arm_on_ball, full, by_time) = levels;
             rows.push(Inputs {
                 enable,
                 microsecond: clock % interval == 0,
@@ -105,6 +110,8 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 ball: ball ^ (random.random_range(0..60) == 0),
                 arm_on_ball,
                 clear: random.random_range(0..clear_interval) == 0,
+                full: full ^ (random.random_range(0..60) == 0),
+                by_time,
             });
         }
     }

@@ -7,9 +7,11 @@
 pub mod clock_monitor;
 pub mod control;
 pub mod encoder;
+pub mod interrupt;
 pub mod kicker;
 pub mod pwm;
 pub mod safety;
+pub mod stall;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

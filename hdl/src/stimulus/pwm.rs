@@ -7,8 +7,8 @@ use fixed_kin::pwm::{BLANKING_MASK, Inputs, Outputs, PERIOD_MASK};
 use rand::RngExt;
 use rust_hdl::prelude::*;
 
-columns!(Inputs { enable, period, blanking, load, compare, direction });
-columns!(Outputs { pwm, dir, period_start });
+columns!(Inputs { enable, period, blanking, load, compare, direction, sync, up_down });
+columns!(Outputs { pwm, dir, period_start, position });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -21,8 +21,15 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         block.load.next = inputs.load;
         block.compare.next = inputs.compare.to_bits();
         block.direction.next = inputs.direction;
+        block.sync.next = inputs.sync;
+        block.up_down.next = inputs.up_down;
         cycle(&mut block, |b, level| b.clock.next = level.into());
-        Outputs { pwm: block.pwm.val(), dir: block.dir.val(), period_start: block.period_start.val() }
+        Outputs {
+            pwm: block.pwm.val(),
+            dir: block.dir.val(),
+            period_start: block.period_start.val(),
+            position: block.position.val().to_u16(),
+        }
     }
 }
 
@@ -49,6 +56,8 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
         let drop_of_4096 = [0, 0, 1, 40, 4_096][random.random_range(0..5)];
         let load_interval = [1, u32::from(period).max(1), 7, 500][random.random_range(0..4)];
         let reversal_of_8 = random.random_range(0..=8);
+        let up_down = random.random_range(0..3) == 0;
+        let sync_of_1024 = [0, 0, 1, 300][random.random_range(0..4)];
         let longest = if period > 200 || blanking > 200 { 30_000 } else { 2_000 };
         for clock in 0..random.random_range(1..longest) {
             let load = clock % load_interval == 0;
@@ -65,7 +74,8 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 direction ^= random.random_range(0..8) < reversal_of_8;
             }
             let enable = random.random_range(0..4_096) >= drop_of_4096;
-            rows.push(Inputs { enable, period, blanking, load, compare, direction });
+            let sync = random.random_range(0..1_024) < sync_of_1024;
+            rows.push(Inputs { enable, period, blanking, load, compare, direction, sync, up_down });
         }
     }
     rows.truncate(clocks);

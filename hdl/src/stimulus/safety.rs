@@ -14,11 +14,14 @@ columns!(Inputs {
     pet,
     watchdog_timeout,
     encoder_fault,
+    stall_fault,
     commit_fault,
     external_fault,
     clear_faults,
+    tick,
+    set_point_timeout,
 });
-columns!(Outputs { armed, setpoints_valid, faults, first_fault });
+columns!(Outputs { armed, setpoints_valid, faults, first_fault, stopped });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -31,6 +34,9 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         block.pet.next = inputs.pet;
         block.watchdog_timeout.next = inputs.watchdog_timeout.to_bits();
         block.encoder_fault.next = inputs.encoder_fault;
+        block.stall_fault.next = inputs.stall_fault;
+        block.tick.next = inputs.tick;
+        block.set_point_timeout.next = inputs.set_point_timeout.to_bits();
         block.commit_fault.next = inputs.commit_fault;
         block.external_fault.next = inputs.external_fault;
         block.clear_faults.next = inputs.clear_faults;
@@ -40,6 +46,7 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
             setpoints_valid: block.setpoints_valid.val(),
             faults: block.faults.val().to_u8(),
             first_fault: block.first_fault.val().to_u8(),
+            stopped: block.stopped.val(),
         }
     }
 }
@@ -66,6 +73,8 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
         };
         let stop_of_256 = [0, 0, 0, 0, 40, 250, 256][random.random_range(0..7)];
         let fault_of_4096 = [0, 0, 0, 1, 10, 400][random.random_range(0..6)];
+        let set_point_timeout = [0, 1, 2, 5, 30, u16::MAX][random.random_range(0..6)];
+        let ticking = [1, 3, 20][random.random_range(0..3)];
         let arming = [2, 5, 40][random.random_range(0..3)];
         let wrong_of_16 = [0, 0, 1, 8][random.random_range(0..4)];
         let mut stop = 0;
@@ -94,9 +103,12 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 pet: clock % pet_interval == 0,
                 watchdog_timeout,
                 encoder_fault: fault(),
+                stall_fault: fault(),
                 commit_fault: fault(),
                 external_fault: fault(),
                 clear_faults: random.random_range(0..100) == 0,
+                tick: clock % ticking == 0,
+                set_point_timeout,
             });
         }
     }

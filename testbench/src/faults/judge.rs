@@ -211,7 +211,7 @@ fn names_the_cause(fault: Injected, message: &str) -> Result<(), String> {
         Injected::Bus(BusFault::Read(..) | BusFault::ReadsFrom(..)) => {
             &["bus", "checksum", " reads ", "refused", "stayed armed", "tick", "switched off", "jumps", "clock"]
         }
-        Injected::Rig(_, RigFault::Cable(..)) => &["encoder"],
+        Injected::Rig(_, RigFault::Cable(..)) => &["encoder", "stall"],
         Injected::Rig(_, RigFault::Clock(_)) => &["clock"],
         Injected::Rig(_, RigFault::Stall(_)) => &["watchdog"],
         Injected::Rig(_, RigFault::CameraGone) => &[],

@@ -16,12 +16,14 @@ pub const PROOFS: &[Proof] = &[
         mutants: &[
             mutant("turns at once", "& long_quiet & ~pwm_pin_q", "& ~pwm_pin_q"),
             mutant("rises at once", "enable & (settled_q | long_quiet)", "enable"),
+            mutant("up and down together", "dir = pwm_pin_q & dir_pin_q", "dir = pwm_pin_q"),
             mutant("ignores the enable", "permitted & running & aligned", "running & aligned"),
         ],
         ..proof(
             "pwm",
             "rac4i65_core_drives",
-            "DIR changes only after PWM was low for the blanking time, PWM rises only as long after it; disabled = low",
+            "DIR changes only after PWM was low for the blanking time, PWM rises only as long after it; disabled = low; up/down: \
+             never both",
             include_str!("../../proofs/pwm.v"),
         )
     },
@@ -31,7 +33,9 @@ pub const PROOFS: &[Proof] = &[
         mutants: &[
             mutant("a fault does not disarm", "stays_armed = is_armed_q & ~standing", "stays_armed = is_armed_q"),
             mutant("one word arms", "is_second_word & first_word_q & ~standing", "is_second_word & ~standing"),
-            mutant("no watchdog", "standing = bitten | stopped", "standing = stopped"),
+            mutant("no watchdog", "standing = bitten | is_stopped", "standing = is_stopped"),
+            mutant("a stall does not count", " | stall_fault | external_fault", " | external_fault"),
+            mutant("set points last for ever", "has_setpoint_q & ~stale", "has_setpoint_q"),
         ],
         ..proof(
             "safety",
@@ -55,9 +59,13 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_sequencer",
             "rac4i65_core_encoders",
             "rac4i65_core_drives",
+            "rac4i65_core_stalls",
+            "rac4i65_core_trigonometry",
+            "rac4i65_core_interrupt",
         ],
         mutants: &[
             mutant("a dead clock keeps the bridges on", "if (safety_armed & alive) begin", "if (safety_armed) begin"),
+            mutant("discharges while armed", "kicker_discharge = shut & ~holds", "kicker_discharge = ~holds"),
             mutant(
                 "the trigger passes unarmed",
                 "~(kicker_trigger & safety_armed & alive)",
@@ -67,7 +75,8 @@ pub const PROOFS: &[Proof] = &[
         ..proof(
             "gate",
             "rac4i65_core",
-            "not armed or LCLK dead: PWM low, bridges disabled, charger and trigger off at the pins, in the same clock",
+            "not armed or LCLK dead: PWM low, bridges disabled, charger and trigger off at the pins, in the same clock; \
+             discharge never beside them",
             include_str!("../../proofs/gate.v"),
         )
     },
@@ -110,7 +119,7 @@ pub const PROOFS: &[Proof] = &[
         ..proof(
             "kicker",
             "rac4i65_core_kicker",
-            "pulse at most 10,000 strobes and 640,000 clocks, 100,000 strobes between pulses, charger off from before \
+            "pulse at most 10,000 strobes and 340,000 clocks, 100,000 strobes between pulses, charger off from before \
              the pulse to 20,000 strobes after it, nothing while disabled",
             include_str!("../../proofs/kicker.v"),
         )
@@ -128,7 +137,7 @@ pub const PROOFS: &[Proof] = &[
         )
     },
     Proof {
-        shrink: &[("all_configuration = 6'b101000", "all_configuration = 6'd2"), ("WORDS = 40", "WORDS = 2")],
+        shrink: &[("all_configuration = 6'b110100", "all_configuration = 6'd2"), ("WORDS = 52", "WORDS = 2")],
         mutants: &[
             mutant(
                 "a word staged at the tick acts",
@@ -182,7 +191,7 @@ pub const PROOFS: &[Proof] = &[
         ..proof(
             "timebase",
             "rac4i65_core_timebase",
-            "at most 64 clocks between microseconds, at least 1000 between ticks",
+            "25 to 34 clocks between microseconds whatever the register says, at least 1000 between ticks",
             include_str!("../../proofs/timebase.v"),
         )
     },

@@ -150,7 +150,7 @@ mod tests {
         let filter = 3;
         let period = 1_000_u32;
         let (mut counter, mut encoder) = (Counter::default(), Encoder::default());
-        let quiet = |a, b, sample, now| Inputs { a, b, filter, sample, now, clear_error: false };
+        let quiet = |a, b, sample, now| Inputs { a, b, filter, sample, now, ..Inputs::default() };
         let mut pins = 0;
         let mut position = 0.0;
         for now in 0..=period {

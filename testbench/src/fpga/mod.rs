@@ -25,7 +25,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Clocks after a control tick in which the encoders of the pin-level backends stand still: the
-/// program (844), a snapshot and a commit over the bus, and some.
+/// program (980), a snapshot and a commit over the bus, and some.
 pub const QUIET_CLOCKS: u32 = 1_400;
 
 /// A simulation that cannot go on.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  tick ──program──host: snapshot, set points──│────── encoders move ──────│ tick
-//!  0              844                    QUIET_CLOCKS                    period
+//!  0              980                    QUIET_CLOCKS                    period
 //! ```
 
 use super::edges::{Motion, lines};
@@ -13,7 +13,7 @@ use fixed_kin::registers::{ENCODER_FILTER, MIN_TICK_PERIOD, SNAPSHOT_SEQUENCE, S
 use fixed_kin::speed::TIME_BITS;
 
 /// Clocks after a tick in which the program certainly ends.
-const PROGRAM_CLOCKS: u64 = 900;
+const PROGRAM_CLOCKS: u64 = 1_000;
 
 /// Levels of all encoder lines from a clock on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

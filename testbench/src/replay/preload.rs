@@ -11,6 +11,7 @@ use fixed_kin::control::Configuration;
 use fixed_kin::format::{Duty, IntegralGain, Speed};
 use fixed_kin::pi::PiGains;
 use fixed_kin::registers as map;
+use fixed_kin::slew::SlewLimits;
 
 /// Sets the integrators of an armed card in wheel mode whose encoders rest at `positions`.
 pub(super) fn preload<F: Fpga>(
@@ -20,7 +21,7 @@ pub(super) fn preload<F: Fpga>(
     positions: &[f64; AXES],
 ) -> Result<(), LoopError> {
     let gains = PiGains { ki: IntegralGain::ONE, lower: -Duty::ONE, upper: Duty::ONE, ..PiGains::default() };
-    let counting = Configuration { gains: [gains; AXES], ..Configuration::default() };
+    let counting = Configuration { gains: [gains; AXES], slew: [SlewLimits::NONE; AXES], ..Configuration::default() };
     commit_configuration(&mut board.bus, &counting).map_err(BoardError::from)?;
     board.set_wheel_speeds(&integrals.map(Speed::from_bits))?;
     board.bus.advance(positions)?;
