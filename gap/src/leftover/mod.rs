@@ -8,6 +8,8 @@ mod bursts;
 mod orders;
 mod spectrum;
 
+use std::collections::HashSet;
+
 use crate::drive::{DriveLink, DriveModel, Generic, Left};
 use crate::effect::Sizes;
 use crate::segment::Segment;
@@ -54,14 +56,16 @@ pub(crate) fn drive(
     let Some(link) = DriveLink::with_bumps(segments, model, BUMP_S) else { return out };
     let Some(residuals) = link.residuals(model) else { return out };
     let generic = Generic::new(&link);
-    let near = link.tick_count(MASK_S);
+    let near = link.tick_count(MASK_S).max(1);
+    let slips: HashSet<(usize, usize)> = mask.iter().map(|m| (m.0, m.1 / near)).collect();
     let mut lefts: Vec<Option<Left>> = Vec::new();
     for wheel in 0..link.noise.len() {
         let left = generic.leaves(&link, &residuals, wheel).map(|l| {
             // What is masked as slip on the link itself is masked here.
             let rolls = |b: &usize| {
                 let (segment, tick) = residuals.at[*b];
-                !mask.iter().any(|m| m.0 == segment && m.1.abs_diff(tick) < near)
+                let part = tick / near;
+                (part.saturating_sub(1)..=part + 1).all(|p| !slips.contains(&(segment, p)))
             };
             let (bumps, torque) =
                 l.bumps.iter().zip(&l.torque).filter(|(b, _)| rolls(b)).map(|(b, t)| (*b, *t)).unzip();

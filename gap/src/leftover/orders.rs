@@ -27,6 +27,8 @@ const MATERIAL: [f64; 2] = [0.0028, 0.07];
 const FEWEST_ROLLERS: f64 = 6.0;
 /// Chance of phases that agree as well in noise, whatever the amplitudes: bursts are no lines.
 const PHASES: f64 = 1e-4;
+/// Ticks beyond which blocks are skipped.
+const MOST_TICKS: usize = 150_000;
 /// Bins a factor of ten of frequency, for the noise.
 const BINS: f64 = 8.0;
 
@@ -69,18 +71,25 @@ pub(super) fn orders(
     let mut candidates: Vec<f64> = (2..=HIGHEST).map(|k| k as f64).collect();
     // Whatever turns with the motor.
     candidates.extend((1..=6).map(|k| f64::from(k) * model.gear_ratio).filter(|o| (o - o.round()).abs() > 0.05));
-    let raw: Vec<Option<[Vec<Vec<f64>>; 2]>> = (0..segments.len())
-        .map(|s| {
-            let fits = segments[s].duty.len() == n && segments[s].angle.len() == n && segments[s].t.len() > 50;
-            fits.then(|| link.raw(model, s)).flatten()
-        })
-        .collect();
+    // Long logs are looked at here and there: a line is everywhere.
+    let stride = 1 + segments.iter().map(|s| s.t.len()).sum::<usize>() / MOST_TICKS;
+    let mut demodulated = vec![vec![Vec::new(); candidates.len()]; n];
+    for (index, s) in segments.iter().enumerate() {
+        if s.duty.len() != n || s.angle.len() != n || s.t.len() <= 50 {
+            continue;
+        }
+        let Some(raw) = link.raw(model, index) else { continue };
+        for (wheel, slots) in demodulated.iter_mut().enumerate() {
+            let new: Vec<Vec<Block>> =
+                candidates.par_iter().map(|o| demodulate(index, s, &raw, wheel, *o, stride)).collect();
+            slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(blocks));
+        }
+    }
     let tests = 2.0 * n as f64 * candidates.len() as f64;
     let mut ripples: Vec<(usize, usize, Line)> = Vec::new();
     let mut structures = Vec::new();
-    for wheel in 0..n {
-        let blocks: Vec<Vec<Block>> = candidates.par_iter().map(|o| demodulate(segments, &raw, wheel, *o)).collect();
-        let noise = [0, 1].map(|of| Noise::new(&blocks, &candidates, of));
+    for (wheel, blocks) in demodulated.iter().enumerate() {
+        let noise = [0, 1].map(|of| Noise::new(blocks, &candidates, of));
         let lines: Vec<[Line; 2]> = blocks
             .iter()
             .zip(&candidates)
@@ -123,41 +132,45 @@ pub(super) fn orders(
     (ripple, structures)
 }
 
-fn demodulate(segments: &[Segment], raw: &[Option<[Vec<Vec<f64>>; 2]>], wheel: usize, order: f64) -> Vec<Block> {
+fn demodulate(
+    index: usize,
+    s: &Segment,
+    raw: &[Vec<Vec<f64>>; 2],
+    wheel: usize,
+    order: f64,
+    stride: usize,
+) -> Vec<Block> {
     let mut out = Vec::new();
-    for (index, (s, raw)) in segments.iter().zip(raw).enumerate() {
-        let Some(raw) = raw else { continue };
-        let rate = (s.t.len() - 1) as f64 / (s.t[s.t.len() - 1] - s.t[0]);
-        let length = (BLOCK_S * rate).round() as usize;
-        if length < 20 {
-            continue;
-        }
-        let window: Vec<f64> = (0..length).map(|j| (PI * (j as f64 + 0.5) / length as f64).sin().powi(2)).collect();
-        let total: f64 = window.iter().sum();
-        let mut first = 1;
-        while first + length < s.t.len() {
-            let speeds = &s.speed[wheel][first..first + length];
-            let mean = speeds.iter().sum::<f64>() / length as f64;
-            let f = order * mean.abs() / TAU;
-            let steady = speeds.iter().all(|w| w * mean > 0.0 && w.abs() > 0.5 * mean.abs());
-            if steady && mean.abs() > SLOWEST && f > RANGE_HZ[0] && f < RANGE_HZ[1].min(0.2 * rate) {
-                let mut demodulated = [[0.0; 2]; 2];
-                let mean_of =
-                    |x: &[f64]| x[first..first + length].iter().zip(&window).map(|(a, w)| a * w).sum::<f64>() / total;
-                let means = [mean_of(&raw[0][wheel]), mean_of(&raw[1][wheel])];
-                for (j, w) in window.iter().enumerate() {
-                    let k = first + j;
-                    let (sin, cos) = (order * s.angle[wheel][k]).sin_cos();
-                    for of in 0..2 {
-                        let x = w * (raw[of][wheel][k] - means[of]) / total;
-                        demodulated[of][0] += x * cos;
-                        demodulated[of][1] -= x * sin;
-                    }
+    let rate = (s.t.len() - 1) as f64 / (s.t[s.t.len() - 1] - s.t[0]);
+    let length = (BLOCK_S * rate).round() as usize;
+    if length < 20 {
+        return out;
+    }
+    let window: Vec<f64> = (0..length).map(|j| (PI * (j as f64 + 0.5) / length as f64).sin().powi(2)).collect();
+    let total: f64 = window.iter().sum();
+    let mut first = 1;
+    while first + length < s.t.len() {
+        let speeds = &s.speed[wheel][first..first + length];
+        let mean = speeds.iter().sum::<f64>() / length as f64;
+        let f = order * mean.abs() / TAU;
+        let steady = speeds.iter().all(|w| w * mean > 0.0 && w.abs() > 0.5 * mean.abs());
+        if steady && mean.abs() > SLOWEST && f > RANGE_HZ[0] && f < RANGE_HZ[1].min(0.2 * rate) {
+            let mut demodulated = [[0.0; 2]; 2];
+            let mean_of =
+                |x: &[f64]| x[first..first + length].iter().zip(&window).map(|(a, w)| a * w).sum::<f64>() / total;
+            let means = [mean_of(&raw[0][wheel]), mean_of(&raw[1][wheel])];
+            for (j, w) in window.iter().enumerate() {
+                let k = first + j;
+                let (sin, cos) = (order * s.angle[wheel][k]).sin_cos();
+                for of in 0..2 {
+                    let x = w * (raw[of][wheel][k] - means[of]) / total;
+                    demodulated[of][0] += x * cos;
+                    demodulated[of][1] -= x * sin;
                 }
-                out.push(Block { segment: index, speed: mean.abs(), demodulated });
             }
-            first += length / 2;
+            out.push(Block { segment: index, speed: mean.abs(), demodulated });
         }
+        first += stride * (length / 2);
     }
     out
 }

@@ -11,6 +11,9 @@ const LOWEST_HZ: f64 = 0.4;
 const BAND_HZ: f64 = 2.0;
 /// Frequencies, four to an independent one, that each side of a line has at least.
 const SIDE: usize = 16;
+/// Longest piece that one phase is asked of, s, and number of pieces at most.
+const PIECE_S: f64 = 20.0;
+const MOST_PIECES: usize = 16;
 /// Amplitude worth mentioning, share of the stall torque.
 const MATERIAL: f64 = 0.03;
 /// Share of the squared torque left that a line has to make up.
@@ -26,9 +29,8 @@ pub(super) fn lines(series: &Series, stall_nm: f64) -> Vec<Structure> {
 }
 
 fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Structure> {
-    let mut runs: Vec<usize> = w.run.clone();
-    runs.dedup();
-    let longest = runs.iter().map(|r| span(w, *r)).fold(0.0, f64::max);
+    let pieces = pieces(w);
+    let longest = pieces.iter().map(|p| w.t[p[p.len() - 1]] - w.t[p[0]]).fold(0.0, f64::max);
     let highest = 0.4 / series.hop;
     if longest < 2.0 || highest < 3.0 * LOWEST_HZ {
         return None;
@@ -37,15 +39,11 @@ fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Struc
     let grid: Vec<f64> = (0..).map(|k| LOWEST_HZ + f64::from(k) * step).take_while(|f| *f < highest).collect();
     let mut power = vec![0.0; grid.len()];
     let mut parts = 0.0;
-    for run in &runs {
-        let at: Vec<usize> = (0..w.t.len()).filter(|b| w.run[*b] == *run).collect();
-        if at.len() < 24 {
-            continue;
-        }
+    for at in &pieces {
         parts += 1.0;
         let mean = at.iter().map(|b| w.torque[*b]).sum::<f64>() / at.len() as f64;
         for (p, f) in power.iter_mut().zip(&grid) {
-            let (s, c) = sums(w, &at, *f, |b| w.torque[b] - mean);
+            let (s, c) = sums(w, at, *f, |b| w.torque[b] - mean);
             *p += (s * s + c * c) / at.len() as f64;
         }
     }
@@ -74,13 +72,12 @@ fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Struc
         return None;
     }
     let f = grid[best];
-    // Amplitudes over all runs, of what is left and of what the drive did.
+    // Amplitudes over all pieces, of what is left and of what the drive did.
     let (mut square, mut done, mut n, mut total) = (0.0, 0.0, 0.0, 0.0);
-    for run in &runs {
-        let at: Vec<usize> = (0..w.t.len()).filter(|b| w.run[*b] == *run).collect();
-        let (s, c) = sums(w, &at, f, |b| w.torque[b]);
+    for at in &pieces {
+        let (s, c) = sums(w, at, f, |b| w.torque[b]);
         square += 2.0 * (s * s + c * c) / at.len().max(1) as f64;
-        let (s, c) = sums(w, &at, f, |b| w.done[b]);
+        let (s, c) = sums(w, at, f, |b| w.done[b]);
         done += 2.0 * (s * s + c * c) / at.len().max(1) as f64;
         n += at.len() as f64;
         total += at.iter().map(|b| w.torque[*b].powi(2)).sum::<f64>();
@@ -101,9 +98,18 @@ fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Struc
     })
 }
 
-fn span(w: &Wheel, run: usize) -> f64 {
-    let t: Vec<f64> = (0..w.t.len()).filter(|b| w.run[*b] == run).map(|b| w.t[b]).collect();
-    t.last().zip(t.first()).map_or(0.0, |(b, a)| b - a)
+/// Bumps of every piece of the log of at most [`PIECE_S`]; of a long log pieces here and there.
+fn pieces(w: &Wheel) -> Vec<Vec<usize>> {
+    let mut all: Vec<(usize, f64, Vec<usize>)> = Vec::new();
+    for b in 0..w.t.len() {
+        match all.last_mut() {
+            Some((segment, start, piece)) if *segment == w.segment[b] && w.t[b] - *start < PIECE_S => piece.push(b),
+            _ => all.push((w.segment[b], w.t[b], vec![b])),
+        }
+    }
+    all.retain(|p| p.2.len() >= 24);
+    let stride = all.len().div_ceil(MOST_PIECES).max(1);
+    all.into_iter().step_by(stride).map(|p| p.2).collect()
 }
 
 fn sums(w: &Wheel, at: &[usize], f: f64, x: impl Fn(usize) -> f64) -> (f64, f64) {
