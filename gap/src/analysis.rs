@@ -125,6 +125,12 @@ pub struct Analysis {
     pub limits: Vec<Limit>,
     /// The robot with the named effects.
     pub robot: Robot,
+    /// The text of its file.
+    pub robot_text: String,
+    /// Names of the effects that were tried.
+    pub tried: Vec<String>,
+    /// Whole runs as windows, before and after, for plots.
+    pub whole: Option<[Vec<WindowResiduals>; 2]>,
     /// Waterfall: label and held-out RMS in units of the floor.
     pub waterfall: Vec<(String, f64)>,
     /// Name of the data set.
@@ -152,6 +158,13 @@ pub struct Analysis {
 pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let robot = &set.robot;
     let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
+    for effect in &options.effects {
+        let wheels = effect.forms(robot).into_iter().flat_map(|f| f.wheels);
+        if let Some(wheel) = wheels.filter(|w| *w >= robot.wheel_count()).max() {
+            let (name, wheel, n) = (effect.name(), wheel + 1, robot.wheel_count());
+            return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
+        }
+    }
     let catalogue: Vec<Arc<dyn Effect>> =
         effects::catalogue().into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
@@ -208,6 +221,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     unexplained.extend(frozen(&pieces));
     unexplained.extend(torn(&pieces));
     let mut motion_plots = None;
+    let mut whole = None;
     if motion_link.is_empty() || robot.support == model::robot::Support::Blocks {
         remarks.push(missing(set));
     } else {
@@ -219,6 +233,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             motion_link.residuals(&outcome.selection.state.motion(None)),
         ];
         links.push(gaps::motion_gap([outcome.before, outcome.after], noise, &plots));
+        let uncut = MotionLink::new(&pieces, noise, f64::INFINITY);
+        whole = Some([uncut.residuals(&nominal.motion(None)), uncut.residuals(&outcome.selection.state.motion(None))]);
         motion_plots = Some(plots);
         collect(
             &outcome,
@@ -235,16 +251,18 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         start.active.iter_mut().for_each(|a| a.given = true);
     }
     let mut drive_plots = None;
+    let mut drive_noise = Vec::new();
     if let Some(mut link) = DriveLink::new(&pieces, &start.drive(None)) {
         link.mask_slip(&start.motion(None));
         if let Some(residuals) = link.residuals(&start.drive(None)) {
             let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(robot).stall_nm);
             link.noise = floor.clone();
+            drive_noise.clone_from(&floor);
             thresholds.drive_correlation = correlation;
             let problem = Problem::Drive(&link);
             let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds);
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
-            located.extend(crate::locate::drive(&link, &before, &floor));
+            located.extend(crate::locate::drive(&link, &before, &floor, Sizes::of(robot).stall_nm));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
             let plots = [before, after];
             links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
@@ -310,7 +328,19 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let waterfall = gaps::waterfall(&links, &waterfall_parts);
     let robot_with =
         with_effects(robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
-    let next_experiment = crate::experiment::propose(verdict, &alternatives, &named, &catalogue, robot);
+    let findings = crate::experiment::Findings {
+        robot,
+        found: &robot_with,
+        active: &found,
+        segments: &pieces,
+        noise: (noise, &drive_noise),
+        thresholds: &thresholds,
+        catalogue: &catalogue,
+    };
+    let next_experiment = match verdict {
+        Verdict::Ambiguous | Verdict::MissingEffect => crate::experiment::propose(&findings, &alternatives),
+        _ => None,
+    };
     Ok(Analysis {
         verdict,
         located,
@@ -321,7 +351,10 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         next_experiment,
         links,
         limits,
+        robot_text: robot_text(set, options, &robot_with),
         robot: robot_with,
+        tried: catalogue.iter().filter(|e| !e.probe()).map(|e| e.name().to_owned()).collect(),
+        whole,
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         runs: set.runs.iter().map(|r| r.name.clone()).collect(),
@@ -332,6 +365,17 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         remarks,
         exact,
     })
+}
+
+/// The file of a robot with effects: the one it came from with these effects, if that is to be found.
+fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
+    let file = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
+    let nominal = |r: &Robot| Robot { effects: Vec::new(), ..r.clone() };
+    std::fs::read_to_string(&file)
+        .ok()
+        .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
+        .and_then(|text| Robot::edited(&text, &robot.effects, &file).ok())
+        .unwrap_or_else(|| robot.to_toml())
 }
 
 fn missing(set: &DataSet) -> String {

@@ -1,11 +1,38 @@
 //! What to do next: the measurement or drive that separates what the data cannot.
+//!
+//! For every manoeuvre of the library the run is simulated with the robot as found, linearised like a
+//! real log, and put beside the logs that are there: how far are the predictions of the tied
+//! hypotheses apart once each is fitted as well as it can be?
 
+use std::path::Path;
 use std::sync::Arc;
 
+use model::effects::Applied;
+use model::frames::Pose;
+use model::manoeuvre::{self, Manoeuvre};
 use model::robot::Robot;
+use model::run::Run;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
-use crate::analysis::{Named, Verdict};
-use crate::effect::Effect;
+use crate::drive::DriveLink;
+use crate::effect::{Effect, Link};
+use crate::motion::MotionLink;
+use crate::options::Thresholds;
+use crate::problem::{Linear, Owner, Problem};
+use crate::ridge::Role;
+use crate::segment::{Segment, segments};
+use crate::select::{self, Bench};
+use crate::state::{Active, State};
+
+/// Standard deviations between hypotheses that count as told apart.
+const SIGMAS: f64 = 5.0;
+/// Times one manoeuvre is repeated at most; then it does not separate.
+const MOST_TIMES: usize = 6;
+/// Sets that are looked at.
+const MOST_SETS: usize = 3;
+/// Combinations of forms of two rivals that are tried.
+const MOST_PAIRS: usize = 120;
 
 /// A proposal.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,97 +45,232 @@ pub struct Experiment {
     pub separates: Vec<String>,
     /// Time it takes, s.
     pub seconds: f64,
+    /// How often the manoeuvre is driven; 1 for a measurement.
+    pub times: usize,
+    /// Predicted distance between the hypotheses then, in standard deviations; `None` for a measurement.
+    pub sigmas: Option<f64>,
     /// Why.
     pub why: String,
+    /// Other manoeuvres that would do, with the seconds they need.
+    pub others: Vec<(String, f64)>,
 }
 
-/// Manoeuvres and the effects they show best: name, seconds, effects.
-pub const MANOEUVRES: [(&str, f64, &[&str]); 8] = [
-    (
-        "spin",
-        10.0,
-        &[
-            "body-radius",
-            "camera-scale",
-            "wheel-radius-common",
-            "marker-offset",
-            "yaw-inertia",
-            "wheel-angle",
-            "roller-friction",
-        ],
-    ),
-    ("star", 18.0, &["wheel-skew", "wheel-radius", "marker-heading", "centre-of-mass", "floor-tilt", "carpet-grain"]),
-    ("square", 12.0, &["lens-distortion", "camera-scale"]),
-    (
-        "chirp",
-        15.0,
-        &["actuation-latency", "camera-latency", "encoder-lag", "wheel-creep", "robot-mass", "yaw-inertia"],
-    ),
-    ("stop-and-go", 12.0, &["wheel-slip", "gear-backlash", "robot-mass", "wheel-creep"]),
-    ("creep", 12.0, &["dead-band", "coulomb-friction", "stribeck-friction", "gear-backlash", "encoder-loss"]),
-    (
-        "blocks",
-        10.0,
-        &[
-            "coulomb-friction",
-            "viscous-friction",
-            "rotor-inertia",
-            "gear-efficiency",
-            "roller-friction",
-            "torque-constant",
-        ],
-    ),
-    (
-        "full-duty",
-        8.0,
-        &["torque-constant", "battery-sag", "drive-curve", "motor-heating", "viscous-friction", "encoder-loss"],
-    ),
-];
+/// What is known when the question comes up.
+pub(crate) struct Findings<'a> {
+    /// The nominal robot, with the effects that its file carries.
+    pub robot: &'a Robot,
+    /// The same with what was found.
+    pub found: &'a Robot,
+    /// What was found, with values.
+    pub active: &'a [Active],
+    /// Pieces of the logs.
+    pub segments: &'a [Segment],
+    /// Camera noise, and that of a bump of the drive, Nm.
+    pub noise: ([f64; 3], &'a [f64]),
+    /// Thresholds in force.
+    pub thresholds: &'a Thresholds,
+    /// The catalogue.
+    pub catalogue: &'a [Arc<dyn Effect>],
+}
 
-/// The cheapest way to tell a set of names apart.
-pub fn propose(
-    verdict: Verdict,
-    alternatives: &[Vec<String>],
-    named: &[Named],
-    catalogue: &[Arc<dyn Effect>],
-    robot: &Robot,
-) -> Option<Experiment> {
-    let _ = robot;
-    let set = alternatives.first()?;
-    if !matches!(verdict, Verdict::Ambiguous | Verdict::MissingEffect) || named.is_empty() {
-        return None;
-    }
-    // A manoeuvre that shows one of the set much better than the others.
-    let drive = MANOEUVRES
-        .iter()
-        .filter(|(_, _, shows)| {
-            let shown = set.iter().filter(|n| shows.contains(&n.as_str())).count();
-            shown > 0 && shown < set.len()
-        })
-        .min_by(|a, b| a.1.total_cmp(&b.1));
+/// The cheapest way to tell any of these sets apart; a drive before a measurement.
+pub(crate) fn propose(findings: &Findings, sets: &[Vec<String>]) -> Option<Experiment> {
+    let proposals: Vec<Experiment> = sets.iter().take(MOST_SETS).filter_map(|set| for_set(findings, set)).collect();
+    let rank = |e: &Experiment| (e.kind != "manoeuvre", e.seconds);
+    proposals.into_iter().min_by(|a, b| {
+        let ((a, s), (b, t)) = (rank(a), rank(b));
+        a.cmp(&b).then(s.total_cmp(&t))
+    })
+}
+
+/// The cheapest way to tell a set of names apart, the first of which is named.
+fn for_set(findings: &Findings, set: &[String]) -> Option<Experiment> {
     let measurement = set
         .iter()
-        .filter_map(|n| catalogue.iter().find(|e| e.name() == n))
+        .filter_map(|n| findings.catalogue.iter().find(|e| e.name() == n))
         .filter_map(|e| e.measurement().map(|(what, minutes)| (what.to_owned(), 60.0 * minutes)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
-    let exact =
-        [["wheel-radius", "encoder-scale"], ["wheel-radius-common", "encoder-scale"], ["wheel-skew", "marker-heading"]];
-    let hopeless = exact.iter().any(|pair| pair.iter().all(|n| set.iter().any(|s| s == n)));
-    match (drive, measurement) {
-        (Some((name, seconds, _)), _) if !hopeless => Some(Experiment {
-            kind: "manoeuvre",
-            what: (*name).to_owned(),
-            separates: set.clone(),
-            seconds: *seconds,
-            why: format!("it excites some of {} and not the others", set.join(", ")),
-        }),
-        (_, Some((what, seconds))) => Some(Experiment {
+    let mut drives = drives(findings, set);
+    drives.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let mut drives = drives.into_iter();
+    let Some(mut best) = drives.next() else {
+        let (what, seconds) = measurement?;
+        return Some(Experiment {
             kind: "measurement",
             what,
-            separates: set.clone(),
+            separates: set.to_vec(),
             seconds,
-            why: "no drive tells them apart from these logs' signals".to_owned(),
-        }),
+            times: 1,
+            sigmas: None,
+            why: "no manoeuvre of the library, driven on top of these logs, tells them apart".to_owned(),
+            others: Vec::new(),
+        });
+    };
+    best.others = drives.map(|e| (e.what, e.seconds)).collect();
+    if let Some((what, seconds)) = measurement {
+        best.why += &format!("; without driving: {what} ({:.0} min)", seconds / 60.0);
+    }
+    Some(best)
+}
+
+/// Manoeuvres that separate the set, each with the time it needs.
+fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
+    let Some(own) = findings.active.iter().find(|a| set.first().is_some_and(|n| n == a.effect.name())) else {
+        return Vec::new();
+    };
+    let link = own.link;
+    // The rest of what was found stays as it is.
+    let rest = findings.active.iter().filter(|a| a.effect.name() != own.effect.name());
+    let rest = rest.map(|a| Active { given: true, ..a.clone() }).collect();
+    let state = State { robot: findings.robot.clone(), active: rest };
+    let mut candidates = select::candidates(&state, findings.catalogue, link);
+    let Some(index) = candidates.iter().position(|c| {
+        c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
+    }) else {
+        return Vec::new();
+    };
+    if own.switched() {
+        // Switched on as found; all others start from 0.
+        candidates[index].values = own.values.clone();
+    }
+    let rivals = hypotheses(&candidates, &set[1..]);
+    if rivals.is_empty() {
+        return Vec::new();
+    }
+    let Some(bench) = on_link(findings, findings.segments, &state, link, |problem| {
+        Bench::new(problem, &state, &candidates, findings.thresholds)
+    }) else {
+        return Vec::new();
+    };
+    let question = Question { own, index, bench: &bench, rivals: &rivals };
+    let old = information(&bench.linear);
+    let before = question.sigmas(&old);
+    let applied = Applied::of(findings.found);
+    Manoeuvre::ALL
+        .into_par_iter()
+        .filter_map(|m| {
+            let run = manoeuvre::simulate(m, &applied, findings.robot, Pose::new(0.4, -0.3, 0.5), 1).ok()?;
+            let seconds = run.duration_s();
+            let robot = Robot { support: m.support(), ..findings.robot.clone() };
+            let pieces = pieces(&robot, run, findings.segments)?;
+            let there = State { robot, ..state.clone() };
+            let linear = on_link(findings, &pieces, &there, link, |p| p.linearise(&there, &candidates))?;
+            let new = information(&linear);
+            let times = (1..=MOST_TIMES).find(|k| question.sigmas(&(&old + &new * *k as f64)) >= SIGMAS)?;
+            let reached = question.sigmas(&(&old + &new * times as f64));
+            let own_set = if m == Manoeuvre::Blocks { ", as a data set of its own with support = \"blocks\"" } else { "" };
+            Some(Experiment {
+                kind: "manoeuvre",
+                what: m.name().to_owned(),
+                separates: set.to_vec(),
+                seconds: seconds * times as f64,
+                times,
+                sigmas: Some(reached),
+                why: format!(
+                    "{}{own_set}; simulated with this robot it sets {} {reached:.0} standard deviations apart, these logs {before:.1}",
+                    m.purpose(),
+                    set.join(" and "),
+                ),
+                others: Vec::new(),
+            })
+        })
+        .collect()
+}
+
+/// A named effect against what it may be mistaken for.
+struct Question<'a> {
+    own: &'a Active,
+    /// Its place among the candidates.
+    index: usize,
+    bench: &'a Bench,
+    rivals: &'a [Vec<usize>],
+}
+
+impl Question<'_> {
+    /// Standard deviations between the effect as found and the best that rivals can do, with the help
+    /// of everything that is held near zero, where JᵀJ of all columns is `jj`.
+    fn sigmas(&self, jj: &DMatrix<f64>) -> f64 {
+        let name = self.own.effect.name();
+        let columns = self.bench.linear.of_candidate(self.index);
+        let size = if self.own.switched() {
+            DVector::from_element(columns.len(), 1.0)
+        } else {
+            DVector::from_vec(self.own.parameters())
+        };
+        let variance = self.bench.variance;
+        let part = |r: &[usize], c: &[usize]| DMatrix::from_fn(r.len(), c.len(), |i, j| jj[(r[i], c[j])] / variance);
+        let total = (size.transpose() * part(&columns, &columns) * &size)[0];
+        let nearest = self.rivals.iter().map(|rival| {
+            let roles = self.bench.freeing(rival);
+            let theirs: Vec<usize> = (0..roles.len())
+                .filter(|i| roles[*i] != Role::Out && jj[(*i, *i)] > 0.0)
+                .filter(|i| match self.bench.linear.owners[*i] {
+                    Owner::Candidate(c, _) => self.bench.candidates[c].effect.name() != name,
+                    _ => true,
+                })
+                .collect();
+            let mut information = part(&theirs, &theirs);
+            for (k, i) in theirs.iter().enumerate() {
+                if let Role::Held(sd, _) = roles[*i] {
+                    information[(k, k)] += 1.0 / (sd * sd);
+                }
+            }
+            let mixed = part(&theirs, &columns) * &size;
+            total - mixed.dot(&crate::gram::solve(&information, &mixed))
+        });
+        nearest.fold(f64::INFINITY, f64::min).max(0.0).sqrt()
+    }
+}
+
+/// The simulated run as pieces, with no more signals than the real logs have.
+fn pieces(robot: &Robot, mut run: Run, like: &[Segment]) -> Option<Vec<Segment>> {
+    if like.iter().all(|s| s.frames.is_empty()) {
+        run.camera.clear();
+        run.has_camera = false;
+    }
+    if like.iter().all(|s| s.duty.is_empty()) {
+        run.duty.clear();
+    }
+    run.check(robot, Path::new("simulated")).ok()?;
+    Some(segments(robot, &robot.geometry().ok()?, &[run]))
+}
+
+/// Sets up a link over some pieces of log, with the noise of the real ones, and asks it something.
+fn on_link<T>(
+    findings: &Findings,
+    pieces: &[Segment],
+    state: &State,
+    link: Link,
+    ask: impl FnOnce(&Problem) -> T,
+) -> Option<T> {
+    match link {
+        Link::Motion => {
+            let motion = MotionLink::new(pieces, findings.noise.0, 1.0);
+            let lifted = state.robot.support == model::robot::Support::Blocks;
+            (!motion.is_empty() && !lifted).then(|| ask(&Problem::Motion(&motion)))
+        }
+        Link::Drive => {
+            let mut drive = DriveLink::new(pieces, &state.drive(None))?;
+            drive.mask_slip(&state.motion(None));
+            drive.noise = findings.noise.1.to_vec();
+            Some(ask(&Problem::Drive(&drive)))
+        }
         _ => None,
     }
+}
+
+/// JᵀJ of all columns.
+fn information(linear: &Linear) -> DMatrix<f64> {
+    let m = linear.owners.len();
+    linear.gram.clusters.iter().fold(DMatrix::zeros(m, m), |sum, c| sum + &c.jj)
+}
+
+/// Ways in which the rivals may mimic the named effect: one form of each.
+fn hypotheses(candidates: &[Active], rivals: &[String]) -> Vec<Vec<usize>> {
+    let mut out: Vec<Vec<usize>> = vec![Vec::new()];
+    for name in rivals {
+        let forms: Vec<usize> = (0..candidates.len()).filter(|c| candidates[*c].effect.name() == name).collect();
+        out = out.iter().flat_map(|h| forms.iter().map(|f| [h.clone(), vec![*f]].concat())).take(MOST_PAIRS).collect();
+    }
+    out
 }

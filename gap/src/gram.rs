@@ -46,6 +46,14 @@ impl Cluster {
         }
     }
 
+    /// Joins the residuals of a neighbour.
+    pub fn add(&mut self, other: &Self) {
+        self.n += other.n;
+        self.rr += other.rr;
+        self.jr += &other.jr;
+        self.jj += &other.jj;
+    }
+
     /// Weighs a cluster down whose residuals are far beyond the noise (Huber on its norm).
     fn robust(mut self) -> Self {
         let limit = BURST * self.n;

@@ -39,7 +39,7 @@ pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Loca
 }
 
 /// The drive link: each wheel, by direction, speed and time.
-pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64]) -> Vec<Located> {
+pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64], stall_nm: f64) -> Vec<Located> {
     (0..floor.len())
         .filter_map(|i| {
             let speed = link.mean(|s, k| s.speed[i][k]);
@@ -69,12 +69,34 @@ pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64])
                 (false, true) => "turning backwards only",
                 _ => "in no direction alone",
             };
-            let place = format!(
-                "the drive of wheel {} is off by {:.1} mNm (floor {:.1}), {which}: {ahead:+.1} mNm forwards, {back:+.1} backwards; along the rotation {slow_part:+.1} slow, {fast_part:+.1} fast, {early:+.1} early, {late:+.1} late",
-                i + 1,
-                1e3 * excess * floor[i],
-                1e3 * floor[i]
-            );
+            let against = -along(&|_| true) * 1e-3;
+            // Against the rotation by most of it: that much more duty is needed.
+            let place = if against.abs() > 0.4 * excess * floor[i] {
+                let more = if against > 0.0 { "more" } else { "less" };
+                let when = match (early.abs(), late.abs()) {
+                    (e, l) if l > 2.0 * e => "mostly late in the runs",
+                    (e, l) if e > 2.0 * l => "mostly early in the runs",
+                    _ => "from the start",
+                };
+                let speeds = match (slow_part.abs(), fast_part.abs()) {
+                    (s, f) if f > 1.7 * s => ", growing with speed",
+                    (s, f) if s > 1.7 * f => ", most when slow",
+                    _ => "",
+                };
+                format!(
+                    "the drive of wheel {} needs {:.2} {more} duty than the model ({:.1} mNm of friction), {which}, {when}{speeds}",
+                    i + 1,
+                    against.abs() / stall_nm,
+                    1e3 * against
+                )
+            } else {
+                format!(
+                    "the drive of wheel {} is off by {:.1} mNm RMS (floor {:.1}), {which}: {ahead:+.1} mNm forwards, {back:+.1} backwards",
+                    i + 1,
+                    1e3 * excess * floor[i],
+                    1e3 * floor[i]
+                )
+            };
             Some(Located { link: Link::Drive, signal: format!("enc_{}", i + 1), excess, place })
         })
         .collect()

@@ -75,6 +75,8 @@ impl Thresholds {
 pub struct Options {
     /// Thresholds of the selection.
     pub thresholds: Thresholds,
+    /// The robot's file, whose comments the new one keeps [default: robot.toml in the data set].
+    pub robot_file: Option<std::path::PathBuf>,
     /// Effects beyond the catalogue.
     pub effects: Vec<std::sync::Arc<dyn Effect>>,
 }

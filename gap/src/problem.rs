@@ -69,7 +69,7 @@ impl Problem<'_> {
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
-        // Low and high side of each difference; no low side where that is the state itself.
+        // From, to (`None`: the state itself, predicted once for all), and the step between them.
         let mut moves: Vec<(Option<State>, State, f64)> = Vec::new();
         for index in state.fitted_on(self.link()) {
             let a = &state.active[index];
@@ -83,7 +83,8 @@ impl Problem<'_> {
             let mut off = state.clone();
             off.active.remove(index);
             owners.push(Owner::Whole(index));
-            moves.push((Some(off), state.clone(), 1.0));
+            // Backwards, which turns the sign round.
+            moves.push((None, off, -1.0));
         }
         for (c, candidate) in candidates.iter().enumerate() {
             if candidate.switched() {
@@ -103,8 +104,9 @@ impl Problem<'_> {
                     s
                 };
                 // One-sided where the negative makes no sense.
-                let low = if p.bounds[0] >= 0.0 { 0.0 } else { -h };
-                moves.push(((low < 0.0).then(|| side(low)), side(h), h - low));
+                let low = (p.bounds[0] < 0.0).then(|| side(-h));
+                let step = if low.is_some() { 2.0 * h } else { h };
+                moves.push((low, side(h), step));
             }
         }
         let clusters: Vec<Cluster> = match self {

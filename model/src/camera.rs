@@ -24,6 +24,12 @@ pub struct CameraModel {
     pub outlier_share: f64,
     /// Standard deviation of x and y of such a frame about the truth, m; its heading is random.
     pub outlier_m: f64,
+    /// Marker plate on the chassis: where it sits (m, m, body frame) and how far it is turned (rad).
+    pub marker: Pose,
+    /// Metres of the camera per metre, less 1.
+    pub scale: f64,
+    /// Radial distortion about the field's origin, 1/m².
+    pub k1_per_m2: f64,
 }
 
 impl CameraModel {
@@ -36,7 +42,17 @@ impl CameraModel {
             drop_share: 0.0,
             outlier_share: 0.0,
             outlier_m: 0.5,
+            marker: Pose::default(),
+            scale: 0.0,
+            k1_per_m2: 0.0,
         }
+    }
+
+    /// What a camera without noise reports of a chassis pose.
+    pub fn image(&self, chassis: Pose) -> Pose {
+        let plate = chassis.compose(self.marker);
+        let s = (1.0 + self.scale) * (1.0 + self.k1_per_m2 * (plate.x * plate.x + plate.y * plate.y));
+        Pose::new(s * plate.x, s * plate.y, plate.theta)
     }
 }
 
@@ -66,7 +82,8 @@ impl Camera {
             return None;
         }
         self.frames += 1;
-        let seen = self.pose_at(t - self.model.latency_s);
+        let past = self.pose_at(t - self.model.latency_s);
+        let seen = self.model.image(past);
         // The same draws for every frame, so that dropping one does not change the others.
         let mut gauss = || -> f64 { StandardNormal.sample(&mut self.rng) };
         let (noise, wrong) = ([gauss(), gauss(), gauss()], [gauss(), gauss()]);

@@ -14,6 +14,8 @@ pub struct PiLaw {
     pub rate_hz: f64,
     /// Rounding of the duty; 0 for none.
     pub duty_quantum: f64,
+    /// Limit of an integrator that is not held in saturation; `None` for the law as stated.
+    pub integral_limit: Option<f64>,
 }
 
 impl PiLaw {
@@ -24,6 +26,7 @@ impl PiLaw {
             ki: robot.pi.ki,
             rate_hz: robot.control_rate_hz,
             duty_quantum: robot.duty_quantum.unwrap_or(0.0),
+            integral_limit: None,
         }
     }
 
@@ -33,7 +36,9 @@ impl PiLaw {
         let proportional = self.kp * error;
         let candidate = *integral + self.ki * error / self.rate_hz;
         let unlimited = proportional + candidate;
-        if unlimited.abs() <= 1.0 || error * unlimited <= 0.0 {
+        if let Some(limit) = self.integral_limit {
+            *integral = candidate.clamp(-limit, limit);
+        } else if unlimited.abs() <= 1.0 || error * unlimited <= 0.0 {
             *integral = candidate;
         }
         let duty = (proportional + *integral).clamp(-1.0, 1.0);
@@ -53,12 +58,12 @@ pub struct SpeedLoop {
 impl SpeedLoop {
     /// An axis at rest at count 0, with an empty integrator.
     pub fn new(robot: &Robot) -> Self {
-        Self {
-            law: PiLaw::of(robot),
-            speed_per_count: robot.control_rate_hz / robot.counts_per_wheel_rad(),
-            integral: 0.0,
-            count: 0,
-        }
+        Self::with_law(robot, PiLaw::of(robot))
+    }
+
+    /// The same under another law than the robot's own.
+    pub fn with_law(robot: &Robot, law: PiLaw) -> Self {
+        Self { law, speed_per_count: robot.control_rate_hz / robot.counts_per_wheel_rad(), integral: 0.0, count: 0 }
     }
 
     /// One tick: set point (rad/s at the wheel) and cumulative count to duty.
@@ -101,7 +106,7 @@ mod tests {
 
     #[test]
     fn integrator_holds_in_saturation_and_lets_go_at_once() {
-        let law = PiLaw { kp: 0.1, ki: 10.0, rate_hz: 1000.0, duty_quantum: 0.0 };
+        let law = PiLaw { kp: 0.1, ki: 10.0, rate_hz: 1000.0, duty_quantum: 0.0, integral_limit: None };
         let mut integral = 0.0;
         for _ in 0..10_000 {
             assert_eq!(law.step(&mut integral, 50.0, 0.0), 1.0);
@@ -113,7 +118,7 @@ mod tests {
 
     #[test]
     fn duty_is_rounded_to_its_quantum() {
-        let law = PiLaw { kp: 0.1, ki: 0.0, rate_hz: 1000.0, duty_quantum: 0.01 };
+        let law = PiLaw { kp: 0.1, ki: 0.0, rate_hz: 1000.0, duty_quantum: 0.01, integral_limit: None };
         let duty = law.step(&mut 0.0, 1.234, 0.0);
         assert!((duty - 0.12).abs() < 1e-12);
     }

@@ -1,6 +1,7 @@
 //! A whole simulated robot: speed loops, plant, encoders and camera, in one control tick.
 
 use crate::camera::{Camera, CameraModel};
+use crate::effects::{Applied, ControlDeviations};
 use crate::frames::{Pose, Twist};
 use crate::geometry::{Geometry, GeometryError};
 use crate::localisation::Localiser;
@@ -18,6 +19,7 @@ pub struct VirtualRobot {
     robot: Robot,
     plant: Plant,
     loops: Vec<SpeedLoop>,
+    control: ControlDeviations,
     camera: Camera,
     log: Run,
 }
@@ -34,6 +36,16 @@ impl VirtualRobot {
         start: Pose,
         seed: u64,
     ) -> Result<Self, GeometryError> {
+        let nominal = Robot { effects: Vec::new(), ..robot.clone() };
+        Self::of(&Applied { contact, camera, ..Applied::of(&nominal) }, start, seed)
+    }
+
+    /// A robot with effects, at rest at `start`.
+    ///
+    /// # Errors
+    /// As [`VirtualRobot::new`].
+    pub fn of(applied: &Applied, start: Pose, seed: u64) -> Result<Self, GeometryError> {
+        let robot = &applied.robot;
         let n = robot.wheel_count();
         let log = Run {
             name: "run".to_owned(),
@@ -47,9 +59,10 @@ impl VirtualRobot {
             ..Run::default()
         };
         Ok(Self {
-            plant: Plant::new(robot)?.with_contact(contact).at(start),
-            loops: vec![SpeedLoop::new(robot); n],
-            camera: Camera::new(camera, seed),
+            plant: applied.plant()?.at(start),
+            loops: vec![SpeedLoop::with_law(robot, applied.control.law(robot)); n],
+            control: applied.control.clone(),
+            camera: Camera::new(applied.camera, seed),
             robot: robot.clone(),
             log,
         })
@@ -92,19 +105,24 @@ impl VirtualRobot {
     /// One control tick: the command becomes set points by the `believed` geometry.
     pub fn tick(&mut self, command: Twist, believed: &Geometry) {
         let counts = self.plant.counts();
-        let mut duties = Vec::with_capacity(counts.len());
-        for (i, (axis, count)) in self.loops.iter_mut().zip(&counts).enumerate() {
-            let reference = believed.wheel_speed(i, command);
-            let duty = axis.step(reference, *count);
-            self.log.reference[i].push(reference);
-            self.log.counts[i].push(*count);
-            self.log.duty[i].push(duty);
-            duties.push(duty);
-        }
+        let tick = self.log.len();
+        let mut acting = command;
         if let Some([vx, vy, w]) = &mut self.log.command {
             vx.push(command.vx);
             vy.push(command.vy);
             w.push(command.omega);
+            let age = (self.control.command_latency_s / self.robot.tick_s()).round() as usize;
+            acting = tick.checked_sub(age).map_or_else(Twist::default, |k| Twist::new(vx[k], vy[k], w[k]));
+        }
+        let [count_age, reference_age] = self.control.shift_ticks;
+        let mut duties = Vec::with_capacity(counts.len());
+        for (i, (axis, count)) in self.loops.iter_mut().zip(&counts).enumerate() {
+            self.log.reference[i].push(self.control.reference(i, acting, believed));
+            self.log.counts[i].push(*count);
+            let reference = self.log.reference[i][tick.saturating_sub(reference_age)];
+            let duty = axis.step(reference, self.log.counts[i][tick.saturating_sub(count_age)]);
+            self.log.duty[i].push(duty);
+            duties.push(duty);
         }
         if let Some(supply) = &mut self.log.supply_v {
             supply.push(self.robot.supply_v);

@@ -13,6 +13,8 @@ const FEWEST_TICKS: f64 = 12.0;
 /// Length of a cluster, s, and in bumps at least.
 const CLUSTER_S: f64 = 1.0;
 const FEWEST_BUMPS: f64 = 8.0;
+/// Clusters at most; beyond, they are longer.
+const MOST_CLUSTERS: f64 = 400.0;
 /// Below this speed a wheel may stick, and its friction is anything up to its limit, rad/s.
 const STUCK: f64 = 0.35;
 /// Share of a bump a wheel may be that slow.
@@ -69,13 +71,14 @@ impl<'a> DriveLink<'a> {
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
+        let total: f64 = segments.iter().filter_map(|s| Some(s.t.last()? - s.t.first()?)).sum();
         for (index, s) in segments.iter().enumerate() {
             if s.duty.len() != n || s.angle.len() != n || s.t.len() < 2 * FEWEST_TICKS as usize {
                 continue;
             }
             let tick = (s.t[s.t.len() - 1] - s.t[0]) / (s.t.len() - 1) as f64;
             let length = bump_s.max(FEWEST_TICKS * tick);
-            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length);
+            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length).max(total / MOST_CLUSTERS);
             let mut start = s.t[0];
             let mut opened = start;
             cluster += 1;
@@ -147,32 +150,42 @@ impl<'a> DriveLink<'a> {
 
     /// Wheel accelerations a model predicts, `[bump]`, in units of nominal torque.
     fn predict(&self, model: &DriveModel) -> Option<Vec<DVector<f64>>> {
+        let parts: Option<Vec<_>> =
+            self.by_segment().into_iter().map(|range| self.predict_part(model, range)).collect();
+        Some(parts?.concat())
+    }
+
+    /// Bumps of each segment.
+    fn by_segment(&self) -> Vec<std::ops::Range<usize>> {
+        let mut first = 0;
+        self.bumps
+            .chunk_by(|a, b| a.segment == b.segment)
+            .map(|part| {
+                first += part.len();
+                first - part.len()..first
+            })
+            .collect()
+    }
+
+    /// The same for some bumps of one segment.
+    fn predict_part(&self, model: &DriveModel, range: std::ops::Range<usize>) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
-        let mut out = Vec::with_capacity(self.bumps.len());
-        /// Segment, forces at its ticks, and offsets of its angles.
-        type Prepared = (usize, Vec<f64>, Vec<Vec<Vec<f64>>>);
-        let mut current: Option<Prepared> = None;
-        for b in &self.bumps {
-            if current.as_ref().is_none_or(|c| c.0 != b.segment) {
-                let s = &self.segments[b.segment];
-                current = Some((b.segment, model.forces(s), model.offsets.iter().map(|o| o(model, s)).collect()));
-            }
-            let Some((_, forces, offsets)) = &current else { continue };
-            let mut a = b.acceleration(forces, n, &mechanics, model);
-            for offset in offsets {
+        let bumps = &self.bumps[range];
+        let s = &self.segments[bumps.first()?.segment];
+        let forces = model.forces(s);
+        let offsets: Vec<Vec<Vec<f64>>> = model.offsets.iter().map(|o| o(model, s)).collect();
+        let out = bumps.iter().map(|b| {
+            let mut a = b.acceleration(&forces, n, &mechanics, model);
+            for offset in &offsets {
                 for i in 0..n {
-                    a[i] += b
-                        .angle
-                        .iter()
-                        .zip(&offset[i][b.first..])
-                        .map(|(w, x)| w * (x - offset[i][b.first]))
-                        .sum::<f64>();
+                    let own = &offset[i][b.first..];
+                    a[i] += b.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
                 }
             }
-            out.push(&self.inertia * a);
-        }
-        Some(out)
+            &self.inertia * a
+        });
+        Some(out.collect())
     }
 
     /// What the encoders measured, in the same units.
@@ -261,40 +274,45 @@ impl<'a> DriveLink<'a> {
         (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
-    /// Linearises: residuals and derivatives along each pair of models (low, high, step), per cluster;
-    /// no low side is the model itself.
+    /// Linearises: residuals and derivatives along each pair of models (low or `None` for the model
+    /// itself, high, step), per cluster.
     pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
-        let Some(base) = self.predict(model) else { return Vec::new() };
-        let torque: Vec<DVector<f64>> = self.measured().iter().zip(&base).map(|(m, p)| m - p).collect();
-        let columns: Vec<Option<Vec<DVector<f64>>>> = sides
-            .par_iter()
-            .map(|(low, high, step)| {
-                let b = self.predict(high)?;
-                let difference = |a: &[DVector<f64>]| a.iter().zip(&b).map(|(a, b)| (b - a) / *step).collect();
-                match low {
-                    Some(low) => Some(difference(&self.predict(low)?)),
-                    None => Some(difference(&base)),
-                }
-            })
-            .collect();
         let n = self.noise.len();
+        let measured = self.measured();
         let mut clusters = Vec::new();
-        let mut first = 0;
-        for end in 1..=self.bumps.len() {
-            if end < self.bumps.len() && self.bumps[end].cluster == self.bumps[first].cluster {
-                continue;
+        // Segment by segment, so that the columns of a long log never stand in memory at once.
+        for range in self.by_segment() {
+            let Some(base) = self.predict_part(model, range.clone()) else { return Vec::new() };
+            let columns: Vec<Option<Vec<DVector<f64>>>> = sides
+                .par_iter()
+                .map(|(low, high, step)| {
+                    let low = match low {
+                        Some(low) => Some(self.predict_part(low, range.clone())?),
+                        None => None,
+                    };
+                    let high = self.predict_part(high, range.clone())?;
+                    let low = low.as_ref().unwrap_or(&base);
+                    Some(low.iter().zip(&high).map(|(a, b)| (b - a) / *step).collect())
+                })
+                .collect();
+            let mut first = 0;
+            for part in self.bumps[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
+                let rows = part.len() * n;
+                let weight = |r: usize| part[r / n].weights[r % n] / self.noise[r % n];
+                let at = |r: usize| (first + r / n, r % n);
+                let residual = DVector::from_fn(rows, |r, _| {
+                    let (b, i) = at(r);
+                    (measured[range.start + b][i] - base[b][i]) * weight(r)
+                });
+                let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
+                    let (b, i) = at(r);
+                    columns[c].as_ref().map_or(0.0, |column| column[b][i] * weight(r))
+                });
+                let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
+                let s = &self.segments[part[0].segment];
+                clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
+                first += part.len();
             }
-            let rows = (end - first) * n;
-            let weight = |r: usize| self.bumps[first + r / n].weights[r % n] / self.noise[r % n];
-            let residual = DVector::from_fn(rows, |r, _| torque[first + r / n][r % n] * weight(r));
-            let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
-                columns[c].as_ref().map_or(0.0, |column| column[first + r / n][r % n] * weight(r))
-            });
-            let used: f64 = self.bumps[first..end].iter().flat_map(|b| &b.weights).sum();
-            let b = &self.bumps[first];
-            let s = &self.segments[b.segment];
-            clusters.push(Cluster::new(s.run, s.t[b.first], used, &residual, &jacobian));
-            first = end;
         }
         clusters
     }

@@ -96,11 +96,27 @@ impl DriveModel {
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
         let start = s.t[0];
+        // Only terms and maps look at more than duties and counts.
+        let bare = self.loads.is_empty() && self.supply_maps.is_empty();
+        let constants: Vec<[f64; 4]> = self
+            .axes
+            .iter()
+            .map(|a| {
+                let gain = g * a.torque_constant / a.resistance;
+                // Off the floor, what turns the rotor does not pass through the gear.
+                let rotor = g * g * a.rotor_inertia;
+                let passed = match self.support {
+                    Support::Blocks => a.load_inertia / (a.load_inertia + rotor).max(1e-300),
+                    Support::Floor => 1.0,
+                };
+                [gain, gain * a.back_emf * g * a.encoder_scale, g * a.friction, a.gear_loss * passed]
+            })
+            .collect();
         for k in 0..ticks - 1 {
             let dt = s.t[k + 1] - s.t[k];
+            let per_dt = 1.0 / dt;
             let twist = s.twist[k];
             for i in 0..n {
-                let axis = &self.axes[i];
                 let mut u = if self.duty_delay_s == 0.0 {
                     s.duty[i][k]
                 } else {
@@ -110,8 +126,11 @@ impl DriveModel {
                     u = map(i, u);
                 }
                 duty[i] = u;
-                speed[i] = axis.encoder_scale * s.speed[i][k];
                 sign[i] = s.sign[i][k];
+                if bare {
+                    continue;
+                }
+                speed[i] = self.axes[i].encoder_scale * s.speed[i][k];
                 sideways[i] = free[i][0] * twist.vx + free[i][1] * twist.vy + free[i][2] * twist.omega;
             }
             let mut supply = s.supply[k];
@@ -145,14 +164,12 @@ impl DriveModel {
                 supply = if slope < 0.95 { first + (second - first) / (1.0 - slope) } else { second };
             }
             for i in 0..n {
-                let axis = &self.axes[i];
                 // Raw increments where the equation is linear: nothing is lost by smoothing.
-                let raw = axis.encoder_scale * (s.angle[i][k + 1] - s.angle[i][k]) / dt;
-                let current = (duty[i] * supply - axis.back_emf * g * raw) / axis.resistance;
-                winding[i] = g * axis.torque_constant * current;
-                let coulomb = g * axis.friction;
+                let raw = (s.angle[i][k + 1] - s.angle[i][k]) * per_dt;
+                let [gain, damping, coulomb, loss] = constants[i];
+                winding[i] = gain * duty[i] * supply - damping * raw;
                 let transmitted = winding[i] - coulomb * sign[i];
-                loads.wheel[i] = winding[i] - sign[i] * (coulomb + axis.gear_loss * transmitted.abs());
+                loads.wheel[i] = winding[i] - sign[i] * (coulomb + loss * transmitted.abs());
             }
             loads.body = [0.0; 3];
             if self.support == Support::Floor {

@@ -7,7 +7,7 @@
 
 mod windows;
 
-use model::frames::{Pose, Twist, displacement};
+use model::frames::{Pose, Twist, Walk};
 use model::geometry::{Geometry, Wheel};
 use model::robot::Robot;
 use nalgebra::DMatrix;
@@ -112,9 +112,9 @@ impl MotionModel {
                     *s += c * turned;
                 }
             }
-            displacement(Twist::new(sum[0], sum[1], sum[2]))
+            Twist::new(sum[0], sum[1], sum[2])
         };
-        let mut pose = Pose::default();
+        let mut walk = Walk::from(Pose::default());
         for frame in frames {
             let mut exposed = frame.t - age(frame.t);
             if self.speed_delay != 0.0 {
@@ -122,18 +122,18 @@ impl MotionModel {
             }
             if exposed < segment.t[tick] {
                 // Delays may differ from frame to frame: start over.
-                (tick, pose) = (origin, Pose::default());
+                (tick, walk) = (origin, Walk::from(Pose::default()));
             }
             while tick < last_tick && segment.t[tick + 1] <= exposed {
-                pose = pose.compose(moved(tick, 1.0));
+                walk.step(moved(tick, 1.0));
                 tick += 1;
             }
-            let mut at = pose;
+            let mut at = walk;
             if tick < last_tick && exposed > segment.t[tick] {
                 let share = (exposed - segment.t[tick]) / (segment.t[tick + 1] - segment.t[tick]);
-                at = pose.compose(moved(tick, share));
+                at.step(moved(tick, share));
             }
-            out.push(at);
+            out.push(at.pose());
         }
         if let Some(origin) = out.first().copied() {
             for pose in &mut out {

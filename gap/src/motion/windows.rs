@@ -14,6 +14,8 @@ const FEWEST_FRAMES: usize = 4;
 const HUBER: f64 = 4.0;
 /// ... and none from here.
 const REJECT: f64 = 10.0;
+/// Clusters at most; beyond, neighbouring windows count as one.
+const MOST_CLUSTERS: usize = 400;
 /// Median of the norm of three standard normal numbers.
 const MEDIAN_OF_CHI3: f64 = 1.538_2;
 
@@ -55,6 +57,7 @@ impl<'a> MotionLink<'a> {
         let mut windows = Vec::new();
         for (index, s) in segments.iter().enumerate().filter(|(_, s)| !s.angle.is_empty()) {
             let Some(start) = s.t.first() else { continue };
+            // All frames are in one window where that has no end.
             let number = |i: usize| ((s.frames[i].t - start) / window_s).floor();
             let mut first = 0;
             for i in 1..=s.frames.len() {
@@ -156,59 +159,68 @@ impl<'a> MotionLink<'a> {
         WindowResiduals { run: s.run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
     }
 
-    /// Linearises: per window, the residuals and the derivatives of the prediction along each pair
-    /// of models (low, high, step between them; no low side is the model itself), start poses
-    /// projected out.
+    /// Linearises: residuals and the derivatives of the prediction along each pair of models (low or
+    /// `None` for the model itself, high, step between them), start poses projected out. A cluster is
+    /// a window, or several in long logs.
     pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
         let base = self.residuals(model);
-        self.linearise_at(&base, sides)
-    }
-
-    /// As [`Self::linearise`], at residuals already known.
-    pub fn linearise_at(
-        &self,
-        base: &[WindowResiduals],
-        sides: &[(Option<MotionModel>, MotionModel, f64)],
-    ) -> Vec<Cluster> {
-        let columns: Vec<Vec<DVector<f64>>> =
-            sides.par_iter().map(|(low, high, step)| self.column(base, low.as_ref(), high, *step)).collect();
-        base.iter().enumerate().map(|(w, aligned)| self.cluster(w, aligned, &columns)).collect()
-    }
-
-    /// Derivative of the predictions of every window, in units of the noise.
-    fn column(
-        &self,
-        base: &[WindowResiduals],
-        low: Option<&MotionModel>,
-        high: &MotionModel,
-        step: f64,
-    ) -> Vec<DVector<f64>> {
-        let predict = |model: &MotionModel| -> Vec<Vec<Pose>> {
-            let Some(columns) = model.columns() else { return Vec::new() };
-            let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
-            self.windows
-                .iter()
-                .zip(base)
-                .map(|(w, b)| {
-                    let track = self.track(model, &angles, &columns, w);
-                    track
-                        .iter()
-                        .zip(&b.t)
-                        .map(|(p, t)| drifted(model, model.seen(b.start.compose(*p)), t - b.t[0]))
-                        .collect()
+        let together = self.windows.len().div_ceil(MOST_CLUSTERS);
+        let mut clusters: Vec<Cluster> = Vec::new();
+        let mut first = 0;
+        // Segment by segment, so that the columns of a long log never stand in memory at once.
+        while let Some(window) = self.windows.get(first) {
+            let own = self.windows[first..].iter().take_while(|w| w.segment == window.segment).count();
+            let range = first..first + own;
+            let start = self.predict(model, &base, range.clone());
+            let columns: Vec<Vec<DVector<f64>>> = sides
+                .par_iter()
+                .map(|(low, high, step)| {
+                    let low = low.as_ref().map(|low| self.predict(low, &base, range.clone()));
+                    let high = self.predict(high, &base, range.clone());
+                    self.column(&base[range.clone()], low.as_ref().unwrap_or(&start), &high, *step)
                 })
-                .collect()
-        };
-        let b = predict(high);
-        let a = low.map_or_else(|| base.iter().map(|w| w.predicted.clone()).collect(), predict);
-        if a.is_empty() || b.is_empty() {
-            return base.iter().map(|w| DVector::zeros(3 * w.t.len())).collect();
+                .collect();
+            let part: Vec<Cluster> =
+                (0..own).into_par_iter().map(|w| self.cluster(w, &base[first + w], &columns)).collect();
+            for (k, cluster) in part.into_iter().enumerate() {
+                match clusters.last_mut() {
+                    Some(last) if k % together != 0 => last.add(&cluster),
+                    _ => clusters.push(cluster),
+                }
+            }
+            first += own;
         }
-        a.iter()
-            .zip(&b)
-            .map(|(a, b)| {
+        clusters
+    }
+
+    /// Predictions of some windows of one segment, from start poses already fitted; empty where the
+    /// wheels cannot drive the robot.
+    fn predict(&self, model: &MotionModel, base: &[WindowResiduals], range: std::ops::Range<usize>) -> Vec<Vec<Pose>> {
+        let Some(columns) = model.columns() else { return vec![Vec::new(); range.len()] };
+        let s = &self.segments[self.windows[range.start].segment];
+        let angles = model.angles(s);
+        range
+            .map(|w| {
+                let track = model.track(s, &angles, &columns, &s.frames[self.windows[w].frames.clone()]);
+                let b = &base[w];
+                let placed = track.iter().zip(&b.t);
+                placed.map(|(p, t)| drifted(model, model.seen(b.start.compose(*p)), t - b.t[0])).collect()
+            })
+            .collect()
+    }
+
+    /// Derivative of the predictions of every window, in units of the noise; 0 where one is missing.
+    fn column(&self, base: &[WindowResiduals], low: &[Vec<Pose>], high: &[Vec<Pose>], step: f64) -> Vec<DVector<f64>> {
+        low.iter()
+            .zip(high)
+            .zip(base)
+            .map(|((a, b), w)| {
+                let n = w.t.len();
+                if a.len() != n || b.len() != n {
+                    return DVector::zeros(3 * n);
+                }
                 DVector::from_iterator(
-                    3 * a.len(),
+                    3 * n,
                     a.iter().zip(b).flat_map(|(a, b)| {
                         let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
                         [0, 1, 2].map(|i| d[i] / (step * self.noise[i]))

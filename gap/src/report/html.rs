@@ -4,17 +4,22 @@ use std::fmt::Write as _;
 
 use model::plot::{Axis, Color, Figure, Panel, Series};
 
-use super::{short, terminal};
+use super::{regimes, short, terminal, units, words};
 use crate::analysis::{Analysis, overall};
+use crate::motion::WindowResiduals;
 
 /// Points a plot has at most.
-const POINTS: usize = 1500;
+const POINTS: usize = 700;
 
-const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;max-width:60rem;margin:0 auto;padding:1rem;color:#1a1a1a}\
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}svg{max-width:100%;height:auto}\
-table{border-collapse:collapse;width:100%;font-size:.9rem}td,th{text-align:left;padding:.25rem .5rem;border-bottom:1px solid #e2e2e2}\
-.v{font-size:1.2rem;background:#eef4f8;padding:.8rem;border-left:5px solid #0072b2}.t{overflow-x:auto}.s{color:#555;font-size:.9rem}\
-@media print{h2{break-after:avoid}svg{break-inside:avoid}}";
+const STYLE: &str = "body{font:16px/1.5 Helvetica,Arial,sans-serif;max-width:62rem;margin:0 auto;padding:1rem;color:#1a1a1a}\
+h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.15rem;margin-top:2.2rem;border-bottom:1px solid #ccc}svg{max-width:100%;height:auto}\
+table{border-collapse:collapse;width:100%;font-size:.88rem;font-variant-numeric:tabular-nums}\
+td,th{text-align:left;padding:.25rem .6rem .25rem 0;border-bottom:1px solid #e2e2e2;vertical-align:top}th{font-weight:600}\
+.m td+td,.m th+th{text-align:center;padding:.25rem .3rem;white-space:nowrap}\
+.v{font-size:1.15rem;background:#eef4f8;padding:.8rem;border-left:5px solid #0072b2}.n{background:#f6f6f0;padding:.6rem .8rem;border-left:5px solid #e69f00}\
+.w{overflow-x:auto}.s{color:#555;font-size:.9rem}.g{display:grid;grid-template-columns:repeat(auto-fit,minmax(19rem,1fr));gap:.5rem}\
+code{background:#f0f0f0;padding:0 .25rem}\
+@media print{body{font-size:11px;max-width:none}h2{break-after:avoid}svg,tr,.v,.n{break-inside:avoid}.m td{-webkit-print-color-adjust:exact;print-color-adjust:exact}}";
 
 pub(super) fn page(a: &Analysis) -> String {
     let mut out = String::new();
@@ -24,64 +29,95 @@ pub(super) fn page(a: &Analysis) -> String {
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1><p class=\"v\">{}</p>",
         escape(&terminal::sentence(a))
     );
+    in_words(&mut out, a);
+    next(&mut out, a);
     effects(&mut out, a);
     waterfall(&mut out, a);
-    located(&mut out, a);
-    plots(&mut out, a);
+    regime_map(&mut out, a);
+    trajectories(&mut out, a);
+    residuals(&mut out, a);
     limits(&mut out, a);
     statement(&mut out, a);
     out.push_str("</body></html>\n");
     out
 }
 
-fn effects(out: &mut String, a: &Analysis) {
-    if !a.effects.is_empty() {
-        out.push_str("<h2>What is missing</h2><div class=\"t\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>95 % interval</th><th>gap closed on its link</th><th>p</th></tr>");
-        for e in &a.effects {
-            for (k, (name, v, [lo, hi])) in e.parameters.iter().enumerate() {
-                let first = |s: String| if k == 0 { s } else { String::new() };
-                let _ = write!(
-                    out,
-                    "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td></tr>",
-                    first(escape(&e.name)),
-                    first(terminal::list(&e.wheels)),
-                    escape(name),
-                    short(*v),
-                    short(*lo),
-                    short(*hi),
-                    first(format!("{:.1} %", 100.0 * e.gain)),
-                    first(short(e.p_value))
-                );
-            }
-        }
-        out.push_str("</table></div>");
-        for e in &a.effects {
-            let _ = write!(out, "<p class=\"s\"><b>{}</b>: {}</p>", escape(&e.name), escape(&e.equation));
-        }
+fn in_words(out: &mut String, a: &Analysis) {
+    let _ = write!(out, "<ul><li>{}</li>", escape(&words::links(a)));
+    for e in &a.effects {
+        let _ = write!(out, "<li>{}</li>", escape(&words::effect(e)));
     }
-    if !a.alternatives.is_empty() {
-        out.push_str("<p>Cannot be told apart in these data:</p><ul>");
-        for set in &a.alternatives {
-            let _ = write!(out, "<li>{}</li>", escape(&set.join(" / ")));
-        }
-        out.push_str("</ul>");
+    for set in &a.alternatives {
+        let _ = write!(out, "<li>These data cannot tell apart: {}.</li>", escape(&set.join(", ")));
     }
-    if let Some(e) = &a.next_experiment {
+    for u in &a.unexplained {
+        let _ =
+            write!(out, "<li>No effect explains this in the {} link: {}.</li>", u.link.name(), escape(&u.structure));
+    }
+    for l in a.located.iter().take(8) {
+        let _ = write!(out, "<li>{} ({:.1} noise floors).</li>", escape(&sentence(&l.place)), l.excess);
+    }
+    out.push_str("</ul>");
+}
+
+/// With a capital, and without a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}", letters.as_str().trim_end_matches('.'))
+}
+
+fn next(out: &mut String, a: &Analysis) {
+    let Some(e) = &a.next_experiment else { return };
+    let _ = write!(
+        out,
+        "<p class=\"n\">Next: <b>{}</b> ({}, about {:.0} s), to tell {} apart: {}.",
+        escape(&e.what),
+        e.kind,
+        e.seconds,
+        escape(&e.separates.join(" and ")),
+        escape(&e.why)
+    );
+    if e.kind == "manoeuvre" {
         let _ = write!(
             out,
-            "<p>Next: <b>{}</b> ({}, about {:.0} s): {}.</p>",
-            escape(&e.what),
-            e.kind,
-            e.seconds,
-            escape(&e.why)
+            " Rehearse it with <code>racbot simulate --robot robot.toml --manoeuvre {} --times {}</code>.",
+            e.what, e.times
         );
     }
-    if !a.unexplained.is_empty() {
-        out.push_str("<h2>What no effect explains</h2><ul>");
-        for u in &a.unexplained {
-            let _ = write!(out, "<li>{}: {}</li>", u.link.name(), escape(&u.structure));
+    if !e.others.is_empty() {
+        let others: Vec<String> = e.others.iter().map(|(what, s)| format!("{what} ({s:.0} s)")).collect();
+        let _ = write!(out, " These would do as well: {}.", escape(&others.join(", ")));
+    }
+    out.push_str("</p>");
+}
+
+fn effects(out: &mut String, a: &Analysis) {
+    if a.effects.is_empty() {
+        return;
+    }
+    out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>95 % interval</th><th>in other units</th><th>gap closed on its link</th><th>p</th></tr>");
+    for e in &a.effects {
+        for (k, (name, v, [lo, hi])) in e.parameters.iter().enumerate() {
+            let first = |s: String| if k == 0 { s } else { String::new() };
+            let _ = write!(
+                out,
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                first(escape(&e.name)),
+                first(terminal::list(&e.wheels)),
+                escape(name),
+                short(*v),
+                short(*lo),
+                short(*hi),
+                escape(&units::value(name, *v)),
+                first(format!("{:.1} %", 100.0 * e.gain)),
+                first(short(e.p_value))
+            );
         }
-        out.push_str("</ul>");
+    }
+    out.push_str("</table></div>");
+    for e in &a.effects {
+        let _ = write!(out, "<p class=\"s\"><b>{}</b>: {}</p>", escape(&e.name), escape(&e.equation));
     }
 }
 
@@ -118,7 +154,12 @@ fn waterfall(out: &mut String, a: &Analysis) {
             y + 15.0
         );
     }
-    out.push_str("</svg><div class=\"t\"><table><tr><th>link</th><th>signal</th><th>before</th><th>after</th><th>floor</th><th>unit</th></tr>");
+    let floor = left + width / top;
+    let _ = write!(
+        out,
+        "<line x1=\"{floor:.1}\" x2=\"{floor:.1}\" y1=\"0\" y2=\"{height}\" stroke=\"#1a1a1a\" stroke-dasharray=\"4 3\"/>"
+    );
+    out.push_str("</svg><div class=\"w\"><table><tr><th>link</th><th>signal</th><th>before</th><th>after</th><th>floor</th><th>unit</th></tr>");
     for l in &a.links {
         for (i, rms) in l.rms.iter().enumerate() {
             let _ = write!(
@@ -146,70 +187,58 @@ fn signal(link: &str, i: usize) -> String {
     }
 }
 
-fn located(out: &mut String, a: &Analysis) {
-    out.push_str("<h2>Where it disagrees</h2>");
-    if a.located.is_empty() {
-        out.push_str("<p>Nowhere by more than 1.3 noise floors.</p>");
-        return;
-    }
-    out.push_str("<ul>");
-    for l in &a.located {
-        let _ = write!(
-            out,
-            "<li><b>{}</b> ({}), {:.1} noise floors: {}</li>",
-            l.signal,
-            l.link.name(),
-            l.excess,
-            escape(&l.place)
-        );
-    }
-    out.push_str("</ul>");
+fn regime_map(out: &mut String, a: &Analysis) {
+    let Some(table) = regimes::table(a) else { return };
+    out.push_str("<h2>Regime map</h2><p class=\"s\">RMS in noise floors, before → after, by situation; the colour is that of before: white agrees, orange is five floors off. Forwards and backwards are the wheel's, or along the body's y axis.</p>");
+    out.push_str(&table);
 }
 
-fn plots(out: &mut String, a: &Analysis) {
-    if let Some([before, after]) = &a.motion {
-        let mut panel = Panel::new(Axis::new("x", "m"), Axis::new("y", "m"))
-            .equal_aspect()
-            .title("Camera (grey) and prediction, windows of 1 s");
+fn trajectories(out: &mut String, a: &Analysis) {
+    let Some([before, after]) = &a.whole else { return };
+    out.push_str("<h2>Trajectories</h2><p class=\"s\">Whole runs by encoders alone, laid over what the camera saw as well as one start pose allows.</p><div class=\"g\">");
+    for (b, f) in before.iter().zip(after).take(4) {
+        let name = a.runs.get(b.run).map_or("", String::as_str);
         let seen: Vec<[f64; 2]> = a
             .segments
             .iter()
-            .flat_map(|s| s.frames.iter().map(|f| [f.pose.x, f.pose.y]).chain([[f64::NAN; 2]]))
+            .filter(|s| s.run == b.run)
+            .flat_map(|s| s.frames.iter().map(|f| [f.pose.x, f.pose.y]))
             .collect();
-        panel = panel.with(Series::line("camera", thin(&seen)).color(Color::Grey));
-        for (label, windows, color) in [("before", before, Color::Red), ("after", after, Color::Green)] {
-            let path: Vec<[f64; 2]> =
-                windows.iter().flat_map(|w| w.predicted.iter().map(|p| [p.x, p.y]).chain([[f64::NAN; 2]])).collect();
-            panel = panel.with(Series::line(label, thin(&path)).color(color));
-        }
-        out.push_str("<h2>Trajectories</h2>");
-        out.push_str(&Figure::new("Trajectories before and after").with(panel).to_svg());
-        out.push_str("<h2>Residuals of the motion link</h2>");
-        let mut figure = Figure::new("Motion residuals in units of the noise");
+        let path = |w: &WindowResiduals| -> Vec<[f64; 2]> { w.predicted.iter().map(|p| [p.x, p.y]).collect() };
+        let panel = Panel::new(Axis::new("x", "m"), Axis::new("y", "m"))
+            .equal_aspect()
+            .with(Series::line("camera", thin(&seen)).color(Color::Grey))
+            .with(Series::line("model before", thin(&path(b))).color(Color::Red))
+            .with(Series::line("model after", thin(&path(f))).color(Color::Green));
+        out.push_str(&Figure::new(name).with(panel).to_svg());
+    }
+    out.push_str("</div>");
+}
+
+fn residuals(out: &mut String, a: &Analysis) {
+    if let Some([before, after]) = &a.motion {
+        out.push_str("<h2>Residuals</h2><p class=\"s\">Camera minus prediction within windows of 1 s, frame after frame, in units of the camera's noise.</p><div class=\"g\">");
         for (i, name) in ["x", "y", "heading"].iter().enumerate() {
-            let points = |w: &[crate::motion::WindowResiduals]| {
+            let points = |w: &[WindowResiduals]| {
                 let all: Vec<[f64; 2]> = w
                     .iter()
                     .flat_map(|w| w.residuals.iter().map(|r| r[i]))
-                    .enumerate()
-                    .map(|(k, r)| [k as f64, r])
+                    .zip(0..)
+                    .map(|(r, k)| [f64::from(k), r])
                     .collect();
                 thin(&all)
             };
-            figure = figure.with(
-                Panel::new(Axis::new("frame", ""), Axis::new(*name, "noise"))
-                    .height(150.0)
-                    .with(Series::points("before", points(before)).color(Color::Red))
-                    .with(Series::points("after", points(after)).color(Color::Green)),
-            );
+            let panel = Panel::new(Axis::new("frame", ""), Axis::new("residual", "noise"))
+                .height(190.0)
+                .with(Series::points("before", points(before)).color(Color::Red))
+                .with(Series::points("after", points(after)).color(Color::Green));
+            out.push_str(&Figure::new(format!("camera {name}")).with(panel).to_svg());
         }
-        out.push_str(&figure.to_svg());
+        out.push_str("</div>");
     }
     if let Some([before, after]) = &a.drive {
-        out.push_str("<h2>Regime map of the drive link</h2><p class=\"s\">Unexplained torque against wheel speed: a step at zero is dry friction, a slope is viscous friction or a wrong constant.</p>");
-        let n = before.torque.first().map_or(0, Vec::len);
-        let mut figure = Figure::new("Unexplained torque of each wheel");
-        for i in 0..n {
+        out.push_str("<h2>Unexplained torque</h2><p class=\"s\">Of each wheel against its speed: a step at zero is dry friction, a slope is viscous friction or a wrong constant.</p><div class=\"g\">");
+        for i in 0..before.torque.first().map_or(0, Vec::len) {
             let points = |d: &crate::drive::DriveResiduals| {
                 let all: Vec<[f64; 2]> = (0..d.torque.len())
                     .filter(|b| d.weights[*b][i] > 0.0)
@@ -217,14 +246,13 @@ fn plots(out: &mut String, a: &Analysis) {
                     .collect();
                 thin(&all)
             };
-            figure = figure.with(
-                Panel::new(Axis::new("wheel speed", "rad/s"), Axis::new(format!("wheel {}", i + 1), "mNm"))
-                    .height(190.0)
-                    .with(Series::points("before", points(before)).color(Color::Red))
-                    .with(Series::points("after", points(after)).color(Color::Green)),
-            );
+            let panel = Panel::new(Axis::new("wheel speed", "rad/s"), Axis::new("torque", "mNm"))
+                .height(190.0)
+                .with(Series::points("before", points(before)).color(Color::Red))
+                .with(Series::points("after", points(after)).color(Color::Green));
+            out.push_str(&Figure::new(format!("wheel {}", i + 1)).with(panel).to_svg());
         }
-        out.push_str(&figure.to_svg());
+        out.push_str("</div>");
     }
 }
 
@@ -234,7 +262,7 @@ fn thin(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 fn limits(out: &mut String, a: &Analysis) {
-    out.push_str("<h2>Detection limits</h2><p class=\"s\">From this size on an effect is named in these data. Estimates below it that differ from 0 by more than two standard deviations are detectable but immaterial (bold).</p><div class=\"t\"><table><tr><th>effect</th><th>parameter</th><th>named from</th><th>estimate</th><th>standard deviation</th></tr>");
+    out.push_str("<h2>Detection limits</h2><p class=\"s\">From this size on an effect is named in these data. Estimates below it that differ from 0 by more than two standard deviations are detectable but immaterial (bold).</p><div class=\"w\"><table><tr><th>effect</th><th>parameter</th><th>named from</th><th>estimate</th><th>standard deviation</th></tr>");
     for l in &a.limits {
         let (b, e) = if l.estimate.abs() > 2.0 * l.sd { ("<b>", "</b>") } else { ("", "") };
         let _ = write!(
@@ -262,6 +290,8 @@ fn statement(out: &mut String, a: &Analysis) {
         100.0 * t.share_of_excess,
         if a.runs.len() > 1 { "one run at a time" } else { "blocks of the single run" }
     );
+    let _ =
+        write!(out, "<p>Tried: {}, and probes for structure that none of them has.</p>", escape(&a.tried.join(", ")));
     for r in &a.remarks {
         let _ = write!(out, "<p>{}</p>", escape(r));
     }

@@ -38,7 +38,9 @@ pub(super) fn json(a: &Analysis) -> Value {
         "alternatives": a.alternatives,
         "unexplained": a.unexplained.iter().map(|u| json!({"link": u.link.name(), "structure": u.structure})).collect::<Vec<_>>(),
         "next_experiment": a.next_experiment.as_ref().map(|e| json!({
-            "kind": e.kind, "what": e.what, "separates": e.separates, "seconds": e.seconds, "why": e.why,
+            "kind": e.kind, "what": e.what, "separates": e.separates, "seconds": e.seconds, "times": e.times,
+            "sigmas": e.sigmas, "why": e.why,
+            "others": e.others.iter().map(|(what, seconds)| json!({"what": what, "seconds": seconds})).collect::<Vec<_>>(),
         })),
         "gap": {"before": before, "after": after, "floor": 1.0, "closed": closed, "links": links},
         "nearest": a.nearest,

@@ -2,7 +2,10 @@
 
 mod html;
 mod json;
+mod regimes;
 mod terminal;
+mod units;
+mod words;
 
 use std::path::Path;
 
@@ -39,7 +42,7 @@ impl Analysis {
             std::fs::write(&path, text).map_err(|e| fault(&path, &e))?;
         }
         let path = folder.join("robot.toml");
-        self.robot.save(&path).map_err(|e| fault(&path, &e))
+        std::fs::write(&path, &self.robot_text).map_err(|e| fault(&path, &e))
     }
 }
 

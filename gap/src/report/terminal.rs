@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::short;
+use super::{short, units, words};
 use crate::analysis::{Analysis, Verdict, overall};
 
 /// Columns of a terminal.
@@ -11,6 +11,7 @@ const WIDTH: usize = 80;
 pub(super) fn summary(a: &Analysis) -> String {
     let mut out = String::new();
     wrap(&mut out, "", &sentence(a));
+    wrap(&mut out, "", &words::links(a));
     if !a.located.is_empty() {
         out.push_str("\nWhere\n");
         for l in a.located.iter().take(8) {
@@ -32,7 +33,9 @@ pub(super) fn summary(a: &Analysis) -> String {
                 ),
             );
             for (name, v, [lo, hi]) in &e.parameters {
-                let _ = writeln!(out, "    {name:<24} {:>12}   95 % {} to {}", short(*v), short(*lo), short(*hi));
+                let people = units::value(name, *v);
+                let line = format!("    {name:<22} {:>9}  95 % {} to {}  {people}", short(*v), short(*lo), short(*hi));
+                let _ = writeln!(out, "{}", line.chars().take(WIDTH).collect::<String>().trim_end());
             }
         }
     }
@@ -43,7 +46,8 @@ pub(super) fn summary(a: &Analysis) -> String {
         wrap(&mut out, "  ", &format!("unexplained ({}): {}", u.link.name(), u.structure));
     }
     if let Some(e) = &a.next_experiment {
-        wrap(&mut out, "  ", &format!("next: {} ({}, {:.0} s)", e.what, e.kind, e.seconds));
+        let times = if e.times > 1 { format!(", {} times", e.times) } else { String::new() };
+        wrap(&mut out, "  ", &format!("next: {} ({}{times}, {:.0} s): {}", e.what, e.kind, e.seconds, e.why));
     }
     let (before, after) = overall(&a.links);
     let _ = writeln!(out, "\nGap (held-out RMS in noise floors)   before {before:8.2}   after {after:8.2}");

@@ -1,15 +1,23 @@
 //! Effects of a `robot.toml` in the simulator: the true robot behind the nominal one.
 //!
-//! [`Applied::of`] turns the `[[effect]]` tables into a robot, a floor and a camera to simulate;
-//! what the logs show beyond that (a marker that sits askew, a camera that distorts) is put on by
+//! [`Applied::of`] turns the `[[effect]]` tables into a robot, a floor, a camera and a controller to
+//! simulate; what only shows in the finished log (stamps that jitter) is put on by
 //! [`Applied::finish`]. Equations and parameter names are those of the gap workflow.
 
 mod camera;
+mod control;
 mod geometry;
 mod plant;
 
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+pub use control::ControlDeviations;
+
 use crate::camera::CameraModel;
-use crate::plant::Contact;
+use crate::geometry::GeometryError;
+use crate::plant::{Contact, Deviations, Plant};
 use crate::robot::{Effect, Robot};
 use crate::run::Run;
 
@@ -20,11 +28,16 @@ pub struct Applied {
     pub robot: Robot,
     /// The floor.
     pub contact: Contact,
+    /// What `robot` cannot say about the true one.
+    pub deviations: Deviations,
     /// The camera.
     pub camera: CameraModel,
-    /// Names of effects that the simulator cannot show.
+    /// The controller.
+    pub control: ControlDeviations,
+    /// Standard deviation of a camera stamp about its capture time, s.
+    pub stamp_jitter_s: f64,
+    /// Names of effects that the simulator does not know, such as a user's own.
     pub unsupported: Vec<String>,
-    effects: Vec<Effect>,
 }
 
 impl Applied {
@@ -33,15 +46,20 @@ impl Applied {
         let mut applied = Self {
             robot: Robot { effects: Vec::new(), ..robot.clone() },
             contact: Contact::Rolling,
+            deviations: Deviations::default(),
             camera: CameraModel::of(robot),
+            control: ControlDeviations::default(),
+            stamp_jitter_s: 0.0,
             unsupported: Vec::new(),
-            effects: robot.effects.clone(),
         };
         for effect in &robot.effects {
+            if effect.name == "camera-timing" {
+                applied.stamp_jitter_s = effect.value("jitter_s").unwrap_or(0.0);
+            }
             let known = geometry::apply(effect, &mut applied.robot)
                 || plant::apply(effect, &mut applied)
                 || camera::apply(effect, &mut applied.camera)
-                || camera::is_seen(effect);
+                || control::apply(effect, robot.wheel_count(), &mut applied.control);
             if !known {
                 applied.unsupported.push(effect.name.clone());
             }
@@ -49,13 +67,28 @@ impl Applied {
         applied
     }
 
-    /// What the camera makes of the poses of a simulated log.
-    pub fn finish(&self, run: &mut Run) {
-        for effect in &self.effects {
-            for sample in &mut run.camera {
-                sample.pose = camera::seen(effect, sample.pose);
-            }
+    /// Motors, wheels and body.
+    ///
+    /// # Errors
+    /// [`GeometryError`] if the wheels cannot drive the robot.
+    pub fn plant(&self) -> Result<Plant, GeometryError> {
+        Ok(Plant::new(&self.robot)?.with_contact(self.contact).with_deviations(&self.deviations))
+    }
+
+    /// Moves the stamps of a simulated log by their jitter.
+    pub fn finish(&self, run: &mut Run, seed: u64) {
+        if self.stamp_jitter_s == 0.0 {
+            return;
         }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 0x7374_616d_7073);
+        let mut free = 0;
+        for sample in &mut run.camera {
+            let error: f64 = StandardNormal.sample(&mut rng);
+            let late = (self.stamp_jitter_s * error / self.robot.tick_s()).round() as i64;
+            sample.tick = sample.tick.saturating_add_signed(late as isize).max(free);
+            free = sample.tick + 1;
+        }
+        run.camera.retain(|sample| sample.tick < run.t.len());
     }
 }
 

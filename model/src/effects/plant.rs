@@ -1,7 +1,7 @@
 //! Effects on motors, body and floor.
 
-use super::Applied;
-use crate::plant::Contact;
+use super::{Applied, of_wheel};
+use crate::plant::{Contact, WheelDeviation};
 use crate::robot::Effect;
 
 /// Coefficient of friction where only creep is given: more than any wheel uses.
@@ -11,6 +11,11 @@ const STIFF: f64 = 2e-4;
 
 /// Applies an effect if it is one of these.
 pub(super) fn apply(effect: &Effect, applied: &mut Applied) -> bool {
+    on_robot(effect, applied) || on_body(effect, applied) || on_wheels(effect, applied)
+}
+
+/// What other figures in the robot's file say.
+fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
     let robot = &mut applied.robot;
     let value = |name: &str| effect.value(name).unwrap_or(0.0);
     let scale = 1.0 + value("scale");
@@ -24,15 +29,65 @@ pub(super) fn apply(effect: &Effect, applied: &mut Applied) -> bool {
         "yaw-inertia" => robot.yaw_inertia_kg_m2 *= scale,
         "rotor-inertia" => robot.motor.rotor_inertia *= scale,
         "gear-efficiency" => robot.gear_efficiency = (robot.gear_efficiency + value("scale")).clamp(0.01, 1.0),
-        // One wheel alone is beyond a plant whose motors are all alike.
-        "coulomb-friction" if effect.value("torque_nm").is_some() => {
-            robot.motor.friction_torque += value("torque_nm") / robot.gear_ratio;
-        }
-        "battery-sag" if value("resistance_ohm") == 0.0 => robot.supply_v -= value("drop_v"),
-        "wheel-creep" => applied.contact = friction(applied.contact, None, Some(value("creep_s_per_kg"))),
-        "wheel-slip" => applied.contact = friction(applied.contact, effect.value("friction_coefficient"), None),
         _ => return false,
     }
+    true
+}
+
+/// What acts on the whole robot.
+fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
+    let d = &mut applied.deviations;
+    let value = |name: &str| effect.value(name).unwrap_or(0.0);
+    match effect.name.as_str() {
+        "wheel-creep" => applied.contact = friction(applied.contact, None, Some(value("creep_s_per_kg"))),
+        "wheel-slip" => applied.contact = friction(applied.contact, effect.value("friction_coefficient"), None),
+        "centre-of-mass" => d.centre_of_mass_m = [value("x_m"), value("y_m")],
+        "floor-tilt" => d.tilt_rad = [value("x_rad"), value("y_rad")],
+        "roller-friction" => d.roller_friction_n = value("force_n"),
+        "carpet-grain" => d.grain = [value("force_n"), value("azimuth_rad")],
+        "heading-drag" => {
+            d.heading_drag.harmonic = effect.value("harmonic").unwrap_or(1.0);
+            d.heading_drag.mean_nm = value("mean_nm");
+            (d.heading_drag.cos_nm, d.heading_drag.sin_nm) = (value("cos_nm"), value("sin_nm"));
+        }
+        "stribeck-friction" => d.stribeck = [value("torque_nm"), effect.value("speed_rad_s").unwrap_or(3.0)],
+        "dead-band" => d.dead_band = value("duty"),
+        "drive-curve" => d.curvature = value("curvature"),
+        "actuation-latency" => d.duty_delay_s = value("latency_s"),
+        "battery-sag" => d.battery = [value("drop_v"), value("resistance_ohm")],
+        "motor-heating" => d.heating = [value("rise"), effect.value("time_s").unwrap_or(30.0)],
+        "encoder-lag" => d.encoder_delay_s = value("latency_s"),
+        _ => return false,
+    }
+    true
+}
+
+/// What each wheel has its own of.
+fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
+    let n = applied.robot.wheel_count();
+    let value = |name: &str| effect.value(name).unwrap_or(0.0);
+    let each = |stem: &str, unit: &str| (0..n).map(|i| of_wheel(effect, stem, i, unit)).collect::<Vec<_>>();
+    let set: (Vec<f64>, fn(&mut WheelDeviation, f64)) = match effect.name.as_str() {
+        "wheel-radius" => (each("scale", ""), |w, x| w.radius = x),
+        "encoder-scale" => (each("scale", ""), |w, x| w.encoder = x),
+        "coulomb-friction" => (each("torque", "nm"), |w, x| w.dry_nm = x),
+        "viscous-friction" => (each("coefficient", "nms"), |w, x| w.viscous_nms = x),
+        "gear-backlash" => (each("play", "rad"), |w, x| w.play_rad = x),
+        "asymmetric-friction" if value("sense") < 0.0 => (each("torque", "nm"), |w, x| w.one_way_nm[0] = x),
+        "asymmetric-friction" => (each("torque", "nm"), |w, x| w.one_way_nm[1] = x),
+        "encoder-loss" => {
+            applied.deviations.loss_threshold = value("threshold_rad_s");
+            (each("loss", ""), |w, x| w.loss = x)
+        }
+        "roller-ripple" => {
+            applied.deviations.ripple_order = value("order").max(1.0);
+            let wheels = applied.deviations.wheels_mut(n);
+            wheels.iter_mut().zip(each("sin", "")).for_each(|(w, x)| w.ripple[1] = x);
+            (each("cos", ""), |w, x| w.ripple[0] = x)
+        }
+        _ => return false,
+    };
+    applied.deviations.wheels_mut(n).iter_mut().zip(set.0).for_each(|(w, x)| set.1(w, x));
     true
 }
 

@@ -1,10 +1,16 @@
 //! The simulated robot: motors, wheels and body, in fixed steps.
 
+mod bridge;
+mod deviations;
+mod encoder;
 mod friction;
+mod loads;
 mod rolling;
 mod slipping;
 
 use nalgebra::Vector3;
+
+pub use deviations::{Deviations, HeadingDrag, WheelDeviation};
 
 use crate::frames::{Pose, Twist};
 use crate::geometry::{Geometry, GeometryError};
@@ -36,19 +42,31 @@ const LONGEST_STEP_S: f64 = 0.000_25;
 ///
 /// The platform is a rigid body in the plane, its centre of mass at the chassis centre. The body
 /// twist, body frame and pose are those of [`Twist`] and [`Pose`]; Coriolis terms act on the
-/// platform's mass only, for the wheels' spin has no part in them. Integration is implicit in the
+/// platform's mass only, for the wheels' spin has no part in them. [`Deviations`] change all that. Integration is implicit in the
 /// damping and the friction (so that a wheel stands still instead of chattering about zero) and
 /// exact in the rotation of the body frame, half of which goes before the push and half after; it
 /// creates no energy.
 #[derive(Debug, Clone)]
 pub struct Plant {
     geometry: Geometry,
-    axis: Axis,
+    axes: Vec<Axis>,
+    /// The same before they warmed up.
+    cold: Vec<Axis>,
     mass: f64,
     yaw_inertia: f64,
     contact: Contact,
     support: Support,
     counts_per_rad: f64,
+    gear_ratio: f64,
+    rotor_inertia: f64,
+    /// Winding current per torque at the wheel shaft, A/Nm.
+    current_per_torque: f64,
+    /// `None` for the nominal model.
+    deviations: Option<Box<Deviations>>,
+    delayed: bridge::Delayed,
+    encoders: Vec<encoder::Encoder>,
+    /// Force on the body beside that of the wheels: N, N, Nm.
+    push: Vector3<f64>,
     twist: Twist,
     pose: Pose,
     wheels: Vec<WheelState>,
@@ -73,6 +91,19 @@ struct WheelState {
     friction: f64,
     /// Torque of the winding at standstill for the present voltage, Nm.
     drive: f64,
+    /// Torque at the wheel shaft beside winding and friction, Nm.
+    load: f64,
+    /// Friction beyond that of the nominal model, Nm.
+    dry: f64,
+    /// Mean square of the duty, as the winding's warmth follows it.
+    heat: f64,
+}
+
+impl WheelState {
+    /// Largest friction torque, Nm.
+    fn friction_limit(&self, axis: &Axis) -> f64 {
+        (axis.friction_limit(self.transmitted) + self.dry).max(0.0)
+    }
 }
 
 impl Plant {
@@ -86,12 +117,20 @@ impl Plant {
         Ok(Self {
             contacts: slipping::ContactPoint::of(&geometry),
             geometry,
-            axis: Axis::of(robot),
+            axes: vec![Axis::of(robot); n],
+            cold: vec![Axis::of(robot); n],
             mass: robot.mass_kg,
             yaw_inertia: robot.yaw_inertia_kg_m2,
             contact: Contact::Rolling,
             support: robot.support,
             counts_per_rad: robot.counts_per_wheel_rad(),
+            gear_ratio: robot.gear_ratio,
+            rotor_inertia: robot.motor.rotor_inertia,
+            current_per_torque: 1.0 / (robot.gear_ratio * robot.motor.torque_constant),
+            deviations: None,
+            delayed: bridge::Delayed::new(),
+            encoders: vec![encoder::Encoder::default(); n],
+            push: Vector3::zeros(),
             twist: Twist::default(),
             pose: Pose::default(),
             wheels: vec![WheelState::default(); n],
@@ -108,6 +147,14 @@ impl Plant {
         self
     }
 
+    /// The same robot as it really is.
+    #[must_use]
+    pub fn with_deviations(mut self, deviations: &Deviations) -> Self {
+        self.deviations = (*deviations != Deviations::default()).then(|| Box::new(deviations.clone()));
+        self.set_radii();
+        self
+    }
+
     /// The same robot at another place.
     #[must_use]
     pub fn at(mut self, pose: Pose) -> Self {
@@ -120,7 +167,9 @@ impl Plant {
     pub fn moving(mut self, twist: Twist) -> Self {
         self.twist = if self.support == Support::Floor { twist } else { Twist::default() };
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
-            wheel.speed = self.geometry.wheel_speed(i, self.twist);
+            let contact = &self.contacts[i];
+            wheel.speed =
+                contact.row.dot(&Vector3::new(self.twist.vx, self.twist.vy, self.twist.omega)) / contact.lever;
         }
         self
     }
@@ -128,15 +177,16 @@ impl Plant {
     /// One control tick of `dt` seconds with a constant duty in [−1, 1] a wheel (0, the motor
     /// shorted, where one is missing) and a constant supply (V).
     pub fn step(&mut self, duty: &[f64], supply_v: f64, dt: f64) {
-        for (i, wheel) in self.wheels.iter_mut().enumerate() {
-            let voltage = duty.get(i).copied().unwrap_or(0.0).clamp(-1.0, 1.0) * supply_v;
-            wheel.drive = self.axis.winding_torque(voltage, 0.0);
+        self.energise(duty, supply_v, dt);
+        if self.deviations.as_ref().is_some_and(|d| d.is_changing()) {
+            self.set_radii();
         }
         self.before.copy_from_slice(&self.after);
         // A tick that is a multiple of the longest step up to rounding gets no extra step.
         let steps = (dt / LONGEST_STEP_S - 1e-6).ceil().max(1.0);
         let h = dt / steps;
         for _ in 0..steps as usize {
+            self.load();
             match (self.support, self.contact) {
                 (Support::Blocks, _) => self.step_on_blocks(h),
                 (_, Contact::Rolling) => self.step_rolling(h),
@@ -145,8 +195,8 @@ impl Plant {
                 }
             }
         }
-        for (count, wheel) in self.after.iter_mut().zip(&self.wheels) {
-            *count = wheel.angle * self.counts_per_rad;
+        for i in 0..self.wheels.len() {
+            self.after[i] = self.read_encoder(i, dt) * self.counts_per_rad;
         }
     }
 
@@ -187,20 +237,18 @@ impl Plant {
 
     /// Kinetic energy of platform, wheels and rotors, J.
     pub fn kinetic_energy(&self) -> f64 {
-        let spin: f64 = self.wheels.iter().map(|w| w.speed * w.speed).sum();
-        let t = self.twist;
-        let body = self.mass * (t.vx * t.vx + t.vy * t.vy) + self.yaw_inertia * t.omega * t.omega;
-        0.5 * (body + self.axis.inertia() * spin)
+        let spin: f64 = self.wheels.iter().zip(&self.axes).map(|(w, a)| a.inertia() * w.speed * w.speed).sum();
+        let t = self.twist_vector();
+        0.5 * (t.dot(&(self.platform() * t)) + spin)
     }
 
     fn step_on_blocks(&mut self, h: f64) {
-        let axis = self.axis;
-        for wheel in &mut self.wheels {
+        for (wheel, axis) in self.wheels.iter_mut().zip(&self.axes) {
             let stiffness = axis.inertia() / h + axis.damping;
-            let push = axis.inertia() / h * wheel.speed + wheel.drive;
+            let push = axis.inertia() / h * wheel.speed + wheel.drive + wheel.load;
             let old = wheel.speed;
             for _ in 0..friction::GEAR_ROUNDS {
-                let limit = axis.friction_limit(wheel.transmitted);
+                let limit = wheel.friction_limit(axis);
                 wheel.speed = friction::soft(push, limit) / stiffness;
                 wheel.friction = stiffness * wheel.speed - push;
                 let winding = wheel.drive - axis.damping * wheel.speed;
@@ -222,9 +270,13 @@ impl Plant {
         Vector3::new(self.twist.vx, self.twist.vy, self.twist.omega)
     }
 
-    /// Mass, mass and yaw inertia of the platform.
-    fn mass_vector(&self) -> Vector3<f64> {
-        Vector3::new(self.mass, self.mass, self.yaw_inertia)
+    /// Wheel radii as they are now; what was derived from them is made again.
+    fn set_radii(&mut self) {
+        let nominal = slipping::ContactPoint::of(&self.geometry);
+        for (i, (contact, nominal)) in self.contacts.iter_mut().zip(nominal).enumerate() {
+            contact.lever = nominal.lever * self.deviations.as_ref().map_or(1.0, |d| d.radius(i, self.wheels[i].angle));
+        }
+        self.rolling = None;
     }
 }
 

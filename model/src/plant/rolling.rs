@@ -3,12 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, friction, turn};
-use crate::geometry::Geometry;
 use crate::motor::Axis;
 
 /// What depends on the step length only.
 ///
-/// With A the inverse kinematics, I and B the axes' inertia and damping and M the platform's mass
+/// With A the inverse kinematics, I and B the axes' inertias and dampings and M the platform's mass
 /// matrix, the momentum balance over a step h is (M + AᵀIA + h·AᵀBA)·ν⁺ = momentum + h·Aᵀ·torque.
 #[derive(Debug, Clone)]
 pub(super) struct Tables {
@@ -27,14 +26,16 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    fn new(geometry: &Geometry, axis: &Axis, mass: Vector3<f64>, h: f64) -> Self {
-        let rows: Vec<Vector3<f64>> = geometry.inverse().row_iter().map(|r| Vector3::new(r[0], r[1], r[2])).collect();
-        let normal: Matrix3<f64> = rows.iter().map(|r| r * r.transpose()).sum();
-        let spin = normal * axis.inertia();
-        let inertia = Matrix3::from_diagonal(&mass) + spin;
+    fn new(rows: Vec<Vector3<f64>>, axes: &[Axis], mass: Matrix3<f64>, h: f64) -> Self {
+        let weighted = |of: &dyn Fn(&Axis) -> f64| -> Matrix3<f64> {
+            rows.iter().zip(axes).map(|(r, a)| r * r.transpose() * of(a)).sum()
+        };
+        let spin = weighted(&Axis::inertia);
+        let inertia = mass + spin;
         // Masses are positive, so both matrices are positive definite.
-        let turning = inertia.try_inverse().unwrap_or_else(Matrix3::zeros) * Matrix3::from_diagonal(&mass);
-        let inverse = (inertia + normal * (h * axis.damping)).try_inverse().unwrap_or_else(Matrix3::zeros);
+        let turning = inertia.try_inverse().unwrap_or_else(Matrix3::zeros) * mass;
+        let damped = inertia + weighted(&|a| h * a.damping);
+        let inverse = damped.try_inverse().unwrap_or_else(Matrix3::zeros);
         let response: Vec<Vector3<f64>> = rows.iter().map(|r| inverse * r).collect();
         let coupling = rows.iter().flat_map(|a| response.iter().map(move |b| a.dot(b))).collect();
         Self { h, rows, spin, inverse, turning, response, coupling }
@@ -47,16 +48,16 @@ const SWEEPS: usize = 30;
 
 impl Plant {
     pub(super) fn step_rolling(&mut self, h: f64) {
-        let mass = self.mass_vector();
+        let mass = self.platform();
         let tables = match self.rolling.take() {
             Some(tables) if tables.h == h => tables,
-            _ => Tables::new(&self.geometry, &self.axis, mass, h),
+            _ => Tables::new(self.contacts.iter().map(|c| c.row / c.lever).collect(), &self.axes, mass, h),
         };
         let start = self.twist_vector();
         let start = start + tables.turning * turn(&start, 0.5 * h);
-        let mut momentum = mass.component_mul(&start) + tables.spin * start;
+        let mut momentum = mass * start + tables.spin * start + self.push * h;
         for (row, wheel) in tables.rows.iter().zip(&self.wheels) {
-            momentum += row * (h * wheel.drive);
+            momentum += row * (h * (wheel.drive + wheel.load));
         }
         let free = tables.inverse * momentum;
         for _ in 0..friction::GEAR_ROUNDS {
@@ -83,7 +84,7 @@ impl Plant {
         for _ in 0..SWEEPS {
             let mut change = 0.0_f64;
             for i in 0..n {
-                let limit = self.axis.friction_limit(self.wheels[i].transmitted);
+                let limit = self.wheels[i].friction_limit(&self.axes[i]);
                 let coupling = &tables.coupling[i * n..(i + 1) * n];
                 let pushed: f64 = coupling.iter().zip(&self.wheels).map(|(g, w)| g * w.friction).sum();
                 let speed = tables.rows[i].dot(free) + h * pushed;
@@ -101,9 +102,10 @@ impl Plant {
             let pushed: f64 = coupling.iter().zip(&self.wheels).map(|(g, w)| g * w.friction).sum();
             let speed = tables.rows[i].dot(free) + h * pushed;
             let wheel = &mut self.wheels[i];
-            let limit = self.axis.friction_limit(wheel.transmitted);
-            let winding = wheel.drive - self.axis.damping * speed;
-            wheel.transmitted = self.axis.transmitted(winding, (speed - wheel.speed) / h, wheel.friction, limit);
+            let axis = &self.axes[i];
+            let limit = wheel.friction_limit(axis);
+            let winding = wheel.drive - axis.damping * speed;
+            wheel.transmitted = axis.transmitted(winding, (speed - wheel.speed) / h, wheel.friction, limit);
         }
     }
 }

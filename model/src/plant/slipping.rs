@@ -13,9 +13,9 @@ const NEWTON_STEPS: usize = 40;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactPoint {
     /// Coefficients of the twist in the contact point's speed along the traction direction.
-    row: Vector3<f64>,
+    pub(super) row: Vector3<f64>,
     /// Traction speed per wheel speed, r·cos(roller), m.
-    lever: f64,
+    pub(super) lever: f64,
 }
 
 impl ContactPoint {
@@ -29,8 +29,7 @@ impl ContactPoint {
 }
 
 /// What all wheels share over one step of length `h`.
-struct Floor<'a> {
-    axis: &'a Axis,
+struct Floor {
     h: f64,
     /// s/kg.
     creep: f64,
@@ -45,14 +44,14 @@ struct Traction {
     speed: f64,
 }
 
-impl Floor<'_> {
+impl Floor {
     /// The wheel's answer to a body twist.
-    fn traction(&self, wheel: &WheelState, contact: &ContactPoint, twist: &Vector3<f64>) -> Traction {
+    fn traction(&self, axis: &Axis, wheel: &WheelState, contact: &ContactPoint, twist: &Vector3<f64>) -> Traction {
         let (u, lever) = (contact.row.dot(twist), contact.lever);
-        let limit = self.axis.friction_limit(wheel.transmitted);
-        let inertia = self.axis.inertia() / self.h;
-        let push = inertia * wheel.speed + wheel.drive;
-        let (k, stiffness) = (lever / self.creep, inertia + self.axis.damping);
+        let limit = wheel.friction_limit(axis);
+        let inertia = axis.inertia() / self.h;
+        let push = inertia * wheel.speed + wheel.drive + wheel.load;
+        let (k, stiffness) = (lever / self.creep, inertia + axis.damping);
         let held = stiffness + lever * k;
         let speed = friction::soft(push + k * u, limit) / held;
         let force = (lever * speed - u) / self.creep;
@@ -68,19 +67,19 @@ impl Floor<'_> {
 
 impl Plant {
     pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: f64) {
-        let mass = self.mass_vector() / h;
+        let mass = self.platform() / h;
         let grip = friction_coefficient * self.mass * super::GRAVITY / self.wheels.len() as f64;
         let start = self.twist_vector();
         let start = start + turn(&start, 0.5 * h);
-        let axis = self.axis;
-        let floor = Floor { axis: &axis, h, creep, grip };
+        let axes = std::mem::take(&mut self.axes);
+        let floor = Floor { h, creep, grip };
         let mut twist = start;
         for _ in 0..friction::GEAR_ROUNDS {
             for step in 0..NEWTON_STEPS {
-                let mut residual = mass.component_mul(&(twist - start));
-                let mut slope = Matrix3::from_diagonal(&mass);
-                for (wheel, contact) in self.wheels.iter().zip(&self.contacts) {
-                    let t = floor.traction(wheel, contact, &twist);
+                let mut residual = mass * (twist - start) - self.push;
+                let mut slope: Matrix3<f64> = mass;
+                for ((wheel, contact), axis) in self.wheels.iter().zip(&self.contacts).zip(&axes) {
+                    let t = floor.traction(axis, wheel, contact, &twist);
                     residual -= contact.row * t.force;
                     slope -= contact.row * contact.row.transpose() * t.slope;
                 }
@@ -91,16 +90,17 @@ impl Plant {
                     break;
                 }
             }
-            for (wheel, contact) in self.wheels.iter_mut().zip(&self.contacts) {
-                let t = floor.traction(wheel, contact, &twist);
-                let limit = axis.friction_limit(wheel.transmitted);
+            for ((wheel, contact), axis) in self.wheels.iter_mut().zip(&self.contacts).zip(&axes) {
+                let t = floor.traction(axis, wheel, contact, &twist);
+                let limit = wheel.friction_limit(axis);
                 let acceleration = (t.speed - wheel.speed) / h;
                 let winding = wheel.drive - axis.damping * t.speed;
-                wheel.friction = axis.inertia() * acceleration - winding + contact.lever * t.force;
+                wheel.friction = axis.inertia() * acceleration - winding - wheel.load + contact.lever * t.force;
                 wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
                 wheel.next_speed = t.speed;
             }
         }
+        self.axes = axes;
         for wheel in &mut self.wheels {
             wheel.angle += 0.5 * h * (wheel.speed + wheel.next_speed);
             wheel.speed = wheel.next_speed;

@@ -1,5 +1,6 @@
 //! The robot as its designers describe it: `robot.toml`.
 
+mod edit;
 mod effect;
 mod fields;
 mod parse;
@@ -193,6 +194,15 @@ impl Robot {
     /// The text of the robot's `robot.toml`.
     pub fn to_toml(&self) -> String {
         write::robot(self)
+    }
+
+    /// The text of a robot's file with exactly these effects; everything else stays as it was
+    /// written, comments included. `path` is for the error messages.
+    ///
+    /// # Errors
+    /// As [`Robot::load`], about the text.
+    pub fn edited(text: &str, effects: &[Effect], path: &Path) -> Result<String, InputError> {
+        edit::effects(text, effects, path)
     }
 
     /// Checks a robot that was changed in memory by the rules of [`Robot::load`].

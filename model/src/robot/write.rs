@@ -54,7 +54,7 @@ pub(super) fn robot(robot: &Robot) -> String {
     out
 }
 
-fn effect(out: &mut String, effect: &Effect) {
+pub(super) fn effect(out: &mut String, effect: &Effect) {
     out.push_str("\n[[effect]]\n");
     line(out, "name", toml::Value::String(effect.name.clone()));
     let wheels = effect.wheels.iter().map(|w| toml::Value::Integer(*w as i64)).collect();

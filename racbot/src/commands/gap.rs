@@ -3,11 +3,14 @@
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, save, wrapped};
 use clap::Args;
+use gap::effect::Effect;
+use gap::user::UserEffect;
 use model::error::InputError;
 use model::robot::Robot;
 use model::run::DataSet;
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Options of `gap`.
 #[derive(Args, Debug)]
@@ -19,6 +22,11 @@ pub(crate) struct Options {
     /// Another robot.toml than the data set's own; it may carry effects
     #[arg(long, value_name = "FILE")]
     robot: Option<PathBuf>,
+
+    /// An effect of your own, as an expression in TOML, to be fitted and judged like the built-in ones; may be
+    /// given several times. See data/effects/air-drag.toml
+    #[arg(long, value_name = "FILE")]
+    effect: Vec<PathBuf>,
 
     /// Folder for report.html, gap.json and the robot.toml with the named effects
     #[arg(long, value_name = "DIR", default_value = "out/gap")]
@@ -40,7 +48,15 @@ impl Options {
             Some(file) => DataSet::open_as(folder, Robot::load(file)?)?,
         };
         let progress = Progress::new("looking for the missing effect", 1);
-        let analysis = gap::analyse(&set, &gap::Options::default()).map_err(|error| Failure::about(folder, error))?;
+        let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
+        for file in &self.effect {
+            let effect = UserEffect::load(file).map_err(Failure::excerpt)?;
+            if options.effects.iter().any(|e| e.name() == effect.name()) {
+                return Err(Failure::about(file, format!("name: a second effect is called {}", effect.name())));
+            }
+            options.effects.push(Arc::new(effect));
+        }
+        let analysis = gap::analyse(&set, &options).map_err(|error| Failure::about(folder, error))?;
         progress.at(1);
         drop(progress);
         analysis.write(&self.out).map_err(Failure::data)?;
@@ -57,7 +73,8 @@ impl Options {
         let Some(without) = gap::undo(&robot, name) else {
             return Err(unknown_effect(&file, &robot, name).into());
         };
-        save(&file, &without.to_toml())?;
+        let text = std::fs::read_to_string(&file).map_err(|error| InputError::io(&file, &error))?;
+        save(&file, &Robot::edited(&text, &without.effects, &file)?)?;
         let text = wrapped(&format!("{name} is taken out of {}", file.display()), 2);
         Ok(Answer { text, json: json!({ "removed": name, "robot": file }), wrong: None })
     }

@@ -86,9 +86,3 @@ fn skewed(robot: &Robot, skew: &Degrees) -> Result<Robot, Failure> {
 pub(crate) fn load_robot(file: Option<&Path>) -> Result<Robot, InputError> {
     file.map_or_else(|| Ok(Robot::racbot()), Robot::load)
 }
-
-/// A remark on effects that a robot's file carries and the simulation does not.
-pub(crate) fn remark_on_effects(robot: &Robot) -> Option<String> {
-    let names: Vec<&str> = robot.effects.iter().map(|effect| effect.name.as_str()).collect();
-    (!names.is_empty()).then(|| format!("not simulated: the file's effects {}", names.join(", ")))
-}

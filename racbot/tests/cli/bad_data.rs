@@ -111,3 +111,36 @@ fn stale_gateware_is_named_with_its_line() {
     fs::remove_file(&ucf).unwrap();
     racbot(folder.path(), &["generate", "--check"]).refused(1, &["generated/rac4i65.ucf: "]);
 }
+
+#[test]
+fn an_effect_of_ones_own_that_is_none_is_shown_with_a_caret() {
+    let folder = tempdir().unwrap();
+    let set = data("runs/wheel-skew");
+    let good = fs::read_to_string(data("effects/air-drag.toml")).unwrap();
+    let table = [
+        (good.replace("abs(w)", "abs(ww)"), "`ww` is no signal or parameter"),
+        (good.replace("-c * w", "-c * * w"), "does not belong here"),
+        (good.replace("air-drag", "wheel-skew"), "must be in kebab-case and not that of an effect of the catalogue"),
+        (good.replace("torque =", "torqe ="), "torqe is not known"),
+        (good.replace("scale = 1e-7", "scale = 0.0"), "parameters.c: give a scale greater than 0"),
+        (good.replace("[parameters]", "wheels = [7]\n[parameters]"), "wheel 7"),
+    ];
+    for (text, part) in table {
+        fs::write(folder.path().join("own.toml"), text).unwrap();
+        let outcome = racbot(folder.path(), &["gap", set.to_str().unwrap(), "--effect", "own.toml"]);
+        assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(1), ""), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains(part), "no {part:?} in {}", outcome.stderr);
+        let caret = outcome.stderr.lines().any(|line| line.trim() == "^");
+        assert_eq!(caret, part.starts_with('`') || part.starts_with("does"), "{}", outcome.stderr);
+    }
+    racbot(folder.path(), &["gap", set.to_str().unwrap(), "--effect", "nowhere.toml"]).refused(1, &["nowhere.toml"]);
+}
+
+#[test]
+fn a_manoeuvre_does_not_join_another_robots_data() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("robot.toml"), robot_toml().replace("mass_kg = 2.4", "mass_kg = 3.4")).unwrap();
+    let arguments = ["simulate", "--manoeuvre", "spin", "--out", "."];
+    racbot(folder.path(), &arguments).refused(1, &["robot.toml: describes another robot", "--out"]);
+    assert!(!folder.path().join("run.csv").exists());
+}

@@ -191,3 +191,32 @@ fn wave_writes_a_scene_and_lists_those_that_exist() {
     assert!(json["clocks"].as_u64().is_some_and(|clocks| clocks > 600), "{json}");
     racbot(folder.path(), &["wave", "dance"]).refused(2, &["bus, arm, reversal, kick, stop"]);
 }
+
+#[test]
+fn manoeuvres_make_a_data_set_in_which_a_hidden_effect_is_found() {
+    let folder = tempdir().unwrap();
+    let nominal = format!("# Our robot.\n{}", fs::read_to_string(data("robot.toml")).unwrap());
+    let late = "\n[[effect]]\nname = \"camera-latency\"\n[effect.parameters]\nlatency_s = { value = 0.04 }\n";
+    fs::write(folder.path().join("nominal.toml"), &nominal).unwrap();
+    fs::write(folder.path().join("truth.toml"), nominal.clone() + late).unwrap();
+    for (manoeuvre, name) in [("chirp", "run_01"), ("star", "run_02")] {
+        let arguments = ["simulate", "--robot", "nominal.toml", "--hidden", "truth.toml", "--manoeuvre", manoeuvre];
+        let outcome = racbot(folder.path(), &[&arguments[..], &["--out", "set", "--name", name]].concat())
+            .done()
+            .fits_80_columns();
+        assert!(outcome.stdout.contains(name), "{}", outcome.stdout);
+    }
+    // The robot's own file, with its comments, is what the effect is added to and taken out of.
+    fs::write(folder.path().join("set/robot.toml"), &nominal).unwrap();
+    let effect = data("effects/air-drag.toml");
+    let json = racbot(folder.path(), &["gap", "set", "--effect", effect.to_str().unwrap(), "--json"]).done().json();
+    assert_eq!(json["effects"][0]["name"], "camera-latency", "{json}");
+    assert!((json["effects"][0]["parameters"]["latency_s"]["value"].as_f64().unwrap() - 0.04).abs() < 0.004);
+    let added = fs::read_to_string(folder.path().join("out/gap/robot.toml")).unwrap();
+    assert!(added.starts_with(&nominal) && added.contains("name = \"camera-latency\""), "{added}");
+    racbot(folder.path(), &["gap", "--undo", "camera-latency", "--robot", "out/gap/robot.toml"]).done();
+    assert_eq!(fs::read_to_string(folder.path().join("out/gap/robot.toml")).unwrap().trim_end(), nominal.trim_end());
+    // The same effect, believed: over the FPGA's set points it acts as well.
+    let drive = ["simulate", "--robot", "truth.toml", "--limit-s", "1", "--out", "fpga"];
+    assert!(!racbot(folder.path(), &drive).done().fits_80_columns().stdout.contains("not simulated"));
+}

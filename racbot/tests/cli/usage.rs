@@ -6,7 +6,7 @@ use tempfile::tempdir;
 #[test]
 fn what_is_not_a_command_or_option_is_refused() {
     let folder = tempdir().unwrap();
-    let table: [(&[&str], &str); 15] = [
+    let table: [(&[&str], &str); 18] = [
         (&["fly"], "unrecognized subcommand 'fly'"),
         (&["simulat"], "similar"),
         (&["simulate", "--speed"], "unexpected argument '--speed'"),
@@ -15,6 +15,9 @@ fn what_is_not_a_command_or_option_is_refused() {
         (&["simulate", "--skew-deg", "4,-3,2", "--hidden", "robot.toml"], "cannot be used with"),
         (&["simulate", "--start", "1,2"], "'1,2' is no pose"),
         (&["simulate", "--limit-s", "-1"], "not between 0 and 3600"),
+        (&["simulate", "--manoeuvre", "sipn"], "no such manoeuvre; there are spin, star, square, chirp"),
+        (&["simulate", "--manoeuvre", "spin", "--fpga", "verilog"], "cannot be used with"),
+        (&["simulate", "--times", "3"], "--manoeuvre"),
         (&["replay"], "<DATASET>"),
         (&["calibrate"], "<DATASET>"),
         (&["gap"], "<DATASET>"),

@@ -12,7 +12,7 @@ use model::camera::{Camera, CameraModel};
 use model::frames::{Pose, Twist};
 use model::fusion::FusionOptions;
 use model::localisation::Localiser;
-use model::plant::{Contact, Plant};
+use model::plant::{Contact, Deviations, Plant};
 use model::robot::Robot;
 use model::run::Run;
 use model::trajectory::{FIG_6, SetPoint, TrajectoryReport};
@@ -33,6 +33,8 @@ pub struct Drive {
     pub actual: Robot,
     /// How its wheels hold the floor.
     pub contact: Contact,
+    /// What it does beyond its model.
+    pub deviations: Deviations,
     /// Where to go.
     pub set_points: Vec<SetPoint>,
     /// Who steers.
@@ -61,6 +63,7 @@ impl Drive {
             believed: robot.clone(),
             actual: robot.clone(),
             contact: Contact::default(),
+            deviations: Deviations::default(),
             set_points: set_points.to_vec(),
             control: Control::default(),
             camera: None,
@@ -117,7 +120,11 @@ impl Drive {
     /// [`LoopError`] where the robot does not fit the card, or the FPGA fails.
     pub fn run<F: Fpga>(&self, fpga: F, mut progress: impl FnMut(f64)) -> Result<Driven, LoopError> {
         let settings = self.settings();
-        let plant = Plant::new(&self.actual)?.with_contact(self.contact).at(self.start).moving(self.moving);
+        let plant = Plant::new(&self.actual)?
+            .with_contact(self.contact)
+            .with_deviations(&self.deviations)
+            .at(self.start)
+            .moving(self.moving);
         let mut robot = ClosedLoop::start(fpga, &self.believed, plant, &settings)?.with_supply(self.actual.supply_v);
         let mut controller = Controller::new(self.control, &self.believed, &self.set_points, self.start)?;
         let mut localiser = self.localiser()?;

@@ -1,13 +1,16 @@
 //! `racbot simulate`
 
+mod manoeuvre;
+
 use super::fpga_options::{FpgaChoice, SpeedChoice};
-use super::options::{Hidden, load_robot, remark_on_effects};
+use super::options::{Hidden, load_robot};
 use super::start::Start;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
 use clap::{Args, ValueEnum};
-use model::camera::CameraModel;
+use model::effects::{Applied, ControlDeviations};
 use model::error::InputError;
+use model::plant::{Contact, Deviations};
 use model::plot::Color;
 use model::trajectory::{FIG_6, SetPoint};
 use serde_json::{Value, json};
@@ -28,6 +31,15 @@ pub(crate) struct Options {
     /// Set points: CSV lines `x, y, v, omega[, stop]`, or TOML [default: the four of the paper's Fig. 6]
     #[arg(long, value_name = "FILE")]
     setpoints: Option<PathBuf>,
+
+    /// Drive a manoeuvre of the library instead, commands only, in floating point: spin, star, square, chirp,
+    /// stop-and-go, creep, full-duty, blocks. The runs make, or join, the data set in --out
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["setpoints", "fpga", "speed_mode", "controller", "limit_s"])]
+    manoeuvre: Option<manoeuvre::Name>,
+
+    /// How often the manoeuvre is driven, each time from another heading, a run each
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "manoeuvre", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    times: u32,
 
     #[command(flatten)]
     hidden: Hidden,
@@ -97,18 +109,54 @@ struct Timed {
     times_real_time: f64,
 }
 
+/// What there is beside the drive itself.
+struct Truth {
+    /// Whether the robot is another than the controller believes.
+    hidden: bool,
+    /// Effects that were not simulated, in words.
+    not_shown: Option<String>,
+}
+
+/// A remark on effects that do not show in a drive over the FPGA, whose logic is the controller.
+fn not_shown(applied: &Applied) -> Option<String> {
+    if applied.control != ControlDeviations::default() || applied.stamp_jitter_s != 0.0 {
+        return Some(
+            "not simulated: effects on commands, controller and stamps; --manoeuvre simulates them".to_owned(),
+        );
+    }
+    let names = applied.unsupported.join(", ");
+    (!names.is_empty()).then(|| format!("not simulated: the effects {names}"))
+}
+
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let believed = load_robot(self.robot.as_deref())?;
         let actual = self.hidden.robot(&believed)?;
+        if let Some(manoeuvre::Name(manoeuvre)) = self.manoeuvre {
+            let runs = manoeuvre::Runs {
+                manoeuvre,
+                believed: &believed,
+                actual: &actual,
+                camera: self.camera != CameraUse::Off,
+                start: self.start.0,
+                seed: self.seed,
+                times: self.times,
+                out: &self.out,
+                name: &self.name,
+            };
+            return runs.drive();
+        }
+        let applied = Applied::of(&actual);
         let set_points = self.set_points()?;
         let drive = Drive {
-            actual: actual.clone(),
+            actual: applied.robot.clone(),
+            contact: applied.contact,
+            deviations: applied.deviations.clone(),
             control: match self.controller {
                 ControllerChoice::Follower => Control::Follower,
                 ControllerChoice::Paper => Control::Paper,
             },
-            camera: (self.camera != CameraUse::Off).then(|| CameraModel::of(&actual)),
+            camera: (self.camera != CameraUse::Off).then_some(applied.camera),
             fused: self.camera == CameraUse::Correct,
             start: self.start.0,
             speed_mode: self.speed_mode.into(),
@@ -116,13 +164,19 @@ impl Options {
             seed: self.seed,
             ..Drive::new(&believed, &set_points)
         };
+        let hidden = actual != believed;
         let timed = self.timed(&drive)?;
-        let ideal = (actual != believed).then(|| {
-            let ideal = Drive { actual: believed.clone(), ..drive.clone() };
+        let ideal = (hidden || !actual.effects.is_empty()).then(|| {
+            let ideal = Drive {
+                actual: believed.clone(),
+                contact: Contact::default(),
+                deviations: Deviations::default(),
+                ..drive.clone()
+            };
             ideal.run(BitTrue::new(), |_| {}).map_err(|error| self.about_robot(error))
         });
         let files = self.save(&drive, &timed.driven, ideal.transpose()?.as_ref())?;
-        Ok(self.answer(&drive, &timed, &files))
+        Ok(self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) }))
     }
 
     fn set_points(&self) -> Result<Vec<SetPoint>, InputError> {
@@ -165,11 +219,11 @@ impl Options {
         Ok(files.to_vec())
     }
 
-    fn answer(&self, drive: &Drive, timed: &Timed, files: &[PathBuf]) -> Answer {
-        let mut text = format!("{} over the {} FPGA\n\n", headline(drive), self.fpga.kind());
+    fn answer(&self, drive: &Drive, timed: &Timed, files: &[PathBuf], truth: &Truth) -> Answer {
+        let mut text = format!("{} over the {} FPGA\n\n", headline(drive, truth), self.fpga.kind());
         text += &figures(drive, timed);
-        for remark in [&drive.believed, &drive.actual].into_iter().filter_map(remark_on_effects) {
-            text += &wrapped(&remark, 2);
+        if let Some(remark) = &truth.not_shown {
+            text += &wrapped(remark, 2);
         }
         let names: Vec<_> = files.iter().filter_map(|f| f.file_name()).map(|f| f.to_string_lossy()).collect();
         let _ = writeln!(text, "written      {}: {}", self.out.display(), names.join(", "));
@@ -181,8 +235,8 @@ impl Options {
 }
 
 /// What is driven, in a few words.
-fn headline(drive: &Drive) -> String {
-    let hidden = if drive.actual == drive.believed { "" } else { ", the true robot hidden from the controller," };
+fn headline(drive: &Drive, truth: &Truth) -> String {
+    let hidden = if !truth.hidden { "" } else { ", the true robot hidden from the controller," };
     format!("{} set points{hidden}", drive.set_points.len())
 }
 

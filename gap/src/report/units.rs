@@ -1,0 +1,70 @@
+//! Parameters in the units people speak in.
+
+use super::short;
+
+/// What a parameter measures, by the end of its name: factor and unit for people.
+fn unit(name: &str) -> (f64, &'static str) {
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
+    match stem {
+        _ if name.ends_with("_rad_s") => (1.0, " rad/s"),
+        _ if name.ends_with("_rad") => (180.0 / std::f64::consts::PI, "°"),
+        _ if name.ends_with("_nms") => (1e6, " µNm s"),
+        _ if name.ends_with("_nm") => (1e3, " mNm"),
+        _ if name.ends_with("_per_kg") => (1e3, " mm/s/N"),
+        _ if name.ends_with("_n") => (1.0, " N"),
+        _ if name.ends_with("_ohm") => (1.0, " Ω"),
+        _ if name.ends_with("_v") => (1.0, " V"),
+        _ if name.ends_with("_per_m2") => (1.0, " /m²"),
+        _ if name.ends_with("_m") => (1e3, " mm"),
+        _ if name.ends_with("_s") => (1e3, " ms"),
+        _ if stem.ends_with("scale") || ["loss", "rise", "cos", "sin", "dropped"].contains(&stem) => (100.0, " %"),
+        _ => (1.0, ""),
+    }
+}
+
+/// The name without its unit, such as `skew 1`.
+pub(super) fn label(name: &str) -> String {
+    let units = ["_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];
+    let stem = units.iter().find_map(|u| name.strip_suffix(u)).unwrap_or(name);
+    stem.replace('_', " ")
+}
+
+/// A value with its unit, such as `3.98°` or `+2.1 %`.
+pub(super) fn value(name: &str, x: f64) -> String {
+    let (factor, unit) = unit(name);
+    let sign = if unit == " %" && x > 0.0 { "+" } else { "" };
+    format!("{sign}{}{unit}", short(factor * x))
+}
+
+/// A value with its interval, such as `3.98° (3.79 to 4.16)`; the interval only if it has a width.
+pub(super) fn interval(name: &str, x: f64, [low, high]: [f64; 2]) -> String {
+    let (factor, _) = unit(name);
+    if low == high {
+        return value(name, x);
+    }
+    format!("{} ({} to {})", value(name, x), short(factor * low), short(factor * high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn people_read_degrees_percent_and_milliseconds() {
+        let table = [
+            ("skew_1_rad", 0.07, "4.01°"),
+            ("scale_2", 0.021, "+2.10 %"),
+            ("scale", -0.15, "-15.0 %"),
+            ("torque_3_nm", 0.0208, "20.8 mNm"),
+            ("latency_s", 0.0704, "70.4 ms"),
+            ("x_m", 0.0101, "10.1 mm"),
+            ("x_rad", 0.02, "1.15°"),
+            ("threshold_rad_s", 14.0, "14.0 rad/s"),
+            ("friction_coefficient", 0.2, "0.200"),
+            ("creep_s_per_kg", 0.004, "4.00 mm/s/N"),
+        ];
+        for (name, x, shown) in table {
+            assert_eq!(value(name, x), shown, "{name}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The findings in sentences.
+
+use super::{terminal, units};
+use crate::analysis::{Analysis, Named};
+use crate::effect::Link;
+
+/// Links in the order of the signals.
+const CHAIN: [Link; 5] = [Link::Timing, Link::Command, Link::Controller, Link::Drive, Link::Motion];
+/// Noise floors up to which a link agrees.
+const AGREES: f64 = 1.3;
+
+/// A named effect: where, how much, how sure.
+pub(super) fn effect(e: &Named) -> String {
+    let place = match &e.wheels[..] {
+        [] => String::new(),
+        [one] => format!(" on wheel {one}"),
+        many => format!(" on wheels {}", terminal::list(many)),
+    };
+    let values: Vec<String> = e
+        .parameters
+        .iter()
+        .map(|(name, x, ci)| format!("{} {}", units::label(name), units::interval(name, *x, *ci)))
+        .collect();
+    format!(
+        "{}{place}: {}. It closes {:.0} % of the {} link's squared gap on runs it was not fitted to.",
+        e.name,
+        values.join(", "),
+        100.0 * e.gain,
+        e.link.name()
+    )
+}
+
+/// Which links agree as they are, and which do not.
+pub(super) fn links(a: &Analysis) -> String {
+    let compared = |l: &Link| a.links.iter().find(|g| g.link == *l);
+    let of = |agree: bool| -> Vec<&str> {
+        let wanted = CHAIN.iter().filter(|l| compared(l).is_some_and(|g| (g.before <= AGREES) == agree));
+        wanted.map(|l| l.name()).collect()
+    };
+    let missing: Vec<&str> = CHAIN.iter().filter(|l| compared(l).is_none()).map(|l| l.name()).collect();
+    let mut out = match (&of(true)[..], &of(false)[..]) {
+        (good, []) => format!("Every link that could be compared agrees: {}.", join(good)),
+        ([], bad) => format!("No link agrees as it is: {}.", join(bad)),
+        (good, bad) => format!(
+            "The disagreement is in {}; {} {} within its noise.",
+            join(bad),
+            join(good),
+            if good.len() == 1 { "agrees" } else { "agree, each" }
+        ),
+    };
+    if !missing.is_empty() {
+        out += &format!(" Not compared, for want of signals: {}.", join(&missing));
+    }
+    out
+}
+
+fn join(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

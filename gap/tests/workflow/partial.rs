@@ -1,0 +1,151 @@
+//! Logs that hold less, or something else, than the usual.
+
+use std::path::{Path, PathBuf};
+
+use super::common::{cut, example, names, run, simulate, value, with};
+use gap::{Analysis, GapError, Options, Verdict, analyse};
+use model::manoeuvre::Manoeuvre;
+use model::robot::{Layout, Robot, Support};
+use model::run::{DataSet, Run};
+
+use Manoeuvre::{Blocks, Chirp, Spin, Star};
+
+const SKEW: [(&str, f64); 2] = [("skew_1_rad", 0.06), ("skew_3_rad", -0.05)];
+
+fn done(set: &DataSet) -> Analysis {
+    let a = analyse(set, &Options::default()).unwrap();
+    assert!(!a.terminal_summary().contains("NaN") && !a.html().contains("NaN"), "{}", a.terminal_summary());
+    a
+}
+
+#[test]
+fn missing_columns_narrow_what_is_compared() {
+    let set = example();
+    let without = |change: &dyn Fn(&mut Run)| {
+        let mut set = set.clone();
+        set.runs.iter_mut().for_each(change);
+        set
+    };
+    let links = |a: &Analysis| a.links.iter().map(|l| l.link.name()).collect::<Vec<_>>();
+    let a = done(&without(&|r| r.duty.clear()));
+    assert_eq!((names(&a), links(&a)), (vec!["wheel-skew"], vec!["motion", "timing", "command"]));
+    let a = done(&without(&|r| {
+        r.camera.clear();
+        r.has_camera = false;
+    }));
+    assert_eq!(links(&a), ["drive", "command", "controller"]);
+    assert!(a.effects.iter().all(|e| e.name != "wheel-skew"));
+    let a = done(&without(&|r| r.command = None));
+    assert_eq!((names(&a), links(&a)), (vec!["wheel-skew"], vec!["motion", "drive", "timing", "controller"]));
+    let a = done(&without(&|r| r.reference.clear()));
+    assert_eq!((names(&a), links(&a)), (vec!["wheel-skew"], vec!["motion", "drive", "timing"]));
+    // Commands and set points alone: one link, and it agrees.
+    let a = done(&without(&|r| {
+        r.counts.clear();
+        r.duty.clear();
+        r.camera.clear();
+        r.has_camera = false;
+    }));
+    assert_eq!((a.verdict, links(&a)), (Verdict::Agrees, vec!["command"]));
+    let nothing = analyse(&without(&|r| *r = Run { t: r.t.clone(), ..Run::default() }), &Options::default());
+    assert!(matches!(nothing, Err(GapError::NothingToCompare)));
+}
+
+#[test]
+fn one_run_and_two_seconds_are_read_for_what_they_are_worth() {
+    let mut set = example();
+    set.runs.truncate(1);
+    assert_eq!(names(&done(&set)), ["wheel-skew"]);
+    cut(&mut set.runs[0], 2.0);
+    assert!(done(&set).effects.len() <= 1);
+    cut(&mut set.runs[0], 0.2);
+    // Too short for anything: an answer or a clear refusal.
+    match analyse(&set, &Options::default()) {
+        Ok(a) => assert!(a.effects.is_empty(), "{}", a.terminal_summary()),
+        Err(e) => assert!(e.to_string().contains("log"), "{e}"),
+    }
+    set.runs[0].t.truncate(1);
+    cut(&mut set.runs[0], 0.0005);
+    assert!(analyse(&set, &Options::default()).map_or(true, |a| a.effects.is_empty()));
+}
+
+#[test]
+fn other_rates_of_control_and_camera() {
+    for (control, camera, seconds) in [(20.0, 30.0, 15.0), (100.0, 100.0, 9.0), (10_000.0, 60.0, 3.0)] {
+        // Twenty times a second the camera cannot be faster.
+        let camera = f64::min(camera, control);
+        let nominal = Robot { control_rate_hz: control, camera_rate_hz: camera, ..Robot::racbot() };
+        let truth = with(&nominal, "wheel-skew", &SKEW);
+        let mut set = simulate(&truth, &[Star, Spin, Chirp], 3);
+        set.runs.iter_mut().for_each(|r| cut(r, seconds));
+        let a = done(&set);
+        assert_eq!(names(&a), ["wheel-skew"], "{control} Hz, camera {camera} Hz: {}", a.terminal_summary());
+        assert!((value(&a, "skew_1_rad") - 0.06).abs() < 0.012, "{control} Hz: {}", value(&a, "skew_1_rad"));
+    }
+}
+
+#[test]
+fn stamps_that_are_slightly_irregular() {
+    let nominal = Robot { control_rate_hz: 200.0, ..Robot::racbot() };
+    let mut set = simulate(&with(&nominal, "wheel-skew", &SKEW), &[Star, Chirp], 4);
+    for run in &mut set.runs {
+        // The golden ratio again: a tenth of a tick to and fro, without an order.
+        for (k, t) in run.t.iter_mut().enumerate() {
+            *t += 0.1 / 200.0 * ((k as f64 * 0.618_034).fract() - 0.5);
+        }
+        cut(run, 9.0);
+    }
+    assert_eq!(names(&done(&set)), ["wheel-skew"]);
+}
+
+#[test]
+fn four_wheels_and_mecanum_rollers() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/robot-four-wheels.toml");
+    let four = Robot::load(data).unwrap();
+    let set = simulate(&with(&four, "body-radius", &[("scale", 0.04)]), &[Star, Spin], 5);
+    let a = done(&set);
+    assert_eq!(names(&a), ["body-radius"], "{}", a.terminal_summary());
+    assert!((value(&a, "scale") - 0.04).abs() < 0.008);
+
+    let at = |x: f64, y: f64, side: f64| model::geometry::Wheel {
+        x_m: x,
+        y_m: y,
+        drive_rad: std::f64::consts::FRAC_PI_2,
+        roller_rad: side * std::f64::consts::FRAC_PI_4,
+    };
+    let corners = vec![at(-0.08, 0.09, -1.0), at(0.08, 0.09, 1.0), at(-0.08, -0.09, 1.0), at(0.08, -0.09, -1.0)];
+    let mecanum = Robot { layout: Layout::Wheels(corners), ..Robot::racbot() };
+    let clean = done(&simulate(&mecanum, &[Star, Spin], 6));
+    assert_eq!((clean.verdict, names(&clean)), (Verdict::Agrees, vec![]), "{}", clean.terminal_summary());
+    let a = done(&simulate(&with(&mecanum, "camera-latency", &[("latency_s", 0.04)]), &[Star, Spin], 6));
+    assert_eq!(names(&a), ["camera-latency"], "{}", a.terminal_summary());
+}
+
+#[test]
+fn lifted_wheels_are_compared_axis_by_axis_one_alone_as_well() {
+    let nominal = Robot { support: Support::Blocks, wheel_inertia_kg_m2: 2e-5, ..Robot::racbot() };
+    let truth = with(&nominal, "coulomb-friction", &[("torque_nm", 0.012)]);
+    let a = done(&simulate(&truth, &[Blocks, Blocks], 1));
+    assert_eq!(names(&a), ["coulomb-friction"], "{}", a.terminal_summary());
+    assert!(a.links.iter().all(|l| l.link.name() != "motion"));
+    // Only wheel 2 turned, and only there the effect can be known.
+    let truth = with(&nominal, "coulomb-friction", &[("torque_2_nm", 0.015)]);
+    let alone: Vec<Run> = (0..2)
+        .map(|seed| {
+            let mut run = run(&truth, Blocks, seed);
+            let (from, to) = (run.len() / 3, 2 * run.len() / 3);
+            let keep = |v: &mut Vec<f64>| *v = v[from..to].to_vec();
+            run.reference.iter_mut().chain(&mut run.duty).for_each(keep);
+            run.command.iter_mut().flatten().for_each(keep);
+            run.supply_v.iter_mut().for_each(keep);
+            keep(&mut run.t);
+            run.counts.iter_mut().for_each(|c| *c = c[from..to].to_vec());
+            run.camera.clear();
+            run.has_camera = false;
+            run
+        })
+        .collect();
+    let a = done(&DataSet { folder: PathBuf::from("alone"), robot: nominal, runs: alone });
+    assert_eq!(names(&a), ["coulomb-friction"], "{}", a.terminal_summary());
+    assert!((value(&a, "torque_2_nm") / 0.015 - 1.0).abs() < 0.2 || a.effects[0].wheels.is_empty());
+}

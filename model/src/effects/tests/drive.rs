@@ -1,0 +1,117 @@
+//! Motors, gears, bridge, battery and friction at the wheel shaft.
+
+use super::*;
+use crate::motor::Axis;
+
+fn axis() -> Axis {
+    Axis::of(&Robot::racbot())
+}
+
+/// Speed at which a lifted wheel settles under a duty, with friction and damping beyond nominal.
+fn settled(duty: f64, friction: f64, damping: f64) -> f64 {
+    let a = axis();
+    duty.signum() * (a.torque_per_volt * 7.2 * duty.abs() - a.coulomb - friction) / (a.damping + damping)
+}
+
+#[test]
+fn friction_at_the_wheel_shaft() {
+    let speeds = |name, p: &[(&str, f64)]| {
+        let mut plant = lifted(name, p);
+        run(&mut plant, [0.8, -0.8, 0.8], 2000);
+        [0, 1, 2].map(|i| speed(&plant, i))
+    };
+    let [one, two, three] = speeds("coulomb-friction", &[("torque_1_nm", 0.02), ("torque_nm", 0.005)]);
+    close(one, settled(0.8, 0.025, 0.0), 1e-3);
+    close(two, settled(-0.8, 0.005, 0.0), 1e-3);
+    close(three, settled(0.8, 0.005, 0.0), 1e-3);
+    let [one, two, _] = speeds("viscous-friction", &[("coefficient_1_nms", 1e-4)]);
+    close(one, settled(0.8, 0.0, 1e-4), 1e-3);
+    close(two, settled(-0.8, 0.0, 0.0), 1e-3);
+    let [one, two, _] = speeds("asymmetric-friction", &[("torque_nm", 0.01), ("sense", -1.0)]);
+    close(one, settled(0.8, 0.0, 0.0), 1e-3);
+    close(two, settled(-0.8, 0.01, 0.0), 1e-3);
+    let [one, _, three] = speeds("heading-drag", &[("mean_nm", 0.004), ("cos_nm", 0.003), ("harmonic", 2.0)]);
+    close(one, settled(0.8, 0.007, 0.0), 1e-3);
+    close(three, settled(0.8, 0.007, 0.0), 1e-3);
+    let [one, ..] = speeds("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)]);
+    close(one, settled(0.8, 0.0, 0.0), 1e-3);
+}
+
+#[test]
+fn what_sticks_lets_go_at_the_stribeck_torque() {
+    let moved = |torque: f64| {
+        let mut plant = lifted("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)]);
+        let duty = torque / (axis().torque_per_volt * 7.2);
+        run(&mut plant, [duty; 3], 200);
+        speed(&plant, 0)
+    };
+    assert_eq!(moved(0.02), 0.0);
+    assert!(moved(0.022) > 10.0);
+}
+
+#[test]
+fn bridge() {
+    let way = |name, p: &[(&str, f64)], duty: [f64; 3]| {
+        let mut plant = applied(name, p).plant().unwrap();
+        run(&mut plant, duty, 400);
+        plant.encoder_after().to_vec()
+    };
+    let plain = |duty| way("wheel-skew", &[], duty);
+    assert_eq!(way("dead-band", &[("duty", 0.1)], [0.05, -0.09, 0.1]), [0.0; 3]);
+    assert_eq!(way("dead-band", &[("duty", 0.125)], [0.375, -0.625, 0.0]), plain([0.25, -0.5, 0.0]));
+    assert_eq!(way("drive-curve", &[("curvature", 0.5)], [0.5, -1.0, 0.0]), plain([0.375, -1.0, 0.0]));
+}
+
+#[test]
+fn duties_come_late() {
+    let mut late = applied("actuation-latency", &[("latency_s", 0.0055)]).plant().unwrap();
+    let mut plain = applied("wheel-skew", &[]).plant().unwrap();
+    let duty = |k: usize| if k < 40 { [0.0, 0.5, -0.5] } else { [0.2, -0.5, 0.5] };
+    for k in 0..100 {
+        late.step(&duty(k), 7.2, 0.001);
+        let at = |age: usize| k.checked_sub(age).map_or([0.0; 3], duty);
+        let [a, b] = [at(5), at(6)];
+        plain.step(&[0, 1, 2].map(|i| 0.5 * (a[i] + b[i])), 7.2, 0.001);
+    }
+    for (a, b) in late.encoder_after().iter().zip(plain.encoder_after()) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn the_battery_gives_way_under_the_sum_of_the_currents() {
+    let moved = |name, p: &[(&str, f64)], supply: f64| {
+        let mut plant = lifted(name, p);
+        plant.step(&[1.0, -1.0, 0.5], supply, 1e-6);
+        speed(&plant, 0)
+    };
+    // At standstill: V = (7.2 − 0.2)/(1 + 0.4·(1 + 1 + 0.25)/1.94).
+    let left = 7.0 / (1.0 + 0.4 * 2.25 / 1.94);
+    let sagging = moved("battery-sag", &[("drop_v", 0.2), ("resistance_ohm", 0.4)], 7.2);
+    close(sagging, moved("wheel-skew", &[], left), 1e-6);
+}
+
+#[test]
+fn warm_windings_resist() {
+    let mut applied = applied("motor-heating", &[("rise", 0.5), ("time_s", 0.2)]);
+    applied.robot.support = Support::Blocks;
+    applied.robot.motor.friction_torque = 0.004;
+    let cold = Axis::of(&applied.robot);
+    let mut plant = applied.plant().unwrap();
+    run(&mut plant, [0.8, 0.4, 0.0], 3000);
+    for (i, duty) in [0.8, 0.4].into_iter().enumerate() {
+        let hot = 1.0 + 0.5 * duty * duty;
+        let speed_expected = (cold.torque_per_volt / hot * 7.2 * duty - cold.coulomb) / (cold.damping / hot);
+        close(speed(&plant, i), speed_expected, 2e-3);
+    }
+}
+
+#[test]
+fn figures_of_motor_and_gear() {
+    let robot = |name, p: &[(&str, f64)]| applied(name, p).robot;
+    let strong = robot("torque-constant", &[("scale", 0.1)]);
+    close(strong.motor.torque_constant, 0.007_612, 1e-9);
+    close(strong.motor.back_emf(), 0.007_612, 1e-9);
+    close(robot("rotor-inertia", &[("scale", 1.0)]).motor.rotor_inertia, 5.4e-7, 1e-9);
+    close(robot("gear-efficiency", &[("scale", -0.08)]).gear_efficiency, 0.8, 1e-9);
+}

@@ -1,0 +1,67 @@
+//! From duties to voltages: bridge, battery and warm windings.
+
+use std::collections::VecDeque;
+
+use super::Plant;
+use crate::motor::Axis;
+
+/// Duties on their way, oldest first.
+pub(super) type Delayed = VecDeque<Vec<f64>>;
+
+impl Plant {
+    /// Sets the torque of every winding for one tick.
+    pub(super) fn energise(&mut self, duty: &[f64], supply_v: f64, dt: f64) {
+        let n = self.wheels.len();
+        let mut acting: Vec<f64> = (0..n).map(|i| duty.get(i).copied().unwrap_or(0.0).clamp(-1.0, 1.0)).collect();
+        let mut supply = supply_v;
+        if let Some(d) = self.deviations.as_deref() {
+            delay(&mut self.delayed, &mut acting, d.duty_delay_s / dt);
+            for u in &mut acting {
+                *u = u.signum() * (u.abs() - d.dead_band).max(0.0);
+                *u *= 1.0 + d.curvature * (u.abs() - 1.0);
+            }
+            let [rise, time] = d.heating;
+            for (i, wheel) in self.wheels.iter_mut().enumerate() {
+                if rise != 0.0 {
+                    wheel.heat += dt / time * (acting[i] * acting[i] - wheel.heat);
+                    let cold = &self.cold[i];
+                    let hot = 1.0 + rise * wheel.heat;
+                    self.axes[i] =
+                        Axis { torque_per_volt: cold.torque_per_volt / hot, damping: cold.damping / hot, ..*cold };
+                }
+            }
+            let [drop, ohm] = d.battery;
+            supply -= drop;
+            if ohm != 0.0 {
+                // The bridges draw Σ u·i with i = (u·V − e)/R; V = supply − ohm·Σ u·i is linear in V.
+                let (mut slope, mut idle) = (0.0, 0.0);
+                for ((u, wheel), axis) in acting.iter().zip(&self.wheels).zip(&self.axes) {
+                    let conductance = axis.torque_per_volt * self.current_per_torque;
+                    let back_emf = axis.damping * wheel.speed * self.current_per_torque;
+                    slope += u * u * conductance;
+                    idle += u * back_emf;
+                }
+                supply = ((supply + ohm * idle) / (1.0 + ohm * slope)).max(0.0);
+            }
+        }
+        for ((wheel, axis), u) in self.wheels.iter_mut().zip(&self.axes).zip(&acting) {
+            wheel.drive = axis.winding_torque(u * supply, 0.0);
+        }
+    }
+}
+
+/// Replaces duties by those `ticks` ago, 0 before the first.
+fn delay(queue: &mut Delayed, duty: &mut [f64], ticks: f64) {
+    if ticks <= 0.0 {
+        return;
+    }
+    let (whole, share) = (ticks.floor() as usize, ticks.fract());
+    queue.push_back(duty.to_vec());
+    while queue.len() > whole + 2 {
+        queue.pop_front();
+    }
+    let at = |age: usize, i: usize| queue.len().checked_sub(1 + age).map_or(0.0, |k| queue[k][i]);
+    for (i, u) in duty.iter_mut().enumerate() {
+        *u = (1.0 - share) * at(whole, i) + share * at(whole + 1, i);
+    }
+}

@@ -1,0 +1,50 @@
+//! From wheel angles to what the encoders at the motor shafts count.
+
+use std::collections::VecDeque;
+
+use super::Plant;
+
+/// One encoder with its gear.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Encoder {
+    /// Wheel angle of the last tick, rad.
+    angle: f64,
+    /// What has been counted, rad at the wheel.
+    counted: f64,
+    /// Where the motor is in the play, rad at the motor shaft, and how fast it crosses it, rad/s.
+    play: [f64; 2],
+    /// What was counted at the last ticks, newest last.
+    past: VecDeque<f64>,
+}
+
+impl Plant {
+    /// Wheel angle by encoder `i` after a tick of `dt`, rad.
+    pub(super) fn read_encoder(&mut self, i: usize, dt: f64) -> f64 {
+        let wheel = &self.wheels[i];
+        let Some(d) = self.deviations.as_deref() else { return wheel.angle };
+        let (w, e) = (d.wheel(i), &mut self.encoders[i]);
+        let mut moved = wheel.angle - e.angle;
+        e.angle = wheel.angle;
+        if w.play_rad > 0.0 {
+            // The free rotor runs across the play until the other flank stops it.
+            let (half, [at, speed]) = (0.5 * w.play_rad, e.play);
+            let speed = speed + dt * wheel.transmitted / self.gear_ratio / self.rotor_inertia;
+            let next = at + dt * speed;
+            e.play = if next.abs() >= half { [half.copysign(next), 0.0] } else { [next, speed] };
+            moved += (e.play[0] - at) / self.gear_ratio;
+        }
+        let kept = if wheel.speed.abs() > d.loss_threshold { 1.0 - w.loss } else { 1.0 };
+        e.counted += moved * kept / (1.0 + w.encoder);
+        let ticks = d.encoder_delay_s / dt;
+        if ticks <= 0.0 {
+            return e.counted;
+        }
+        let (whole, share) = (ticks.floor() as usize, ticks.fract());
+        e.past.push_back(e.counted);
+        while e.past.len() > whole + 2 {
+            e.past.pop_front();
+        }
+        let at = |age: usize| e.past.len().checked_sub(1 + age).map_or(0.0, |k| e.past[k]);
+        (1.0 - share) * at(whole) + share * at(whole + 1)
+    }
+}

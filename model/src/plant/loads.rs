@@ -1,0 +1,51 @@
+//! Forces and torques of the [`Deviations`](super::Deviations) on wheels and body.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{GRAVITY, Plant};
+use crate::robot::Support;
+
+/// Speed over which the drag of rollers and carpet turns round, m/s.
+const SLIDE_WIDTH: f64 = 0.005;
+
+impl Plant {
+    /// Sets every wheel's load and friction, and the force on the body, for one step.
+    pub(super) fn load(&mut self) {
+        let Some(d) = self.deviations.as_deref() else { return };
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            wheel.load = -d.wheel(i).viscous_nms * wheel.speed;
+            wheel.dry = d.friction(i, wheel.speed, wheel.drive, self.pose.theta);
+        }
+        if self.support == Support::Blocks {
+            return;
+        }
+        let (twist, heading) = (self.twist, self.pose.theta);
+        let (s, c) = heading.sin_cos();
+        let weight = self.mass * GRAVITY;
+        let [grain, azimuth] = d.grain;
+        let g = [azimuth.cos(), azimuth.sin()];
+        let world = [c * twist.vx - s * twist.vy, s * twist.vx + c * twist.vy];
+        let drag = -grain * ((world[0] * g[0] + world[1] * g[1]) / SLIDE_WIDTH).tanh();
+        let f = [weight * d.tilt_rad[0] + drag * g[0], weight * d.tilt_rad[1] + drag * g[1]];
+        // What turns with the body pulls its centre of mass outwards.
+        let outwards = self.mass * twist.omega * twist.omega;
+        let [cx, cy] = d.centre_of_mass_m;
+        let mut push = Vector3::new(c * f[0] + s * f[1] + outwards * cx, -s * f[0] + c * f[1] + outwards * cy, 0.0);
+        if d.roller_friction_n != 0.0 {
+            let speeds = Vector3::new(twist.vx, twist.vy, twist.omega);
+            for wheel in self.geometry.wheels() {
+                let [ax, ay] = wheel.traction();
+                let row = Vector3::new(-ay, ax, wheel.x_m * ax + wheel.y_m * ay);
+                push -= row * (d.roller_friction_n * (row.dot(&speeds) / SLIDE_WIDTH).tanh());
+            }
+        }
+        self.push = push;
+    }
+
+    /// Mass matrix of the platform about the chassis centre.
+    pub(super) fn platform(&self) -> Matrix3<f64> {
+        let [cx, cy] = self.deviations.as_ref().map_or([0.0; 2], |d| d.centre_of_mass_m);
+        let (m, i) = (self.mass, self.yaw_inertia);
+        Matrix3::new(m, 0.0, -m * cy, 0.0, m, m * cx, -m * cy, m * cx, i)
+    }
+}
