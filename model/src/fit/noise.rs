@@ -7,6 +7,14 @@ use crate::run::Run;
 /// Noise below which no real camera is; keeps a noiseless simulation from dividing by zero.
 const FLOOR: [f64; 3] = [1e-5, 1e-5, 1e-5];
 
+/// What is assumed where too few frames follow each other: a league camera.
+const USUAL: [f64; 3] = [0.0015, 0.0015, 0.0087];
+/// Longest step over shortest up to which four frames follow each other without a gap; coarse ticks
+/// make neighbouring steps unequal.
+const UNEVEN: f64 = 2.2;
+/// The same up to which they count as evenly spaced.
+const EVEN: f64 = 1.3;
+
 /// Standard deviations of x, y (m) and heading (rad), from third differences of consecutive frames:
 /// motion with limited jerk leaves less than 0.3 mm in them at 60 Hz, white noise √20 times its own
 /// size. By the median, so that outliers and missing frames do not matter.
@@ -17,10 +25,12 @@ pub fn camera_noise(runs: &[Run]) -> [f64; 3] {
             let t = [0, 1, 2, 3].map(|i| run.t[four[i].tick]);
             let steps = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
             let (least, most) = steps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
-            if most > 1.3 * least {
+            if most > UNEVEN * least {
                 continue;
             }
-            let third = |v: [f64; 4]| (v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).abs();
+            let weights = if most > EVEN * least { divided(t) } else { [-1.0, 3.0, -3.0, 1.0] };
+            let norm = weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+            let third = |v: [f64; 4]| weights.iter().zip(v).map(|(w, v)| w * v).sum::<f64>().abs() / norm;
             differences[0].push(third([0, 1, 2, 3].map(|i| four[i].pose.x)));
             differences[1].push(third([0, 1, 2, 3].map(|i| four[i].pose.y)));
             let theta = four[0].pose.theta;
@@ -29,8 +39,14 @@ pub fn camera_noise(runs: &[Run]) -> [f64; 3] {
     }
     let mut noise = FLOOR;
     for (slot, values) in noise.iter_mut().zip(&mut differences) {
-        // Median of |normal| is 0.6745 σ; the coefficients 1, 3, 3, 1 have a norm of √20.
-        *slot = slot.max(median(values).unwrap_or(0.0) / (0.6745 * 20.0_f64.sqrt()));
+        // Median of |normal| is 0.6745 σ.
+        *slot = slot.max(median(values).unwrap_or(0.0) / 0.6745);
     }
-    noise
+    if differences[0].is_empty() { USUAL } else { noise }
+}
+
+/// Weights of the third divided difference: no parabola shows in it, whatever the times.
+fn divided(t: [f64; 4]) -> [f64; 4] {
+    let apart = |i: usize| (0..4).filter(|j| *j != i).map(|j| t[i] - t[j]).product::<f64>();
+    [0, 1, 2, 3].map(|i| 1.0 / apart(i))
 }
