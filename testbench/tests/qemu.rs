@@ -49,7 +49,7 @@ fn robot() -> Robot {
     robot
 }
 
-fn initramfs(tools: &Tools) -> Vec<u8> {
+fn initramfs(tools: &Tools, robot: &Robot) -> Vec<u8> {
     let good = StandIn::committed();
     let mut corrupt = good.bit();
     corrupt[90_000] ^= 0x10;
@@ -63,7 +63,7 @@ fn initramfs(tools: &Tools) -> Vec<u8> {
         .file("rac4i65.bit", &good.bit())
         .file("corrupt.bit", &corrupt)
         .file("other.bit", &StandIn { content_hash: 0xDEAD_BEEF, ..good }.bit())
-        .file("robot.toml", robot().to_toml().as_bytes())
+        .file("robot.toml", robot.to_toml().as_bytes())
         .file("two.csv", TWO_POINTS.as_bytes())
         .file("far.csv", FAR.as_bytes())
         .finish()
@@ -96,7 +96,13 @@ fn session(card: VirtualCard, ids: Ids, folder: &Path, first_boot: &str) -> (Out
     let _one = MACHINE.lock().unwrap_or_else(PoisonError::into_inner);
     let tools = Tools::in_folder(&target_folder().join("qemu")).unwrap_or_else(|missing| panic!("{missing}"));
     let card: LockedCard = Arc::new(Mutex::new(card.in_host_time()));
-    let initramfs = initramfs(&tools);
+    // Two simulations at once: slower still, with a watchdog of 250 ms.
+    let mut robot = robot();
+    if first_boot == "verilog" {
+        robot.control_rate_hz = 20.0;
+        (robot.pi.kp, robot.pi.ki) = (0.08, 0.2);
+    }
+    let initramfs = initramfs(&tools, &robot);
     let options = Options {
         tools: &tools,
         initramfs: &initramfs,
