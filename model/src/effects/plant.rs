@@ -80,10 +80,13 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
             (each("loss", ""), |w, x| w.loss = x)
         }
         "roller-ripple" => {
-            applied.deviations.ripple_order = value("order").max(1.0);
+            // By cosine and sine of an order, or by the amplitude and count of an order analysis, which knows no phase.
+            applied.deviations.ripple_order = value("order").max(value("count")).max(1.0);
+            let on = |i: usize| effect.wheels.is_empty() || effect.wheels.contains(&(i + 1));
+            let amplitude = |i: usize| if on(i) { value("amplitude") } else { 0.0 };
             let wheels = applied.deviations.wheels_mut(n);
             wheels.iter_mut().zip(each("sin", "")).for_each(|(w, x)| w.ripple[1] = x);
-            (each("cos", ""), |w, x| w.ripple[0] = x)
+            (each("cos", "").into_iter().enumerate().map(|(i, x)| x + amplitude(i)).collect(), |w, x| w.ripple[0] = x)
         }
         _ => return false,
     };

@@ -78,6 +78,16 @@ fn a_rippled_wheel_rolls_by_its_angle() {
 }
 
 #[test]
+fn a_ripple_found_by_order_analysis_acts_on_its_wheels() {
+    let mut robot = robot("roller-ripple", &[("amplitude", 0.02), ("count", 15.0)]);
+    robot.effects[0].wheels = vec![3];
+    let mut d = Applied::of(&robot).deviations;
+    assert_eq!(d.ripple_order, 15.0);
+    let ripples: Vec<[f64; 2]> = d.wheels_mut(3).iter().map(|w| w.ripple).collect();
+    assert_eq!(ripples, [[0.0, 0.0], [0.0, 0.0], [0.02, 0.0]]);
+}
+
+#[test]
 fn contact() {
     let slip = applied("wheel-slip", &[("friction_coefficient", 0.3)]).contact;
     assert!(matches!(slip, Contact::Friction { friction_coefficient, .. } if friction_coefficient == 0.3));
