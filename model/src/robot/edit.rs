@@ -24,7 +24,11 @@ pub(super) fn effects(text: &str, effects: &[Effect], path: &Path) -> Result<Str
         }
     }
     if kept.is_empty() {
+        // What stood above the first effect was the end of the file before there were any.
+        let above = written.get(0).and_then(|t| t.decor().prefix()).and_then(|p| p.as_str()).unwrap_or("").to_owned();
         document.remove("effect");
+        let end = document.trailing().as_str().unwrap_or("").to_owned();
+        document.set_trailing(above + &end);
     } else {
         document.insert("effect", Item::ArrayOfTables(kept));
     }
