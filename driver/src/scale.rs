@@ -161,10 +161,10 @@ impl Scale {
     fn set_odometry(&mut self, counts_per_wheel_rad: f64) -> Result<(), OutOfRange> {
         let words = [POSITION_PER_M / 2.0, POSITION_PER_M / 2.0, HEADING_PER_RAD / 2.0];
         let mut matrix = self.configuration.direct;
-        for (k, words) in words.into_iter().enumerate() {
-            for i in 0..self.wheels {
-                let entry = Format::DISPLACEMENT.round(self.direct[k][i] / counts_per_wheel_rad * words)?;
-                matrix[k][i] = Displacement::from_bits(entry);
+        for ((row, direct), words) in matrix.iter_mut().zip(&self.direct).zip(words) {
+            for (entry, direct) in row.iter_mut().zip(direct).take(self.wheels) {
+                let word = Format::DISPLACEMENT.round(direct / counts_per_wheel_rad * words)?;
+                *entry = Displacement::from_bits(word);
             }
         }
         self.configuration.direct = matrix;

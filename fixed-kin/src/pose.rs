@@ -167,10 +167,11 @@ mod tests {
 
         fn matrix(&self) -> DisplacementMatrix {
             let mut matrix = DisplacementMatrix::default();
-            for (k, lsb) in [0.5 * METRE, 0.5 * METRE, 0.5 * TURN / TAU].into_iter().enumerate() {
-                for wheel in 0..3 {
-                    let entry = crate::format::Format::DISPLACEMENT.round(self.direct[k][wheel] * lsb);
-                    matrix[k][wheel] = Displacement::from_bits(entry.unwrap());
+            let lsb = [0.5 * METRE, 0.5 * METRE, 0.5 * TURN / TAU];
+            for ((row, direct), lsb) in matrix.iter_mut().zip(&self.direct).zip(lsb) {
+                for (entry, direct) in row.iter_mut().zip(direct).take(3) {
+                    let word = crate::format::Format::DISPLACEMENT.round(direct * lsb);
+                    *entry = Displacement::from_bits(word.unwrap());
                 }
             }
             matrix
