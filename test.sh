@@ -77,7 +77,7 @@ if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
 fi
 stage "build" cargo build --workspace --all-targets --release
 if [ -z "$(missing)" ]; then
-    stage "tests" cargo test --workspace --release "${left_out[@]}"
+    stage "tests" cargo test --workspace --release --no-fail-fast "${left_out[@]}"
 else
     # Only the tests that run other people's tools are left out, and not quietly.
     skipped+=("every test of emitted Verilog: install the Debian packages $(missing)")

@@ -63,7 +63,7 @@ fn the_papers_procedure_ends_where_its_mathematics_says() {
         let found = json["skew_rad"][i].as_f64().unwrap().to_degrees();
         assert!((found - truth).abs() < 0.4, "wheel {}: {found}", i + 1);
     }
-    assert_eq!(json["configuration"].as_array().map(Vec::len), Some(40));
+    assert_eq!(json["configuration"].as_array().map(Vec::len), Some(52));
 }
 
 #[test]

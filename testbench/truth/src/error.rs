@@ -16,6 +16,15 @@ pub enum Error {
     Conditions(String),
     /// A file could not be written or read.
     File(PathBuf, std::io::Error),
+    /// The simulation of a run left all bounds.
+    Diverged {
+        /// Seed of the case.
+        seed: u64,
+        /// The run.
+        file: String,
+        /// First tick without a state.
+        tick: usize,
+    },
     /// A truth file could not be turned into JSON.
     Json(serde_json::Error),
 }
@@ -30,6 +39,9 @@ impl fmt::Display for Error {
             Self::Size(size) => write!(f, "size {size} is not between 1 (near the detection limit) and 5 (gross)"),
             Self::Conditions(why) => write!(f, "these conditions do not go together: {why}"),
             Self::File(path, source) => write!(f, "{}: {source}", path.display()),
+            Self::Diverged { seed, file, tick } => {
+                write!(f, "the simulation of case {seed} diverged in {file} before tick {tick}; draw another seed")
+            }
             Self::Json(source) => write!(f, "truth file: {source}"),
         }
     }

@@ -52,11 +52,21 @@ impl Drive {
     }
 }
 
+/// A rotor beyond this angle, rad, is a simulation that diverged: at no load it takes most of an hour.
+const DIVERGED_RAD: f64 = 1e6;
+
+/// Control ticks of a run.
+pub(crate) fn ticks_of(robot: &Robot, drive: &Drive) -> usize {
+    (drive.seconds() * robot.control_rate_hz).round() as usize
+}
+
 /// Simulates run `number` (from 0) of the case with this seed.
+///
+/// The log ends early where the simulation diverges.
 #[must_use]
 pub fn simulate_run(robot: &Robot, machine: &Machine, drive: &Drive, seed: u64, number: u32) -> Log {
     let rate = robot.control_rate_hz;
-    let ticks = (drive.seconds() * rate).round() as usize;
+    let ticks = ticks_of(robot, drive);
     let samples = (1.0 / (rate * LONGEST_STEP_S * STEPS_PER_SAMPLE as f64)).ceil().max(1.0) as usize;
     let steps = samples * STEPS_PER_SAMPLE;
     let step = 1.0 / (rate * steps as f64);
@@ -74,6 +84,9 @@ pub fn simulate_run(robot: &Robot, machine: &Machine, drive: &Drive, seed: u64, 
     let mut rows: Vec<Row> = Vec::with_capacity(ticks);
     let mut applied = vec![0.0; machine.wheels.len()];
     for tick in 0..ticks {
+        if !(0..machine.wheels.len()).all(|i| plant.rotor_angle(i).abs() < DIVERGED_RAD) {
+            break;
+        }
         let time = tick as f64 / rate;
         let counts = encoders.read(&plant, &track, time, &mut electronics);
         let command = drive.command(time);
@@ -101,7 +114,7 @@ pub fn simulate_run(robot: &Robot, machine: &Machine, drive: &Drive, seed: u64, 
     let frames = if machine.blocks {
         Vec::new()
     } else {
-        film(&machine.camera, &track, rate, ticks, &mut stream(seed, Stream::Camera(number)))
+        film(&machine.camera, &track, rate, rows.len(), &mut stream(seed, Stream::Camera(number)))
     };
     Log { rate_hz: rate, rows, frames }
 }

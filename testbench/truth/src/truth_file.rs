@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::log::Log;
 use crate::machine::Machine;
 use crate::noise::{Stream, stream};
-use crate::run::simulate_run;
+use crate::run::{simulate_run, ticks_of};
 
 /// What is true about a data set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -137,6 +137,9 @@ pub fn truth(case: &Case) -> Truth {
 }
 
 /// Simulates a case and writes `robot.toml` and `run_NN.csv` into `dir`; the truth is returned and not written.
+///
+/// # Errors
+/// [`Error::File`], or [`Error::Diverged`] where the simulation left all bounds.
 pub fn write(case: &Case, dir: &Path) -> Result<Truth, Error> {
     fs::create_dir_all(dir).map_err(|source| Error::File(dir.to_owned(), source))?;
     let put = |name: &str, text: &str| {
@@ -144,7 +147,10 @@ pub fn write(case: &Case, dir: &Path) -> Result<Truth, Error> {
         fs::write(&path, text).map_err(|source| Error::File(path, source))
     };
     put("robot.toml", &case.robot.to_toml())?;
-    for (number, log) in (0..).zip(simulate(case)) {
+    for ((number, log), drive) in (0..).zip(simulate(case)).zip(&case.drives) {
+        if log.rows.len() < ticks_of(&case.robot, drive) {
+            return Err(Error::Diverged { seed: case.seed, file: run_name(number), tick: log.rows.len() });
+        }
         put(&run_name(number), &log.to_csv(case.columns))?;
     }
     Ok(truth(case))
