@@ -1,12 +1,11 @@
 //! Which field of a message is which column, and its value on the wire.
 
-use mcap::records::Channel;
 use prost::Message;
 use prost::encoding::{DecodeContext, WireType, decode_key, decode_varint, skip_field};
 use prost_types::FileDescriptorSet;
 use prost_types::field_descriptor_proto::{Label, Type};
 
-use super::records::Schema;
+use super::records::{Channel, Schema};
 use crate::run::columns::Column;
 
 /// A number of a message.

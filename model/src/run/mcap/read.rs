@@ -34,7 +34,7 @@ pub(in crate::run) fn read(bytes: &[u8], path: &Path) -> Result<Run, RunError> {
         };
         let fail = |what: String| damaged(format!("message {number} of topic {}: {what}", channel.topic));
         topic.decode(message.data, &mut values).map_err(fail)?;
-        builder.message(number, message.header.log_time, &values)
+        builder.message(number, message.log_time, &values)
     })?;
     builder.finish()
 }

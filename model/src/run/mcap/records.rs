@@ -1,13 +1,12 @@
 //! The records of a file, one after the other, as far as it goes.
 //!
-//! A walk of our own: the crate's reader has arithmetic that damaged lengths overflow (mcap 0.26.0), and
-//! does not say whether a chunk that was cut off is the last one. Single records are parsed by the crate.
+//! A walk of our own: the crate's reader has arithmetic that damaged lengths overflow (mcap 0.26.0), takes as
+//! much memory as a damaged length says, and does not say whether a chunk that was cut off is the last one.
 
-use std::borrow::Cow;
 use std::collections::HashMap;
 
 use mcap::MAGIC;
-use mcap::records::{Channel, MessageHeader, Record, op};
+use mcap::records::op;
 
 /// A schema, as far as it matters.
 #[derive(Debug)]
@@ -16,9 +15,18 @@ pub(super) struct Schema {
     pub(super) data: Vec<u8>,
 }
 
+/// A topic, as far as it matters.
+#[derive(Debug)]
+pub(super) struct Channel {
+    pub(super) id: u16,
+    pub(super) topic: String,
+    pub(super) message_encoding: String,
+    schema_id: u16,
+}
+
 /// What goes by.
 pub(super) struct Message<'a> {
-    pub(super) header: MessageHeader,
+    pub(super) log_time: u64,
     pub(super) channel: &'a Channel,
     pub(super) schema: Option<&'a Schema>,
     pub(super) data: &'a [u8],
@@ -54,7 +62,7 @@ pub(super) fn messages<E>(
             record(opcode, body, &mut known, &fail, &mut take)?;
             continue;
         };
-        let mut inner = &chunk[..];
+        let mut inner = chunk;
         while !inner.is_empty() {
             let Some((opcode, body)) = next(&mut inner) else {
                 return Err(fail("a record is longer than its chunk".to_owned()));
@@ -74,21 +82,52 @@ fn next<'a>(rest: &mut &'a [u8]) -> Option<(u8, &'a [u8])> {
     Some((opcode, body))
 }
 
+/// The fields of a record, one after the other; a length is believed as far as there are bytes.
+struct Fields<'a>(&'a [u8]);
+
+impl<'a> Fields<'a> {
+    fn bytes(&mut self, length: u64) -> Result<&'a [u8], String> {
+        let (bytes, rest) = usize::try_from(length)
+            .ok()
+            .and_then(|length| self.0.split_at_checked(length))
+            .ok_or("a field is longer than its record")?;
+        self.0 = rest;
+        Ok(bytes)
+    }
+
+    fn number(&mut self, width: u64) -> Result<u64, String> {
+        Ok(self.bytes(width)?.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte)))
+    }
+
+    fn id(&mut self) -> Result<u16, String> {
+        Ok(self.number(2)? as u16)
+    }
+
+    fn text(&mut self) -> Result<String, String> {
+        let length = self.number(4)?;
+        String::from_utf8(self.bytes(length)?.to_vec()).map_err(|_| "a name is no UTF-8".to_owned())
+    }
+}
+
 /// The content of a chunk; nothing for another record.
-fn chunk(opcode: u8, body: &[u8]) -> Result<Option<Cow<'_, [u8]>>, String> {
+fn chunk(opcode: u8, body: &[u8]) -> Result<Option<&[u8]>, String> {
     if opcode != op::CHUNK {
         return Ok(None);
     }
-    let Record::Chunk { header, data } = mcap::parse_record(opcode, body).map_err(|e| e.to_string())? else {
-        return Ok(None);
-    };
-    if !header.compression.is_empty() {
-        return Err(format!("a chunk is compressed with {}: run `mcap decompress` on the file", header.compression));
+    let mut fields = Fields(body);
+    // Times of the first and last message, and the size without compression.
+    fields.bytes(24)?;
+    let crc = fields.number(4)?;
+    let compression = fields.text()?;
+    if !compression.is_empty() {
+        return Err(format!("a chunk is compressed with {compression}: run `mcap decompress` on the file"));
     }
+    let length = fields.number(8)?;
+    let data = fields.bytes(length)?;
     // Zero says that there is none.
-    let found = crc32fast::hash(&data);
-    if header.uncompressed_crc != 0 && header.uncompressed_crc != found {
-        return Err(format!("a chunk's CRC is {found:08x}, not {:08x}", header.uncompressed_crc));
+    let found = crc32fast::hash(data);
+    if crc != 0 && crc != u64::from(found) {
+        return Err(format!("a chunk's CRC is {found:08x}, not {crc:08x}"));
     }
     Ok(Some(data))
 }
@@ -100,24 +139,38 @@ fn record<E>(
     fail: &impl Fn(String) -> E,
     take: &mut impl FnMut(&Message<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
-    if !matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
-        return Ok(());
+    match opcode {
+        op::SCHEMA => known.schema(body).map_err(fail),
+        op::CHANNEL => known.channel(body).map_err(fail),
+        op::MESSAGE => take(&known.message(body).map_err(fail)?),
+        _ => Ok(()),
     }
-    match mcap::parse_record(opcode, body).map_err(|e| fail(e.to_string()))? {
-        Record::Schema { header, data } => {
-            known.schemas.insert(header.id, Schema { name: header.name, data: data.into_owned() });
-        }
-        Record::Channel(channel) => {
-            known.channels.insert(channel.id, channel);
-        }
-        Record::Message { header, data } => {
-            let Some(channel) = known.channels.get(&header.channel_id) else {
-                return Err(fail(format!("a message of channel {}, which was never declared", header.channel_id)));
-            };
-            let schema = known.schemas.get(&channel.schema_id);
-            take(&Message { header, channel, schema, data: &data })?;
-        }
-        _ => {}
+}
+
+/// Records by <https://mcap.dev/spec>, section "Records".
+impl Known {
+    fn schema(&mut self, body: &[u8]) -> Result<(), String> {
+        let mut fields = Fields(body);
+        let (id, name, _encoding) = (fields.id()?, fields.text()?, fields.text()?);
+        let length = fields.number(4)?;
+        self.schemas.insert(id, Schema { name, data: fields.bytes(length)?.to_vec() });
+        Ok(())
     }
-    Ok(())
+
+    fn channel(&mut self, body: &[u8]) -> Result<(), String> {
+        let mut fields = Fields(body);
+        let (id, schema_id) = (fields.id()?, fields.id()?);
+        let (topic, message_encoding) = (fields.text()?, fields.text()?);
+        self.channels.insert(id, Channel { id, topic, message_encoding, schema_id });
+        Ok(())
+    }
+
+    fn message<'a>(&'a self, body: &'a [u8]) -> Result<Message<'a>, String> {
+        let mut fields = Fields(body);
+        let id = fields.id()?;
+        let (_sequence, log_time, _publish_time) = (fields.number(4)?, fields.number(8)?, fields.number(8)?);
+        let channel =
+            self.channels.get(&id).ok_or_else(|| format!("a message of channel {id}, which was never declared"))?;
+        Ok(Message { log_time, channel, schema: self.schemas.get(&channel.schema_id), data: fields.0 })
+    }
 }

@@ -178,7 +178,7 @@ fn errors_say_where_what_and_what_to_do() {
     }
 }
 
-/// What the fuzzer found in the crate's own reader: a length that no file has.
+/// What the fuzzer found in the crate's own reader: lengths that no file has overflow it, or are allocated.
 #[test]
 fn lengths_beyond_the_file_are_refused() {
     let good = bytes_of(&example(), 400, true);
