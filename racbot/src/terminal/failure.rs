@@ -27,6 +27,7 @@ impl Failure {
     }
 
     /// The input is wrong, and lines of it show where.
+    #[cfg(feature = "simulation")]
     pub(crate) fn excerpt(what: impl Display) -> Self {
         Self { excerpt: true, ..Self::data(what) }
     }
