@@ -52,29 +52,22 @@ pub trait Registers {
     }
 }
 
-impl<R: Registers + ?Sized> Registers for &mut R {
-    fn read(&mut self, offset: u16) -> Result<u32, BusError> {
-        (**self).read(offset)
-    }
-    fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
-        (**self).write(offset, data)
-    }
-    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
-        (**self).read_block(offset, words)
-    }
+macro_rules! forward {
+    ($($bus:ty),*) => {$(
+        impl<R: Registers + ?Sized> Registers for $bus {
+            fn read(&mut self, offset: u16) -> Result<u32, BusError> {
+                (**self).read(offset)
+            }
+            fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
+                (**self).write(offset, data)
+            }
+            fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
+                (**self).read_block(offset, words)
+            }
+        }
+    )*};
 }
-
-impl<R: Registers + ?Sized> Registers for Box<R> {
-    fn read(&mut self, offset: u16) -> Result<u32, BusError> {
-        (**self).read(offset)
-    }
-    fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
-        (**self).write(offset, data)
-    }
-    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
-        (**self).read_block(offset, words)
-    }
-}
+forward!(&mut R, Box<R>);
 
 impl Registers for fixed_kin::card::Card {
     fn read(&mut self, offset: u16) -> Result<u32, BusError> {

@@ -128,44 +128,28 @@ pub trait PciCard {
     fn sleep(&mut self, time: Duration);
 }
 
-impl<C: PciCard + ?Sized> PciCard for &mut C {
-    fn read32(&mut self, bar: Bar, offset: u32) -> Result<u32, PciError> {
-        (**self).read32(bar, offset)
-    }
-    fn write32(&mut self, bar: Bar, offset: u32, data: u32) -> Result<(), PciError> {
-        (**self).write32(bar, offset, data)
-    }
-    fn write8(&mut self, bar: Bar, offset: u32, data: u8) -> Result<(), PciError> {
-        (**self).write8(bar, offset, data)
-    }
-    fn has(&self, bar: Bar) -> bool {
-        (**self).has(bar)
-    }
-    fn now(&mut self) -> Duration {
-        (**self).now()
-    }
-    fn sleep(&mut self, time: Duration) {
-        (**self).sleep(time);
-    }
+macro_rules! forward {
+    ($($card:ty),*) => {$(
+        impl<C: PciCard + ?Sized> PciCard for $card {
+            fn read32(&mut self, bar: Bar, offset: u32) -> Result<u32, PciError> {
+                (**self).read32(bar, offset)
+            }
+            fn write32(&mut self, bar: Bar, offset: u32, data: u32) -> Result<(), PciError> {
+                (**self).write32(bar, offset, data)
+            }
+            fn write8(&mut self, bar: Bar, offset: u32, data: u8) -> Result<(), PciError> {
+                (**self).write8(bar, offset, data)
+            }
+            fn has(&self, bar: Bar) -> bool {
+                (**self).has(bar)
+            }
+            fn now(&mut self) -> Duration {
+                (**self).now()
+            }
+            fn sleep(&mut self, time: Duration) {
+                (**self).sleep(time);
+            }
+        }
+    )*};
 }
-
-impl<C: PciCard + ?Sized> PciCard for Box<C> {
-    fn read32(&mut self, bar: Bar, offset: u32) -> Result<u32, PciError> {
-        (**self).read32(bar, offset)
-    }
-    fn write32(&mut self, bar: Bar, offset: u32, data: u32) -> Result<(), PciError> {
-        (**self).write32(bar, offset, data)
-    }
-    fn write8(&mut self, bar: Bar, offset: u32, data: u8) -> Result<(), PciError> {
-        (**self).write8(bar, offset, data)
-    }
-    fn has(&self, bar: Bar) -> bool {
-        (**self).has(bar)
-    }
-    fn now(&mut self) -> Duration {
-        (**self).now()
-    }
-    fn sleep(&mut self, time: Duration) {
-        (**self).sleep(time);
-    }
-}
+forward!(&mut C, Box<C>);
