@@ -2,9 +2,11 @@
 //! stretches of time. Effects of the catalogue are fitted before; what shows here is none of them.
 //!
 //! Every search is held against the data's own, coloured scatter, pays for the number of places it
-//! looked at, and asks for a size that matters beside the motors' stall torque.
+//! looked at, and asks for a size that matters beside the motors' stall torque. The camera has two checks of
+//! its own, which need no fit.
 
 mod bursts;
+mod camera;
 mod orders;
 mod spectrum;
 
@@ -14,6 +16,7 @@ use crate::drive::{DriveLink, DriveModel, Generic, Left};
 use crate::effect::Sizes;
 use crate::segment::Segment;
 
+pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;
 
 /// Length of the bumps the torques are averaged over, s: a tenth of a second is over before the
