@@ -96,6 +96,7 @@ impl DriveModel {
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
         let start = s.t[0];
+        let from_wheels = self.twist_per_wheel_speed();
         // Only terms and maps look at more than duties and counts.
         let bare = self.loads.is_empty() && self.supply_maps.is_empty();
         let constants: Vec<[f64; 4]> = self
@@ -115,7 +116,14 @@ impl DriveModel {
         for k in 0..ticks - 1 {
             let dt = s.t[k + 1] - s.t[k];
             let per_dt = 1.0 / dt;
-            let twist = s.twist[k];
+            // By the wheels as they are: skews and radii that were found turn the Coriolis force, too.
+            let twist = match &from_wheels {
+                Some(m) => {
+                    let of = |j: usize| (0..n).map(|i| m[(j, i)] * self.axes[i].encoder_scale * s.speed[i][k]).sum();
+                    Twist::new(of(0), of(1), of(2))
+                }
+                None => s.twist[k],
+            };
             for i in 0..n {
                 let mut u = if self.duty_delay_s == 0.0 {
                     s.duty[i][k]

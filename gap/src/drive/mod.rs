@@ -123,12 +123,21 @@ impl DriveModel {
         self.mechanics().map_or(f64::NAN, |m| m.inertia.trace() / m.inertia.nrows() as f64)
     }
 
+    /// Wheel speed per body twist, N × 3.
+    fn wheel_speed_per_twist(&self) -> Option<DMatrix<f64>> {
+        let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
+        Some(DMatrix::from_fn(self.wheels.len(), 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i]))
+    }
+
+    /// Body twist per wheel speed, 3 × N, least squares; none where the wheels cannot drive the robot.
+    fn twist_per_wheel_speed(&self) -> Option<DMatrix<f64>> {
+        pseudo_inverse(&self.wheel_speed_per_twist()?)
+    }
+
     /// The matrices that turn mean torques and forces into wheel accelerations; `None` where the
     /// wheels cannot drive the robot.
     pub fn mechanics(&self) -> Option<Mechanics> {
-        let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
-        let n = self.wheels.len();
-        let rows = DMatrix::from_fn(n, 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i]);
+        let rows = self.wheel_speed_per_twist()?;
         let spin: Vec<f64> =
             self.axes.iter().map(|a| self.gear_ratio.powi(2) * a.rotor_inertia + a.load_inertia).collect();
         if self.support == Support::Blocks {
@@ -148,9 +157,7 @@ impl DriveModel {
             }
         }
         let inverse = total.clone().try_inverse()?;
-        // Twist per wheel speed, least squares.
-        let normal = (rows.transpose() * &rows).try_inverse()?;
-        let twist = normal * rows.transpose();
+        let twist = pseudo_inverse(&rows)?;
         let body = &rows * &inverse;
         Some(Mechanics {
             response: &body * rows.transpose(),
@@ -159,6 +166,10 @@ impl DriveModel {
             rows,
         })
     }
+}
+
+fn pseudo_inverse(rows: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    Some((rows.transpose() * rows).try_inverse()? * rows.transpose())
 }
 
 /// Mean torques to wheel accelerations and back.

@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod common;
+mod drive;
 mod experiment;
 mod partial;
 

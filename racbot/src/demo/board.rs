@@ -101,7 +101,7 @@ impl Report {
         let (before, after) = (farthest(&set.runs[0]), farthest(&again));
 
         let named: Vec<&str> = analysis.effects.iter().map(|effect| effect.name.as_str()).collect();
-        let good = named.contains(&"wheel-skew") && after < 0.1 * before;
+        let good = named == ["wheel-skew"] && after < 0.1 * before;
         let outcome = if named.is_empty() { "nothing named".to_owned() } else { format!("{} named", named.join(", ")) };
         let clock_mhz = bench.loaded.clock_hz / 1e6;
         let details = vec![
