@@ -407,6 +407,15 @@ module rac4i65_core (
     reg dead_live_d;
     wire dead_live_q;
 
+    reg second_starts_d;
+    wire second_starts_q;
+
+    reg third_starts_d;
+    wire third_starts_q;
+
+    reg fourth_starts_d;
+    wire fourth_starts_q;
+
     // Intermediate values
     reg tick;
     reg alive;
@@ -853,6 +862,9 @@ module rac4i65_core (
     rac4i65_core_dff_1 ball_live (.d(ball_live_d), .q(ball_live_q), .clock(lclk));
     rac4i65_core_dff_1 dead_sync (.d(dead_sync_d), .q(dead_sync_q), .clock(lclk));
     rac4i65_core_dff_1 dead_live (.d(dead_live_d), .q(dead_live_q), .clock(lclk));
+    rac4i65_core_dff_1 second_starts (.d(second_starts_d), .q(second_starts_q), .clock(lclk));
+    rac4i65_core_dff_1 third_starts (.d(third_starts_d), .q(third_starts_q), .clock(lclk));
+    rac4i65_core_dff_1 fourth_starts (.d(fourth_starts_d), .q(fourth_starts_q), .clock(lclk));
 
     always @(*) begin
         clear_at_tick_d = clear_at_tick_q;
@@ -919,6 +931,21 @@ module rac4i65_core (
     always @(*) begin
         dead_sync_d = dead_sync_q;
         dead_sync_d = monitor_lclk_dead;
+    end
+
+    always @(*) begin
+        second_starts_d = second_starts_q;
+        second_starts_d = drives_0_position == quarter;
+    end
+
+    always @(*) begin
+        third_starts_d = third_starts_q;
+        third_starts_d = drives_0_position == half;
+    end
+
+    always @(*) begin
+        fourth_starts_d = fourth_starts_q;
+        fourth_starts_d = drives_0_position == three_quarters;
     end
 
     always @(*) begin
@@ -1185,17 +1212,17 @@ module rac4i65_core (
 
     always @(*) begin
         drives_1_sync = 1'b0;
-        drives_1_sync = drives_0_position == quarter;
+        drives_1_sync = second_starts_q;
     end
 
     always @(*) begin
         drives_2_sync = 1'b0;
-        drives_2_sync = drives_0_position == half;
+        drives_2_sync = third_starts_q;
     end
 
     always @(*) begin
         drives_3_sync = 1'b0;
-        drives_3_sync = drives_0_position == three_quarters;
+        drives_3_sync = fourth_starts_q;
     end
 
     always @(*) begin
@@ -1479,7 +1506,7 @@ module rac4i65_core_registers (
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h4996b973;
+    localparam content_hash = 32'h08b2cc5e;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -2707,8 +2734,7 @@ module rac4i65_core_kicker (
     localparam minimum_lockout = 20'h186a0;
     localparam charge_gap = 10'b1111101000;
     localparam ball_limit = 4'h7;
-    localparam elapsed_zero = 20'h0;
-    localparam elapsed_one = 20'h1;
+    localparam one = 20'h1;
     localparam gap_one = 10'b1;
     localparam charged_zero = 24'h0;
     localparam charged_one = 24'h1;
@@ -2729,8 +2755,8 @@ module rac4i65_core_kicker (
     reg [2:0] now_d;
     wire [2:0] now_q;
 
-    reg [19:0] elapsed_d;
-    wire [19:0] elapsed_q;
+    reg [19:0] coming_d;
+    wire [19:0] coming_q;
 
     reg [9:0] gap_d;
     wire [9:0] gap_q;
@@ -2768,8 +2794,8 @@ module rac4i65_core_kicker (
     reg cancels;
     reg [2:0] idle;
     reg [2:0] next_state;
-    reg [19:0] next_elapsed;
-    reg [13:0] short_elapsed;
+    reg [19:0] after;
+    reg [13:0] short_coming;
     reg pulse_over;
     reg lockout_over;
     reg gap_over;
@@ -2796,7 +2822,7 @@ module rac4i65_core_kicker (
         .value(hungry_filter_value)
     );
     rac4i65_core_dff_3 now (.d(now_d), .q(now_q), .clock(clock));
-    rac4i65_core_dff_20 elapsed (.d(elapsed_d), .q(elapsed_q), .clock(clock));
+    rac4i65_core_dff_20 coming (.d(coming_d), .q(coming_q), .clock(clock));
     rac4i65_core_dff_10 gap (.d(gap_d), .q(gap_q), .clock(clock));
     rac4i65_core_dff_24_2 charged (.d(charged_d), .q(charged_q), .clock(clock));
     rac4i65_core_dff_1 spent (.d(spent_d), .q(spent_q), .clock(clock));
@@ -2816,7 +2842,7 @@ module rac4i65_core_kicker (
     end
 
     always @(*) begin
-        elapsed_d = elapsed_q;
+        coming_d = coming_q;
         next_state = now_q;
         if (in_ready) begin
             next_state = idle;
@@ -2830,31 +2856,31 @@ module rac4i65_core_kicker (
             end
             else if (microsecond & gap_over) begin
                 next_state = pulse_state;
+                coming_d = one;
             end
         end
         else if (in_pulse) begin
             if (microsecond) begin
-                elapsed_d = next_elapsed;
+                coming_d = after;
             end
             if (~enable | (microsecond & pulse_over)) begin
                 next_state = commutation_state;
-                elapsed_d = elapsed_zero;
+                coming_d = one;
             end
         end
         else if (now_q == commutation_state) begin
             if (microsecond) begin
-                elapsed_d = next_elapsed;
-                if (next_elapsed >= commutation_time) begin
+                coming_d = after;
+                if (coming_q >= commutation_time) begin
                     next_state = lockout_state;
                 end
             end
         end
         else if (now_q == lockout_state) begin
             if (microsecond) begin
-                elapsed_d = next_elapsed;
+                coming_d = after;
                 if (lockout_over) begin
                     next_state = idle;
-                    elapsed_d = elapsed_zero;
                 end
             end
         end
@@ -2930,10 +2956,14 @@ module rac4i65_core_kicker (
     always @(*) accepts = takes & (fire | by_ball);
     always @(*) cancels = in_pending & ~(enable & has_pulse);
     always @(*) gap_over = ~|gap_q;
-    always @(*) next_elapsed = elapsed_q + elapsed_one;
-    always @(*) short_elapsed = next_elapsed[(32'h0)+:(14)];
-    always @(*) pulse_over = (short_elapsed >= pulse) | (short_elapsed >= maximum_pulse);
-    always @(*) lockout_over = (next_elapsed >= lockout) & (next_elapsed >= minimum_lockout);
+
+    always @(*) begin
+        after = coming_q + one;
+        short_coming = coming_q[(32'h0)+:(14)];
+    end
+
+    always @(*) pulse_over = (short_coming >= pulse) | (short_coming >= maximum_pulse);
+    always @(*) lockout_over = (coming_q >= lockout) & (coming_q >= minimum_lockout);
 
     always @(*) begin
         idle = off_state;
@@ -3143,6 +3173,8 @@ module rac4i65_core_sequencer (
     reg [4:0] op;
     reg [31:0] word;
     reg subtracting;
+    reg [31:0] left;
+    reg [31:0] raw_sum;
     reg [31:0] sum;
     reg [2:0] sum_top;
     reg [31:0] saturated;
@@ -3415,9 +3447,18 @@ module rac4i65_core_sequencer (
     always @(*) subtracting = subtracts_q;
 
     always @(*) begin
-        sum = accumulator_q + word;
+        left = accumulator_q;
         if (subtracting) begin
-            sum = accumulator_q - word;
+            left = ~accumulator_q;
+        end
+    end
+
+    always @(*) raw_sum = left + word;
+
+    always @(*) begin
+        sum = raw_sum;
+        if (subtracting) begin
+            sum = ~raw_sum;
         end
     end
 
@@ -4343,6 +4384,8 @@ module rac4i65_core_sequencer_multiplier (
     // Intermediate values
     reg [31:0] addend;
     reg negate;
+    reg [31:0] left;
+    reg [31:0] raw_sum;
     reg [31:0] sum;
     reg [2:0] digit;
     reg [31:0] shifted;
@@ -4459,9 +4502,18 @@ module rac4i65_core_sequencer_multiplier (
     end
 
     always @(*) begin
-        sum = p_q + addend;
+        left = p_q;
         if (negate) begin
-            sum = p_q - addend;
+            left = ~p_q;
+        end
+    end
+
+    always @(*) raw_sum = left + addend;
+
+    always @(*) begin
+        sum = raw_sum;
+        if (negate) begin
+            sum = ~raw_sum;
         end
     end
 
@@ -5333,6 +5385,7 @@ module rac4i65_core_stalls (
     localparam zero = 3'b0;
     localparam one = 3'b1;
     localparam three = 3'b11;
+    localparam minus_one = 3'b111;
     localparam minus_three = 3'b101;
 
     // Pins of the parts
@@ -5349,7 +5402,8 @@ module rac4i65_core_stalls (
     wire sticky_q;
 
     // Intermediate values
-    reg [2:0] start;
+    reg [2:0] higher;
+    reg [2:0] lower;
     reg highest;
     reg lowest;
     reg idles;
@@ -5365,19 +5419,21 @@ module rac4i65_core_stalls (
         moved_d = moved_q;
         driven_d = driven_q;
         sticky_d = sticky_q;
-        net_d = start;
+        if (window) begin
+            net_d = zero;
+        end
         if (step) begin
             if (up) begin
-                if (start != three) begin
-                    net_d = start + one;
+                if (window | ~highest) begin
+                    net_d = higher;
                 end
                 if (highest) begin
                     moved_d = 1'b1;
                 end
             end
             else begin
-                if (start != minus_three) begin
-                    net_d = start - one;
+                if (window | ~lowest) begin
+                    net_d = lower;
                 end
                 if (lowest) begin
                     moved_d = 1'b1;
@@ -5403,9 +5459,11 @@ module rac4i65_core_stalls (
     end
 
     always @(*) begin
-        start = net_q;
+        higher = net_q + one;
+        lower = net_q - one;
         if (window) begin
-            start = zero;
+            higher = one;
+            lower = minus_one;
         end
     end
 
@@ -5435,14 +5493,14 @@ module rac4i65_core_drives (
 );
 
     // Constants
-    localparam phase_zero = 13'b0;
-    localparam phase_one = 13'b1;
+    localparam no_compare = 13'b0;
+    localparam one = 13'b1;
     localparam quiet_zero = 10'b0;
     localparam quiet_one = 10'b1;
 
     // Pins of the parts
-    reg [12:0] phase_d;
-    wire [12:0] phase_q;
+    reg [12:0] coming_d;
+    wire [12:0] coming_q;
 
     reg [12:0] shadow_compare_d;
     wire [12:0] shadow_compare_q;
@@ -5472,7 +5530,7 @@ module rac4i65_core_drives (
     wire start_q;
 
     // Intermediate values
-    reg [12:0] next_phase;
+    reg [12:0] after;
     reg last;
     reg running;
     reg wraps;
@@ -5482,7 +5540,7 @@ module rac4i65_core_drives (
     reg permitted;
 
     // Parts
-    rac4i65_core_dff_13 phase (.d(phase_d), .q(phase_q), .clock(clock));
+    rac4i65_core_dff_13 coming (.d(coming_d), .q(coming_q), .clock(clock));
     rac4i65_core_dff_13 shadow_compare (.d(shadow_compare_d), .q(shadow_compare_q), .clock(clock));
     rac4i65_core_dff_1 shadow_direction (.d(shadow_direction_d), .q(shadow_direction_q), .clock(clock));
     rac4i65_core_dff_13 active_compare (.d(active_compare_d), .q(active_compare_q), .clock(clock));
@@ -5494,10 +5552,10 @@ module rac4i65_core_drives (
     rac4i65_core_dff_1 start (.d(start_d), .q(start_q), .clock(clock));
 
     always @(*) begin
-        phase_d = phase_q;
-        phase_d = next_phase;
+        coming_d = coming_q;
+        coming_d = after;
         if (last) begin
-            phase_d = phase_zero;
+            coming_d = one;
         end
     end
 
@@ -5515,9 +5573,9 @@ module rac4i65_core_drives (
             active_direction_d = shadow_direction_q;
         end
         if (~enable) begin
-            shadow_compare_d = phase_zero;
+            shadow_compare_d = no_compare;
             shadow_direction_d = 1'b0;
-            active_compare_d = phase_zero;
+            active_compare_d = no_compare;
             active_direction_d = 1'b0;
         end
     end
@@ -5539,7 +5597,7 @@ module rac4i65_core_drives (
 
     always @(*) begin
         pwm_pin_d = pwm_pin_q;
-        pwm_pin_d = permitted & running & aligned & (phase_q < active_compare_q);
+        pwm_pin_d = permitted & running & aligned & ~(coming_q > active_compare_q);
     end
 
     always @(*) begin
@@ -5557,11 +5615,11 @@ module rac4i65_core_drives (
     always @(*) running = |period;
 
     always @(*) begin
-        next_phase = phase_q + phase_one;
-        position = phase_q;
+        after = coming_q + one;
+        position = coming_q;
     end
 
-    always @(*) last = (next_phase >= period) | sync;
+    always @(*) last = (coming_q >= period) | sync;
     always @(*) wraps = last & running;
     always @(*) long_quiet = quiet_q >= blanking;
     always @(*) aligned = ~(active_direction_q ^ dir_pin_q);

@@ -2,7 +2,7 @@
 //!
 //! One [`Pwm::clock`] is one rising edge of the FPGA clock; the outputs are those that hold until
 //! the next edge. Period and compare are unsigned clocks in 13 bits, blanking in 10; a compare of
-//! at least the period is 100 %. Nothing wraps: the phase returns to zero at the period, the
+//! at least the period is 100 %. Nothing wraps: the clocks of a period count from one again, the
 //! blanking timer stops.
 //!
 //! | what | clocks |
@@ -57,14 +57,15 @@ pub struct Outputs {
     pub dir: bool,
     /// Strobe: the next clock is the first of a period at the pin.
     pub period_start: bool,
-    /// Clocks since the period started, one ahead of the pin.
+    /// Number of the clock of the period, from 1, one ahead of the pin; 0 only at power-up.
     pub position: u16,
 }
 
 /// State of one generator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pwm {
-    phase: u16,
+    /// Number of the clock of the period that comes, from 1; 0 only at power-up.
+    coming: u16,
     shadow_compare: u16,
     shadow_direction: bool,
     active_compare: u16,
@@ -83,9 +84,9 @@ impl Pwm {
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let period = inputs.period & PERIOD_MASK;
-        let last = before.phase + 1 >= period || inputs.sync;
+        let last = before.coming >= period || inputs.sync;
         let wraps = last && period != 0;
-        self.phase = if last { 0 } else { before.phase + 1 };
+        self.coming = if last { 1 } else { before.coming + 1 };
         self.period_start = wraps;
 
         if inputs.load {
@@ -120,14 +121,14 @@ impl Pwm {
             && period != 0
             && aligned
             && (before.settled || long_quiet)
-            && before.phase < before.active_compare;
+            && before.coming <= before.active_compare;
         self.outputs(inputs.up_down)
     }
 
     fn outputs(&self, up_down: bool) -> Outputs {
         let (pulse, reverse) = (self.pulse, self.reverse);
         let (pwm, dir) = if up_down { (pulse && !reverse, pulse && reverse) } else { (pulse, reverse) };
-        Outputs { pwm, dir, period_start: self.period_start, position: self.phase }
+        Outputs { pwm, dir, period_start: self.period_start, position: self.coming }
     }
 }
 

@@ -29,13 +29,13 @@ always @(*) begin
     if (charge) assert (formal_rest >= FORMAL_COMMUTATION);
     if (formal_running && !formal_enable) assert (!charge && !trigger);
     // Invariants that carry the induction.
-    assert (formal_rest <= FORMAL_LOCKOUT && elapsed_q != 20'hFFFFF);
+    assert (formal_rest <= FORMAL_LOCKOUT);
     assert (trigger == (now_q == pulse_state) && now_q <= 5);
-    if (trigger) assert (elapsed_q == formal_strobes && formal_clocks <= 34 * formal_strobes + formal_gap);
-    if (!trigger && now_q < 4) assert (formal_rest >= FORMAL_LOCKOUT && elapsed_q == 0);
+    if (trigger) assert (coming_q == formal_strobes + 1 && formal_clocks <= 34 * formal_strobes + formal_gap);
+    if (!trigger && now_q < 4) assert (formal_rest >= FORMAL_LOCKOUT);
     if (now_q == commutation_state || now_q == lockout_state)
-        assert (elapsed_q < FORMAL_LOCKOUT ? formal_rest == elapsed_q : formal_rest == FORMAL_LOCKOUT);
-    if (now_q == commutation_state) assert (elapsed_q < FORMAL_COMMUTATION);
-    if (now_q == lockout_state) assert (elapsed_q >= FORMAL_COMMUTATION);
+        assert (coming_q != 0 && (coming_q <= FORMAL_LOCKOUT ? formal_rest == coming_q - 1 : formal_rest == FORMAL_LOCKOUT));
+    if (now_q == commutation_state) assert (coming_q <= FORMAL_COMMUTATION);
+    if (now_q == lockout_state) assert (coming_q > FORMAL_COMMUTATION);
     if (charge) assert (now_q == ready_state || now_q == lockout_state);
 end

@@ -133,6 +133,9 @@ pub struct Core {
     index_status: Signal<Local, Bits<8>>,
     stalled: Signal<Local, Bits<4>>,
     masked_stalls: Signal<Local, Bits<4>>,
+    second_starts: DFF<Bit>,
+    third_starts: DFF<Bit>,
+    fourth_starts: DFF<Bit>,
     quarter: Signal<Local, Bits<13>>,
     half: Signal<Local, Bits<13>>,
     three_quarters: Signal<Local, Bits<13>>,
@@ -187,6 +190,9 @@ impl Logic for Core {
             ball_sync,
             ball_live,
             dead_sync,
+            second_starts,
+            third_starts,
+            fourth_starts,
             dead_live
         );
         clock!(
@@ -473,9 +479,12 @@ impl Logic for Core {
         self.quarter.next = self.registers.pwm_period.val() >> 2;
         self.half.next = self.registers.pwm_period.val() >> 1;
         self.three_quarters.next = self.half.val() + self.quarter.val();
-        self.drives[1].sync.next = self.drives[0].position.val() == self.quarter.val();
-        self.drives[2].sync.next = self.drives[0].position.val() == self.half.val();
-        self.drives[3].sync.next = self.drives[0].position.val() == self.three_quarters.val();
+        self.second_starts.d.next = self.drives[0].position.val() == self.quarter.val();
+        self.third_starts.d.next = self.drives[0].position.val() == self.half.val();
+        self.fourth_starts.d.next = self.drives[0].position.val() == self.three_quarters.val();
+        self.drives[1].sync.next = self.second_starts.q.val();
+        self.drives[2].sync.next = self.third_starts.q.val();
+        self.drives[3].sync.next = self.fourth_starts.q.val();
         if self.sequencer.output_strobe.val() & (self.sequencer.output_port.val() == self.port_compare.val()) {
             match self.sequencer.axis.val().index() {
                 0 => {

@@ -77,7 +77,7 @@ pub struct Kicker {
     hungry_filter: GlitchFilter,
     stuffed: Signal<Local, Bit>,
     now: DFF<Bits<3>>,
-    elapsed: DFF<Bits<20>>,
+    coming: DFF<Bits<20>>,
     gap: DFF<Bits<10>>,
     charged: DFF<Bits<24>>,
     spent: DFF<Bit>,
@@ -96,8 +96,8 @@ pub struct Kicker {
     cancels: Signal<Local, Bit>,
     idle: Signal<Local, Bits<3>>,
     next_state: Signal<Local, Bits<3>>,
-    next_elapsed: Signal<Local, Bits<20>>,
-    short_elapsed: Signal<Local, Bits<14>>,
+    after: Signal<Local, Bits<20>>,
+    short_coming: Signal<Local, Bits<14>>,
     pulse_over: Signal<Local, Bit>,
     lockout_over: Signal<Local, Bit>,
     gap_over: Signal<Local, Bit>,
@@ -114,8 +114,7 @@ pub struct Kicker {
     minimum_lockout: Literal<20, { MINIMUM_LOCKOUT_US as u64 }>,
     charge_gap: Literal<10, { CHARGE_GAP_US as u64 }>,
     ball_limit: Literal<4, { BALL_FILTER_US as u64 - 1 }>,
-    elapsed_zero: Literal<20, 0>,
-    elapsed_one: Literal<20, 1>,
+    one: Literal<20, 1>,
     gap_one: Literal<10, 1>,
     charged_zero: Literal<24, 0>,
     charged_one: Literal<24, 1>,
@@ -125,7 +124,7 @@ impl Logic for Kicker {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, ball_filter, hungry_filter);
-        dff_setup!(self, clock, now, elapsed, gap, charged, spent);
+        dff_setup!(self, clock, now, coming, gap, charged, spent);
         dff_setup!(self, clock, charge_pin, trigger_pin, is_ready, timed_out_flag, dropped_flag);
         self.ball_filter.pin.next = self.ball.val();
         self.ball_filter.tick.next = self.microsecond.val();
@@ -150,13 +149,15 @@ impl Logic for Kicker {
         self.spent.d.next = self.arm_on_ball.val() & (self.spent.q.val() | !self.enable.val() | self.accepts.val());
 
         self.gap_over.next = !self.gap.q.val().any();
-        self.next_elapsed.next = self.elapsed.q.val() + self.elapsed_one.val();
+        // `coming` numbers the strobe that is next in this state, from 1: so a limit is compared with
+        // a register, and no adder stands in front of a comparator.
+        self.after.next = self.coming.q.val() + self.one.val();
         // A pulse ends below 2^14, so fourteen bits decide.
-        self.short_elapsed.next = self.next_elapsed.val().get_bits::<14>(0);
+        self.short_coming.next = self.coming.q.val().get_bits::<14>(0);
         self.pulse_over.next =
-            (self.short_elapsed.val() >= self.pulse.val()) | (self.short_elapsed.val() >= self.maximum_pulse.val());
+            (self.short_coming.val() >= self.pulse.val()) | (self.short_coming.val() >= self.maximum_pulse.val());
         self.lockout_over.next =
-            (self.next_elapsed.val() >= self.lockout.val()) & (self.next_elapsed.val() >= self.minimum_lockout.val());
+            (self.coming.q.val() >= self.lockout.val()) & (self.coming.q.val() >= self.minimum_lockout.val());
 
         self.idle.next = self.off_state.val();
         if self.enable.val() {
@@ -173,28 +174,28 @@ impl Logic for Kicker {
                 self.next_state.next = self.idle.val();
             } else if self.microsecond.val() & self.gap_over.val() {
                 self.next_state.next = self.pulse_state.val();
+                self.coming.d.next = self.one.val();
             }
         } else if self.in_pulse.val() {
             if self.microsecond.val() {
-                self.elapsed.d.next = self.next_elapsed.val();
+                self.coming.d.next = self.after.val();
             }
             if !self.enable.val() | (self.microsecond.val() & self.pulse_over.val()) {
                 self.next_state.next = self.commutation_state.val();
-                self.elapsed.d.next = self.elapsed_zero.val();
+                self.coming.d.next = self.one.val();
             }
         } else if self.now.q.val() == self.commutation_state.val() {
             if self.microsecond.val() {
-                self.elapsed.d.next = self.next_elapsed.val();
-                if self.next_elapsed.val() >= self.commutation_time.val() {
+                self.coming.d.next = self.after.val();
+                if self.coming.q.val() >= self.commutation_time.val() {
                     self.next_state.next = self.lockout_state.val();
                 }
             }
         } else if self.now.q.val() == self.lockout_state.val() {
             if self.microsecond.val() {
-                self.elapsed.d.next = self.next_elapsed.val();
+                self.coming.d.next = self.after.val();
                 if self.lockout_over.val() {
                     self.next_state.next = self.idle.val();
-                    self.elapsed.d.next = self.elapsed_zero.val();
                 }
             }
         } else {

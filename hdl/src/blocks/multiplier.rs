@@ -49,6 +49,8 @@ pub struct Multiplier {
 
     addend: Signal<Local, Bits<32>>,
     negate: Signal<Local, Bit>,
+    left: Signal<Local, Bits<32>>,
+    raw_sum: Signal<Local, Bits<32>>,
     sum: Signal<Local, Bits<32>>,
     digit: Signal<Local, Bits<3>>,
     shifted: Signal<Local, Bits<32>>,
@@ -118,9 +120,15 @@ impl Logic for Multiplier {
                 self.addend.next = self.operand.q.val();
             }
         }
-        self.sum.next = self.p.q.val() + self.addend.val();
+        // p − a = ¬(¬p + a), as in the sequencer: one carry chain for both ways.
+        self.left.next = self.p.q.val();
         if self.negate.val() {
-            self.sum.next = self.p.q.val() - self.addend.val();
+            self.left.next = !self.p.q.val();
+        }
+        self.raw_sum.next = self.left.val() + self.addend.val();
+        self.sum.next = self.raw_sum.val();
+        if self.negate.val() {
+            self.sum.next = !self.raw_sum.val();
         }
         self.shifted.next = self.sum.val() >> 2;
 

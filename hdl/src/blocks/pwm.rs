@@ -1,8 +1,8 @@
 //! PWM generator of one axis for an H-bridge: sign and magnitude, or up and down.
 //!
 //! ```text
-//! compare, direction ─►[shadow at load]─►[active at period start]─► phase < compare ─► gate ─► pwm
-//! phase   /|/|/|        period_start  _|‾|____________                                  └──► dir
+//! compare, direction ─►[shadow at load]─►[active at period start]─► coming ≤ compare ─► gate ─► pwm
+//! coming  /|/|/|        period_start  _|‾|____________                                  └──► dir
 //!
 //! pwm ‾‾‾‾\____________________________/‾‾‾‾    low for more than the blanking time
 //! dir ______________/‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾    before and after DIR changes
@@ -66,9 +66,9 @@ pub struct Pwm {
     pub dir: Signal<Out, Bit>,
     /// Strobe: the next clock is the first of a period at the pin.
     pub period_start: Signal<Out, Bit>,
-    /// Clocks since the period started, one ahead of the pin.
+    /// Number of the clock of the period, from 1, one ahead of the pin; 0 only at power-up.
     pub position: Signal<Out, Bits<13>>,
-    phase: DFF<Bits<13>>,
+    coming: DFF<Bits<13>>,
     shadow_compare: DFF<Bits<13>>,
     shadow_direction: DFF<Bit>,
     active_compare: DFF<Bits<13>>,
@@ -78,7 +78,7 @@ pub struct Pwm {
     pwm_pin: DFF<Bit>,
     dir_pin: DFF<Bit>,
     start: DFF<Bit>,
-    next_phase: Signal<Local, Bits<13>>,
+    after: Signal<Local, Bits<13>>,
     last: Signal<Local, Bit>,
     running: Signal<Local, Bit>,
     wraps: Signal<Local, Bit>,
@@ -86,8 +86,8 @@ pub struct Pwm {
     aligned: Signal<Local, Bit>,
     turns: Signal<Local, Bit>,
     permitted: Signal<Local, Bit>,
-    phase_zero: Literal<13, 0>,
-    phase_one: Literal<13, 1>,
+    no_compare: Literal<13, 0>,
+    one: Literal<13, 1>,
     quiet_zero: Literal<10, 0>,
     quiet_one: Literal<10, 1>,
 }
@@ -95,16 +95,17 @@ pub struct Pwm {
 impl Logic for Pwm {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, phase, shadow_compare, shadow_direction, active_compare, active_direction);
+        dff_setup!(self, clock, coming, shadow_compare, shadow_direction, active_compare, active_direction);
         dff_setup!(self, clock, quiet, settled, pwm_pin, dir_pin, start);
 
         self.running.next = self.period.val().any();
-        self.next_phase.next = self.phase.q.val() + self.phase_one.val();
-        self.last.next = (self.next_phase.val() >= self.period.val()) | self.sync.val();
+        // Clocks are numbered from 1, so that the period is compared with a register, not with a sum.
+        self.after.next = self.coming.q.val() + self.one.val();
+        self.last.next = (self.coming.q.val() >= self.period.val()) | self.sync.val();
         self.wraps.next = self.last.val() & self.running.val();
-        self.phase.d.next = self.next_phase.val();
+        self.coming.d.next = self.after.val();
         if self.last.val() {
-            self.phase.d.next = self.phase_zero.val();
+            self.coming.d.next = self.one.val();
         }
         self.start.d.next = self.wraps.val();
 
@@ -117,9 +118,9 @@ impl Logic for Pwm {
             self.active_direction.d.next = self.shadow_direction.q.val();
         }
         if !self.enable.val() {
-            self.shadow_compare.d.next = self.phase_zero.val();
+            self.shadow_compare.d.next = self.no_compare.val();
             self.shadow_direction.d.next = false;
-            self.active_compare.d.next = self.phase_zero.val();
+            self.active_compare.d.next = self.no_compare.val();
             self.active_direction.d.next = false;
         }
 
@@ -144,9 +145,9 @@ impl Logic for Pwm {
         self.pwm_pin.d.next = self.permitted.val()
             & self.running.val()
             & self.aligned.val()
-            & (self.phase.q.val() < self.active_compare.q.val());
+            & !(self.coming.q.val() > self.active_compare.q.val());
 
-        self.position.next = self.phase.q.val();
+        self.position.next = self.coming.q.val();
         self.pwm.next = self.pwm_pin.q.val();
         self.dir.next = self.dir_pin.q.val();
         if self.up_down.val() {

@@ -96,6 +96,8 @@ pub struct Sequencer {
     op: Signal<Local, Bits<5>>,
     word: Signal<Local, Bits<32>>,
     subtracting: Signal<Local, Bit>,
+    left: Signal<Local, Bits<32>>,
+    raw_sum: Signal<Local, Bits<32>>,
     sum: Signal<Local, Bits<32>>,
     sum_top: Signal<Local, Bits<3>>,
     saturated: Signal<Local, Bits<32>>,
@@ -190,9 +192,15 @@ impl Logic for Sequencer {
             }
         }
         self.subtracting.next = self.subtracts.q.val();
-        self.sum.next = self.accumulator.q.val() + self.word.val();
+        // a − b = ¬(¬a + b): both ways share one carry chain, with no second one to negate b.
+        self.left.next = self.accumulator.q.val();
         if self.subtracting.val() {
-            self.sum.next = self.accumulator.q.val() - self.word.val();
+            self.left.next = !self.accumulator.q.val();
+        }
+        self.raw_sum.next = self.left.val() + self.word.val();
+        self.sum.next = self.raw_sum.val();
+        if self.subtracting.val() {
+            self.sum.next = !self.raw_sum.val();
         }
         self.sum_top.next = self.sum.val().get_bits::<3>(29);
         self.saturated.next = self.sum.val();

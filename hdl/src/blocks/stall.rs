@@ -45,7 +45,8 @@ pub struct Stall {
     driven: DFF<Bit>,
     sticky: DFF<Bit>,
 
-    start: Signal<Local, Bits<3>>,
+    higher: Signal<Local, Bits<3>>,
+    lower: Signal<Local, Bits<3>>,
     highest: Signal<Local, Bit>,
     lowest: Signal<Local, Bit>,
     idles: Signal<Local, Bit>,
@@ -53,6 +54,7 @@ pub struct Stall {
     zero: Literal<3, 0>,
     one: Literal<3, 1>,
     three: Literal<3, 3>,
+    minus_one: Literal<3, 7>,
     minus_three: Literal<3, 5>,
 }
 
@@ -62,24 +64,29 @@ impl Logic for Stall {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, net, moved, driven, sticky);
-        self.start.next = self.net.q.val();
+        // Both sums begin at the register, so that no carry chain stands behind the window's.
+        self.higher.next = self.net.q.val() + self.one.val();
+        self.lower.next = self.net.q.val() - self.one.val();
         if self.window.val() {
-            self.start.next = self.zero.val();
+            self.higher.next = self.one.val();
+            self.lower.next = self.minus_one.val();
         }
         self.highest.next = self.net.q.val() == self.three.val();
         self.lowest.next = self.net.q.val() == self.minus_three.val();
-        self.net.d.next = self.start.val();
+        if self.window.val() {
+            self.net.d.next = self.zero.val();
+        }
         if self.step.val() {
             if self.up.val() {
-                if self.start.val() != self.three.val() {
-                    self.net.d.next = self.start.val() + self.one.val();
+                if self.window.val() | !self.highest.val() {
+                    self.net.d.next = self.higher.val();
                 }
                 if self.highest.val() {
                     self.moved.d.next = true;
                 }
             } else {
-                if self.start.val() != self.minus_three.val() {
-                    self.net.d.next = self.start.val() - self.one.val();
+                if self.window.val() | !self.lowest.val() {
+                    self.net.d.next = self.lower.val();
                 }
                 if self.lowest.val() {
                     self.moved.d.next = true;

@@ -107,8 +107,8 @@ pub const PROOFS: &[Proof] = &[
             ),
         ],
         mutants: &[
-            mutant("no maximum", " | (short_elapsed >= maximum_pulse)", ""),
-            mutant("no least lock-out", " & (next_elapsed >= minimum_lockout)", ""),
+            mutant("no maximum", " | (short_coming >= maximum_pulse)", ""),
+            mutant("no least lock-out", " & (coming_q >= minimum_lockout)", ""),
             mutant("charges while it fires", "~expired & may_charge", "~expired"),
             mutant(
                 "fires on when disabled",
