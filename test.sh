@@ -77,6 +77,8 @@ if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
     left_out+=(--skip virtual_machine)
 fi
 stage "build" cargo build --workspace --all-targets --release
+# Built by the test that looks at it, so that the virtual machine's tests find it ready.
+stage "the robot's binary" cargo test -q -p testbench --release --test qemu robots_binary
 if [ -z "$(missing)" ]; then
     stage "tests" cargo test --workspace --release --no-fail-fast "${left_out[@]}"
 else

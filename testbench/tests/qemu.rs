@@ -42,6 +42,19 @@ fn binary() -> Vec<u8> {
     fs::read(target_folder().join(TARGET).join("robot/racbot")).unwrap()
 }
 
+#[test]
+fn the_robots_binary_is_one_small_static_file() {
+    let binary = binary();
+    assert_eq!(&binary[..5], b"\x7fELF\x02", "no 64-bit ELF");
+    // Program headers of 56 bytes, their number at byte 56, their offset at 32; type 3 names an interpreter.
+    let number = u16::from_le_bytes(binary[56..58].try_into().unwrap()) as usize;
+    let offset = u64::from_le_bytes(binary[32..40].try_into().unwrap()) as usize;
+    let kinds: Vec<u8> = binary[offset..].chunks(56).take(number).map(|header| header[0]).collect();
+    assert!(kinds.contains(&1) && !kinds.contains(&3), "asks for a dynamic linker: {kinds:?}");
+    assert!(binary.len() < 6 << 20, "{} bytes", binary.len());
+    println!("{} bytes", binary.len());
+}
+
 fn robot() -> Robot {
     let mut robot = Robot { control_rate_hz: CONTROL_RATE_HZ, ..Robot::racbot() };
     // A slow tick has little room for integral gain in its format.
