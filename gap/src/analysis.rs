@@ -503,6 +503,7 @@ fn study(
             .map(|(j, p)| {
                 let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
                 let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
+                let v = active.effect.period(&p.name).map_or(v, |period| v.rem_euclid(period));
                 // The effect's own law is not known to better than that.
                 let half = half(j).hypot(2.0 * active.effect.law_uncertainty() * v);
                 (p.name.clone(), v, [v - half, v + half])

@@ -186,6 +186,10 @@ pub trait Effect: Send + Sync {
     fn describe(&self, _values: &Values) -> String {
         self.equation().to_owned()
     }
+    /// Period of an angle after which the effect is the same again: values are given in [0, period).
+    fn period(&self, _parameter: &str) -> Option<f64> {
+        None
+    }
     /// Relative standard deviation of its parameters from what its law leaves out.
     fn law_uncertainty(&self) -> f64 {
         // Geometry holds to the width of a contact, laws of friction and motors less well.

@@ -124,6 +124,12 @@ impl Gram {
         self.clusters.iter().map(|c| c.offset).sum()
     }
 
+    /// JᵀJ of all columns.
+    pub fn information(&self) -> DMatrix<f64> {
+        let m = self.clusters.first().map_or(0, |c| c.jr.len());
+        self.clusters.iter().fold(DMatrix::zeros(m, m), |sum, c| sum + &c.jj)
+    }
+
     /// Number of residuals, weighted.
     pub fn n(&self) -> f64 {
         self.clusters.iter().map(|c| c.n).sum()

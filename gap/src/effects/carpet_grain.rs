@@ -47,6 +47,11 @@ impl Effect for CarpetGrain {
         }));
     }
 
+    fn period(&self, parameter: &str) -> Option<f64> {
+        // A grain drags to and fro alike.
+        (parameter == "azimuth_rad").then_some(std::f64::consts::PI)
+    }
+
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("pull the robot along and across the carpet with a spring scale", 5.0))
     }

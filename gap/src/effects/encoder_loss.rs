@@ -28,7 +28,7 @@ impl Effect for EncoderLoss {
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         // Speeds robots drive at, about a quarter apart, up to half the no-load speed.
         let most = 0.5 * Sizes::of(robot).no_load;
-        let steps = std::iter::successors(Some(5.0), |w| Some(1.27 * w)).take_while(|w| *w < most.min(60.0));
+        let steps = std::iter::successors(Some(2.0), |w| Some(1.27 * w)).take_while(|w| *w < most.min(60.0));
         let mut forms = Vec::new();
         for threshold in std::iter::once(0.0).chain(steps) {
             for form in Form::alone(robot, |i| Parameter::new(wheel_name("loss", i, ""), 0.01, [0.0, 0.9], 0.02)) {

@@ -103,6 +103,7 @@ impl Bench {
             held_share: thresholds.held_share,
         };
         bench.merge_twins();
+        bench.share_margins();
         bench.narrow.clone_from(&bench.held);
         bench.widen(thresholds);
         let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
@@ -116,10 +117,7 @@ impl Bench {
     /// Of columns that are the same but for a factor, one is held; several would add their margins.
     fn merge_twins(&mut self) {
         let m = self.linear.owners.len();
-        let mut jj = DMatrix::<f64>::zeros(m, m);
-        for c in &self.linear.gram.clusters {
-            jj += &c.jj;
-        }
+        let jj = self.linear.gram.information();
         for a in 0..m {
             for b in 0..a {
                 let (Role::Held(sa, _), Role::Held(sb, _)) = (self.held[a], self.held[b]) else { continue };
@@ -133,14 +131,37 @@ impl Bench {
         }
     }
 
+    /// One effect at several thresholds, places or rates is one effect: where its columns look alike
+    /// they share one margin instead of adding up to several.
+    fn share_margins(&mut self) {
+        let m = self.linear.owners.len();
+        let jj = self.linear.gram.information();
+        let effect = |column: usize| match self.linear.owners[column] {
+            Owner::Candidate(c, j) => {
+                let candidate = &self.candidates[c];
+                Some((candidate.effect.name(), candidate.form.free[j].name.as_str()))
+            }
+            _ => None,
+        };
+        let held: Vec<usize> =
+            (0..m).filter(|c| matches!(self.held[*c], Role::Held(..)) && jj[(*c, *c)] > 0.0).collect();
+        let alike = |a: usize, b: usize| jj[(a, b)].powi(2) / (jj[(a, a)] * jj[(b, b)]);
+        let many: Vec<f64> = held
+            .iter()
+            .map(|a| held.iter().filter(|b| effect(*a) == effect(**b)).map(|b| alike(*a, *b)).sum::<f64>())
+            .collect();
+        for (c, many) in held.iter().zip(many) {
+            if let Role::Held(sd, _) = &mut self.held[*c] {
+                *sd /= many.max(1.0).sqrt();
+            }
+        }
+    }
+
     /// The law of a large effect is not known to the last tenth: what looks like a named effect is
     /// allowed a share of it without being named.
     fn widen(&mut self, thresholds: &Thresholds) {
         let m = self.linear.owners.len();
-        let mut jj = DMatrix::zeros(m, m);
-        for c in &self.linear.gram.clusters {
-            jj += &c.jj;
-        }
+        let jj = self.linear.gram.information();
         for index in 0..self.state.active.len() {
             let active = &self.state.active[index];
             let whole = self.linear.owners.iter().position(|o| *o == Owner::Whole(index));

@@ -159,7 +159,9 @@ fn intervals(hidden: &[Hidden], answer: &Answer) -> [usize; 2] {
                 // A parameter that is known exactly has no interval to judge.
                 if let Some(x) = h.parameters.get(name).filter(|_| high > low) {
                     out[0] += 1;
-                    out[1] += usize::from((*low..=*high).contains(x));
+                    // A direction to and fro is the same after half a turn.
+                    let turn = if name == "azimuth_rad" { std::f64::consts::PI } else { 0.0 };
+                    out[1] += usize::from([0.0, turn, -turn].iter().any(|by| (*low..=*high).contains(&(x + by))));
                 }
             }
         }
@@ -234,6 +236,13 @@ mod tests {
         let answer = say(&[("wheel-radius", &[1])], &[]);
         assert_eq!(intervals(&[hide("wheel-radius", &[1])], &answer), [1, 1]);
         assert_eq!(intervals(&[hide("body-radius", &[])], &answer), [0, 0]);
+        let azimuth = |x: f64| {
+            let parameters = BTreeMap::from([("azimuth_rad".to_owned(), x)]);
+            let mut answer = answer.clone();
+            answer.effects[0].parameters = vec![("azimuth_rad".to_owned(), 3.1, [3.0, 3.2])];
+            intervals(&[Hidden { parameters, ..hide("wheel-radius", &[1]) }], &answer)
+        };
+        assert_eq!((azimuth(3.15), azimuth(0.02), azimuth(1.5)), ([1, 1], [1, 1], [1, 0]));
         let ratio = in_limits(&[hide("wheel-radius", &[1])], &answer);
         assert!(ratio.is_some_and(|r| (r - 2.5).abs() < 1e-12));
     }
