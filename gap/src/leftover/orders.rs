@@ -21,8 +21,10 @@ const RANGE_HZ: [f64; 2] = [3.0, 120.0];
 const SLOWEST: f64 = 1.0;
 /// Highest order looked at: rollers of a wheel.
 const HIGHEST: usize = 40;
-/// Relative amplitude of a rolling radius worth naming, and of a torque beside the stall torque.
-const MATERIAL: [f64; 2] = [0.0028, 0.07];
+/// Relative amplitude of a rolling radius worth naming, and of a torque beside the stall torque: handed
+/// from roller to roller every omni wheel bobs by some hundredths of a millimetre and is pushed by a few
+/// mNm, which look like a radius that varies by up to 0.0035.
+const MATERIAL: [f64; 2] = [0.006, 0.07];
 /// No omni wheel has fewer rollers.
 const FEWEST_ROLLERS: f64 = 6.0;
 /// Chance of phases that agree as well in noise, whatever the amplitudes: bursts are no lines.
@@ -56,6 +58,8 @@ struct Block {
 #[derive(Clone, Copy)]
 struct Line {
     p: f64,
+    /// How far it stands out; tells lines apart whose chances are too small to be told apart.
+    strength: f64,
     amplitude: f64,
     sd: f64,
 }
@@ -95,16 +99,16 @@ pub(super) fn orders(
             .zip(&candidates)
             .map(|(b, o)| [line(b, *o, 0, &noise[0], |speed| o * speed * speed), line(b, *o, 1, &noise[1], |_| 1.0)])
             .collect();
-        let Some((best, _)) = lines.iter().enumerate().min_by(|a, b| {
-            let least = |l: &[Line; 2]| l[0].p.min(l[1].p);
-            least(a.1).total_cmp(&least(b.1))
+        let Some((best, _)) = lines.iter().enumerate().max_by(|a, b| {
+            let most = |l: &[Line; 2]| l[0].strength.max(l[1].strength);
+            most(a.1).total_cmp(&most(b.1))
         }) else {
             continue;
         };
         let [radius, torque] = lines[best];
         let order = candidates[best];
         let whole = (order - order.round()).abs() < 1e-9;
-        if whole && order >= FEWEST_ROLLERS && radius.p <= torque.p && radius.p * tests < FALSE_ALARM {
+        if whole && order >= FEWEST_ROLLERS && radius.strength >= torque.strength && radius.p * tests < FALSE_ALARM {
             if radius.amplitude >= MATERIAL[0] {
                 ripples.push((wheel, order as usize, radius));
             }
@@ -123,7 +127,7 @@ pub(super) fn orders(
         }
     }
     // Rollers are alike on all wheels: the count that shows best.
-    let best = ripples.iter().min_by(|a, b| a.2.p.total_cmp(&b.2.p)).map(|r| (r.1, r.2.p));
+    let best = ripples.iter().max_by(|a, b| a.2.strength.total_cmp(&b.2.strength)).map(|r| (r.1, r.2.p));
     let ripple = best.map(|(count, p)| Ripple {
         count,
         wheels: ripples.iter().filter(|r| r.1 == count).map(|r| (r.0, r.2.amplitude, r.2.sd)).collect(),
@@ -240,7 +244,7 @@ fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, basis: impl Fn(f
     }
     runs.retain(|r| r.2 > 0.0);
     if runs.is_empty() {
-        return Line { p: 1.0, amplitude: 0.0, sd: f64::INFINITY };
+        return Line { p: 1.0, strength: 0.0, amplitude: 0.0, sd: f64::INFINITY };
     }
     // Blocks overlap by half: two count as 1.33 (Welch 1967).
     let overlap = 1.5;
@@ -252,8 +256,10 @@ fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, basis: impl Fn(f
     let weight: f64 = runs.iter().map(|r| r.2).sum();
     let square: f64 = runs.iter().map(|r| (r.1[0].powi(2) + r.1[1].powi(2)) / r.2).sum::<f64>() / weight;
     let bias = runs.len() as f64 * overlap / weight;
+    let agrees = by_phase < PHASES;
     Line {
-        p: if by_phase < PHASES { chi2_upper(2.0 * statistic, 2.0 * runs.len() as f64) } else { 1.0 },
+        p: if agrees { chi2_upper(2.0 * statistic, 2.0 * runs.len() as f64) } else { 1.0 },
+        strength: if agrees { statistic } else { 0.0 },
         amplitude: (square - bias).max(0.0).sqrt(),
         sd: (0.5 * overlap / weight).sqrt(),
     }
