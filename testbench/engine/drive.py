@@ -1,0 +1,92 @@
+"""Batteries, bridges, motors and gears: from duties to torques at the wheel shafts."""
+
+import math
+
+from mechanics import STEP_S
+from robot import WHEELS
+
+MESH_STIFFNESS = 60.0  # Nm/rad at the wheel shaft, where there is play
+MESH_DAMPING = 0.004  # Nm s/rad
+PARTS = 10  # steps of the rotor per step of the engine, where there is play
+
+
+class Rotor:
+    """A rotor behind play: a body of its own, in wheel-shaft quantities."""
+
+    def __init__(self, inertia, half_play, friction):
+        self.inertia, self.half_play, self.friction = inertia, half_play, friction
+        self.angle = self.speed = 0.0
+
+    def step(self, torque, angle, speed):
+        """Moves on under `torque` against a wheel at `angle` with `speed`; mean torque that the teeth pass on."""
+        h = STEP_S / PARTS
+        passed = 0.0
+        for part in range(PARTS):
+            lead = self.angle - (angle + speed * h * part)
+            mesh = 0.0
+            if abs(lead) > self.half_play:
+                side = math.copysign(1.0, lead)
+                push = MESH_STIFFNESS * (abs(lead) - self.half_play) + MESH_DAMPING * side * (self.speed - speed)
+                mesh = side * max(push, 0.0)
+            self.speed += h * (torque - mesh) / self.inertia
+            most = h * self.friction / self.inertia
+            self.speed -= min(max(self.speed, -most), most)
+            self.angle += h * self.speed
+            passed += mesh
+        return passed / PARTS
+
+
+class Drive:
+    """Three drives on one battery."""
+
+    def __init__(self, nominal, plant):
+        self.plant = plant
+        g = nominal.gear_ratio
+        self.constant = nominal.torque_constant * plant.torque_constant_scale * g
+        self.resistance = nominal.resistance
+        self.heat = [0.0] * WHEELS
+        self.motor_friction = nominal.motor_friction * g
+        self.loss = 1.0 - nominal.gear_efficiency
+        self.rotor_inertia = nominal.rotor_inertia * plant.rotor_inertia_scale * g * g
+        self.open_voltage = nominal.supply - plant.battery_drop
+        self.voltage = self.open_voltage
+        self.rotors = [
+            Rotor(self.rotor_inertia, 0.5 * p / g, self.motor_friction) if p > 0.0 else None for p in plant.play
+        ]
+
+    def shaft(self, i, angle):
+        """Angle that the encoder of axis `i` sees, at the wheel shaft."""
+        return self.rotors[i].angle if self.rotors[i] else angle
+
+    def step(self, duties, angles, speeds, accelerations):
+        """Torques at the wheel shafts and the limits of dry friction there, Nm."""
+        p = self.plant
+        torques, limits = [0.0] * WHEELS, [0.0] * WHEELS
+        load = 0.0
+        for i in range(WHEELS):
+            u, w = duties[i], speeds[i]
+            if p.dead_band > 0.0:
+                u = math.copysign(max(abs(u) - p.dead_band, 0.0), u)
+            rotor = self.rotors[i]
+            resistance = self.resistance * (1.0 + p.heating_per_joule * self.heat[i])
+            current = (u * self.voltage - self.constant * (rotor.speed if rotor else w)) / resistance
+            if p.heating_per_joule > 0.0:
+                self.heat[i] += STEP_S * (current * current * resistance - self.heat[i] / p.cooling_s)
+            load += u * current
+            winding = self.constant * current
+            if rotor:
+                torques[i] = transmitted = rotor.step(winding, angles[i], w)
+                dry = 1e-6
+            else:
+                torques[i] = winding
+                transmitted = winding - self.rotor_inertia * accelerations[i]
+                dry = self.motor_friction
+            torques[i] -= p.viscous[i] * w
+            dry += self.loss * abs(transmitted) + p.coulomb[i]
+            if p.stribeck[i] > 0.0:
+                dry += p.stribeck[i] * math.exp(-((w / p.stribeck_speed) ** 2))
+            if p.asymmetric[i] > 0.0 and w * p.asymmetric_sense > 0.0:
+                dry += p.asymmetric[i]
+            limits[i] = dry
+        self.voltage = self.open_voltage - p.battery_resistance * load
+        return torques, limits
