@@ -15,6 +15,7 @@ use fixed_kin::AXES;
 use fixed_kin::control::Configuration;
 use fixed_kin::format::{
     Coefficient, Displacement, Duty, FeedForwardGain, Format, IntegralGain, OutOfRange, ProportionalGain, Speed,
+    speed_words,
 };
 use fixed_kin::pi::PiGains;
 use fixed_kin::registers::MIN_TICK_PERIOD;
@@ -99,7 +100,7 @@ impl Scale {
         if !(f64::from(MIN_TICK_PERIOD)..8_388_608.0).contains(&clocks) {
             return Err(ScaleError::Rate { rate_hz: robot.control_rate_hz, clock_hz, clocks });
         }
-        let words_per_rad_s = robot.counts_per_wheel_rad() / clock_hz / Format::SPEED.lsb();
+        let words_per_rad_s = speed_words(robot.counts_per_wheel_rad(), clock_hz);
         let mut scale = Self {
             clock_hz,
             tick_period: clocks as u32,
@@ -175,6 +176,12 @@ impl Scale {
     #[must_use]
     pub fn configuration(&self) -> &Configuration {
         &self.configuration
+    }
+
+    /// Body velocity words are 2 to these per m/s, m/s and rad/s.
+    #[must_use]
+    pub fn exponents(&self) -> [i32; 3] {
+        self.exponents
     }
 
     /// Wheels in use.

@@ -115,6 +115,12 @@ impl Format {
     }
 }
 
+/// [`Speed`] words per count a second, times `counts`: per rad/s, say, for the counts of a radian.
+#[must_use]
+pub fn speed_words(counts: f64, clock_hz: f64) -> f64 {
+    counts / clock_hz / Format::SPEED.lsb()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@
 //! Every block of the gateware has its twin here: clock by clock ([`encoder`], [`pwm`], [`kicker`],
 //! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`]) or control tick by control tick
 //! ([`speed`], [`kinematics`], [`slew`], [`pi`], [`modulation`], [`pose`], joined in [`control::Core`]). [`card::Card`] is the whole,
-//! behind the register map of [`registers`].
+//! behind the register map of [`registers`]; [`recording`] replays what it left in a log.
 //!
 //! # Every signal
 //!
@@ -86,6 +86,7 @@ pub mod modulation;
 pub mod pi;
 pub mod pose;
 pub mod pwm;
+pub mod recording;
 pub mod registers;
 pub mod safety;
 pub mod serial_host;

@@ -43,8 +43,7 @@ impl PiState {
     /// One control tick; returns the duty.
     pub fn step(&mut self, gains: &PiGains, reference: Speed, speed: Speed) -> Duty {
         let error = subtract(reference.to_bits(), speed.to_bits());
-        let forward = multiply(reference.to_bits(), gains.kff.to_bits(), Scale::COEFFICIENT);
-        let proportional = add(multiply(error, gains.kp.to_bits(), Scale::WIDE), forward);
+        let proportional = proportional(gains, reference, speed);
         let integral = add(multiply(error, gains.ki.to_bits(), Scale::FINE), self.integral.to_bits());
         let sum = add(integral, proportional);
         let clip = |x: i32| x.min(gains.upper.to_bits()).max(gains.lower.to_bits());
@@ -57,10 +56,25 @@ impl PiState {
         Duty::from_bits(clip(sum))
     }
 
+    /// The state behind a tick that gave this duty; nothing where the duty is at a limit.
+    #[must_use]
+    pub fn after(gains: &PiGains, reference: Speed, speed: Speed, duty: Duty) -> Option<Self> {
+        // Held or not, a duty between the limits is the proportional part plus what is kept.
+        let kept = subtract(duty.to_bits(), proportional(gains, reference, speed));
+        (duty > gains.lower && duty < gains.upper).then_some(Self { integral: Duty::from_bits(kept) })
+    }
+
     /// Forgets the integral: the outputs are off.
     pub fn clear(&mut self) {
         self.integral = Duty::ZERO;
     }
+}
+
+/// The part of the duty that follows the set point and the error at once.
+fn proportional(gains: &PiGains, reference: Speed, speed: Speed) -> i32 {
+    let error = subtract(reference.to_bits(), speed.to_bits());
+    let forward = multiply(reference.to_bits(), gains.kff.to_bits(), Scale::COEFFICIENT);
+    add(multiply(error, gains.kp.to_bits(), Scale::WIDE), forward)
 }
 
 #[cfg(test)]

@@ -74,7 +74,7 @@ impl SpeedState {
         let difference = i32::from(sample.count.wrapping_sub(self.count as u16) as i16);
         self.count = self.count.wrapping_add(difference);
         self.speed = match mode {
-            SpeedMode::Difference => Speed::from_bits(divide(difference, tick_period)),
+            SpeedMode::Difference => by_difference(difference, tick_period),
             SpeedMode::CountAndTime => self.by_count_and_time(difference, sample, now, tick_period),
         };
         self.speed
@@ -87,14 +87,14 @@ impl SpeedState {
         }
         let speed = if self.edge_valid {
             let lines = sample.line().wrapping_sub(self.line) as i16;
-            divide(i32::from(lines), between_edges)
+            Speed::from_bits(divide(i32::from(lines), between_edges))
         } else {
-            divide(difference, tick_period)
+            by_difference(difference, tick_period)
         };
         self.edge_time = sample.edge_time;
         self.line = sample.line();
         self.edge_valid = true;
-        Speed::from_bits(speed)
+        speed
     }
 
     fn without_edge(&mut self, now: u32) -> Speed {
@@ -106,6 +106,12 @@ impl SpeedState {
         let bound = Speed::from_bits(divide(1, age));
         self.speed.clamp(-bound, bound)
     }
+}
+
+/// Speed from the counts of one control tick.
+#[must_use]
+pub fn by_difference(counts: i32, tick_period: u32) -> Speed {
+    Speed::from_bits(divide(counts, tick_period))
 }
 
 #[cfg(test)]

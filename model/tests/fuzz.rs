@@ -1,8 +1,9 @@
 //! Files that were good once: whatever became of them is read, or refused with file and reason.
 //!
-//! `RACBOT_FUZZ=1000000 cargo test --release -p model --test fuzz` tries more.
+//! `RACBOT_FUZZ_S=600 cargo test --release -p model --test fuzz -- --nocapture` goes on for ten minutes each.
 
 use std::path::Path;
+use std::time::Instant;
 
 use model::robot::Robot;
 use model::run::{DataSet, Run};
@@ -34,8 +35,15 @@ const TOKENS: [&str; 22] = [
     "t",
 ];
 
-fn rounds() -> u64 {
-    std::env::var("RACBOT_FUZZ").ok().and_then(|n| n.parse().ok()).unwrap_or(4000)
+/// Calls `case` some thousand times, or for as long as somebody asks; gives the number of calls.
+fn repeat(mut case: impl FnMut()) -> u64 {
+    let seconds = std::env::var("RACBOT_FUZZ_S").ok().and_then(|s| s.parse::<u64>().ok());
+    let (begun, mut cases) = (Instant::now(), 0);
+    while seconds.map_or(cases < 4_000, |s| begun.elapsed().as_secs() < s) {
+        case();
+        cases += 1;
+    }
+    cases
 }
 
 /// One to four things that happen to files.
@@ -87,21 +95,27 @@ fn data(name: &str) -> Vec<u8> {
 fn damaged_logs_are_read_or_refused() {
     let whole = data("runs/wheel-skew/run_01.csv");
     let lines: Vec<&[u8]> = whole.split(|b| *b == b'\n').take(25).collect();
-    let good = lines.join(&b'\n');
+    let plain = lines.join(&b'\n');
+    // As our own recorder writes it, with measured speeds.
+    let columns = |k: usize| if k == 0 { ",meas_1,meas_2,meas_3".to_owned() } else { format!(",{k}.25,,-{k}e-3") };
+    let ours: Vec<Vec<u8>> = lines.iter().enumerate().map(|(k, l)| [*l, columns(k).as_bytes()].concat()).collect();
+    let seeds = [plain, ours.join(&b'\n')];
     let (robot, path) = (Robot::racbot(), Path::new("run.csv"));
     let (mut read, mut rng) = (0, ChaCha8Rng::seed_from_u64(4));
-    for _ in 0..rounds() {
-        let bytes = damaged(&good, &mut rng);
+    let cases = repeat(|| {
+        let bytes = damaged(&seeds[rng.random_range(0..2)], &mut rng);
         match Run::from_reader(&bytes[..], path).and_then(|run| run.check(&robot, path).map(|()| run)) {
             Ok(run) => {
                 read += 1;
                 assert!(!run.is_empty() && run.t.iter().all(|t| t.is_finite()));
                 assert!(run.duty.iter().flatten().all(|d| !d.is_infinite()));
                 assert!(run.counts.iter().all(|c| c.len() == run.len()));
+                assert!(run.measured.iter().all(|m| m.len() == run.len()));
             }
             Err(e) => assert!(e.to_string().starts_with("run.csv") && !e.what.is_empty() && !e.hint.is_empty(), "{e}"),
         }
-    }
+    });
+    println!("{cases} damaged logs, {read} read");
     assert!(read > 0);
 }
 
@@ -109,14 +123,17 @@ fn damaged_logs_are_read_or_refused() {
 fn damaged_robots_are_read_or_refused() {
     let path = Path::new("robot.toml");
     let effect = b"\n[[effect]]\nname = \"wheel-radius\"\nwheels = [2]\n[effect.parameters]\nscale_2 = { value = 0.1, ci95 = [0.05, 0.15] }\n";
-    let mut rng = ChaCha8Rng::seed_from_u64(5);
-    for good in [[data("robot.toml"), effect.to_vec()].concat(), data("robot-four-wheels.toml")] {
-        let mut read = 0;
-        for _ in 0..rounds() / 2 {
-            let Ok(text) = String::from_utf8(damaged(&good, &mut rng)) else { continue };
+    let words = "arithmetic = \"fixed-kin\"\nregisters = { kp = 1042300, ki = -1, tick_period = 33333 }\n";
+    let ours = String::from_utf8(data("robot.toml")).unwrap().replace("[pi]\n", &format!("[pi]\n{words}"));
+    assert!(Robot::parse(&ours, path).unwrap().pi.registers.len() == 3);
+    let seeds = [[ours.as_bytes(), effect].concat(), data("robot-four-wheels.toml")];
+    let (mut read, mut rng) = ([0; 2], ChaCha8Rng::seed_from_u64(5));
+    let cases = repeat(|| {
+        for (good, read) in seeds.iter().zip(&mut read) {
+            let Ok(text) = String::from_utf8(damaged(good, &mut rng)) else { continue };
             match Robot::parse(&text, path) {
                 Ok(robot) => {
-                    read += 1;
+                    *read += 1;
                     assert_eq!(Robot::parse(&robot.to_toml(), path).as_ref(), Ok(&robot), "{text}");
                     if let Ok(edited) = Robot::edited(&text, &[], path) {
                         assert!(Robot::parse(&edited, path).is_ok_and(|r| r.effects.is_empty()), "{text}");
@@ -126,8 +143,9 @@ fn damaged_robots_are_read_or_refused() {
                 Err(e) => assert!(e.to_string().starts_with("robot.toml") && !e.what.is_empty(), "{e}"),
             }
         }
-        assert!(read > 0);
-    }
+    });
+    println!("{} damaged robots, {} read", 2 * cases, read[0] + read[1]);
+    assert!(read.iter().all(|r| *r > 0));
 }
 
 /// What the issue of a damaged recording comes down to, one by one.

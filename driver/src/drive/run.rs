@@ -62,17 +62,15 @@ impl Plan {
         }
     }
 
-    /// The robot as the controller believes it to be, its effects applied to its geometry.
+    /// The robot as the controller believes it to be: its effects on geometry and the camera's latency are in
+    /// its numbers and no longer effects, so that nothing applies them twice.
     #[must_use]
     pub fn believed(&self) -> Robot {
-        let applied = Applied::of(&self.robot).robot;
-        let latency = self.robot.effect("camera-latency").and_then(|effect| effect.value("latency_s")).unwrap_or(0.0);
-        Robot {
-            layout: applied.layout,
-            wheel_radius_m: applied.wheel_radius_m,
-            camera_latency_s: (self.robot.camera_latency_s + latency).max(0.0),
-            ..self.robot.clone()
-        }
+        let mut robot = Applied::geometry_of(&self.robot);
+        let latency = robot.effect("camera-latency").and_then(|effect| effect.value("latency_s")).unwrap_or(0.0);
+        robot.camera_latency_s = (robot.camera_latency_s + latency).max(0.0);
+        robot.effects.retain(|effect| effect.name != "camera-latency");
+        robot
     }
 
     /// Conversions for this plan on a card with this clock.

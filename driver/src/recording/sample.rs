@@ -1,9 +1,10 @@
 //! What the loop knows of a tick, in the units of a run, and the `robot.toml` beside it.
 
-use crate::{Scale, Snapshot};
+use crate::{Scale, Settings, Snapshot};
 use fixed_kin::AXES;
+use fixed_kin::control::SetPointMode;
 use fixed_kin::format::{Format, Speed};
-use fixed_kin::speed::SpeedMode;
+use fixed_kin::recording::{RecordedWords, SetPointWords};
 use model::frames::{Pose, Twist, wrap_angle};
 use model::robot::Robot;
 use model::run::Tick;
@@ -30,6 +31,8 @@ pub struct Sample {
     pub counts: [i64; AXES],
     /// Duties.
     pub duty: [f64; AXES],
+    /// Measured wheel speeds, rad/s.
+    pub measured: [f64; AXES],
     /// Supply, V; NaN where nobody measures it.
     pub supply_v: f64,
     /// Camera pose that came at this tick.
@@ -48,6 +51,7 @@ impl Sample {
             reference: seen.references.map(|word| rounded(scale.speed(word), DECIMALS)),
             counts,
             duty: seen.duties.map(|word| rounded(f64::from(word), DECIMALS)),
+            measured: seen.speeds.map(|word| rounded(scale.speed(word), DECIMALS)),
             supply_v,
             camera: None,
         }
@@ -72,6 +76,7 @@ impl Sample {
             reference: &self.reference[..wheels],
             counts: &counts[..wheels],
             duty: &self.duty[..wheels],
+            measured: &self.measured[..wheels],
             supply_v: self.supply_v,
             camera: self.camera,
         }
@@ -79,23 +84,24 @@ impl Sample {
 }
 
 /// The robot as the log's `robot.toml` describes it: what the controller believes, and the words in
-/// which its speed loops computed.
+/// which the card computed.
 #[must_use]
-pub fn logged_robot(believed: &Robot, scale: &Scale, speed_mode: SpeedMode) -> Robot {
-    let gains = &scale.configuration().gains[0];
+pub fn logged_robot(believed: &Robot, scale: &Scale, settings: &Settings) -> Robot {
+    let configuration = scale.configuration();
+    let set_points =
+        SetPointWords { inverse: configuration.inverse, exponents: scale.exponents(), slew: configuration.slew[0] };
+    let words = RecordedWords {
+        gains: configuration.gains[0],
+        tick_period: scale.tick_period,
+        speed_mode: settings.speed_mode,
+        set_points: (settings.set_point_mode == SetPointMode::Twist).then_some(set_points),
+    };
     let mut robot = believed.clone();
     // As it was, not as it was asked for: an integrator adds up a difference of a millionth.
     robot.control_rate_hz = 1.0 / scale.tick_s();
     robot.pi.arithmetic = Some("fixed-kin".to_owned());
-    let words = [
-        ("kp", gains.kp.to_bits()),
-        ("ki", gains.ki.to_bits()),
-        ("lower", gains.lower.to_bits()),
-        ("upper", gains.upper.to_bits()),
-        ("tick_period", scale.tick_period as i32),
-        ("count_and_time", i32::from(speed_mode == SpeedMode::CountAndTime)),
-    ];
-    robot.pi.registers = words.map(|(name, word)| (name.to_owned(), i64::from(word))).to_vec();
+    robot.pi.registers.clear();
+    words.each(|name, word| robot.pi.registers.push((name.to_owned(), word)));
     robot.duty_quantum = Some(Format::DUTY.lsb());
     robot.ref_quantum = Some(scale.speed(Speed::from_bits(1)));
     robot

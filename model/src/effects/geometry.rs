@@ -3,6 +3,28 @@
 use super::of_wheel;
 use crate::robot::{Effect, Layout, Robot};
 
+/// Stem of the parameters that say which wheel an axis is wired to.
+pub(super) const CABLE: &str = "cable_";
+
+/// Wires the axes to other wheels, as `wheel-order` says: motor and encoder of axis i are those of wheel
+/// |cable_i|, inverted where it is negative. Whether that is all the effect says.
+pub(super) fn cables(effect: &Effect, robot: &mut Robot) -> bool {
+    if effect.name != "wheel-order" || !effect.parameters.iter().any(|(name, _)| name.starts_with(CABLE)) {
+        return false;
+    }
+    let wheels = robot.layout.wheels();
+    let wired = (0..wheels.len()).map(|i| {
+        let cable = effect.value(&format!("{CABLE}{}", i + 1)).unwrap_or(i as f64 + 1.0);
+        let mut wheel = wheels[(cable.abs().round() as usize).clamp(1, wheels.len()) - 1];
+        if cable < 0.0 {
+            wheel.drive_rad += std::f64::consts::PI;
+        }
+        wheel
+    });
+    robot.layout = Layout::Wheels(wired.collect());
+    effect.parameters.iter().all(|(name, _)| name.starts_with(CABLE))
+}
+
 /// Applies an effect if it is one of these.
 pub(super) fn apply(effect: &Effect, robot: &mut Robot) -> bool {
     let scale = 1.0 + effect.value("scale").unwrap_or(0.0);

@@ -56,7 +56,8 @@ impl Applied {
             if effect.name == "camera-timing" {
                 applied.stamp_jitter_s = effect.value("jitter_s").unwrap_or(0.0);
             }
-            let known = geometry::apply(effect, &mut applied.robot)
+            let known = geometry::cables(effect, &mut applied.robot)
+                || geometry::apply(effect, &mut applied.robot)
                 || plant::apply(effect, &mut applied)
                 || camera::apply(effect, &mut applied.camera)
                 || control::apply(effect, robot.wheel_count(), &mut applied.control);
@@ -65,6 +66,22 @@ impl Applied {
             }
         }
         applied
+    }
+
+    /// The robot with its effects on geometry in its layout and its wheel radius, and all others as they were.
+    #[must_use]
+    pub fn geometry_of(robot: &Robot) -> Robot {
+        let mut out = robot.clone();
+        let effects = std::mem::take(&mut out.effects);
+        for mut effect in effects {
+            geometry::cables(&effect, &mut out);
+            effect.parameters.retain(|(name, _)| !name.starts_with(geometry::CABLE));
+            let bare = effect.name == "wheel-order" && effect.parameters.is_empty();
+            if !bare && !geometry::apply(&effect, &mut out) {
+                out.effects.push(effect);
+            }
+        }
+        out
     }
 
     /// Motors, wheels and body.

@@ -8,6 +8,7 @@ pub(super) enum Column {
     Reference(usize),
     Counts(usize),
     Duty(usize),
+    Measured(usize),
     Supply,
     Camera(usize),
     Other,
@@ -30,9 +31,12 @@ impl Column {
             "supply_v" => return Self::Supply,
             _ => {}
         }
-        for (prefix, column) in
-            [("ref_", Self::Reference as fn(usize) -> Self), ("enc_", Self::Counts), ("duty_", Self::Duty)]
-        {
+        for (prefix, column) in [
+            ("ref_", Self::Reference as fn(usize) -> Self),
+            ("enc_", Self::Counts),
+            ("duty_", Self::Duty),
+            ("meas_", Self::Measured),
+        ] {
             if let Some(wheel) = name.strip_prefix(prefix).and_then(wheel_index) {
                 return column(wheel);
             }
@@ -48,6 +52,7 @@ impl Column {
             Self::Reference(i) => format!("ref_{}", i + 1),
             Self::Counts(i) => format!("enc_{}", i + 1),
             Self::Duty(i) => format!("duty_{}", i + 1),
+            Self::Measured(i) => format!("meas_{}", i + 1),
             Self::Supply => "supply_v".to_owned(),
             Self::Camera(i) => CAMERA[i].to_owned(),
             Self::Other => String::new(),
@@ -74,7 +79,7 @@ mod tests {
 
     #[test]
     fn names_and_columns_agree() {
-        for name in ["t", "cmd_w", "ref_1", "enc_4", "duty_12", "supply_v", "cam_theta"] {
+        for name in ["t", "cmd_w", "ref_1", "enc_4", "duty_12", "meas_3", "supply_v", "cam_theta"] {
             assert_eq!(Column::from_name(name).name(), name);
         }
         for name in ["enc_0", "enc_01", "enc_", "enc_x", "enc_123", "duty", "T", "enc_+1"] {

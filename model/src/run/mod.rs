@@ -21,7 +21,7 @@ pub type RunError = InputError;
 /// One recorded drive, column by column; every column has one entry a tick.
 ///
 /// The file is a CSV with a header row, SI units, columns in any order:
-/// `t, cmd_vx, cmd_vy, cmd_w, ref_1..N, enc_1..N, duty_1..N, supply_v, cam_x, cam_y, cam_theta`.
+/// `t, cmd_vx, cmd_vy, cmd_w, ref_1..N, enc_1..N, duty_1..N, meas_1..N, supply_v, cam_x, cam_y, cam_theta`.
 /// An MCAP has fields of the same names. Only `t` must be there. An empty field means no sample at this tick: it is NaN in the columns
 /// of numbers here, and see [`Run::counts`] for the encoders.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -42,6 +42,9 @@ pub struct Run {
     pub count_gaps: Vec<Vec<usize>>,
     /// `duty_i` in [−1, 1], applied from its tick to the next, `[wheel][tick]`; empty if not logged.
     pub duty: Vec<Vec<f64>>,
+    /// `meas_i`: wheel speeds as the speed loop measured them (rad/s at the wheel), `[wheel][tick]`; empty if not
+    /// logged. With them a loop can be replayed whose measurement cannot be told from the counts.
+    pub measured: Vec<Vec<f64>>,
     /// `supply_v`, V, if logged.
     pub supply_v: Option<Vec<f64>>,
     /// Camera poses, on the ticks that had one.

@@ -101,15 +101,21 @@ impl<'a> Reader<'a> {
             return missing("t".to_owned(), hint);
         }
         type Group = (fn(usize) -> Column, usize);
-        let groups: [Group; 5] =
-            [(Column::Reference, 0), (Column::Counts, 0), (Column::Duty, 0), (Column::Command, 3), (Column::Camera, 3)];
+        let groups: [Group; 6] = [
+            (Column::Reference, 0),
+            (Column::Counts, 0),
+            (Column::Duty, 0),
+            (Column::Measured, 0),
+            (Column::Command, 3),
+            (Column::Camera, 3),
+        ];
         for (group, at_least) in groups {
             if let Some(column) = missing_member(&columns, group, at_least) {
                 return missing(column.name(), "log the whole group of columns, or none of it".to_owned());
             }
         }
         let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
-        let widths = [width(Column::Reference), width(Column::Counts), width(Column::Duty)];
+        let widths = [Column::Reference, Column::Counts, Column::Duty, Column::Measured].map(width);
         let wheels = widths.into_iter().max().unwrap_or(0);
         for ((group, _), n) in groups.iter().zip(widths) {
             if n > 0 && n < wheels {
@@ -123,6 +129,7 @@ impl<'a> Reader<'a> {
             counts: vec![Vec::new(); widths[1]],
             count_gaps: vec![Vec::new(); widths[1]],
             duty: vec![Vec::new(); widths[2]],
+            measured: vec![Vec::new(); widths[3]],
             supply_v: columns.contains(&Column::Supply).then(Vec::new),
             has_camera: columns.contains(&Column::Camera(0)),
             other: slots.iter().filter(|s| s.column == Column::Other).map(|s| (s.name.clone(), Vec::new())).collect(),
@@ -211,6 +218,7 @@ impl<'a> Reader<'a> {
                     }
                 }
                 Column::Reference(wheel) => self.run.reference[*wheel].push(number),
+                Column::Measured(wheel) => self.run.measured[*wheel].push(number),
                 Column::Duty(wheel) => {
                     // Roundings of a logger may pass the limit by a digit, no more.
                     if number.abs() > 1.001 {

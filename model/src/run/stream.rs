@@ -19,6 +19,8 @@ pub struct Layout {
     pub counts: usize,
     /// Wheels with duties; 0 or the robot's number.
     pub duties: usize,
+    /// Wheels with measured speeds; 0 or the robot's number.
+    pub measured: usize,
     /// Supply voltage.
     pub supply: bool,
     /// Camera poses, on the ticks that have one.
@@ -28,7 +30,8 @@ pub struct Layout {
 impl Layout {
     /// Everything that a robot's own computer knows; nobody measures its supply.
     pub fn of_robot(wheels: usize, camera: bool) -> Self {
-        Self { command: true, references: wheels, counts: wheels, duties: wheels, supply: false, camera }
+        let [references, counts, duties, measured] = [wheels; 4];
+        Self { command: true, references, counts, duties, measured, supply: false, camera }
     }
 
     pub(super) fn columns(self) -> Vec<Column> {
@@ -38,6 +41,7 @@ impl Layout {
         columns.extend((0..self.references).map(Column::Reference));
         columns.extend((0..self.counts).map(Column::Counts));
         columns.extend((0..self.duties).map(Column::Duty));
+        columns.extend((0..self.measured).map(Column::Measured));
         columns.extend(self.supply.then_some(Column::Supply));
         columns.extend(group(self.camera, Column::Camera));
         columns
@@ -57,6 +61,8 @@ pub struct Tick<'a> {
     pub counts: &'a [Option<i64>],
     /// Duties in [−1, 1].
     pub duty: &'a [f64],
+    /// Wheel speeds as the loop measured them, rad/s at the wheel.
+    pub measured: &'a [f64],
     /// Supply, V.
     pub supply_v: f64,
     /// Camera pose, where there is one at this tick.
@@ -72,6 +78,7 @@ impl Tick<'_> {
             Column::Command(i) => self.command[i],
             Column::Reference(wheel) => of(self.reference, wheel),
             Column::Duty(wheel) => of(self.duty, wheel),
+            Column::Measured(wheel) => of(self.measured, wheel),
             Column::Supply => self.supply_v,
             Column::Camera(i) => self.camera.map_or(f64::NAN, |p| [p.x, p.y, p.theta][i]),
             Column::Counts(_) | Column::Other => f64::NAN,
@@ -195,6 +202,7 @@ impl Run {
             references: self.reference.len(),
             counts: self.counts.len(),
             duties: self.duty.len(),
+            measured: self.measured.len(),
             supply: self.supply_v.is_some(),
             camera: self.has_camera,
         }
@@ -221,6 +229,7 @@ impl Run {
                 reference: &at(&self.reference, index),
                 counts: &counts,
                 duty: &at(&self.duty, index),
+                measured: &at(&self.measured, index),
                 supply_v: self.supply_v.as_ref().map_or(f64::NAN, |s| s[index]),
                 camera: camera.next_if(|sample| sample.tick == index).map(|sample| sample.pose),
             })?;

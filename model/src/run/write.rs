@@ -49,6 +49,7 @@ impl Run {
                         continue;
                     }
                     Column::Duty(wheel) => self.duty[wheel][tick],
+                    Column::Measured(wheel) => self.measured[wheel][tick],
                     Column::Supply => self.supply_v.as_ref().map_or(f64::NAN, |s| s[tick]),
                     Column::Camera(i) => pose.map_or(f64::NAN, |p| p[i]),
                     Column::Other => continue,

@@ -132,7 +132,7 @@ impl Options {
             .drive(Board::new(registers), &mut clock, clock_hz, &mut source, recording.as_mut(), &stop)
             .map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish);
-        let robot_file = self.robot_beside(&logged_robot(&plan.believed(), &scale, plan.settings.speed_mode))?;
+        let robot_file = self.robot_beside(&logged_robot(&plan.believed(), &scale, &plan.settings))?;
         let (recorded, failed) = match recorded.transpose() {
             Ok(recorded) => (recorded, None),
             Err(error) => (None, Some(error.to_string())),

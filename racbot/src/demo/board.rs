@@ -58,7 +58,7 @@ impl Bench {
             .drive(board, &mut clock, self.loaded.clock_hz, &mut camera, Some(&mut recording), &never)
             .map_err(Failure::data)?;
         recording.finish().map_err(Failure::data)?;
-        Ok((driven, logged_robot(&plan.believed(), &scale, plan.settings.speed_mode)))
+        Ok((driven, logged_robot(&plan.believed(), &scale, &plan.settings)))
     }
 }
 

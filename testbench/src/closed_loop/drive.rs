@@ -172,7 +172,7 @@ impl Drive {
             tick += 1;
         };
         let report = TrajectoryReport::new(self.start, &self.set_points, controller.arrivals(), &track, REACHED_M);
-        let robot = logged_robot(&self.believed, robot.scale(), self.speed_mode);
+        let robot = logged_robot(&self.believed, robot.scale(), &settings);
         Ok(Driven { run: recording.finish(), robot, report, track, believed, wheel_speeds, ending })
     }
 

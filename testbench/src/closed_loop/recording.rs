@@ -21,6 +21,7 @@ impl Recording {
             counts: vec![Vec::new(); wheels],
             count_gaps: vec![Vec::new(); wheels],
             duty: vec![Vec::new(); wheels],
+            measured: vec![Vec::new(); wheels],
             supply_v: Some(Vec::new()),
             has_camera: camera,
             ..Run::default()
@@ -50,6 +51,7 @@ impl Recording {
             run.reference[wheel].push(sample.reference[wheel]);
             run.counts[wheel].push(sample.counts[wheel]);
             run.duty[wheel].push(sample.duty[wheel]);
+            run.measured[wheel].push(sample.measured[wheel]);
         }
         if let Some(supply) = &mut run.supply_v {
             supply.push(sample.supply_v);

@@ -65,6 +65,23 @@ fn set_points_follow_late_or_elsewhere() {
 }
 
 #[test]
+fn crossed_cables_are_in_the_wheels_and_fold_away() {
+    let parameters = [("cable_1", 2.0), ("cable_2", 1.0), ("cable_3", -3.0), ("axis_1", 3.0)];
+    let value = |v: f64| EffectParameter { value: v, ..EffectParameter::default() };
+    let parameters = parameters.map(|(name, v)| (name.to_owned(), value(v))).to_vec();
+    let effect = Effect { name: "wheel-order".to_owned(), parameters, ..Effect::default() };
+    let robot = Robot { effects: vec![effect], ..Robot::racbot() };
+    let (nominal, applied) = (robot.layout.wheels(), Applied::of(&robot));
+    let wired = applied.robot.layout.wheels();
+    assert_eq!((wired[0], wired[1]), (nominal[1], nominal[0]));
+    assert_eq!(wired[2].drive_rad, nominal[2].drive_rad + std::f64::consts::PI);
+    assert_eq!((applied.control.order, applied.unsupported), (vec![3.0, 2.0, 3.0], vec![]));
+    let folded = Applied::geometry_of(&robot);
+    assert_eq!(folded.layout.wheels(), wired);
+    assert_eq!(folded.effects[0].parameters.len(), 1, "the set points' side stays an effect");
+}
+
+#[test]
 fn stamps_scatter_and_frames_are_lost() {
     let run = log("camera-timing", &[("jitter_s", 0.004), ("dropped", 0.1)]);
     let plain = log("wheel-skew", &[]);

@@ -174,7 +174,13 @@ impl<'a> Builder<'a> {
         let ticks = self.t.len();
         let columns: Vec<Column> = self.reals.keys().chain(self.counts.keys()).copied().collect();
         type Group = (fn(usize) -> Column, usize);
-        let groups: [Group; 4] = [(Column::Reference, 0), (Column::Counts, 0), (Column::Duty, 0), (Column::Command, 3)];
+        let groups: [Group; 5] = [
+            (Column::Reference, 0),
+            (Column::Counts, 0),
+            (Column::Duty, 0),
+            (Column::Measured, 0),
+            (Column::Command, 3),
+        ];
         for (group, at_least) in groups {
             if let Some(column) = missing_member(&columns, group, at_least) {
                 let hint = "log the whole group of fields, or none of it";
@@ -182,7 +188,8 @@ impl<'a> Builder<'a> {
             }
         }
         let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
-        let widths = [Column::Reference as fn(usize) -> Column, Column::Counts, Column::Duty].map(|g| (width(g), g));
+        let by_wheel = [Column::Reference as fn(usize) -> Column, Column::Counts, Column::Duty, Column::Measured];
+        let widths = by_wheel.map(|g| (width(g), g));
         let wheels = widths.iter().map(|(n, _)| *n).max().unwrap_or(0);
         if let Some((n, group)) = widths.iter().find(|(n, _)| (1..wheels).contains(n)) {
             let hint = format!("other fields speak of {wheels} wheels; log this one for all of them");
@@ -196,6 +203,7 @@ impl<'a> Builder<'a> {
         let command = columns.contains(&Column::Command(0)).then(|| [0, 1, 2].map(|i| real(Column::Command(i))));
         let reference = (0..widths[0].0).map(|i| real(Column::Reference(i))).collect();
         let duty = (0..widths[2].0).map(|i| real(Column::Duty(i))).collect();
+        let measured = (0..widths[3].0).map(|i| real(Column::Measured(i))).collect();
         let supply_v = columns.contains(&Column::Supply).then(|| real(Column::Supply));
         let (mut counts, mut count_gaps) = (Vec::new(), Vec::new());
         for (mut numbers, mut gaps) in self.counts.into_values() {
@@ -211,6 +219,7 @@ impl<'a> Builder<'a> {
             counts,
             count_gaps,
             duty,
+            measured,
             supply_v,
             camera: self.camera,
             has_camera,

@@ -24,6 +24,7 @@ pub(super) fn number(column: Column) -> u32 {
         Column::Reference(i) => wheel(101, i),
         Column::Counts(i) => wheel(201, i),
         Column::Duty(i) => wheel(301, i),
+        Column::Measured(i) => wheel(401, i),
         Column::Other => 0,
     }
 }

@@ -19,6 +19,7 @@ fn example() -> Run {
         counts: (0..3).map(|w| (0..i64::from(ticks)).map(|k| k * (w - 1) - 70).collect()).collect(),
         count_gaps: vec![Vec::new(); 3],
         duty: vec![column(0.7), column(0.8), column(0.9)],
+        measured: vec![column(1.0), column(1.1), column(1.2)],
         supply_v: Some(vec![7.2; ticks as usize]),
         camera: camera.collect(),
         has_camera: true,
@@ -41,6 +42,7 @@ fn bytes_of(run: &Run, flush_every: usize, finish: bool) -> Vec<u8> {
             reference: &of(&run.reference),
             counts: &counts,
             duty: &of(&run.duty),
+            measured: &of(&run.measured),
             supply_v: 7.2,
             camera: camera.next_if(|s| s.tick == k).map(|s| s.pose),
         };
@@ -148,6 +150,7 @@ fn errors_say_where_what_and_what_to_do() {
                 reference: &[],
                 counts: &[],
                 duty: &[*duty],
+                measured: &[],
                 supply_v: f64::NAN,
                 camera: None,
             };
@@ -157,7 +160,8 @@ fn errors_say_where_what_and_what_to_do() {
         drop(stream);
         cursor.into_inner()
     };
-    let duty = Layout { command: false, references: 0, counts: 0, duties: 1, supply: false, camera: false };
+    let duty =
+        Layout { command: false, references: 0, counts: 0, duties: 1, measured: 0, supply: false, camera: false };
     let good = write(duty, &[(0.0, 0.0), (1.0, 0.5)]);
     let mut crc = good.clone();
     let at = crc.windows(8).position(|w| w == 0.5_f64.to_le_bytes()).unwrap();
