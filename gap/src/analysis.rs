@@ -171,8 +171,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let mut remarks: Vec<String> = Vec::new();
     let mut exact: Vec<ExactLink> = [
         timing::analyse(robot, &set.runs),
-        command::analyse(robot, &geometry, &set.runs),
-        controller::analyse(robot, &set.runs),
+        command::analyse(robot, &geometry, &set.runs, &mut remarks),
+        controller::analyse(robot, &set.runs, &mut remarks),
     ]
     .into_iter()
     .flatten()
@@ -181,6 +181,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         // What the robot's file already carries is no news.
         if let Some(f) = &link.finding
             && robot.effect(f.name).is_some()
+            && f.name != ORDER
         {
             link.finding = None;
             link.before.clone_from(&link.after);
@@ -300,15 +301,20 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         );
     }
     for link in &exact {
-        if let Some(f) = link.finding.as_ref().filter(|f| !named.iter().any(|n: &Named| n.name == f.name)) {
+        let is_new = |f: &&Finding| f.name == ORDER || !named.iter().any(|n: &Named| n.name == f.name);
+        if let Some(f) = link.finding.as_ref().filter(is_new) {
             named.push(exact_named(f, link));
         } else if link.unexplained {
-            let structure = format!(
-                "differs at {:.1} % of the ticks, and no hypothesis of the catalogue replays it",
-                100.0 * link.wrong_share
-            );
+            let told = link.replay.as_ref().and_then(|r| r.structure.clone());
+            let structure = told.unwrap_or_else(|| {
+                format!(
+                    "differs at {:.1} % of the ticks, and no hypothesis of the catalogue replays it",
+                    100.0 * link.wrong_share
+                )
+            });
             unexplained.push(Leftover { link: link.link, structure });
         }
+        remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
         located.extend(crate::locate::exact(link));
         links.push(gaps::exact_gap(link));
     }
@@ -594,10 +600,14 @@ fn exact_named(f: &Finding, link: &ExactLink) -> Named {
     }
 }
 
+/// The one effect with two sides: cables on the motion link, set points on the command link.
+const ORDER: &str = "wheel-order";
+
 /// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
 fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
-    let effect = catalogue.iter().find(|e| e.name() == "wheel-order")?;
-    if link.is_empty() || start.active.iter().any(|a| a.effect.name() == "wheel-order") {
+    let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
+    let wired = |a: &Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
+    if link.is_empty() || start.active.iter().any(wired) {
         return None;
     }
     let problem = Problem::Motion(link);
@@ -609,7 +619,7 @@ fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) 
     let wheels = start.robot.wheel_count();
     let tried = crate::command::orders(wheels).into_iter().map(|order| {
         let values = Values(
-            order.iter().enumerate().map(|(i, (w, s))| (format!("axis_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
+            order.iter().enumerate().map(|(i, (w, s))| (format!("cable_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
         );
         let form = crate::effect::Form {
             wheels: (0..wheels).filter(|i| order[*i] != (*i, 1.0)).collect(),
@@ -617,7 +627,7 @@ fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) 
             fixed: values.0.clone(),
         };
         let active =
-            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Command, given: true };
+            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Motion, given: true };
         let mut state = start.clone();
         state.active.push(active.clone());
         (plain(&state).0, active)
@@ -628,9 +638,9 @@ fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) 
 
 fn order_named(active: &Active, gain: f64) -> Named {
     Named {
-        name: "wheel-order".to_owned(),
+        name: ORDER.to_owned(),
         equation: active.effect.equation().to_owned(),
-        link: Link::Command,
+        link: Link::Motion,
         wheels: active.form.wheels.iter().map(|w| w + 1).collect(),
         parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])).collect(),
         gain,
@@ -652,15 +662,26 @@ fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<String>], ru
         if !twins.is_empty() {
             other.insert("cannot_be_told_from".to_owned(), strings(&twins));
         }
-        let parameters = n
+        let parameters: Vec<(String, EffectParameter)> = n
             .parameters
             .iter()
             .map(|(name, value, ci)| {
                 (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
             })
             .collect();
-        out.effects.retain(|e| e.name != n.name);
-        out.effects.push(RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other });
+        let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };
+        if let Some(at) = out.effects.iter().position(|e| e.name == n.name) {
+            let before = out.effects.remove(at);
+            if n.name == ORDER {
+                // The other side of it stays.
+                let news: Vec<String> = effect.parameters.iter().map(|(name, _)| name.clone()).collect();
+                effect.parameters.extend(before.parameters.into_iter().filter(|(name, _)| !news.contains(name)));
+                effect.wheels.extend(before.wheels);
+                effect.wheels.sort_unstable();
+                effect.wheels.dedup();
+            }
+        }
+        out.effects.push(effect);
     }
     out
 }

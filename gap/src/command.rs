@@ -6,6 +6,8 @@ use model::run::Run;
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, beyond, quantum};
+use crate::ticks::Ticks;
+use crate::words::{self, Compared};
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
@@ -15,12 +17,39 @@ const WRONG_SHARE: f64 = 0.01;
 const REMOVED: f64 = 0.9;
 
 /// Compares the logged set points with those the geometry makes of the logged commands.
-pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Option<ExactLink> {
+pub(crate) fn analyse(
+    robot: &Robot,
+    geometry: &Geometry,
+    runs: &[Run],
+    remarks: &mut Vec<String>,
+) -> Option<ExactLink> {
     let n = robot.wheel_count();
     let runs: Vec<&Run> = runs.iter().filter(|r| r.command.is_some() && r.reference.len() == n).collect();
     if runs.is_empty() {
         return None;
     }
+    let words = match words::command(robot, &runs) {
+        Compared::Link(link) if link.wrong_share <= WRONG_SHARE => return Some(*link),
+        Compared::Link(link) => Some(*link),
+        Compared::InFloatingPoint(why) => {
+            remarks.extend(why);
+            None
+        }
+        Compared::Impossible(why) => {
+            remarks.push(why);
+            return None;
+        }
+    };
+    let link = analyse_matrix(robot, geometry, &runs);
+    match words {
+        Some(words) if link.finding.is_none() => Some(words),
+        _ => Some(link),
+    }
+}
+
+/// In floating point, by the geometry of `robot.toml`.
+fn analyse_matrix(robot: &Robot, geometry: &Geometry, runs: &[&Run]) -> ExactLink {
+    let n = robot.wheel_count();
     let quantum_ref =
         robot.ref_quantum.unwrap_or_else(|| quantum(runs.iter().flat_map(|r| r.reference.iter().flatten())));
     let quantum_cmd = quantum(runs.iter().filter_map(|r| r.command.as_ref()).flat_map(|c| c.iter().flatten()));
@@ -30,11 +59,17 @@ pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Optio
     let errors = |order: &[(usize, f64)], delay: f64| -> Vec<f64> {
         let mut sums = vec![0.0; n];
         let mut count = 0.0_f64;
-        for run in &runs {
+        for run in runs {
             let Some(command) = &run.command else { continue };
-            let tick = run.tick_s().unwrap_or(1.0);
-            let back = (delay / tick).round() as usize;
-            for k in back..run.len() {
+            let ticks = Ticks::new(robot, run);
+            let back = (delay / run.tick_s().unwrap_or(1.0)).round() as usize;
+            let mut steady = 0;
+            for k in 0..run.len() {
+                // Behind a gap nobody knows what was commanded in it.
+                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
+                if steady < back {
+                    continue;
+                }
                 let c = [0, 1, 2].map(|j| command[j][k - back]);
                 count += 1.0;
                 for i in 0..n {
@@ -49,11 +84,11 @@ pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Optio
         }
         sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect()
     };
-    let straight: Vec<(usize, f64)> = (0..n).map(|i| (i, 1.0)).collect();
+    let straight = given_order(robot, n);
     let before = errors(&straight, 0.0);
     let size = beyond(runs.iter().flat_map(|r| r.reference.iter().flatten().copied()), 0.0).max(1e-9);
     let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
-    let wrong = wrong_share(&runs, &rows, tolerance);
+    let wrong = wrong_share(runs, &rows, &straight, tolerance);
     let floor = tolerance;
     let mut link = ExactLink {
         link: Link::Command,
@@ -64,9 +99,10 @@ pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Optio
         wrong_share: wrong,
         finding: None,
         unexplained: false,
+        replay: None,
     };
     if wrong <= WRONG_SHARE || total(&link.before).sqrt() < 1e-3 * size {
-        return Some(link);
+        return link;
     }
     // Every order and sign of the rows, and every latency.
     let mut best: (f64, Option<Finding>, Vec<f64>) = (total(&link.before), None, link.before.clone());
@@ -106,16 +142,24 @@ pub(crate) fn analyse(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Optio
     } else {
         link.unexplained = true;
     }
-    Some(link)
+    link
 }
 
-fn wrong_share(runs: &[&Run], rows: &[[f64; 3]], tolerance: f64) -> f64 {
+/// Row and sign of every set point, as the robot's file has them.
+fn given_order(robot: &Robot, n: usize) -> Vec<(usize, f64)> {
+    let given = robot.effect("wheel-order");
+    let axis = |i: usize| given.and_then(|e| e.value(&format!("axis_{}", i + 1))).unwrap_or(i as f64 + 1.0);
+    let row = |axis: f64| ((axis.abs().round() as usize).clamp(1, n) - 1, if axis < 0.0 { -1.0 } else { 1.0 });
+    (0..n).map(|i| row(axis(i))).collect()
+}
+
+fn wrong_share(runs: &[&Run], rows: &[[f64; 3]], order: &[(usize, f64)], tolerance: f64) -> f64 {
     let (mut wrong, mut all) = (0.0, 0.0_f64);
     for run in runs {
         let Some(command) = &run.command else { continue };
         for k in 0..run.len() {
-            for (i, row) in rows.iter().enumerate() {
-                let expected: f64 = (0..3).map(|j| row[j] * command[j][k]).sum();
+            for (i, (row, sign)) in order.iter().enumerate() {
+                let expected = sign * (0..3).map(|j| rows[*row][j] * command[j][k]).sum::<f64>();
                 let e = (run.reference[i][k] - expected).abs();
                 if e.is_finite() {
                     all += 1.0;

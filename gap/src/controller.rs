@@ -4,12 +4,20 @@ use model::robot::Robot;
 use model::run::Run;
 
 use crate::effect::Link;
-use crate::exact::{ExactLink, Finding, quantum};
+use crate::exact::{ExactLink, Finding, Replay, quantum};
+use crate::ticks::{Gaps, Ticks};
+use crate::words::{self, Compared};
+use replay::replay;
+
+mod replay;
 
 /// Share of ticks that may differ by more than rounding.
 const WRONG_SHARE: f64 = 0.005;
 /// A hypothesis must remove this share of the error's square.
 const REMOVED: f64 = 0.8;
+/// How far the arithmetic of another controller may stray: fixed-point or single-precision numbers, that an
+/// integrator adds up.
+const SLACK: f64 = 5e-5;
 /// Rates that differ by more cannot be replayed.
 const RATE_TOLERANCE: f64 = 0.05;
 
@@ -25,27 +33,46 @@ struct Law {
     shift: [usize; 2],
 }
 
-/// Replays the duties of every run and wheel.
-pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
+/// Replays the duties of every run and wheel; says why where it cannot.
+pub(crate) fn analyse(robot: &Robot, runs: &[Run], remarks: &mut Vec<String>) -> Option<ExactLink> {
     let n = robot.wheel_count();
-    let usable = |r: &&Run| {
-        r.reference.len() == n
-            && r.counts.len() == n
-            && r.duty.len() == n
-            && r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE)
-    };
-    let runs: Vec<&Run> = runs.iter().filter(usable).collect();
+    let whole = |r: &&Run| r.reference.len() == n && r.counts.len() == n && r.duty.len() == n;
+    let mut runs: Vec<&Run> = runs.iter().filter(whole).collect();
     if runs.is_empty() {
         return None;
     }
+    let words = match words::controller(robot, &runs) {
+        // To the last bit, but for a few words: no law of another kind.
+        Compared::Link(link) if link.wrong_share <= WRONG_SHARE => return Some(*link),
+        Compared::Link(link) => Some(*link),
+        Compared::InFloatingPoint(why) => {
+            remarks.extend(why);
+            None
+        }
+        Compared::Impossible(why) => {
+            remarks.push(why);
+            return None;
+        }
+    };
+    runs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+    let link = (!runs.is_empty()).then(|| analyse_law(robot, &runs));
+    match words {
+        Some(words) if link.as_ref().is_none_or(|l| l.finding.is_none()) => Some(words),
+        _ => link,
+    }
+}
+
+/// In floating point, by the law of `robot.toml`.
+fn analyse_law(robot: &Robot, runs: &[&Run]) -> ExactLink {
+    let n = robot.wheel_count();
     let logged = quantum(runs.iter().flat_map(|r| r.duty.iter().flatten()));
     let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
-    let floor = 0.5 * step.max(logged.min(0.001)) + 1e-5;
+    let floor = 0.5 * step.max(logged.min(0.001)) + SLACK;
     let nominal = Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: step, shift: [0, 0] };
     let all: Vec<usize> = (0..n).collect();
-    let rms = |law: &Law| -> Vec<f64> { all.iter().map(|i| replay(robot, &runs, *i, law, floor).0).collect() };
+    let rms = |law: &Law| -> Vec<f64> { all.iter().map(|i| replay(robot, runs, *i, law, floor).0).collect() };
     let before = rms(&nominal);
-    let wrong = all.iter().map(|i| replay(robot, &runs, *i, &nominal, floor).1).fold(0.0, f64::max);
+    let wrong = all.iter().map(|i| replay(robot, runs, *i, &nominal, floor).1).fold(0.0, f64::max);
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -55,11 +82,15 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
         wrong_share: wrong,
         finding: None,
         unexplained: false,
+        replay: gaps(robot, runs).words().map(|gaps| Replay {
+            remark: format!("Controller: {gaps}; behind each the integrators are estimated anew from the duties."),
+            ..Replay::default()
+        }),
     };
     let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
     let start = total(&link.before);
     if wrong <= WRONG_SHARE {
-        return Some(link);
+        return link;
     }
     let mut best: (f64, Option<Finding>, Vec<f64>) = (start, None, link.before.clone());
     let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, [f64; 2])>| {
@@ -93,7 +124,7 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
         0.0625,
         0.1,
         logged,
-        spacing(&runs),
+        spacing(runs),
     ] {
         if coarse > step {
             offer(Law { duty_quantum: coarse, ..nominal }, "quantisation", vec![exact("duty_quantum", coarse)]);
@@ -124,7 +155,15 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
     } else {
         link.unexplained = true;
     }
-    Some(link)
+    link
+}
+
+fn gaps(robot: &Robot, runs: &[&Run]) -> Gaps {
+    let mut all = Gaps::default();
+    for run in runs {
+        all += Ticks::new(robot, run).gaps();
+    }
+    all
 }
 
 /// Distance between neighbouring values of the duties, by a line through all levels.
@@ -171,47 +210,4 @@ fn fit_gains(nominal: &Law, cost: impl Fn(&Law) -> f64) -> Law {
         }
     }
     best.1
-}
-
-/// RMS of what is beyond rounding, and the share of ticks that are.
-fn replay(robot: &Robot, runs: &[&Run], wheel: usize, law: &Law, floor: f64) -> (f64, f64) {
-    let rate = robot.control_rate_hz;
-    let per_count = rate / robot.counts_per_wheel_rad();
-    // A guess of the rounding shifts the highest level by some thousandths of it.
-    let tolerance = floor;
-    let (mut square, mut wrong, mut all) = (0.0, 0.0, 0.0_f64);
-    for run in runs {
-        let (reference, counts, duty) = (&run.reference[wheel], &run.counts[wheel], &run.duty[wheel]);
-        let mut integral = None;
-        for k in 0..run.len() {
-            let at = k.saturating_sub(law.shift[0]);
-            let before = k.checked_sub(law.shift[0] + 1);
-            let moved = before.map_or(0, |b| counts[at].wrapping_sub(counts[b]));
-            let error = reference[k.saturating_sub(law.shift[1])] - moved as f64 * per_count;
-            if !(error.is_finite() && duty[k].is_finite()) {
-                integral = None;
-                continue;
-            }
-            let proportional = law.kp * error;
-            // A log that starts in motion starts with whatever the integrator held.
-            let i = integral.unwrap_or(if k == 0 { 0.0 } else { duty[k] - proportional - law.ki * error / rate });
-            let candidate = i + law.ki * error / rate;
-            let unlimited = proportional + candidate;
-            let next = match law.windup {
-                Some(limit) => candidate.clamp(-limit, limit),
-                None if unlimited.abs() > 1.0 && error * unlimited > 0.0 => i,
-                None => candidate,
-            };
-            integral = Some(next);
-            let mut u = (proportional + next).clamp(-1.0, 1.0);
-            if law.duty_quantum > 0.0 {
-                u = (u / law.duty_quantum).round() * law.duty_quantum;
-            }
-            let e = ((u - duty[k]).abs() - tolerance).max(0.0);
-            square += e * e;
-            all += 1.0;
-            wrong += f64::from(u8::from(e > 1e-9));
-        }
-    }
-    ((square / all.max(1.0)).sqrt(), wrong / all.max(1.0))
 }

@@ -34,6 +34,25 @@ pub struct ExactLink {
     pub finding: Option<Finding>,
     /// Whether it differs and nothing explains it.
     pub unexplained: bool,
+    /// What the replay met, if there is something to tell.
+    pub replay: Option<Replay>,
+}
+
+/// A replay of logged signals.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Replay {
+    /// In a sentence.
+    pub remark: String,
+    /// Which words differ, where it was word for word and some do.
+    pub structure: Option<String>,
+    /// Words that were compared; 0 where it was not word for word.
+    pub compared: usize,
+    /// Words that differ.
+    pub different: usize,
+    /// Gaps in the logs.
+    pub gaps: usize,
+    /// Ticks that are missing in them.
+    pub missing: u64,
 }
 
 /// Root mean square of the part of errors beyond a tolerance.

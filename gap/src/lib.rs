@@ -34,8 +34,10 @@ pub mod segment;
 pub mod select;
 pub mod state;
 pub mod statistics;
+mod ticks;
 mod timing;
 pub mod user;
+mod words;
 
 pub use analysis::{Analysis, Verdict, analyse, undo};
 pub use error::GapError;

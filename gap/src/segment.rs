@@ -198,7 +198,7 @@ fn unwrapped(run: &Run, wheel: usize, ticks: std::ops::Range<usize>, t: &[f64]) 
         out.push(sum);
     }
     let gaps = run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
-    let lost: Vec<usize> = gaps.iter().filter(|g| ticks.contains(g)).map(|g| g - ticks.start).collect();
+    let lost: Vec<usize> = gaps.iter().copied().filter(|g| ticks.contains(g)).map(|g| g - ticks.start).collect();
     let mut i = 0;
     while i < lost.len() {
         let first = lost[i];

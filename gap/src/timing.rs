@@ -59,6 +59,7 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
         wrong_share: 0.0,
         finding,
         unexplained: false,
+        replay: None,
     })
 }
 

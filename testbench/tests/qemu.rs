@@ -222,7 +222,10 @@ fn recorded(disk: &Path, folder: &Path) {
     assert!(run.duration_s() > 1.0 && run.len() > 40, "{} ticks in {} s", run.len(), run.duration_s());
     let analysis = gap::analyse(&set, &gap::Options::default()).unwrap();
     println!("{}", analysis.terminal_summary());
-    assert!(analysis.terminal_summary().contains("controller"));
+    for link in ["command", "controller"] {
+        let replayed = analysis.exact.iter().find(|l| l.link.name() == link).and_then(|l| l.replay.as_ref());
+        assert!(replayed.is_some_and(|r| r.compared > 30 && r.different == 0), "{link}: {replayed:?}");
+    }
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! `wheel-order`: axes that drive and count each other's wheels, or turn the other way.
+//! `wheel-order`: axes that drive and count each other's wheels, or turn the other way; or set points that are
+//! computed for each other's wheels. Cables (`cable_i`) and set points (`axis_i`) are two things: either, or both.
 
 use model::robot::Robot;
 
@@ -6,7 +7,7 @@ use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Values};
 use crate::motion::MotionModel;
 
-/// Axes that drive and count each other's wheels, or turn the other way.
+/// Wheels in another order than the model's.
 pub(super) struct WheelOrder;
 
 impl Effect for WheelOrder {
@@ -15,7 +16,7 @@ impl Effect for WheelOrder {
     }
 
     fn equation(&self) -> &str {
-        "axis i drives and counts wheel |axis_i|, inverted where axis_i is negative; all orders and signs are tried"
+        "axis i drives and counts wheel |cable_i|, or its set point is that of wheel |axis_i|; inverted where negative; all orders and signs are tried"
     }
 
     fn link(&self) -> Link {
@@ -42,10 +43,10 @@ impl Effect for WheelOrder {
 fn reordered(wheels: &[model::geometry::Wheel], values: &Values) -> Vec<model::geometry::Wheel> {
     (0..wheels.len())
         .map(|i| {
-            let axis = values.find(&format!("axis_{}", i + 1)).unwrap_or(i as f64 + 1.0);
-            let index = (axis.abs().round() as usize).clamp(1, wheels.len()) - 1;
+            let cable = values.find(&format!("cable_{}", i + 1)).unwrap_or(i as f64 + 1.0);
+            let index = (cable.abs().round() as usize).clamp(1, wheels.len()) - 1;
             let mut wheel = wheels[index];
-            if axis < 0.0 {
+            if cable < 0.0 {
                 wheel.drive_rad += std::f64::consts::PI;
             }
             wheel

@@ -60,6 +60,12 @@ pub(super) fn json(a: &Analysis) -> Value {
             "split": if a.runs.len() > 1 { "leave one run out" } else { "blocks of the single run" },
         },
         "runs": a.runs,
+        "replayed": a.exact.iter().filter_map(|l| Some((l.link, l.replay.as_ref()?))).map(|(link, r)| {
+            let counts = json!({
+                "words": r.compared, "different": r.different, "gaps": r.gaps, "missing_ticks": r.missing,
+            });
+            (link.name().to_owned(), counts)
+        }).collect::<Map<String, Value>>(),
         "remarks": a.remarks,
     })
 }

@@ -1,7 +1,7 @@
 //! Every effect of the catalogue: simulated in, and found.
 
 use super::common::{RICH, cut, names, simulate, value, with};
-use gap::{Analysis, Options, analyse};
+use gap::{Analysis, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
 use model::robot::{Robot, Support};
 use rayon::prelude::*;
@@ -78,6 +78,7 @@ const CASES: &[Case] = &[
     case("quantisation", &[("duty_quantum", 0.05)], ("duty_quantum", 0.01), &RICH, &[]),
     case("sample-order", &[("signal", 0.0), ("shift_ticks", 1.0)], ("shift_ticks", 0.01), &RICH, &[]),
     case("camera-timing", &[("jitter_s", 0.004)], ("jitter_s", 0.2), &RICH, &[]),
+    case("wheel-order", &[("cable_1", 2.0), ("cable_2", 1.0), ("cable_3", 3.0)], ("cable_1", 0.01), &RICH, &[]),
 ];
 
 /// Not found as they should be. Play is taken for something else: the torque that decides which flank
@@ -125,4 +126,21 @@ fn the_table_holds_the_whole_catalogue() {
     for effect in gap::effects::catalogue().iter().filter(|e| !e.probe()) {
         assert!(CASES.iter().any(|c| c.name == effect.name()), "{} has no case", effect.name());
     }
+}
+
+/// Cables and set points are two things of one name: found side by side, kept apart in the file, and both in force
+/// when it is read again.
+#[test]
+fn crossed_cables_and_crossed_set_points_are_kept_apart() {
+    let both =
+        [("axis_1", 3.0), ("axis_2", 2.0), ("axis_3", 1.0), ("cable_1", 1.0), ("cable_2", -2.0), ("cable_3", 3.0)];
+    let mut set = simulate(&with(&Robot::racbot(), "wheel-order", &both), &RICH, 7);
+    set.runs.iter_mut().for_each(|r| cut(r, 5.0));
+    let a = analyse(&set, &Options::default()).unwrap();
+    assert_eq!(names(&a), ["wheel-order", "wheel-order"], "{}", a.terminal_summary());
+    assert_eq!([a.effects[0].link, a.effects[1].link].map(gap::effect::Link::name), ["motion", "command"]);
+    let told = a.robot.effect("wheel-order").unwrap();
+    assert!(a.robot.effects.len() == 1 && both.iter().all(|(name, v)| told.value(name) == Some(*v)), "{told:?}");
+    let again = analyse(&model::run::DataSet { robot: a.robot.clone(), ..set }, &Options::default()).unwrap();
+    assert_eq!(again.verdict, Verdict::Agrees, "{}", again.terminal_summary());
 }

@@ -31,7 +31,7 @@ pub(super) const CONTROL: &[Entry] = &[
         "wheel-order",
         Link::Command,
         [1.0; 5],
-        "axis_i: which row makes set point i (variant 0), or which wheel axis i drives and counts (variant 1); \
+        "axis_i: which row makes set point i (variant 0), or cable_i: which wheel axis i drives and counts (variant 1); \
          negative = inverted",
         wheel_order,
     ),
@@ -110,8 +110,9 @@ fn wheel_order(hand: &mut Hand<'_>) -> Found {
     };
     let in_cables = hand.rng.random_bool(0.4);
     let mut found = Found::on(wheels, [("variant", f64::from(u8::from(in_cables)))]);
+    let stem = if in_cables { "cable" } else { "axis" };
     for (axis, row) in order.iter().enumerate() {
-        found = found.with(format!("axis_{}", axis + 1), f64::from(*row));
+        found = found.with(format!("{stem}_{}", axis + 1), f64::from(*row));
     }
     if in_cables {
         hand.machine.controller.wheel_of_axis = order;

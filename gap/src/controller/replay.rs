@@ -1,0 +1,194 @@
+//! The speed loop along a log, its integrator known between bounds.
+//!
+//! Where a log begins, and behind ticks that it lacks, nobody knows the integrator. Every duty that follows
+//! narrows it down to what its rounding leaves, and then the law is as exact as if it had been known.
+
+use model::robot::Robot;
+use model::run::Run;
+
+use super::{Law, SLACK};
+use crate::ticks::Ticks;
+
+/// Integrator of one axis: somewhere from `low` to `high`.
+#[derive(Debug, Clone, Copy)]
+struct Integral {
+    low: f64,
+    high: f64,
+}
+
+impl Integral {
+    const UNKNOWN: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    fn is_known(self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
+    }
+
+    /// One tick of the law, and the duties before rounding that are possible.
+    fn step(&mut self, law: &Law, error: f64, rate: f64) -> [f64; 2] {
+        let (proportional, more) = (law.kp * error, law.ki * error / rate);
+        let Self { low, high } = *self;
+        if let Some(limit) = law.windup {
+            self.low = (low + more).clamp(-limit, limit);
+            self.high = (high + more).clamp(-limit, limit);
+        } else {
+            let held = |x: f64| {
+                let unlimited = proportional + (x + more);
+                unlimited.abs() > 1.0 && error * unlimited > 0.0
+            };
+            // Held from a bound on outwards, the one on the error's side.
+            let (inner, outer) = if error > 0.0 { (low, high) } else { (high, low) };
+            let (inner, outer) = match (held(inner), held(outer)) {
+                (false, false) => (inner + more, outer + more),
+                (true, true) => (inner, outer),
+                _ => {
+                    let bound = error.signum() - proportional;
+                    let ends = [inner + more, bound - more, bound, outer];
+                    let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
+                    let most = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                    if error > 0.0 { (least, most) } else { (most, least) }
+                }
+            };
+            (self.low, self.high) = if error > 0.0 { (inner, outer) } else { (outer, inner) };
+        }
+        [proportional + self.low, proportional + self.high]
+    }
+
+    /// What a logged duty says of the integrator behind its tick.
+    fn narrow(&mut self, proportional: f64, duty: f64, half: f64) {
+        let low = if duty - half <= -1.0 { self.low } else { self.low.max(duty - half - proportional) };
+        let high = if duty + half >= 1.0 { self.high } else { self.high.min(duty + half - proportional) };
+        if low <= high {
+            (self.low, self.high) = (low, high);
+        }
+    }
+}
+
+/// RMS of what is beyond rounding, and the share of ticks that are.
+pub(super) fn replay(robot: &Robot, runs: &[&Run], wheel: usize, law: &Law, floor: f64) -> (f64, f64) {
+    let rate = robot.control_rate_hz;
+    let per_count = rate / robot.counts_per_wheel_rad();
+    let half = floor.max(0.5 * law.duty_quantum + SLACK);
+    let rounded = |u: f64| {
+        let u = u.clamp(-1.0, 1.0);
+        if law.duty_quantum > 0.0 { (u / law.duty_quantum).round() * law.duty_quantum } else { u }
+    };
+    let (mut square, mut wrong, mut all) = (0.0, 0.0, 0.0_f64);
+    for run in runs {
+        let (reference, duty) = (&run.reference[wheel], &run.duty[wheel]);
+        let ticks = Ticks::new(robot, run);
+        let speed = |k: usize| match run.measured.get(wheel) {
+            Some(measured) => measured[k],
+            None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
+        };
+        let mut integral = Integral::UNKNOWN;
+        // Rows before this one without a gap between.
+        let mut steady = 0;
+        for k in 0..run.len() {
+            steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
+            if steady == 0 {
+                integral = Integral::UNKNOWN;
+            }
+            let error = match law.shift {
+                [counts, references] if counts.max(references) <= steady => {
+                    reference[k - references] - speed(k - counts)
+                }
+                _ => f64::NAN,
+            };
+            if !error.is_finite() {
+                integral = Integral::UNKNOWN;
+                continue;
+            }
+            let known = integral.is_known();
+            let [low, high] = integral.step(law, error, rate).map(rounded);
+            let logged = duty[k];
+            if !logged.is_finite() {
+                continue;
+            }
+            // A guess of the rounding shifts the highest level by some thousandths of it.
+            let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
+            if e == 0.0 {
+                integral.narrow(law.kp * error, logged, half);
+            }
+            if known {
+                square += e * e;
+                all += 1.0;
+                wrong += f64::from(u8::from(e > 1e-9));
+            }
+        }
+    }
+    ((square / all.max(1.0)).sqrt(), wrong / all.max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::effects::Applied;
+    use model::frames::Pose;
+    use model::manoeuvre::{Manoeuvre, simulate};
+    use model::robot::{Effect, EffectParameter};
+
+    /// A drive whose duties are rounded as loggers do, without every row that `keep` refuses.
+    fn log(truth: &Robot, keep: impl Fn(usize) -> bool) -> Run {
+        let nominal = Robot { effects: Vec::new(), ..truth.clone() };
+        let mut run = simulate(Manoeuvre::Chirp, &Applied::of(truth), &nominal, Pose::default(), 3).unwrap();
+        run.camera.clear();
+        run.has_camera = false;
+        let rows: Vec<usize> = (0..run.len()).filter(|k| keep(*k)).collect();
+        let pick = |column: &mut Vec<f64>| *column = rows.iter().map(|k| column[*k]).collect();
+        run.reference.iter_mut().chain(&mut run.duty).chain(&mut run.supply_v).for_each(pick);
+        run.command.iter_mut().flatten().for_each(pick);
+        pick(&mut run.t);
+        run.counts.iter_mut().for_each(|c| *c = rows.iter().map(|k| c[*k]).collect());
+        run
+    }
+
+    fn robot() -> Robot {
+        Robot { duty_quantum: Some(0.001), ..Robot::racbot() }
+    }
+
+    fn nominal(robot: &Robot) -> Law {
+        Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: 0.001, shift: [0, 0] }
+    }
+
+    const FLOOR: f64 = 0.000_5 + SLACK;
+
+    #[test]
+    fn a_log_with_gaps_that_begins_in_motion_is_replayed_to_the_last_digit() {
+        let robot = robot();
+        let run = log(&robot, |k| k > 2_345 && k % 331 != 0 && !(4_000..4_017).contains(&k));
+        let ticks = Ticks::new(&robot, &run).gaps();
+        assert!(ticks.pauses > 10 && ticks.missing > 30, "{ticks:?}");
+        for wheel in 0..3 {
+            let (rms, wrong) = replay(&robot, &[&run], wheel, &nominal(&robot), FLOOR);
+            assert_eq!((rms, wrong), (0.0, 0.0), "wheel {wheel}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_gain_shows_between_gaps_as_well() {
+        let robot = robot();
+        let scale = EffectParameter { value: 0.05, ..EffectParameter::default() };
+        let parameters = vec![("kp_scale".to_owned(), scale)];
+        let effect = Effect { name: "pi-gain".to_owned(), parameters, ..Effect::default() };
+        let run = log(&Robot { effects: vec![effect], ..robot.clone() }, |k| k % 331 != 0);
+        let law = nominal(&robot);
+        let (rms, wrong) = replay(&robot, &[&run], 0, &law, FLOOR);
+        assert!(rms > 0.001 && wrong > 0.1, "{rms} {wrong}");
+        let (rms, wrong) = replay(&robot, &[&run], 0, &Law { kp: 1.05 * law.kp, ..law }, FLOOR);
+        assert_eq!((rms, wrong), (0.0, 0.0));
+    }
+
+    #[test]
+    fn bounds_hold_the_integrator_wherever_it_is_held() {
+        let law = Law { kp: 0.02, ki: 30.0, windup: None, duty_quantum: 0.0, shift: [0, 0] };
+        let pi = model::pi::PiLaw { kp: law.kp, ki: law.ki, rate_hz: 1000.0, duty_quantum: 0.0, integral_limit: None };
+        let (mut truth, mut bounds) = (0.4, Integral { low: -0.9, high: 1.3 });
+        for k in 0..3_000 {
+            let error = 20.0 * (f64::from(k) * 0.37).sin() + 9.0 * (f64::from(k) * 0.011).sin();
+            pi.step(&mut truth, error, 0.0);
+            let [low, high] = bounds.step(&law, error, 1000.0);
+            assert!(bounds.low <= truth + 1e-9 && truth <= bounds.high + 1e-9, "{k}: {truth} in {bounds:?}");
+            assert!(low <= high);
+        }
+    }
+}
