@@ -18,7 +18,9 @@ class Camera:
             if stamp >= seconds - 0.001:
                 break
             capture = stamp - plant.camera_latency
-            logged = stamp * (1.0 + plant.stamp_drift) + (rng.gauss(0.0, plant.stamp_jitter) if plant.stamp_jitter else 0.0)
+            logged = stamp * (1.0 + plant.stamp_drift) + (
+                rng.gauss(0.0, plant.stamp_jitter) if plant.stamp_jitter else 0.0
+            )
             tick = round(logged * nominal.control_rate)
             if 0 <= tick < round(seconds * nominal.control_rate) and tick not in seen:
                 seen.add(tick)
@@ -32,7 +34,7 @@ class Camera:
             place = max(capture / step, 0.0)
             k = min(int(place), len(path) - 2)
             part = min(place - k, 1.0)
-            x, y, heading = (a + part * (b - a) for a, b in zip(path[k], path[k + 1]))
+            x, y, heading = (a + part * (b - a) for a, b in zip(path[k], path[k + 1], strict=True))
             mx, my = p.marker_offset
             c, s = math.cos(heading), math.sin(heading)
             x, y = x + c * mx - s * my, y + s * mx + c * my

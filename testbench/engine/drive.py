@@ -13,9 +13,9 @@ PARTS = 10  # steps of the rotor per step of the engine, where there is play
 class Rotor:
     """A rotor behind play: a body of its own, in wheel-shaft quantities."""
 
-    def __init__(self, inertia, half_play, friction):
+    def __init__(self, inertia, half_play, friction, angle):
         self.inertia, self.half_play, self.friction = inertia, half_play, friction
-        self.angle = self.speed = 0.0
+        self.angle, self.speed = angle, 0.0
 
     def step(self, torque, angle, speed):
         """Moves on under `torque` against a wheel at `angle` with `speed`; mean torque that the teeth pass on."""
@@ -39,11 +39,11 @@ class Rotor:
 class Drive:
     """Three drives on one battery."""
 
-    def __init__(self, nominal, plant):
+    def __init__(self, nominal, plant, angles):
         self.plant = plant
         g = nominal.gear_ratio
         self.constant = nominal.torque_constant * plant.torque_constant_scale * g
-        self.resistance = nominal.resistance
+        self.resistance = nominal.resistance * plant.resistance_scale
         self.heat = [0.0] * WHEELS
         self.motor_friction = nominal.motor_friction * g
         self.loss = 1.0 - nominal.gear_efficiency
@@ -51,12 +51,13 @@ class Drive:
         self.open_voltage = nominal.supply - plant.battery_drop
         self.voltage = self.open_voltage
         self.rotors = [
-            Rotor(self.rotor_inertia, 0.5 * p / g, self.motor_friction) if p > 0.0 else None for p in plant.play
+            Rotor(self.rotor_inertia, 0.5 * p / g, self.motor_friction, a) if p > 0.0 else None
+            for p, a in zip(plant.play, angles, strict=True)
         ]
 
-    def shaft(self, i, angle):
-        """Angle that the encoder of axis `i` sees, at the wheel shaft."""
-        return self.rotors[i].angle if self.rotors[i] else angle
+    def shafts(self, angles):
+        """Angles that the encoders see, at the wheel shaft, with the wheels at `angles`."""
+        return [r.angle if r else a for r, a in zip(self.rotors, angles, strict=True)]
 
     def step(self, duties, angles, speeds, accelerations):
         """Torques at the wheel shafts and the limits of dry friction there, Nm."""

@@ -60,7 +60,7 @@ def vector(attribute, names, low, high):
         size, azimuth = between(rng, low, high), rng.uniform(0.0, TURN)
         value = (size * math.cos(azimuth), size * math.sin(azimuth))
         setattr(plant, attribute, value)
-        return [], dict(zip(names, value))
+        return [], dict(zip(names, value, strict=True))
 
     return act
 
@@ -88,6 +88,14 @@ def asymmetric(rng, plant):
 def heating(rng, plant):
     plant.heating_per_joule = between(rng, 0.006, 0.03)
     return [], {"rise_per_j": plant.heating_per_joule}
+
+
+def hot_motor(rng, plant):
+    """Windings that are hot from the start: copper has 0.39 % more resistance a kelvin, magnets lose 0.1 %."""
+    warmer = rng.uniform(30.0, 80.0)
+    plant.resistance_scale = 1.0 + 0.0039 * warmer
+    plant.torque_constant_scale = 1.0 - 0.001 * warmer
+    return [], {"kelvin": warmer}
 
 
 def battery_sag(rng, plant):
@@ -194,6 +202,7 @@ CATALOGUE = {
     "dead-band": common("dead_band", "duty", 0.03, 0.12, both_signs=False),
     "torque-constant": common("torque_constant_scale", "scale", 0.07, 0.25, plus_one=True),
     "motor-heating": heating,
+    "motor-heating/hot": hot_motor,
     "battery-sag": battery_sag,
     "robot-mass": common("mass_scale", "scale", 0.08, 0.3, plus_one=True),
     "yaw-inertia": common("yaw_inertia_scale", "scale", 0.2, 0.6, plus_one=True, both_signs=False),

@@ -25,7 +25,9 @@ def legs(count, span, there_and_back):
 
     def make(active, rng):
         first, turn = rng.uniform(0.0, TURN), sign(rng)
-        plan = [(first + turn * span * i / count + rng.uniform(-0.15, 0.15), rng.uniform(0.35, 0.75)) for i in range(count)]
+        plan = [
+            (first + turn * span * i / count + rng.uniform(-0.15, 0.15), rng.uniform(0.35, 0.75)) for i in range(count)
+        ]
         spin = sign(rng) * rng.uniform(0.3, 0.8) if rng.random() < 0.4 else 0.0
         ramp = rng.uniform(0.3, 0.48)
 
@@ -76,7 +78,12 @@ def eight(active, rng):
 def sweep(active, rng):
     """Chirps in all three freedoms at once, fading as they get faster."""
     axes = [
-        (rng.uniform(0.35, 0.5) if k < 2 else rng.uniform(1.8, 2.9), rng.uniform(0.2, 0.5), rng.uniform(1.3, 2.2), rng.uniform(0.0, TURN))
+        (
+            rng.uniform(0.35, 0.5) if k < 2 else rng.uniform(1.8, 2.9),
+            rng.uniform(0.2, 0.5),
+            rng.uniform(1.3, 2.2),
+            rng.uniform(0.0, TURN),
+        )
         for k in range(3)
     ]
 
@@ -84,7 +91,8 @@ def sweep(active, rng):
         part = t / active
         fade = (1.0 - 0.65 * part) * min(t / 0.3, 1.0) * min((active - t) / 0.2, 1.0)
         return tuple(
-            size * fade * math.sin(phase + TURN * t * (slow + 0.5 * (fast - slow) * part)) for size, slow, fast, phase in axes
+            size * fade * math.sin(phase + TURN * t * (slow + 0.5 * (fast - slow) * part))
+            for size, slow, fast, phase in axes
         )
 
     return at
@@ -129,7 +137,9 @@ def steps(slow, fast):
         while start < active - 0.5:
             go, rest = rng.uniform(0.4, 0.75), rng.uniform(0.2, 0.45)
             turn = sign(rng) * rng.uniform(0.3, 2.1) if rng.random() < 0.35 else 0.0
-            plan.append((start, min(start + go, active - 0.1), polar(rng.uniform(slow, fast), rng.uniform(0.0, TURN), turn)))
+            plan.append(
+                (start, min(start + go, active - 0.1), polar(rng.uniform(slow, fast), rng.uniform(0.0, TURN), turn))
+            )
             start += go + rest
         return lambda t: next((v for a, b, v in plan if a <= t < b), (0.0, 0.0, 0.0))
 

@@ -15,7 +15,7 @@ CHASSIS_HEIGHT_M = 0.045  # of its centre of mass above the floor
 
 
 def roller_half_length(wheel_radius):
-    """Half length of the ellipsoid that is flush with the wheel's circle in its middle and where the next one takes over."""
+    """Half length of the ellipsoid that is flush with the circle in its middle and where the next one takes over."""
     half_pitch = math.pi * wheel_radius / ROLLERS
     sagitta = wheel_radius * (1.0 - math.cos(math.pi / ROLLERS))
     return half_pitch / math.sqrt(1.0 - (1.0 - sagitta / ROLLER_RADIUS_M) ** 2)
@@ -49,12 +49,13 @@ def wall_xml(wall):
     azimuth, distance = wall
     c, s = math.cos(azimuth), math.sin(azimuth)
     return f"""
-    <geom name="wall" type="plane" size="20 20 1" contype="0" conaffinity="2" pos="{distance * c:.9g} {distance * s:.9g} 0"
-      xyaxes="{-s:.9g} {c:.9g} 0 0 0 1" friction="0.2 0 0" solref="0.01 1"/>"""
+    <geom name="wall" type="plane" size="20 20 1" contype="0" conaffinity="2"
+      pos="{distance * c:.9g} {distance * s:.9g} 0" xyaxes="{s:.9g} {-c:.9g} 0 0 0 1"
+      friction="0.2 0 0" solref="0.01 1"/>"""
 
 
 def xml(nominal, plant, wall=None):
-    """The whole model. Chassis mass and inertia are such that the totals are the nominal ones times the plant's scales."""
+    """The whole model. Chassis mass and inertia make the totals those of the nominal robot times the plant's scales."""
     body_radius = nominal.body_radius * plant.body_radius_scale
     wheel_mass = HUB_MASS_KG + ROLLERS * ROLLER_MASS_KG
     mass = nominal.mass * plant.mass_scale - WHEELS * wheel_mass
@@ -78,7 +79,10 @@ def xml(nominal, plant, wall=None):
     tx, ty = plant.tilt
     gx, gy = gravity * math.sin(tx), gravity * math.sin(ty)
     shell = f'<geom type="cylinder" size="{body_radius + 0.005:.9g} 0.06" pos="0 0 0.08" contype="2" conaffinity="0"/>'
-    armature = nominal.rotor_inertia * plant.rotor_inertia_scale * nominal.gear_ratio**2
+    # A rotor behind play is a body of its own (drive.py); what stays keeps the engine's step stable.
+    share_here = 0.2 if any(plant.play) else 1.0
+    armature = share_here * nominal.rotor_inertia * plant.rotor_inertia_scale * nominal.gear_ratio**2
+    contact = f'friction="{plant.friction} 0 0" solref="{plant.contact_time} 1" solimp="0.95 0.98 0.0005"'
     return f"""<mujoco model="RacBot">
   <compiler angle="radian" inertiafromgeom="false"/>
   <option timestep="{STEP_S}" gravity="{gx:.9g} {gy:.9g} {-math.sqrt(gravity**2 - gx * gx - gy * gy):.9g}"
@@ -91,16 +95,17 @@ def xml(nominal, plant, wall=None):
     </default>
     <default class="roller">
       <joint type="hinge" armature="{ROLLER_ARMATURE}" solreffriction="0.001 1" solimpfriction="0.95 0.95 0.001"/>
-      <geom contype="1" conaffinity="0" condim="3" friction="{plant.friction} 0 0" solref="{plant.contact_time} 1" solimp="0.95 0.98 0.0005"/>
+      <geom contype="1" conaffinity="0" condim="3" {contact}/>
     </default>
   </default>
   <worldbody>
-    <geom name="floor" type="plane" size="20 20 1" contype="0" conaffinity="1" condim="3" friction="{plant.friction} 0 0"
-      solref="{plant.contact_time} 1" solimp="0.95 0.98 0.0005"/>{wall_xml(wall) if wall else ""}
+    <geom name="floor" type="plane" size="20 20 1" contype="0" conaffinity="1" condim="3" {contact}/>
+    {wall_xml(wall) if wall else ""}
     <body name="chassis" pos="0 0 0">
       <freejoint name="chassis"/>
       {shell if wall else ""}
-      <inertial pos="{cx:.9g} {cy:.9g} {CHASSIS_HEIGHT_M}" mass="{mass:.9g}" diaginertia="{across:.9g} {across:.9g} {yaw:.9g}"/>{wheels}
+      <inertial pos="{cx:.9g} {cy:.9g} {CHASSIS_HEIGHT_M}" mass="{mass:.9g}"
+        diaginertia="{across:.9g} {across:.9g} {yaw:.9g}"/>{wheels}
     </body>
   </worldbody>
 </mujoco>

@@ -30,9 +30,7 @@ class Nominal:
 
     def wheel_speeds(self, vx, vy, w):
         """Set points of the wheels (rad/s) for a velocity of the body: x right, y forward, w counter-clockwise."""
-        return [
-            ((math.sin(m) * vx - math.cos(m) * vy) - self.body_radius * w) / self.wheel_radius for m in MOUNTS
-        ]
+        return [((math.sin(m) * vx - math.cos(m) * vy) - self.body_radius * w) / self.wheel_radius for m in MOUNTS]
 
     def rad_per_count(self):
         """Angle of a wheel per encoder count."""
@@ -79,7 +77,9 @@ class Plant:
     wheel_angle: list = three()
     wheel_radius_scale: list = three(1.0)
     body_radius_scale: float = 1.0
-    command_row: list = field(default_factory=lambda: [1, 2, 3])  # row of the matrix that feeds axis i; negative: inverted
+    command_row: list = field(
+        default_factory=lambda: [1, 2, 3]
+    )  # row of the matrix that feeds axis i; negative: inverted
     axis_wheel: list = field(default_factory=lambda: [1, 2, 3])  # wheel that axis i drives and counts
     # masses
     mass_scale: float = 1.0
@@ -88,6 +88,7 @@ class Plant:
     centre_of_mass: tuple = (0.0, 0.0)
     # motor, gear, battery
     torque_constant_scale: float = 1.0
+    resistance_scale: float = 1.0
     heating_per_joule: float = 0.0  # relative growth of the winding's resistance per joule of its heat
     cooling_s: float = 60.0
     dead_band: float = 0.0
@@ -103,7 +104,7 @@ class Plant:
     play: list = three()  # rad at the motor shaft
     actuation_latency: float = 0.0
     # rollers and floor
-    roller_drag: list = field(default_factory=lambda: [0.06] * WHEELS)  # N a wheel, along its axle
+    roller_drag: list = field(default_factory=lambda: [0.075] * WHEELS)  # N a wheel, along its axle
     friction: float = 0.9
     contact_time: float = 0.002  # s, the engine's measure of compliance: 30 um under the robot's weight at 0.002
     grip: float = 10.0  # the engine's ratio of friction to normal stiffness; creep is about 0.006/grip s/kg

@@ -2,8 +2,8 @@
 
     python3 score.py --racbot ../../target/release/racbot --seed 1 --controls 10 --singles 2 --pairs 1 --outside 2
 
-Sets are kept in the folder of --work; a second call goes on where the first one stopped and makes no set twice.
-`--again` looks again at the sets that are there. The workflow is told the folder of a set only; the truth lies elsewhere.
+Sets are kept in the folder of --work; a second call goes on where the first one stopped.
+`--again` looks again at the sets that are there. The workflow is told a set's folder only; the truth lies elsewhere.
 """
 
 import argparse
@@ -44,7 +44,8 @@ def grade(truth, answer):
     too_many = [
         e["name"]
         for e in named
-        if not any(stands_for(e["name"], h, answer) and on_the_wheel(e, h) for h in hidden) and not forgiven(e["name"], truth)
+        if not any(stands_for(e["name"], h, answer) and on_the_wheel(e, h) for h in hidden)
+        and not forgiven(e["name"], truth)
     ]
     if any(h["outside"] for h in hidden):
         nearest = answer.get("nearest", [])
@@ -81,7 +82,11 @@ def one(job):
     """Makes a set unless it is there, runs the workflow, writes the score beside the truth."""
     work, racbot, seed, group, names, again = job
     label = f"{seed:05}"
-    folder, truth_file, score_file = work / "sets" / label, work / "truth" / f"{label}.json", work / "score" / f"{label}.json"
+    folder, truth_file, score_file = (
+        work / "sets" / label,
+        work / "truth" / f"{label}.json",
+        work / "score" / f"{label}.json",
+    )
     if score_file.exists() and not again:
         return json.loads(score_file.read_text())
     if not truth_file.exists():
@@ -133,7 +138,9 @@ def line(score):
     """One set in one line."""
     hidden = "+".join(h["name"] + "".join(map(str, h["wheels"])) for h in score["hidden"]) or "-"
     named = "+".join(n + "".join(map(str, w)) for n, w in score.get("named", [])) or "-"
-    values = " ".join(f"{p}={t:.3g}:{v:.3g}{'' if lo <= t <= hi else '!'}" for _, p, t, v, (lo, hi) in score.get("parameters", []))
+    values = " ".join(
+        f"{p}={t:.3g}:{v:.3g}{'' if lo <= t <= hi else '!'}" for _, p, t, v, (lo, hi) in score.get("parameters", [])
+    )
     return f"{score['seed']:05} {score['grade']:8}{score['cpu_seconds']:5.1f}s  {hidden:32} {named} {values}"
 
 
@@ -146,20 +153,23 @@ def table(scores):
         for key in (f"all: {s['group']}", name):
             groups.setdefault((s["group"], key), []).append(s)
     order = {"control": 0, "single": 1, "pair": 2, "outside": 3}
-    for (group, name), members in sorted(groups.items(), key=lambda g: (order[g[0][0]], g[0][1])):
+    for (_, name), members in sorted(groups.items(), key=lambda g: (order[g[0][0]], g[0][1])):
         counts = [sum(s["grade"] == g for s in members) for g in GRADES]
         print(f"{name:34}{len(members):5}" + "".join(f"{c or '.':>9}" for c in counts))
     rows = [r for s in scores for r in s.get("parameters", []) if r[4][1] > r[4][0]]
     if rows:
         inside = sum(lo <= true <= hi for _, _, true, _, (lo, hi) in rows)
         print(f"\n95 % intervals that hold the truth: {inside} of {len(rows)}")
-    print(f"slowest analysis: {max(s['cpu_seconds'] for s in scores):.1f} s of CPU, {max(s['seconds'] for s in scores):.1f} s")
+    cpu, clock = (max(s[key] for s in scores) for key in ("cpu_seconds", "seconds"))
+    print(f"slowest analysis: {cpu:.1f} s of CPU, {clock:.1f} s by the clock")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--racbot", type=Path, required=True, help="the binary to judge")
-    parser.add_argument("--work", type=Path, default=Path("target/engine-sets"), help="folder of sets, truths and scores")
+    parser.add_argument(
+        "--work", type=Path, default=Path("target/engine-sets"), help="folder of sets, truths and scores"
+    )
     parser.add_argument("--seed", type=int, default=1)
     for group, count in (("controls", 4), ("singles", 1), ("pairs", 0), ("outside", 0)):
         parser.add_argument(f"--{group}", type=int, default=count, help="how many (of every kind)")

@@ -1,0 +1,26 @@
+"""Encoders and their counters: whole counts since the start, some of them lost."""
+
+import math
+
+from robot import WHEELS
+
+
+class Counters:
+    """One counter a shaft, with a random place of its first edge."""
+
+    def __init__(self, nominal, plant, rng):
+        self.plant = plant
+        self.counts_per_rad = [s / nominal.rad_per_count() for s in plant.encoder_scale]
+        self.threshold = plant.encoder_loss_above / nominal.control_rate  # rad a tick
+        self.angles = [0.0] * WHEELS
+        self.kept = [0.0] * WHEELS
+        self.phase = [rng.random() for _ in range(WHEELS)]
+
+    def read(self, angles):
+        """Counts of this tick at shaft angles since the start, rad."""
+        for i in range(WHEELS):
+            moved = angles[i] - self.angles[i]
+            share = 1.0 - self.plant.encoder_loss[i] if abs(moved) >= self.threshold else 1.0
+            self.kept[i] += moved * share * self.counts_per_rad[i]
+        self.angles = angles
+        return [math.floor(k + p) for k, p in zip(self.kept, self.phase, strict=True)]
