@@ -124,10 +124,10 @@ def roller_friction(rng, plant):
 def wheel_order(rng, plant):
     order = rng.choice(([2, 1, 3], [3, 2, 1], [1, 3, 2], [2, 3, 1], [3, 1, 2], [-1, 2, 3], [1, -2, 3], [1, 2, -3]))
     if rng.random() < 0.5:
-        plant.command_row = order
+        plant.command_row, stem = order, "axis"
     else:
-        plant.axis_wheel = order
-    return [i + 1 for i in range(WHEELS) if order[i] != i + 1], {f"axis_{i + 1}": a for i, a in enumerate(order)}
+        plant.axis_wheel, stem = order, "cable"
+    return [i + 1 for i in range(WHEELS) if order[i] != i + 1], {f"{stem}_{i + 1}": a for i, a in enumerate(order)}
 
 
 def pi_gain(rng, plant):
