@@ -72,7 +72,7 @@ pub fn replay<F: Fpga>(
         ticks: 0,
         quantum,
         wheels: Vec::new(),
-        skipped: skip(run, part.from),
+        skipped: skip(robot, run, part.from),
         duty: Vec::new(),
     };
     if replayed.skipped.is_some() {
@@ -119,7 +119,11 @@ pub fn replay<F: Fpga>(
 }
 
 /// What a run lacks.
-fn skip(run: &Run, from: usize) -> Option<String> {
+fn skip(robot: &Robot, run: &Run, from: usize) -> Option<String> {
+    if robot.pi.registers.iter().any(|(name, word)| name == "count_and_time" && *word != 0) {
+        let what = "its speeds were measured by count and time, and a log has no times of edges";
+        return Some(format!("{what}; racbot gap compares it word for word from the measured speeds"));
+    }
     if run.reference.is_empty() {
         return Some("no set points (ref_1..) in the log".to_owned());
     }

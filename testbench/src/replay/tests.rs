@@ -73,6 +73,10 @@ fn a_wrong_gain_is_seen() {
 
 #[test]
 fn logs_without_what_it_takes_are_skipped_with_a_reason() {
+    let drive = Drive { speed_mode: SpeedMode::CountAndTime, limit_s: 0.2, ..Drive::fig_6() };
+    let driven = drive.run(BitTrue::new(), |_| {}).unwrap();
+    let replayed = replay(BitTrue::new(), &driven.robot, &driven.run, Part::default(), |_| {}).unwrap();
+    assert!(replayed.skipped.unwrap().contains("racbot gap compares it"));
     let mut set = shipped();
     let run = &mut set.runs[0];
     run.reference.clear();
