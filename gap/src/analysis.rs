@@ -255,6 +255,11 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let mut drive_noise = Vec::new();
     if let Some(mut link) = DriveLink::new(&pieces, &start.drive(None)) {
         link.mask_slip(&start.motion(None));
+        let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
+        if slides {
+            // Where the law of slip did not catch what slipped, Newton's law has no body to push.
+            link.mask_times(|run, t| motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t, FAR_AMISS)));
+        }
         if let Some(residuals) = link.residuals(&start.drive(None)) {
             let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(robot).stall_nm);
             link.noise = floor.clone();
@@ -268,7 +273,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             let plots = [before, after];
             links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
             let model = outcome.selection.state.drive(None);
-            let rolls = |run: usize, t: f64| !motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t));
+            let rolls = |run: usize, t: f64| !motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t, FAR));
             let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
             // Beside a named effect only what its law's inexactness cannot leave.
             let explained = if outcome.named.is_empty() { 0.0 } else { outcome.before.powi(2) - outcome.after.powi(2) };
@@ -279,7 +284,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
                     remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
                 }
             }
-            if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none()) {
+            // Wheels that slide chatter from roller to roller.
+            if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none() && !slides) {
                 named.push(ripple_named(&ripple, &catalogue));
             }
             collect(
@@ -321,6 +327,11 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     if links.is_empty() {
         return Err(GapError::NothingToCompare);
     }
+    // What slides drives no body as Newton has it: the name says so already.
+    let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
+    let far = links.iter().filter(|l| !slides(l) && !unexplained.iter().any(|u| u.link == l.link));
+    let far: Vec<Leftover> = far.filter_map(|l| gaps::stays_open(l, &located, Sizes::of(robot).stall_nm)).collect();
+    unexplained.extend(far);
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
         named.iter().filter(|n| structural.contains(&n.link.name().to_owned())).map(|n| n.name.clone()).collect();
@@ -409,17 +420,20 @@ fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         .collect()
 }
 
+/// RMS residual of a window far from what a second of noise reaches.
+const FAR: f64 = 1.35;
+/// The same where wheels slip, whose law is not exact.
+const FAR_AMISS: f64 = 2.0;
+
 /// Whether the camera saw something else than the wheels said in the second round a time.
-fn misses(windows: &[WindowResiduals], run: usize, t: f64) -> bool {
-    /// Far from what a second of noise reaches.
-    const FAR: f64 = 1.35;
+fn misses(windows: &[WindowResiduals], run: usize, t: f64, far: f64) -> bool {
     let mut near = windows.iter().filter(|w| {
         let span = w.t.first().zip(w.t.last());
         w.run == run && span.is_some_and(|(a, b)| t > a - 0.3 && t < b + 0.3)
     });
     near.any(|w| {
         let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
-        crate::statistics::rms(used.flat_map(|(r, _)| *r)) > FAR
+        crate::statistics::rms(used.flat_map(|(r, _)| *r)) > far
     })
 }
 

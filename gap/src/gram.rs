@@ -46,6 +46,13 @@ impl Cluster {
         }
     }
 
+    /// Huber loss after a step along the columns.
+    pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
+        let moved = self.rr - 2.0 * step.dot(&self.jr) + (step.transpose() * &self.jj * step)[0];
+        let (square, n) = (moved.max(0.0) / self.weight, self.n / self.weight);
+        huber(square, BURST * n)
+    }
+
     /// Joins the residuals of a neighbour.
     pub fn add(&mut self, other: &Self) {
         self.n += other.n;
@@ -58,7 +65,7 @@ impl Cluster {
     fn robust(mut self) -> Self {
         let limit = BURST * self.n;
         if self.rr > limit && self.n > 0.0 {
-            let huber = 2.0 * (limit * self.rr).sqrt() - limit;
+            let huber = huber(self.rr, limit);
             self.weight = (limit / self.rr).sqrt();
             self.n *= self.weight;
             self.rr *= self.weight;
@@ -68,6 +75,11 @@ impl Cluster {
         }
         self
     }
+}
+
+/// Huber's loss of a cluster with this sum of squares, a square up to `limit`.
+fn huber(square: f64, limit: f64) -> f64 {
+    if square > limit && limit > 0.0 { 2.0 * (limit * square).sqrt() - limit } else { square }
 }
 
 /// A least-squares fit of some columns.
@@ -119,9 +131,9 @@ impl Gram {
         (sum(&|c| c.rr), sum(&|c| c.n))
     }
 
-    /// What the Huber losses exceed the weighted sums of squares by.
-    pub fn offset(&self) -> f64 {
-        self.clusters.iter().map(|c| c.offset).sum()
+    /// Huber loss of the residuals after a step along the columns.
+    pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
+        self.clusters.iter().map(|c| c.loss_after(step)).sum()
     }
 
     /// JᵀJ of all columns.
@@ -255,4 +267,25 @@ fn inverse_root(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         root.row_mut(i).scale_mut(1.0 / scale[i]);
     }
     Some(root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_loss_after_a_step_is_that_of_what_the_step_leaves() {
+        let n = 40;
+        let column = DMatrix::from_fn(n, 1, |r, _| 1.0 + (r % 3) as f64);
+        let noise = DVector::from_fn(n, |r, _| if r % 2 == 0 { 1.0 } else { -1.0 });
+        for (size, step) in [(0.0, 0.0), (0.5, 0.5), (20.0, 20.0), (20.0, 0.0), (20.0, 15.0)] {
+            let gram =
+                |residual: &DVector<f64>| Gram::new(vec![Cluster::new(0, 0.0, n as f64, residual, &column)]).loss();
+            let before = &noise + column.column(0) * size;
+            let after = gram(&(&before - column.column(0) * step));
+            let moved = Gram::new(vec![Cluster::new(0, 0.0, n as f64, &before, &column)]);
+            let found = moved.loss_after(&DVector::from_element(1, step));
+            assert!((found - after).abs() < 1e-9 * after, "{size} {step}: {found} {after}");
+        }
+    }
 }

@@ -21,6 +21,8 @@ const MOST: usize = 5;
 const SHORT_LIST: usize = 9;
 /// Rounds of relinearisation while the named effects still move.
 const ROUNDS: usize = 3;
+/// Standard deviations of the named effects' laws that another effect must explain more than.
+const LAW_SIGMAS: f64 = 2.0;
 /// A removal that costs more than this in the linear approximation is not tried.
 const FAR: f64 = 40.0;
 
@@ -203,7 +205,7 @@ fn forward(problem: &Problem, first: &Bench, given: &[usize], all: &[Active], th
 fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
     let fit = bench.base();
     let costs: f64 = state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum();
-    Selection { loss: fit.loss * bench.variance + bench.linear.gram.offset(), costs: fit.penalty + costs, state, bench }
+    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench }
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {
@@ -235,8 +237,8 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
         }
         let next = Bench::new(problem, &trial, all, thresholds);
         let (a, b) = (bench.base(), next.base());
-        let before = a.loss * bench.variance + bench.linear.gram.offset() + a.penalty * bench.variance;
-        let after = b.loss * next.variance + next.linear.gram.offset() + b.penalty * bench.variance;
+        let before = bench.linear.gram.loss_after(&a.step) + a.penalty * bench.variance;
+        let after = next.linear.gram.loss_after(&b.step) + b.penalty * bench.variance;
         if !after.is_finite() || after > before * 1.05 {
             break;
         }
@@ -250,6 +252,7 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
 fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
     let trials = bench.trials(thresholds);
     let without = bench.held_out(&[]);
+    let left_by_laws = bench.left_by_laws();
     for t in trials.into_iter().take(6) {
         if t.gain < thresholds.gain {
             return None;
@@ -266,6 +269,7 @@ fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
             sum >= thresholds.share(link) * total
                 && sum >= thresholds.share_of_excess * excess
                 && sum >= t_needed * spread
+                && sum >= LAW_SIGMAS * LAW_SIGMAS * left_by_laws
         };
         let strong = t.gain > 50.0;
         let by_run = passes(&without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 });

@@ -1,5 +1,6 @@
 //! The gap in figures: per link, over all signals, and how it falls.
 
+use super::{Leftover, Located};
 use crate::drive::DriveResiduals;
 use crate::effect::Link;
 use crate::exact::ExactLink;
@@ -86,6 +87,29 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
         (links.iter().map(|l| l.signals as f64 * f(l).powi(2)).sum::<f64>() / signals.max(1.0)).sqrt()
     };
     (mean(&|l| l.before), mean(&|l| l.after))
+}
+
+/// What to say of a link of motion or drive on which much is left and little was explained.
+pub(super) fn stays_open(link: &LinkGap, located: &[Located], stall_nm: f64) -> Option<Leftover> {
+    /// Noise floors, and the share of the squared gap that may be left.
+    const FAR: [f64; 2] = [3.0, 0.1];
+    /// What matters: m and rad within a second, and the share of the stall torque.
+    const MATERIAL: [f64; 3] = [0.004, 0.02, 0.05];
+    let open = |rms: f64| (rms * rms - 1.0).max(0.0);
+    let material = link.rms.iter().zip(&link.units).any(|([_, after], unit)| match *unit {
+        "m" => *after >= MATERIAL[0],
+        "rad" => *after >= MATERIAL[1],
+        _ => *after >= MATERIAL[2] * stall_nm,
+    });
+    let counts = matches!(link.link, Link::Motion | Link::Drive) && material;
+    if !counts || link.after < FAR[0] || open(link.after) < FAR[1] * open(link.before) {
+        return None;
+    }
+    let worst = located.iter().filter(|l| l.link == link.link).max_by(|a, b| a.excess.total_cmp(&b.excess));
+    let place = worst.map_or_else(|| "the link disagrees".to_owned(), |l| l.place.clone());
+    let structure =
+        format!("{place}; {:.1} noise floors are left, which nothing in the catalogue explains", link.after);
+    Some(Leftover { link: link.link, structure })
 }
 
 pub(super) fn waterfall(links: &[LinkGap], parts: &[(String, Link, f64)]) -> Vec<(String, f64)> {

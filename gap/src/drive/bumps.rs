@@ -118,6 +118,16 @@ impl<'a> DriveLink<'a> {
         }
     }
 
+    /// Leaves out bumps at these times (index of the run, s).
+    pub fn mask_times(&mut self, out: impl Fn(usize, f64) -> bool) {
+        for bump in &mut self.bumps {
+            let s = &self.segments[bump.segment];
+            if out(s.run, s.t[bump.first + bump.force.len() / 2]) {
+                bump.weights.fill(0.0);
+            }
+        }
+    }
+
     /// Segment and middle tick of the bumps that count for no wheel.
     pub fn masked(&self) -> Vec<(usize, usize)> {
         let out = self.bumps.iter().filter(|b| b.weights.iter().all(|w| *w == 0.0));

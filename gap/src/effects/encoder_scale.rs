@@ -15,7 +15,7 @@ impl Effect for EncoderScale {
     }
 
     fn equation(&self) -> &str {
-        "wheel angle = counts / (counts per turn) (1 + scale_i): wrong counts per turn or gear ratio"
+        "a wheel turn gives (1 + scale_i) times the counts stated: wrong counts per turn or gear ratio"
     }
 
     fn reference(&self) -> &str {
@@ -36,13 +36,13 @@ impl Effect for EncoderScale {
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         for i in 0..model.wheels.len() {
-            model.distance_scale[i] *= 1.0 + values.wheel("scale", i, "");
+            model.distance_scale[i] /= 1.0 + values.wheel("scale", i, "");
         }
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         for i in 0..model.wheels.len() {
-            model.axes[i].encoder_scale *= 1.0 + values.wheel("scale", i, "");
+            model.axes[i].encoder_scale /= 1.0 + values.wheel("scale", i, "");
         }
     }
 

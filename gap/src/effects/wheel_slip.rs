@@ -90,7 +90,7 @@ impl Effect for WheelSlip {
 
     fn law_uncertainty(&self) -> f64 {
         // One coefficient stands for static and sliding friction, 5 to 20 % apart, and for all loads.
-        0.06
+        0.1
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

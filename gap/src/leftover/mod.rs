@@ -80,7 +80,13 @@ pub(crate) fn drive(
     out.structures.extend(spectrum::lines(&series, sizes.stall_nm));
     out.structures.extend(bursts::bursts(&series, rolls, sizes.stall_nm));
     out.structures.extend(bursts::stretches(&series, sizes.stall_nm));
-    let (ripple, structures) = orders::orders(&link, model, segments, sizes.stall_nm);
+    let slips = |segment: usize, ticks: std::ops::Range<usize>| {
+        let s = &segments[segment];
+        let seen = [ticks.start, (ticks.start + ticks.end) / 2, ticks.end].map(|k| s.t[k.min(s.t.len() - 1)]);
+        !seen.into_iter().all(|t| rolls(s.run, t))
+            || (ticks.start / near..=ticks.end / near).any(|part| slips.contains(&(segment, part)))
+    };
+    let (ripple, structures) = orders::orders(&link, model, segments, &slips, sizes.stall_nm);
     out.ripple = ripple;
     out.structures.extend(structures);
     out

@@ -49,6 +49,8 @@ pub(crate) struct Ripple {
 #[derive(Clone, Copy)]
 struct Block {
     segment: usize,
+    /// First tick and the one after the last.
+    ticks: (usize, usize),
     speed: f64,
     /// Mean of the acceleration times e^(−i n φ), and the same of the torque.
     demodulated: [[f64; 2]; 2],
@@ -64,11 +66,12 @@ struct Line {
     sd: f64,
 }
 
-/// Looks through all orders of all wheels.
+/// Looks through all orders of all wheels; `slips` says of ticks of a segment whether a wheel slips there.
 pub(super) fn orders(
     link: &DriveLink,
     model: &DriveModel,
     segments: &[Segment],
+    slips: &dyn Fn(usize, std::ops::Range<usize>) -> bool,
     stall_nm: f64,
 ) -> (Option<Ripple>, Vec<Structure>) {
     let n = link.noise.len();
@@ -86,7 +89,8 @@ pub(super) fn orders(
         for (wheel, slots) in demodulated.iter_mut().enumerate() {
             let new: Vec<Vec<Block>> =
                 candidates.par_iter().map(|o| demodulate(index, s, &raw, wheel, *o, stride)).collect();
-            slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(blocks));
+            let rolling = |blocks: Vec<Block>| blocks.into_iter().filter(|b| !slips(index, b.ticks.0..b.ticks.1));
+            slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(rolling(blocks)));
         }
     }
     let tests = 2.0 * n as f64 * candidates.len() as f64;
@@ -172,7 +176,7 @@ fn demodulate(
                     demodulated[of][1] -= x * sin;
                 }
             }
-            out.push(Block { segment: index, speed: mean.abs(), demodulated });
+            out.push(Block { segment: index, ticks: (first, first + length), speed: mean.abs(), demodulated });
         }
         first += stride * (length / 2);
     }

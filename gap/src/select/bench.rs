@@ -163,23 +163,8 @@ impl Bench {
         let m = self.linear.owners.len();
         let jj = self.linear.gram.information();
         for index in 0..self.state.active.len() {
-            let active = &self.state.active[index];
-            let whole = self.linear.owners.iter().position(|o| *o == Owner::Whole(index));
-            let (columns, p): (Vec<usize>, Vec<f64>) = match whole {
-                Some(column) => (vec![column], vec![1.0]),
-                None => {
-                    let columns = self.linear.of_active(index);
-                    let value = |c: &usize| match self.linear.owners[*c] {
-                        Owner::Active(_, j) => active.values.get(&active.form.free[j].name),
-                        _ => 0.0,
-                    };
-                    let p = columns.iter().map(value).collect();
-                    (columns, p)
-                }
-            };
-            let pairs =
-                columns.iter().zip(&p).flat_map(|(a, x)| columns.iter().zip(&p).map(move |(b, y)| (*a, *b, x * y)));
-            let size2: f64 = pairs.map(|(a, b, xy)| jj[(a, b)] * xy).sum();
+            let (columns, p) = whole(&self.linear, &self.state, index);
+            let size2 = square(&jj, &columns, &p);
             if size2 <= 0.0 {
                 continue;
             }
@@ -194,6 +179,16 @@ impl Bench {
                 self.held[c] = Role::Held(sd.max(wide), at);
             }
         }
+    }
+
+    /// What the laws of the named effects, none of them exact, may leave: a sum of squares in units of the noise.
+    pub(super) fn left_by_laws(&self) -> f64 {
+        let jj = self.linear.gram.information();
+        let left = |index: usize| {
+            let (columns, p) = whole(&self.linear, &self.state, index);
+            self.state.active[index].effect.law_uncertainty().powi(2) * square(&jj, &columns, &p)
+        };
+        (0..self.state.active.len()).map(left).sum()
     }
 
     pub(super) fn ridge(&self) -> Ridge<'_> {
@@ -425,6 +420,27 @@ impl Bench {
         }
         out
     }
+}
+
+/// The columns of an active effect, and the step along them that takes all of it away.
+fn whole(linear: &Linear, state: &State, index: usize) -> (Vec<usize>, Vec<f64>) {
+    if let Some(column) = linear.owners.iter().position(|o| *o == Owner::Whole(index)) {
+        return (vec![column], vec![1.0]);
+    }
+    let active = &state.active[index];
+    let columns = linear.of_active(index);
+    let value = |c: &usize| match linear.owners[*c] {
+        Owner::Active(_, j) => active.values.get(&active.form.free[j].name),
+        _ => 0.0,
+    };
+    let p = columns.iter().map(value).collect();
+    (columns, p)
+}
+
+/// Square of a step along some columns in units of the noise.
+fn square(jj: &DMatrix<f64>, columns: &[usize], p: &[f64]) -> f64 {
+    let row = |(a, x): (&usize, &f64)| columns.iter().zip(p).map(|(b, y)| jj[(*a, *b)] * x * y).sum::<f64>();
+    columns.iter().zip(p).map(row).sum()
 }
 
 /// Whether any parameter of an effect exceeds its materiality threshold.

@@ -107,11 +107,12 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         let rival_cost = thresholds.cost(candidate.form.free.len());
         // Without the price of parameters: what the data say.
         let difference = rival.against(found) + own_cost - rival_cost;
-        if difference < thresholds.tie(own_gain).max(TIED) && is_material(candidate, &values) {
+        let tie = thresholds.tie(own_gain).max(TIED);
+        if difference < tie.max(DOUBTFUL) && is_material(candidate, &values) {
             sets.push(vec![name.clone(), rival_name.clone()]);
             told.push(rival_name.clone());
             let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == rival_name);
-            ambiguous |= candidate.form.free.len() <= own.form.free.len() && !preferred;
+            ambiguous |= difference < tie && candidate.form.free.len() <= own.form.free.len() && !preferred;
         }
     }
     if sets.is_empty() {
@@ -126,6 +127,8 @@ const MOST_TRIED: usize = 6;
 
 /// Objectives closer than this are a tie.
 const TIED: f64 = 6.0;
+/// Closer than this a rival is listed beside the named effect (Kass and Raftery 1995: very strong from 10).
+const DOUBTFUL: f64 = 10.0;
 
 /// Two effects that together do what one does.
 fn pair_rivals(

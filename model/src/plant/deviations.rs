@@ -52,7 +52,7 @@ pub struct WheelDeviation {
     pub one_way_nm: [f64; 2],
     /// Viscous friction at the wheel shaft, Nm s/rad.
     pub viscous_nms: f64,
-    /// Wheel angle per angle by the encoder, relative.
+    /// Counts per wheel angle, relative.
     pub encoder: f64,
     /// Share of the counts lost above the threshold.
     pub loss: f64,

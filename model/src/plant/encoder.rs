@@ -34,7 +34,7 @@ impl Plant {
             moved += (e.play[0] - at) / self.gear_ratio;
         }
         let kept = if wheel.speed.abs() > d.loss_threshold { 1.0 - w.loss } else { 1.0 };
-        e.counted += moved * kept / (1.0 + w.encoder);
+        e.counted += moved * kept * (1.0 + w.encoder);
         let ticks = d.encoder_delay_s / dt;
         if ticks <= 0.0 {
             return e.counted;
