@@ -227,7 +227,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         remarks.push(missing(set));
     } else {
         let problem = Problem::Motion(&motion_link);
-        let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds);
+        let matters = gaps::motion_matters(noise);
+        let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
         located.extend(crate::locate::motion(&motion_link, &motion_link.residuals(&nominal.motion(None))));
         let plots = [
             motion_link.residuals(&nominal.motion(None)),
@@ -266,7 +267,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             drive_noise.clone_from(&floor);
             thresholds.drive_correlation = correlation;
             let problem = Problem::Drive(&link);
-            let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds);
+            let matters = gaps::drive_matters(&floor, Sizes::of(robot).stall_nm);
+            let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
             located.extend(crate::locate::drive(&link, &before, &floor, Sizes::of(robot).stall_nm));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
@@ -474,16 +476,27 @@ struct Outcome {
     leftovers: Vec<String>,
 }
 
+/// Selects and judges on one link; a gap of more than `matters` noise floors is not left to adjustments.
 fn study(
     problem: &Problem,
     nominal: &State,
     start: &State,
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
+    matters: f64,
 ) -> Outcome {
     let all = select::candidates(start, catalogue, problem.link());
-    let selection = select::select(problem, start, catalogue, thresholds);
+    let mut selection = select::select(problem, start, catalogue, thresholds);
     let from = start.active.len();
+    let (inherited, count) = problem.linearise_nothing(start).plain();
+    let open = (inherited / count.max(1.0)).sqrt();
+    if !selection.state.active[from..].iter().any(Active::worth)
+        && open > matters
+        && select::figures(&selection.bench).1 < 0.7 * open
+        && let Some(single) = select::single(problem, start, catalogue, thresholds)
+    {
+        selection = single;
+    }
     let bench = &selection.bench;
     let fit = bench.fit_roles(&bench.estimating());
     let covariance = bench.covariance(&bench.estimating(), &fit);

@@ -49,6 +49,11 @@ impl Default for Thresholds {
 }
 
 impl Thresholds {
+    /// The same with next to no margin for what is not named.
+    pub fn narrow(&self) -> Self {
+        Self { held_share: 0.1 * self.held_share, held_switch: 0.1 * self.held_switch, ..self.clone() }
+    }
+
     /// Cost of freeing an effect with this many parameters.
     pub fn cost(&self, parameters: usize) -> f64 {
         self.costs[0] + self.costs[1] * parameters.saturating_sub(1) as f64

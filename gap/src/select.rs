@@ -74,6 +74,25 @@ pub fn select(problem: &Problem, start: &State, catalogue: &[Arc<dyn Effect>], t
     if changed { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
 }
 
+/// The one effect that explains most where nothing may be adjusted but what is tiny: for a gap that matters
+/// although every adjustment that closes it is immaterial by itself.
+pub fn single(
+    problem: &Problem,
+    start: &State,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let all = candidates(start, catalogue, problem.link());
+    let narrow = thresholds.narrow();
+    let bench = Bench::new(problem, start, &all, &narrow);
+    let best = next(problem.link(), &bench, &narrow).filter(|t| t.material)?;
+    let mut state = start.clone();
+    state.active.push(placed(&bench.candidates[best.candidate], &best.values));
+    let settled = settle(problem, &mut state, &all, thresholds);
+    let found = finish(state, settled, start.active.len(), thresholds);
+    found.state.active.last().is_some_and(Active::worth).then_some(found)
+}
+
 /// Replaces each effect by whatever explains the same better, or as well and comes earlier in the
 /// catalogue.
 fn swap(
@@ -253,9 +272,14 @@ fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
     let trials = bench.trials(thresholds);
     let without = bench.held_out(&[]);
     let left_by_laws = bench.left_by_laws();
-    for t in trials.into_iter().take(6) {
+    for t in trials.into_iter().take(8) {
         if t.gain < thresholds.gain {
             return None;
+        }
+        // What is too small to be named brings no parameter along that nothing holds.
+        let loose = |p: &crate::effect::Parameter| p.material.is_infinite();
+        if !t.material && bench.candidates[t.candidate].form.free.iter().any(loose) {
+            continue;
         }
         let with = bench.held_out(&[t.candidate]);
         // What is more than noise: an effect must explain a share of that.
