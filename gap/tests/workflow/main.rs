@@ -78,9 +78,9 @@ fn a_users_effect_stands_beside_the_built_in_ones() {
 fn a_robot_that_is_carried_away_is_unexplained() {
     let mut set = simulate(&Robot::racbot(), &RICH, 2);
     // Somebody takes it by the hand: the camera sees half a metre that no wheel turned.
-    for sample in &mut set.runs[1].camera {
-        let t = set.runs[1].t[sample.tick];
-        sample.pose.x += 0.25 * (1.0 - (0.9 * t).cos());
+    let run = &mut set.runs[1];
+    for sample in &mut run.camera {
+        sample.pose.x += 0.25 * (1.0 - (0.9 * run.t[sample.tick]).cos());
     }
     let a = analyse(&set, &Options::default()).unwrap();
     assert_eq!(a.verdict, Verdict::Unexplained, "{}", a.terminal_summary());
