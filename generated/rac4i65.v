@@ -1,5 +1,5 @@
 // rac4i65
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.0.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.1.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -25,7 +25,10 @@ module rac4i65 (
     output wire kicker_discharge,
     input wire kicker_full,
     input wire emergency_stop,
-    input wire ball_sensor
+    input wire ball_sensor,
+    input wire radio_rx,
+    input wire host_select,
+    input wire [3:0] robot_number
 );
 
     wire [31:0] lad_out;
@@ -55,7 +58,10 @@ module rac4i65 (
         .kicker_discharge(kicker_discharge),
         .kicker_full(kicker_full),
         .emergency_stop(emergency_stop),
-        .ball_sensor(ball_sensor)
+        .ball_sensor(ball_sensor),
+        .radio_rx(radio_rx),
+        .host_select(host_select),
+        .robot_number(robot_number)
     );
 endmodule
 
@@ -82,7 +88,10 @@ module rac4i65_core (
     output reg kicker_discharge,
     input wire kicker_full,
     input wire emergency_stop,
-    input wire ball_sensor
+    input wire ball_sensor,
+    input wire radio_rx,
+    input wire host_select,
+    input wire [3:0] robot_number
 );
 
     // Constants
@@ -91,6 +100,8 @@ module rac4i65_core (
     localparam one_16 = 16'h1;
     localparam sign_30 = 32'hc0000000;
     localparam mask_30 = 32'h3fffffff;
+    localparam at_arm = 6'b1110;
+    localparam at_radio = 6'b101000;
     localparam none = 4'h0;
     localparam all = 4'hf;
     localparam port_direction = 2'b0;
@@ -107,16 +118,17 @@ module rac4i65_core (
 
     wire bus_write_2;
     wire [31:0] bus_write_data_2;
-    reg bus_write_busy;
-    wire bus_overrun;
 
-    reg [5:0] registers_address;
+    wire bus_overrun;
+    wire bus_claims;
+
     reg registers_write;
 
     wire [31:0] registers_read_data;
 
     reg [31:0] registers_commits;
 
+    reg [23:0] registers_radio;
     wire [23:0] registers_tick_period;
     wire registers_tick_period_written;
     wire [3:0] registers_mode;
@@ -139,6 +151,7 @@ module rac4i65_core (
     wire [3:0] registers_index_arm;
     wire [3:0] registers_index_clear;
     wire [1:0] registers_clear_interrupt;
+    wire registers_select_radio;
     wire registers_arm_write;
     wire registers_clear_faults;
     wire [3:0] registers_clear_encoder_error;
@@ -225,6 +238,16 @@ module rac4i65_core (
 
     wire interrupt_int_n;
     wire [1:0] interrupt_status_2;
+
+    reg radio_taken;
+
+    reg radio_select;
+    wire radio_offer;
+    wire [13:0] radio_address;
+    wire [31:0] radio_data;
+    wire radio_selected;
+    wire [7:0] radio_accepted;
+    wire [7:0] radio_dropped;
 
     reg encoders_0_a;
     reg encoders_0_b;
@@ -419,6 +442,12 @@ module rac4i65_core (
     // Intermediate values
     reg tick;
     reg alive;
+    reg radio_turn;
+    reg [13:0] address;
+    reg [5:0] index;
+    reg [31:0] write_data;
+    reg host_writes;
+    reg blocked;
     reg staging;
     reg [31:0] staged;
     reg [7:0] status;
@@ -461,14 +490,15 @@ module rac4i65_core (
         .read_data(read_q_q),
         .write(bus_write_2),
         .write_data(bus_write_data_2),
-        .write_busy(bus_write_busy),
-        .overrun(bus_overrun)
+        .write_busy(blocked),
+        .overrun(bus_overrun),
+        .claims(bus_claims)
     );
     rac4i65_core_registers registers(
         .clock(lclk),
-        .address(registers_address),
+        .address(index),
         .write(registers_write),
-        .data(bus_write_data_2),
+        .data(write_data),
         .read_data(registers_read_data),
         .armed(safety_armed),
         .clock_count(timebase_clock_count),
@@ -482,6 +512,7 @@ module rac4i65_core (
         .stall(stalled),
         .index_status(index_status),
         .interrupt_status(interrupt_status_2),
+        .radio(registers_radio),
         .tick_period(registers_tick_period),
         .tick_period_written(registers_tick_period_written),
         .mode(registers_mode),
@@ -504,6 +535,7 @@ module rac4i65_core (
         .index_arm(registers_index_arm),
         .index_clear(registers_index_clear),
         .clear_interrupt(registers_clear_interrupt),
+        .select_radio(registers_select_radio),
         .arm_write(registers_arm_write),
         .clear_faults(registers_clear_faults),
         .clear_encoder_error(registers_clear_encoder_error),
@@ -524,7 +556,7 @@ module rac4i65_core (
         .window(timebase_window)
     );
     rac4i65_core_decoder decoder(
-        .address(bus_address_2),
+        .address(address),
         .configuration_bank(commit_configuration_bank),
         .set_point_bank(commit_set_point_bank),
         .snapshot_bank(snapshot_read_bank),
@@ -542,8 +574,8 @@ module rac4i65_core (
         .stage_configuration(commit_stage_configuration),
         .commit_set_points(registers_commit_set_points),
         .commit_configuration(registers_commit_configuration),
-        .address(bus_address_2),
-        .data(bus_write_data_2),
+        .address(address),
+        .data(write_data),
         .tick(tick),
         .set_point_bank(commit_set_point_bank),
         .configuration_bank(commit_configuration_bank),
@@ -567,7 +599,7 @@ module rac4i65_core (
         .clock(lclk),
         .emergency_stop(emergency_stop),
         .arm_write(registers_arm_write),
-        .arm_data(bus_write_data_2),
+        .arm_data(write_data),
         .pet(commit_pet),
         .watchdog_timeout(registers_watchdog_timeout),
         .encoder_fault(safety_encoder_fault),
@@ -643,6 +675,22 @@ module rac4i65_core (
         .clear(registers_clear_interrupt),
         .int_n(interrupt_int_n),
         .status(interrupt_status_2)
+    );
+    rac4i65_core_radio radio(
+        .clock(lclk),
+        .rx(radio_rx),
+        .host_select(host_select),
+        .robot(robot_number),
+        .armed(safety_armed),
+        .taken(radio_taken),
+        .select_write(registers_select_radio),
+        .select(radio_select),
+        .offer(radio_offer),
+        .address(radio_address),
+        .data(radio_data),
+        .selected(radio_selected),
+        .accepted(radio_accepted),
+        .dropped(radio_dropped)
     );
     rac4i65_core_encoders encoders_0(
         .clock(lclk),
@@ -960,21 +1008,35 @@ module rac4i65_core (
     always @(*) led_n = ~registers_leds;
     always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
     always @(*) tick = timebase_tick & ~sequencer_running;
-    always @(*) snapshot_read_first = decoder_snapshot_first & bus_read;
-    always @(*) snapshot_read_last = decoder_snapshot_last & bus_read;
-    always @(*) registers_address = bus_address_2[(32'h0)+:(6)];
-    always @(*) registers_write = decoder_in_registers & bus_write_2;
+    always @(*) radio_turn = radio_offer & ~bus_claims;
 
     always @(*) begin
-        staged = bus_write_data_2 & mask_30;
-        if (bus_write_data_2[32'h1d]) begin
-            staged = bus_write_data_2 | sign_30;
+        address = radio_address;
+        write_data = radio_data;
+        if (bus_claims) begin
+            address = bus_address_2;
+            write_data = bus_write_data_2;
+        end
+    end
+
+    always @(*) index = address[(32'h0)+:(6)];
+    always @(*) host_writes = bus_write_2 & (~radio_selected | (index == at_arm) | (index == at_radio));
+    always @(*) snapshot_read_first = decoder_snapshot_first & bus_read;
+    always @(*) snapshot_read_last = decoder_snapshot_last & bus_read;
+    always @(*) registers_write = decoder_in_registers & (host_writes | radio_turn);
+
+    always @(*) begin
+        staged = write_data & mask_30;
+        if (write_data[32'h1d]) begin
+            staged = write_data | sign_30;
         end
     end
 
     always @(*) staging = decoder_stages_set_point | decoder_stages_configuration;
-    always @(*) sequencer_bus_write = staging & bus_write_2;
-    always @(*) bus_write_busy = staging & sequencer_bus_blocked;
+    always @(*) blocked = staging & sequencer_bus_blocked;
+    always @(*) radio_taken = radio_turn & ~blocked;
+    always @(*) radio_select = write_data[32'h0];
+    always @(*) sequencer_bus_write = staging & (radio_turn | (bus_write_2 & ~radio_selected));
     always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
     always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
 
@@ -1266,6 +1328,7 @@ module rac4i65_core (
     always @(*) shut = ~(safety_armed & alive);
     always @(*) holds = registers_kicker_control[32'h2] & ~safety_stopped & alive;
     always @(*) kicker_discharge = shut & ~holds;
+    always @(*) registers_radio = ((radio_selected) & 24'hffffff) | (((radio_accepted) & 24'hffffff) << 32'h8) | (((radio_dropped) & 24'hffffff) << 32'h10);
     always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
     always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6) | (((kicker_is_full) & 8'hff) << 32'h7);
 endmodule
@@ -1285,7 +1348,8 @@ module rac4i65_core_bus (
     output reg write,
     output reg [31:0] write_data,
     input wire write_busy,
-    output reg overrun
+    output reg overrun,
+    output reg claims
 );
 
     // Constants
@@ -1444,6 +1508,7 @@ module rac4i65_core_bus (
     always @(*) read = fetch_q;
     always @(*) write = offer_q & ~write_busy;
     always @(*) write_data = from_host_q;
+    always @(*) claims = fetch_q | offer_q;
     always @(*) overrun = offer_q & write_busy & expired;
 endmodule
 
@@ -1465,6 +1530,7 @@ module rac4i65_core_registers (
     input wire [3:0] stall,
     input wire [7:0] index_status,
     input wire [1:0] interrupt_status,
+    input wire [23:0] radio,
     output reg [23:0] tick_period,
     output reg tick_period_written,
     output reg [3:0] mode,
@@ -1487,6 +1553,7 @@ module rac4i65_core_registers (
     output reg [3:0] index_arm,
     output reg [3:0] index_clear,
     output reg [1:0] clear_interrupt,
+    output reg select_radio,
     output reg arm_write,
     output reg clear_faults,
     output reg [3:0] clear_encoder_error,
@@ -1497,16 +1564,16 @@ module rac4i65_core_registers (
 
     // Constants
     localparam cookie = 32'h52414334;
-    localparam version = 32'h20000;
+    localparam version = 32'h20001;
     localparam board = 32'h34493635;
     localparam clock_hz = 32'h1fca055;
-    localparam blocks = 32'h7f444;
+    localparam blocks = 32'hff444;
     localparam axes = 32'h4;
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h08b2cc5e;
+    localparam content_hash = 32'hfe0ffc05;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1627,6 +1694,7 @@ module rac4i65_core_registers (
         index_clear_q_d = index_clear_q_q;
         tick_period_written = 1'b0;
         arm_write = 1'b0;
+        select_radio = 1'b0;
         clear_faults = 1'b0;
         commit_set_points = 1'b0;
         commit_configuration = 1'b0;
@@ -1768,6 +1836,10 @@ module rac4i65_core_registers (
                 39:
                 begin
                     clear_interrupt = data[(32'h0)+:(2)];
+                end
+                40:
+                begin
+                    select_radio = 1'b1;
                 end
                 default:
                 begin
@@ -1919,6 +1991,10 @@ module rac4i65_core_registers (
             39:
             begin
                 read_q_d = ((interrupt_status) & 32'hffffffff);
+            end
+            40:
+            begin
+                read_q_d = ((radio) & 32'hffffffff);
             end
             default:
             begin
@@ -5083,6 +5159,1102 @@ module rac4i65_core_interrupt (
     always @(*) status = causes_q;
 endmodule
 
+module rac4i65_core_radio (
+    input wire clock,
+    input wire rx,
+    input wire host_select,
+    input wire [3:0] robot,
+    input wire armed,
+    input wire taken,
+    input wire select_write,
+    input wire select,
+    output reg offer,
+    output reg [13:0] address,
+    output reg [31:0] data,
+    output reg selected,
+    output reg [7:0] accepted,
+    output reg [7:0] dropped
+);
+
+    // Constants
+    localparam gap = 5'b10100;
+    localparam no_quiet = 5'b0;
+    localparam one_quiet = 5'b1;
+    localparam strap_end = 4'hf;
+    localparam strap_last = 4'he;
+    localparam strap_first = 4'h7;
+    localparam one_strap = 4'h1;
+    localparam head = 8'ha1;
+    localparam no_robot = 4'h0;
+    localparam no_byte = 8'h0;
+    localparam residue = 32'hdebb20e3;
+    localparam at_head = 3'b0;
+    localparam at_robot = 3'b1;
+    localparam at_length = 3'b10;
+    localparam at_sequence = 3'b11;
+    localparam at_payload = 3'b100;
+    localparam at_crc = 3'b101;
+    localparam at_end = 3'b110;
+    localparam first_inner = 3'b0;
+    localparam one_inner = 3'b1;
+    localparam last_of_write = 3'b100;
+    localparam last_of_crc = 3'b11;
+    localparam all_gathered = 3'b101;
+    localparam one_write = 7'b1;
+    localparam first_byte = 9'b0;
+    localparam one_byte = 9'b1;
+    localparam one_frame = 8'h1;
+    localparam page_bit_0 = 14'b1000000;
+    localparam page_bit_1 = 14'b10000000;
+    localparam page_bit_2 = 14'b100000000;
+
+    // Pins of the parts
+
+    reg receiver_enable;
+    wire receiver_level;
+    wire receiver_hearing;
+    wire receiver_bit_time;
+    wire receiver_start;
+    wire receiver_data_bit;
+    wire receiver_byte_done;
+    wire receiver_broken;
+    wire [7:0] receiver_value;
+
+    wire [31:0] check_state;
+
+    wire [7:0] memory_read_data;
+
+    reg memory_write_enable;
+    reg low_1_d;
+    wire low_1_q;
+
+    reg low_2_d;
+    wire low_2_q;
+
+    reg [3:0] robot_1_d;
+    wire [3:0] robot_1_q;
+
+    reg [3:0] robot_number_d;
+    wire [3:0] robot_number_q;
+
+    reg [3:0] settling_d;
+    wire [3:0] settling_q;
+
+    reg steady_d;
+    wire steady_q;
+
+    reg commands_d;
+    wire commands_q;
+
+    reg [4:0] quiet_d;
+    wire [4:0] quiet_q;
+
+    reg listening_d;
+    wire listening_q;
+
+    reg [2:0] stage_d;
+    wire [2:0] stage_q;
+
+    reg [2:0] inner_d;
+    wire [2:0] inner_q;
+
+    reg [6:0] count_d;
+    wire [6:0] count_q;
+
+    reg [6:0] total_d;
+    wire [6:0] total_q;
+
+    reg [7:0] number_d;
+    wire [7:0] number_q;
+
+    reg [7:0] last_number_d;
+    wire [7:0] last_number_q;
+
+    reg [8:0] pointer_d;
+    wire [8:0] pointer_q;
+
+    reg playing_d;
+    wire playing_q;
+
+    reg offering_d;
+    wire offering_q;
+
+    reg [7:0] code_d;
+    wire [7:0] code_q;
+
+    reg [31:0] word_d;
+    wire [31:0] word_q;
+
+    reg [7:0] accepted_count_d;
+    wire [7:0] accepted_count_q;
+
+    reg [7:0] dropped_count_d;
+    wire [7:0] dropped_count_q;
+
+    // Intermediate values
+    reg settled;
+    reg silent;
+    reg boundary;
+    reg [7:0] ahead;
+    reg fresh;
+    reg whole;
+    reg accepts;
+    reg refuses;
+    reg heard;
+    reg [7:0] value;
+    reg length_fits;
+    reg last_write;
+    reg [13:0] page;
+    reg high_page;
+
+    // Parts
+    rac4i65_core_radio_receiver receiver(
+        .clock(clock),
+        .rx(rx),
+        .enable(receiver_enable),
+        .level(receiver_level),
+        .hearing(receiver_hearing),
+        .bit_time(receiver_bit_time),
+        .start(receiver_start),
+        .data_bit(receiver_data_bit),
+        .byte_done(receiver_byte_done),
+        .broken(receiver_broken),
+        .value(receiver_value)
+    );
+    rac4i65_core_radio_check check(
+        .clock(clock),
+        .clear(silent),
+        .shift(receiver_data_bit),
+        .line(receiver_level),
+        .state(check_state)
+    );
+    rac4i65_core_radio_memory memory(
+        .clock(clock),
+        .read_address(pointer_q),
+        .read_data(memory_read_data),
+        .write_address(pointer_q),
+        .write_data(value),
+        .write_enable(memory_write_enable)
+    );
+    rac4i65_core_dff_1 low_1 (.d(low_1_d), .q(low_1_q), .clock(clock));
+    rac4i65_core_dff_1 low_2 (.d(low_2_d), .q(low_2_q), .clock(clock));
+    rac4i65_core_dff_4 robot_1 (.d(robot_1_d), .q(robot_1_q), .clock(clock));
+    rac4i65_core_dff_4 robot_number (.d(robot_number_d), .q(robot_number_q), .clock(clock));
+    rac4i65_core_dff_4 settling (.d(settling_d), .q(settling_q), .clock(clock));
+    rac4i65_core_dff_1 steady (.d(steady_d), .q(steady_q), .clock(clock));
+    rac4i65_core_dff_1 commands (.d(commands_d), .q(commands_q), .clock(clock));
+    rac4i65_core_dff_5 quiet (.d(quiet_d), .q(quiet_q), .clock(clock));
+    rac4i65_core_dff_1 listening (.d(listening_d), .q(listening_q), .clock(clock));
+    rac4i65_core_dff_3 stage (.d(stage_d), .q(stage_q), .clock(clock));
+    rac4i65_core_dff_3 inner (.d(inner_d), .q(inner_q), .clock(clock));
+    rac4i65_core_dff_7 count (.d(count_d), .q(count_q), .clock(clock));
+    rac4i65_core_dff_7 total (.d(total_d), .q(total_q), .clock(clock));
+    rac4i65_core_dff_8 number (.d(number_d), .q(number_q), .clock(clock));
+    rac4i65_core_dff_8_from_ff last_number (.d(last_number_d), .q(last_number_q), .clock(clock));
+    rac4i65_core_dff_9 pointer (.d(pointer_d), .q(pointer_q), .clock(clock));
+    rac4i65_core_dff_1 playing (.d(playing_d), .q(playing_q), .clock(clock));
+    rac4i65_core_dff_1 offering (.d(offering_d), .q(offering_q), .clock(clock));
+    rac4i65_core_dff_8 code (.d(code_d), .q(code_q), .clock(clock));
+    rac4i65_core_dff_32 word (.d(word_d), .q(word_q), .clock(clock));
+    rac4i65_core_dff_8 accepted_count (.d(accepted_count_d), .q(accepted_count_q), .clock(clock));
+    rac4i65_core_dff_8 dropped_count (.d(dropped_count_d), .q(dropped_count_q), .clock(clock));
+
+    always @(*) begin
+        low_1_d = low_1_q;
+        low_1_d = ~host_select;
+        receiver_enable = 1'b1;
+    end
+
+    always @(*) begin
+        low_2_d = low_2_q;
+        low_2_d = low_1_q;
+    end
+
+    always @(*) begin
+        robot_1_d = robot_1_q;
+        robot_1_d = robot;
+    end
+
+    always @(*) begin
+        robot_number_d = robot_number_q;
+        settling_d = settling_q;
+        steady_d = steady_q;
+        commands_d = commands_q;
+        if (~settled) begin
+            settling_d = settling_q + one_strap;
+            steady_d = low_2_q & (steady_q | (settling_q == strap_first));
+            if (settling_q == strap_last) begin
+                commands_d = steady_q & low_2_q;
+                robot_number_d = robot_1_q;
+            end
+        end
+        if (select_write & ~armed) begin
+            commands_d = select;
+        end
+    end
+
+    always @(*) begin
+        quiet_d = quiet_q;
+        if (~receiver_level | receiver_hearing) begin
+            quiet_d = no_quiet;
+        end
+        else if (receiver_bit_time & ~silent) begin
+            quiet_d = quiet_q + one_quiet;
+        end
+    end
+
+    always @(*) begin
+        listening_d = listening_q;
+        stage_d = stage_q;
+        inner_d = inner_q;
+        count_d = count_q;
+        total_d = total_q;
+        number_d = number_q;
+        last_number_d = last_number_q;
+        pointer_d = pointer_q;
+        playing_d = playing_q;
+        offering_d = offering_q;
+        code_d = code_q;
+        word_d = word_q;
+        accepted_count_d = accepted_count_q;
+        dropped_count_d = dropped_count_q;
+        if (playing_q) begin
+            if (offering_q) begin
+                if (taken) begin
+                    offering_d = 1'b0;
+                    count_d = count_q + one_write;
+                    playing_d = ~last_write;
+                end
+            end
+            else begin
+                if (inner_q != first_inner) begin
+                    code_d = word_q[(32'h0)+:(8)];
+                    word_d = (word_q >> 32'h8) | (((memory_read_data) & 32'hffffffff) << 32'h18);
+                end
+                if (inner_q == all_gathered) begin
+                    inner_d = first_inner;
+                    offering_d = 1'b1;
+                end
+                else begin
+                    inner_d = inner_q + one_inner;
+                    pointer_d = pointer_q + one_byte;
+                end
+            end
+        end
+        memory_write_enable = 1'b0;
+        refuses = receiver_broken & listening_q;
+        if (heard) begin
+            case (stage_q)
+                0:
+                begin
+                    stage_d = at_robot;
+                    refuses = value != head;
+                end
+                1:
+                begin
+                    stage_d = at_length;
+                    if ((value[(32'h0)+:(4)] != robot_number_q) | (value[(32'h4)+:(4)] != no_robot)) begin
+                        stage_d = at_head;
+                        listening_d = 1'b0;
+                    end
+                end
+                2:
+                begin
+                    stage_d = at_sequence;
+                    refuses = ~length_fits;
+                    total_d = value[(32'h0)+:(7)];
+                    count_d = one_write;
+                    pointer_d = first_byte;
+                    inner_d = first_inner;
+                end
+                3:
+                begin
+                    stage_d = at_payload;
+                    number_d = value;
+                end
+                4:
+                begin
+                    memory_write_enable = 1'b1;
+                    pointer_d = pointer_q + one_byte;
+                    inner_d = inner_q + one_inner;
+                    if (inner_q == last_of_write) begin
+                        inner_d = first_inner;
+                        count_d = count_q + one_write;
+                        if (last_write) begin
+                            stage_d = at_crc;
+                        end
+                    end
+                end
+                5:
+                begin
+                    inner_d = inner_q + one_inner;
+                    if (inner_q == last_of_crc) begin
+                        stage_d = at_end;
+                        inner_d = first_inner;
+                    end
+                end
+                default:
+                begin
+                    refuses = 1'b1;
+                end
+            endcase
+        end
+        accepts = 1'b0;
+        if (boundary) begin
+            listening_d = 1'b1;
+            stage_d = at_head;
+            if (listening_q) begin
+                accepts = whole & fresh;
+                refuses = ~(whole & fresh);
+            end
+        end
+        if (accepts) begin
+            accepted_count_d = accepted_count_q + one_frame;
+            last_number_d = number_q;
+            if (commands_q) begin
+                listening_d = 1'b0;
+                playing_d = 1'b1;
+                count_d = one_write;
+                pointer_d = first_byte;
+            end
+        end
+        if (refuses) begin
+            dropped_count_d = dropped_count_q + one_frame;
+            stage_d = at_head;
+            if (~boundary) begin
+                listening_d = 1'b0;
+            end
+        end
+    end
+
+    always @(*) settled = settling_q == strap_end;
+    always @(*) heard = receiver_byte_done & listening_q;
+    always @(*) value = receiver_value;
+    always @(*) silent = quiet_q == gap;
+    always @(*) last_write = count_q == total_q;
+    always @(*) length_fits = (value != no_byte) & ~value[32'h7] & ~(value[32'h6] & value[32'h5]);
+    always @(*) boundary = silent & ~playing_q & (~listening_q | (stage_q != at_head));
+    always @(*) ahead = number_q - last_number_q;
+    always @(*) fresh = (ahead != no_byte) & ~(armed & ahead[32'h7]);
+    always @(*) whole = (stage_q == at_end) & (check_state == residue);
+
+    always @(*) begin
+        page = ((code_q[(32'h0)+:(6)]) & 14'h3fff);
+        high_page = code_q[32'h6] | code_q[32'h7];
+    end
+
+    always @(*) begin
+        address = page;
+        if (high_page) begin
+            address = page | page_bit_2;
+            if (code_q[32'h7]) begin
+                address = page | page_bit_2 | page_bit_1;
+                if (code_q[32'h6]) begin
+                    address = page | page_bit_2 | page_bit_1 | page_bit_0;
+                end
+            end
+        end
+    end
+
+    always @(*) offer = offering_q;
+    always @(*) data = word_q;
+    always @(*) selected = commands_q;
+    always @(*) accepted = accepted_count_q;
+    always @(*) dropped = dropped_count_q;
+endmodule
+
+module rac4i65_core_radio_receiver (
+    input wire clock,
+    input wire rx,
+    input wire enable,
+    output reg level,
+    output reg hearing,
+    output reg bit_time,
+    output reg start,
+    output reg data_bit,
+    output reg byte_done,
+    output reg broken,
+    output reg [7:0] value
+);
+
+    // Constants
+    localparam half_bit = 9'b10001111;
+    localparam whole_bit = 9'b100100000;
+    localparam no_clocks = 9'b0;
+    localparam one_clock = 9'b1;
+    localparam no_bits = 4'h0;
+    localparam one_bit = 4'h1;
+    localparam stop_bit = 4'h9;
+    localparam top_bit = 8'h80;
+
+    // Pins of the parts
+    reg low_1_d;
+    wire low_1_q;
+
+    reg low_2_d;
+    wire low_2_q;
+
+    reg hears_d;
+    wire hears_q;
+
+    reg [8:0] clocks_d;
+    wire [8:0] clocks_q;
+
+    reg [3:0] bits_d;
+    wire [3:0] bits_q;
+
+    reg [7:0] shift_d;
+    wire [7:0] shift_q;
+
+    // Intermediate values
+    reg high;
+    reg due;
+    reg sampling;
+    reg starts;
+    reg first;
+    reg stop;
+
+    // Parts
+    rac4i65_core_dff_1 low_1 (.d(low_1_d), .q(low_1_q), .clock(clock));
+    rac4i65_core_dff_1 low_2 (.d(low_2_d), .q(low_2_q), .clock(clock));
+    rac4i65_core_dff_1 hears (.d(hears_d), .q(hears_q), .clock(clock));
+    rac4i65_core_dff_9 clocks (.d(clocks_d), .q(clocks_q), .clock(clock));
+    rac4i65_core_dff_4 bits (.d(bits_d), .q(bits_q), .clock(clock));
+    rac4i65_core_dff_8 shift (.d(shift_d), .q(shift_q), .clock(clock));
+
+    always @(*) begin
+        low_1_d = low_1_q;
+        low_1_d = ~rx;
+    end
+
+    always @(*) begin
+        low_2_d = low_2_q;
+        low_2_d = low_1_q;
+    end
+
+    always @(*) begin
+        hears_d = hears_q;
+        clocks_d = clocks_q;
+        bits_d = bits_q;
+        shift_d = shift_q;
+        clocks_d = clocks_q - one_clock;
+        if (due) begin
+            clocks_d = whole_bit;
+        end
+        if (sampling) begin
+            bits_d = bits_q + one_bit;
+            if (first) begin
+                hears_d = low_2_q;
+            end
+            else if (stop) begin
+                hears_d = 1'b0;
+            end
+            else begin
+                shift_d = shift_q >> 32'h1;
+                if (high) begin
+                    shift_d = (shift_q >> 32'h1) | top_bit;
+                end
+            end
+        end
+        if (starts) begin
+            hears_d = 1'b1;
+            clocks_d = half_bit;
+            bits_d = no_bits;
+        end
+    end
+
+    always @(*) high = ~low_2_q;
+    always @(*) starts = low_2_q & enable & ~hears_q;
+    always @(*) due = clocks_q == no_clocks;
+    always @(*) sampling = hears_q & due;
+
+    always @(*) begin
+        first = bits_q == no_bits;
+        stop = bits_q == stop_bit;
+    end
+
+    always @(*) bit_time = due;
+    always @(*) level = high;
+    always @(*) hearing = hears_q;
+    always @(*) start = starts;
+    always @(*) data_bit = sampling & ~first & ~stop;
+    always @(*) byte_done = sampling & stop & high;
+    always @(*) broken = sampling & stop & low_2_q;
+    always @(*) value = shift_q;
+endmodule
+
+module rac4i65_core_radio_check (
+    input wire clock,
+    input wire clear,
+    input wire shift,
+    input wire line,
+    output reg [31:0] state
+);
+
+    // Constants
+    localparam taps = 32'hedb88320;
+    localparam zero = 32'h0;
+
+    // Pins of the parts
+    reg [31:0] register_d;
+    wire [31:0] register_q;
+
+    // Intermediate values
+    reg feedback;
+
+    // Parts
+    rac4i65_core_dff_32 register (.d(register_d), .q(register_q), .clock(clock));
+
+    always @(*) begin
+        register_d = register_q;
+        if (shift) begin
+            register_d = register_q >> 32'h1;
+            if (feedback) begin
+                register_d = (register_q >> 32'h1) ^ taps;
+            end
+        end
+        if (clear) begin
+            register_d = ~zero;
+        end
+    end
+
+    always @(*) feedback = register_q[32'h0] ^ line;
+    always @(*) state = register_q;
+endmodule
+
+module rac4i65_core_radio_memory (
+    input wire clock,
+    input wire [8:0] read_address,
+    output reg [7:0] read_data,
+    input wire [8:0] write_address,
+    input wire [7:0] write_data,
+    input wire write_enable
+);
+
+    reg [7:0] mem [0:511];
+
+    initial begin
+        read_data = 8'h0;
+        mem[0] = 8'h0;
+        mem[1] = 8'h0;
+        mem[2] = 8'h0;
+        mem[3] = 8'h0;
+        mem[4] = 8'h0;
+        mem[5] = 8'h0;
+        mem[6] = 8'h0;
+        mem[7] = 8'h0;
+        mem[8] = 8'h0;
+        mem[9] = 8'h0;
+        mem[10] = 8'h0;
+        mem[11] = 8'h0;
+        mem[12] = 8'h0;
+        mem[13] = 8'h0;
+        mem[14] = 8'h0;
+        mem[15] = 8'h0;
+        mem[16] = 8'h0;
+        mem[17] = 8'h0;
+        mem[18] = 8'h0;
+        mem[19] = 8'h0;
+        mem[20] = 8'h0;
+        mem[21] = 8'h0;
+        mem[22] = 8'h0;
+        mem[23] = 8'h0;
+        mem[24] = 8'h0;
+        mem[25] = 8'h0;
+        mem[26] = 8'h0;
+        mem[27] = 8'h0;
+        mem[28] = 8'h0;
+        mem[29] = 8'h0;
+        mem[30] = 8'h0;
+        mem[31] = 8'h0;
+        mem[32] = 8'h0;
+        mem[33] = 8'h0;
+        mem[34] = 8'h0;
+        mem[35] = 8'h0;
+        mem[36] = 8'h0;
+        mem[37] = 8'h0;
+        mem[38] = 8'h0;
+        mem[39] = 8'h0;
+        mem[40] = 8'h0;
+        mem[41] = 8'h0;
+        mem[42] = 8'h0;
+        mem[43] = 8'h0;
+        mem[44] = 8'h0;
+        mem[45] = 8'h0;
+        mem[46] = 8'h0;
+        mem[47] = 8'h0;
+        mem[48] = 8'h0;
+        mem[49] = 8'h0;
+        mem[50] = 8'h0;
+        mem[51] = 8'h0;
+        mem[52] = 8'h0;
+        mem[53] = 8'h0;
+        mem[54] = 8'h0;
+        mem[55] = 8'h0;
+        mem[56] = 8'h0;
+        mem[57] = 8'h0;
+        mem[58] = 8'h0;
+        mem[59] = 8'h0;
+        mem[60] = 8'h0;
+        mem[61] = 8'h0;
+        mem[62] = 8'h0;
+        mem[63] = 8'h0;
+        mem[64] = 8'h0;
+        mem[65] = 8'h0;
+        mem[66] = 8'h0;
+        mem[67] = 8'h0;
+        mem[68] = 8'h0;
+        mem[69] = 8'h0;
+        mem[70] = 8'h0;
+        mem[71] = 8'h0;
+        mem[72] = 8'h0;
+        mem[73] = 8'h0;
+        mem[74] = 8'h0;
+        mem[75] = 8'h0;
+        mem[76] = 8'h0;
+        mem[77] = 8'h0;
+        mem[78] = 8'h0;
+        mem[79] = 8'h0;
+        mem[80] = 8'h0;
+        mem[81] = 8'h0;
+        mem[82] = 8'h0;
+        mem[83] = 8'h0;
+        mem[84] = 8'h0;
+        mem[85] = 8'h0;
+        mem[86] = 8'h0;
+        mem[87] = 8'h0;
+        mem[88] = 8'h0;
+        mem[89] = 8'h0;
+        mem[90] = 8'h0;
+        mem[91] = 8'h0;
+        mem[92] = 8'h0;
+        mem[93] = 8'h0;
+        mem[94] = 8'h0;
+        mem[95] = 8'h0;
+        mem[96] = 8'h0;
+        mem[97] = 8'h0;
+        mem[98] = 8'h0;
+        mem[99] = 8'h0;
+        mem[100] = 8'h0;
+        mem[101] = 8'h0;
+        mem[102] = 8'h0;
+        mem[103] = 8'h0;
+        mem[104] = 8'h0;
+        mem[105] = 8'h0;
+        mem[106] = 8'h0;
+        mem[107] = 8'h0;
+        mem[108] = 8'h0;
+        mem[109] = 8'h0;
+        mem[110] = 8'h0;
+        mem[111] = 8'h0;
+        mem[112] = 8'h0;
+        mem[113] = 8'h0;
+        mem[114] = 8'h0;
+        mem[115] = 8'h0;
+        mem[116] = 8'h0;
+        mem[117] = 8'h0;
+        mem[118] = 8'h0;
+        mem[119] = 8'h0;
+        mem[120] = 8'h0;
+        mem[121] = 8'h0;
+        mem[122] = 8'h0;
+        mem[123] = 8'h0;
+        mem[124] = 8'h0;
+        mem[125] = 8'h0;
+        mem[126] = 8'h0;
+        mem[127] = 8'h0;
+        mem[128] = 8'h0;
+        mem[129] = 8'h0;
+        mem[130] = 8'h0;
+        mem[131] = 8'h0;
+        mem[132] = 8'h0;
+        mem[133] = 8'h0;
+        mem[134] = 8'h0;
+        mem[135] = 8'h0;
+        mem[136] = 8'h0;
+        mem[137] = 8'h0;
+        mem[138] = 8'h0;
+        mem[139] = 8'h0;
+        mem[140] = 8'h0;
+        mem[141] = 8'h0;
+        mem[142] = 8'h0;
+        mem[143] = 8'h0;
+        mem[144] = 8'h0;
+        mem[145] = 8'h0;
+        mem[146] = 8'h0;
+        mem[147] = 8'h0;
+        mem[148] = 8'h0;
+        mem[149] = 8'h0;
+        mem[150] = 8'h0;
+        mem[151] = 8'h0;
+        mem[152] = 8'h0;
+        mem[153] = 8'h0;
+        mem[154] = 8'h0;
+        mem[155] = 8'h0;
+        mem[156] = 8'h0;
+        mem[157] = 8'h0;
+        mem[158] = 8'h0;
+        mem[159] = 8'h0;
+        mem[160] = 8'h0;
+        mem[161] = 8'h0;
+        mem[162] = 8'h0;
+        mem[163] = 8'h0;
+        mem[164] = 8'h0;
+        mem[165] = 8'h0;
+        mem[166] = 8'h0;
+        mem[167] = 8'h0;
+        mem[168] = 8'h0;
+        mem[169] = 8'h0;
+        mem[170] = 8'h0;
+        mem[171] = 8'h0;
+        mem[172] = 8'h0;
+        mem[173] = 8'h0;
+        mem[174] = 8'h0;
+        mem[175] = 8'h0;
+        mem[176] = 8'h0;
+        mem[177] = 8'h0;
+        mem[178] = 8'h0;
+        mem[179] = 8'h0;
+        mem[180] = 8'h0;
+        mem[181] = 8'h0;
+        mem[182] = 8'h0;
+        mem[183] = 8'h0;
+        mem[184] = 8'h0;
+        mem[185] = 8'h0;
+        mem[186] = 8'h0;
+        mem[187] = 8'h0;
+        mem[188] = 8'h0;
+        mem[189] = 8'h0;
+        mem[190] = 8'h0;
+        mem[191] = 8'h0;
+        mem[192] = 8'h0;
+        mem[193] = 8'h0;
+        mem[194] = 8'h0;
+        mem[195] = 8'h0;
+        mem[196] = 8'h0;
+        mem[197] = 8'h0;
+        mem[198] = 8'h0;
+        mem[199] = 8'h0;
+        mem[200] = 8'h0;
+        mem[201] = 8'h0;
+        mem[202] = 8'h0;
+        mem[203] = 8'h0;
+        mem[204] = 8'h0;
+        mem[205] = 8'h0;
+        mem[206] = 8'h0;
+        mem[207] = 8'h0;
+        mem[208] = 8'h0;
+        mem[209] = 8'h0;
+        mem[210] = 8'h0;
+        mem[211] = 8'h0;
+        mem[212] = 8'h0;
+        mem[213] = 8'h0;
+        mem[214] = 8'h0;
+        mem[215] = 8'h0;
+        mem[216] = 8'h0;
+        mem[217] = 8'h0;
+        mem[218] = 8'h0;
+        mem[219] = 8'h0;
+        mem[220] = 8'h0;
+        mem[221] = 8'h0;
+        mem[222] = 8'h0;
+        mem[223] = 8'h0;
+        mem[224] = 8'h0;
+        mem[225] = 8'h0;
+        mem[226] = 8'h0;
+        mem[227] = 8'h0;
+        mem[228] = 8'h0;
+        mem[229] = 8'h0;
+        mem[230] = 8'h0;
+        mem[231] = 8'h0;
+        mem[232] = 8'h0;
+        mem[233] = 8'h0;
+        mem[234] = 8'h0;
+        mem[235] = 8'h0;
+        mem[236] = 8'h0;
+        mem[237] = 8'h0;
+        mem[238] = 8'h0;
+        mem[239] = 8'h0;
+        mem[240] = 8'h0;
+        mem[241] = 8'h0;
+        mem[242] = 8'h0;
+        mem[243] = 8'h0;
+        mem[244] = 8'h0;
+        mem[245] = 8'h0;
+        mem[246] = 8'h0;
+        mem[247] = 8'h0;
+        mem[248] = 8'h0;
+        mem[249] = 8'h0;
+        mem[250] = 8'h0;
+        mem[251] = 8'h0;
+        mem[252] = 8'h0;
+        mem[253] = 8'h0;
+        mem[254] = 8'h0;
+        mem[255] = 8'h0;
+        mem[256] = 8'h0;
+        mem[257] = 8'h0;
+        mem[258] = 8'h0;
+        mem[259] = 8'h0;
+        mem[260] = 8'h0;
+        mem[261] = 8'h0;
+        mem[262] = 8'h0;
+        mem[263] = 8'h0;
+        mem[264] = 8'h0;
+        mem[265] = 8'h0;
+        mem[266] = 8'h0;
+        mem[267] = 8'h0;
+        mem[268] = 8'h0;
+        mem[269] = 8'h0;
+        mem[270] = 8'h0;
+        mem[271] = 8'h0;
+        mem[272] = 8'h0;
+        mem[273] = 8'h0;
+        mem[274] = 8'h0;
+        mem[275] = 8'h0;
+        mem[276] = 8'h0;
+        mem[277] = 8'h0;
+        mem[278] = 8'h0;
+        mem[279] = 8'h0;
+        mem[280] = 8'h0;
+        mem[281] = 8'h0;
+        mem[282] = 8'h0;
+        mem[283] = 8'h0;
+        mem[284] = 8'h0;
+        mem[285] = 8'h0;
+        mem[286] = 8'h0;
+        mem[287] = 8'h0;
+        mem[288] = 8'h0;
+        mem[289] = 8'h0;
+        mem[290] = 8'h0;
+        mem[291] = 8'h0;
+        mem[292] = 8'h0;
+        mem[293] = 8'h0;
+        mem[294] = 8'h0;
+        mem[295] = 8'h0;
+        mem[296] = 8'h0;
+        mem[297] = 8'h0;
+        mem[298] = 8'h0;
+        mem[299] = 8'h0;
+        mem[300] = 8'h0;
+        mem[301] = 8'h0;
+        mem[302] = 8'h0;
+        mem[303] = 8'h0;
+        mem[304] = 8'h0;
+        mem[305] = 8'h0;
+        mem[306] = 8'h0;
+        mem[307] = 8'h0;
+        mem[308] = 8'h0;
+        mem[309] = 8'h0;
+        mem[310] = 8'h0;
+        mem[311] = 8'h0;
+        mem[312] = 8'h0;
+        mem[313] = 8'h0;
+        mem[314] = 8'h0;
+        mem[315] = 8'h0;
+        mem[316] = 8'h0;
+        mem[317] = 8'h0;
+        mem[318] = 8'h0;
+        mem[319] = 8'h0;
+        mem[320] = 8'h0;
+        mem[321] = 8'h0;
+        mem[322] = 8'h0;
+        mem[323] = 8'h0;
+        mem[324] = 8'h0;
+        mem[325] = 8'h0;
+        mem[326] = 8'h0;
+        mem[327] = 8'h0;
+        mem[328] = 8'h0;
+        mem[329] = 8'h0;
+        mem[330] = 8'h0;
+        mem[331] = 8'h0;
+        mem[332] = 8'h0;
+        mem[333] = 8'h0;
+        mem[334] = 8'h0;
+        mem[335] = 8'h0;
+        mem[336] = 8'h0;
+        mem[337] = 8'h0;
+        mem[338] = 8'h0;
+        mem[339] = 8'h0;
+        mem[340] = 8'h0;
+        mem[341] = 8'h0;
+        mem[342] = 8'h0;
+        mem[343] = 8'h0;
+        mem[344] = 8'h0;
+        mem[345] = 8'h0;
+        mem[346] = 8'h0;
+        mem[347] = 8'h0;
+        mem[348] = 8'h0;
+        mem[349] = 8'h0;
+        mem[350] = 8'h0;
+        mem[351] = 8'h0;
+        mem[352] = 8'h0;
+        mem[353] = 8'h0;
+        mem[354] = 8'h0;
+        mem[355] = 8'h0;
+        mem[356] = 8'h0;
+        mem[357] = 8'h0;
+        mem[358] = 8'h0;
+        mem[359] = 8'h0;
+        mem[360] = 8'h0;
+        mem[361] = 8'h0;
+        mem[362] = 8'h0;
+        mem[363] = 8'h0;
+        mem[364] = 8'h0;
+        mem[365] = 8'h0;
+        mem[366] = 8'h0;
+        mem[367] = 8'h0;
+        mem[368] = 8'h0;
+        mem[369] = 8'h0;
+        mem[370] = 8'h0;
+        mem[371] = 8'h0;
+        mem[372] = 8'h0;
+        mem[373] = 8'h0;
+        mem[374] = 8'h0;
+        mem[375] = 8'h0;
+        mem[376] = 8'h0;
+        mem[377] = 8'h0;
+        mem[378] = 8'h0;
+        mem[379] = 8'h0;
+        mem[380] = 8'h0;
+        mem[381] = 8'h0;
+        mem[382] = 8'h0;
+        mem[383] = 8'h0;
+        mem[384] = 8'h0;
+        mem[385] = 8'h0;
+        mem[386] = 8'h0;
+        mem[387] = 8'h0;
+        mem[388] = 8'h0;
+        mem[389] = 8'h0;
+        mem[390] = 8'h0;
+        mem[391] = 8'h0;
+        mem[392] = 8'h0;
+        mem[393] = 8'h0;
+        mem[394] = 8'h0;
+        mem[395] = 8'h0;
+        mem[396] = 8'h0;
+        mem[397] = 8'h0;
+        mem[398] = 8'h0;
+        mem[399] = 8'h0;
+        mem[400] = 8'h0;
+        mem[401] = 8'h0;
+        mem[402] = 8'h0;
+        mem[403] = 8'h0;
+        mem[404] = 8'h0;
+        mem[405] = 8'h0;
+        mem[406] = 8'h0;
+        mem[407] = 8'h0;
+        mem[408] = 8'h0;
+        mem[409] = 8'h0;
+        mem[410] = 8'h0;
+        mem[411] = 8'h0;
+        mem[412] = 8'h0;
+        mem[413] = 8'h0;
+        mem[414] = 8'h0;
+        mem[415] = 8'h0;
+        mem[416] = 8'h0;
+        mem[417] = 8'h0;
+        mem[418] = 8'h0;
+        mem[419] = 8'h0;
+        mem[420] = 8'h0;
+        mem[421] = 8'h0;
+        mem[422] = 8'h0;
+        mem[423] = 8'h0;
+        mem[424] = 8'h0;
+        mem[425] = 8'h0;
+        mem[426] = 8'h0;
+        mem[427] = 8'h0;
+        mem[428] = 8'h0;
+        mem[429] = 8'h0;
+        mem[430] = 8'h0;
+        mem[431] = 8'h0;
+        mem[432] = 8'h0;
+        mem[433] = 8'h0;
+        mem[434] = 8'h0;
+        mem[435] = 8'h0;
+        mem[436] = 8'h0;
+        mem[437] = 8'h0;
+        mem[438] = 8'h0;
+        mem[439] = 8'h0;
+        mem[440] = 8'h0;
+        mem[441] = 8'h0;
+        mem[442] = 8'h0;
+        mem[443] = 8'h0;
+        mem[444] = 8'h0;
+        mem[445] = 8'h0;
+        mem[446] = 8'h0;
+        mem[447] = 8'h0;
+        mem[448] = 8'h0;
+        mem[449] = 8'h0;
+        mem[450] = 8'h0;
+        mem[451] = 8'h0;
+        mem[452] = 8'h0;
+        mem[453] = 8'h0;
+        mem[454] = 8'h0;
+        mem[455] = 8'h0;
+        mem[456] = 8'h0;
+        mem[457] = 8'h0;
+        mem[458] = 8'h0;
+        mem[459] = 8'h0;
+        mem[460] = 8'h0;
+        mem[461] = 8'h0;
+        mem[462] = 8'h0;
+        mem[463] = 8'h0;
+        mem[464] = 8'h0;
+        mem[465] = 8'h0;
+        mem[466] = 8'h0;
+        mem[467] = 8'h0;
+        mem[468] = 8'h0;
+        mem[469] = 8'h0;
+        mem[470] = 8'h0;
+        mem[471] = 8'h0;
+        mem[472] = 8'h0;
+        mem[473] = 8'h0;
+        mem[474] = 8'h0;
+        mem[475] = 8'h0;
+        mem[476] = 8'h0;
+        mem[477] = 8'h0;
+        mem[478] = 8'h0;
+        mem[479] = 8'h0;
+        mem[480] = 8'h0;
+        mem[481] = 8'h0;
+        mem[482] = 8'h0;
+        mem[483] = 8'h0;
+        mem[484] = 8'h0;
+        mem[485] = 8'h0;
+        mem[486] = 8'h0;
+        mem[487] = 8'h0;
+        mem[488] = 8'h0;
+        mem[489] = 8'h0;
+        mem[490] = 8'h0;
+        mem[491] = 8'h0;
+        mem[492] = 8'h0;
+        mem[493] = 8'h0;
+        mem[494] = 8'h0;
+        mem[495] = 8'h0;
+        mem[496] = 8'h0;
+        mem[497] = 8'h0;
+        mem[498] = 8'h0;
+        mem[499] = 8'h0;
+        mem[500] = 8'h0;
+        mem[501] = 8'h0;
+        mem[502] = 8'h0;
+        mem[503] = 8'h0;
+        mem[504] = 8'h0;
+        mem[505] = 8'h0;
+        mem[506] = 8'h0;
+        mem[507] = 8'h0;
+        mem[508] = 8'h0;
+        mem[509] = 8'h0;
+        mem[510] = 8'h0;
+        mem[511] = 8'h0;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+        if (write_enable) mem[write_address] <= write_data;
+    end
+endmodule
+
 module rac4i65_core_encoders (
     input wire clock,
     input wire a,
@@ -5788,6 +6960,21 @@ module rac4i65_core_dff_6_from_21 (
     end
 endmodule
 
+module rac4i65_core_dff_7 (
+    input wire [6:0] d,
+    output reg [6:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 7'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
 module rac4i65_core_dff_8 (
     input wire [7:0] d,
     output reg [7:0] q,
@@ -5796,6 +6983,21 @@ module rac4i65_core_dff_8 (
 
     initial begin
         q = 8'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_8_from_ff (
+    input wire [7:0] d,
+    output reg [7:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 8'hff;
     end
 
     always @(posedge clock) begin

@@ -1,5 +1,5 @@
 // rac_hx8k
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.0.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.1.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -21,7 +21,10 @@ module rac_hx8k (
     output wire kicker_trigger_n,
     output wire kicker_discharge,
     input wire kicker_full,
-    input wire ball_sensor
+    input wire ball_sensor,
+    input wire radio_rx,
+    input wire host_select,
+    input wire [3:0] robot_number
 );
 
     wire clock;
@@ -49,7 +52,10 @@ module rac_hx8k (
         .kicker_trigger_n(kicker_trigger_n),
         .kicker_discharge(kicker_discharge),
         .kicker_full(kicker_full),
-        .ball_sensor(ball_sensor)
+        .ball_sensor(ball_sensor),
+        .radio_rx(radio_rx),
+        .host_select(host_select),
+        .robot_number(robot_number)
     );
 endmodule
 
@@ -71,7 +77,10 @@ module rac_hx8k_logic (
     output wire kicker_trigger_n,
     output wire kicker_discharge,
     input wire kicker_full,
-    input wire ball_sensor
+    input wire ball_sensor,
+    input wire radio_rx,
+    input wire host_select,
+    input wire [3:0] robot_number
 );
 
     wire ads_n;
@@ -119,7 +128,10 @@ module rac_hx8k_logic (
         .kicker_trigger_n(kicker_trigger_n),
         .kicker_discharge(kicker_discharge),
         .kicker_full(kicker_full),
-        .ball_sensor(ball_sensor)
+        .ball_sensor(ball_sensor),
+        .radio_rx(radio_rx),
+        .host_select(host_select),
+        .robot_number(robot_number)
     );
 endmodule
 
@@ -136,7 +148,6 @@ module rac_hx8k_host (
 );
 
     // Constants
-    localparam half_bit = 6'b1111;
     localparam whole_bit = 6'b100000;
     localparam no_clocks = 6'b0;
     localparam one_clock = 6'b1;
@@ -144,9 +155,6 @@ module rac_hx8k_host (
     localparam one_bit = 4'h1;
     localparam stop_bit = 4'h9;
     localparam no_byte = 8'h0;
-    localparam all_ones = 8'hff;
-    localparam crc_taps = 8'he0;
-    localparam top_bit = 8'h80;
     localparam silent = 14'b10000000000000;
     localparam no_silence = 14'b0;
     localparam one_silence = 14'b1;
@@ -164,27 +172,24 @@ module rac_hx8k_host (
     localparam no_high = 2'b0;
 
     // Pins of the parts
-    reg line_1_d;
-    wire line_1_q;
 
-    reg line_2_d;
-    wire line_2_q;
+    reg receiver_enable;
+    wire receiver_level;
+    wire receiver_hearing;
+    wire receiver_bit_time;
+    wire receiver_start;
+    wire receiver_data_bit;
+    wire receiver_byte_done;
+    wire receiver_broken;
+    wire [7:0] receiver_value;
 
-    reg hearing_d;
-    wire hearing_q;
+    reg rx_check_clear;
 
-    reg [5:0] rx_clocks_d;
-    wire [5:0] rx_clocks_q;
+    wire [7:0] rx_check_state;
 
-    reg [3:0] rx_bit_d;
-    wire [3:0] rx_bit_q;
-
-    reg [7:0] rx_byte_d;
-    wire [7:0] rx_byte_q;
-
-    reg [7:0] rx_crc_d;
-    wire [7:0] rx_crc_q;
-
+    reg tx_check_shift;
+    reg tx_check_line;
+    wire [7:0] tx_check_state;
     reg [13:0] silence_d;
     wire [13:0] silence_q;
 
@@ -224,19 +229,13 @@ module rac_hx8k_host (
     reg [7:0] tx_byte_d;
     wire [7:0] tx_byte_q;
 
-    reg [7:0] tx_crc_d;
-    wire [7:0] tx_crc_q;
-
     reg tx_low_d;
     wire tx_low_q;
 
     // Intermediate values
-    reg level;
-    reg sampling;
     reg byte_done;
     reg [7:0] heard;
-    reg rx_feedback;
-    reg [7:0] next_rx_crc;
+    reg at_start;
     reg good;
     reg reads;
     reg writes;
@@ -244,20 +243,39 @@ module rac_hx8k_host (
     reg tx_tick;
     reg tx_last;
     reg tx_sends_crc;
-    reg tx_feedback;
-    reg [7:0] next_tx_crc;
+    reg answers;
     reg [7:0] next_tx_byte;
     reg [2:0] tx_after;
     reg [2:0] following;
 
     // Parts
-    rac_hx8k_host_dff_1 line_1 (.d(line_1_d), .q(line_1_q), .clock(clock));
-    rac_hx8k_host_dff_1 line_2 (.d(line_2_d), .q(line_2_q), .clock(clock));
-    rac_hx8k_host_dff_1 hearing (.d(hearing_d), .q(hearing_q), .clock(clock));
-    rac_hx8k_host_dff_6 rx_clocks (.d(rx_clocks_d), .q(rx_clocks_q), .clock(clock));
-    rac_hx8k_host_dff_4 rx_bit (.d(rx_bit_d), .q(rx_bit_q), .clock(clock));
-    rac_hx8k_host_dff_8 rx_byte (.d(rx_byte_d), .q(rx_byte_q), .clock(clock));
-    rac_hx8k_host_dff_8 rx_crc (.d(rx_crc_d), .q(rx_crc_q), .clock(clock));
+    rac_hx8k_host_receiver receiver(
+        .clock(clock),
+        .rx(rx),
+        .enable(receiver_enable),
+        .level(receiver_level),
+        .hearing(receiver_hearing),
+        .bit_time(receiver_bit_time),
+        .start(receiver_start),
+        .data_bit(receiver_data_bit),
+        .byte_done(receiver_byte_done),
+        .broken(receiver_broken),
+        .value(receiver_value)
+    );
+    rac_hx8k_host_rx_check rx_check(
+        .clock(clock),
+        .clear(rx_check_clear),
+        .shift(receiver_data_bit),
+        .line(receiver_level),
+        .state(rx_check_state)
+    );
+    rac_hx8k_host_rx_check tx_check(
+        .clock(clock),
+        .clear(answers),
+        .shift(tx_check_shift),
+        .line(tx_check_line),
+        .state(tx_check_state)
+    );
     rac_hx8k_host_dff_14 silence (.d(silence_d), .q(silence_q), .clock(clock));
     rac_hx8k_host_dff_3 position (.d(position_d), .q(position_q), .clock(clock));
     rac_hx8k_host_dff_1 is_write (.d(is_write_d), .q(is_write_q), .clock(clock));
@@ -271,59 +289,12 @@ module rac_hx8k_host (
     rac_hx8k_host_dff_4 tx_bit (.d(tx_bit_d), .q(tx_bit_q), .clock(clock));
     rac_hx8k_host_dff_3 tx_position (.d(tx_position_d), .q(tx_position_q), .clock(clock));
     rac_hx8k_host_dff_8 tx_byte (.d(tx_byte_d), .q(tx_byte_q), .clock(clock));
-    rac_hx8k_host_dff_8 tx_crc (.d(tx_crc_d), .q(tx_crc_q), .clock(clock));
     rac_hx8k_host_dff_1 tx_low (.d(tx_low_d), .q(tx_low_q), .clock(clock));
-
-    always @(*) begin
-        line_1_d = line_1_q;
-        line_1_d = ~rx;
-    end
-
-    always @(*) begin
-        line_2_d = line_2_q;
-        line_2_d = line_1_q;
-    end
-
-    always @(*) begin
-        hearing_d = hearing_q;
-        rx_clocks_d = rx_clocks_q;
-        rx_bit_d = rx_bit_q;
-        rx_byte_d = rx_byte_q;
-        rx_crc_d = rx_crc_q;
-        if (hearing_q) begin
-            rx_clocks_d = rx_clocks_q - one_clock;
-            if (sampling) begin
-                rx_clocks_d = whole_bit;
-                rx_bit_d = rx_bit_q + one_bit;
-                if (rx_bit_q == no_bits) begin
-                    hearing_d = ~level;
-                end
-                else if (rx_bit_q == stop_bit) begin
-                    hearing_d = 1'b0;
-                end
-                else begin
-                    rx_byte_d = rx_byte_q >> 32'h1;
-                    if (level) begin
-                        rx_byte_d = (rx_byte_q >> 32'h1) | top_bit;
-                    end
-                    rx_crc_d = next_rx_crc;
-                end
-            end
-        end
-        else if (~level & ~replying_q & ~waiting_q & ~calling_q) begin
-            hearing_d = 1'b1;
-            rx_clocks_d = half_bit;
-            rx_bit_d = no_bits;
-            if (position_q == start) begin
-                rx_crc_d = all_ones;
-            end
-        end
-    end
 
     always @(*) begin
         silence_d = silence_q;
         silence_d = silence_q + one_silence;
-        if (hearing_q | (position_q == start)) begin
+        if (receiver_hearing | at_start) begin
             silence_d = no_silence;
         end
     end
@@ -340,10 +311,9 @@ module rac_hx8k_host (
         tx_bit_d = tx_bit_q;
         tx_position_d = tx_position_q;
         tx_byte_d = tx_byte_q;
-        tx_crc_d = tx_crc_q;
         tx_low_d = tx_low_q;
         if (byte_done) begin
-            if (position_q == start) begin
+            if (at_start) begin
                 is_write_d = writes;
                 if (reads | writes) begin
                     position_d = one_position;
@@ -376,6 +346,7 @@ module rac_hx8k_host (
                 data_d = from_core;
             end
         end
+        tx_check_shift = 1'b0;
         if (replying_q) begin
             tx_clocks_d = tx_clocks_q - one_clock;
         end
@@ -398,16 +369,15 @@ module rac_hx8k_host (
             else begin
                 tx_low_d = ~tx_byte_q[32'h0];
                 tx_byte_d = tx_byte_q >> 32'h1;
-                tx_crc_d = next_tx_crc;
+                tx_check_shift = 1'b1;
             end
         end
-        if ((waiting_q & ~ready_n) | (frame_done & ~good)) begin
+        if (answers) begin
             replying_d = 1'b1;
             failed_d = frame_done;
             tx_position_d = start;
             tx_bit_d = no_bits;
             tx_clocks_d = whole_bit;
-            tx_crc_d = all_ones;
             tx_byte_d = read_reply;
             if (is_write_q) begin
                 tx_byte_d = write_reply;
@@ -423,25 +393,18 @@ module rac_hx8k_host (
         calling_d = frame_done & good;
     end
 
-    always @(*) level = ~line_2_q;
-    always @(*) sampling = hearing_q & (rx_clocks_q == no_clocks);
-    always @(*) byte_done = sampling & (rx_bit_q == stop_bit) & level;
-    always @(*) heard = rx_byte_q;
-    always @(*) rx_feedback = rx_crc_q[32'h0] ^ level;
+    always @(*) at_start = position_q == start;
+    always @(*) receiver_enable = ~replying_q & ~waiting_q & ~calling_q;
+    always @(*) rx_check_clear = receiver_start & at_start;
+    always @(*) byte_done = receiver_byte_done;
+    always @(*) heard = receiver_value;
 
     always @(*) begin
-        next_rx_crc = rx_crc_q >> 32'h1;
-        if (rx_feedback) begin
-            next_rx_crc = (rx_crc_q >> 32'h1) ^ crc_taps;
-        end
+        reads = at_start & (heard == read_letter);
+        writes = at_start & (heard == write_letter);
     end
 
-    always @(*) begin
-        reads = (position_q == start) & (heard == read_letter);
-        writes = (position_q == start) & (heard == write_letter);
-    end
-
-    always @(*) good = (rx_crc_q == no_byte) & (address_q[(32'he)+:(2)] == no_high);
+    always @(*) good = (rx_check_state == no_byte) & (address_q[(32'he)+:(2)] == no_high);
     always @(*) frame_done = byte_done & ((is_write_q & (position_q == at_crc_of_write)) | (~is_write_q & (position_q == at_crc_of_read)));
     always @(*) ads_n = ~calling_q;
     always @(*) blast_n = ~waiting_q;
@@ -457,24 +420,177 @@ module rac_hx8k_host (
 
     always @(*) tx_sends_crc = tx_position_q == tx_after;
     always @(*) tx_last = tx_sends_crc & (tx_bit_q == stop_bit);
-    always @(*) tx_feedback = tx_crc_q[32'h0] ^ tx_byte_q[32'h0];
-
-    always @(*) begin
-        next_tx_crc = tx_crc_q >> 32'h1;
-        if (tx_feedback) begin
-            next_tx_crc = (tx_crc_q >> 32'h1) ^ crc_taps;
-        end
-    end
 
     always @(*) begin
         next_tx_byte = data_q[(32'h0)+:(8)];
         if (following == tx_after) begin
-            next_tx_byte = tx_crc_q;
+            next_tx_byte = tx_check_state;
         end
     end
 
     always @(*) following = tx_position_q + one_position;
+    always @(*) tx_check_line = tx_byte_q[32'h0];
+    always @(*) answers = (waiting_q & ~ready_n) | (frame_done & ~good);
     always @(*) tx = ~tx_low_q;
+endmodule
+
+module rac_hx8k_host_receiver (
+    input wire clock,
+    input wire rx,
+    input wire enable,
+    output reg level,
+    output reg hearing,
+    output reg bit_time,
+    output reg start,
+    output reg data_bit,
+    output reg byte_done,
+    output reg broken,
+    output reg [7:0] value
+);
+
+    // Constants
+    localparam half_bit = 9'b1111;
+    localparam whole_bit = 9'b100000;
+    localparam no_clocks = 9'b0;
+    localparam one_clock = 9'b1;
+    localparam no_bits = 4'h0;
+    localparam one_bit = 4'h1;
+    localparam stop_bit = 4'h9;
+    localparam top_bit = 8'h80;
+
+    // Pins of the parts
+    reg low_1_d;
+    wire low_1_q;
+
+    reg low_2_d;
+    wire low_2_q;
+
+    reg hears_d;
+    wire hears_q;
+
+    reg [8:0] clocks_d;
+    wire [8:0] clocks_q;
+
+    reg [3:0] bits_d;
+    wire [3:0] bits_q;
+
+    reg [7:0] shift_d;
+    wire [7:0] shift_q;
+
+    // Intermediate values
+    reg high;
+    reg due;
+    reg sampling;
+    reg starts;
+    reg first;
+    reg stop;
+
+    // Parts
+    rac_hx8k_host_dff_1 low_1 (.d(low_1_d), .q(low_1_q), .clock(clock));
+    rac_hx8k_host_dff_1 low_2 (.d(low_2_d), .q(low_2_q), .clock(clock));
+    rac_hx8k_host_dff_1 hears (.d(hears_d), .q(hears_q), .clock(clock));
+    rac_hx8k_host_dff_9 clocks (.d(clocks_d), .q(clocks_q), .clock(clock));
+    rac_hx8k_host_dff_4 bits (.d(bits_d), .q(bits_q), .clock(clock));
+    rac_hx8k_host_dff_8 shift (.d(shift_d), .q(shift_q), .clock(clock));
+
+    always @(*) begin
+        low_1_d = low_1_q;
+        low_1_d = ~rx;
+    end
+
+    always @(*) begin
+        low_2_d = low_2_q;
+        low_2_d = low_1_q;
+    end
+
+    always @(*) begin
+        hears_d = hears_q;
+        clocks_d = clocks_q;
+        bits_d = bits_q;
+        shift_d = shift_q;
+        clocks_d = clocks_q - one_clock;
+        if (due) begin
+            clocks_d = whole_bit;
+        end
+        if (sampling) begin
+            bits_d = bits_q + one_bit;
+            if (first) begin
+                hears_d = low_2_q;
+            end
+            else if (stop) begin
+                hears_d = 1'b0;
+            end
+            else begin
+                shift_d = shift_q >> 32'h1;
+                if (high) begin
+                    shift_d = (shift_q >> 32'h1) | top_bit;
+                end
+            end
+        end
+        if (starts) begin
+            hears_d = 1'b1;
+            clocks_d = half_bit;
+            bits_d = no_bits;
+        end
+    end
+
+    always @(*) high = ~low_2_q;
+    always @(*) starts = low_2_q & enable & ~hears_q;
+    always @(*) due = clocks_q == no_clocks;
+    always @(*) sampling = hears_q & due;
+
+    always @(*) begin
+        first = bits_q == no_bits;
+        stop = bits_q == stop_bit;
+    end
+
+    always @(*) bit_time = due;
+    always @(*) level = high;
+    always @(*) hearing = hears_q;
+    always @(*) start = starts;
+    always @(*) data_bit = sampling & ~first & ~stop;
+    always @(*) byte_done = sampling & stop & high;
+    always @(*) broken = sampling & stop & low_2_q;
+    always @(*) value = shift_q;
+endmodule
+
+module rac_hx8k_host_rx_check (
+    input wire clock,
+    input wire clear,
+    input wire shift,
+    input wire line,
+    output reg [7:0] state
+);
+
+    // Constants
+    localparam taps = 8'he0;
+    localparam zero = 8'h0;
+
+    // Pins of the parts
+    reg [7:0] register_d;
+    wire [7:0] register_q;
+
+    // Intermediate values
+    reg feedback;
+
+    // Parts
+    rac_hx8k_host_dff_8 register (.d(register_d), .q(register_q), .clock(clock));
+
+    always @(*) begin
+        register_d = register_q;
+        if (shift) begin
+            register_d = register_q >> 32'h1;
+            if (feedback) begin
+                register_d = (register_q >> 32'h1) ^ taps;
+            end
+        end
+        if (clear) begin
+            register_d = ~zero;
+        end
+    end
+
+    always @(*) feedback = register_q[32'h0] ^ line;
+    always @(*) state = register_q;
 endmodule
 
 module rac_hx8k_host_dff_1 (
@@ -545,6 +661,21 @@ module rac_hx8k_host_dff_8 (
 
     initial begin
         q = 8'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac_hx8k_host_dff_9 (
+    input wire [8:0] d,
+    output reg [8:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 9'h0;
     end
 
     always @(posedge clock) begin

@@ -1,8 +1,8 @@
-/* Registers of rac4i65, map version 2.0: byte offsets in BAR 5. Do not edit; see registers.md. */
+/* Registers of rac4i65, map version 2.1: byte offsets in BAR 5. Do not edit; see registers.md. */
 #ifndef RAC4I65_REGISTERS_H
 #define RAC4I65_REGISTERS_H
 
-#define RAC4I65_MAP_VERSION 0x00020000u
+#define RAC4I65_MAP_VERSION 0x00020001u
 
 #define RAC4I65_COOKIE 0x000u /* "RAC4": this is the design */
 #define RAC4I65_MAP_VERSION 0x004u /* version of this map, major in bits 31:16 */
@@ -22,6 +22,7 @@
 #define RAC4I65_BLOCKS_SNAPSHOT 0x00010000u /* coherent snapshots */
 #define RAC4I65_BLOCKS_CLOCK_MONITOR 0x00020000u /* monitor on the 50 MHz crystal */
 #define RAC4I65_BLOCKS_INTERRUPT 0x00040000u /* control-tick interrupt */
+#define RAC4I65_BLOCKS_RADIO 0x00080000u /* radio input */
 #define RAC4I65_TICK_PERIOD 0x020u /* control period in clocks, at least 1000 */
 #define RAC4I65_MODE 0x024u /* speed measurement, kind of set points, odometry, kind of PWM */
 #define RAC4I65_MODE_COUNT_AND_TIME 0x00000001u /* 1: speed by count and time (M/T); 0: count difference per tick */
@@ -97,6 +98,10 @@
 #define RAC4I65_INTERRUPT_STATUS 0x09cu /* causes since they were cleared, enabled or not; INT# is low while an enabled one is set */
 #define RAC4I65_INTERRUPT_STATUS_TICK 0x00000001u /* a control tick has ended: its snapshot is there */
 #define RAC4I65_INTERRUPT_STATUS_DISARMED 0x00000002u /* the outputs went off, by a fault or by the host */
+#define RAC4I65_RADIO 0x0a0u /* who commands, and counters of the link, which cannot be written and wrap */
+#define RAC4I65_RADIO_SELECT 0x00000001u /* 1: commands come in the radio's frames, and a host's writes reach only `arm` and this register; 0: from the host; after configuration 1 where the strap `host_select` is low */
+#define RAC4I65_RADIO_ACCEPTED 0x0000ff00u /* frames that were whole and new, whoever commands */
+#define RAC4I65_RADIO_DROPPED 0x00ff0000u /* frames with a wrong CRC, length or version, cut short, run over, or repeated; not those for other robots */
 #define RAC4I65_CONFIGURATION 0x400u /* staged configuration bank: ten groups of one word per axis */
 #define RAC4I65_CONFIGURATION_WORDS 52u
 #define RAC4I65_ACTIVE_CONFIGURATION 0x500u /* configuration in force */

@@ -17,6 +17,7 @@ pub mod load;
 mod observation;
 pub mod pci;
 pub mod plx9030;
+pub mod radio;
 pub mod realtime;
 pub mod recording;
 mod registers;

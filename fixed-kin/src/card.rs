@@ -12,6 +12,7 @@ use crate::control::{
 };
 use crate::interrupt::{self, Interrupt};
 use crate::kicker::{self, Kicker};
+use crate::radio::{Link, Refusal};
 use crate::registers as map;
 use crate::safety::{self, Safety};
 use crate::speed::{EncoderSample, SpeedMode, TIME_BITS};
@@ -95,6 +96,8 @@ pub struct Card {
     safety: Safety,
     kicker: Kicker,
     interrupt: Interrupt,
+    link: Link,
+    by_radio: bool,
     stalls: [Stall; AXES],
     window: Window,
     index_waiting: u8,
@@ -125,6 +128,8 @@ impl Card {
             safety: Safety::default(),
             kicker: Kicker::default(),
             interrupt: Interrupt::default(),
+            link: Link::new(15),
+            by_radio: false,
             stalls: [Stall::default(); AXES],
             window: Window::default(),
             index_waiting: 0,
@@ -162,6 +167,24 @@ impl Card {
             pins: Pins::default(),
             encoder_errors: 0,
         }
+    }
+
+    /// As [`Self::new`], with the straps of a robot without a PC, 0 to 15: commanded by radio.
+    #[must_use]
+    pub fn slave(content_hash: u32, robot: u8) -> Self {
+        Self { link: Link::new(robot), by_radio: true, ..Self::new(content_hash) }
+    }
+
+    /// What came over the radio between two silences; acts as a whole, in no time, if the radio commands.
+    ///
+    /// # Errors
+    /// [`Refusal`]: nothing was done; `radio` counts it.
+    pub fn receive(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let writes = self.link.take(bytes, self.armed())?;
+        if self.by_radio {
+            writes.for_each(|(offset, data)| self.act(offset, data));
+        }
+        Ok(())
     }
 
     /// Control period in clocks, as in force.
@@ -216,6 +239,11 @@ impl Card {
                 map::INDEX_WAITING.place(self.index_waiting.into()) | map::INDEX_SEEN.place(self.index_seen.into())
             }
             o if o == map::INTERRUPT_STATUS.offset => u32::from(self.interrupt.outputs().status),
+            o if o == map::RADIO.offset => {
+                map::RADIO_SELECT.place(self.by_radio.into())
+                    | map::RADIO_ACCEPTED.place(self.link.accepted.into())
+                    | map::RADIO_DROPPED.place(self.link.dropped.into())
+            }
             o if o == map::CONFIGURATION.offset => {
                 self.configuration[1 - self.commit.bank(Group::Configuration)][index] as u32
             }
@@ -245,8 +273,16 @@ impl Card {
         self.snapshots[self.held_bank][index]
     }
 
-    /// Writes the register at a byte offset; reserved, unaligned and read-only ones ignore it.
+    /// Writes the register at a byte offset; reserved, unaligned and read-only ones ignore it, and while
+    /// the radio commands all but two.
     pub fn write(&mut self, offset: u16, data: u32) {
+        if !self.by_radio || [map::ARM.offset, map::RADIO.offset].contains(&offset) {
+            self.act(offset, data);
+        }
+    }
+
+    /// A write of whoever commands.
+    fn act(&mut self, offset: u16, data: u32) {
         let Some((register, index)) = map::lookup(offset) else { return };
         if register.access == map::Access::LockedWhileArmed && self.armed() {
             return;
@@ -273,6 +309,7 @@ impl Card {
             }
             o if o == map::INDEX_ARM.offset => self.arm_index(data),
             o if o == map::INTERRUPT_STATUS.offset => self.interrupt(false, data as u8),
+            o if o == map::RADIO.offset => self.by_radio = map::RADIO_SELECT.of(data) == 1,
             o if o == map::COMMIT_SET_POINTS.offset => self.commit(Group::SetPoints, data),
             o if o == map::COMMIT_CONFIGURATION.offset => self.commit(Group::Configuration, data),
             o if o == map::KICKER_FIRE.offset && data == map::KICKER_FIRE_WORD => {

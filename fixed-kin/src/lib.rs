@@ -2,7 +2,7 @@
 //! equal the hardware bit for bit. `no_std`, no allocation, no panic, no unsafe.
 //!
 //! Every block of the gateware has its twin here: clock by clock ([`encoder`], [`pwm`], [`kicker`],
-//! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`]) or control tick by control tick
+//! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`], [`radio`]) or control tick by control tick
 //! ([`speed`], [`kinematics`], [`slew`], [`pi`], [`modulation`], [`pose`], joined in [`control::Core`]). [`card::Card`] is the whole,
 //! behind the register map of [`registers`]; [`recording`] replays what it left in a log.
 //!
@@ -86,9 +86,11 @@ pub mod modulation;
 pub mod pi;
 pub mod pose;
 pub mod pwm;
+pub mod radio;
 pub mod recording;
 pub mod registers;
 pub mod safety;
+pub mod serial;
 pub mod serial_host;
 pub mod slew;
 pub mod speed;

@@ -77,6 +77,8 @@ pub struct Outputs {
     pub write_data: u32,
     /// A write was answered without effect, because the core stayed busy: one clock.
     pub overrun: bool,
+    /// `address` is used in this clock, or will be as soon as the core is free.
+    pub claims: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -175,6 +177,7 @@ impl LocalBus {
             write: offer && !write_busy,
             write_data: self.from_host,
             overrun: offer && write_busy && self.held == OFFER_CLOCKS - 1,
+            claims: offer || self.phase == Phase::Fetch,
         }
     }
 }

@@ -2,7 +2,7 @@
 //! constraints and the top module are written.
 //!
 //! ```text
-//! P1  Mesa 7I30: four encoders, four H-bridges      P3  kicker, emergency stop, ball sensor
+//! P1  Mesa 7I30: four encoders, four H-bridges      P3  kicker, emergency stop, ball sensor, radio
 //! P4  free                                          LAD, LEDs, clocks: the card's own
 //! ```
 //!
@@ -194,11 +194,13 @@ impl Assignment {
 }
 
 impl Board {
-    /// The 4I65 with a 7I30 on P1 and the kicker on P3.
+    /// The 4I65 with a 7I30 on P1, kicker and radio on P3.
     #[must_use]
     pub fn mesa_4i65_7i30() -> Self {
-        let mut board =
-            Self { name: "Mesa 4I65, 7I30 on P1 (layout not confirmed), kicker on P3".into(), assignments: vec![] };
+        let mut board = Self {
+            name: "Mesa 4I65, 7I30 on P1 (layout not confirmed), kicker and radio on P3".into(),
+            assignments: vec![],
+        };
         board.add_card();
         board.add_7i30();
         board.add("kicker_charge_n", None, Place::Io(24), CABLE);
@@ -207,6 +209,11 @@ impl Board {
         board.add("kicker_full", None, Place::Io(29), Buffer::PulledUp);
         board.add("emergency_stop", None, Place::Io(26), Buffer::PulledUp);
         board.add("ball_sensor", None, Place::Io(27), Buffer::PulledUp);
+        board.add("radio_rx", None, Place::Io(30), Buffer::PulledUp);
+        board.add("host_select", None, Place::Io(31), Buffer::PulledUp);
+        for bit in 0..4 {
+            board.add("robot_number", Some(bit), Place::Io(32 + bit), Buffer::PulledUp);
+        }
         board
     }
 
@@ -327,7 +334,7 @@ mod tests {
     fn every_port_has_its_width() {
         let ports = Board::mesa_4i65_7i30().check().unwrap();
         let width = |name: &str| ports.iter().find(|(port, _)| port == name).unwrap().1;
-        assert_eq!(ports.len(), 21);
+        assert_eq!(ports.len(), 24);
         assert_eq!((width("lad"), width("led_n"), width("pwm"), width("lclk")), (Some(32), Some(8), Some(4), None));
     }
 

@@ -160,7 +160,8 @@ fn core() -> Ports {
                 output [7:0] led_n, input [3:0] encoder_a, input [3:0] encoder_b, input [3:0] encoder_index,\n\
                 output pwm_0, output pwm_1, output pwm_2, output pwm_3, output [3:0] dir, output [3:0] enable_n,\n\
                 output kicker_charge_n, output kicker_trigger_n, output kicker_discharge, input kicker_full,\n\
-                input emergency_stop, input ball_sensor); endmodule";
+                input emergency_stop, input ball_sensor,\n\
+                input radio_rx, input host_select, input [3:0] robot_number); endmodule";
     Ports::parse(text, "rac4i65_core", &[]).unwrap()
 }
 
@@ -204,9 +205,9 @@ fn a_core_that_does_not_fit_the_board_is_named() {
 fn the_constraints_place_every_pin_once_with_its_buffer() {
     let text = ucf::ucf(&Board::mesa_4i65_7i30(), "rac4i65").unwrap();
     let places: Vec<_> = text.lines().filter_map(|l| l.split("LOC = \"").nth(1)?.split('"').next()).collect();
-    // 7 control and clock pins, 32 LAD, 8 LEDs, 24 on P1, 6 on P3.
-    assert_eq!(places.len(), 77);
-    assert_eq!(places.iter().collect::<BTreeSet<_>>().len(), 77);
+    // 7 control and clock pins, 32 LAD, 8 LEDs, 24 on P1, 12 on P3.
+    assert_eq!(places.len(), 83);
+    assert_eq!(places.iter().collect::<BTreeSet<_>>().len(), 83);
     for line in [
         "NET \"lad<0>\" LOC = \"P153\" | IOSTANDARD = LVTTL | DRIVE = 8 | SLEW = FAST;",
         "NET \"led_n<7>\" LOC = \"P95\" | IOSTANDARD = LVTTL | DRIVE = 24 | SLEW = SLOW;",

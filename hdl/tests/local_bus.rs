@@ -52,6 +52,7 @@ fn outputs(block: &LocalBus) -> Outputs {
         write: block.write.val(),
         write_data: word(block.write_data.val().to_u64()),
         overrun: block.overrun.val(),
+        claims: block.claims.val(),
     }
 }
 

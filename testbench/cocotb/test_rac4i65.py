@@ -86,6 +86,8 @@ async def power_up(dut):
     for name in ("encoder_a", "encoder_b", "encoder_index", "ball_sensor", "emergency_stop", "kicker_full"):
         if hasattr(dut, name):
             getattr(dut, name).value = 0
+    for name in ("host_select", "radio_rx"):
+        getattr(dut, name).value = 1
     bus = Bus(dut)
     bus.idle()
     cocotb.start_soon(Clock(dut.lclk, 30, "ns").start())

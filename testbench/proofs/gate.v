@@ -1,6 +1,14 @@
 // The one gate that everything passes which can move a motor or fire the kicker: not armed, or no
 // bus clock, and every pin is off.
 wire formal_on = |pwm || (registers_mode[3] && |dir) || !(&enable_n) || !kicker_charge_n || !kicker_trigger_n;
+// Who commands: a host that does not reaches two registers, and the radio never in a clock of the bus.
+always @(*) begin
+    assume (!bus_write_2 || bus_claims);  // proof "bus"
+    if (radio_selected && sequencer_bus_write) assert (radio_turn);
+    if (radio_selected && registers_write && !radio_turn)
+        assert (index == at_arm || index == at_radio);
+    if (bus_claims) assert (address == bus_address_2 && write_data == bus_write_data_2 && !radio_taken);
+end
 always @(*) begin
     if (formal_on) assert (safety_armed && !monitor_lclk_dead);
     if (!kicker_trigger_n) assert (kicker_trigger);

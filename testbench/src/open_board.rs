@@ -45,6 +45,8 @@ impl OpenBoard {
         let (rx, tx) = (session.layout().input("rx")?, session.layout().output("tx")?);
         session.set(&[(rx, 1)])?;
         session.set_port("emergency_stop", 0)?;
+        session.set_port("host_select", 1)?;
+        session.set_port("radio_rx", 1)?;
         session.run(2)?;
         session.record(&[tx])?;
         Ok(Self { session, rx })

@@ -4,9 +4,11 @@
 //! carries: the bridge's word, the card's, or high impedance.
 
 use driver::{Board, BoardError, BusError, Registers, Scale, Settings};
+use fixed_kin::radio::{CLOCKS_PER_BIT, Frame, FrameError, GAP_BYTES};
 use fixed_kin::registers as map;
 use fixed_kin::speed::SpeedMode;
 use hdl::blocks::core::Core;
+use hdl::board::Board as Board4I65;
 use hdl::sim::cycle;
 use model::robot::Robot;
 use rust_hdl::prelude::*;
@@ -25,6 +27,8 @@ pub enum Scene {
     Kick,
     /// Armed and driving, then the emergency stop opens.
     Stop,
+    /// A robot without a PC: a frame on the radio's line that arms.
+    Radio,
 }
 
 /// A scene that could not be played: a fault of the core or of the built-in robot.
@@ -33,6 +37,9 @@ pub enum WaveError {
     /// The core did not do what it was asked to.
     #[error(transparent)]
     Board(#[from] BoardError),
+    /// A frame that cannot be made.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
     /// The robot's gains do not fit their words.
     #[error(transparent)]
     Scale(#[from] driver::ScaleError),
@@ -44,6 +51,8 @@ const HALF_PERIOD: u64 = 15;
 const POWER_UP: u32 = 600;
 /// Control ticks a second: few clocks between them, so that a few fit a screen.
 const RATE_HZ: f64 = 8_000.0;
+/// The robot that the straps name.
+const ROBOT: u8 = 6;
 /// Clocks of a control period.
 const TICK: u32 = 4_167;
 
@@ -52,7 +61,7 @@ const TICK: u32 = 4_167;
 /// # Errors
 /// [`WaveError`].
 pub fn record(scene: Scene) -> Result<(String, u64), WaveError> {
-    let mut board = Board::new(Stage::new());
+    let mut board = Board::new(Stage::new(scene == Scene::Radio));
     board.bus.wait(POWER_UP);
     play(&mut board, scene)?;
     Ok((board.bus.vcd(), board.bus.clock))
@@ -63,6 +72,10 @@ fn play(board: &mut Board<Stage>, scene: Scene) -> Result<(), WaveError> {
         board.bus.access(map::COOKIE.offset, &mut Words::Read(&mut [0; 6]));
         board.write_checked(&map::LEDS, 0x5A)?;
         board.bus.access(0xFFF8, &mut Words::Read(&mut [0; 2]));
+        return Ok(());
+    }
+    if scene == Scene::Radio {
+        board.bus.send(&arming_frame()?);
         return Ok(());
     }
     let robot = Robot { control_rate_hz: RATE_HZ, ..Robot::racbot() };
@@ -77,7 +90,7 @@ fn play(board: &mut Board<Stage>, scene: Scene) -> Result<(), WaveError> {
     board.set_wheel_speeds(&wheels(3.0))?;
     board.bus.wait(3 * TICK);
     match scene {
-        Scene::Bus | Scene::Arm => {}
+        Scene::Bus | Scene::Arm | Scene::Radio => {}
         Scene::Reversal => {
             board.set_wheel_speeds(&wheels(-3.0))?;
             board.bus.wait(3 * TICK);
@@ -100,80 +113,94 @@ fn play(board: &mut Board<Stage>, scene: Scene) -> Result<(), WaveError> {
     Ok(())
 }
 
+/// Set points of zero, and the two words that arm.
+fn arming_frame() -> Result<Vec<u8>, FrameError> {
+    let mut frame = Frame::new(ROBOT, 1)?;
+    frame.set_points([0; fixed_kin::control::SET_POINT_WORDS])?;
+    frame.arm()?;
+    Ok(frame.bytes().to_vec())
+}
+
 /// What a bus cycle moves.
 enum Words<'a> {
     Read(&'a mut [u32]),
     Write(&'a [u32]),
 }
 
-/// Pins in the order of the file, with their widths.
-const PINS: [(&str, u32); 17] = [
-    ("lclk", 1),
-    ("ads_n", 1),
-    ("blast_n", 1),
-    ("lw_r", 1),
-    ("lad", 32),
-    ("ready_n", 1),
-    ("int_n", 1),
-    ("led_n", 8),
-    ("encoder_a", 4),
-    ("encoder_b", 4),
-    ("pwm", 4),
-    ("dir", 4),
-    ("enable_n", 4),
-    ("kicker_charge_n", 1),
-    ("kicker_trigger_n", 1),
-    ("emergency_stop", 1),
-    ("ball_sensor", 1),
-];
+/// Pins of the board table with their widths, LCLK first.
+fn pins() -> Vec<(String, u32)> {
+    let table = Board4I65::mesa_4i65_7i30().check().unwrap_or_default();
+    table.into_iter().map(|(name, width)| (name, width.map_or(1, u32::from))).collect()
+}
 
 struct Stage {
     core: Box<Core>,
     clock: u64,
     /// The bridge drives LAD.
     bridge: bool,
-    shown: [Option<Option<u32>>; PINS.len()],
+    pins: Vec<(String, u32)>,
+    shown: Vec<Option<Option<u32>>>,
     changes: String,
 }
 
 impl Stage {
-    fn new() -> Self {
+    fn new(slave: bool) -> Self {
         let mut core = Box::new(hdl::design::core());
         core.ads_n.next = true;
         core.blast_n.next = true;
         core.emergency_stop.next = false;
-        Self { core, clock: 0, bridge: false, shown: [None; PINS.len()], changes: String::new() }
+        core.host_select.next = !slave;
+        core.robot_number.next = u64::from(ROBOT).to_bits();
+        core.radio_rx.next = true;
+        let pins = pins();
+        let shown = vec![None; pins.len()];
+        Self { core, clock: 0, bridge: false, pins, shown, changes: String::new() }
     }
 
-    /// Levels of all pins but the clock; `None` is high impedance.
-    fn pins(&self) -> [Option<u32>; PINS.len()] {
+    /// Level of a pin of the board table; `None` is high impedance.
+    fn level(&self, name: &str) -> Option<u32> {
         let core = &self.core;
-        let word = |bits: usize| Some(bits as u32);
-        let bit = |level: bool| Some(u32::from(level));
-        let lad = match (self.bridge, core.lad_drive.val()) {
-            (true, _) => word(core.lad_in.val().index()),
-            (_, true) => word(core.lad_out.val().index()),
-            _ => None,
-        };
-        [
-            bit(true),
-            bit(core.ads_n.val()),
-            bit(core.blast_n.val()),
-            bit(core.lw_r.val()),
-            lad,
-            bit(core.ready_n.val()),
-            bit(core.int_n.val()),
-            word(core.led_n.val().index()),
-            word(core.encoder_a.val().index()),
-            word(core.encoder_b.val().index()),
-            word(core.pwm.val().index()),
-            word(core.dir.val().index()),
-            word(core.enable_n.val().index()),
-            bit(core.kicker_charge_n.val()),
-            bit(core.kicker_trigger_n.val()),
-            bit(core.emergency_stop.val()),
-            bit(core.ball_sensor.val()),
-        ]
+        let bit = u32::from;
+        Some(match name {
+            "lclk" | "synclk" => 1,
+            "ads_n" => bit(core.ads_n.val()),
+            "blast_n" => bit(core.blast_n.val()),
+            "lw_r" => bit(core.lw_r.val()),
+            "lad" if self.bridge => core.lad_in.val().index() as u32,
+            "lad" if core.lad_drive.val() => core.lad_out.val().index() as u32,
+            "ready_n" => bit(core.ready_n.val()),
+            "int_n" => bit(core.int_n.val()),
+            "led_n" => core.led_n.val().index() as u32,
+            "encoder_a" => core.encoder_a.val().index() as u32,
+            "encoder_b" => core.encoder_b.val().index() as u32,
+            "encoder_index" => core.encoder_index.val().index() as u32,
+            "pwm" => core.pwm.val().index() as u32,
+            "dir" => core.dir.val().index() as u32,
+            "enable_n" => core.enable_n.val().index() as u32,
+            "kicker_charge_n" => bit(core.kicker_charge_n.val()),
+            "kicker_trigger_n" => bit(core.kicker_trigger_n.val()),
+            "kicker_discharge" => bit(core.kicker_discharge.val()),
+            "kicker_full" => bit(core.kicker_full.val()),
+            "emergency_stop" => bit(core.emergency_stop.val()),
+            "ball_sensor" => bit(core.ball_sensor.val()),
+            "radio_rx" => bit(core.radio_rx.val()),
+            "host_select" => bit(core.host_select.val()),
+            "robot_number" => core.robot_number.val().index() as u32,
+            _ => return None,
+        })
+    }
+
+    /// A frame on the radio's line, and the silence after it.
+    fn send(&mut self, bytes: &[u8]) {
+        let gap = 10 * (GAP_BYTES + 1) * u32::from(CLOCKS_PER_BIT);
+        self.wait(gap);
+        for byte in bytes {
+            for bit in 0..10 {
+                self.core.radio_rx.next = (u32::from(*byte) << 1 | 1 << 9) >> bit & 1 == 1;
+                self.wait(CLOCKS_PER_BIT.into());
+            }
+        }
+        self.wait(gap);
     }
 
     fn step(&mut self) {
@@ -182,13 +209,18 @@ impl Stage {
             core.synclk.next = level.into();
         });
         let _ = writeln!(self.changes, "#{}", 2 * HALF_PERIOD * self.clock);
-        for (index, pin) in self.pins().into_iter().enumerate() {
-            if index == 0 || self.shown[index] != Some(pin) {
+        for index in 0..self.pins.len() {
+            let (name, width) = &self.pins[index];
+            let (pin, clock) = (self.level(name), name.ends_with("clk"));
+            if clock || self.shown[index] != Some(pin) {
                 self.shown[index] = Some(pin);
-                let _ = writeln!(self.changes, "{}", value(index, pin));
+                let _ = writeln!(self.changes, "{}", value(index, *width, pin));
             }
         }
-        let _ = writeln!(self.changes, "#{}\n0{}", 2 * HALF_PERIOD * self.clock + HALF_PERIOD, symbol(0));
+        let _ = writeln!(self.changes, "#{}", 2 * HALF_PERIOD * self.clock + HALF_PERIOD);
+        for index in (0..self.pins.len()).filter(|index| self.pins[*index].0.ends_with("clk")) {
+            let _ = writeln!(self.changes, "0{}", symbol(index));
+        }
         self.clock += 1;
     }
 
@@ -233,7 +265,7 @@ impl Stage {
     fn vcd(&self) -> String {
         let mut text = String::from("$comment rac4i65, all pins; written by racbot wave $end\n$timescale 1ns $end\n");
         text.push_str("$scope module rac4i65 $end\n");
-        for (index, (name, width)) in PINS.iter().enumerate() {
+        for (index, (name, width)) in self.pins.iter().enumerate() {
             let range = if *width == 1 { String::new() } else { format!(" [{}:0]", width - 1) };
             let _ = writeln!(text, "$var wire {width} {} {name}{range} $end", symbol(index));
         }
@@ -259,8 +291,8 @@ fn symbol(index: usize) -> char {
     char::from(b'!' + index as u8)
 }
 
-fn value(index: usize, pin: Option<u32>) -> String {
-    let width = PINS[index].1 as usize;
+fn value(index: usize, width: u32, pin: Option<u32>) -> String {
+    let width = width as usize;
     match pin {
         Some(level) if width == 1 => format!("{level}{}", symbol(index)),
         Some(word) => format!("b{word:b} {}", symbol(index)),
@@ -272,9 +304,13 @@ fn value(index: usize, pin: Option<u32>) -> String {
 mod tests {
     use super::*;
 
+    fn place(pin: &str) -> usize {
+        pins().iter().position(|(name, _)| name == pin).unwrap()
+    }
+
     /// Times at which a one-bit pin goes low, in clocks.
     fn falls(vcd: &str, pin: &str) -> Vec<u64> {
-        let index = PINS.iter().position(|(name, _)| *name == pin).unwrap();
+        let index = place(pin);
         let (mut time, mut falls) = (0, Vec::new());
         for line in vcd.lines() {
             match line.strip_prefix('#') {
@@ -291,8 +327,30 @@ mod tests {
         let (vcd, _) = record(Scene::Bus).unwrap();
         assert_eq!(falls(&vcd, "ads_n").len(), 4);
         assert_eq!(falls(&vcd, "ready_n").len(), 6 + 2 + 2);
-        assert!(vcd.contains(&format!("b{:b} {}", u32::from_be_bytes(*b"RAC4"), symbol(4))));
-        assert!(vcd.contains(&format!("b{} {}", "z".repeat(32), symbol(4))));
+        assert!(vcd.contains(&format!("b{:b} {}", u32::from_be_bytes(*b"RAC4"), symbol(place("lad")))));
+        assert!(vcd.contains(&format!("b{} {}", "z".repeat(32), symbol(place("lad")))));
+    }
+
+    #[test]
+    fn every_pin_of_the_board_is_shown() {
+        let mut stage = Stage::new(false);
+        stage.bridge = true;
+        assert_eq!(stage.pins.len(), 24);
+        for (name, _) in &stage.pins {
+            assert!(stage.level(name).is_some(), "{name} has no level; add it to Stage::level");
+        }
+    }
+
+    #[test]
+    fn the_radio_scene_arms_with_the_silence_after_the_frame() {
+        let (vcd, clocks) = record(Scene::Radio).unwrap();
+        let enables = place("enable_n");
+        let on = vcd.find(&format!("\nb0 {}\n", symbol(enables))).expect("the bridges go on");
+        let time: u64 = vcd[..on].rsplit('#').next().unwrap().lines().next().unwrap().parse().unwrap();
+        let bit = u64::from(CLOCKS_PER_BIT);
+        let sent = u64::from(POWER_UP) + (30 + arming_frame().unwrap().len() as u64 * 10) * bit;
+        let waited = (time / (2 * HALF_PERIOD) - sent) / bit;
+        assert!((17..=21).contains(&waited) && clocks > sent, "{waited} bits after the frame");
     }
 
     #[test]

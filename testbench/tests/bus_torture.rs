@@ -44,7 +44,8 @@ impl Bus {
         let layout = built.layout();
         let inputs = ["ads_n", "blast_n", "lw_r", "lad_in"].map(|name| layout.input(name).unwrap());
         let outputs = ["ready_n", "lad_drive", "lad_out"].map(|name| layout.output(name).unwrap());
-        let row = vec![0; layout.inputs.len()];
+        let mut row = vec![0; layout.inputs.len()];
+        row[layout.input("host_select").unwrap()] = 1;
         let random = ChaCha8Rng::seed_from_u64(21);
         let session = built.start().unwrap();
         Self { session, random, inputs, outputs, row, shown: Shown::default(), clocks: 0 }

@@ -66,6 +66,7 @@ fn every_tick_of_the_compiled_chip_equals_the_card() {
     let built = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports).unwrap_or_else(|error| panic!("{error}"));
     let mut session = built.start().unwrap();
     session.set_port("emergency_stop", 0).unwrap();
+    session.set_port("host_select", 1).unwrap();
     let [a, b, index] = ["encoder_a", "encoder_b", "encoder_index"].map(|name| session.layout().input(name).unwrap());
 
     let clock_hz = 33_333_333.0;

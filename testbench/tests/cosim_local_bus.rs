@@ -41,7 +41,10 @@ fn a_million_clocks_equal_the_twin() {
     let names: Vec<_> = design.layout().inputs.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["ads_n", "blast_n", "lw_r", "lad_in", "read_data", "write_busy"]);
     let names: Vec<_> = design.layout().outputs.iter().map(|c| c.name.as_str()).collect();
-    assert_eq!(names, ["lad_out", "lad_drive", "ready_n", "address", "read", "write", "write_data", "overrun"]);
+    assert_eq!(
+        names,
+        ["lad_out", "lad_drive", "ready_n", "address", "read", "write", "write_data", "overrun", "claims"]
+    );
     let (mut twin, mut seed) = (Twin::new(), 3);
     let mut counts = [0; 4];
     let mut session = design.start().unwrap();
@@ -60,6 +63,7 @@ fn a_million_clocks_equal_the_twin() {
             bit(o.write),
             o.write_data,
             bit(o.overrun),
+            bit(o.claims),
         ];
         assert_eq!(answer, expected, "clock {step}: {row:?}");
         for (count, now) in counts.iter_mut().zip([o.read, o.write, o.overrun, !o.ready_n]) {

@@ -62,6 +62,7 @@ fn a_duty_follows_its_encoder_sample_within_a_tick() {
     let mut session =
         Verilated::build("latency", &text, CORE, &ports).unwrap_or_else(|error| panic!("{error}")).start().unwrap();
     session.set_port("emergency_stop", 0).unwrap();
+    session.set_port("host_select", 1).unwrap();
     let (a, b) = (session.layout().input("encoder_a").unwrap(), session.layout().input("encoder_b").unwrap());
     let (tick, load) = (session.layout().output("seen_tick").unwrap(), session.layout().output("seen_load").unwrap());
 

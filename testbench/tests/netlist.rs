@@ -41,7 +41,7 @@ fn the_netlist_equals_fixed_kin() {
 /// The host's bus and every other pin, a row of inputs a clock.
 struct Stimulus {
     random: ChaCha8Rng,
-    columns: [usize; 10],
+    columns: [usize; 12],
     width: usize,
     rows: Vec<u32>,
     encoders: [u32; 4],
@@ -67,6 +67,8 @@ impl Stimulus {
             "encoder_index",
             "emergency_stop",
             "ball_sensor",
+            "host_select",
+            "radio_rx",
         ];
         let columns = names.map(|name| layout.input(name).unwrap());
         let (width, rows) = (layout.inputs.len(), Vec::new());
@@ -84,7 +86,7 @@ impl Stimulus {
         let [ads, blast, lw_r, lad, drive] = bus;
         let ball = u32::from(self.random.random_range(0..100) == 0);
         let index = self.random.random_range(0..16);
-        let values = [ads, blast, lw_r, lad, drive, line(0), line(1), index, self.stop, ball];
+        let values = [ads, blast, lw_r, lad, drive, line(0), line(1), index, self.stop, ball, 1, line(0) & 1];
         let mut row = vec![0; self.width];
         for (column, value) in self.columns.iter().zip(values) {
             row[*column] = value;
@@ -138,7 +140,7 @@ impl Stimulus {
             20..200 => {
                 let register = map::REGISTERS[self.random.random_range(0..map::REGISTERS.len())];
                 let index = self.random.random_range(0..usize::from(register.words));
-                let locks = [map::ARM.offset, map::WATCHDOG_TIMEOUT.offset, map::TICK_PERIOD.offset];
+                let locks = [map::ARM, map::WATCHDOG_TIMEOUT, map::TICK_PERIOD, map::RADIO].map(|r| r.offset);
                 let write = self.random.random_bool(0.5) && !locks.contains(&register.offset);
                 let word = self.random.next_u32() >> self.random.random_range(0..32);
                 self.access(register.at(index), write.then_some(word));

@@ -2,7 +2,7 @@
 //! operation by operation; and broken blocks, which must be caught.
 
 use fixed_kin::word::{WORD_MAX, WORD_MIN, divide, multiply};
-use fixed_kin::{clock_monitor, encoder, interrupt, kicker, pwm, safety, stall};
+use fixed_kin::{clock_monitor, encoder, interrupt, kicker, pwm, radio, safety, stall};
 use hdl::blocks;
 use hdl::blocks::divider::DIVISION_STEPS;
 use hdl::blocks::multiplier::SCALES;
@@ -78,6 +78,30 @@ equals_its_twin!(pwm_equals_its_twin, pwm, blocks::pwm::Pwm, pwm::Pwm);
 equals_its_twin!(stall_equals_its_twin, stall, blocks::stall::Stall, stall::Stall);
 equals_its_twin!(interrupt_equals_its_twin, interrupt, blocks::interrupt::Interrupt, interrupt::Interrupt);
 equals_its_twin!(kicker_equals_its_twin, kicker, blocks::kicker::Kicker, kicker::Kicker);
+
+#[test]
+fn radio_equals_its_twin() {
+    let rate = stimulus::radio::CLOCKS_PER_BIT;
+    let (verilog, ports) = compile("radio", stimulus::radio::Radio::default());
+    for seed in [10, 11] {
+        let inputs = stimulus::radio::stimulus(seed, CLOCKS);
+        let mut twin = radio::Radio::new(rate);
+        let difference = first_difference("radio", &verilog, &ports, &inputs, |inputs| twin.clock(inputs));
+        assert_eq!(difference, None);
+    }
+}
+
+/// See [`a_broken_pwm_is_caught`]: a radio that takes a frame for whole whatever its CRC.
+#[test]
+fn a_radio_that_forgives_damage_is_caught() {
+    let rate = stimulus::radio::CLOCKS_PER_BIT;
+    let (verilog, ports) = compile("radio", stimulus::radio::Radio::default());
+    let broken = mutate(&verilog, "check_state == residue", "check_state != 32'h0");
+    let inputs = stimulus::radio::stimulus(11, 1_000_000);
+    let mut twin = radio::Radio::new(rate);
+    let difference = first_difference("radio", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
+    assert!(difference.is_some());
+}
 
 #[test]
 fn clock_monitor_equals_its_twin() {

@@ -429,6 +429,32 @@ pub const INTERRUPT_STATUS: Register = register(
     "causes since they were cleared, enabled or not; INT# is low while an enabled one is set",
 );
 
+/// Radio link.
+pub const RADIO: Register = register(
+    "radio",
+    0x0A0,
+    Access::LockedWhileArmed,
+    Kind::Fields(&[RADIO_SELECT, RADIO_ACCEPTED, RADIO_DROPPED]),
+    0,
+    "who commands, and counters of the link, which cannot be written and wrap",
+);
+/// The radio commands.
+pub const RADIO_SELECT: Field = bit(
+    "select",
+    0,
+    "1: commands come in the radio's frames, and a host's writes reach only `arm` and this register; 0: from the host; \
+     after configuration 1 where the strap `host_select` is low",
+);
+/// Frames taken.
+pub const RADIO_ACCEPTED: Field = bits("accepted", 8, 8, "frames that were whole and new, whoever commands");
+/// Frames dropped.
+pub const RADIO_DROPPED: Field = bits(
+    "dropped",
+    16,
+    8,
+    "frames with a wrong CRC, length or version, cut short, run over, or repeated; not those for other robots",
+);
+
 /// Staged configuration.
 pub const CONFIGURATION: Register = array(
     "configuration",
@@ -553,7 +579,7 @@ pub const INTERRUPT_FIELDS: [Field; 2] = [
 ];
 
 /// Fields of [`BLOCKS`].
-pub const BLOCK_FIELDS: [Field; 10] = [
+pub const BLOCK_FIELDS: [Field; 11] = [
     bits("encoders", 0, 4, "quadrature counters with index capture and stall detection"),
     bits("drives", 4, 4, "PWM generators"),
     bits("loops", 8, 4, "PI speed loops with feed-forward"),
@@ -564,10 +590,11 @@ pub const BLOCK_FIELDS: [Field; 10] = [
     bit("snapshot", 16, "coherent snapshots"),
     bit("clock-monitor", 17, "monitor on the 50 MHz crystal"),
     bit("interrupt", 18, "control-tick interrupt"),
+    bit("radio", 19, "radio input"),
 ];
 /// Value of [`BLOCKS`].
 pub const BLOCKS_VALUE: u32 = {
-    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1];
+    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1, 1];
     let mut value = 0;
     let mut field = 0;
     while field < BLOCK_FIELDS.len() {
@@ -619,6 +646,7 @@ pub const REGISTERS: &[&Register] = &[
     &INDEX_STATUS,
     &INTERRUPT_ENABLE,
     &INTERRUPT_STATUS,
+    &RADIO,
     &CONFIGURATION,
     &ACTIVE_CONFIGURATION,
     &SET_POINTS,

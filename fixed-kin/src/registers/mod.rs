@@ -15,7 +15,7 @@ mod map;
 pub use map::*;
 
 /// Version of this map: major in the high half, minor in the low half. The driver refuses another major.
-pub const VERSION: u32 = 0x0002_0000;
+pub const VERSION: u32 = 0x0002_0001;
 
 /// Who may do what with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

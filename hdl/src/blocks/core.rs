@@ -1,6 +1,7 @@
 //! The core: every block on one clock behind the local bus.
 //!
 //! ```text
+//!  radio ─┐
 //!  local bus ─┬─ register file ── safety, kicker, timebase
 //!             ├─ commit ───────── banks of set points and configuration
 //!             └─ memory of the sequencer ── snapshot
@@ -13,6 +14,9 @@
 //! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal. The kicker's
 //! capacitor is discharged, active high as an unconfigured pin is, whenever that gate is shut, unless
 //! the host asked to hold the charge and neither the emergency stop nor a dead clock overrules it.
+//!
+//! Radio and host share one write path. The radio's words go through in clocks that the bus does not claim;
+//! while the radio commands, the host's writes reach only `arm` and `radio`. Reads are always the host's.
 
 use crate::blocks::clock_monitor::ClockMonitor;
 use crate::blocks::commit::Commit;
@@ -22,6 +26,7 @@ use crate::blocks::interrupt::Interrupt;
 use crate::blocks::kicker::Kicker;
 use crate::blocks::local_bus::LocalBus;
 use crate::blocks::pwm::Pwm;
+use crate::blocks::radio::Radio;
 use crate::blocks::register_file::RegisterFile;
 use crate::blocks::safety::Safety;
 use crate::blocks::sequencer::Sequencer;
@@ -31,6 +36,7 @@ use crate::blocks::timebase::Timebase;
 use crate::blocks::trigonometry::Trigonometry;
 use crate::primitives::Literal;
 use crate::program::{OutputPort, control_tick};
+use fixed_kin::registers::{ARM, RADIO};
 use rust_hdl::prelude::*;
 
 /// See the module.
@@ -82,6 +88,12 @@ pub struct Core {
     pub emergency_stop: Signal<In, Bit>,
     /// Ball sensor, high = ball.
     pub ball_sensor: Signal<In, Bit>,
+    /// Serial line of the radio, idle high.
+    pub radio_rx: Signal<In, Bit>,
+    /// Strap: high or open = the host commands, low = the radio.
+    pub host_select: Signal<In, Bit>,
+    /// Straps: number of the robot, open = 15.
+    pub robot_number: Signal<In, Bits<4>>,
 
     bus: LocalBus,
     registers: RegisterFile,
@@ -95,6 +107,7 @@ pub struct Core {
     sequencer: Sequencer,
     trigonometry: Trigonometry,
     interrupt: Interrupt,
+    radio: Radio,
     encoders: [Encoder; 4],
     stalls: [Stall; 4],
     drives: [Pwm; 4],
@@ -116,6 +129,12 @@ pub struct Core {
 
     tick: Signal<Local, Bit>,
     alive: Signal<Local, Bit>,
+    radio_turn: Signal<Local, Bit>,
+    address: Signal<Local, Bits<14>>,
+    index: Signal<Local, Bits<6>>,
+    write_data: Signal<Local, Bits<32>>,
+    host_writes: Signal<Local, Bit>,
+    blocked: Signal<Local, Bit>,
     staging: Signal<Local, Bit>,
     staged: Signal<Local, Bits<32>>,
     status: Signal<Local, Bits<8>>,
@@ -152,6 +171,8 @@ pub struct Core {
     one_16: Literal<16, 1>,
     sign_30: Literal<32, 0xC000_0000>,
     mask_30: Literal<32, 0x3FFF_FFFF>,
+    at_arm: Literal<6, { ARM.word_address() as u64 }>,
+    at_radio: Literal<6, { RADIO.word_address() as u64 }>,
     none: Literal<4, 0>,
     all: Literal<4, 0xF>,
     port_direction: Literal<2, { OutputPort::Direction as u64 }>,
@@ -207,7 +228,8 @@ impl Logic for Core {
             kicker,
             sequencer,
             trigonometry,
-            interrupt
+            interrupt,
+            radio
         );
         for i in 0..4 {
             self.encoders[i].clock.next = self.lclk.val();
@@ -264,8 +286,24 @@ impl Logic for Core {
             self.now.d.next = self.timebase.clock_count.val().get_bits::<24>(0);
         }
 
-        // Where a bus access goes.
-        self.decoder.address.next = self.bus.address.val();
+        // Whose turn it is, and where the access goes.
+        self.radio.rx.next = self.radio_rx.val();
+        self.radio.host_select.next = self.host_select.val();
+        self.radio.robot.next = self.robot_number.val();
+        self.radio.armed.next = self.safety.armed.val();
+        self.radio_turn.next = self.radio.offer.val() & !self.bus.claims.val();
+        self.address.next = self.radio.address.val();
+        self.write_data.next = self.radio.data.val();
+        if self.bus.claims.val() {
+            self.address.next = self.bus.address.val();
+            self.write_data.next = self.bus.write_data.val();
+        }
+        self.index.next = self.address.val().get_bits::<6>(0);
+        self.host_writes.next = self.bus.write.val()
+            & (!self.radio.selected.val()
+                | (self.index.val() == self.at_arm.val())
+                | (self.index.val() == self.at_radio.val()));
+        self.decoder.address.next = self.address.val();
         self.decoder.configuration_bank.next = self.commit.configuration_bank.val();
         self.decoder.set_point_bank.next = self.commit.set_point_bank.val();
         self.decoder.snapshot_bank.next = self.snapshot.read_bank.val();
@@ -273,23 +311,28 @@ impl Logic for Core {
         self.snapshot.read_last.next = self.decoder.snapshot_last.val() & self.bus.read.val();
 
         // Writes.
-        self.registers.address.next = self.bus.address.val().get_bits::<6>(0);
-        self.registers.data.next = self.bus.write_data.val();
-        self.registers.write.next = self.decoder.in_registers.val() & self.bus.write.val();
-        self.staged.next = self.bus.write_data.val() & self.mask_30.val();
-        if self.bus.write_data.val().get_bit(29) {
-            self.staged.next = self.bus.write_data.val() | self.sign_30.val();
+        self.registers.address.next = self.index.val();
+        self.registers.data.next = self.write_data.val();
+        self.registers.write.next = self.decoder.in_registers.val() & (self.host_writes.val() | self.radio_turn.val());
+        self.staged.next = self.write_data.val() & self.mask_30.val();
+        if self.write_data.val().get_bit(29) {
+            self.staged.next = self.write_data.val() | self.sign_30.val();
         }
         self.staging.next = self.decoder.stages_set_point.val() | self.decoder.stages_configuration.val();
+        self.blocked.next = self.staging.val() & self.sequencer.bus_blocked.val();
+        self.radio.taken.next = self.radio_turn.val() & !self.blocked.val();
+        self.radio.select_write.next = self.registers.select_radio.val();
+        self.radio.select.next = self.write_data.val().get_bit(0);
         self.sequencer.bus_address.next = self.decoder.memory_address.val();
         self.sequencer.bus_write_data.next = self.staged.val();
-        self.sequencer.bus_write.next = self.staging.val() & self.bus.write.val();
-        self.bus.write_busy.next = self.staging.val() & self.sequencer.bus_blocked.val();
+        self.sequencer.bus_write.next =
+            self.staging.val() & (self.radio_turn.val() | (self.bus.write.val() & !self.radio.selected.val()));
+        self.bus.write_busy.next = self.blocked.val();
         self.commit.stage_set_point.next = self.decoder.stages_set_point.val() & self.sequencer.bus_write_taken.val();
         self.commit.stage_configuration.next =
             self.decoder.stages_configuration.val() & self.sequencer.bus_write_taken.val();
-        self.commit.address.next = self.bus.address.val();
-        self.commit.data.next = self.bus.write_data.val();
+        self.commit.address.next = self.address.val();
+        self.commit.data.next = self.write_data.val();
         self.commit.commit_set_points.next = self.registers.commit_set_points.val();
         self.commit.commit_configuration.next = self.registers.commit_configuration.val();
         self.commit.tick.next = self.tick.val();
@@ -528,7 +571,7 @@ impl Logic for Core {
         // Safety and kicker.
         self.safety.emergency_stop.next = self.emergency_stop.val();
         self.safety.arm_write.next = self.registers.arm_write.val();
-        self.safety.arm_data.next = self.bus.write_data.val();
+        self.safety.arm_data.next = self.write_data.val();
         self.safety.pet.next = self.commit.pet.val();
         self.safety.watchdog_timeout.next = self.registers.watchdog_timeout.val();
         self.safety.encoder_fault.next = self.masked_errors.val() != self.none.val();
@@ -562,6 +605,9 @@ impl Logic for Core {
         self.registers.stall.next = self.stalled.val();
         self.registers.index_status.next = self.index_status.val();
         self.registers.interrupt_status.next = self.interrupt.status.val();
+        self.registers.radio.next = bit_cast::<24, 1>(self.radio.selected.val().into())
+            | (bit_cast::<24, 8>(self.radio.accepted.val()) << 8)
+            | (bit_cast::<24, 8>(self.radio.dropped.val()) << 16);
         self.registers.armed.next = self.safety.armed.val();
         self.registers.clock_count.next = self.timebase.clock_count.val();
         self.registers.faults.next = self.safety.faults.val();

@@ -63,6 +63,8 @@ pub struct LocalBus {
     pub write_busy: Signal<In, Bit>,
     /// A write was answered without effect.
     pub overrun: Signal<Out, Bit>,
+    /// `address` is used in this clock, or will be as soon as the core is free.
+    pub claims: Signal<Out, Bit>,
     // The phases, one flip-flop each; none set is the idle bus.
     fetch: DFF<Bit>,
     pending: DFF<Bit>,
@@ -106,6 +108,7 @@ impl Default for LocalBus {
             write_data: Signal::default(),
             write_busy: Signal::default(),
             overrun: Signal::default(),
+            claims: Signal::default(),
             fetch: DFF::default(),
             pending: DFF::default(),
             take: DFF::default(),
@@ -199,6 +202,7 @@ impl Logic for LocalBus {
         self.read.next = self.fetch.q.val();
         self.write.next = self.offer.q.val() & !self.write_busy.val();
         self.write_data.next = self.from_host.q.val();
+        self.claims.next = self.fetch.q.val() | self.offer.q.val();
         self.overrun.next = self.offer.q.val() & self.write_busy.val() & self.expired.val();
     }
 }

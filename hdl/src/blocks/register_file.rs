@@ -54,6 +54,8 @@ pub struct RegisterFile {
     pub index_status: Signal<In, Bits<8>>,
     /// Live `interrupt_status`.
     pub interrupt_status: Signal<In, Bits<2>>,
+    /// Live `radio`.
+    pub radio: Signal<In, Bits<24>>,
 
     /// `tick_period`.
     pub tick_period: Signal<Out, Bits<24>>,
@@ -99,6 +101,8 @@ pub struct RegisterFile {
     pub index_clear: Signal<Out, Bits<4>>,
     /// `interrupt_status` is written: the bits to clear.
     pub clear_interrupt: Signal<Out, Bits<2>>,
+    /// `radio` is written.
+    pub select_radio: Signal<Out, Bit>,
     /// `arm` is written.
     pub arm_write: Signal<Out, Bit>,
     /// `faults` is written.
@@ -186,6 +190,7 @@ impl Logic for RegisterFile {
         self.unlocked.next = !self.armed.val();
         self.tick_period_written.next = false;
         self.arm_write.next = false;
+        self.select_radio.next = false;
         self.clear_faults.next = false;
         self.commit_set_points.next = false;
         self.commit_configuration.next = false;
@@ -303,6 +308,9 @@ impl Logic for RegisterFile {
                 39 => {
                     self.clear_interrupt.next = self.data.val().get_bits::<2>(0);
                 } // INTERRUPT_STATUS
+                40 => {
+                    self.select_radio.next = true;
+                } // RADIO
                 _ => {
                     self.fire.next = false;
                 }
@@ -414,6 +422,9 @@ impl Logic for RegisterFile {
             }
             39 => {
                 self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_status.val());
+            }
+            40 => {
+                self.read_q.d.next = bit_cast::<32, 24>(self.radio.val());
             }
             _ => {
                 self.read_q.d.next = self.zero.val();

@@ -15,6 +15,8 @@
 //! come before the reply is out are not heard. One request, one reply: a host that gets none asks
 //! again, since every access may be made twice without harm but a kick, which the lock-out bounds.
 
+use super::crc::Crc;
+use super::serial_receiver::SerialReceiver;
 use crate::primitives::Literal;
 use fixed_kin::serial_host::{CLOCKS_PER_BIT, FRAME_TIMEOUT};
 use rust_hdl::prelude::*;
@@ -41,13 +43,10 @@ pub struct SerialHost {
     /// The core's answer.
     pub ready_n: Signal<In, Bit>,
 
-    line_1: DFF<Bit>,
-    line_2: DFF<Bit>,
-    hearing: DFF<Bit>,
-    rx_clocks: DFF<Bits<6>>,
-    rx_bit: DFF<Bits<4>>,
-    rx_byte: DFF<Bits<8>>,
-    rx_crc: DFF<Bits<8>>,
+    receiver: SerialReceiver<{ CLOCKS_PER_BIT as u64 / 2 - 1 }, { CLOCKS_PER_BIT as u64 - 1 }>,
+    rx_check: Crc<8, 0xE0>,
+    tx_check: Crc<8, 0xE0>,
+
     silence: DFF<Bits<14>>,
     position: DFF<Bits<3>>,
     is_write: DFF<Bit>,
@@ -61,15 +60,11 @@ pub struct SerialHost {
     tx_bit: DFF<Bits<4>>,
     tx_position: DFF<Bits<3>>,
     tx_byte: DFF<Bits<8>>,
-    tx_crc: DFF<Bits<8>>,
     tx_low: DFF<Bit>,
 
-    level: Signal<Local, Bit>,
-    sampling: Signal<Local, Bit>,
     byte_done: Signal<Local, Bit>,
     heard: Signal<Local, Bits<8>>,
-    rx_feedback: Signal<Local, Bit>,
-    next_rx_crc: Signal<Local, Bits<8>>,
+    at_start: Signal<Local, Bit>,
     good: Signal<Local, Bit>,
     reads: Signal<Local, Bit>,
     writes: Signal<Local, Bit>,
@@ -77,13 +72,11 @@ pub struct SerialHost {
     tx_tick: Signal<Local, Bit>,
     tx_last: Signal<Local, Bit>,
     tx_sends_crc: Signal<Local, Bit>,
-    tx_feedback: Signal<Local, Bit>,
-    next_tx_crc: Signal<Local, Bits<8>>,
+    answers: Signal<Local, Bit>,
     next_tx_byte: Signal<Local, Bits<8>>,
     tx_after: Signal<Local, Bits<3>>,
     following: Signal<Local, Bits<3>>,
 
-    half_bit: Literal<6, { CLOCKS_PER_BIT as u64 / 2 - 1 }>,
     whole_bit: Literal<6, { CLOCKS_PER_BIT as u64 - 1 }>,
     no_clocks: Literal<6, 0>,
     one_clock: Literal<6, 1>,
@@ -91,9 +84,6 @@ pub struct SerialHost {
     one_bit: Literal<4, 1>,
     stop_bit: Literal<4, 9>,
     no_byte: Literal<8, 0>,
-    all_ones: Literal<8, 0xFF>,
-    crc_taps: Literal<8, 0xE0>,
-    top_bit: Literal<8, 0x80>,
     silent: Literal<14, { FRAME_TIMEOUT as u64 }>,
     no_silence: Literal<14, 0>,
     one_silence: Literal<14, 1>,
@@ -114,59 +104,30 @@ pub struct SerialHost {
 impl Logic for SerialHost {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, line_1, line_2, hearing, rx_clocks, rx_bit, rx_byte, rx_crc, silence, position);
-        dff_setup!(self, clock, is_write, address, data, calling, waiting, replying, failed);
-        dff_setup!(self, clock, tx_clocks, tx_bit, tx_position, tx_byte, tx_crc, tx_low);
+        clock!(self, clock, receiver, rx_check, tx_check);
+        dff_setup!(self, clock, silence, position, is_write, address, data, calling, waiting, replying, failed);
+        dff_setup!(self, clock, tx_clocks, tx_bit, tx_position, tx_byte, tx_low);
 
-        // Line to bits. Inverted before the first flip-flop, so that power-up is the idle line.
-        self.line_1.d.next = !self.rx.val();
-        self.line_2.d.next = self.line_1.q.val();
-        self.level.next = !self.line_2.q.val();
-        self.sampling.next = self.hearing.q.val() & (self.rx_clocks.q.val() == self.no_clocks.val());
-        self.byte_done.next = self.sampling.val() & (self.rx_bit.q.val() == self.stop_bit.val()) & self.level.val();
-        self.heard.next = self.rx_byte.q.val();
-        self.rx_feedback.next = self.rx_crc.q.val().get_bit(0) ^ self.level.val();
-        self.next_rx_crc.next = self.rx_crc.q.val() >> 1;
-        if self.rx_feedback.val() {
-            self.next_rx_crc.next = (self.rx_crc.q.val() >> 1) ^ self.crc_taps.val();
-        }
-        if self.hearing.q.val() {
-            self.rx_clocks.d.next = self.rx_clocks.q.val() - self.one_clock.val();
-            if self.sampling.val() {
-                self.rx_clocks.d.next = self.whole_bit.val();
-                self.rx_bit.d.next = self.rx_bit.q.val() + self.one_bit.val();
-                if self.rx_bit.q.val() == self.no_bits.val() {
-                    // A start bit that is gone in its middle was a spike.
-                    self.hearing.d.next = !self.level.val();
-                } else if self.rx_bit.q.val() == self.stop_bit.val() {
-                    self.hearing.d.next = false;
-                } else {
-                    self.rx_byte.d.next = self.rx_byte.q.val() >> 1;
-                    if self.level.val() {
-                        self.rx_byte.d.next = (self.rx_byte.q.val() >> 1) | self.top_bit.val();
-                    }
-                    self.rx_crc.d.next = self.next_rx_crc.val();
-                }
-            }
-        } else if !self.level.val() & !self.replying.q.val() & !self.waiting.q.val() & !self.calling.q.val() {
-            self.hearing.d.next = true;
-            self.rx_clocks.d.next = self.half_bit.val();
-            self.rx_bit.d.next = self.no_bits.val();
-            if self.position.q.val() == self.start.val() {
-                self.rx_crc.d.next = self.all_ones.val();
-            }
-        }
+        // Line to bytes.
+        self.at_start.next = self.position.q.val() == self.start.val();
+        self.receiver.rx.next = self.rx.val();
+        self.receiver.enable.next = !self.replying.q.val() & !self.waiting.q.val() & !self.calling.q.val();
+        self.rx_check.clear.next = self.receiver.start.val() & self.at_start.val();
+        self.rx_check.shift.next = self.receiver.data_bit.val();
+        self.rx_check.line.next = self.receiver.level.val();
+        self.byte_done.next = self.receiver.byte_done.val();
+        self.heard.next = self.receiver.value.val();
 
         // Bytes to a frame.
-        self.reads.next = (self.position.q.val() == self.start.val()) & (self.heard.val() == self.read_letter.val());
-        self.writes.next = (self.position.q.val() == self.start.val()) & (self.heard.val() == self.write_letter.val());
-        self.good.next = (self.rx_crc.q.val() == self.no_byte.val())
+        self.reads.next = self.at_start.val() & (self.heard.val() == self.read_letter.val());
+        self.writes.next = self.at_start.val() & (self.heard.val() == self.write_letter.val());
+        self.good.next = (self.rx_check.state.val() == self.no_byte.val())
             & (self.address.q.val().get_bits::<2>(14) == self.no_high.val());
         self.frame_done.next = self.byte_done.val()
             & ((self.is_write.q.val() & (self.position.q.val() == self.at_crc_of_write.val()))
                 | (!self.is_write.q.val() & (self.position.q.val() == self.at_crc_of_read.val())));
         if self.byte_done.val() {
-            if self.position.q.val() == self.start.val() {
+            if self.at_start.val() {
                 self.is_write.d.next = self.writes.val();
                 if self.reads.val() | self.writes.val() {
                     self.position.d.next = self.one_position.val();
@@ -183,7 +144,7 @@ impl Logic for SerialHost {
             }
         }
         self.silence.d.next = self.silence.q.val() + self.one_silence.val();
-        if self.hearing.q.val() | (self.position.q.val() == self.start.val()) {
+        if self.receiver.hearing.val() | self.at_start.val() {
             self.silence.d.next = self.no_silence.val();
         }
         if self.silence.q.val() == self.silent.val() {
@@ -215,16 +176,13 @@ impl Logic for SerialHost {
         }
         self.tx_sends_crc.next = self.tx_position.q.val() == self.tx_after.val();
         self.tx_last.next = self.tx_sends_crc.val() & (self.tx_bit.q.val() == self.stop_bit.val());
-        self.tx_feedback.next = self.tx_crc.q.val().get_bit(0) ^ self.tx_byte.q.val().get_bit(0);
-        self.next_tx_crc.next = self.tx_crc.q.val() >> 1;
-        if self.tx_feedback.val() {
-            self.next_tx_crc.next = (self.tx_crc.q.val() >> 1) ^ self.crc_taps.val();
-        }
         self.next_tx_byte.next = self.data.q.val().get_bits::<8>(0);
         self.following.next = self.tx_position.q.val() + self.one_position.val();
         if self.following.val() == self.tx_after.val() {
-            self.next_tx_byte.next = self.tx_crc.q.val();
+            self.next_tx_byte.next = self.tx_check.state.val();
         }
+        self.tx_check.line.next = self.tx_byte.q.val().get_bit(0);
+        self.tx_check.shift.next = false;
         if self.replying.q.val() {
             self.tx_clocks.d.next = self.tx_clocks.q.val() - self.one_clock.val();
         }
@@ -245,16 +203,17 @@ impl Logic for SerialHost {
             } else {
                 self.tx_low.d.next = !self.tx_byte.q.val().get_bit(0);
                 self.tx_byte.d.next = self.tx_byte.q.val() >> 1;
-                self.tx_crc.d.next = self.next_tx_crc.val();
+                self.tx_check.shift.next = true;
             }
         }
-        if (self.waiting.q.val() & !self.ready_n.val()) | (self.frame_done.val() & !self.good.val()) {
+        self.answers.next = (self.waiting.q.val() & !self.ready_n.val()) | (self.frame_done.val() & !self.good.val());
+        self.tx_check.clear.next = self.answers.val();
+        if self.answers.val() {
             self.replying.d.next = true;
             self.failed.d.next = self.frame_done.val();
             self.tx_position.d.next = self.start.val();
             self.tx_bit.d.next = self.no_bits.val();
             self.tx_clocks.d.next = self.whole_bit.val();
-            self.tx_crc.d.next = self.all_ones.val();
             self.tx_byte.d.next = self.read_reply.val();
             if self.is_write.q.val() {
                 self.tx_byte.d.next = self.write_reply.val();

@@ -10,6 +10,7 @@ pub mod encoder;
 pub mod interrupt;
 pub mod kicker;
 pub mod pwm;
+pub mod radio;
 pub mod safety;
 pub mod stall;
 

@@ -30,6 +30,8 @@ enum SceneChoice {
     Kick,
     /// Driving, then the emergency stop opens
     Stop,
+    /// A robot without a PC: a frame on the radio's line that arms
+    Radio,
 }
 
 impl Options {
@@ -40,6 +42,7 @@ impl Options {
             SceneChoice::Reversal => (Scene::Reversal, "reversal"),
             SceneChoice::Kick => (Scene::Kick, "kick"),
             SceneChoice::Stop => (Scene::Stop, "stop"),
+            SceneChoice::Radio => (Scene::Radio, "radio"),
         };
         let path = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("out/{name}.vcd")));
         let (text, clocks) = record(scene).map_err(Failure::data)?;

@@ -62,8 +62,11 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_stalls",
             "rac4i65_core_trigonometry",
             "rac4i65_core_interrupt",
+            "rac4i65_core_radio",
         ],
         mutants: &[
+            mutant("two masters", "radio_turn = radio_offer & ~bus_claims", "radio_turn = radio_offer"),
+            mutant("the host commands always", "(bus_write_2 & ~radio_selected)", "bus_write_2"),
             mutant("a dead clock keeps the bridges on", "if (safety_armed & alive) begin", "if (safety_armed) begin"),
             mutant("discharges while armed", "kicker_discharge = shut & ~holds", "kicker_discharge = ~holds"),
             mutant(
@@ -76,7 +79,7 @@ pub const PROOFS: &[Proof] = &[
             "gate",
             "rac4i65_core",
             "not armed or LCLK dead: PWM low, bridges disabled, charger and trigger off at the pins, in the same clock; \
-             discharge never beside them",
+             discharge never beside them; one master at a time, and only the one in command",
             include_str!("../../proofs/gate.v"),
         )
     },
@@ -193,6 +196,41 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_timebase",
             "25 to 34 clocks between microseconds whatever the register says, at least 1000 between ticks",
             include_str!("../../proofs/timebase.v"),
+        )
+    },
+    Proof {
+        cut: &["rac4i65_core_radio_memory"],
+        free: &["receiver"],
+        // No bits but bytes: a right CRC in few clocks.
+        shrink: &[
+            ("gap = 5'b10100", "gap = 5'd2"),
+            ("residue = 32'hdebb20e3", "residue = 32'hffffffff"),
+            ("FORMAL_RESIDUE = 32'hdebb20e3", "FORMAL_RESIDUE = 32'hffffffff"),
+        ],
+        mutants: &[
+            mutant("forgives damage", "(stage_q == at_end) & (check_state == residue)", "stage_q == at_end"),
+            mutant("any length", "refuses = ~length_fits", "refuses = 1'b0"),
+            mutant("a broken byte is none", "refuses = receiver_broken & listening_q", "refuses = 1'b0"),
+        ],
+        ..proof(
+            "radio",
+            "rac4i65_core_radio",
+            "no word reaches the core but of a frame between two silences with right head, robot, length, CRC and a new \
+             number; not one more than it has, each held until taken",
+            include_str!("../../proofs/radio.v"),
+        )
+    },
+    Proof {
+        shrink: &[("whole_bit = 9'b100100000", "whole_bit = 9'd1"), ("half_bit = 9'b10001111", "half_bit = 9'd0")],
+        mutants: &[
+            mutant("a low stop bit is one", "byte_done = sampling & stop & high", "byte_done = sampling & stop"),
+            mutant("highest bit first", "(shift_q >> 32'h1) | top_bit", "(shift_q << 32'h1) | 8'h1"),
+        ],
+        ..proof(
+            "receiver",
+            "rac4i65_core_radio_receiver",
+            "a byte is the eight bits before it, between a low start bit and a high stop bit",
+            include_str!("../../proofs/receiver.v"),
         )
     },
     Proof {

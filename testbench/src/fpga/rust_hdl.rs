@@ -34,6 +34,8 @@ impl RustHdl {
         core.ads_n.next = true;
         core.blast_n.next = true;
         core.emergency_stop.next = false;
+        core.host_select.next = true;
+        core.radio_rx.next = true;
         Self(PinLevel::new(Kind::RustHdl, Simulated { core, clock: 0, scheduled: VecDeque::new() }))
     }
 }

@@ -36,6 +36,8 @@ impl Verilog {
         let mut session = Verilated::build(name, verilog, NAME, &ports)?.start()?;
         let (a, b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
         session.set_port("emergency_stop", 0)?;
+        session.set_port("host_select", 1)?;
+        session.set_port("radio_rx", 1)?;
         Ok(Self(PinLevel::new(Kind::Verilog, Compiled { session, a, b })))
     }
 }

@@ -55,6 +55,7 @@ impl CompiledLive {
         let mut session = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports)?.start()?;
         let (encoder_a, encoder_b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
         session.set_port("emergency_stop", 0)?;
+        session.set_port("host_select", 1)?;
         let mut columns = [0; 4];
         for (column, name) in columns.iter_mut().zip(OUTPUTS) {
             *column = session.layout().output(name)?;
