@@ -4,8 +4,8 @@ mod gaps;
 
 use std::sync::Arc;
 
-use model::robot::{Effect as RobotEffect, EffectParameter, Robot};
-use model::run::DataSet;
+use model::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
+use model::run::{DataSet, Run};
 
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link, Sizes, Values};
@@ -151,12 +151,57 @@ pub struct Analysis {
     pub exact: Vec<ExactLink>,
 }
 
+/// Share of the stall torque beyond which scatter is no noise of a drive.
+const NO_NOISE: f64 = 0.15;
+
+/// The robot with what its file leaves to the logs. A motor behind a current controller, or one that is never used
+/// up to its speed, has no no-load speed by which to call an effect large: it is then taken as four times the
+/// fastest turn in the logs, which is how robots are driven.
+fn completed(robot: &Robot, runs: &[Run]) -> Robot {
+    const USUAL: f64 = 4.0;
+    const UNUSUAL: f64 = 20.0;
+    let fastest = runs.iter().flat_map(|run| run.counts.iter().map(|counts| fastest(&run.t, counts)));
+    let fastest = fastest.fold(0.0, f64::max) / robot.counts_per_wheel_rad();
+    let unusual = fastest > 0.0 && robot.no_load_wheel_speed(robot.supply_v) > UNUSUAL * fastest;
+    let mut completed = robot.clone();
+    if unusual {
+        completed.top_speed_rad_s = Some(USUAL * fastest);
+    }
+    if robot.camera_rate_hz <= 0.0 {
+        let between =
+            |run: &Run| -> Vec<f64> { run.camera.windows(2).map(|f| run.t[f[1].tick] - run.t[f[0].tick]).collect() };
+        let mut apart: Vec<f64> = runs.iter().flat_map(between).collect();
+        apart.sort_by(f64::total_cmp);
+        // Stamps are rounded to ticks, and frames get lost: the mean of what lies about the median.
+        let median = apart.get(apart.len() / 2).copied().unwrap_or(1.0 / 60.0);
+        apart.retain(|x| (x / median - 1.0).abs() < 0.4);
+        let sum: f64 = apart.iter().sum();
+        completed.camera_rate_hz = if sum > 0.0 { apart.len() as f64 / sum } else { 1.0 / median };
+    }
+    completed
+}
+
+/// Most counts a second over 50 ms.
+fn fastest(t: &[f64], counts: &[i64]) -> f64 {
+    let mut first = 0;
+    let mut most = 0.0_f64;
+    for k in 1..t.len().min(counts.len()) {
+        while first + 1 < k && t[k] - t[first + 1] >= 0.05 {
+            first += 1;
+        }
+        if t[k] - t[first] >= 0.05 {
+            most = most.max(counts[k].abs_diff(counts[first]) as f64 / (t[k] - t[first]));
+        }
+    }
+    most
+}
+
 /// Analyses a data set.
 ///
 /// # Errors
 /// [`GapError`] if the robot cannot drive, or the logs hold nothing that can be compared.
 pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
-    let robot = &set.robot;
+    let robot = &completed(&set.robot, &set.runs);
     let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
     for effect in &options.effects {
         let wheels = effect.forms(robot).into_iter().flat_map(|f| f.wheels);
@@ -223,7 +268,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     unexplained.extend(crate::leftover::torn(&pieces));
     let mut motion_plots = None;
     let mut whole = None;
-    if motion_link.is_empty() || robot.support == model::robot::Support::Blocks {
+    if motion_link.is_empty() || robot.support == Support::Blocks {
         remarks.push(missing(set));
     } else {
         let problem = Problem::Motion(&motion_link);
@@ -265,6 +310,16 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(robot).stall_nm);
             link.noise = floor.clone();
             drive_noise.clone_from(&floor);
+            let stall = Sizes::of(robot).stall_nm;
+            if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
+                let structure = format!(
+                    "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
+                     duties of this drive?",
+                    1e3 * worst,
+                    100.0 * worst / stall
+                );
+                unexplained.push(Leftover { link: Link::Drive, structure });
+            }
             thresholds.drive_correlation = correlation;
             let problem = Problem::Drive(&link);
             let matters = gaps::drive_matters(&floor, Sizes::of(robot).stall_nm);
@@ -346,10 +401,10 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
     let waterfall = gaps::waterfall(&links, &waterfall_parts);
     let robot_with =
-        with_effects(robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
+        with_effects(&set.robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
     let findings = crate::experiment::Findings {
         robot,
-        found: &robot_with,
+        found: &completed(&robot_with, &set.runs),
         active: &found,
         segments: &pieces,
         noise: (noise, &drive_noise),
@@ -389,7 +444,11 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
 /// The file of a robot with effects: the one it came from with these effects, if that is to be found.
 fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
     let file = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
-    let nominal = |r: &Robot| Robot { effects: Vec::new(), ..r.clone() };
+    // A log of one axis speaks of a part of the robot.
+    let nominal = |r: &Robot| match r.support {
+        Support::Floor => Robot { effects: Vec::new(), ..r.clone() },
+        Support::Blocks => Robot { effects: Vec::new(), ..r.first_axes(robot.wheel_count()) },
+    };
     std::fs::read_to_string(&file)
         .ok()
         .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
@@ -398,7 +457,7 @@ fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
 }
 
 fn missing(set: &DataSet) -> String {
-    let what = if set.robot.support == model::robot::Support::Blocks {
+    let what = if set.robot.support == Support::Blocks {
         "The wheels are off the floor: the motion link is not compared."
     } else if set.runs.iter().all(|r| r.counts.is_empty()) {
         "No encoder counts in the logs: the motion link is not compared."

@@ -38,7 +38,9 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run], remarks: &mut Vec<String>) ->
     let n = robot.wheel_count();
     let whole = |r: &&Run| r.reference.len() == n && r.counts.len() == n && r.duty.len() == n;
     let mut runs: Vec<&Run> = runs.iter().filter(whole).collect();
-    if runs.is_empty() {
+    // The file of another machine may say nothing of a speed loop.
+    let no_loop = robot.pi.kp == 0.0 && robot.pi.ki == 0.0 && robot.pi.arithmetic.is_none();
+    if runs.is_empty() || no_loop {
         return None;
     }
     let words = match words::controller(robot, &runs) {

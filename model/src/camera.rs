@@ -78,7 +78,7 @@ impl Camera {
     pub fn observe(&mut self, t: f64, pose: Pose) -> Option<Pose> {
         self.past.push_back((t, pose));
         let start = *self.start.get_or_insert(t);
-        if t < start + self.frames as f64 / self.model.rate_hz - 1e-9 {
+        if self.model.rate_hz <= 0.0 || t < start + self.frames as f64 / self.model.rate_hz - 1e-9 {
             return None;
         }
         self.frames += 1;

@@ -88,25 +88,23 @@ impl Geometry {
         if wheels.len() < 3 {
             return Err(GeometryError::TooFewWheels(wheels.len()));
         }
-        let invalid = |wheel, what: String| Err(GeometryError::Invalid { wheel, what });
-        if !(wheel_radius_m.is_finite() && wheel_radius_m > 0.0) {
-            return invalid(0, format!("radius {wheel_radius_m} m is not positive"));
-        }
-        for (i, w) in wheels.iter().enumerate() {
-            if [w.x_m, w.y_m, w.drive_rad, w.roller_rad].iter().any(|v| !v.is_finite()) {
-                return invalid(i + 1, "a number is not finite".to_owned());
-            }
-            if w.roller_rad.cos().abs() < 1e-6 {
-                return invalid(i + 1, "rollers along the axle transmit no torque".to_owned());
-            }
-        }
-        let inverse = InverseMatrix::from_fn(wheels.len(), |i, j| {
-            wheels[i].traction_row()[j] / (wheel_radius_m * wheels[i].roller_rad.cos())
-        });
+        let inverse = inverse_of(&wheels, wheel_radius_m)?;
         let direct = direct_of(&inverse, &wheels)?;
         Ok(Self { wheels, wheel_radius_m, inverse, direct })
     }
 
+    /// Axes on blocks, one or more: no turn of a wheel moves the body, so [`Self::twist`] is zero.
+    ///
+    /// # Errors
+    /// [`GeometryError::Invalid`] for numbers that make no wheel, and no wheels at all.
+    pub fn axes(wheels: Vec<Wheel>, wheel_radius_m: f64) -> Result<Self, GeometryError> {
+        if wheels.is_empty() {
+            return Err(GeometryError::TooFewWheels(0));
+        }
+        let inverse = inverse_of(&wheels, wheel_radius_m)?;
+        let direct = DirectMatrix::zeros(wheels.len());
+        Ok(Self { wheels, wheel_radius_m, inverse, direct })
+    }
     /// The paper's robot, equation (6): wheel 1 in front (90°), 2 rear left (210°), 3 rear right
     /// (330°), each turned **clockwise** by its skew α; positive wheel speed turns the robot
     /// clockwise.
@@ -120,7 +118,7 @@ impl Geometry {
         Self::new(rac_wheels(body_radius_m, skew_rad), wheel_radius_m)
     }
 
-    /// Number of wheels, at least 3.
+    /// Number of wheels; at least 3 unless they are [`Self::axes`].
     pub fn wheel_count(&self) -> usize {
         self.wheels.len()
     }
@@ -186,6 +184,25 @@ pub fn rac_wheels(body_radius_m: f64, skew_rad: [f64; 3]) -> Vec<Wheel> {
             }
         })
         .collect()
+}
+
+/// M/r, N × 3, of wheels that are fit to be ones.
+fn inverse_of(wheels: &[Wheel], wheel_radius_m: f64) -> Result<InverseMatrix, GeometryError> {
+    let invalid = |wheel, what: String| Err(GeometryError::Invalid { wheel, what });
+    if !(wheel_radius_m.is_finite() && wheel_radius_m > 0.0) {
+        return invalid(0, format!("radius {wheel_radius_m} m is not positive"));
+    }
+    for (i, w) in wheels.iter().enumerate() {
+        if [w.x_m, w.y_m, w.drive_rad, w.roller_rad].iter().any(|v| !v.is_finite()) {
+            return invalid(i + 1, "a number is not finite".to_owned());
+        }
+        if w.roller_rad.cos().abs() < 1e-6 {
+            return invalid(i + 1, "rollers along the axle transmit no torque".to_owned());
+        }
+    }
+    Ok(InverseMatrix::from_fn(wheels.len(), |i, j| {
+        wheels[i].traction_row()[j] / (wheel_radius_m * wheels[i].roller_rad.cos())
+    }))
 }
 
 /// Pseudo-inverse, or the motion that nothing resists.

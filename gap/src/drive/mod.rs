@@ -125,7 +125,9 @@ impl DriveModel {
 
     /// Wheel speed per body twist, N × 3.
     fn wheel_speed_per_twist(&self) -> Option<DMatrix<f64>> {
-        let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
+        let alone = self.support == Support::Blocks && self.wheels.len() < 3;
+        let geometry = if alone { Geometry::axes } else { Geometry::new };
+        let geometry = geometry(self.wheels.clone(), self.wheel_radius_m).ok()?;
         Some(DMatrix::from_fn(self.wheels.len(), 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i]))
     }
 

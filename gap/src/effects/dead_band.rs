@@ -36,6 +36,11 @@ impl Effect for DeadBand {
         }));
     }
 
+    fn law_uncertainty(&self) -> f64 {
+        // Windings smooth what the bridge swallows while the duty dithers.
+        0.03
+    }
+
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("a duty staircase with the wheels lifted", 2.0))
     }

@@ -67,7 +67,7 @@ impl Effect for GearBacklash {
 
     fn law_uncertainty(&self) -> f64 {
         // The rotor bounces between the flanks.
-        0.05
+        0.08
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

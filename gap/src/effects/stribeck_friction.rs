@@ -49,7 +49,7 @@ impl Effect for StribeckFriction {
 
     fn law_uncertainty(&self) -> f64 {
         // How the extra friction falls with speed is a convention, and at rest it is not seen.
-        0.05
+        0.06
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

@@ -50,6 +50,11 @@ impl Effect for ViscousFriction {
         }));
     }
 
+    fn law_uncertainty(&self) -> f64 {
+        // What rollers lose at the hand-over grows with speed, too.
+        0.03
+    }
+
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("let the lifted wheels coast down", 3.0))
     }

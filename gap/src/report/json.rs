@@ -2,15 +2,28 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::analysis::{Analysis, overall};
+use crate::analysis::{Analysis, Named, overall};
+
+/// Effects whose parameter the contract knows without a wheel's number: of one wheel alone it stands under both names.
+const NUMBERLESS: [&str; 2] = ["gear-backlash", "viscous-friction"];
+
+/// `play_rad` for `play_2_rad` of wheel 2 alone.
+fn plain_name(effect: &Named, parameter: &str) -> Option<String> {
+    let [wheel] = effect.wheels[..] else { return None };
+    let number = format!("_{wheel}_");
+    (NUMBERLESS.contains(&effect.name.as_str()) && parameter.contains(&number))
+        .then(|| parameter.replacen(&number, "_", 1))
+}
 
 pub(super) fn json(a: &Analysis) -> Value {
     let (before, after) = overall(&a.links);
     let named = !a.effects.is_empty();
     let closed = if named && before > 1.0 { json!(((before - after) / (before - 1.0)).min(1.0)) } else { Value::Null };
-    let parameters = |list: &[(String, f64, [f64; 2])]| {
-        let entries = list.iter().map(|(n, v, ci)| (n.clone(), json!({"value": v, "ci95": ci})));
-        Value::Object(entries.collect::<Map<String, Value>>())
+    let parameters = |e: &Named| {
+        let entry = |name: String, v: &f64, ci: &[f64; 2]| (name, json!({"value": v, "ci95": ci}));
+        let own = e.parameters.iter().map(|(n, v, ci)| entry(n.clone(), v, ci));
+        let plain = e.parameters.iter().filter_map(|(n, v, ci)| Some(entry(plain_name(e, n)?, v, ci)));
+        Value::Object(own.chain(plain).collect::<Map<String, Value>>())
     };
     let links: Map<String, Value> = a
         .links
@@ -32,7 +45,7 @@ pub(super) fn json(a: &Analysis) -> Value {
             "link": l.link.name(), "signal": l.signal, "excess": l.excess, "where": l.place,
         })).collect::<Vec<_>>(),
         "effects": a.effects.iter().map(|e| json!({
-            "name": e.name, "wheels": e.wheels, "parameters": parameters(&e.parameters),
+            "name": e.name, "wheels": e.wheels, "parameters": parameters(e),
             "gain": e.gain, "p_value": e.p_value, "link": e.link.name(), "equation": e.equation,
         })).collect::<Vec<_>>(),
         "alternatives": a.alternatives,
@@ -68,4 +81,26 @@ pub(super) fn json(a: &Analysis) -> Value {
         }).collect::<Map<String, Value>>(),
         "remarks": a.remarks,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::Link;
+
+    #[test]
+    fn a_wheel_alone_has_the_plain_name_too() {
+        let named = |name: &str, wheels: &[usize]| Named {
+            name: name.to_owned(),
+            equation: String::new(),
+            link: Link::Drive,
+            wheels: wheels.to_vec(),
+            parameters: Vec::new(),
+            gain: 0.0,
+            p_value: 1.0,
+        };
+        assert_eq!(plain_name(&named("gear-backlash", &[2]), "play_2_rad").as_deref(), Some("play_rad"));
+        assert_eq!(plain_name(&named("gear-backlash", &[1, 2]), "play_2_rad"), None);
+        assert_eq!(plain_name(&named("wheel-radius", &[2]), "scale_2"), None);
+    }
 }

@@ -122,6 +122,61 @@ fn four_wheels_and_mecanum_rollers() {
 }
 
 #[test]
+fn a_slide_on_one_axis_behind_a_current_controller() {
+    // No back-EMF, no speed loop in the file, and a log of axis 1 only.
+    let mut nominal = Robot { support: Support::Blocks, wheel_inertia_kg_m2: 4e-4, ..Robot::racbot() };
+    nominal.motor.back_emf_constant = Some(0.0);
+    nominal.motor.friction_torque = 0.0;
+    // Only the driver of the simulated slide has to know how fast it may go.
+    let driven = Robot { top_speed_rad_s: Some(200.0), ..nominal.clone() };
+    let mut truth = with(&driven, "coulomb-friction", &[("torque_nm", 0.012)]);
+    truth.effects.extend(with(&driven, "viscous-friction", &[("coefficient_nms", 4e-4)]).effects);
+    let folder = tempfile::tempdir().unwrap();
+    let text = nominal.to_toml();
+    let (before, after) = text.split_once("\n[pi]").unwrap();
+    let after = after.split_once("\n[").map_or(String::new(), |(_, rest)| format!("\n[{rest}"));
+    std::fs::write(folder.path().join("robot.toml"), format!("# The slide\n{before}{after}")).unwrap();
+    for seed in 0..2 {
+        let run = run(&truth, Blocks, seed);
+        let mut csv = String::from("t,enc_1,duty_1\n");
+        for k in 0..run.len() {
+            csv += &format!("{:.4},{},{:.4}\n", run.t[k], run.counts[0][k], run.duty[0][k]);
+        }
+        std::fs::write(folder.path().join(format!("run_{seed}.csv")), csv).unwrap();
+    }
+    let set = DataSet::open(folder.path()).unwrap();
+    assert_eq!(set.robot.wheel_count(), 1);
+    let a = done(&set);
+    let mut found = names(&a);
+    found.sort_unstable();
+    assert_eq!(found, ["coulomb-friction", "viscous-friction"], "{}", a.terminal_summary());
+    assert!((value(&a, "torque_nm") / 0.012 - 1.0).abs() < 0.15, "{}", a.terminal_summary());
+    assert!((value(&a, "coefficient_nms") / 4e-4 - 1.0).abs() < 0.15, "{}", a.terminal_summary());
+    assert!(a.robot_text.starts_with("# The slide") && a.robot_text.contains("body_radius_m"), "{}", a.robot_text);
+}
+
+#[test]
+fn a_camera_whose_rate_nobody_gave() {
+    let mut set = simulate(&with(&Robot::racbot(), "camera-latency", &[("latency_s", 0.05)]), &[Star, Spin], 8);
+    set.robot.camera_rate_hz = 0.0;
+    let a = done(&set);
+    assert_eq!(names(&a), ["camera-latency"], "{}", a.terminal_summary());
+    assert!((value(&a, "latency_s") - 0.05).abs() < 0.003, "{}", a.terminal_summary());
+}
+
+#[test]
+fn duties_of_another_drive_do_not_agree() {
+    let mut set = simulate(&Robot::racbot(), &[Chirp, Star], 3);
+    for run in &mut set.runs {
+        run.duty.iter_mut().for_each(|duty| duty.reverse());
+        run.reference.clear();
+    }
+    let a = done(&set);
+    assert_eq!(a.verdict, Verdict::Unexplained, "{}", a.terminal_summary());
+    assert!(a.unexplained.iter().any(|u| u.link.name() == "drive"), "{}", a.terminal_summary());
+}
+
+#[test]
 fn lifted_wheels_are_compared_axis_by_axis_one_alone_as_well() {
     let nominal = Robot { support: Support::Blocks, wheel_inertia_kg_m2: 2e-5, ..Robot::racbot() };
     let truth = with(&nominal, "coulomb-friction", &[("torque_nm", 0.012)]);

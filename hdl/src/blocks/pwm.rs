@@ -92,6 +92,8 @@ pub struct Pwm {
     quiet_one: Literal<10, 1>,
 }
 
+// The comparison as the carry chain computes it: one `>`, then an inverter.
+#[expect(clippy::nonminimal_bool)]
 impl Logic for Pwm {
     #[hdl_gen]
     fn update(&mut self) {

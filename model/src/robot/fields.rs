@@ -12,7 +12,7 @@ pub(super) struct Field {
     pub(super) meaning: &'static str,
     /// Physical range.
     pub(super) range: Range,
-    /// Whether it may be left out.
+    /// Whether it may be left out; [`BODY`] may be on blocks.
     pub(super) optional: bool,
     /// `None` where the file need not say it.
     pub(super) get: fn(&Robot) -> Option<f64>,
@@ -94,6 +94,9 @@ macro_rules! field {
 
 use Range::{NotNegative, Positive, Whole};
 
+/// What nobody needs to know of a robot whose wheels are off the floor.
+pub(super) const BODY: [&str; 2] = ["mass_kg", "yaw_inertia_kg_m2"];
+
 /// All numbers, in the order of the file.
 pub(super) const FIELDS: &[Field] = &[
     field!("", wheel_radius_m, Positive(1.0), "wheel radius in metres", wheel_radius_m),
@@ -111,16 +114,21 @@ pub(super) const FIELDS: &[Field] = &[
         set: |r, x| r.encoder_counts_per_motor_rev = x as u32,
     },
     field!("", supply_v, Positive(1e3), "motor supply in volts", supply_v),
+    field!("", top_speed_rad_s?, Positive(1e5), "fastest turn of a wheel in rad/s", top_speed_rad_s),
     field!("", control_rate_hz, Positive(1e6), "control ticks a second", control_rate_hz),
-    field!("", camera_rate_hz, Positive(1e5), "camera frames a second", camera_rate_hz),
+    Field {
+        optional: true,
+        get: |r| (r.camera_rate_hz > 0.0).then_some(r.camera_rate_hz),
+        ..field!("", camera_rate_hz, Positive(1e5), "camera frames a second", camera_rate_hz)
+    },
     field!("", camera_latency_s = 0.0, NotNegative(2.0), "camera delay in seconds"),
     field!("", ref_quantum?, Positive(1e3), "rounding of logged set points in rad/s", ref_quantum),
     field!("", duty_quantum?, Positive(1.0), "rounding of logged duties", duty_quantum),
     field!("", wheel_inertia_kg_m2 = 0.0, NotNegative(1e2), "load inertia at a wheel shaft in kg m2"),
     field!("motor", resistance_ohm, Positive(1e4), "terminal resistance", motor.resistance_ohm),
     field!("motor", torque_constant, Positive(1e2), "Nm/A", motor.torque_constant),
-    field!("motor", back_emf_constant?, Positive(1e2), "V s/rad", motor.back_emf_constant),
-    field!("motor", rotor_inertia, Positive(1e1), "kg m2, at the motor shaft", motor.rotor_inertia),
+    field!("motor", back_emf_constant?, NotNegative(1e2), "V s/rad", motor.back_emf_constant),
+    field!("motor", rotor_inertia, NotNegative(1e1), "kg m2, at the motor shaft", motor.rotor_inertia),
     field!("motor", friction_torque, NotNegative(1e2), "Nm, at the motor shaft", motor.friction_torque),
     field!("pi", kp, NotNegative(1e6), "duty per (rad/s) at the wheel", pi.kp),
     field!("pi", ki, NotNegative(1e6), "duty per rad at the wheel", pi.ki),

@@ -35,9 +35,11 @@ pub struct Robot {
     pub encoder_counts_per_motor_rev: u32,
     /// Nominal supply of the motors, V.
     pub supply_v: f64,
+    /// Fastest turn of a wheel, rad/s, where it is not the supply that limits it.
+    pub top_speed_rad_s: Option<f64>,
     /// Control ticks a second.
     pub control_rate_hz: f64,
-    /// Frames a second of the overhead camera.
+    /// Frames a second of the overhead camera; 0 where the file says nothing of it.
     pub camera_rate_hz: f64,
     /// Known delay from exposure to log, s.
     pub camera_latency_s: f64,
@@ -53,10 +55,13 @@ pub struct Robot {
     pub wheel_inertia_kg_m2: f64,
     /// The motors, all alike.
     pub motor: MotorParameters,
-    /// The speed loop of every axis.
+    /// The speed loop of every axis; both gains 0 where the file says nothing of one.
     pub pi: PiParameters,
     /// Effects beyond the nominal model, in the order of the file.
     pub effects: Vec<Effect>,
+    /// What the file says beside: (table, key, value), kept and ignored. A key that resembles one of ours
+    /// is refused as a slip instead.
+    pub other: Vec<(String, String, toml::Value)>,
 }
 
 /// Where the wheels are.
@@ -140,6 +145,7 @@ impl Robot {
             gear_efficiency: 0.88,
             encoder_counts_per_motor_rev: 2048,
             supply_v: 7.2,
+            top_speed_rad_s: None,
             control_rate_hz: 1000.0,
             camera_rate_hz: 60.0,
             camera_latency_s: 0.0,
@@ -157,6 +163,7 @@ impl Robot {
             },
             pi: PiParameters { kp: 0.15, ki: 0.8, arithmetic: None, registers: Vec::new() },
             effects: Vec::new(),
+            other: Vec::new(),
         }
     }
 
@@ -218,7 +225,20 @@ impl Robot {
     /// # Errors
     /// [`GeometryError`] if the wheels cannot drive the robot; never for a robot that was loaded.
     pub fn geometry(&self) -> Result<Geometry, GeometryError> {
-        Geometry::new(self.layout.wheels(), self.wheel_radius_m)
+        let wheels = self.layout.wheels();
+        if self.support == Support::Blocks && wheels.len() < 3 {
+            return Geometry::axes(wheels, self.wheel_radius_m);
+        }
+        Geometry::new(wheels, self.wheel_radius_m)
+    }
+
+    /// The robot with its first wheels only: what a log of one axis on blocks speaks of.
+    #[must_use]
+    pub fn first_axes(&self, wheels: usize) -> Self {
+        if wheels >= self.wheel_count() {
+            return self.clone();
+        }
+        Self { layout: Layout::Wheels(self.layout.wheels()[..wheels].to_vec()), ..self.clone() }
     }
 
     /// Number of wheels.
@@ -244,9 +264,11 @@ impl Robot {
         1.0 / self.control_rate_hz
     }
 
-    /// The speed (rad/s at the wheel) at which back-EMF eats up a supply.
+    /// The speed (rad/s at the wheel) at which back-EMF eats up a supply, or the top speed if that is less;
+    /// infinite for a motor whose drive makes up for the back-EMF and whose top speed nobody gave.
     pub fn no_load_wheel_speed(&self, supply_v: f64) -> f64 {
-        supply_v / (self.motor.back_emf() * self.gear_ratio)
+        let by_supply = supply_v / (self.motor.back_emf() * self.gear_ratio);
+        self.top_speed_rad_s.map_or(by_supply, |top| top.min(by_supply))
     }
 
     /// The effect of this name, if the file carries it.

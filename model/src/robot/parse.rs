@@ -4,8 +4,8 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::fields::{FIELDS, Range};
-use super::{Effect, EffectParameter, Layout, Robot, Support};
+use super::fields::{BODY, FIELDS, Range};
+use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support};
 use crate::error::{InputError, line_and_column, nearest};
 use crate::geometry::Wheel;
 
@@ -36,36 +36,41 @@ pub(super) fn robot(text: &str, path: &Path) -> Result<Robot, InputError> {
     let source = Source { text, path };
     let root = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
     let top = Section { source, name: "", start: 0, table: root.get_ref() };
-    top.known(&keys_of(""))?;
     let motor = top.section("motor")?;
-    let pi = top.section("pi")?;
+    // A robot whose speed loop nobody knows has none to compare.
+    let pi = if top.table.contains_key("pi") { Some(top.section("pi")?) } else { None };
     // Every field is set below but for the optional ones, which are given their defaults here.
-    let mut robot = Robot { gear_efficiency: 1.0, ..Robot::racbot() };
+    let no_loop = PiParameters { kp: 0.0, ki: 0.0, arithmetic: None, registers: Vec::new() };
+    let mut robot = Robot { gear_efficiency: 1.0, camera_rate_hz: 0.0, pi: no_loop, ..Robot::racbot() };
+    for section in [Some(&top), Some(&motor), pi.as_ref()].into_iter().flatten() {
+        section.known(&keys_of(section.name), &mut robot.other)?;
+    }
+    robot.support = support(&top)?;
     for field in FIELDS {
         let section = match field.table {
             "motor" => &motor,
-            "pi" => &pi,
+            "pi" => match &pi {
+                Some(pi) => pi,
+                None => continue,
+            },
             _ => &top,
         };
         match section.number(field.name, field.range, field.meaning)? {
             Some(x) => (field.set)(&mut robot, x),
             None if field.optional => {}
+            None if robot.support == Support::Blocks && BODY.contains(&field.name) => {}
             None => return Err(section.missing(field.name, field.meaning)),
         }
     }
+    if robot.support == Support::Blocks && robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2 == 0.0 {
+        let hint = "on blocks nothing else turns: give rotor_inertia or wheel_inertia_kg_m2";
+        return Err(InputError { hint: hint.to_owned(), ..motor.missing("rotor_inertia", "") });
+    }
     robot.layout = layout(&top)?;
     robot.camera_noise = top.numbers("camera_noise", Range::NotNegative(1e2))?;
-    if let Some(value) = top.table.get("support") {
-        robot.support = match value.get_ref().as_str() {
-            Some("floor") => Support::Floor,
-            Some("blocks") => Support::Blocks,
-            _ => {
-                let what = "is neither \"floor\" nor \"blocks\"";
-                return Err(top.fault("support", value, what, "say what carries the robot"));
-            }
-        };
+    if let Some(pi) = &pi {
+        read_pi_extras(pi, &mut robot)?;
     }
-    read_pi_extras(&pi, &mut robot)?;
     robot.effects = effects(&top)?;
     let wheel_at = top.table.get("wheel").or_else(|| top.table.get("body_radius_m"));
     robot.geometry().map_err(|e| match wheel_at {
@@ -73,6 +78,18 @@ pub(super) fn robot(text: &str, path: &Path) -> Result<Robot, InputError> {
         None => InputError::new(path, e.to_string(), ""),
     })?;
     Ok(robot)
+}
+
+fn support(top: &Section) -> Result<Support, InputError> {
+    let Some(value) = top.table.get("support") else { return Ok(Support::Floor) };
+    match value.get_ref().as_str() {
+        Some("floor") => Ok(Support::Floor),
+        Some("blocks") => Ok(Support::Blocks),
+        _ => {
+            let what = "is neither \"floor\" nor \"blocks\"";
+            Err(top.fault("support", value, what, "say what carries the robot"))
+        }
+    }
 }
 
 fn keys_of(table: &str) -> Vec<&'static str> {
@@ -104,7 +121,7 @@ fn layout(top: &Section) -> Result<Layout, InputError> {
     let mut read = Vec::new();
     for value in list {
         let section = top.inner("wheel", value)?;
-        section.known(WHEEL_KEYS)?;
+        section.known(WHEEL_KEYS, &mut Vec::new())?;
         let mut numbers = [0.0; 4];
         for (i, (slot, key)) in numbers.iter_mut().zip(WHEEL_KEYS).enumerate() {
             let range = if i < 2 { COORDINATE } else { ANGLE };
@@ -239,13 +256,22 @@ impl<'a> Section<'a> {
         self.error_at(key, self.start, "is missing".to_owned(), &format!("add it: {meaning}"))
     }
 
-    fn known(&self, keys: &[&str]) -> Result<(), InputError> {
-        for name in self.table.keys() {
+    /// Refuses a key that looks like a slip of one of these, keeps others.
+    fn known(&self, keys: &[&str], other: &mut Vec<(String, String, toml::Value)>) -> Result<(), InputError> {
+        for (name, _) in self.in_file_order() {
             let key: &str = name.get_ref();
-            if !keys.contains(&key) {
-                let hint = nearest(key, keys).map_or("remove it".to_owned(), |k| format!("did you mean {k}?"));
-                let what = "is not a known field".to_owned();
+            if keys.contains(&key) {
+                continue;
+            }
+            if let Some(meant) = nearest(key, keys) {
+                let (what, hint) = ("is not a known field".to_owned(), format!("did you mean {meant}?"));
                 return Err(self.error_at(key, name.span().start, what, &hint));
+            }
+            let plain: toml::Table = toml::from_str(self.source.text).map_err(|e| self.source.syntax(&e))?;
+            let table =
+                if self.name.is_empty() { Some(&plain) } else { plain.get(self.name).and_then(|t| t.as_table()) };
+            if let Some(value) = table.and_then(|t| t.get(key)) {
+                other.push((self.name.to_owned(), key.to_owned(), value.clone()));
             }
         }
         Ok(())
@@ -261,9 +287,7 @@ impl<'a> Section<'a> {
         let Some(value) = self.table.get(key) else {
             return Err(self.missing(key, "a table"));
         };
-        let section = self.inner(key, value)?;
-        section.known(&keys_of(key))?;
-        Ok(section)
+        self.inner(key, value)
     }
 
     fn inner(&self, key: &'a str, value: &'a Value<'a>) -> Result<Section<'a>, InputError> {

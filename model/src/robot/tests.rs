@@ -107,7 +107,9 @@ fn byte_order_mark_and_windows_line_ends_are_accepted() {
 #[test]
 fn errors_say_where_what_and_what_to_do() {
     let table: Vec<(String, &str, u32, &str)> = vec![
-        (without("mass_kg"), "mass_kg", 1, "is missing"),
+        (without("supply_v"), "supply_v", 1, "is missing"),
+        (without("support").replace("mass_kg = 2.4", ""), "mass_kg", 1, "is missing"),
+        (with("rotor_inertia = 2.7e-7", "rotor_inertia = 0"), "motor.rotor_inertia", 15, "is missing"),
         (without("kp ="), "pi.kp", 20, "is missing"),
         (with("mass_kg = 2.4", "mass_kg = -2.4"), "mass_kg", 4, "-2.4 is not positive"),
         (with("mass_kg = 2.4", "mass_kg = nan"), "mass_kg", 4, "not a finite"),
@@ -144,6 +146,35 @@ fn wheels_that_cannot_drive_are_refused() {
     assert!(robot.validate(Path::new("r")).unwrap_err().what.contains("at least 3"));
     robot = Robot { mass_kg: f64::INFINITY, ..Robot::racbot() };
     assert_eq!(robot.validate(Path::new("r")).unwrap_err().field, "mass_kg");
+}
+
+#[test]
+fn one_axis_alone_is_a_robot_on_blocks() {
+    let text = "wheel_radius_m = 0.02\ngear_ratio = 1\nencoder_counts_per_motor_rev = 4096\nsupply_v = 10\n\
+                control_rate_hz = 1000\nsupport = \"blocks\"\nwheel_inertia_kg_m2 = 0.038\n\
+                [motor]\nresistance_ohm = 1\ntorque_constant = 0.7\nback_emf_constant = 0\nrotor_inertia = 0\n\
+                friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0.1\ndrive_rad = 0\n";
+    let robot = Robot::parse(text, Path::new("r")).unwrap();
+    assert_eq!((robot.wheel_count(), robot.pi.kp, robot.pi.ki), (1, 0.0, 0.0));
+    assert_eq!(robot.geometry().unwrap().twist(&[3.0]), crate::frames::Twist::default());
+    assert!(robot.no_load_wheel_speed(10.0).is_infinite());
+    assert_eq!(robot.camera_rate_hz, 0.0, "unknown");
+    assert_eq!(Robot::parse(&robot.to_toml(), Path::new("again")).unwrap(), robot, "{}", robot.to_toml());
+    assert!(error(&text.replace("blocks", "floor")).what.contains("is missing"), "the body counts on the floor");
+
+    let three = Robot { support: Support::Blocks, ..Robot::racbot() };
+    assert_eq!(three.first_axes(1).layout.wheels(), three.layout.wheels()[..1]);
+    assert_eq!(three.first_axes(3), three);
+}
+
+#[test]
+fn what_is_no_slip_of_a_known_key_is_kept() {
+    let text = with("mass_kg = 2.4", "mass_kg = 2.4\nseason = { year = 2005 }");
+    let text = text.replace("[motor]", "[motor]\ninductance_h = 4.5e-5");
+    let robot = Robot::parse(&text, Path::new("r")).unwrap();
+    let kept: Vec<_> = robot.other.iter().map(|(table, key, _)| (table.as_str(), key.as_str())).collect();
+    assert_eq!(kept, [("", "season"), ("motor", "inductance_h")]);
+    assert_eq!(Robot::parse(&robot.to_toml(), Path::new("again")).unwrap(), robot, "{}", robot.to_toml());
 }
 
 #[test]

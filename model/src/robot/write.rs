@@ -24,13 +24,16 @@ pub(super) fn robot(robot: &Robot) -> String {
     if robot.support == Support::Blocks {
         out.push_str("support = \"blocks\"\n");
     }
-    for table in ["motor", "pi"] {
+    others(&mut out, robot, "");
+    let has_loop = robot.pi.kp != 0.0 || robot.pi.ki != 0.0 || robot.pi.arithmetic.is_some();
+    for table in ["motor", "pi"].into_iter().filter(|table| *table != "pi" || has_loop) {
         let _ = writeln!(out, "\n[{table}]");
         for field in FIELDS.iter().filter(|f| f.table == table) {
             if let Some(x) = (field.get)(robot) {
                 let _ = writeln!(out, "{} = {}  # {}", field.name, number(x), field.meaning);
             }
         }
+        others(&mut out, robot, table);
     }
     if let Some(arithmetic) = &robot.pi.arithmetic {
         line(&mut out, "arithmetic", toml::Value::String(arithmetic.clone()));
@@ -52,6 +55,13 @@ pub(super) fn robot(robot: &Robot) -> String {
         effect(&mut out, e);
     }
     out
+}
+
+/// What the file said beside; tables inline, so that they stay where they are.
+fn others(out: &mut String, robot: &Robot, table: &str) {
+    for (_, key, value) in robot.other.iter().filter(|(t, ..)| t == table) {
+        line(out, key, value);
+    }
 }
 
 pub(super) fn effect(out: &mut String, effect: &Effect) {

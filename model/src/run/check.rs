@@ -20,7 +20,8 @@ impl Run {
         let (logged, described) = (self.wheel_count(), robot.wheel_count());
         if logged != 0 && logged != described {
             let what = format!("speaks of {logged} wheels, but the robot has {described}");
-            return Err(RunError::new(path, what, "use the robot.toml of the robot that drove"));
+            let hint = "use the robot.toml of the robot that drove; axes alone need support = \"blocks\"";
+            return Err(RunError::new(path, what, hint));
         }
         let logged_supply = self.supply_v.iter().flatten().copied().filter(|v| v.is_finite());
         let supply = logged_supply.fold(robot.supply_v, f64::max);

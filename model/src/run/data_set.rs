@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Run, RunError};
-use crate::robot::Robot;
+use crate::robot::{Robot, Support};
 
 /// A robot and its recorded runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,12 +53,13 @@ impl DataSet {
         }
         files.sort();
         files.dedup_by(|later, earlier| later.file_stem() == earlier.file_stem());
-        let runs = files.iter().map(|path| {
-            let run = Run::read(path)?;
+        let runs = files.iter().map(Run::read).collect::<Result<Vec<Run>, RunError>>()?;
+        // On blocks every axis is alone, and a log may speak of some of them only.
+        let logged = runs.iter().map(Run::wheel_count).max().unwrap_or(0);
+        let robot = if robot.support == Support::Blocks && logged > 0 { robot.first_axes(logged) } else { robot };
+        for (run, path) in runs.iter().zip(&files) {
             run.check(&robot, path)?;
-            Ok(run)
-        });
-        let runs = runs.collect::<Result<_, RunError>>()?;
+        }
         Ok(Self { folder: folder.to_owned(), robot, runs })
     }
 }
