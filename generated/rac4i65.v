@@ -1011,11 +1011,11 @@ module rac4i65_core (
     always @(*) radio_turn = radio_offer & ~bus_claims;
 
     always @(*) begin
-        address = radio_address;
-        write_data = radio_data;
-        if (bus_claims) begin
-            address = bus_address_2;
-            write_data = bus_write_data_2;
+        address = bus_address_2;
+        write_data = bus_write_data_2;
+        if (~bus_claims) begin
+            address = radio_address;
+            write_data = radio_data;
         end
     end
 
@@ -1573,7 +1573,7 @@ module rac4i65_core_registers (
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'hfe0ffc05;
+    localparam content_hash = 32'h665f99a2;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;

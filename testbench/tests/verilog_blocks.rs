@@ -172,7 +172,7 @@ fn a_million_quotients_equal_the_reference() {
 #[test]
 fn a_broken_pwm_is_caught() {
     let (verilog, ports) = compile("pwm", blocks::pwm::Pwm::default());
-    let broken = mutate(&verilog, " < ", " <= ");
+    let broken = mutate(&verilog, "coming_q > active_compare_q", "coming_q >= active_compare_q");
     let inputs = stimulus::pwm::stimulus(11, 200_000);
     let mut twin = pwm::Pwm::default();
     let difference = first_difference("pwm", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
@@ -183,7 +183,7 @@ fn a_broken_pwm_is_caught() {
 #[test]
 fn a_stall_detector_that_forgets_nothing_is_caught() {
     let (verilog, ports) = compile("stall", blocks::stall::Stall::default());
-    let broken = mutate(&verilog, "start = zero", "start = net_q");
+    let broken = mutate(&verilog, "net_d = zero", "net_d = net_q");
     let inputs = stimulus::stall::stimulus(11, 200_000);
     let mut twin = stall::Stall::default();
     let difference = first_difference("stall", &broken, &ports, &inputs, |inputs| twin.clock(inputs));

@@ -292,11 +292,11 @@ impl Logic for Core {
         self.radio.robot.next = self.robot_number.val();
         self.radio.armed.next = self.safety.armed.val();
         self.radio_turn.next = self.radio.offer.val() & !self.bus.claims.val();
-        self.address.next = self.radio.address.val();
-        self.write_data.next = self.radio.data.val();
-        if self.bus.claims.val() {
-            self.address.next = self.bus.address.val();
-            self.write_data.next = self.bus.write_data.val();
+        self.address.next = self.bus.address.val();
+        self.write_data.next = self.bus.write_data.val();
+        if !self.bus.claims.val() {
+            self.address.next = self.radio.address.val();
+            self.write_data.next = self.radio.data.val();
         }
         self.index.next = self.address.val().get_bits::<6>(0);
         self.host_writes.next = self.bus.write.val()

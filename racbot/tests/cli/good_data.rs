@@ -187,9 +187,13 @@ fn wave_writes_a_scene_and_lists_those_that_exist() {
     let folder = tempdir().unwrap();
     let json = racbot(folder.path(), &["wave", "bus", "--json"]).done().json();
     let vcd = fs::read_to_string(folder.path().join("out/bus.vcd")).unwrap();
-    assert!(vcd.contains("$var wire 32 % lad [31:0] $end") && vcd.contains("$enddefinitions $end"));
+    assert!(
+        vcd.contains(" lad [31:0] $end")
+            && vcd.contains(" kicker_discharge $end")
+            && vcd.contains("$enddefinitions $end")
+    );
     assert!(json["clocks"].as_u64().is_some_and(|clocks| clocks > 600), "{json}");
-    racbot(folder.path(), &["wave", "dance"]).refused(2, &["bus, arm, reversal, kick, stop"]);
+    racbot(folder.path(), &["wave", "dance"]).refused(2, &["bus, arm, reversal, kick, stop, radio"]);
 }
 
 #[test]
