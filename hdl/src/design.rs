@@ -3,7 +3,7 @@
 use crate::blocks::core::Core;
 use crate::blocks::serial_host::SerialHost;
 use crate::board::{Board, BoardError};
-use crate::emit::{hash, ise, open_board, registers, top, ucf, verilog, wavejson};
+use crate::emit::{blocks, hash, ise, open_board, registers, top, ucf, verilog, wavejson};
 use rust_hdl::prelude::Block;
 
 /// Name of the top module and of the files.
@@ -95,6 +95,7 @@ pub fn files() -> Result<Vec<File>, DesignError> {
         file("Makefile", ise::makefile(NAME)),
         file("rac_hx8k.v", open_board),
         file("rac_hx8k.pcf", open_pins),
+        file("blocks.md", blocks::markdown()),
         file("registers.md", registers::markdown() + &wavejson::section()),
         file("registers.h", registers::c_header()),
         file("registers.json", registers::json(hash)),

@@ -4,9 +4,11 @@
 //! block --> verilog  readable modules  --> top  joined to the board's pins --> hash  signed
 //! board --> ucf      pins and timing
 //!           ise      the project that makes a bitstream of them
+//! heads --> blocks   the page of the blocks
 //! ```
 
 mod always;
+pub mod blocks;
 pub mod hash;
 pub mod ise;
 mod module;
