@@ -1,14 +1,16 @@
 //! The whole workflow on one data set.
 
 mod gaps;
+mod order;
+mod robot_file;
 
 use std::sync::Arc;
 
-use model::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
-use model::run::{DataSet, Run};
+use model::robot::{Robot, Support};
+use model::run::DataSet;
 
 use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::{Effect, Link, Sizes, Values};
+use crate::effect::{Effect, Link, Sizes};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Options, Thresholds};
@@ -18,7 +20,11 @@ use crate::select::{self, Bench, Selection};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
+use order::{ORDER, order_named, wheel_order};
+use robot_file::{completed, given, robot_text, with_effects};
+
 pub use gaps::{LinkGap, overall};
+pub use robot_file::undo;
 
 /// What the analysis comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -153,48 +159,6 @@ pub struct Analysis {
 
 /// Share of the stall torque beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
-
-/// The robot with what its file leaves to the logs. A motor behind a current controller, or one that is never used
-/// up to its speed, has no no-load speed by which to call an effect large: it is then taken as four times the
-/// fastest turn in the logs, which is how robots are driven.
-fn completed(robot: &Robot, runs: &[Run]) -> Robot {
-    const USUAL: f64 = 4.0;
-    const UNUSUAL: f64 = 20.0;
-    let fastest = runs.iter().flat_map(|run| run.counts.iter().map(|counts| fastest(&run.t, counts)));
-    let fastest = fastest.fold(0.0, f64::max) / robot.counts_per_wheel_rad();
-    let unusual = fastest > 0.0 && robot.no_load_wheel_speed(robot.supply_v) > UNUSUAL * fastest;
-    let mut completed = robot.clone();
-    if unusual {
-        completed.top_speed_rad_s = Some(USUAL * fastest);
-    }
-    if robot.camera_rate_hz <= 0.0 {
-        let between =
-            |run: &Run| -> Vec<f64> { run.camera.windows(2).map(|f| run.t[f[1].tick] - run.t[f[0].tick]).collect() };
-        let mut apart: Vec<f64> = runs.iter().flat_map(between).collect();
-        apart.sort_by(f64::total_cmp);
-        // Stamps are rounded to ticks, and frames get lost: the mean of what lies about the median.
-        let median = apart.get(apart.len() / 2).copied().unwrap_or(1.0 / 60.0);
-        apart.retain(|x| (x / median - 1.0).abs() < 0.4);
-        let sum: f64 = apart.iter().sum();
-        completed.camera_rate_hz = if sum > 0.0 { apart.len() as f64 / sum } else { 1.0 / median };
-    }
-    completed
-}
-
-/// Most counts a second over 50 ms.
-fn fastest(t: &[f64], counts: &[i64]) -> f64 {
-    let mut first = 0;
-    let mut most = 0.0_f64;
-    for k in 1..t.len().min(counts.len()) {
-        while first + 1 < k && t[k] - t[first + 1] >= 0.05 {
-            first += 1;
-        }
-        if t[k] - t[first] >= 0.05 {
-            most = most.max(counts[k].abs_diff(counts[first]) as f64 / (t[k] - t[first]));
-        }
-    }
-    most
-}
 
 /// Analyses a data set.
 ///
@@ -441,21 +405,6 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     })
 }
 
-/// The file of a robot with effects: the one it came from with these effects, if that is to be found.
-fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
-    let file = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
-    // A log of one axis speaks of a part of the robot.
-    let nominal = |r: &Robot| match r.support {
-        Support::Floor => Robot { effects: Vec::new(), ..r.clone() },
-        Support::Blocks => Robot { effects: Vec::new(), ..r.first_axes(robot.wheel_count()) },
-    };
-    std::fs::read_to_string(&file)
-        .ok()
-        .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
-        .and_then(|text| Robot::edited(&text, &robot.effects, &file).ok())
-        .unwrap_or_else(|| robot.to_toml())
-}
-
 fn missing(set: &DataSet) -> String {
     let what = if set.robot.support == Support::Blocks {
         "The wheels are off the floor: the motion link is not compared."
@@ -465,20 +414,6 @@ fn missing(set: &DataSet) -> String {
         "No second of the logs has four camera poses: the motion link is not compared."
     };
     what.to_owned()
-}
-
-/// The effects that the robot's file carries already.
-fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
-    robot
-        .effects
-        .iter()
-        .filter_map(|e| {
-            let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
-            let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
-            let link = effect.link();
-            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true })
-        })
-        .collect()
 }
 
 /// RMS residual of a window far from what a second of noise reaches.
@@ -684,97 +619,4 @@ fn exact_named(f: &Finding, link: &ExactLink) -> Named {
         gain: gain.clamp(0.0, 1.0),
         p_value: 2e-4,
     }
-}
-
-/// The one effect with two sides: cables on the motion link, set points on the command link.
-const ORDER: &str = "wheel-order";
-
-/// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
-fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
-    let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
-    let wired = |a: &Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
-    if link.is_empty() || start.active.iter().any(wired) {
-        return None;
-    }
-    let problem = Problem::Motion(link);
-    let plain = |s: &State| problem.linearise_nothing(s).plain();
-    let (before, n) = plain(start);
-    if before < 30.0 * n {
-        return None;
-    }
-    let wheels = start.robot.wheel_count();
-    let tried = crate::command::orders(wheels).into_iter().map(|order| {
-        let values = Values(
-            order.iter().enumerate().map(|(i, (w, s))| (format!("cable_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
-        );
-        let form = crate::effect::Form {
-            wheels: (0..wheels).filter(|i| order[*i] != (*i, 1.0)).collect(),
-            free: Vec::new(),
-            fixed: values.0.clone(),
-        };
-        let active =
-            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Motion, given: true };
-        let mut state = start.clone();
-        state.active.push(active.clone());
-        (plain(&state).0, active)
-    });
-    let (after, active) = tried.filter(|(l, _)| l.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (after < 0.1 * before && !active.form.wheels.is_empty()).then_some((active, 1.0 - after / before))
-}
-
-fn order_named(active: &Active, gain: f64) -> Named {
-    Named {
-        name: ORDER.to_owned(),
-        equation: active.effect.equation().to_owned(),
-        link: Link::Motion,
-        wheels: active.form.wheels.iter().map(|w| w + 1).collect(),
-        parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])).collect(),
-        gain,
-        p_value: 2e-4,
-    }
-}
-
-/// The robot with the named effects in its file, each with its evidence.
-fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<String>], runs: &[String]) -> Robot {
-    let mut out = robot.clone();
-    for n in named {
-        let mut other = toml::Table::new();
-        let strings = |v: &[String]| toml::Value::Array(v.iter().map(|s| toml::Value::String(s.clone())).collect());
-        other.insert("runs".to_owned(), strings(runs));
-        other.insert("gain".to_owned(), toml::Value::Float((n.gain * 1e4).round() / 1e4));
-        other.insert("p_value".to_owned(), toml::Value::Float(n.p_value));
-        let twins: Vec<String> =
-            alternatives.iter().filter(|a| a.contains(&n.name)).flatten().filter(|x| **x != n.name).cloned().collect();
-        if !twins.is_empty() {
-            other.insert("cannot_be_told_from".to_owned(), strings(&twins));
-        }
-        let parameters: Vec<(String, EffectParameter)> = n
-            .parameters
-            .iter()
-            .map(|(name, value, ci)| {
-                (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
-            })
-            .collect();
-        let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };
-        if let Some(at) = out.effects.iter().position(|e| e.name == n.name) {
-            let before = out.effects.remove(at);
-            if n.name == ORDER {
-                // The other side of it stays.
-                let news: Vec<String> = effect.parameters.iter().map(|(name, _)| name.clone()).collect();
-                effect.parameters.extend(before.parameters.into_iter().filter(|(name, _)| !news.contains(name)));
-                effect.wheels.extend(before.wheels);
-                effect.wheels.sort_unstable();
-                effect.wheels.dedup();
-            }
-        }
-        out.effects.push(effect);
-    }
-    out
-}
-
-/// The robot without an effect; `None` if it has none of this name.
-pub fn undo(robot: &Robot, name: &str) -> Option<Robot> {
-    let mut out = robot.clone();
-    out.effects.retain(|e| e.name != name);
-    (out.effects.len() < robot.effects.len()).then_some(out)
 }

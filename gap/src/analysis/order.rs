@@ -1,0 +1,57 @@
+//! `wheel-order` as the camera sees it: cables of wheels crossed or inverted.
+
+use std::sync::Arc;
+
+use super::Named;
+use crate::effect::{Effect, Link, Values};
+use crate::motion::MotionLink;
+use crate::problem::Problem;
+use crate::state::{Active, State};
+
+/// The one effect with two sides: cables on the motion link, set points on the command link.
+pub(super) const ORDER: &str = "wheel-order";
+
+/// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
+pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
+    let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
+    let wired = |a: &Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
+    if link.is_empty() || start.active.iter().any(wired) {
+        return None;
+    }
+    let problem = Problem::Motion(link);
+    let plain = |s: &State| problem.linearise_nothing(s).plain();
+    let (before, n) = plain(start);
+    if before < 30.0 * n {
+        return None;
+    }
+    let wheels = start.robot.wheel_count();
+    let tried = crate::command::orders(wheels).into_iter().map(|order| {
+        let values = Values(
+            order.iter().enumerate().map(|(i, (w, s))| (format!("cable_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
+        );
+        let form = crate::effect::Form {
+            wheels: (0..wheels).filter(|i| order[*i] != (*i, 1.0)).collect(),
+            free: Vec::new(),
+            fixed: values.0.clone(),
+        };
+        let active =
+            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Motion, given: true };
+        let mut state = start.clone();
+        state.active.push(active.clone());
+        (plain(&state).0, active)
+    });
+    let (after, active) = tried.filter(|(l, _)| l.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (after < 0.1 * before && !active.form.wheels.is_empty()).then_some((active, 1.0 - after / before))
+}
+
+pub(super) fn order_named(active: &Active, gain: f64) -> Named {
+    Named {
+        name: ORDER.to_owned(),
+        equation: active.effect.equation().to_owned(),
+        link: Link::Motion,
+        wheels: active.form.wheels.iter().map(|w| w + 1).collect(),
+        parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])).collect(),
+        gain,
+        p_value: 2e-4,
+    }
+}

@@ -1,0 +1,128 @@
+//! The robot's file at both ends of an analysis: completed by the logs, and with what was found.
+
+use std::sync::Arc;
+
+use model::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
+use model::run::{DataSet, Run};
+
+use super::Named;
+use super::order::ORDER;
+use crate::effect::{Effect, Values};
+use crate::options::Options;
+use crate::state::Active;
+
+/// The robot with what its file leaves to the logs. A motor behind a current controller, or one that is never used
+/// up to its speed, has no no-load speed by which to call an effect large: it is then taken as four times the
+/// fastest turn in the logs, which is how robots are driven.
+pub(super) fn completed(robot: &Robot, runs: &[Run]) -> Robot {
+    const USUAL: f64 = 4.0;
+    const UNUSUAL: f64 = 20.0;
+    let fastest = runs.iter().flat_map(|run| run.counts.iter().map(|counts| fastest(&run.t, counts)));
+    let fastest = fastest.fold(0.0, f64::max) / robot.counts_per_wheel_rad();
+    let unusual = fastest > 0.0 && robot.no_load_wheel_speed(robot.supply_v) > UNUSUAL * fastest;
+    let mut completed = robot.clone();
+    if unusual {
+        completed.top_speed_rad_s = Some(USUAL * fastest);
+    }
+    if robot.camera_rate_hz <= 0.0 {
+        let between =
+            |run: &Run| -> Vec<f64> { run.camera.windows(2).map(|f| run.t[f[1].tick] - run.t[f[0].tick]).collect() };
+        let mut apart: Vec<f64> = runs.iter().flat_map(between).collect();
+        apart.sort_by(f64::total_cmp);
+        // Stamps are rounded to ticks, and frames get lost: the mean of what lies about the median.
+        let median = apart.get(apart.len() / 2).copied().unwrap_or(1.0 / 60.0);
+        apart.retain(|x| (x / median - 1.0).abs() < 0.4);
+        let sum: f64 = apart.iter().sum();
+        completed.camera_rate_hz = if sum > 0.0 { apart.len() as f64 / sum } else { 1.0 / median };
+    }
+    completed
+}
+
+/// Most counts a second over 50 ms.
+fn fastest(t: &[f64], counts: &[i64]) -> f64 {
+    let mut first = 0;
+    let mut most = 0.0_f64;
+    for k in 1..t.len().min(counts.len()) {
+        while first + 1 < k && t[k] - t[first + 1] >= 0.05 {
+            first += 1;
+        }
+        if t[k] - t[first] >= 0.05 {
+            most = most.max(counts[k].abs_diff(counts[first]) as f64 / (t[k] - t[first]));
+        }
+    }
+    most
+}
+
+/// The effects that the robot's file carries already.
+pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+    robot
+        .effects
+        .iter()
+        .filter_map(|e| {
+            let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
+            let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
+            let link = effect.link();
+            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true })
+        })
+        .collect()
+}
+
+/// The file of a robot with effects: the one it came from with these effects, if that is to be found.
+pub(super) fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
+    let file = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
+    // A log of one axis speaks of a part of the robot.
+    let nominal = |r: &Robot| match r.support {
+        Support::Floor => Robot { effects: Vec::new(), ..r.clone() },
+        Support::Blocks => Robot { effects: Vec::new(), ..r.first_axes(robot.wheel_count()) },
+    };
+    std::fs::read_to_string(&file)
+        .ok()
+        .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
+        .and_then(|text| Robot::edited(&text, &robot.effects, &file).ok())
+        .unwrap_or_else(|| robot.to_toml())
+}
+
+/// The robot with the named effects in its file, each with its evidence.
+pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<String>], runs: &[String]) -> Robot {
+    let mut out = robot.clone();
+    for n in named {
+        let mut other = toml::Table::new();
+        let strings = |v: &[String]| toml::Value::Array(v.iter().map(|s| toml::Value::String(s.clone())).collect());
+        other.insert("runs".to_owned(), strings(runs));
+        other.insert("gain".to_owned(), toml::Value::Float((n.gain * 1e4).round() / 1e4));
+        other.insert("p_value".to_owned(), toml::Value::Float(n.p_value));
+        let twins: Vec<String> =
+            alternatives.iter().filter(|a| a.contains(&n.name)).flatten().filter(|x| **x != n.name).cloned().collect();
+        if !twins.is_empty() {
+            other.insert("cannot_be_told_from".to_owned(), strings(&twins));
+        }
+        let parameters: Vec<(String, EffectParameter)> = n
+            .parameters
+            .iter()
+            .map(|(name, value, ci)| {
+                (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
+            })
+            .collect();
+        let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };
+        if let Some(at) = out.effects.iter().position(|e| e.name == n.name) {
+            let before = out.effects.remove(at);
+            if n.name == ORDER {
+                // The other side of it stays.
+                let news: Vec<String> = effect.parameters.iter().map(|(name, _)| name.clone()).collect();
+                effect.parameters.extend(before.parameters.into_iter().filter(|(name, _)| !news.contains(name)));
+                effect.wheels.extend(before.wheels);
+                effect.wheels.sort_unstable();
+                effect.wheels.dedup();
+            }
+        }
+        out.effects.push(effect);
+    }
+    out
+}
+
+/// The robot without an effect; `None` if it has none of this name.
+pub fn undo(robot: &Robot, name: &str) -> Option<Robot> {
+    let mut out = robot.clone();
+    out.effects.retain(|e| e.name != name);
+    (out.effects.len() < robot.effects.len()).then_some(out)
+}
