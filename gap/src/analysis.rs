@@ -271,10 +271,10 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             link.mask_times(|run, t| motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t, FAR_AMISS)));
         }
         if let Some(residuals) = link.residuals(&start.drive(None)) {
-            let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(robot).stall_nm);
+            let stall = Sizes::of(robot).stall_nm;
+            let (floor, correlation) = crate::drive::floor(&link, &residuals, stall);
             link.noise = floor.clone();
             drive_noise.clone_from(&floor);
-            let stall = Sizes::of(robot).stall_nm;
             if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
                 let structure = format!(
                     "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
@@ -286,10 +286,10 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             }
             thresholds.drive_correlation = correlation;
             let problem = Problem::Drive(&link);
-            let matters = gaps::drive_matters(&floor, Sizes::of(robot).stall_nm);
+            let matters = gaps::drive_matters(&floor, stall);
             let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
-            located.extend(crate::locate::drive(&link, &before, &floor, Sizes::of(robot).stall_nm));
+            located.extend(crate::locate::drive(&link, &before, &floor, stall));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
             let plots = [before, after];
             links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));

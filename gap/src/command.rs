@@ -7,7 +7,7 @@ use model::run::Run;
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, beyond, quantum};
 use crate::ticks::Ticks;
-use crate::words::{self, Compared};
+use crate::words;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
@@ -28,23 +28,7 @@ pub(crate) fn analyse(
     if runs.is_empty() {
         return None;
     }
-    let words = match words::command(robot, &runs) {
-        Compared::Link(link) if link.wrong_share <= WRONG_SHARE => return Some(*link),
-        Compared::Link(link) => Some(*link),
-        Compared::InFloatingPoint(why) => {
-            remarks.extend(why);
-            None
-        }
-        Compared::Impossible(why) => {
-            remarks.push(why);
-            return None;
-        }
-    };
-    let link = analyse_matrix(robot, geometry, &runs);
-    match words {
-        Some(words) if link.finding.is_none() => Some(words),
-        _ => Some(link),
-    }
+    words::command(robot, &runs).or_law(WRONG_SHARE, remarks, || Some(analyse_matrix(robot, geometry, &runs)))
 }
 
 /// In floating point, by the geometry of `robot.toml`.

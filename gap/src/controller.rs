@@ -6,7 +6,7 @@ use model::run::Run;
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, Replay, quantum};
 use crate::ticks::{Gaps, Ticks};
-use crate::words::{self, Compared};
+use crate::words;
 use replay::replay;
 
 mod replay;
@@ -43,25 +43,10 @@ pub(crate) fn analyse(robot: &Robot, runs: &[Run], remarks: &mut Vec<String>) ->
     if runs.is_empty() || no_loop {
         return None;
     }
-    let words = match words::controller(robot, &runs) {
-        // To the last bit, but for a few words: no law of another kind.
-        Compared::Link(link) if link.wrong_share <= WRONG_SHARE => return Some(*link),
-        Compared::Link(link) => Some(*link),
-        Compared::InFloatingPoint(why) => {
-            remarks.extend(why);
-            None
-        }
-        Compared::Impossible(why) => {
-            remarks.push(why);
-            return None;
-        }
-    };
-    runs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
-    let link = (!runs.is_empty()).then(|| analyse_law(robot, &runs));
-    match words {
-        Some(words) if link.as_ref().is_none_or(|l| l.finding.is_none()) => Some(words),
-        _ => link,
-    }
+    words::controller(robot, &runs).or_law(WRONG_SHARE, remarks, || {
+        runs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+        (!runs.is_empty()).then(|| analyse_law(robot, &runs))
+    })
 }
 
 /// In floating point, by the law of `robot.toml`.

@@ -30,6 +30,31 @@ pub(crate) enum Compared {
     Impossible(String),
 }
 
+impl Compared {
+    /// What becomes of the link: the words where no more than this share differs, else what a law in floating point
+    /// finds, if it finds anything. Says why where the words were not compared.
+    pub(crate) fn or_law(
+        self,
+        wrong_share: f64,
+        remarks: &mut Vec<String>,
+        law: impl FnOnce() -> Option<ExactLink>,
+    ) -> Option<ExactLink> {
+        match self {
+            // To the last bit, but for a few words: no law of another kind.
+            Self::Link(words) if words.wrong_share <= wrong_share => Some(*words),
+            Self::Link(words) => law().filter(|link| link.finding.is_some()).or(Some(*words)),
+            Self::InFloatingPoint(why) => {
+                remarks.extend(why);
+                law()
+            }
+            Self::Impossible(why) => {
+                remarks.push(why);
+                None
+            }
+        }
+    }
+}
+
 /// The card's words and how the numbers of a log are made of them.
 struct Card {
     words: RecordedWords,
