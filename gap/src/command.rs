@@ -6,8 +6,8 @@ use model::run::Run;
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, beyond, quantum};
-use crate::ticks::Ticks;
 use crate::words;
+use model::ticks::Ticks;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;

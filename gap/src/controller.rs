@@ -5,8 +5,8 @@ use model::run::Run;
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, Replay, quantum};
-use crate::ticks::{Gaps, Ticks};
 use crate::words;
+use model::ticks::{Gaps, Ticks};
 use replay::replay;
 
 mod replay;

@@ -34,7 +34,6 @@ pub mod segment;
 pub mod select;
 pub mod state;
 pub mod statistics;
-mod ticks;
 mod timing;
 pub mod user;
 mod words;

@@ -43,4 +43,5 @@ pub mod plot;
 pub mod robot;
 pub mod run;
 pub mod simulation;
+pub mod ticks;
 pub mod trajectory;

@@ -18,6 +18,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use testbench::faults::Rig;
+use testbench::fpga::BitTrue;
+use testbench::replay::{Part, replay};
 
 /// A host that oversleeps by some milliseconds now and then.
 struct Sleepy {
@@ -92,6 +94,19 @@ fn both_speed_modes_are_replayed_to_the_last_bit_behind_missed_ticks() {
         let (words, different, _) = replayed(&analysis, Link::Command);
         assert_eq!((words, different), (3 * rows, 0), "{summary}");
         assert_eq!(analysis.verdict, Verdict::Agrees, "{summary}");
+
+        // Through the FPGA itself, whose integrators are told by the duties behind every gap.
+        let through = replay(BitTrue::new(), &set.robot, &set.runs[0], Part::default(), |_| {}).unwrap();
+        if mode == SpeedMode::Difference {
+            assert!(through.gaps.pauses > 20 && through.gaps.missing == missing, "{:?}", through.gaps);
+            for wheel in &through.wheels {
+                // The decimals of the log, a hundredth of a word.
+                assert!(wheel.fpga.max < 1e-9, "{wheel:?}");
+                assert!(wheel.fpga.ticks + 3 * through.gaps.pauses > rows, "{wheel:?} of {rows}");
+            }
+        } else {
+            assert!(through.skipped.is_some());
+        }
 
         // Without the measured speeds, counts will do where the loop had nothing else.
         let mut bare = set.clone();

@@ -7,7 +7,7 @@ use model::robot::Robot;
 use model::run::Run;
 
 use super::{Law, SLACK};
-use crate::ticks::Ticks;
+use model::ticks::Ticks;
 
 /// Integrator of one axis: somewhere from `low` to `high`.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,7 @@ use model::run::Run;
 use super::{Card, Compared, NoWord, Signal, duty};
 use crate::effect::Link;
 use crate::exact::{ExactLink, Replay};
-use crate::ticks::Gaps;
+use model::ticks::Gaps;
 
 /// Everything that was compared.
 #[derive(Default)]

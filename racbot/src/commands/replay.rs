@@ -97,6 +97,9 @@ impl Options {
         let quantum = results.iter().map(|r| r.quantum).fold(0.0, f64::max);
         let _ = writeln!(text, "duties logged to {}; 1 LSB of the FPGA is 2^-24 = 6.0e-8\n", rounded(quantum));
         text += &table(results).render();
+        for remark in results.iter().filter_map(|r| remark(r).map(|what| format!("{}: {what}\n", r.name))) {
+            text += &remark;
+        }
         for skipped in results.iter().filter_map(|r| r.skipped.as_ref().map(|why| format!("{}: {why}\n", r.name))) {
             text += &skipped;
         }
@@ -113,6 +116,15 @@ impl Options {
         let _ = writeln!(text, "took       {seconds:.2} s for {ticks} ticks");
         text
     }
+}
+
+/// What is to be said of a run that is not whole.
+fn remark(replayed: &Replayed) -> Option<String> {
+    let gaps = replayed.gaps.words().map(|gaps| format!("{gaps}; behind each the duties tell the integrators"));
+    let telling = (replayed.telling > 0).then(|| format!("{} rows only tell them", replayed.telling));
+    let off = (replayed.off > 0).then(|| format!("outputs off on {} rows", replayed.off));
+    let parts: Vec<String> = gaps.into_iter().chain(telling).chain(off).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// Whether the FPGA that made the log had measured speeds in another way.
@@ -178,6 +190,8 @@ fn to_json(replayed: &Replayed) -> Value {
         .collect();
     json!({
         "run": replayed.name, "from": replayed.from, "ticks": replayed.ticks,
+        "gaps": replayed.gaps.pauses, "missing_ticks": replayed.gaps.missing, "counter_resets": replayed.gaps.resets,
+        "rows_that_only_tell": replayed.telling, "rows_off": replayed.off,
         "duty_quantum": replayed.quantum, "skipped": replayed.skipped, "wheels": wheels,
     })
 }

@@ -19,6 +19,8 @@ pub(super) struct Player<'a, F> {
     run: &'a Run,
     /// Counts that the FPGA's counters show as zero.
     base: [i64; AXES],
+    /// Where the encoders stand.
+    positions: [f64; AXES],
     references: [Speed; AXES],
     last: Snapshot,
 }
@@ -27,15 +29,9 @@ pub(super) struct Player<'a, F> {
 const BETWEEN_LINES: f64 = 0.5;
 
 impl<'a, F: Fpga> Player<'a, F> {
-    /// An armed card that is about to see row `from`; with these words in its integrators.
-    pub(super) fn start(
-        fpga: F,
-        robot: &Robot,
-        run: &'a Run,
-        from: usize,
-        integrals: Option<[i32; AXES]>,
-    ) -> Result<Self, LoopError> {
-        let scale = Scale::new(robot, whole_tick_clock_hz(robot.control_rate_hz))?;
+    /// An armed card whose encoders and integrators are at zero.
+    pub(super) fn start(fpga: F, robot: &Robot, run: &'a Run) -> Result<Self, LoopError> {
+        let scale = scale(robot)?;
         let settings = Settings {
             speed_mode: SpeedMode::Difference,
             set_point_mode: SetPointMode::Wheels,
@@ -45,16 +41,26 @@ impl<'a, F: Fpga> Player<'a, F> {
         let mut board = Board::new(fpga);
         board.identify()?;
         board.configure(&scale, &settings)?;
-        board.bus.advance(&[BETWEEN_LINES; AXES])?;
+        let positions = [BETWEEN_LINES; AXES];
+        board.bus.advance(&positions)?;
         board.arm()?;
-        if let Some(integrals) = integrals {
-            preload(&mut board, &scale, &integrals, &[BETWEEN_LINES; AXES])?;
+        let (references, last) = ([Speed::ZERO; AXES], Snapshot::default());
+        Ok(Self { board, scale, run, base: [0; AXES], positions, references, last })
+    }
+
+    /// Goes on behind rows that stand at these counts, with these words in the integrators.
+    pub(super) fn resume(&mut self, counts: &[i64; AXES], integrals: &[i32; AXES]) -> Result<(), LoopError> {
+        for ((base, count), position) in self.base.iter_mut().zip(counts).zip(self.positions) {
+            *base = count - (position - BETWEEN_LINES) as i64;
         }
-        let mut base = [0; AXES];
-        for (wheel, base) in base.iter_mut().enumerate().take(run.counts.len()) {
-            *base = if from == 0 { count_before(robot, run, wheel) } else { run.counts[wheel][from - 1] };
+        if self.integrals()? == *integrals {
+            return Ok(());
         }
-        Ok(Self { board, scale, run, base, references: [Speed::ZERO; AXES], last: Snapshot::default() })
+        // Off for a tick, which clears the integrators.
+        self.board.disarm()?;
+        self.board.bus.advance(&self.positions)?;
+        self.board.arm()?;
+        preload(&mut self.board, &self.scale, integrals, &self.positions)
     }
 
     /// One row; gives the FPGA's duties.
@@ -66,11 +72,10 @@ impl<'a, F: Fpga> Player<'a, F> {
             }
         }
         self.board.set_wheel_speeds(&self.references)?;
-        let mut positions = [BETWEEN_LINES; AXES];
-        for ((position, column), base) in positions.iter_mut().zip(&self.run.counts).zip(self.base) {
-            *position += (column[tick] - base) as f64;
+        for ((position, column), base) in self.positions.iter_mut().zip(&self.run.counts).zip(self.base) {
+            *position = (column[tick] - base) as f64 + BETWEEN_LINES;
         }
-        self.board.bus.advance(&positions)?;
+        self.board.bus.advance(&self.positions)?;
         self.last = self.board.snapshot()?;
         Ok(self.last.duties.map(f64::from))
     }
@@ -84,6 +89,7 @@ impl<'a, F: Fpga> Player<'a, F> {
         Ok(words)
     }
 
+    /// Whether the outputs are on; before the first row they are.
     pub(super) fn armed(&self) -> bool {
         self.last.status.armed
     }
@@ -91,6 +97,11 @@ impl<'a, F: Fpga> Player<'a, F> {
     pub(super) fn faults(&self) -> u32 {
         self.last.faults
     }
+}
+
+/// What the card is told of the robot.
+pub(super) fn scale(robot: &Robot) -> Result<Scale, LoopError> {
+    Ok(Scale::new(robot, whole_tick_clock_hz(robot.control_rate_hz))?)
 }
 
 /// The count before the first row: zero, or the first one itself where no wheel could have turned

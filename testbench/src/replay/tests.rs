@@ -2,7 +2,7 @@ use super::*;
 use crate::closed_loop::Drive;
 use crate::fpga::QUIET_CLOCKS;
 use fixed_kin::speed::SpeedMode;
-use model::run::DataSet;
+use model::run::{DataSet, Run};
 use std::path::Path;
 
 fn shipped() -> DataSet {
@@ -47,6 +47,66 @@ fn a_part_gives_what_the_whole_gives_there() {
     let late =
         replay(BitTrue::new(), &set.robot, &set.runs[0], Part { from: 10_000_000, ticks: None }, |_| {}).unwrap();
     assert!(late.skipped.unwrap().contains("only 6700 ticks"));
+}
+
+/// Without the rows that `keep` refuses.
+fn with_rows(run: &Run, keep: impl Fn(usize) -> bool) -> Run {
+    let mut run = run.clone();
+    let rows: Vec<usize> = (0..run.len()).filter(|row| keep(*row)).collect();
+    let pick = |column: &mut Vec<f64>| *column = rows.iter().map(|row| column[*row]).collect();
+    run.reference.iter_mut().chain(&mut run.duty).chain(&mut run.supply_v).for_each(pick);
+    run.command.iter_mut().flatten().for_each(pick);
+    run.counts.iter_mut().for_each(|column| *column = rows.iter().map(|row| column[*row]).collect());
+    pick(&mut run.t);
+    run
+}
+
+#[test]
+fn behind_a_gap_the_rounded_duties_tell_the_integrators() {
+    let set = shipped();
+    for run in &set.runs {
+        // Begins in motion, lacks single ticks and a longer stretch, and a counter begins anew.
+        let mut part = with_rows(run, |row| row > 1_234 && row % 701 != 0 && !(3_000..3_050).contains(&row));
+        part.counts[1].iter_mut().skip(2_500).for_each(|count| *count -= run.counts[1][3_790]);
+        let replayed = replay(BitTrue::new(), &set.robot, &part, Part::default(), |_| {}).unwrap();
+        assert!(replayed.gaps.pauses >= 6 && replayed.gaps.missing >= 55, "{:?}", replayed.gaps);
+        // At full drive, which is half of two of the runs, a duty tells nothing.
+        let full = (0..part.len()).filter(|row| part.duty.iter().any(|duty| duty[*row].abs() >= 0.999)).count();
+        assert!(replayed.telling < 4 * replayed.gaps.pauses + full / 2, "{}: {}", run.name, replayed.telling);
+        for wheel in &replayed.wheels {
+            assert_eq!(wheel.fpga.ticks, part.len() - replayed.telling);
+            // Half a quantum more where hardly a duty between two gaps is below full drive.
+            assert!(wheel.fpga.max < 0.001 + wheel.arithmetic.max, "{}: {wheel:?}", run.name);
+            assert!(wheel.fpga.beyond < wheel.fpga.ticks / 30, "{}: {wheel:?}", run.name);
+        }
+        let from = replay(BitTrue::new(), &set.robot, &part, Part { from: 2_222, ticks: Some(700) }, |_| {}).unwrap();
+        for (part, whole) in from.duty.iter().zip(&replayed.duty) {
+            assert!(part.iter().zip(&whole[2_222..]).all(|(a, b)| a == b || (a.is_nan() && b.is_nan())));
+        }
+    }
+}
+
+#[test]
+fn outputs_that_were_off_clear_the_loops() {
+    let drive = Drive { speed_mode: SpeedMode::Difference, limit_s: 2.0, ..Drive::fig_6() };
+    let driven = drive.run(BitTrue::new(), |_| {}).unwrap();
+    let mut run = driven.run;
+    // The card goes off at 1 s and the robot is put back to where it started; then the same once more.
+    run.duty.iter_mut().chain(&mut run.reference).for_each(|column| {
+        column.copy_within(0..900, 1_100);
+        column[1_000..1_100].fill(0.0);
+    });
+    for column in &mut run.counts {
+        let still = column[999];
+        let again: Vec<i64> = column[..900].iter().map(|count| still + count).collect();
+        column[1_000..1_100].fill(still);
+        column[1_100..2_000].copy_from_slice(&again);
+    }
+    let replayed = replay(BitTrue::new(), &driven.robot, &run, Part::default(), |_| {}).unwrap();
+    assert!(replayed.off >= 1, "{replayed:?}");
+    for wheel in &replayed.wheels {
+        assert!(wheel.fpga.max < 1e-9 && wheel.fpga.ticks > 1_850, "{wheel:?}");
+    }
 }
 
 #[test]

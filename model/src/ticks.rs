@@ -1,14 +1,14 @@
 //! Which rows of a log follow each other in the control loop's own time, and which do not.
 
-use model::robot::Robot;
-use model::run::Run;
+use crate::robot::Robot;
+use crate::run::Run;
 
 /// Longest time between two neighbours, in ticks.
 const NEIGHBOURS: f64 = 1.5;
 
 /// The rows of a run as ticks of the loop that was logged.
-#[derive(Clone, Copy)]
-pub(crate) struct Ticks<'a> {
+#[derive(Debug, Clone, Copy)]
+pub struct Ticks<'a> {
     run: &'a Run,
     tick_s: f64,
     /// Largest change of a wheel's movement from a tick to the next, counts.
@@ -17,17 +17,19 @@ pub(crate) struct Ticks<'a> {
 
 /// Rows that are missing from a log, and counters that began anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Gaps {
+pub struct Gaps {
     /// Pauses.
-    pub(crate) pauses: usize,
+    pub pauses: usize,
     /// Ticks that the log lacks in them.
-    pub(crate) missing: u64,
+    pub missing: u64,
     /// Resets of a counter.
-    pub(crate) resets: usize,
+    pub resets: usize,
 }
 
 impl<'a> Ticks<'a> {
-    pub(crate) fn new(robot: &Robot, run: &'a Run) -> Self {
+    /// The rows of a run of a robot.
+    #[must_use]
+    pub fn new(robot: &Robot, run: &'a Run) -> Self {
         let tick_s = run.tick_s().unwrap_or_else(|| robot.tick_s());
         // A tenth of full speed, from one tick to the next: no motor does that.
         let jerk = 16.0 + 0.1 * robot.no_load_wheel_speed(robot.supply_v) * robot.counts_per_wheel_rad() * tick_s;
@@ -35,7 +37,8 @@ impl<'a> Ticks<'a> {
     }
 
     /// Ticks from the row before to this one: 1 for neighbours, 0 for the first row.
-    pub(crate) fn since(&self, row: usize) -> u64 {
+    #[must_use]
+    pub fn since(&self, row: usize) -> u64 {
         let t = &self.run.t;
         let Some(before) = row.checked_sub(1) else { return 0 };
         let step = (t[row] - t[before]) / self.tick_s;
@@ -48,7 +51,8 @@ impl<'a> Ticks<'a> {
 
     /// Counts of a wheel from the row before to this one; nothing where a tick is missing or not sampled between
     /// them, or the counter began anew.
-    pub(crate) fn moved(&self, wheel: usize, row: usize) -> Option<i64> {
+    #[must_use]
+    pub fn moved(&self, wheel: usize, row: usize) -> Option<i64> {
         if self.since(row) != 1 || self.is_reset(wheel, row) {
             return None;
         }
@@ -75,7 +79,8 @@ impl<'a> Ticks<'a> {
     }
 
     /// What the whole run lacks.
-    pub(crate) fn gaps(&self) -> Gaps {
+    #[must_use]
+    pub fn gaps(&self) -> Gaps {
         let mut gaps = Gaps::default();
         for row in 1..self.run.len() {
             let since = self.since(row);
@@ -97,7 +102,8 @@ impl std::ops::AddAssign for Gaps {
 
 impl Gaps {
     /// In words; nothing for a log without any.
-    pub(crate) fn words(&self) -> Option<String> {
+    #[must_use]
+    pub fn words(&self) -> Option<String> {
         let pauses = match self.pauses {
             0 => None,
             1 => Some(format!("the log has a gap ({} ticks missing)", self.missing)),
