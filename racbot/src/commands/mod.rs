@@ -17,6 +17,7 @@ mod load;
 mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
+mod radio;
 #[cfg(feature = "simulation")]
 mod replay;
 #[cfg(feature = "simulation")]
@@ -56,6 +57,8 @@ pub(crate) enum Command {
     Drive(Box<drive::Options>),
     /// Charge and fire the kicker
     Kick(kick::Options),
+    /// Drive a robot without a PC over a radio module
+    Radio(radio::Options),
     /// Watch a card in the terminal
     Monitor(monitor::Options),
     /// Write a scene of the chip's life as a waveform (VCD)
@@ -92,6 +95,7 @@ impl Command {
             Self::Info(options) => options.run(),
             Self::Drive(options) => options.run(),
             Self::Kick(options) => options.run(),
+            Self::Radio(options) => options.run(),
             Self::Monitor(options) => options.run(json),
             #[cfg(feature = "simulation")]
             Self::Wave(options) => options.run(),

@@ -5,6 +5,7 @@ mod bad_data;
 mod card;
 mod drive;
 mod good_data;
+mod radio;
 mod usage;
 
 use assert_cmd::Command;

@@ -1,5 +1,11 @@
 //! What a robot without a PC gets over its radio instead of a host on the bus.
 
+mod base_station;
+mod line;
+
+pub use base_station::{BaseStation, Sent};
+pub use line::{HexLine, Line, SerialLine};
+
 use crate::{Board, BoardError, Recorder, Scale, Settings, Transfer};
 use fixed_kin::card::Card;
 use fixed_kin::control::SET_POINT_WORDS;
@@ -14,6 +20,9 @@ pub enum RadioError {
     /// It does not fit a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// The line does not take it.
+    #[error("the line: {0}")]
+    Line(#[from] std::io::Error),
 }
 
 /// The frame that configures and arms a robot: registers, gains, matrices and limits as

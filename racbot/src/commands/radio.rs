@@ -1,0 +1,169 @@
+//! `racbot radio`
+
+use crate::terminal::{Answer, Failure};
+use clap::Args;
+use driver::radio::{BaseStation, HexLine, Line, RadioError, Sent, SerialLine};
+use driver::realtime::{Clock, MonotonicClock, stop_on_signals};
+use driver::{Scale, Settings};
+use model::frames::Twist;
+use model::robot::Robot;
+use model::run::Run;
+use serde_json::json;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// Options of `radio`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Number of the robot, 0 to 15, as its straps say
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=15))]
+    number: u8,
+
+    /// Serial port of the radio module, such as /dev/ttyUSB0; the robot moves
+    #[arg(long, value_name = "DEVICE", required_unless_present = "out")]
+    line: Option<PathBuf>,
+
+    /// File for the frames as text, instead: time in seconds, bytes in hexadecimal
+    #[arg(long, value_name = "FILE", conflicts_with = "line")]
+    out: Option<PathBuf>,
+
+    /// Body velocity in m/s, m/s and rad/s: right, forward, anticlockwise
+    #[arg(long, value_name = "X,Y,OMEGA", allow_hyphen_values = true, requires = "seconds")]
+    #[arg(required_unless_present = "commands")]
+    velocity: Option<Velocity>,
+
+    /// How long, in seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+
+    /// A log whose commands (cmd_vx, cmd_vy, cmd_w) the robot is to follow, instead of one velocity
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["velocity", "seconds"])]
+    commands: Option<PathBuf>,
+
+    /// The robot [default: the paper's]
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+
+    /// Clock that the robot's board feeds to LCLK, in hertz
+    #[arg(long, value_name = "HZ", default_value_t = 33_333_333.0)]
+    clock_hz: f64,
+}
+
+/// A body velocity on the command line.
+#[derive(Clone, Copy, Debug)]
+struct Velocity(Twist);
+
+impl FromStr for Velocity {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts: Option<Vec<f64>> =
+            text.split(',').map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        match parts.as_deref() {
+            Some(&[vx, vy, omega]) => Ok(Self(Twist { vx, vy, omega })),
+            _ => Err(format!("'{text}' is no velocity: three numbers, m/s, m/s and rad/s, with commas between them")),
+        }
+    }
+}
+
+/// Longest drive, s.
+const LONGEST: f64 = 3600.0;
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let seconds = self.seconds.unwrap_or(0.0);
+        if self.velocity.is_some() && !(seconds > 0.0 && seconds <= LONGEST) {
+            return Err(Failure::usage(format!("--seconds: {seconds} is not between 0 and {LONGEST}")));
+        }
+        if !(1e6..=1e8).contains(&self.clock_hz) {
+            return Err(Failure::usage(format!("--clock-hz: {} is not between 1e6 and 1e8", self.clock_hz)));
+        }
+        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        let velocity = self.velocity(seconds)?;
+        let about = |error: &dyn std::fmt::Display| match &self.robot {
+            Some(file) => Failure::about(file, error),
+            None => Failure::data(error),
+        };
+        let scale = Scale::new(&robot, self.clock_hz).map_err(|error| about(&error))?;
+        let stop = stop_on_signals().map_err(Failure::data)?;
+        let (to, sent) = match (&self.line, &self.out) {
+            (Some(device), _) => {
+                let line = SerialLine::open(device).map_err(|error| Failure::about(device, error))?;
+                (device, self.send(device, line, &mut MonotonicClock, scale, velocity, &stop)?)
+            }
+            (None, Some(file)) => {
+                let created = File::create(file).map_err(|error| Failure::about(file, error))?;
+                let mut text = BufWriter::new(created);
+                let sent = self.send(file, HexLine(&mut text), &mut NoTime::default(), scale, velocity, &stop)?;
+                text.flush().map_err(|error| Failure::about(file, error))?;
+                (file, sent)
+            }
+            (None, None) => unreachable!("the command line asks for one of them"),
+        };
+        let Sent { boots, velocities, stopped } = sent;
+        let early = if stopped { ", stopped early" } else { "" };
+        let text = format!(
+            "robot    {}\nline     {}\nsent     {boots} boot frames, {velocities} velocities{early}; switched off\n",
+            self.number,
+            to.display()
+        );
+        let json = json!({
+            "robot": self.number, "line": to, "boots": boots, "velocities": velocities, "stopped": stopped,
+        });
+        Ok(Answer { text, json, wrong: None })
+    }
+
+    fn send<L: Line, C: Clock>(
+        &self,
+        to: &Path,
+        line: L,
+        clock: &mut C,
+        scale: Scale,
+        velocity: impl Fn(f64) -> Option<Twist>,
+        stop: &AtomicBool,
+    ) -> Result<Sent, Failure> {
+        let mut station = BaseStation::new(line, self.number, 0, scale, Settings::default());
+        station.drive(clock, velocity, stop).map_err(|error| match error {
+            RadioError::Line(error) => Failure::about(to, error),
+            other => Failure::data(other),
+        })
+    }
+
+    /// The wanted velocity over time, s.
+    fn velocity(&self, seconds: f64) -> Result<Box<dyn Fn(f64) -> Option<Twist>>, Failure> {
+        if let Some(Velocity(twist)) = self.velocity {
+            return Ok(Box::new(move |t| (t < seconds).then_some(twist)));
+        }
+        let file = self.commands.as_ref().expect("the command line asks for it where there is no velocity");
+        let run = Run::read(file)?;
+        let Some([vx, vy, omega]) = run.command else {
+            return Err(Failure::about(file, "it has no commands: log cmd_vx, cmd_vy and cmd_w"));
+        };
+        let begun = run.t.first().copied().unwrap_or(0.0);
+        let times: Vec<f64> = run.t.iter().map(|t| t - begun).collect();
+        Ok(Box::new(move |t| {
+            let row = times.partition_point(|time| *time <= t).checked_sub(1)?;
+            // Where a sample is missing the last one holds.
+            let held = |column: &[f64]| column[..=row].iter().rev().copied().find(|x| x.is_finite()).unwrap_or(0.0);
+            (row + 1 < times.len()).then(|| Twist { vx: held(&vx), vy: held(&vy), omega: held(&omega) })
+        }))
+    }
+}
+
+/// Time for frames that nobody waits for.
+#[derive(Debug, Default)]
+struct NoTime(Duration);
+
+impl Clock for NoTime {
+    fn now(&mut self) -> Duration {
+        self.0
+    }
+
+    fn sleep_until(&mut self, at: Duration) {
+        self.0 = self.0.max(at);
+    }
+}
