@@ -1,5 +1,6 @@
 //! The whole workflow on one data set.
 
+mod driven;
 mod gaps;
 mod order;
 mod robot_file;
@@ -7,15 +8,15 @@ mod robot_file;
 use std::sync::Arc;
 
 use model::robot::{Robot, Support};
-use model::run::DataSet;
+use model::run::{DataSet, Logs};
 
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link, Sizes};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Options, Thresholds};
+use crate::pieces::segments;
 use crate::problem::{Owner, Problem};
-use crate::segment::{Segment, segments};
 use crate::select::{self, Bench, Selection};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
@@ -23,6 +24,7 @@ use crate::{GapError, command, controller, effects, timing};
 use order::{ORDER, order_named, wheel_order};
 use robot_file::{completed, given, robot_text, with_effects};
 
+pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
 pub use robot_file::undo;
 
@@ -135,7 +137,7 @@ pub struct Analysis {
     pub robot_text: String,
     /// Names of the effects that were tried.
     pub tried: Vec<String>,
-    /// Whole runs as windows, before and after, for plots.
+    /// The first runs whole, as windows, before and after, for plots.
     pub whole: Option<[Vec<WindowResiduals>; 2]>,
     /// Waterfall: label and held-out RMS in units of the floor.
     pub waterfall: Vec<(String, f64)>,
@@ -149,23 +151,42 @@ pub struct Analysis {
     pub motion: Option<[Vec<WindowResiduals>; 2]>,
     /// Drive residuals before and after.
     pub drive: Option<[DriveResiduals; 2]>,
-    /// Pieces of the runs.
-    pub segments: Vec<Segment>,
+    /// What was driven where those residuals are, and what the camera saw.
+    pub driven: Driven,
     /// What could not be compared, and why.
     pub remarks: Vec<String>,
     /// Deterministic links.
     pub exact: Vec<ExactLink>,
 }
 
+/// Whole runs that a report shows.
+const SHOWN: usize = 4;
+
 /// Share of the stall torque beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
 
-/// Analyses a data set.
+/// Analyses a data set in memory.
 ///
 /// # Errors
-/// [`GapError`] if the robot cannot drive, or the logs hold nothing that can be compared.
+/// As [`analyse_logs`].
 pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
-    let robot = &completed(&set.robot, &set.runs);
+    analyse_logs(&Logs::from(set), options)
+}
+
+/// Analyses a data set whose logs may be of any length.
+///
+/// # Errors
+/// [`GapError`] if the robot cannot drive, the logs hold nothing that can be compared, or could not be read again.
+pub fn analyse_logs(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
+    let analysis = analyse_all(set, options);
+    match set.logs.iter().find_map(|log| log.failure()) {
+        Some(failure) => Err(GapError::Log(failure.clone())),
+        None => analysis,
+    }
+}
+
+fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
+    let robot = &completed(&set.robot, &set.logs);
     let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
     for effect in &options.effects {
         let wheels = effect.forms(robot).into_iter().flat_map(|f| f.wheels);
@@ -179,9 +200,9 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
     let mut remarks: Vec<String> = Vec::new();
     let mut exact: Vec<ExactLink> = [
-        timing::analyse(robot, &set.runs),
-        command::analyse(robot, &geometry, &set.runs, &mut remarks),
-        controller::analyse(robot, &set.runs, &mut remarks),
+        timing::analyse(robot, &set.logs),
+        command::analyse(robot, &geometry, &set.logs, &mut remarks),
+        controller::analyse(robot, &set.logs, &mut remarks),
     ]
     .into_iter()
     .flatten()
@@ -196,15 +217,16 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             link.before.clone_from(&link.after);
         }
     }
-    let mut pieces = segments(robot, &geometry, &set.runs);
-    let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise(&set.runs));
+    let mut pieces = segments(robot, &geometry, &set.logs);
+    let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
+    let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
     let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
     if let Some((active, _)) = &order {
         // Everything derived from the wheels follows their true order.
         let mut wheels = crate::motion::MotionModel::new(robot);
         active.effect.motion(&active.values, &mut wheels);
         if let Ok(true_geometry) = model::geometry::Geometry::new(wheels.wheels, robot.wheel_radius_m) {
-            pieces = segments(robot, &true_geometry, &set.runs);
+            pieces = segments(robot, &true_geometry, &set.logs);
         }
     }
     if pieces.is_empty() {
@@ -230,6 +252,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     }
     unexplained.extend(crate::leftover::frozen(&pieces));
     unexplained.extend(crate::leftover::torn(&pieces));
+    let mut driven = Driven::default();
     let mut motion_plots = None;
     let mut whole = None;
     if motion_link.is_empty() || robot.support == Support::Blocks {
@@ -238,14 +261,14 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         let problem = Problem::Motion(&motion_link);
         let matters = gaps::motion_matters(noise);
         let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
-        located.extend(crate::locate::motion(&motion_link, &motion_link.residuals(&nominal.motion(None))));
-        let plots = [
-            motion_link.residuals(&nominal.motion(None)),
-            motion_link.residuals(&outcome.selection.state.motion(None)),
-        ];
+        let before = motion_link.residuals(&nominal.motion(None));
+        located.extend(crate::locate::motion(&motion_link, &before));
+        let plots = [before, motion_link.residuals(&outcome.selection.state.motion(None))];
         links.push(gaps::motion_gap([outcome.before, outcome.after], noise, &plots));
-        let uncut = MotionLink::new(&pieces, noise, f64::INFINITY);
+        let uncut = MotionLink::new(&pieces, noise, f64::INFINITY).first(SHOWN);
         whole = Some([uncut.residuals(&nominal.motion(None)), uncut.residuals(&outcome.selection.state.motion(None))]);
+        driven.frames = Driven::at_frames(&pieces, &plots[0]);
+        driven.seen = Driven::seen(&pieces, SHOWN);
         motion_plots = Some(plots);
         collect(
             &outcome,
@@ -268,7 +291,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
         if slides {
             // Where the law of slip did not catch what slipped, Newton's law has no body to push.
-            link.mask_times(|run, t| motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t, FAR_AMISS)));
+            let misses = Misses::new(motion_plots.as_ref().map(|p: &[Vec<WindowResiduals>; 2]| &p[1]), FAR_AMISS);
+            link.mask_times(|run, t| misses.are_near(run, t));
         }
         if let Some(residuals) = link.residuals(&start.drive(None)) {
             let stall = Sizes::of(robot).stall_nm;
@@ -294,7 +318,8 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
             let plots = [before, after];
             links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
             let model = outcome.selection.state.drive(None);
-            let rolls = |run: usize, t: f64| !motion_plots.as_ref().is_some_and(|p| misses(&p[1], run, t, FAR));
+            let misses = Misses::new(motion_plots.as_ref().map(|p| &p[1]), FAR);
+            let rolls = |run: usize, t: f64| !misses.are_near(run, t);
             let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
             // Beside a named effect only what its law's inexactness cannot leave.
             let explained = if outcome.named.is_empty() { 0.0 } else { outcome.before.powi(2) - outcome.after.powi(2) };
@@ -320,6 +345,7 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
                 &mut ambiguous,
             );
             found.extend(outcome.selection.state.active[start.active.len()..].iter().filter(|a| a.worth()).cloned());
+            driven.bumps = Driven::at_bumps(&link);
             drive_plots = Some(plots);
         }
     } else {
@@ -365,12 +391,12 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
     located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
     let waterfall = gaps::waterfall(&links, &waterfall_parts);
     let robot_with =
-        with_effects(&set.robot, &named, &alternatives, &set.runs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
+        with_effects(&set.robot, &named, &alternatives, &set.logs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
     let findings = crate::experiment::Findings {
         robot,
-        found: &completed(&robot_with, &set.runs),
+        found: &completed(&robot_with, &set.logs),
         active: &found,
-        segments: &pieces,
+        pieces: &pieces,
         noise: (noise, &drive_noise),
         thresholds: &thresholds,
         catalogue: &catalogue,
@@ -395,20 +421,20 @@ pub fn analyse(set: &DataSet, options: &Options) -> Result<Analysis, GapError> {
         whole,
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
-        runs: set.runs.iter().map(|r| r.name.clone()).collect(),
+        runs: set.logs.iter().map(|r| r.name.clone()).collect(),
         thresholds,
         motion: motion_plots,
         drive: drive_plots,
-        segments: pieces,
+        driven,
         remarks,
         exact,
     })
 }
 
-fn missing(set: &DataSet) -> String {
+fn missing(set: &Logs) -> String {
     let what = if set.robot.support == Support::Blocks {
         "The wheels are off the floor: the motion link is not compared."
-    } else if set.runs.iter().all(|r| r.counts.is_empty()) {
+    } else if set.logs.iter().all(|log| log.layout().counts.is_empty()) {
         "No encoder counts in the logs: the motion link is not compared."
     } else {
         "No second of the logs has four camera poses: the motion link is not compared."
@@ -421,16 +447,24 @@ const FAR: f64 = 1.35;
 /// The same where wheels slip, whose law is not exact.
 const FAR_AMISS: f64 = 2.0;
 
-/// Whether the camera saw something else than the wheels said in the second round a time.
-fn misses(windows: &[WindowResiduals], run: usize, t: f64, far: f64) -> bool {
-    let mut near = windows.iter().filter(|w| {
-        let span = w.t.first().zip(w.t.last());
-        w.run == run && span.is_some_and(|(a, b)| t > a - 0.3 && t < b + 0.3)
-    });
-    near.any(|w| {
-        let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
-        crate::statistics::rms(used.flat_map(|(r, _)| *r)) > far
-    })
+/// Seconds in which the camera saw something else than the wheels said.
+struct Misses(Vec<(usize, f64, f64)>);
+
+impl Misses {
+    fn new(windows: Option<&Vec<WindowResiduals>>, far: f64) -> Self {
+        let is_far = |w: &&WindowResiduals| {
+            let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
+            crate::statistics::rms(used.flat_map(|(r, _)| *r)) > far
+        };
+        let place = |w: &WindowResiduals| Some((w.run, w.t.first()? - 0.3, w.t.last()? + 0.3));
+        Self(windows.into_iter().flatten().filter(is_far).filter_map(place).collect())
+    }
+
+    /// Whether one of them is near a time; they follow each other in the order of runs and times.
+    fn are_near(&self, run: usize, t: f64) -> bool {
+        let from = self.0.partition_point(|w| w.0 < run || w.0 == run && w.2 <= t);
+        self.0[from..].first().is_some_and(|w| w.0 == run && w.1 < t)
+    }
 }
 
 /// Share of the explained gap that the inexactness of a law may leave as structure.

@@ -2,12 +2,13 @@
 
 use model::geometry::Geometry;
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Columns, Log};
+use model::ticks::Ticks;
 
 use crate::effect::Link;
-use crate::exact::{ExactLink, Finding, beyond, quantum};
+use crate::exact::{ExactLink, Finding, quantum};
+use crate::parts::parts;
 use crate::words;
-use model::ticks::Ticks;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
@@ -20,38 +21,44 @@ const REMOVED: f64 = 0.9;
 pub(crate) fn analyse(
     robot: &Robot,
     geometry: &Geometry,
-    runs: &[Run],
+    logs: &[Log],
     remarks: &mut Vec<String>,
 ) -> Option<ExactLink> {
     let n = robot.wheel_count();
-    let runs: Vec<&Run> = runs.iter().filter(|r| r.command.is_some() && r.reference.len() == n).collect();
-    if runs.is_empty() {
+    let whole = |log: &&Log| log.layout().command.is_some() && log.layout().reference.len() == n;
+    let logs: Vec<&Log> = logs.iter().filter(whole).collect();
+    if logs.is_empty() {
         return None;
     }
-    words::command(robot, &runs).or_law(WRONG_SHARE, remarks, || Some(analyse_matrix(robot, geometry, &runs)))
+    words::command(robot, &logs).or_law(WRONG_SHARE, remarks, || Some(analyse_matrix(robot, geometry, &logs)))
 }
 
+/// What is read here.
+const COLUMNS: Columns = Columns { command: true, reference: true, ..Columns::NONE };
+
 /// In floating point, by the geometry of `robot.toml`.
-fn analyse_matrix(robot: &Robot, geometry: &Geometry, runs: &[&Run]) -> ExactLink {
+fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLink {
     let n = robot.wheel_count();
-    let quantum_ref =
-        robot.ref_quantum.unwrap_or_else(|| quantum(runs.iter().flat_map(|r| r.reference.iter().flatten())));
-    let quantum_cmd = quantum(runs.iter().filter_map(|r| r.command.as_ref()).flat_map(|c| c.iter().flatten()));
+    let references = Columns { reference: true, ..Columns::NONE };
+    let quantum_ref = robot.ref_quantum.unwrap_or_else(|| quantum(logs, references, |r| &r.reference));
+    let commands = Columns { command: true, ..Columns::NONE };
+    let quantum_cmd = quantum(logs, commands, |r| r.command.as_ref().map_or(&[], |c| &c[..]));
     let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
     let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
     let errors = |order: &[(usize, f64)], delay: f64| -> Vec<f64> {
         let mut sums = vec![0.0; n];
         let mut count = 0.0_f64;
-        for run in runs {
+        for (log, part) in logs.iter().flat_map(|log| parts(log, COLUMNS).map(move |part| (log, part))) {
+            let run = &part.run;
             let Some(command) = &run.command else { continue };
-            let ticks = Ticks::new(robot, run);
-            let back = (delay / run.tick_s().unwrap_or(1.0)).round() as usize;
+            let ticks = Ticks::with_period(robot, run, log.tick_s());
+            let back = (delay / log.tick_s().unwrap_or(1.0)).round() as usize;
             let mut steady = 0;
-            for k in 0..run.len() {
+            for k in part.own.start.saturating_sub(back + 1)..part.own.end {
                 // Behind a gap nobody knows what was commanded in it.
                 steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
-                if steady < back {
+                if steady < back || k < part.own.start {
                     continue;
                 }
                 let c = [0, 1, 2].map(|j| command[j][k - back]);
@@ -70,9 +77,9 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, runs: &[&Run]) -> ExactLin
     };
     let straight = given_order(robot, n);
     let before = errors(&straight, 0.0);
-    let size = beyond(runs.iter().flat_map(|r| r.reference.iter().flatten().copied()), 0.0).max(1e-9);
+    let size = references_rms(logs).max(1e-9);
     let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
-    let wrong = wrong_share(runs, &rows, &straight, tolerance);
+    let wrong = wrong_share(logs, &rows, &straight, tolerance);
     let floor = tolerance;
     let mut link = ExactLink {
         link: Link::Command,
@@ -105,7 +112,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, runs: &[&Run]) -> ExactLin
             best = (total(&e), Some(Finding { link: Link::Command, name: "wheel-order", wheels, parameters }), e);
         }
     }
-    let tick = runs[0].tick_s().unwrap_or(0.001);
+    let tick = logs[0].tick_s().unwrap_or(0.001);
     let most = (LONGEST_S / tick) as usize;
     let coarse = (most / 60).max(1);
     let at = |ticks: usize| total(&errors(&straight, ticks as f64 * tick));
@@ -137,11 +144,24 @@ fn given_order(robot: &Robot, n: usize) -> Vec<(usize, f64)> {
     (0..n).map(|i| row(axis(i))).collect()
 }
 
-fn wrong_share(runs: &[&Run], rows: &[[f64; 3]], order: &[(usize, f64)], tolerance: f64) -> f64 {
+/// RMS of all set points.
+fn references_rms(logs: &[&Log]) -> f64 {
+    let (mut square, mut count) = (0.0, 0.0_f64);
+    for part in logs.iter().flat_map(|log| parts(log, COLUMNS)) {
+        for reference in part.run.reference.iter().flat_map(|r| &r[part.own.clone()]) {
+            square += reference.abs().max(0.0).powi(2);
+            count += 1.0;
+        }
+    }
+    (square / count.max(1.0)).sqrt()
+}
+
+fn wrong_share(logs: &[&Log], rows: &[[f64; 3]], order: &[(usize, f64)], tolerance: f64) -> f64 {
     let (mut wrong, mut all) = (0.0, 0.0_f64);
-    for run in runs {
+    for part in logs.iter().flat_map(|log| parts(log, COLUMNS)) {
+        let run = &part.run;
         let Some(command) = &run.command else { continue };
-        for k in 0..run.len() {
+        for k in part.own.clone() {
             for (i, (row, sign)) in order.iter().enumerate() {
                 let expected = sign * (0..3).map(|j| rows[*row][j] * command[j][k]).sum::<f64>();
                 let e = (run.reference[i][k] - expected).abs();

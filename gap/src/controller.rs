@@ -1,12 +1,13 @@
 //! The `controller` link: set points and encoder counts to duty, by replay of the speed loop.
 
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Columns, Log};
+use model::ticks::{Gaps, Ticks};
 
 use crate::effect::Link;
-use crate::exact::{ExactLink, Finding, Replay, quantum};
+use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
+use crate::parts::parts;
 use crate::words;
-use model::ticks::{Gaps, Ticks};
 use replay::replay;
 
 mod replay;
@@ -33,33 +34,37 @@ struct Law {
     shift: [usize; 2],
 }
 
+/// What is read here.
+const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
+
 /// Replays the duties of every run and wheel; says why where it cannot.
-pub(crate) fn analyse(robot: &Robot, runs: &[Run], remarks: &mut Vec<String>) -> Option<ExactLink> {
+pub(crate) fn analyse(robot: &Robot, logs: &[Log], remarks: &mut Vec<String>) -> Option<ExactLink> {
     let n = robot.wheel_count();
-    let whole = |r: &&Run| r.reference.len() == n && r.counts.len() == n && r.duty.len() == n;
-    let mut runs: Vec<&Run> = runs.iter().filter(whole).collect();
+    let whole = |log: &&Log| {
+        let has = log.layout();
+        has.reference.len() == n && has.counts.len() == n && has.duty.len() == n
+    };
+    let mut logs: Vec<&Log> = logs.iter().filter(whole).collect();
     // The file of another machine may say nothing of a speed loop.
     let no_loop = robot.pi.kp == 0.0 && robot.pi.ki == 0.0 && robot.pi.arithmetic.is_none();
-    if runs.is_empty() || no_loop {
+    if logs.is_empty() || no_loop {
         return None;
     }
-    words::controller(robot, &runs).or_law(WRONG_SHARE, remarks, || {
-        runs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
-        (!runs.is_empty()).then(|| analyse_law(robot, &runs))
+    words::controller(robot, &logs).or_law(WRONG_SHARE, remarks, || {
+        logs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+        (!logs.is_empty()).then(|| analyse_law(robot, &logs))
     })
 }
 
 /// In floating point, by the law of `robot.toml`.
-fn analyse_law(robot: &Robot, runs: &[&Run]) -> ExactLink {
-    let n = robot.wheel_count();
-    let logged = quantum(runs.iter().flat_map(|r| r.duty.iter().flatten()));
+fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
+    let logged = quantum(logs, DUTIES, |r| &r.duty);
     let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
     let floor = 0.5 * step.max(logged.min(0.001)) + SLACK;
     let nominal = Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: step, shift: [0, 0] };
-    let all: Vec<usize> = (0..n).collect();
-    let rms = |law: &Law| -> Vec<f64> { all.iter().map(|i| replay(robot, runs, *i, law, floor).0).collect() };
-    let before = rms(&nominal);
-    let wrong = all.iter().map(|i| replay(robot, runs, *i, &nominal, floor).1).fold(0.0, f64::max);
+    let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.0).collect() };
+    let (before, wrong): (Vec<f64>, Vec<f64>) = replay(robot, logs, &nominal, floor).into_iter().unzip();
+    let wrong = wrong.into_iter().fold(0.0, f64::max);
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -69,7 +74,7 @@ fn analyse_law(robot: &Robot, runs: &[&Run]) -> ExactLink {
         wrong_share: wrong,
         finding: None,
         unexplained: false,
-        replay: gaps(robot, runs).words().map(|gaps| Replay {
+        replay: gaps(robot, logs).words().map(|gaps| Replay {
             remark: format!("Controller: {gaps}; behind each the integrators are estimated anew from the duties."),
             ..Replay::default()
         }),
@@ -111,7 +116,7 @@ fn analyse_law(robot: &Robot, runs: &[&Run]) -> ExactLink {
         0.0625,
         0.1,
         logged,
-        spacing(runs),
+        spacing(logs),
     ] {
         if coarse > step {
             offer(Law { duty_quantum: coarse, ..nominal }, "quantisation", vec![exact("duty_quantum", coarse)]);
@@ -145,22 +150,30 @@ fn analyse_law(robot: &Robot, runs: &[&Run]) -> ExactLink {
     link
 }
 
-fn gaps(robot: &Robot, runs: &[&Run]) -> Gaps {
+const DUTIES: Columns = Columns { duty: true, ..Columns::NONE };
+
+fn gaps(robot: &Robot, logs: &[&Log]) -> Gaps {
+    let counts = Columns { counts: true, ..Columns::NONE };
     let mut all = Gaps::default();
-    for run in runs {
-        all += Ticks::new(robot, run).gaps();
+    for log in logs {
+        for part in parts(log, counts) {
+            all += Ticks::with_period(robot, &part.run, log.tick_s()).gaps_in(part.own);
+        }
     }
     all
 }
 
+/// Most duties that are looked at for their levels.
+const LEVELS: usize = 1_000_000;
+
 /// Distance between neighbouring values of the duties, by a line through all levels.
-fn spacing(runs: &[&Run]) -> f64 {
-    let mut values: Vec<f64> = runs
-        .iter()
-        .flat_map(|r| r.duty.iter().flatten())
-        .map(|d| d.abs())
-        .filter(|d| *d > 1e-6 && *d < 0.999)
-        .collect();
+fn spacing(logs: &[&Log]) -> f64 {
+    let mut values: Vec<f64> = Vec::new();
+    for log in logs {
+        let part = log.part(0..log.len().min(FIRST), DUTIES);
+        let levels = part.duty.iter().flatten().map(|d| d.abs()).filter(|d| *d > 1e-6 && *d < 0.999);
+        values.extend(levels.take(LEVELS - values.len()));
+    }
     values.sort_by(f64::total_cmp);
     values.dedup_by(|a, b| (*a - *b).abs() < 1e-7);
     let Some(mut q) = values.first().copied() else { return 0.0 };

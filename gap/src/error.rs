@@ -12,6 +12,9 @@ pub enum GapError {
     /// A file could not be written.
     #[error("{0}")]
     Write(String),
+    /// A log could not be read again.
+    #[error("{0}")]
+    Log(model::run::RunError),
     /// A user's effect is wrong.
     #[error("{0}")]
     Effect(String),

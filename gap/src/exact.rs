@@ -1,5 +1,7 @@
 //! What the deterministic links share: findings that are proved by replay, not fitted.
 
+use model::run::{Columns, Log, Run};
+
 use crate::effect::Link;
 
 /// An effect on a link that can be replayed to the last digit.
@@ -55,14 +57,17 @@ pub struct Replay {
     pub missing: u64,
 }
 
-/// Root mean square of the part of errors beyond a tolerance.
-pub fn beyond(errors: impl Iterator<Item = f64>, tolerance: f64) -> f64 {
-    crate::statistics::rms(errors.map(|e| (e.abs() - tolerance).max(0.0)))
-}
+/// Ticks at the start of a log that tell how its numbers are rounded.
+pub(crate) const FIRST: usize = 1 << 16;
 
 /// The step that all values of a signal are multiples of, if there is one above 1e-7.
-pub fn quantum<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
-    let values: Vec<f64> = values.copied().filter(|v| v.is_finite() && *v != 0.0).take(4000).collect();
+pub(crate) fn quantum(logs: &[&Log], columns: Columns, signal: impl Fn(&Run) -> &[Vec<f64>]) -> f64 {
+    let mut values = Vec::new();
+    for log in logs {
+        let part = log.part(0..log.len().min(FIRST), columns);
+        let logged = signal(&part).iter().flatten().copied().filter(|v| v.is_finite() && *v != 0.0);
+        values.extend(logged.take(4000 - values.len()));
+    }
     for q in [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4, 1e-5, 1e-6] {
         if !values.is_empty() && values.iter().all(|v| (v / q - (v / q).round()).abs() < 1e-4) {
             return q;

@@ -4,6 +4,7 @@
 //! real log, and put beside the logs that are there: how far are the predictions of the tied
 //! hypotheses apart once each is fitted as well as it can be?
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use model::effects::Applied;
 use model::frames::Pose;
 use model::manoeuvre::{self, Manoeuvre};
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Log, Run};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -19,9 +20,9 @@ use crate::drive::DriveLink;
 use crate::effect::{Effect, Link};
 use crate::motion::MotionLink;
 use crate::options::Thresholds;
+use crate::pieces::{Pieces, segments};
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::Role;
-use crate::segment::{Segment, segments};
 use crate::select::{self, Bench};
 use crate::state::{Active, State};
 
@@ -63,8 +64,8 @@ pub(crate) struct Findings<'a> {
     pub found: &'a Robot,
     /// What was found, with values.
     pub active: &'a [Active],
-    /// Pieces of the logs.
-    pub segments: &'a [Segment],
+    /// The logs.
+    pub pieces: &'a Pieces<'a>,
     /// Camera noise, and that of a bump of the drive, Nm.
     pub noise: ([f64; 3], &'a [f64]),
     /// Thresholds in force.
@@ -137,7 +138,7 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
     if rivals.is_empty() {
         return Vec::new();
     }
-    let Some(bench) = on_link(findings, findings.segments, &state, link, |problem| {
+    let Some(bench) = on_link(findings, findings.pieces, &state, link, |problem| {
         Bench::new(problem, &state, &candidates, findings.thresholds)
     }) else {
         return Vec::new();
@@ -152,7 +153,8 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
             let run = manoeuvre::simulate(m, &applied, findings.robot, Pose::new(0.4, -0.3, 0.5), 1).ok()?;
             let seconds = run.duration_s();
             let robot = Robot { support: m.support(), ..findings.robot.clone() };
-            let pieces = pieces(&robot, run, findings.segments)?;
+            let log = [log(&robot, run, findings.pieces)?];
+            let pieces = segments(&robot, &robot.geometry().ok()?, &log);
             let there = State { robot, ..state.clone() };
             let linear = on_link(findings, &pieces, &there, link, |p| p.linearise(&there, &candidates))?;
             let new = information(&linear);
@@ -222,23 +224,23 @@ impl Question<'_> {
     }
 }
 
-/// The simulated run as pieces, with no more signals than the real logs have.
-fn pieces(robot: &Robot, mut run: Run, like: &[Segment]) -> Option<Vec<Segment>> {
-    if like.iter().all(|s| s.frames.is_empty()) {
+/// The simulated run, with no more signals than the real logs have.
+fn log(robot: &Robot, mut run: Run, like: &Pieces) -> Option<Log<'static>> {
+    if !like.have_frames() {
         run.camera.clear();
         run.has_camera = false;
     }
-    if like.iter().all(|s| s.duty.is_empty()) {
+    if !like.have_duties() {
         run.duty.clear();
     }
     run.check(robot, Path::new("simulated")).ok()?;
-    Some(segments(robot, &robot.geometry().ok()?, &[run]))
+    Some(Log::from(Cow::Owned(run)))
 }
 
 /// Sets up a link over some pieces of log, with the noise of the real ones, and asks it something.
 fn on_link<T>(
     findings: &Findings,
-    pieces: &[Segment],
+    pieces: &Pieces,
     state: &State,
     link: Link,
     ask: impl FnOnce(&Problem) -> T,
@@ -261,8 +263,7 @@ fn on_link<T>(
 
 /// JᵀJ of all columns.
 fn information(linear: &Linear) -> DMatrix<f64> {
-    let m = linear.owners.len();
-    linear.gram.clusters.iter().fold(DMatrix::zeros(m, m), |sum, c| sum + &c.jj)
+    linear.gram.information()
 }
 
 /// Ways in which the rivals may mimic the named effect: one form of each.

@@ -6,6 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::symmetric::Symmetric;
+
 /// One cluster: residuals that may be correlated with each other, but not with other clusters.
 #[derive(Debug, Clone)]
 pub struct Cluster {
@@ -20,7 +22,7 @@ pub struct Cluster {
     /// Jᵀr.
     pub jr: DVector<f64>,
     /// JᵀJ.
-    pub jj: DMatrix<f64>,
+    pub jj: Symmetric,
     /// Huber weight that n, rr, jr and jj carry already.
     pub weight: f64,
     /// Huber loss minus rr: constant under a linear step.
@@ -40,7 +42,7 @@ impl Cluster {
             n,
             rr: residual.norm_squared(),
             jr: jacobian.transpose() * residual,
-            jj: jacobian.transpose() * jacobian,
+            jj: Symmetric::of(&(jacobian.transpose() * jacobian)),
             weight: 1.0,
             offset: 0.0,
         }
@@ -48,7 +50,7 @@ impl Cluster {
 
     /// Huber loss after a step along the columns.
     pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
-        let moved = self.rr - 2.0 * step.dot(&self.jr) + (step.transpose() * &self.jj * step)[0];
+        let moved = self.rr - 2.0 * step.dot(&self.jr) + self.jj.square(step);
         let (square, n) = (moved.max(0.0) / self.weight, self.n / self.weight);
         huber(square, BURST * n)
     }
@@ -58,7 +60,7 @@ impl Cluster {
         self.n += other.n;
         self.rr += other.rr;
         self.jr += &other.jr;
-        self.jj += &other.jj;
+        self.jj.add(&other.jj);
     }
 
     /// Weighs a cluster down whose residuals are far beyond the noise (Huber on its norm).
@@ -70,7 +72,7 @@ impl Cluster {
             self.n *= self.weight;
             self.rr *= self.weight;
             self.jr *= self.weight;
-            self.jj *= self.weight;
+            self.jj.scale(self.weight);
             self.offset = huber - self.rr;
         }
         self
@@ -139,7 +141,9 @@ impl Gram {
     /// JᵀJ of all columns.
     pub fn information(&self) -> DMatrix<f64> {
         let m = self.clusters.first().map_or(0, |c| c.jr.len());
-        self.clusters.iter().fold(DMatrix::zeros(m, m), |sum, c| sum + &c.jj)
+        let mut sum = DMatrix::zeros(m, m);
+        self.clusters.iter().for_each(|c| c.jj.add_to(&mut sum));
+        sum
     }
 
     /// Number of residuals, weighted.

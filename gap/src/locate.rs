@@ -40,9 +40,10 @@ pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Loca
 
 /// The drive link: each wheel, by direction, speed and time.
 pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64], stall_nm: f64) -> Vec<Located> {
+    let speeds = link.means(floor.len(), |s, k, out| out.iter_mut().zip(&s.speed).for_each(|(x, w)| *x = w[k]));
     (0..floor.len())
         .filter_map(|i| {
-            let speed = link.mean(|s, k| s.speed[i][k]);
+            let speed = &speeds[i];
             let used: Vec<(usize, f64)> =
                 residuals.torque.iter().enumerate().filter(|(b, _)| residuals.weights[*b][i] > 0.0).map(|(b, t)| (b, t[i])).collect();
             let excess = rms(used.iter().map(|u| u.1)) / floor[i];

@@ -49,15 +49,15 @@ impl<'a> Ridge<'a> {
         let (mut jj, mut jr, mut rr) = (DMatrix::zeros(m, m), DVector::zeros(m), 0.0);
         let mut folds: Vec<(usize, DMatrix<f64>, DVector<f64>)> = Vec::new();
         for (c, fold) in gram.clusters.iter().zip(&gram.folds) {
-            jj += &c.jj;
+            c.jj.add_to(&mut jj);
             jr += &c.jr;
             rr += c.rr;
             match folds.iter_mut().find(|f| f.0 == *fold) {
                 Some(f) => {
-                    f.1 += &c.jj;
+                    c.jj.add_to(&mut f.1);
                     f.2 += &c.jr;
                 }
-                None => folds.push((*fold, c.jj.clone(), c.jr.clone())),
+                None => folds.push((*fold, c.jj.full(), c.jr.clone())),
             }
         }
         Self { gram, variance, jj, jr, rr, folds }

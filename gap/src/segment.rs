@@ -3,16 +3,13 @@
 use model::frames::{Pose, Twist, displacement, wrap_angle};
 use model::geometry::Geometry;
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Run, Seen};
 
 use crate::drive::{SIGN_WIDTH, smooth_sign};
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
 /// millisecond the quantum of a speed, 0.83 rad/s, becomes 0.04 rad/s.
 const SMOOTHING_S: f64 = 0.03;
-/// A pause longer than this many ticks starts a new segment.
-const GAP_TICKS: f64 = 20.0;
-
 /// One camera frame at the time it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
@@ -51,65 +48,84 @@ pub struct Segment {
     pub frozen: usize,
     /// Whether a camera fixes heading and position.
     pub has_world: bool,
+    /// The ticks that are looked at; those before and behind belong to its neighbours in the log and are here for what
+    /// reaches over.
+    pub own: std::ops::Range<usize>,
+    /// Times from which and before which its own ticks, windows and bumps begin, s; infinite at the ends of a stretch.
+    pub span: [f64; 2],
+    /// First and last time of the stretch without gaps that it is cut from, s.
+    pub stretch: [f64; 2],
+    /// The stretch before its first tick: length in s and mean squared duty of each wheel, second by second.
+    pub before: Vec<(f64, Vec<f64>)>,
 }
 
-/// Cuts runs into segments.
-pub fn segments(robot: &Robot, geometry: &Geometry, runs: &[Run]) -> Vec<Segment> {
-    let mut all = Vec::new();
-    for (index, run) in runs.iter().enumerate() {
-        let Some(tick) = run.tick_s() else { continue };
-        let camera = regular_stamps(run, robot.camera_rate_hz, tick);
-        let mut first = 0;
-        for k in 1..=run.len() {
-            if k < run.len() && run.t[k] - run.t[k - 1] <= GAP_TICKS * tick {
-                continue;
-            }
-            if k - first >= 8 {
-                all.push(segment(robot, geometry, run, index, first..k, &camera));
-            }
-            first = k;
-        }
-    }
-    all
+/// Where a segment lies in its log, and what only the log before it tells.
+pub(crate) struct Place<'a> {
+    /// Index of the run.
+    pub(crate) run: usize,
+    /// Its ticks, counted from the first one of the segment.
+    pub(crate) own: std::ops::Range<usize>,
+    /// First and last time of the stretch without gaps, s.
+    pub(crate) stretch: [f64; 2],
+    /// Whether it is cut from the stretch at its start and its end.
+    pub(crate) cut: [bool; 2],
+    /// Counts from the start of the stretch to the first tick of the segment.
+    pub(crate) counts: &'a [i64],
+    /// Pose by odometry there, from the start of the stretch.
+    pub(crate) pose: Pose,
+    /// Camera frames of the whole stretch, and those that this segment looks at, with regularised stamps.
+    pub(crate) stretch_frames: usize,
+    pub(crate) frames: Vec<Frame>,
+    /// Mean squared duty of every second of the stretch before it: length in s, wheels.
+    pub(crate) before: &'a [(f64, Vec<f64>)],
 }
 
-fn segment(
-    robot: &Robot,
-    geometry: &Geometry,
-    run: &Run,
-    index: usize,
-    ticks: std::ops::Range<usize>,
-    stamps: &[f64],
-) -> Segment {
+/// Derives a segment from the ticks of `part`.
+pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Place) -> Segment {
     let n = robot.wheel_count();
-    let t: Vec<f64> = run.t[ticks.clone()].to_vec();
-    let mut s = Segment { run: index, ..Segment::default() };
-    if run.counts.len() == n {
+    let t = part.t.clone();
+    let mut s = Segment {
+        run: place.run,
+        stretch: place.stretch,
+        span: [
+            if place.cut[0] { t[place.own.start] } else { f64::NEG_INFINITY },
+            if place.cut[1] { t[place.own.end] } else { f64::INFINITY },
+        ],
+        own: place.own,
+        frames: place.frames,
+        before: place.before.to_vec(),
+        ..Segment::default()
+    };
+    if part.counts.len() == n {
+        let whole: Vec<i64> = if place.counts.len() == n { place.counts.to_vec() } else { vec![0; n] };
         s.angle = (0..n)
-            .map(|i| unwrapped(run, i, ticks.clone(), &t).iter().map(|c| c / robot.counts_per_wheel_rad()).collect())
+            .map(|i| {
+                let counts = unwrapped(part, i, whole[i] as f64, &t);
+                counts.iter().map(|c| c / robot.counts_per_wheel_rad()).collect()
+            })
             .collect();
         s.speed = s.angle.iter().map(|a| smooth_speed(&t, a)).collect();
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, SIGN_WIDTH)).collect()).collect();
     }
-    if run.duty.len() == n {
-        s.duty = run.duty.iter().map(|d| held(&d[ticks.clone()], 0.0)).collect();
+    if part.duty.len() == n {
+        s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
     }
-    s.supply = match &run.supply_v {
-        Some(v) => held(&v[ticks.clone()], robot.supply_v),
+    s.supply = match &part.supply_v {
+        Some(v) => held(v, robot.supply_v),
         None => vec![robot.supply_v; t.len()],
     };
-    for (sample, stamp) in run.camera.iter().zip(stamps).filter(|(f, _)| ticks.contains(&f.tick)) {
-        s.frames.push(Frame { t: *stamp, pose: sample.pose });
-    }
     s.t = t;
+    let mut w = vec![0.0; s.speed.len()];
     s.twist = (0..s.t.len())
         .map(|k| {
-            let w: Vec<f64> = s.speed.iter().map(|w| w[k]).collect();
+            w.iter_mut().zip(&s.speed).for_each(|(w, speed)| *w = speed[k]);
             if w.is_empty() { Twist::default() } else { geometry.twist(&w) }
         })
         .collect();
     s.drop_frozen();
-    s.place(geometry, robot.camera_latency_s);
+    let frames = if place.cut == [false; 2] { s.frames.len() } else { place.stretch_frames };
+    s.has_world = frames >= 4 && !s.frames.is_empty();
+    s.place(geometry, robot.camera_latency_s, place.pose);
     s
 }
 
@@ -132,7 +148,6 @@ impl Segment {
         }
         let mut last_new: Option<Frame> = None;
         let frames = std::mem::take(&mut self.frames);
-        let total = frames.len();
         for frame in frames {
             let repeated = last_new.is_some_and(|last| {
                 let (a, b) = (self.tick_at(last.t), self.tick_at(frame.t));
@@ -141,27 +156,42 @@ impl Segment {
             });
             if !repeated {
                 self.frames.push(frame);
+            } else if (self.span[0]..self.span[1]).contains(&frame.t) {
+                self.frozen += 1;
             }
             if last_new.is_none_or(|last| last.pose != frame.pose) {
                 last_new = Some(frame);
             }
         }
-        self.frozen = total - self.frames.len();
+    }
+
+    /// Whether a tick is in the second half of its stretch.
+    pub fn is_late(&self, tick: usize) -> bool {
+        if self.span == [f64::NEG_INFINITY, f64::INFINITY] {
+            return tick > self.t.len() / 2;
+        }
+        2.0 * self.t[tick] > self.stretch[0] + self.stretch[1]
+    }
+
+    /// The camera frames that are looked at; see [`Segment::own`].
+    pub fn own_frames(&self) -> &[Frame] {
+        let at = |t: f64| self.frames.partition_point(|f| f.t < t);
+        &self.frames[at(self.span[0])..at(self.span[1])]
     }
 
     /// Heading and position at every tick: odometry, drawn to the camera where there is one.
-    fn place(&mut self, geometry: &Geometry, latency: f64) {
+    fn place(&mut self, geometry: &Geometry, latency: f64, from: Pose) {
         let n = self.t.len();
         let mut own = Vec::with_capacity(n);
-        let mut pose = Pose::default();
+        let mut pose = from;
+        let mut turned = vec![0.0; self.angle.len()];
         for k in 0..n {
             own.push(pose);
             if k + 1 < n && !self.angle.is_empty() {
-                let turned: Vec<f64> = self.angle.iter().map(|a| a[k + 1] - a[k]).collect();
+                turned.iter_mut().zip(&self.angle).for_each(|(turned, a)| *turned = a[k + 1] - a[k]);
                 pose = pose.compose(displacement(geometry.twist(&turned)));
             }
         }
-        self.has_world = self.frames.len() >= 4;
         if !self.has_world {
             self.heading = own.iter().map(|p| p.theta).collect();
             self.position = own.iter().map(|p| [p.x, p.y]).collect();
@@ -178,27 +208,26 @@ impl Segment {
             })
             .collect();
         let offsets = running_mean(&offsets, 15);
-        self.heading = self.t.iter().zip(&own).map(|(t, p)| p.theta + interpolate(&offsets, *t)).collect();
+        self.heading = interpolated(&offsets, &self.t).zip(&own).map(|(turn, p)| p.theta + turn).collect();
         let xs: Vec<(f64, f64)> = self.frames.iter().map(|f| (f.t, f.pose.x)).collect();
         let ys: Vec<(f64, f64)> = self.frames.iter().map(|f| (f.t, f.pose.y)).collect();
         let (xs, ys) = (running_mean(&xs, 1), running_mean(&ys, 1));
-        self.position = self.t.iter().map(|t| [interpolate(&xs, *t), interpolate(&ys, *t)]).collect();
+        self.position = interpolated(&xs, &self.t).zip(interpolated(&ys, &self.t)).map(|(x, y)| [x, y]).collect();
     }
 }
 
-/// Cumulative counts as differences from the first, ticks without a sample interpolated.
-fn unwrapped(run: &Run, wheel: usize, ticks: std::ops::Range<usize>, t: &[f64]) -> Vec<f64> {
-    let counts = &run.counts[wheel][ticks.clone()];
+/// Cumulative counts from `first` on, ticks without a sample interpolated.
+fn unwrapped(run: &Run, wheel: usize, first: f64, t: &[f64]) -> Vec<f64> {
+    let counts = &run.counts[wheel];
     let mut out: Vec<f64> = Vec::with_capacity(counts.len());
-    let mut sum = 0.0;
+    let mut sum = first;
     for k in 0..counts.len() {
         if k > 0 {
             sum += counts[k].wrapping_sub(counts[k - 1]) as f64;
         }
         out.push(sum);
     }
-    let gaps = run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
-    let lost: Vec<usize> = gaps.iter().copied().filter(|g| ticks.contains(g)).map(|g| g - ticks.start).collect();
+    let lost = run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
     let mut i = 0;
     while i < lost.len() {
         let first = lost[i];
@@ -271,19 +300,25 @@ fn running_mean(values: &[(f64, f64)], half: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-fn interpolate(values: &[(f64, f64)], t: f64) -> f64 {
-    let k = values.partition_point(|v| v.0 <= t);
-    match (k.checked_sub(1).map(|i| values[i]), values.get(k)) {
-        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0),
-        (Some(a), None) => a.1,
-        (None, Some(b)) => b.1,
-        (None, None) => 0.0,
-    }
+/// Values at increasing times.
+fn interpolated<'a>(values: &'a [(f64, f64)], times: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    let mut k = 0;
+    times.iter().map(move |t| {
+        while k < values.len() && values[k].0 <= *t {
+            k += 1;
+        }
+        match (k.checked_sub(1).map(|i| values[i]), values.get(k)) {
+            (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0),
+            (Some(a), None) => a.1,
+            (None, Some(b)) => b.1,
+            (None, None) => 0.0,
+        }
+    })
 }
 
 /// Times of a run's camera frames: on a regular grid if the stamps are one, rounded to ticks.
-fn regular_stamps(run: &Run, rate: f64, tick: f64) -> Vec<f64> {
-    let raw: Vec<f64> = run.camera.iter().map(|f| run.t[f.tick]).collect();
+pub(crate) fn regular_stamps(seen: &[Seen], rate: f64, tick: f64) -> Vec<f64> {
+    let raw: Vec<f64> = seen.iter().map(|f| f.t).collect();
     if raw.len() < 8 {
         return raw;
     }

@@ -1,7 +1,7 @@
 //! The `timing` link: stamps of ticks and camera frames.
 
 use model::robot::Robot;
-use model::run::Run;
+use model::run::Log;
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding};
@@ -12,12 +12,12 @@ const SCATTER_TICKS: f64 = 0.6;
 const SCATTER_S: f64 = 0.001;
 
 /// Checks the camera's stamps against a regular grid.
-pub(crate) fn analyse(robot: &Robot, runs: &[Run]) -> Option<ExactLink> {
+pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
     let (mut square, mut n, mut missing, mut frames) = (0.0, 0.0_f64, 0.0, 0.0_f64);
     let mut tick = 0.0_f64;
-    for run in runs.iter().filter(|r| r.camera.len() >= 16) {
-        tick = tick.max(run.tick_s().unwrap_or(0.0));
-        let stamps: Vec<f64> = run.camera.iter().map(|f| run.t[f.tick]).collect();
+    for log in logs.iter().filter(|log| log.camera().len() >= 16) {
+        tick = tick.max(log.tick_s().unwrap_or(0.0));
+        let stamps: Vec<f64> = log.camera().iter().map(|f| f.t).collect();
         let grid = grid(&stamps, robot.camera_rate_hz);
         for (g, s) in grid.iter().zip(&stamps) {
             square += (g - s).powi(2);

@@ -30,7 +30,12 @@ impl<'a> Ticks<'a> {
     /// The rows of a run of a robot.
     #[must_use]
     pub fn new(robot: &Robot, run: &'a Run) -> Self {
-        let tick_s = run.tick_s().unwrap_or_else(|| robot.tick_s());
+        Self::with_period(robot, run, run.tick_s())
+    }
+
+    /// The rows of a part of a log whose ticks are `tick_s` apart by the median.
+    pub fn with_period(robot: &Robot, run: &'a Run, tick_s: Option<f64>) -> Self {
+        let tick_s = tick_s.unwrap_or_else(|| robot.tick_s());
         // A tenth of full speed, from one tick to the next: no motor does that.
         let jerk = 16.0 + 0.1 * robot.no_load_wheel_speed(robot.supply_v) * robot.counts_per_wheel_rad() * tick_s;
         Self { run, tick_s, jerk }
@@ -81,8 +86,13 @@ impl<'a> Ticks<'a> {
     /// What the whole run lacks.
     #[must_use]
     pub fn gaps(&self) -> Gaps {
+        self.gaps_in(0..self.run.len())
+    }
+
+    /// What these rows lack.
+    pub fn gaps_in(&self, rows: std::ops::Range<usize>) -> Gaps {
         let mut gaps = Gaps::default();
-        for row in 1..self.run.len() {
+        for row in rows.start.max(1)..rows.end {
             let since = self.since(row);
             gaps.pauses += usize::from(since > 1);
             gaps.missing += since - 1;

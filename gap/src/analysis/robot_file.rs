@@ -3,21 +3,24 @@
 use std::sync::Arc;
 
 use model::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
-use model::run::{DataSet, Run};
+use model::run::{Columns, Log, Logs};
 
 use super::Named;
 use super::order::ORDER;
 use crate::effect::{Effect, Values};
 use crate::options::Options;
+use crate::parts::{Part, parts};
 use crate::state::Active;
 
 /// The robot with what its file leaves to the logs. A motor behind a current controller, or one that is never used
 /// up to its speed, has no no-load speed by which to call an effect large: it is then taken as four times the
 /// fastest turn in the logs, which is how robots are driven.
-pub(super) fn completed(robot: &Robot, runs: &[Run]) -> Robot {
+pub(super) fn completed(robot: &Robot, logs: &[Log]) -> Robot {
     const USUAL: f64 = 4.0;
     const UNUSUAL: f64 = 20.0;
-    let fastest = runs.iter().flat_map(|run| run.counts.iter().map(|counts| fastest(&run.t, counts)));
+    let columns = Columns { counts: true, ..Columns::NONE };
+    let of_part = |part: Part| part.run.counts.iter().map(|c| fastest(&part.run.t, c)).fold(0.0, f64::max);
+    let fastest = logs.iter().flat_map(|log| parts(log, columns)).map(of_part);
     let fastest = fastest.fold(0.0, f64::max) / robot.counts_per_wheel_rad();
     let unusual = fastest > 0.0 && robot.no_load_wheel_speed(robot.supply_v) > UNUSUAL * fastest;
     let mut completed = robot.clone();
@@ -25,9 +28,8 @@ pub(super) fn completed(robot: &Robot, runs: &[Run]) -> Robot {
         completed.top_speed_rad_s = Some(USUAL * fastest);
     }
     if robot.camera_rate_hz <= 0.0 {
-        let between =
-            |run: &Run| -> Vec<f64> { run.camera.windows(2).map(|f| run.t[f[1].tick] - run.t[f[0].tick]).collect() };
-        let mut apart: Vec<f64> = runs.iter().flat_map(between).collect();
+        let between = |log: &Log| -> Vec<f64> { log.camera().windows(2).map(|f| f[1].t - f[0].t).collect() };
+        let mut apart: Vec<f64> = logs.iter().flat_map(between).collect();
         apart.sort_by(f64::total_cmp);
         // Stamps are rounded to ticks, and frames get lost: the mean of what lies about the median.
         let median = apart.get(apart.len() / 2).copied().unwrap_or(1.0 / 60.0);
@@ -68,7 +70,7 @@ pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active>
 }
 
 /// The file of a robot with effects: the one it came from with these effects, if that is to be found.
-pub(super) fn robot_text(set: &DataSet, options: &Options, robot: &Robot) -> String {
+pub(super) fn robot_text(set: &Logs, options: &Options, robot: &Robot) -> String {
     let file = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
     // A log of one axis speaks of a part of the robot.
     let nominal = |r: &Robot| match r.support {

@@ -4,10 +4,11 @@
 //! narrows it down to what its rounding leaves, and then the law is as exact as if it had been known.
 
 use model::robot::Robot;
-use model::run::Run;
-
-use super::{Law, SLACK};
+use model::run::Log;
 use model::ticks::Ticks;
+
+use super::{COLUMNS, Law, SLACK};
+use crate::parts::parts;
 
 /// Integrator of one axis: somewhere from `low` to `high`.
 #[derive(Debug, Clone, Copy)]
@@ -63,8 +64,16 @@ impl Integral {
     }
 }
 
-/// RMS of what is beyond rounding, and the share of ticks that are.
-pub(super) fn replay(robot: &Robot, runs: &[&Run], wheel: usize, law: &Law, floor: f64) -> (f64, f64) {
+/// One wheel's loop on its way along a log.
+struct Wheel {
+    integral: Integral,
+    square: f64,
+    wrong: f64,
+    all: f64,
+}
+
+/// Of every wheel the RMS of what is beyond rounding, and the share of ticks that are.
+pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec<(f64, f64)> {
     let rate = robot.control_rate_hz;
     let per_count = rate / robot.counts_per_wheel_rad();
     let half = floor.max(0.5 * law.duty_quantum + SLACK);
@@ -72,51 +81,57 @@ pub(super) fn replay(robot: &Robot, runs: &[&Run], wheel: usize, law: &Law, floo
         let u = u.clamp(-1.0, 1.0);
         if law.duty_quantum > 0.0 { (u / law.duty_quantum).round() * law.duty_quantum } else { u }
     };
-    let (mut square, mut wrong, mut all) = (0.0, 0.0, 0.0_f64);
-    for run in runs {
-        let (reference, duty) = (&run.reference[wheel], &run.duty[wheel]);
-        let ticks = Ticks::new(robot, run);
-        let speed = |k: usize| match run.measured.get(wheel) {
-            Some(measured) => measured[k],
-            None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
-        };
-        let mut integral = Integral::UNKNOWN;
+    let wheel = |_| Wheel { integral: Integral::UNKNOWN, square: 0.0, wrong: 0.0, all: 0.0 };
+    let mut wheels: Vec<Wheel> = (0..robot.wheel_count()).map(wheel).collect();
+    for log in logs {
+        wheels.iter_mut().for_each(|w| w.integral = Integral::UNKNOWN);
         // Rows before this one without a gap between.
         let mut steady = 0;
-        for k in 0..run.len() {
-            steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
-            if steady == 0 {
-                integral = Integral::UNKNOWN;
-            }
-            let error = match law.shift {
-                [counts, references] if counts.max(references) <= steady => {
-                    reference[k - references] - speed(k - counts)
+        for part in parts(log, COLUMNS) {
+            let run = &part.run;
+            let ticks = Ticks::with_period(robot, run, log.tick_s());
+            for k in part.own.clone() {
+                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
+                for (wheel, state) in wheels.iter_mut().enumerate() {
+                    let speed = |k: usize| match run.measured.get(wheel) {
+                        Some(measured) => measured[k],
+                        None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
+                    };
+                    if steady == 0 {
+                        state.integral = Integral::UNKNOWN;
+                    }
+                    let error = match law.shift {
+                        [counts, references] if counts.max(references) <= steady => {
+                            run.reference[wheel][k - references] - speed(k - counts)
+                        }
+                        _ => f64::NAN,
+                    };
+                    if !error.is_finite() {
+                        state.integral = Integral::UNKNOWN;
+                        continue;
+                    }
+                    let known = state.integral.is_known();
+                    let [low, high] = state.integral.step(law, error, rate).map(rounded);
+                    let logged = run.duty[wheel][k];
+                    if !logged.is_finite() {
+                        continue;
+                    }
+                    // A guess of the rounding shifts the highest level by some thousandths of it.
+                    let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
+                    if e == 0.0 {
+                        state.integral.narrow(law.kp * error, logged, half);
+                    }
+                    if known {
+                        state.square += e * e;
+                        state.all += 1.0;
+                        state.wrong += f64::from(u8::from(e > 1e-9));
+                    }
                 }
-                _ => f64::NAN,
-            };
-            if !error.is_finite() {
-                integral = Integral::UNKNOWN;
-                continue;
-            }
-            let known = integral.is_known();
-            let [low, high] = integral.step(law, error, rate).map(rounded);
-            let logged = duty[k];
-            if !logged.is_finite() {
-                continue;
-            }
-            // A guess of the rounding shifts the highest level by some thousandths of it.
-            let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
-            if e == 0.0 {
-                integral.narrow(law.kp * error, logged, half);
-            }
-            if known {
-                square += e * e;
-                all += 1.0;
-                wrong += f64::from(u8::from(e > 1e-9));
             }
         }
     }
-    ((square / all.max(1.0)).sqrt(), wrong / all.max(1.0))
+    let figures = |w: &Wheel| ((w.square / w.all.max(1.0)).sqrt(), w.wrong / w.all.max(1.0));
+    wheels.iter().map(figures).collect()
 }
 
 #[cfg(test)]
@@ -126,6 +141,8 @@ mod tests {
     use model::frames::Pose;
     use model::manoeuvre::{Manoeuvre, simulate};
     use model::robot::{Effect, EffectParameter};
+    use model::run::Run;
+    use std::borrow::Cow;
 
     /// A drive whose duties are rounded as loggers do, without every row that `keep` refuses.
     fn log(truth: &Robot, keep: impl Fn(usize) -> bool) -> Run {
@@ -158,10 +175,7 @@ mod tests {
         let run = log(&robot, |k| k > 2_345 && k % 331 != 0 && !(4_000..4_017).contains(&k));
         let ticks = Ticks::new(&robot, &run).gaps();
         assert!(ticks.pauses > 10 && ticks.missing > 30, "{ticks:?}");
-        for wheel in 0..3 {
-            let (rms, wrong) = replay(&robot, &[&run], wheel, &nominal(&robot), FLOOR);
-            assert_eq!((rms, wrong), (0.0, 0.0), "wheel {wheel}");
-        }
+        assert_eq!(replay(&robot, &[&Log::from(Cow::Owned(run))], &nominal(&robot), FLOOR), [(0.0, 0.0); 3]);
     }
 
     #[test]
@@ -172,9 +186,10 @@ mod tests {
         let effect = Effect { name: "pi-gain".to_owned(), parameters, ..Effect::default() };
         let run = log(&Robot { effects: vec![effect], ..robot.clone() }, |k| k % 331 != 0);
         let law = nominal(&robot);
-        let (rms, wrong) = replay(&robot, &[&run], 0, &law, FLOOR);
+        let run = Log::from(Cow::Owned(run));
+        let (rms, wrong) = replay(&robot, &[&run], &law, FLOOR)[0];
         assert!(rms > 0.001 && wrong > 0.1, "{rms} {wrong}");
-        let (rms, wrong) = replay(&robot, &[&run], 0, &Law { kp: 1.05 * law.kp, ..law }, FLOOR);
+        let (rms, wrong) = replay(&robot, &[&run], &Law { kp: 1.05 * law.kp, ..law }, FLOOR)[0];
         assert_eq!((rms, wrong), (0.0, 0.0));
     }
 

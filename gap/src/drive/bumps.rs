@@ -1,10 +1,13 @@
 //! Weak form: bumps, and the unexplained torque of each.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{DriveModel, Mechanics};
 use crate::gram::Cluster;
+use crate::pieces::Pieces;
 use crate::segment::Segment;
 
 /// Length of a bump, s, and in ticks at least.
@@ -23,7 +26,7 @@ const STUCK_SHARE: f64 = 0.35;
 /// The drive link of a data set.
 pub struct DriveLink<'a> {
     /// The pieces of the runs.
-    pub segments: &'a [Segment],
+    pub pieces: &'a Pieces<'a>,
     /// Torque per wheel acceleration of the nominal robot: the unit residuals are given in.
     inertia: DMatrix<f64>,
     /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
@@ -35,15 +38,24 @@ pub struct DriveLink<'a> {
 #[derive(Debug, Clone)]
 struct Bump {
     segment: usize,
+    /// Where it begins and how long it is, s.
+    start: f64,
+    length: f64,
+    /// Its first tick, on which it is 0, and its number of intervals from tick to tick.
     first: usize,
-    /// Weights of the angles, second differences of the test function, from `first`.
-    angle: Vec<f64>,
-    /// Weights of the intervals from tick to tick, summing to 1.
-    force: Vec<f64>,
+    intervals: usize,
     /// 1 where the wheel turned, 0 where it may have been stuck.
     weights: Vec<f64>,
     /// Cluster, unique over all segments.
     cluster: usize,
+}
+
+/// A bump's weights.
+struct Shape {
+    /// Of the angles: second differences of the test function, from the bump's first tick.
+    angle: Vec<f64>,
+    /// Of the intervals from tick to tick, summing to 1.
+    force: Vec<f64>,
 }
 
 /// Unexplained torques.
@@ -61,39 +73,42 @@ pub struct DriveResiduals {
 
 impl<'a> DriveLink<'a> {
     /// Lays bumps of the usual length over the segments.
-    pub fn new(segments: &'a [Segment], nominal: &DriveModel) -> Option<Self> {
-        Self::with_bumps(segments, nominal, BUMP_S)
+    pub fn new(pieces: &'a Pieces<'a>, nominal: &DriveModel) -> Option<Self> {
+        Self::with_bumps(pieces, nominal, BUMP_S)
     }
 
     /// Lays bumps of a length in s over the segments.
-    pub fn with_bumps(segments: &'a [Segment], nominal: &DriveModel, bump_s: f64) -> Option<Self> {
+    pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
         let inertia = nominal.mechanics()?.inertia;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
-        let total: f64 = segments.iter().filter_map(|s| Some(s.t.last()? - s.t.first()?)).sum();
-        for (index, s) in segments.iter().enumerate() {
+        let total = pieces.seconds();
+        for (index, s) in pieces.iter().enumerate() {
             if s.duty.len() != n || s.angle.len() != n || s.t.len() < 2 * FEWEST_TICKS as usize {
                 continue;
             }
-            let tick = (s.t[s.t.len() - 1] - s.t[0]) / (s.t.len() - 1) as f64;
+            let end = s.t[s.t.len() - 1];
+            let tick = (end - s.t[0]) / (s.t.len() - 1) as f64;
             let length = bump_s.max(FEWEST_TICKS * tick);
             let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length).max(total / MOST_CLUSTERS);
+            // One grid over the whole stretch.
             let mut start = s.t[0];
+            if s.span[0].is_finite() {
+                start = s.stretch[0] + 0.5 * length * ((s.span[0] - s.stretch[0]) / (0.5 * length)).ceil();
+            }
             let mut opened = start;
             cluster += 1;
-            while start + length <= s.t[s.t.len() - 1] {
+            while start + length <= end && start < s.span[1] {
                 if start - opened >= cluster_s {
                     opened = start;
                     cluster += 1;
                 }
-                if let Some(bump) = Bump::new(s, index, start, length, cluster, n) {
-                    bumps.push(bump);
-                }
+                bumps.extend(Bump::new(&s, index, start, length, cluster, n));
                 start += 0.5 * length;
             }
         }
-        (!bumps.is_empty()).then(|| Self { segments, inertia, noise: vec![1.0; n], bumps })
+        (!bumps.is_empty()).then(|| Self { pieces, inertia, noise: vec![1.0; n], bumps })
     }
 
     /// Leaves out bumps in which a wheel slips by what the motion link found: Newton's law in wheel
@@ -104,26 +119,30 @@ impl<'a> DriveLink<'a> {
         if motion.angles.is_empty() {
             return;
         }
-        let changed: Vec<_> = self.segments.iter().map(|s| motion.angles(s)).collect();
-        for bump in &mut self.bumps {
-            let s = &self.segments[bump.segment];
-            let end = bump.first + bump.force.len();
-            let slips = (0..s.angle.len()).any(|i| {
-                let off = |k: usize| changed[bump.segment][i][k] - s.angle[i][k];
-                (off(end) - off(bump.first)).abs() > ROLLING * 0.5 * (s.t[end] - s.t[bump.first])
-            });
-            if slips {
-                bump.weights.fill(0.0);
+        for range in self.by_segment() {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            let changed = motion.angles(&s);
+            for bump in &mut self.bumps[range] {
+                let end = bump.first + bump.intervals;
+                let slips = (0..s.angle.len()).any(|i| {
+                    let off = |k: usize| changed[i][k] - s.angle[i][k];
+                    (off(end) - off(bump.first)).abs() > ROLLING * 0.5 * (s.t[end] - s.t[bump.first])
+                });
+                if slips {
+                    bump.weights.fill(0.0);
+                }
             }
         }
     }
 
     /// Leaves out bumps at these times (index of the run, s).
     pub fn mask_times(&mut self, out: impl Fn(usize, f64) -> bool) {
-        for bump in &mut self.bumps {
-            let s = &self.segments[bump.segment];
-            if out(s.run, s.t[bump.first + bump.force.len() / 2]) {
-                bump.weights.fill(0.0);
+        for range in self.by_segment() {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            for bump in &mut self.bumps[range] {
+                if out(s.run, s.t[bump.middle()]) {
+                    bump.weights.fill(0.0);
+                }
             }
         }
     }
@@ -131,21 +150,24 @@ impl<'a> DriveLink<'a> {
     /// Segment and middle tick of the bumps that count for no wheel.
     pub fn masked(&self) -> Vec<(usize, usize)> {
         let out = self.bumps.iter().filter(|b| b.weights.iter().all(|w| *w == 0.0));
-        out.map(|b| (b.segment, b.first + b.force.len() / 2)).collect()
+        out.map(|b| (b.segment, b.middle())).collect()
     }
 
     /// Length of a bump, s.
     pub fn length(&self) -> f64 {
-        self.bumps.first().map_or(0.0, |b| {
-            let t = &self.segments[b.segment].t;
-            t[b.first + b.force.len()] - t[b.first]
-        })
+        self.first_bump(|s, b| s.t[b.first + b.intervals] - s.t[b.first])
     }
 
-    /// Ticks in a time, by the first bump.
+    /// Ticks that make up a time.
     pub fn tick_count(&self, seconds: f64) -> usize {
-        let ticks = self.bumps.first().map_or(1, |b| b.force.len());
-        (seconds / self.length().max(1e-9) * ticks as f64).ceil() as usize
+        self.first_bump(|s, b| {
+            let length = s.t[b.first + b.intervals] - s.t[b.first];
+            (seconds / length.max(1e-9) * b.intervals as f64).ceil()
+        }) as usize
+    }
+
+    fn first_bump(&self, of: impl Fn(&Segment, &Bump) -> f64) -> f64 {
+        self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
     /// Number of bumps.
@@ -158,15 +180,8 @@ impl<'a> DriveLink<'a> {
         self.bumps.is_empty()
     }
 
-    /// Wheel accelerations a model predicts, `[bump]`, in units of nominal torque.
-    fn predict(&self, model: &DriveModel) -> Option<Vec<DVector<f64>>> {
-        let parts: Option<Vec<_>> =
-            self.by_segment().into_iter().map(|range| self.predict_part(model, range)).collect();
-        Some(parts?.concat())
-    }
-
     /// Bumps of each segment.
-    fn by_segment(&self) -> Vec<std::ops::Range<usize>> {
+    fn by_segment(&self) -> Vec<Range<usize>> {
         let mut first = 0;
         self.bumps
             .chunk_by(|a, b| a.segment == b.segment)
@@ -177,20 +192,30 @@ impl<'a> DriveLink<'a> {
             .collect()
     }
 
-    /// The same for some bumps of one segment.
-    fn predict_part(&self, model: &DriveModel, range: std::ops::Range<usize>) -> Option<Vec<DVector<f64>>> {
+    /// The shapes of some bumps of one segment.
+    fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
+        self.bumps[range.clone()].par_iter().map(|b| b.shape(s)).collect()
+    }
+
+    /// Wheel accelerations a model predicts for some bumps of one segment by the torques and forces at its ticks, in
+    /// units of nominal torque.
+    fn predict_part(
+        &self,
+        model: &DriveModel,
+        s: &Segment,
+        range: &Range<usize>,
+        shapes: &[Shape],
+        forces: &[f64],
+    ) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
-        let bumps = &self.bumps[range];
-        let s = &self.segments[bumps.first()?.segment];
-        let forces = model.forces(s);
         let offsets: Vec<Vec<Vec<f64>>> = model.offsets.iter().map(|o| o(model, s)).collect();
-        let out = bumps.iter().map(|b| {
-            let mut a = b.acceleration(&forces, n, &mechanics, model);
+        let out = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+            let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
                 for i in 0..n {
                     let own = &offset[i][b.first..];
-                    a[i] += b.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
+                    a[i] += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
                 }
             }
             &self.inertia * a
@@ -198,26 +223,31 @@ impl<'a> DriveLink<'a> {
         Some(out.collect())
     }
 
-    /// What the encoders measured, in the same units.
+    /// What the encoders measured, in units of nominal torque, one a bump.
     pub fn measured(&self) -> Vec<DVector<f64>> {
-        let n = self.noise.len();
-        self.bumps
-            .iter()
-            .map(|b| {
-                let s = &self.segments[b.segment];
-                let a = DVector::from_fn(n, |i, _| {
-                    b.angle.iter().zip(&s.angle[i][b.first..]).map(|(w, x)| w * (x - s.angle[i][b.first])).sum()
-                });
-                &self.inertia * a
-            })
-            .collect()
+        let part = |range: Range<usize>| {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            self.measured_part(&s, &range, &self.shapes(&s, &range))
+        };
+        self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().concat()
+    }
+
+    fn measured_part(&self, s: &Segment, range: &Range<usize>, shapes: &[Shape]) -> Vec<DVector<f64>> {
+        let measured = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+            let a = DVector::from_fn(self.noise.len(), |i, _| {
+                let own = &s.angle[i][b.first..];
+                shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum()
+            });
+            &self.inertia * a
+        });
+        measured.collect()
     }
 
     /// Unexplained wheel acceleration at every inner tick of a segment, rad/s², and the torque it
     /// stands for, Nm, `[wheel][tick]`; as noisy as counts are, for what is averaged over many ticks.
     pub fn raw(&self, model: &DriveModel, segment: usize) -> Option<[Vec<Vec<f64>>; 2]> {
         let mechanics = model.mechanics()?;
-        let (n, s) = (self.noise.len(), &self.segments[segment]);
+        let (n, s) = (self.noise.len(), &*self.pieces.get(segment));
         let (width, ticks) = (n + 3, s.t.len());
         let forces = model.forces(s);
         let acceleration = |k: usize| {
@@ -250,23 +280,51 @@ impl<'a> DriveLink<'a> {
 
     /// Unexplained torques under a model.
     pub fn residuals(&self, model: &DriveModel) -> Option<DriveResiduals> {
-        let predicted = self.predict(model)?;
-        let measured = self.measured();
+        let part = |range: Range<usize>| -> Option<Vec<Vec<f64>>> {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            let shapes = self.shapes(&s, &range);
+            let predicted = self.predict_part(model, &s, &range, &shapes, &model.forces(&s))?;
+            let measured = self.measured_part(&s, &range, &shapes);
+            Some(measured.iter().zip(&predicted).map(|(m, p)| (m - p).iter().copied().collect()).collect())
+        };
+        let torque: Option<Vec<_>> = self.by_segment().into_par_iter().map(part).collect();
         Some(DriveResiduals {
-            run: self.bumps.iter().map(|b| self.segments[b.segment].run).collect(),
-            at: self.bumps.iter().map(|b| (b.segment, b.first + b.force.len() / 2)).collect(),
-            torque: measured.iter().zip(&predicted).map(|(m, p)| (m - p).iter().copied().collect()).collect(),
+            run: self.bumps.iter().map(|b| self.pieces.run(b.segment)).collect(),
+            at: self.bumps.iter().map(|b| (b.segment, b.middle())).collect(),
+            torque: torque?.concat(),
             weights: self.bumps.iter().map(|b| b.weights.clone()).collect(),
         })
     }
 
-    /// Mean of something over every bump.
-    pub fn mean(&self, of: impl Fn(&Segment, usize) -> f64) -> Vec<f64> {
-        let mean = |b: &Bump| {
-            let s = &self.segments[b.segment];
-            b.force.iter().enumerate().map(|(j, w)| w * of(s, b.first + j)).sum()
+    /// Means of several quantities over every bump, `[quantity][bump]`; `of` writes them down for one tick.
+    pub fn means(&self, quantities: usize, of: impl Fn(&Segment, usize, &mut [f64]) + Sync) -> Vec<Vec<f64>> {
+        let part = |range: Range<usize>| {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            let shapes = self.shapes(&s, &range);
+            let mut values = vec![0.0; quantities * s.t.len()];
+            for (k, row) in values.chunks_mut(quantities).enumerate() {
+                of(&s, k, row);
+            }
+            let mut means = vec![vec![0.0; range.len()]; quantities];
+            for (place, (b, shape)) in self.bumps[range].iter().zip(&shapes).enumerate() {
+                for (j, w) in shape.force.iter().enumerate() {
+                    let row = &values[(b.first + j) * quantities..][..quantities];
+                    means.iter_mut().zip(row).for_each(|(mean, x)| mean[place] += w * x);
+                }
+            }
+            means
         };
-        self.bumps.iter().map(mean).collect()
+        let parts: Vec<Vec<Vec<f64>>> = self.by_segment().into_par_iter().map(part).collect();
+        (0..quantities).map(|q| parts.iter().flat_map(|p| &p[q]).copied().collect()).collect()
+    }
+
+    /// Something of the middle tick of every bump.
+    pub fn at_middles<T: Send>(&self, of: impl Fn(&Segment, usize) -> T + Sync) -> Vec<T> {
+        let part = |range: Range<usize>| {
+            let s = self.pieces.get(self.bumps[range.start].segment);
+            self.bumps[range].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
+        };
+        self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
     /// Weights, `[bump][wheel]`.
@@ -288,19 +346,22 @@ impl<'a> DriveLink<'a> {
     /// itself, high, step), per cluster.
     pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
         let n = self.noise.len();
-        let measured = self.measured();
         let mut clusters = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
-            let Some(base) = self.predict_part(model, range.clone()) else { return Vec::new() };
+            let s = &*self.pieces.get(self.bumps[range.start].segment);
+            let shapes = self.shapes(s, &range);
+            let measured = self.measured_part(s, &range, &shapes);
+            let predict = |model: &DriveModel, forces: &[f64]| self.predict_part(model, s, &range, &shapes, forces);
+            let Some(base) = predict(model, &model.forces(s)) else { return Vec::new() };
             let columns: Vec<Option<Vec<DVector<f64>>>> = sides
                 .par_iter()
                 .map(|(low, high, step)| {
                     let low = match low {
-                        Some(low) => Some(self.predict_part(low, range.clone())?),
+                        Some(low) => Some(predict(low, &low.forces(s))?),
                         None => None,
                     };
-                    let high = self.predict_part(high, range.clone())?;
+                    let high = predict(high, &high.forces(s))?;
                     let low = low.as_ref().unwrap_or(&base);
                     Some(low.iter().zip(&high).map(|(a, b)| (b - a) / *step).collect())
                 })
@@ -312,14 +373,13 @@ impl<'a> DriveLink<'a> {
                 let at = |r: usize| (first + r / n, r % n);
                 let residual = DVector::from_fn(rows, |r, _| {
                     let (b, i) = at(r);
-                    (measured[range.start + b][i] - base[b][i]) * weight(r)
+                    (measured[b][i] - base[b][i]) * weight(r)
                 });
                 let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
                     let (b, i) = at(r);
                     columns[c].as_ref().map_or(0.0, |column| column[b][i] * weight(r))
                 });
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
-                let s = &self.segments[part[0].segment];
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
                 first += part.len();
             }
@@ -336,14 +396,31 @@ impl Bump {
         if end >= s.t.len() || end - first < 4 {
             return None;
         }
-        let t = &s.t[first..=end];
-        let shape: Vec<f64> = t
-            .iter()
-            .map(|t| {
-                let x = (t - start) / length;
-                if (0.0..=1.0).contains(&x) { (std::f64::consts::PI * x).sin().powi(2) } else { 0.0 }
-            })
-            .collect();
+        let mut bump =
+            Self { segment, start, length, first, intervals: end - first, weights: vec![0.0; wheels], cluster };
+        let force = bump.shape(s).force;
+        if !force.iter().all(|w| w.is_finite()) {
+            return None;
+        }
+        for (i, slot) in bump.weights.iter_mut().enumerate() {
+            let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < STUCK);
+            let stuck: f64 = slow.map(|(f, _)| f).sum();
+            *slot = if stuck > STUCK_SHARE { 0.0 } else { 1.0 };
+        }
+        Some(bump)
+    }
+
+    /// Tick in the middle.
+    fn middle(&self) -> usize {
+        self.first + self.intervals / 2
+    }
+
+    fn shape(&self, s: &Segment) -> Shape {
+        let t = &s.t[self.first..=self.first + self.intervals];
+        let value = |t: f64| {
+            let x = (t - self.start) / self.length;
+            if (0.0..=1.0).contains(&x) { (std::f64::consts::PI * x).sin().powi(2) } else { 0.0 }
+        };
         let m = t.len();
         // With duty held from tick to tick the acceleration a_k is constant there, and exactly
         // Δθ_k/h_k − Δθ_{k−1}/h_{k−1} = (a_k·h_k + a_{k−1}·h_{k−1})/2: summed with the bump's
@@ -352,32 +429,30 @@ impl Bump {
         let mut force = vec![0.0; m - 1];
         for k in 1..m - 1 {
             let (before, after) = (t[k] - t[k - 1], t[k + 1] - t[k]);
-            angle[k - 1] += shape[k] / before;
-            angle[k] -= shape[k] * (1.0 / before + 1.0 / after);
-            angle[k + 1] += shape[k] / after;
-            force[k - 1] += 0.5 * shape[k] * before;
-            force[k] += 0.5 * shape[k] * after;
+            let shape = value(t[k]);
+            angle[k - 1] += shape / before;
+            angle[k] -= shape * (1.0 / before + 1.0 / after);
+            angle[k + 1] += shape / after;
+            force[k - 1] += 0.5 * shape * before;
+            force[k] += 0.5 * shape * after;
         }
         let total: f64 = force.iter().sum();
-        if total <= 0.0 {
-            return None;
-        }
         angle.iter_mut().for_each(|w| *w /= total);
         force.iter_mut().for_each(|w| *w /= total);
-        let weights = (0..wheels)
-            .map(|i| {
-                let stuck: f64 =
-                    force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < STUCK).map(|(f, _)| f).sum();
-                if stuck > STUCK_SHARE { 0.0 } else { 1.0 }
-            })
-            .collect();
-        Some(Self { segment, first, angle, force, weights, cluster })
+        Shape { angle, force }
     }
 
-    fn acceleration(&self, forces: &[f64], n: usize, mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
+    fn acceleration(
+        &self,
+        shape: &Shape,
+        forces: &[f64],
+        n: usize,
+        mechanics: &Mechanics,
+        model: &DriveModel,
+    ) -> DVector<f64> {
         let width = n + 3;
         let mut mean = vec![0.0; width];
-        for (j, w) in self.force.iter().enumerate() {
+        for (j, w) in shape.force.iter().enumerate() {
             let row = &forces[(self.first + j) * width..(self.first + j + 1) * width];
             for (slot, x) in mean.iter_mut().zip(row) {
                 *slot += w * x;

@@ -31,29 +31,33 @@ impl Generic {
     /// Its columns.
     pub fn new(link: &DriveLink) -> Self {
         let n = link.noise.len();
-        let mut shared: Vec<Vec<f64>> = Vec::new();
-        for i in 0..n {
-            shared.push(link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4)));
-            shared.push(link.mean(|s, k| s.speed[i][k]));
-            shared.push(link.mean(|s, k| s.duty[i][k]));
-        }
-        shared.push(link.mean(|s, k| s.heading[k].cos()));
-        shared.push(link.mean(|s, k| s.heading[k].sin()));
-        shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vx, SLIDE_WIDTH)));
-        shared.push(link.mean(|s, k| smooth_sign(s.twist[k].vy, SLIDE_WIDTH)));
-        shared.push(link.mean(|s, k| s.twist[k].vx * s.twist[k].omega));
-        shared.push(link.mean(|s, k| s.twist[k].vy * s.twist[k].omega));
-        let own = (0..n)
-            .map(|i| {
-                vec![
-                    link.mean(|s, k| s.speed[i][k] * s.speed[i][k].abs()),
-                    link.mean(|s, k| s.duty[i][k].abs() * smooth_sign(s.speed[i][k], 0.4)),
-                    link.mean(|s, k| s.duty[i][k].powi(3)),
-                    link.mean(|s, k| smooth_sign(s.speed[i][k], 0.4).abs()),
-                ]
-            })
-            .collect();
-        Self { shared, own }
+        let (common, alone) = (3 * n + 6, 4);
+        let mut all = link.means(common + alone * n, |s, k, out| {
+            let (common, own) = out.split_at_mut(common);
+            for i in 0..n {
+                let (speed, duty) = (s.speed[i][k], s.duty[i][k]);
+                let sign = smooth_sign(speed, 0.4);
+                common[3 * i..3 * i + 3].copy_from_slice(&[sign, speed, duty]);
+                own[alone * i..][..alone].copy_from_slice(&[
+                    speed * speed.abs(),
+                    duty.abs() * sign,
+                    duty.powi(3),
+                    sign.abs(),
+                ]);
+            }
+            let (heading, twist) = (s.heading[k], s.twist[k]);
+            common[3 * n..].copy_from_slice(&[
+                heading.cos(),
+                heading.sin(),
+                smooth_sign(twist.vx, SLIDE_WIDTH),
+                smooth_sign(twist.vy, SLIDE_WIDTH),
+                twist.vx * twist.omega,
+                twist.vy * twist.omega,
+            ]);
+        });
+        let mut rest = all.split_off(common).into_iter();
+        let own = (0..n).map(|_| rest.by_ref().take(alone).collect()).collect();
+        Self { shared: all, own }
     }
 
     /// What it leaves of a wheel's torques; `None` where the logs are too short to say.
@@ -63,12 +67,21 @@ impl Generic {
         if bumps.len() < 3 * columns.len() {
             return None;
         }
-        let design = DMatrix::from_fn(bumps.len(), columns.len(), |r, c| columns[c][bumps[r]]);
-        let torque = DVector::from_fn(bumps.len(), |r, _| residuals.torque[bumps[r]][wheel]);
-        let x = solve(&(design.transpose() * &design), &(design.transpose() * &torque));
-        let left = torque - &design * x;
-        let scatter = (left.norm_squared() / (bumps.len() - columns.len()) as f64).sqrt();
-        Some(Left { bumps, torque: left.iter().copied().collect(), scatter })
+        let torque = |b: usize| residuals.torque[b][wheel];
+        let m = columns.len();
+        let product = |p: usize, q: usize| bumps.iter().map(|b| columns[p][*b] * columns[q][*b]).sum::<f64>();
+        let mut square = DMatrix::zeros(m, m);
+        for p in 0..m {
+            for q in 0..=p {
+                square[(p, q)] = product(p, q);
+                square[(q, p)] = square[(p, q)];
+            }
+        }
+        let x = solve(&square, &DVector::from_fn(m, |p, _| bumps.iter().map(|b| columns[p][*b] * torque(*b)).sum()));
+        let fitted = |b: usize| columns.iter().zip(x.iter()).map(|(column, x)| column[b] * x).sum::<f64>();
+        let left: Vec<f64> = bumps.iter().map(|b| torque(*b) - fitted(*b)).collect();
+        let scatter = (left.iter().map(|l| l * l).sum::<f64>() / (bumps.len() - m) as f64).sqrt();
+        Some(Left { bumps, torque: left, scatter })
     }
 }
 

@@ -17,7 +17,7 @@ pub struct Instant<'a> {
     pub segment: &'a Segment,
     /// The tick.
     pub tick: usize,
-    /// Seconds since the start of the segment.
+    /// Seconds since the start of the stretch.
     pub time_s: f64,
     /// Duty that acts, −1 to 1, one a wheel.
     pub duty: &'a [f64],
@@ -95,7 +95,7 @@ impl DriveModel {
         let (mut duty, mut speed, mut sign) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
-        let start = s.t[0];
+        let start = s.stretch[0];
         let from_wheels = self.twist_per_wheel_speed();
         // Only terms and maps look at more than duties and counts.
         let bare = self.loads.is_empty() && self.supply_maps.is_empty();

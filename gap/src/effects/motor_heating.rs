@@ -39,7 +39,9 @@ impl Effect for MotorHeating {
         model.prepare.push(Box::new(move |m, s| {
             (0..m.wheels.len())
                 .map(|i| {
-                    let mut state = 0.0;
+                    let mut state = s.before.iter().fold(0.0, |state: f64, (seconds, squares)| {
+                        squares[i] + (state - squares[i]) * (-seconds / time).exp()
+                    });
                     (0..s.t.len())
                         .map(|k| {
                             let dt = if k > 0 { s.t[k] - s.t[k - 1] } else { 0.0 };

@@ -108,8 +108,8 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
                 let torque: Vec<f64> = (0..m.wheels.len()).map(|i| v.wheel("torque", i, "nm")).collect();
                 let share = v.get("share");
                 m.loads.push(Box::new(move |now, loads| {
-                    let t = &now.segment.t;
-                    if now.time_s > share * (t[t.len() - 1] - t[0]) {
+                    let [first, last] = now.segment.stretch;
+                    if now.time_s > share * (last - first) {
                         for (i, x) in torque.iter().enumerate() {
                             loads.wheel[i] -= x * now.sign[i];
                         }

@@ -2,14 +2,14 @@
 
 use crate::analysis::Leftover;
 use crate::effect::Link;
-use crate::segment::Segment;
+use crate::pieces::Pieces;
 
 /// Camera frames that repeat the one before while the wheels turn: the tracker lost the robot.
-pub(crate) fn frozen(pieces: &[Segment]) -> Option<Leftover> {
+pub(crate) fn frozen(pieces: &Pieces) -> Option<Leftover> {
     /// Share of all frames, and number, from which it is said.
     const WORTH: (f64, usize) = (0.015, 8);
-    let lost: usize = pieces.iter().map(|s| s.frozen).sum();
-    let all = lost + pieces.iter().map(|s| s.frames.len()).sum::<usize>();
+    let (lost, seen) = pieces.iter().fold((0, 0), |(lost, seen), s| (lost + s.frozen, seen + s.own_frames().len()));
+    let all = lost + seen;
     let share = lost as f64 / all.max(1) as f64;
     (lost >= WORTH.1 && share >= WORTH.0).then(|| Leftover {
         link: Link::Timing,
@@ -21,13 +21,13 @@ pub(crate) fn frozen(pieces: &[Segment]) -> Option<Leftover> {
 }
 
 /// Camera frames further apart than the wheels can have carried the robot: poses at wrong times, two robots mixed up.
-pub(crate) fn torn(pieces: &[Segment]) -> Option<Leftover> {
+pub(crate) fn torn(pieces: &Pieces) -> Option<Leftover> {
     /// Distance that noise and slip may add between two frames, m, and share of frames that may exceed it.
     const SLACK: (f64, f64) = (0.05, 0.1);
     let (mut far, mut all, mut largest) = (0.0, 0.0_f64, 0.0_f64);
     for s in pieces.iter().filter(|s| s.wheels() > 0) {
         let fastest = s.twist.iter().map(|v| v.speed()).fold(0.0, f64::max);
-        for pair in s.frames.windows(2) {
+        for pair in s.own_frames().windows(2) {
             let (a, b) = (pair[0].pose, pair[1].pose);
             let apart = (b.x - a.x).hypot(b.y - a.y);
             all += 1.0;

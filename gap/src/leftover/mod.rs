@@ -14,7 +14,7 @@ use std::collections::HashSet;
 
 use crate::drive::{DriveLink, DriveModel, Generic, Left};
 use crate::effect::Sizes;
-use crate::segment::Segment;
+use crate::pieces::Pieces;
 
 pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;
@@ -49,14 +49,14 @@ pub(crate) struct Leftover {
 /// `mask` holds segment and tick of what slips; `rolls` says of a run and a time whether the camera saw
 /// the robot roll as its wheels turned.
 pub(crate) fn drive(
-    segments: &[Segment],
+    pieces: &Pieces,
     model: &DriveModel,
     mask: &[(usize, usize)],
     rolls: &dyn Fn(usize, f64) -> bool,
     sizes: Sizes,
 ) -> Leftover {
     let mut out = Leftover { structures: Vec::new(), ripple: None };
-    let Some(link) = DriveLink::with_bumps(segments, model, BUMP_S) else { return out };
+    let Some(link) = DriveLink::with_bumps(pieces, model, BUMP_S) else { return out };
     let Some(residuals) = link.residuals(model) else { return out };
     let generic = Generic::new(&link);
     let near = link.tick_count(MASK_S).max(1);
@@ -81,12 +81,12 @@ pub(crate) fn drive(
     out.structures.extend(bursts::bursts(&series, rolls, sizes.stall_nm));
     out.structures.extend(bursts::stretches(&series, sizes.stall_nm));
     let slips = |segment: usize, ticks: std::ops::Range<usize>| {
-        let s = &segments[segment];
+        let s = pieces.get(segment);
         let seen = [ticks.start, (ticks.start + ticks.end) / 2, ticks.end].map(|k| s.t[k.min(s.t.len() - 1)]);
         !seen.into_iter().all(|t| rolls(s.run, t))
             || (ticks.start / near..=ticks.end / near).any(|part| slips.contains(&(segment, part)))
     };
-    let (ripple, structures) = orders::orders(&link, model, segments, &slips, sizes.stall_nm);
+    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.stall_nm);
     out.ripple = ripple;
     out.structures.extend(structures);
     out
@@ -120,18 +120,18 @@ struct Series {
 impl Series {
     fn new(link: &DriveLink, at: &[(usize, usize)], lefts: &[Option<Left>]) -> Self {
         let done = link.measured();
+        let places = link.at_middles(|s, k| (s.run, s.t[k], s.sign.iter().map(|sign| sign[k]).collect::<Vec<_>>()));
         let wheels = lefts
             .iter()
             .enumerate()
             .filter_map(|(i, left)| {
                 let left = left.as_ref()?;
-                let place = |b: &usize| (&link.segments[at[*b].0], at[*b].1);
                 let mut sizes: Vec<f64> = left.torque.iter().map(|x| x.abs()).collect();
                 Some(Wheel {
-                    run: left.bumps.iter().map(|b| place(b).0.run).collect(),
+                    run: left.bumps.iter().map(|b| places[*b].0).collect(),
                     segment: left.bumps.iter().map(|b| at[*b].0).collect(),
-                    t: left.bumps.iter().map(|b| place(b).0.t[place(b).1]).collect(),
-                    sign: left.bumps.iter().map(|b| place(b).0.sign[i][place(b).1]).collect(),
+                    t: left.bumps.iter().map(|b| places[*b].1).collect(),
+                    sign: left.bumps.iter().map(|b| places[*b].2[i]).collect(),
                     done: left.bumps.iter().map(|b| done[*b][i]).collect(),
                     scatter: 1.4826 * crate::statistics::median(&mut sizes),
                     torque: left.torque.clone(),

@@ -70,7 +70,6 @@ struct Line {
 pub(super) fn orders(
     link: &DriveLink,
     model: &DriveModel,
-    segments: &[Segment],
     slips: &dyn Fn(usize, std::ops::Range<usize>) -> bool,
     stall_nm: f64,
 ) -> (Option<Ripple>, Vec<Structure>) {
@@ -79,16 +78,16 @@ pub(super) fn orders(
     // Whatever turns with the motor.
     candidates.extend((1..=6).map(|k| f64::from(k) * model.gear_ratio).filter(|o| (o - o.round()).abs() > 0.05));
     // Long logs are looked at here and there: a line is everywhere.
-    let stride = 1 + segments.iter().map(|s| s.t.len()).sum::<usize>() / MOST_TICKS;
+    let stride = 1 + link.pieces.ticks() / MOST_TICKS;
     let mut demodulated = vec![vec![Vec::new(); candidates.len()]; n];
-    for (index, s) in segments.iter().enumerate() {
+    for (index, s) in link.pieces.iter().enumerate() {
         if s.duty.len() != n || s.angle.len() != n || s.t.len() <= 50 {
             continue;
         }
         let Some(raw) = link.raw(model, index) else { continue };
         for (wheel, slots) in demodulated.iter_mut().enumerate() {
             let new: Vec<Vec<Block>> =
-                candidates.par_iter().map(|o| demodulate(index, s, &raw, wheel, *o, stride)).collect();
+                candidates.par_iter().map(|o| demodulate(index, &s, &raw, wheel, *o, stride)).collect();
             let rolling = |blocks: Vec<Block>| blocks.into_iter().filter(|b| !slips(index, b.ticks.0..b.ticks.1));
             slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(rolling(blocks)));
         }
@@ -156,8 +155,8 @@ fn demodulate(
     }
     let window: Vec<f64> = (0..length).map(|j| (PI * (j as f64 + 0.5) / length as f64).sin().powi(2)).collect();
     let total: f64 = window.iter().sum();
-    let mut first = 1;
-    while first + length < s.t.len() {
+    let mut first = s.own.start.max(1);
+    while first + length < s.t.len() && first < s.own.end {
         let speeds = &s.speed[wheel][first..first + length];
         let mean = speeds.iter().sum::<f64>() / length as f64;
         let f = order * mean.abs() / TAU;

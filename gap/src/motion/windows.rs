@@ -1,11 +1,14 @@
 //! Windows of camera frames: alignment, weights, residuals and their derivatives.
 
+use std::ops::Range;
+
 use model::frames::{Pose, wrap_angle};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
 
 use super::MotionModel;
 use crate::gram::Cluster;
+use crate::pieces::Pieces;
 use crate::segment::Segment;
 
 /// Fewer frames than this fix a start pose but hardly anything else.
@@ -22,7 +25,7 @@ const MEDIAN_OF_CHI3: f64 = 1.538_2;
 /// The motion link of a data set.
 pub struct MotionLink<'a> {
     /// The pieces of the runs.
-    pub segments: &'a [Segment],
+    pub pieces: &'a Pieces<'a>,
     /// Standard deviations of a camera pose (m, m, rad).
     pub noise: [f64; 3],
     windows: Vec<Window>,
@@ -32,7 +35,7 @@ pub struct MotionLink<'a> {
 #[derive(Debug, Clone)]
 struct Window {
     segment: usize,
-    frames: std::ops::Range<usize>,
+    frames: Range<usize>,
 }
 
 /// One window's frames and what the model makes of them.
@@ -52,25 +55,40 @@ pub struct WindowResiduals {
 }
 
 impl<'a> MotionLink<'a> {
-    /// Cuts the segments into windows of `window_s`.
-    pub fn new(segments: &'a [Segment], noise: [f64; 3], window_s: f64) -> Self {
+    /// Cuts the segments into windows of `window_s`; without an end, each into one.
+    pub fn new(pieces: &'a Pieces<'a>, noise: [f64; 3], window_s: f64) -> Self {
         let mut windows = Vec::new();
-        for (index, s) in segments.iter().enumerate().filter(|(_, s)| !s.angle.is_empty()) {
-            let Some(start) = s.t.first() else { continue };
-            // All frames are in one window where that has no end.
-            let number = |i: usize| ((s.frames[i].t - start) / window_s).floor();
-            let mut first = 0;
-            for i in 1..=s.frames.len() {
-                if i < s.frames.len() && number(i) == number(first) {
-                    continue;
+        for (index, s) in pieces.iter().enumerate().filter(|(_, s)| !s.angle.is_empty()) {
+            let number = |i: usize| ((s.frames[i].t - s.stretch[0]) / window_s).floor();
+            let is_own = |i: usize| {
+                let begins = if window_s.is_finite() { s.stretch[0] + number(i) * window_s } else { s.frames[i].t };
+                (s.span[0]..s.span[1]).contains(&begins)
+            };
+            let frames: Vec<usize> = (0..s.frames.len()).filter(|i| is_own(*i)).collect();
+            for window in frames.chunk_by(|a, b| number(*a) == number(*b)) {
+                if window.len() >= FEWEST_FRAMES {
+                    windows.push(Window { segment: index, frames: window[0]..window[0] + window.len() });
                 }
-                if i - first >= FEWEST_FRAMES {
-                    windows.push(Window { segment: index, frames: first..i });
-                }
-                first = i;
             }
         }
-        Self { segments, noise, windows }
+        Self { pieces, noise, windows }
+    }
+
+    /// No more than the first windows.
+    #[must_use]
+    pub fn first(mut self, number: usize) -> Self {
+        self.windows.truncate(number);
+        self
+    }
+
+    /// Windows of each segment.
+    fn by_segment(&self) -> Vec<Range<usize>> {
+        let mut first = 0;
+        let part = |part: &[Window]| {
+            first += part.len();
+            first - part.len()..first
+        };
+        self.windows.chunk_by(|a, b| a.segment == b.segment).map(part).collect()
     }
 
     /// Number of windows.
@@ -86,45 +104,44 @@ impl<'a> MotionLink<'a> {
     /// Residuals of every window, start poses fitted, outliers weighted down.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
         let Some(columns) = model.columns() else { return Vec::new() };
-        let angles: Vec<_> = self.segments.iter().map(|s| model.angles(s)).collect();
-        let tracks: Vec<Vec<Pose>> = self.windows.par_iter().map(|w| self.track(model, &angles, &columns, w)).collect();
-        let align = |(window, track): (&Window, &Vec<Pose>), weights: Option<Vec<f64>>| {
-            self.align(model, window, track, weights)
-        };
-        let mut all: Vec<WindowResiduals> =
-            self.windows.par_iter().zip(&tracks).map(|pair| align(pair, None)).collect();
+        let parts: Vec<Vec<(Vec<Pose>, WindowResiduals)>> = self
+            .by_segment()
+            .into_par_iter()
+            .map(|range| {
+                let s = self.pieces.get(self.windows[range.start].segment);
+                let angles = model.angles(&s);
+                let windows = self.windows[range].par_iter();
+                windows
+                    .map(|w| {
+                        let track = model.track(&s, &angles, &columns, &s.frames[w.frames.clone()]);
+                        let aligned = self.align(model, &s, w, &track, None);
+                        (track, aligned)
+                    })
+                    .collect()
+            })
+            .collect();
+        let (tracks, mut all): (Vec<Vec<Pose>>, Vec<WindowResiduals>) = parts.into_iter().flatten().unzip();
         // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
         let mut norms: Vec<f64> =
             all.iter().flat_map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i))).collect();
         let spread = (crate::statistics::median(&mut norms) / MEDIAN_OF_CHI3).max(1.0);
-        all.par_iter_mut().zip(self.windows.par_iter().zip(&tracks)).for_each(|(w, pair)| {
+        all.par_iter_mut().zip(self.windows.par_iter().zip(&tracks)).for_each(|(w, (window, track))| {
             let weights: Vec<f64> = (0..w.residuals.len()).map(|i| weight(apart(&w.residuals, i) / spread)).collect();
             if weights.iter().any(|x| *x < 1.0) {
-                *w = align(pair, Some(weights));
+                *w = self.align(model, &self.pieces.get(window.segment), window, track, Some(weights));
             }
         });
         all
     }
 
-    fn track(
-        &self,
-        model: &MotionModel,
-        angles: &[std::borrow::Cow<'_, [Vec<f64>]>],
-        columns: &[[f64; 3]],
-        w: &Window,
-    ) -> Vec<Pose> {
-        let s = &self.segments[w.segment];
-        model.track(s, &angles[w.segment], columns, &s.frames[w.frames.clone()])
-    }
-
     fn align(
         &self,
         model: &MotionModel,
+        s: &Segment,
         window: &Window,
         track: &[Pose],
         weights: Option<Vec<f64>>,
     ) -> WindowResiduals {
-        let s = &self.segments[window.segment];
         let frames = &s.frames[window.frames.clone()];
         let n = frames.len();
         let middle = n / 2;
@@ -166,38 +183,40 @@ impl<'a> MotionLink<'a> {
         let base = self.residuals(model);
         let together = self.windows.len().div_ceil(MOST_CLUSTERS);
         let mut clusters: Vec<Cluster> = Vec::new();
-        let mut first = 0;
         // Segment by segment, so that the columns of a long log never stand in memory at once.
-        while let Some(window) = self.windows.get(first) {
-            let own = self.windows[first..].iter().take_while(|w| w.segment == window.segment).count();
-            let range = first..first + own;
-            let start = self.predict(model, &base, range.clone());
+        for range in self.by_segment() {
+            let s = self.pieces.get(self.windows[range.start].segment);
+            let start = self.predict(model, &s, &base, range.clone());
             let columns: Vec<Vec<DVector<f64>>> = sides
                 .par_iter()
                 .map(|(low, high, step)| {
-                    let low = low.as_ref().map(|low| self.predict(low, &base, range.clone()));
-                    let high = self.predict(high, &base, range.clone());
+                    let low = low.as_ref().map(|low| self.predict(low, &s, &base, range.clone()));
+                    let high = self.predict(high, &s, &base, range.clone());
                     self.column(&base[range.clone()], low.as_ref().unwrap_or(&start), &high, *step)
                 })
                 .collect();
             let part: Vec<Cluster> =
-                (0..own).into_par_iter().map(|w| self.cluster(w, &base[first + w], &columns)).collect();
+                (0..range.len()).into_par_iter().map(|w| self.cluster(w, &base[range.start + w], &columns)).collect();
             for (k, cluster) in part.into_iter().enumerate() {
                 match clusters.last_mut() {
                     Some(last) if k % together != 0 => last.add(&cluster),
                     _ => clusters.push(cluster),
                 }
             }
-            first += own;
         }
         clusters
     }
 
     /// Predictions of some windows of one segment, from start poses already fitted; empty where the
     /// wheels cannot drive the robot.
-    fn predict(&self, model: &MotionModel, base: &[WindowResiduals], range: std::ops::Range<usize>) -> Vec<Vec<Pose>> {
+    fn predict(
+        &self,
+        model: &MotionModel,
+        s: &Segment,
+        base: &[WindowResiduals],
+        range: Range<usize>,
+    ) -> Vec<Vec<Pose>> {
         let Some(columns) = model.columns() else { return vec![Vec::new(); range.len()] };
-        let s = &self.segments[self.windows[range.start].segment];
         let angles = model.angles(s);
         range
             .map(|w| {

@@ -199,10 +199,11 @@ fn trajectories(out: &mut String, a: &Analysis) {
     for (b, f) in before.iter().zip(after).take(4) {
         let name = a.runs.get(b.run).map_or("", String::as_str);
         let seen: Vec<[f64; 2]> = a
-            .segments
+            .driven
+            .seen
             .iter()
-            .filter(|s| s.run == b.run)
-            .flat_map(|s| s.frames.iter().map(|f| [f.pose.x, f.pose.y]))
+            .filter(|(run, _)| *run == b.run)
+            .flat_map(|(_, places)| places.iter().copied())
             .collect();
         let path = |w: &WindowResiduals| -> Vec<[f64; 2]> { w.predicted.iter().map(|p| [p.x, p.y]).collect() };
         let panel = Panel::new(Axis::new("x", "m"), Axis::new("y", "m"))
@@ -242,7 +243,7 @@ fn residuals(out: &mut String, a: &Analysis) {
             let points = |d: &crate::drive::DriveResiduals| {
                 let all: Vec<[f64; 2]> = (0..d.torque.len())
                     .filter(|b| d.weights[*b][i] > 0.0)
-                    .map(|b| [a.segments[d.at[b].0].speed[i][d.at[b].1], 1e3 * d.torque[b][i]])
+                    .map(|b| [a.driven.bumps[b][i].speed, 1e3 * d.torque[b][i]])
                     .collect();
                 thin(&all)
             };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Moment};
 use crate::statistics::rms;
 
 /// A residual in units of its floor, and the situation it belongs to.
@@ -20,9 +20,6 @@ fn regimes(speed: f64, median: f64, gain: f64, late: bool) -> [bool; COLUMNS.len
     let fast = speed.abs() >= median;
     [true, !fast, fast, speed > 0.0, speed < 0.0, gain > 0.0, gain < 0.0, late]
 }
-
-/// Ticks over which a change of speed is looked at, on either side.
-const AROUND: usize = 30;
 
 pub(super) fn table(a: &Analysis) -> Option<String> {
     let mut rows: Vec<(String, Vec<Sample>)> = Vec::new();
@@ -74,28 +71,21 @@ fn motion(
     after: &[crate::motion::WindowResiduals],
     signal: usize,
 ) -> Vec<Sample> {
-    // How fast the robot is at a time, and how its speed changes.
-    let situation = |run: usize, t: f64| {
-        let s = a.segments.iter().find(|s| s.run == run && s.t.first() <= Some(&t) && s.t.last() >= Some(&t))?;
-        let k = s.tick_at(t);
-        let (from, to) = (k.saturating_sub(AROUND), (k + AROUND).min(s.t.len() - 1));
-        Some((s.twist[k].speed(), s.twist[to].speed() - s.twist[from].speed(), s.twist[k].vy < 0.0, k > s.t.len() / 2))
-    };
     let mut found = Vec::new();
-    for (b, f) in before.iter().zip(after) {
+    for ((b, f), moments) in before.iter().zip(after).zip(&a.driven.frames) {
         for k in 0..b.t.len().min(f.t.len()) {
             if b.weights[k] > 0.0
-                && let Some(at) = situation(b.run, b.t[k])
+                && let Some(at) = moments[k]
             {
                 found.push((b.residuals[k][signal], f.residuals[k][signal], at));
             }
         }
     }
-    let median = crate::statistics::median(&mut found.iter().map(|f| f.2.0).collect::<Vec<_>>());
-    let sample = |(before, after, (speed, gain, backwards, late)): (f64, f64, (f64, f64, bool, bool))| Sample {
+    let median = crate::statistics::median(&mut found.iter().map(|f| f.2.speed.abs()).collect::<Vec<_>>());
+    let sample = |(before, after, at): (f64, f64, Moment)| Sample {
         before,
         after,
-        regimes: regimes(if backwards { -speed } else { speed }, median, gain, late),
+        regimes: regimes(at.speed, median, at.gain, at.late),
     };
     found.into_iter().map(sample).collect()
 }
@@ -113,20 +103,12 @@ fn drive(
         .and_then(|l| l.floor.get(wheel).copied())
         .unwrap_or(1.0);
     let used = (0..before.torque.len()).filter(|b| before.weights[*b][wheel] > 0.0 && *b < after.torque.len());
-    let found: Vec<(usize, f64, f64, bool)> = used
-        .map(|b| {
-            let (segment, k) = before.at[b];
-            let s = &a.segments[segment];
-            let speed = &s.speed[wheel];
-            let (from, to) = (k.saturating_sub(AROUND), (k + AROUND).min(speed.len() - 1));
-            (b, speed[k], speed[to].abs() - speed[from].abs(), k > speed.len() / 2)
-        })
-        .collect();
-    let median = crate::statistics::median(&mut found.iter().map(|f| f.1.abs()).collect::<Vec<_>>());
-    let sample = |(b, speed, gain, late): (usize, f64, f64, bool)| Sample {
+    let found: Vec<(usize, Moment)> = used.map(|b| (b, a.driven.bumps[b][wheel])).collect();
+    let median = crate::statistics::median(&mut found.iter().map(|f| f.1.speed.abs()).collect::<Vec<_>>());
+    let sample = |(b, at): (usize, Moment)| Sample {
         before: before.torque[b][wheel] / floor,
         after: after.torque[b][wheel] / floor,
-        regimes: regimes(speed, median, gain, late),
+        regimes: regimes(at.speed, median, at.gain, at.late),
     };
     found.into_iter().map(sample).collect()
 }

@@ -118,7 +118,7 @@ impl UserEffect {
         out.clear();
         let duty = s.duty.get(wheel).map_or(0.0, |d| d[k]);
         let twist = s.twist[k];
-        out.extend([s.t[k] - s.t[0], s.speed[wheel][k], s.angle[wheel][k], duty, s.supply[k]]);
+        out.extend([s.t[k] - s.stretch[0], s.speed[wheel][k], s.angle[wheel][k], duty, s.supply[k]]);
         out.extend([twist.vx, twist.vy, twist.omega, s.heading[k], s.position[k][0], s.position[k][1]]);
         out.extend_from_slice(parameters);
     }

@@ -4,11 +4,12 @@ use fixed_kin::format::Speed;
 use fixed_kin::kinematics::TWIST;
 use fixed_kin::recording::SetPointWords;
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Columns, Log};
 
 use super::{Card, Compared, NoWord, Signal, twist};
 use crate::effect::Link;
 use crate::exact::{ExactLink, Replay};
+use crate::parts::rows;
 
 /// Share of the commands that may have arrived a tick late.
 const LATE_SHARE: f64 = 0.01;
@@ -23,24 +24,26 @@ struct Tally {
 }
 
 /// Replays the set points of runs that have commands and set points.
-pub(crate) fn command(robot: &Robot, runs: &[&Run]) -> Compared {
+pub(crate) fn command(robot: &Robot, logs: &[&Log]) -> Compared {
     // What is wrong with the words is said once, by the controller.
     let Ok(card) = Card::of(robot) else { return Compared::InFloatingPoint(None) };
     let Some(words) = card.words.set_points else { return Compared::InFloatingPoint(None) };
     let mut tally = Tally { signals: (0..robot.wheel_count()).map(|_| Signal::default()).collect(), late: 0 };
-    for run in runs {
-        if let Err(no_word) = replay(&card, &words, run, &mut tally) {
+    for log in logs {
+        if let Err(no_word) = replay(&card, &words, log, &mut tally) {
             return Compared::InFloatingPoint(Some(no_word.remark("Command")));
         }
     }
     Compared::Link(Box::new(tally.link(1.0 / card.per_rad_s)))
 }
 
-fn replay(card: &Card, words: &SetPointWords, run: &Run, tally: &mut Tally) -> Result<(), NoWord> {
-    let Some(command) = &run.command else { return Ok(()) };
+fn replay(card: &Card, words: &SetPointWords, log: &Log, tally: &mut Tally) -> Result<(), NoWord> {
     let mut before: Option<[i32; TWIST]> = None;
     let mut held = vec![None; tally.signals.len()];
-    for row in 0..run.len() {
+    let columns = Columns { command: true, reference: true, ..Columns::NONE };
+    for (part, row) in rows(log, columns) {
+        let run = &part.run;
+        let Some(command) = &run.command else { return Ok(()) };
         let since = card.since(run, row);
         let now = twist(run, command, &words.exponents, row)?;
         for (wheel, signal) in tally.signals.iter_mut().enumerate() {

@@ -4,12 +4,13 @@ use fixed_kin::format::{Format, Speed};
 use fixed_kin::recording::{Compared as Word, LoopReplay};
 use fixed_kin::speed::{SpeedMode, by_difference};
 use model::robot::Robot;
-use model::run::Run;
+use model::run::{Columns, Log, Run};
+use model::ticks::Gaps;
 
 use super::{Card, Compared, NoWord, Signal, duty};
 use crate::effect::Link;
 use crate::exact::{ExactLink, Replay};
-use model::ticks::Gaps;
+use crate::parts::rows;
 
 /// Everything that was compared.
 #[derive(Default)]
@@ -17,40 +18,42 @@ struct Tally {
     duties: Vec<Signal>,
     speeds: Vec<Signal>,
     gaps: Gaps,
-    /// Ticks on which all outputs were off although the loops say otherwise.
-    off: Vec<f64>,
+    /// Ticks on which all outputs were off although the loops say otherwise, and the time of the first, s.
+    off: (usize, Option<f64>),
 }
 
 /// Replays the duties of runs that have set points, counts and duties.
-pub(crate) fn controller(robot: &Robot, runs: &[&Run]) -> Compared {
+pub(crate) fn controller(robot: &Robot, logs: &[&Log]) -> Compared {
     let card = match Card::of(robot) {
         Ok(card) => card,
         Err(why) => return Compared::InFloatingPoint(why),
     };
     let by_counts = card.words.speed_mode == SpeedMode::Difference;
-    if let Some(run) = runs.iter().find(|r| r.measured.is_empty() && !by_counts) {
+    if let Some(log) = logs.iter().find(|log| log.layout().measured.is_empty() && !by_counts) {
         return Compared::Impossible(format!(
             "Controller: not compared, {} has no measured speeds (meas_1..), and by count and time they cannot be told from the counts.",
-            run.name
+            log.name
         ));
     }
     let wheels = robot.wheel_count();
     let signals = || (0..wheels).map(|_| Signal::default()).collect();
     let mut tally = Tally { duties: signals(), speeds: signals(), ..Tally::default() };
-    for run in runs {
-        if let Err(no_word) = replay(&card, run, &mut tally) {
+    for log in logs {
+        if let Err(no_word) = replay(&card, log, &mut tally) {
             return Compared::InFloatingPoint(Some(no_word.remark("Controller")));
         }
     }
     Compared::Link(Box::new(tally.link()))
 }
 
-fn replay(card: &Card, run: &Run, tally: &mut Tally) -> Result<(), NoWord> {
+fn replay(card: &Card, log: &Log, tally: &mut Tally) -> Result<(), NoWord> {
     let wheels = tally.duties.len();
     let mut loops = vec![LoopReplay::new(card.words.gains); wheels];
     let mut inputs = vec![None; wheels];
     let mut logged = vec![None; wheels];
-    for row in 0..run.len() {
+    let columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
+    for (part, row) in rows(log, columns) {
+        let run = &part.run;
         let since = card.since(run, row);
         if since > 1 {
             tally.gaps.pauses += 1;
@@ -81,7 +84,8 @@ fn replay(card: &Card, run: &Run, tally: &mut Tally) -> Result<(), NoWord> {
         let differs = |w: &Word| matches!(w, Word::Different(_));
         if (0..wheels).all(zero) && next.iter().any(|(_, word)| differs(word)) {
             // Everything at zero at once: the card has switched off, and cleared its loops.
-            tally.off.push(run.t[row]);
+            tally.off.0 += 1;
+            tally.off.1.get_or_insert(run.t[row]);
             loops.iter_mut().for_each(LoopReplay::clear);
             continue;
         }
@@ -143,8 +147,8 @@ impl Tally {
         if let Some(gaps) = self.gaps.words() {
             remark += &format!("; {gaps}, behind each the integrators are told by the duties");
         }
-        if let Some(first) = self.off.first() {
-            remark += &format!("; outputs off on {} ticks, first at {first:.4} s", self.off.len());
+        if let (ticks, Some(first)) = self.off {
+            remark += &format!("; outputs off on {ticks} ticks, first at {first:.4} s");
         }
         let different = wrong + wrong_speeds;
         let before: Vec<f64> = self.duties.iter().map(|s| lsb * s.rms()).collect();

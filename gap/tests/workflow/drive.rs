@@ -2,17 +2,19 @@
 
 use super::common::{simulate, with};
 use gap::drive::{DriveLink, DriveModel};
-use gap::segment::segments;
+use gap::pieces::segments;
 use gap::statistics::rms;
 use model::manoeuvre::Manoeuvre;
 use model::robot::Robot;
+use model::run::Logs;
 
 /// Unexplained torque of all wheels, Nm RMS, where the model knows the skews in rad.
 fn unexplained(skew_rad: [f64; 3]) -> f64 {
     let names = ["skew_1_rad", "skew_2_rad", "skew_3_rad"];
     let parameters: Vec<(&str, f64)> = names.into_iter().zip(skew_rad).collect();
     let set = simulate(&with(&Robot::racbot(), "wheel-skew", &parameters), &[Manoeuvre::Chirp], 7);
-    let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &set.runs);
+    let set = Logs::from(&set);
+    let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &set.logs);
     let mut model = DriveModel::new(&set.robot);
     model.wheels.iter_mut().zip(skew_rad).for_each(|(wheel, skew)| wheel.drive_rad -= skew);
     let residuals = DriveLink::new(&pieces, &model).unwrap().residuals(&model).unwrap();

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::frames::Pose;
 use crate::run::Run;
 
-pub use noise::camera_noise;
+pub use noise::{camera_noise, camera_noise_of};
 pub use statistics::t_quantile_975;
 use windows::{Evaluation, Frame, Window};
 

@@ -1,7 +1,7 @@
 //! The camera's noise, from its own frames.
 
 use super::statistics::median;
-use crate::frames::wrap_angle;
+use crate::frames::{Pose, wrap_angle};
 use crate::run::Run;
 
 /// Noise below which no real camera is; keeps a noiseless simulation from dividing by zero.
@@ -19,10 +19,16 @@ const EVEN: f64 = 1.3;
 /// motion with limited jerk leaves less than 0.3 mm in them at 60 Hz, white noise √20 times its own
 /// size. By the median, so that outliers and missing frames do not matter.
 pub fn camera_noise(runs: &[Run]) -> [f64; 3] {
+    let seen = |run: &Run| run.camera.iter().map(|f| (run.t[f.tick], f.pose)).collect::<Vec<_>>();
+    camera_noise_of(runs.iter().map(seen))
+}
+
+/// The same of runs' frames alone, times in s and poses.
+pub fn camera_noise_of(runs: impl IntoIterator<Item = Vec<(f64, Pose)>>) -> [f64; 3] {
     let mut differences: [Vec<f64>; 3] = Default::default();
-    for run in runs {
-        for four in run.camera.windows(4) {
-            let t = [0, 1, 2, 3].map(|i| run.t[four[i].tick]);
+    for frames in runs {
+        for four in frames.windows(4) {
+            let t = [0, 1, 2, 3].map(|i| four[i].0);
             let steps = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
             let (least, most) = steps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
             if most > UNEVEN * least {
@@ -31,10 +37,10 @@ pub fn camera_noise(runs: &[Run]) -> [f64; 3] {
             let weights = if most > EVEN * least { divided(t) } else { [-1.0, 3.0, -3.0, 1.0] };
             let norm = weights.iter().map(|w| w * w).sum::<f64>().sqrt();
             let third = |v: [f64; 4]| weights.iter().zip(v).map(|(w, v)| w * v).sum::<f64>().abs() / norm;
-            differences[0].push(third([0, 1, 2, 3].map(|i| four[i].pose.x)));
-            differences[1].push(third([0, 1, 2, 3].map(|i| four[i].pose.y)));
-            let theta = four[0].pose.theta;
-            differences[2].push(third([0, 1, 2, 3].map(|i| wrap_angle(four[i].pose.theta - theta))));
+            differences[0].push(third([0, 1, 2, 3].map(|i| four[i].1.x)));
+            differences[1].push(third([0, 1, 2, 3].map(|i| four[i].1.y)));
+            let theta = four[0].1.theta;
+            differences[2].push(third([0, 1, 2, 3].map(|i| wrap_angle(four[i].1.theta - theta))));
         }
     }
     let mut noise = FLOOR;

@@ -17,6 +17,11 @@ impl Run {
     /// # Errors
     /// [`RunError`] about `path`, with the line of the jump (for a log of one line a tick).
     pub fn check(&self, robot: &Robot, path: &Path) -> Result<(), RunError> {
+        self.check_from(0, robot, path)
+    }
+
+    /// The same of a part of a log that begins with its tick `first`.
+    pub(super) fn check_from(&self, first: usize, robot: &Robot, path: &Path) -> Result<(), RunError> {
         let (logged, described) = (self.wheel_count(), robot.wheel_count());
         if logged != 0 && logged != described {
             let what = format!("speaks of {logged} wheels, but the robot has {described}");
@@ -43,7 +48,7 @@ impl Run {
                     );
                     let hint = "look for a counter that was reset, wrapped or not read; log cumulative counts";
                     let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
-                    return Err(RunError { line: u32::try_from(now + 2).ok(), ..error });
+                    return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });
                 }
                 before = now;
             }

@@ -24,12 +24,7 @@ impl DataSet {
     /// [`RunError`] about the folder or the first file that is wrong.
     pub fn open(folder: impl AsRef<Path>) -> Result<Self, RunError> {
         let folder = folder.as_ref();
-        let robot = folder.join("robot.toml");
-        if folder.is_dir() && !robot.exists() {
-            let hint = "put the robot's robot.toml beside its logs";
-            return Err(RunError::new(folder, "has no robot.toml", hint));
-        }
-        Self::open_as(folder, Robot::load(robot)?)
+        Self::open_as(folder, robot_of(folder)?)
     }
 
     /// Reads every run of a folder for a robot that is described elsewhere.
@@ -38,21 +33,7 @@ impl DataSet {
     /// As [`DataSet::open`].
     pub fn open_as(folder: impl AsRef<Path>, robot: Robot) -> Result<Self, RunError> {
         let folder = folder.as_ref();
-        let entries = std::fs::read_dir(folder).map_err(|e| RunError::io(folder, &e))?;
-        let mut files = Vec::new();
-        for entry in entries {
-            let path = entry.map_err(|e| RunError::io(folder, &e))?.path();
-            let is_run = path.extension().is_some_and(|e| ["csv", "mcap"].iter().any(|x| e.eq_ignore_ascii_case(x)));
-            let hidden = path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
-            if is_run && !hidden && path.is_file() {
-                files.push(path);
-            }
-        }
-        if files.is_empty() {
-            return Err(RunError::new(folder, "holds no runs", "put at least one *.csv or *.mcap log there"));
-        }
-        files.sort();
-        files.dedup_by(|later, earlier| later.file_stem() == earlier.file_stem());
+        let files = run_files(folder)?;
         let runs = files.iter().map(Run::read).collect::<Result<Vec<Run>, RunError>>()?;
         // On blocks every axis is alone, and a log may speak of some of them only.
         let logged = runs.iter().map(Run::wheel_count).max().unwrap_or(0);
@@ -62,4 +43,34 @@ impl DataSet {
         }
         Ok(Self { folder: folder.to_owned(), robot, runs })
     }
+}
+
+/// The robot that lies in a folder of runs.
+pub(super) fn robot_of(folder: &Path) -> Result<Robot, RunError> {
+    let robot = folder.join("robot.toml");
+    if folder.is_dir() && !robot.exists() {
+        let hint = "put the robot's robot.toml beside its logs";
+        return Err(RunError::new(folder, "has no robot.toml", hint));
+    }
+    Robot::load(robot)
+}
+
+/// Every run of a folder, in the order of their names; at least one.
+pub(super) fn run_files(folder: &Path) -> Result<Vec<PathBuf>, RunError> {
+    let entries = std::fs::read_dir(folder).map_err(|e| RunError::io(folder, &e))?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|e| RunError::io(folder, &e))?.path();
+        let is_run = path.extension().is_some_and(|e| ["csv", "mcap"].iter().any(|x| e.eq_ignore_ascii_case(x)));
+        let hidden = path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+        if is_run && !hidden && path.is_file() {
+            files.push(path);
+        }
+    }
+    if files.is_empty() {
+        return Err(RunError::new(folder, "holds no runs", "put at least one *.csv or *.mcap log there"));
+    }
+    files.sort();
+    files.dedup_by(|later, earlier| later.file_stem() == earlier.file_stem());
+    Ok(files)
 }

@@ -3,8 +3,12 @@
 mod check;
 mod columns;
 mod data_set;
+mod log;
+mod logs;
 mod mcap;
+mod part;
 mod read;
+mod spool;
 mod stream;
 mod write;
 
@@ -12,7 +16,10 @@ use crate::error::InputError;
 use crate::frames::Pose;
 
 pub use data_set::DataSet;
+pub use log::{Log, Seen};
+pub use logs::Logs;
 pub use mcap::McapStream;
+pub use part::Columns;
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// What is wrong in a log, where, and what to do about it.

@@ -1,12 +1,12 @@
 //! Reading a log.
 
-use std::io::Read;
+use std::io::{BufRead, Read};
 use std::path::Path;
 
 use csv::ByteRecord;
 
 use super::columns::{Column, missing_member};
-use super::{CameraSample, Run, RunError};
+use super::{CameraSample, Columns, Run, RunError};
 use crate::error::nearest;
 use crate::frames::Pose;
 
@@ -40,21 +40,95 @@ impl Run {
     pub fn from_reader(mut reader: impl Read, path: &Path) -> Result<Self, RunError> {
         let mut bytes = Vec::new();
         reader.read_to_end(&mut bytes).map_err(|e| RunError::io(path, &e))?;
-        let mut csv =
-            csv::ReaderBuilder::new().flexible(true).has_headers(false).trim(csv::Trim::All).from_reader(&bytes[..]);
-        let mut record = ByteRecord::new();
-        let mut next = |record: &mut ByteRecord| {
-            csv.read_byte_record(record).map_err(|e| RunError::new(path, e.to_string(), "save the log as CSV"))
-        };
-        if !next(&mut record)? {
-            return Err(RunError::new(path, "is empty", "log at least a header row and one tick"));
-        }
-        let mut reader = Reader::header(path, &bytes, &record)?;
-        while next(&mut record)? {
-            reader.row(&record)?;
-        }
-        reader.finish()
+        let mut whole = None;
+        parse(&bytes[..], Text::Bytes(&bytes), path, usize::MAX, true, |run| {
+            whole = Some(run);
+            Ok(())
+        })?;
+        whole.ok_or_else(|| RunError::new(path, "has a header but no ticks", "log at least one line"))
     }
+}
+
+/// Reads a CSV log from its file and hands it on in parts of `ticks`, without the columns that nobody knows. Every part
+/// counts its ticks from 0.
+///
+/// # Errors
+/// As [`Run::read`], and what `take` returns; parts before the fault were handed on.
+pub(super) fn in_parts(
+    path: &Path,
+    ticks: usize,
+    take: impl FnMut(Run) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let file = std::fs::File::open(path).map_err(|e| RunError::io(path, &e))?;
+    parse(file, Text::File(path), path, ticks, false, take)
+}
+
+/// What the lines of a fault are counted in.
+#[derive(Clone, Copy)]
+enum Text<'a> {
+    Bytes(&'a [u8]),
+    File(&'a Path),
+}
+
+impl Text<'_> {
+    /// Line (from 1) of the record read from `offset`; what is blank in between is not part of it.
+    fn line(self, offset: usize) -> usize {
+        let count = |bytes: &mut dyn BufRead| -> std::io::Result<usize> {
+            let (mut place, mut newlines) = (0, 0);
+            loop {
+                let part = bytes.fill_buf()?;
+                let length = part.len();
+                for byte in part {
+                    if place >= offset && !matches!(byte, b'\r' | b'\n') {
+                        return Ok(newlines + 1);
+                    }
+                    newlines += usize::from(*byte == b'\n');
+                    place += 1;
+                }
+                if length == 0 {
+                    return Ok(newlines + 1);
+                }
+                bytes.consume(length);
+            }
+        };
+        match self {
+            Self::Bytes(mut bytes) => count(&mut bytes).unwrap_or(1),
+            Self::File(path) => {
+                std::fs::File::open(path).and_then(|f| count(&mut std::io::BufReader::new(f))).unwrap_or(1)
+            }
+        }
+    }
+}
+
+fn parse(
+    source: impl Read,
+    text: Text,
+    path: &Path,
+    ticks: usize,
+    keep_other: bool,
+    mut take: impl FnMut(Run) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let mut csv = csv::ReaderBuilder::new().flexible(true).has_headers(false).trim(csv::Trim::All).from_reader(source);
+    let mut record = ByteRecord::new();
+    let mut next = |record: &mut ByteRecord| {
+        csv.read_byte_record(record).map_err(|e| RunError::new(path, e.to_string(), "save the log as CSV"))
+    };
+    if !next(&mut record)? {
+        return Err(RunError::new(path, "is empty", "log at least a header row and one tick"));
+    }
+    let mut reader = Reader::header(path, text, &record, keep_other)?;
+    while next(&mut record)? {
+        reader.row(&record)?;
+        if reader.run.len() >= ticks
+            && let Some(part) = reader.part()
+        {
+            take(part)?;
+        }
+    }
+    if let Some(rest) = reader.finish()? {
+        take(rest)?;
+    }
+    Ok(())
 }
 
 /// What one column fills.
@@ -65,15 +139,23 @@ struct Slot {
 
 struct Reader<'a> {
     path: &'a Path,
-    bytes: &'a [u8],
+    text: Text<'a>,
     slots: Vec<Slot>,
+    keep_other: bool,
+    /// The part that is being read.
     run: Run,
+    /// Time of the last tick, in this part or the one before.
+    last_t: Option<f64>,
+    /// Last count of each wheel, once there was one.
+    held: Vec<Option<i64>>,
+    /// Whether no part was handed on yet.
+    fresh: bool,
     /// Offset and number of fields of a short line: an error once it is known to be the last or not.
     short: Option<(usize, usize)>,
 }
 
 impl<'a> Reader<'a> {
-    fn header(path: &'a Path, bytes: &'a [u8], record: &ByteRecord) -> Result<Self, RunError> {
+    fn header(path: &'a Path, text: Text<'a>, record: &ByteRecord, keep_other: bool) -> Result<Self, RunError> {
         let mut slots: Vec<Slot> = Vec::new();
         for (i, field) in record.iter().enumerate() {
             let field = if i == 0 { field.strip_prefix(b"\xef\xbb\xbf").unwrap_or(field) } else { field };
@@ -132,10 +214,15 @@ impl<'a> Reader<'a> {
             measured: vec![Vec::new(); widths[3]],
             supply_v: columns.contains(&Column::Supply).then(Vec::new),
             has_camera: columns.contains(&Column::Camera(0)),
-            other: slots.iter().filter(|s| s.column == Column::Other).map(|s| (s.name.clone(), Vec::new())).collect(),
+            other: slots
+                .iter()
+                .filter(|s| keep_other && s.column == Column::Other)
+                .map(|s| (s.name.clone(), Vec::new()))
+                .collect(),
             ..Run::default()
         };
-        Ok(Self { path, bytes, slots, run, short: None })
+        let held = vec![None; widths[1]];
+        Ok(Self { path, text, slots, keep_other, run, last_t: None, held, fresh: true, short: None })
     }
 
     fn row(&mut self, record: &ByteRecord) -> Result<(), RunError> {
@@ -166,8 +253,10 @@ impl<'a> Reader<'a> {
             };
             let number = match column {
                 Column::Other => {
-                    self.run.other[other].1.push(String::from_utf8_lossy(field).into_owned());
-                    other += 1;
+                    if self.keep_other {
+                        self.run.other[other].1.push(String::from_utf8_lossy(field).into_owned());
+                        other += 1;
+                    }
                     continue;
                 }
                 Column::Counts(wheel) => {
@@ -175,12 +264,13 @@ impl<'a> Reader<'a> {
                         let what = format!("{} is no whole number", quoted(field));
                         return fail(what, "log cumulative encoder counts, or leave the field empty");
                     };
-                    // Before the first sample there is nothing to hold; finish() fills it in.
-                    let held = self.run.counts[*wheel].last().copied().unwrap_or(0);
-                    self.run.counts[*wheel].push(count.unwrap_or(held));
-                    if count.is_none() {
+                    if count.is_some() {
+                        self.held[*wheel] = count;
+                    } else {
                         self.run.count_gaps[*wheel].push(tick);
                     }
+                    // Before the first sample there is nothing to hold; take() fills it in.
+                    self.run.counts[*wheel].push(self.held[*wheel].unwrap_or(0));
                     continue;
                 }
                 _ if field.is_empty() => f64::NAN,
@@ -202,8 +292,8 @@ impl<'a> Reader<'a> {
                     if number.is_nan() {
                         return fail("is empty".to_owned(), "every tick needs its time");
                     }
-                    if let Some(before) = self.run.t.last().filter(|before| number <= **before) {
-                        let what = if number == *before {
+                    if let Some(before) = self.last_t.filter(|before| number <= *before) {
+                        let what = if number == before {
                             format!("time {number} s stands twice")
                         } else {
                             format!("time runs backwards, from {before} s to {number} s")
@@ -211,6 +301,7 @@ impl<'a> Reader<'a> {
                         return fail(what, "sort the log by time, one line a tick");
                     }
                     self.run.t.push(number);
+                    self.last_t = Some(number);
                 }
                 Column::Command(i) => {
                     if let Some(command) = &mut self.run.command {
@@ -250,7 +341,26 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Run, RunError> {
+    /// What was read since the last part; nothing while a wheel has no count to begin with.
+    fn part(&mut self) -> Option<Run> {
+        self.held.iter().all(Option::is_some).then(|| self.take())
+    }
+
+    fn take(&mut self) -> Run {
+        for (counts, gaps) in self.run.counts.iter_mut().zip(&self.run.count_gaps) {
+            // Only the first part begins without a count to hold.
+            let leading = gaps.iter().enumerate().take_while(|(i, tick)| i == *tick).count();
+            if let Some(first) = counts.get(leading).copied().filter(|_| self.fresh) {
+                counts[..leading].fill(first);
+            }
+        }
+        self.fresh = false;
+        let empty = self.run.emptied(Columns::ALL);
+        std::mem::replace(&mut self.run, empty)
+    }
+
+    /// The last part; nothing where it would be empty.
+    fn finish(mut self) -> Result<Option<Run>, RunError> {
         if let Some((line, fields)) = self.short {
             return Err(self.wrong_width(
                 line,
@@ -258,23 +368,14 @@ impl<'a> Reader<'a> {
                 "the file ends too early: copy it again or delete its last line",
             ));
         }
-        if self.run.t.is_empty() {
+        if self.last_t.is_none() {
             return Err(RunError::new(self.path, "has a header but no ticks", "log at least one line"));
         }
-        for (counts, gaps) in self.run.counts.iter_mut().zip(&self.run.count_gaps) {
-            let leading = gaps.iter().enumerate().take_while(|(i, tick)| i == *tick).count();
-            if let Some(first) = counts.get(leading).copied() {
-                counts[..leading].fill(first);
-            }
-        }
-        Ok(self.run)
+        Ok((!self.run.is_empty()).then(|| self.take()))
     }
 
-    /// Line (from 1) of the record read from `offset`; what is blank in between is not part of it.
     fn line(&self, offset: usize) -> usize {
-        let blank = self.bytes[offset..].iter().take_while(|b| matches!(b, b'\r' | b'\n')).count();
-        let newlines = self.bytes[..offset + blank].iter().filter(|b| **b == b'\n').count();
-        newlines + 1
+        self.text.line(offset)
     }
 
     fn wrong_width(&self, offset: usize, fields: usize, hint: &str) -> RunError {

@@ -7,7 +7,7 @@ use gap::effect::Effect;
 use gap::user::UserEffect;
 use model::error::InputError;
 use model::robot::Robot;
-use model::run::DataSet;
+use model::run::Logs;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -44,8 +44,8 @@ impl Options {
         }
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
         let set = match &self.robot {
-            None => DataSet::open(folder)?,
-            Some(file) => DataSet::open_as(folder, Robot::load(file)?)?,
+            None => Logs::open(folder)?,
+            Some(file) => Logs::open_as(folder, Robot::load(file)?)?,
         };
         let progress = Progress::new("looking for the missing effect", 1);
         let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
@@ -56,7 +56,7 @@ impl Options {
             }
             options.effects.push(Arc::new(effect));
         }
-        let analysis = gap::analyse(&set, &options).map_err(|error| Failure::about(folder, error))?;
+        let analysis = gap::analyse_logs(&set, &options).map_err(|error| Failure::about(folder, error))?;
         progress.at(1);
         drop(progress);
         analysis.write(&self.out).map_err(Failure::data)?;

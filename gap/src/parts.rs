@@ -1,0 +1,37 @@
+//! A log walked through part by part, each with some ticks before and behind it.
+
+use std::ops::Range;
+use std::rc::Rc;
+
+use model::run::{Columns, Log, Run};
+
+/// Own ticks of a part.
+const PART: usize = 1 << 16;
+/// Ticks before them: longer than any delay that is looked for; and behind them.
+const BEFORE: usize = 1 << 12;
+const BEHIND: usize = 2;
+
+/// Some ticks of a log.
+pub(crate) struct Part {
+    /// The ticks, and those before and behind them.
+    pub(crate) run: Run,
+    /// Which of them are looked at.
+    pub(crate) own: Range<usize>,
+}
+
+/// Every tick of a log, once.
+pub(crate) fn parts<'a>(log: &'a Log<'a>, columns: Columns) -> impl Iterator<Item = Part> + 'a {
+    (0..log.len()).step_by(PART).map(move |first| {
+        let end = (first + PART).min(log.len());
+        let seen = first.saturating_sub(BEFORE)..(end + BEHIND).min(log.len());
+        Part { own: first - seen.start..end - seen.start, run: log.part(seen, columns) }
+    })
+}
+
+/// Every tick of a log, one after the other, with the part that it is in.
+pub(crate) fn rows<'a>(log: &'a Log<'a>, columns: Columns) -> impl Iterator<Item = (Rc<Part>, usize)> + 'a {
+    parts(log, columns).flat_map(|part| {
+        let (own, part) = (part.own.clone(), Rc::new(part));
+        own.map(move |row| (part.clone(), row))
+    })
+}

@@ -1,0 +1,276 @@
+//! The logs as segments, derived when they are asked for: whatever their length, only a few are in memory.
+//!
+//! A stretch of a log without gaps is one segment, or, if it is long, several of about [`PIECE`] ticks. Each of them
+//! sees some ticks more on either side, so that nothing that is smoothed, delayed or laid across its ends differs from
+//! what one segment would have given.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use model::frames::{Pose, displacement};
+use model::geometry::Geometry;
+use model::robot::Robot;
+use model::run::{Columns, Log};
+
+use crate::segment::{Frame, Place, Segment, regular_stamps, segment};
+
+/// A pause longer than this many ticks starts a new segment.
+const GAP_TICKS: f64 = 20.0;
+/// A stretch with fewer ticks is none.
+const FEWEST: usize = 8;
+/// Ticks of a piece of a long stretch, and of the longest one that is not cut.
+const PIECE: usize = 1 << 16;
+const UNCUT: usize = PIECE * 5 / 4;
+/// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
+/// and behind: a window of camera frames, a bump.
+const BEFORE: usize = 1 << 12;
+const BEHIND: usize = 1 << 11;
+/// Ticks of segments that are kept once they are derived; of the others only the last ones.
+const KEPT: usize = 1 << 18;
+const RECENT: usize = 2;
+/// What the links read.
+const COLUMNS: Columns = Columns { counts: true, duty: true, supply: true, ..Columns::NONE };
+
+/// All segments of a data set.
+pub struct Pieces<'a> {
+    robot: Robot,
+    geometry: Geometry,
+    logs: &'a [Log<'a>],
+    /// Regularised stamps of each log's camera frames.
+    stamps: Vec<Vec<f64>>,
+    all: Vec<Piece>,
+    kept: Vec<OnceLock<Arc<Segment>>>,
+    recent: Mutex<VecDeque<(usize, Arc<Segment>)>>,
+}
+
+/// Where a segment lies, and what it needs to know of the log before it.
+#[derive(Clone)]
+struct Piece {
+    run: usize,
+    /// Ticks that it sees, and its own, both counted from that of the log.
+    rows: Range<usize>,
+    own: Range<usize>,
+    stretch: Range<usize>,
+    stretch_s: [f64; 2],
+    counts: Vec<i64>,
+    pose: Pose,
+    before: usize,
+    history: Arc<Vec<(f64, Vec<f64>)>>,
+}
+
+/// Cuts logs into segments.
+pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>]) -> Pieces<'a> {
+    let mut pieces = Pieces {
+        robot: robot.clone(),
+        geometry: geometry.clone(),
+        logs,
+        stamps: Vec::new(),
+        all: Vec::new(),
+        kept: Vec::new(),
+        recent: Mutex::default(),
+    };
+    for (run, log) in logs.iter().enumerate() {
+        let tick = log.tick_s();
+        pieces.stamps.push(tick.map_or_else(Vec::new, |t| regular_stamps(log.camera(), robot.camera_rate_hz, t)));
+        for (stretch, stretch_s) in tick.map_or_else(Vec::new, |t| Pieces::stretches(log, t)) {
+            let cut = pieces.cut(run, &stretch, stretch_s);
+            pieces.all.extend(cut);
+        }
+    }
+    let mut ticks = 0;
+    let fits = |p: &&Piece| {
+        ticks += p.rows.len();
+        ticks <= KEPT
+    };
+    pieces.kept = pieces.all.iter().take_while(fits).map(|_| OnceLock::new()).collect();
+    pieces
+}
+
+impl<'a> Pieces<'a> {
+    /// Number of segments.
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// Whether there is no segment.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// A segment.
+    pub fn get(&self, index: usize) -> Arc<Segment> {
+        if let Some(kept) = self.kept.get(index) {
+            return kept.get_or_init(|| Arc::new(self.derive(index))).clone();
+        }
+        let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = recent().iter().find(|(i, _)| *i == index) {
+            return found.clone();
+        }
+        let new = Arc::new(self.derive(index));
+        let mut recent = recent();
+        recent.truncate(RECENT - 1);
+        recent.push_front((index, new.clone()));
+        new
+    }
+
+    /// All segments, one after the other.
+    pub fn iter(&self) -> impl Iterator<Item = Arc<Segment>> {
+        (0..self.len()).map(|i| self.get(i))
+    }
+
+    /// All ticks.
+    pub fn ticks(&self) -> usize {
+        self.all.iter().map(|p| p.own.len()).sum()
+    }
+
+    /// Length of all stretches together, s.
+    pub fn seconds(&self) -> f64 {
+        self.all.iter().filter(|p| p.own.start == p.stretch.start).map(|p| p.stretch_s[1] - p.stretch_s[0]).sum()
+    }
+
+    /// Index of the run of a segment.
+    pub fn run(&self, index: usize) -> usize {
+        self.all[index].run
+    }
+
+    /// Whether any log has camera frames.
+    pub fn have_frames(&self) -> bool {
+        self.logs.iter().any(|log| !log.camera().is_empty())
+    }
+
+    /// Whether any log has duties.
+    pub fn have_duties(&self) -> bool {
+        self.logs.iter().any(|log| !log.layout().duty.is_empty())
+    }
+
+    /// Stretches of a log without gaps, with their first and last times.
+    fn stretches(log: &Log, tick: f64) -> Vec<(Range<usize>, [f64; 2])> {
+        let mut out = Vec::new();
+        let mut open: Option<(usize, f64)> = None;
+        let mut last = f64::NAN;
+        let mut close = |open: (usize, f64), end: usize, last: f64| {
+            if end - open.0 >= FEWEST {
+                out.push((open.0..end, [open.1, last]));
+            }
+        };
+        for first in (0..log.len()).step_by(PIECE) {
+            let part = log.part(first..(first + PIECE).min(log.len()), Columns::NONE);
+            for (k, t) in part.t.iter().enumerate() {
+                match open {
+                    Some(at) if t - last > GAP_TICKS * tick => {
+                        close(at, first + k, last);
+                        open = Some((first + k, *t));
+                    }
+                    None => open = Some((first + k, *t)),
+                    _ => {}
+                }
+                last = *t;
+            }
+        }
+        if let Some(at) = open {
+            close(at, log.len(), last);
+        }
+        out
+    }
+
+    /// Cuts a stretch into pieces.
+    fn cut(&self, run: usize, stretch: &Range<usize>, stretch_s: [f64; 2]) -> Vec<Piece> {
+        let number = if stretch.len() <= UNCUT { 1 } else { stretch.len().div_ceil(PIECE) };
+        let length = stretch.len().div_ceil(number);
+        let mut pieces: Vec<Piece> = (0..number)
+            .map(|k| {
+                let own = stretch.start + k * length..(stretch.start + (k + 1) * length).min(stretch.end);
+                let rows = own.start.saturating_sub(BEFORE).max(stretch.start)..(own.end + BEHIND).min(stretch.end);
+                Piece {
+                    run,
+                    rows,
+                    own,
+                    stretch: stretch.clone(),
+                    stretch_s,
+                    counts: Vec::new(),
+                    pose: Pose::default(),
+                    before: 0,
+                    history: Arc::default(),
+                }
+            })
+            .collect();
+        if number > 1 {
+            self.carry(&mut pieces);
+        }
+        pieces
+    }
+
+    /// Walks along a stretch and writes down what its pieces need to know of it.
+    fn carry(&self, pieces: &mut [Piece]) {
+        let log = &self.logs[pieces[0].run];
+        let stretch = pieces[0].stretch.clone();
+        let n = self.robot.wheel_count();
+        let mut history: Vec<(f64, Vec<f64>)> = Vec::new();
+        let (mut pose, mut square, mut duty) = (Pose::default(), vec![0.0; n], vec![0.0; n]);
+        let (mut opened, mut last, mut total) = (f64::NAN, f64::NAN, vec![0_i64; n]);
+        let mut counts: Vec<i64> = Vec::new();
+        let mut next = 0;
+        for first in stretch.clone().step_by(PIECE) {
+            let part = log.part(first..(first + PIECE).min(stretch.end), COLUMNS);
+            let counted = part.counts.len() == n;
+            for k in 0..part.len() {
+                let t = part.t[k];
+                if counted {
+                    let now: Vec<i64> = part.counts.iter().map(|c| c[k]).collect();
+                    if counts.len() == n {
+                        let steps: Vec<i64> = now.iter().zip(&counts).map(|(a, b)| a.wrapping_sub(*b)).collect();
+                        let turned: Vec<f64> =
+                            steps.iter().map(|s| *s as f64 / self.robot.counts_per_wheel_rad()).collect();
+                        pose = pose.compose(displacement(self.geometry.twist(&turned)));
+                        total.iter_mut().zip(&steps).for_each(|(total, step)| *total += step);
+                    }
+                    counts = now;
+                }
+                let due = pieces.get(next).is_some_and(|p| p.rows.start == first + k);
+                // Duties act from their tick to the next.
+                if last.is_finite() {
+                    square.iter_mut().zip(&duty).for_each(|(s, d)| *s += d * d * (t - last));
+                    if t - opened >= 1.0 || due {
+                        history.push((t - opened, square.iter().map(|s| s / (t - opened)).collect()));
+                        square.fill(0.0);
+                        opened = t;
+                    }
+                } else {
+                    opened = t;
+                }
+                last = t;
+                duty.iter_mut().zip(&part.duty).filter(|(_, d)| d[k].is_finite()).for_each(|(now, d)| *now = d[k]);
+                if due {
+                    let p = &mut pieces[next];
+                    (p.pose, p.before) = (pose, history.len());
+                    p.counts.clone_from(&total);
+                    next += 1;
+                }
+            }
+        }
+        let history = Arc::new(history);
+        pieces.iter_mut().for_each(|p| p.history = history.clone());
+    }
+
+    fn derive(&self, index: usize) -> Segment {
+        let p = &self.all[index];
+        let log = &self.logs[p.run];
+        let part = log.part(p.rows.clone(), COLUMNS);
+        let seen = log.camera();
+        let at = |tick: usize| seen.partition_point(|f| f.tick < tick);
+        let frames = at(p.rows.start)..at(p.rows.end);
+        let place = Place {
+            run: p.run,
+            own: p.own.start - p.rows.start..p.own.end - p.rows.start,
+            stretch: p.stretch_s,
+            cut: [p.own.start > p.stretch.start, p.own.end < p.stretch.end],
+            counts: &p.counts,
+            pose: p.pose,
+            stretch_frames: at(p.stretch.end) - at(p.stretch.start),
+            frames: frames.map(|i| Frame { t: self.stamps[p.run][i], pose: seen[i].pose }).collect(),
+            before: &p.history[..p.before],
+        };
+        segment(&self.robot, &self.geometry, &part, place)
+    }
+}

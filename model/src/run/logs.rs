@@ -1,0 +1,61 @@
+//! A data set whose logs may be longer than memory.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use super::data_set::{robot_of, run_files};
+use super::{DataSet, Log, RunError};
+use crate::robot::{Robot, Support};
+
+/// Ticks of a data set that stay in memory; logs beyond lie in a temporary file.
+const IN_MEMORY: usize = 1 << 18;
+
+/// A robot and its recorded runs, as [`DataSet`], but of any length.
+#[derive(Debug)]
+pub struct Logs<'a> {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The nominal robot.
+    pub robot: Robot,
+    /// Its runs, in the order of their names; at least one.
+    pub logs: Vec<Log<'a>>,
+}
+
+impl<'a> From<&'a DataSet> for Logs<'a> {
+    fn from(set: &'a DataSet) -> Self {
+        let logs = set.runs.iter().map(|run| Log::from(Cow::Borrowed(run))).collect();
+        Self { folder: set.folder.clone(), robot: set.robot.clone(), logs }
+    }
+}
+
+impl Logs<'static> {
+    /// Reads a folder as [`DataSet::open`] does. Of a CSV only a part is in memory at any time; an MCAP is read whole.
+    ///
+    /// # Errors
+    /// As [`DataSet::open`], and where a long log cannot be laid out in a temporary file.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Self, RunError> {
+        let folder = folder.as_ref();
+        Self::open_as(folder, robot_of(folder)?)
+    }
+
+    /// Reads every run of a folder for a robot that is described elsewhere.
+    ///
+    /// # Errors
+    /// As [`Logs::open`].
+    pub fn open_as(folder: impl AsRef<Path>, robot: Robot) -> Result<Self, RunError> {
+        let folder = folder.as_ref();
+        let (mut left, mut spool, mut logs) = (IN_MEMORY, None, Vec::new());
+        for file in run_files(folder)? {
+            let log = Log::read(&file, left, &mut spool)?;
+            left = left.saturating_sub(log.len());
+            logs.push(log);
+        }
+        // On blocks every axis is alone, and a log may speak of some of them only.
+        let logged = logs.iter().map(|log| log.layout().wheel_count()).max().unwrap_or(0);
+        let robot = if robot.support == Support::Blocks && logged > 0 { robot.first_axes(logged) } else { robot };
+        for log in &logs {
+            log.check(&robot)?;
+        }
+        Ok(Self { folder: folder.to_owned(), robot, logs })
+    }
+}

@@ -1,0 +1,121 @@
+//! Parts of a run: some ticks of some columns.
+
+use std::ops::Range;
+
+use super::{CameraSample, Run};
+
+/// Columns of a log beside the time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Columns {
+    /// Commanded body twist.
+    pub command: bool,
+    /// Wheel speed set points.
+    pub reference: bool,
+    /// Encoder counts.
+    pub counts: bool,
+    /// Duties.
+    pub duty: bool,
+    /// Measured wheel speeds.
+    pub measured: bool,
+    /// Supply voltage.
+    pub supply: bool,
+}
+
+impl Columns {
+    /// Every column.
+    pub const ALL: Self =
+        Self { command: true, reference: true, counts: true, duty: true, measured: true, supply: true };
+    /// The time alone.
+    pub const NONE: Self =
+        Self { command: false, reference: false, counts: false, duty: false, measured: false, supply: false };
+}
+
+impl Run {
+    /// The columns of numbers, the time first.
+    pub(super) fn reals(&self) -> Vec<&Vec<f64>> {
+        let command = self.command.iter().flatten();
+        let wheels = [&self.reference, &self.duty, &self.measured].into_iter().flatten();
+        std::iter::once(&self.t).chain(command).chain(wheels).chain(&self.supply_v).collect()
+    }
+
+    /// The same to be written to.
+    pub(super) fn reals_mut(&mut self) -> Vec<&mut Vec<f64>> {
+        let command = self.command.iter_mut().flatten();
+        let wheels = [&mut self.reference, &mut self.duty, &mut self.measured].into_iter().flatten();
+        std::iter::once(&mut self.t).chain(command).chain(wheels).chain(&mut self.supply_v).collect()
+    }
+
+    /// Which of the columns of numbers are wanted.
+    pub(super) fn wanted(&self, columns: Columns) -> Vec<bool> {
+        let mut wanted = vec![true];
+        wanted.extend(self.command.iter().flatten().map(|_| columns.command));
+        wanted.extend(self.reference.iter().map(|_| columns.reference));
+        wanted.extend(self.duty.iter().map(|_| columns.duty));
+        wanted.extend(self.measured.iter().map(|_| columns.measured));
+        wanted.extend(self.supply_v.iter().map(|_| columns.supply));
+        wanted
+    }
+
+    /// A run with these columns and no ticks.
+    pub(super) fn emptied(&self, columns: Columns) -> Self {
+        let none = |wanted: bool, like: &[Vec<f64>]| vec![Vec::new(); if wanted { like.len() } else { 0 }];
+        let wheels = if columns.counts { self.counts.len() } else { 0 };
+        Self {
+            name: self.name.clone(),
+            command: self.command.as_ref().filter(|_| columns.command).map(|_| Default::default()),
+            reference: none(columns.reference, &self.reference),
+            counts: vec![Vec::new(); wheels],
+            count_gaps: vec![Vec::new(); wheels],
+            duty: none(columns.duty, &self.duty),
+            measured: none(columns.measured, &self.measured),
+            supply_v: self.supply_v.as_ref().filter(|_| columns.supply).map(|_| Vec::new()),
+            has_camera: self.has_camera,
+            other: self.other.iter().map(|(name, _)| (name.clone(), Vec::new())).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Some ticks of some columns, counted from the first of them; the camera's frames and columns that nobody knows
+    /// are left out.
+    pub(super) fn part(&self, ticks: Range<usize>, columns: Columns) -> Self {
+        let mut out = self.emptied(columns);
+        out.other.clear();
+        let wanted = self.reals().into_iter().zip(self.wanted(columns)).filter(|(_, wanted)| *wanted);
+        for (slot, (column, _)) in out.reals_mut().into_iter().zip(wanted) {
+            slot.extend_from_slice(&column[ticks.clone()]);
+        }
+        for (slot, counts) in out.counts.iter_mut().zip(&self.counts) {
+            slot.extend_from_slice(&counts[ticks.clone()]);
+        }
+        for (slot, gaps) in out.count_gaps.iter_mut().zip(&self.count_gaps) {
+            let (from, to) = (gaps.partition_point(|g| *g < ticks.start), gaps.partition_point(|g| *g < ticks.end));
+            slot.extend(gaps[from..to].iter().map(|g| g - ticks.start));
+        }
+        out
+    }
+
+    /// Evenly spaced ticks without samples.
+    pub(super) fn blank(&self, ticks: usize, tick_s: f64, columns: Columns) -> Self {
+        let mut out = self.emptied(columns);
+        out.other.clear();
+        out.reals_mut().into_iter().for_each(|column| column.resize(ticks, f64::NAN));
+        out.counts.iter_mut().for_each(|counts| counts.resize(ticks, 0));
+        out.t = (0..ticks).map(|k| k as f64 * tick_s).collect();
+        out
+    }
+
+    /// Adds the ticks that follow, which have the same columns.
+    pub(super) fn append(&mut self, mut more: Self) {
+        let before = self.len();
+        for (slot, column) in self.reals_mut().into_iter().zip(more.reals_mut()) {
+            slot.append(column);
+        }
+        for (slot, counts) in self.counts.iter_mut().zip(&mut more.counts) {
+            slot.append(counts);
+        }
+        for (slot, gaps) in self.count_gaps.iter_mut().zip(&more.count_gaps) {
+            slot.extend(gaps.iter().map(|g| before + g));
+        }
+        self.camera.extend(more.camera.iter().map(|f| CameraSample { tick: before + f.tick, ..*f }));
+    }
+}
