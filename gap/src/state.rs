@@ -83,6 +83,7 @@ impl State {
         let mut model = DriveModel::new(&self.robot);
         for a in self.active.iter().chain(extra) {
             a.effect.drive(&a.values, &mut model);
+            model.effects.push((a.effect.name().to_owned(), a.values.clone()));
         }
         model
     }

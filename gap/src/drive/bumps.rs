@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::forces::Base;
 use super::{DriveModel, Mechanics};
 use crate::gram::Cluster;
 use crate::pieces::Pieces;
@@ -353,15 +354,16 @@ impl<'a> DriveLink<'a> {
             let shapes = self.shapes(s, &range);
             let measured = self.measured_part(s, &range, &shapes);
             let predict = |model: &DriveModel, forces: &[f64]| self.predict_part(model, s, &range, &shapes, forces);
-            let Some(base) = predict(model, &model.forces(s)) else { return Vec::new() };
+            let start = Base::new(model, s);
+            let Some(base) = predict(model, &start.forces) else { return Vec::new() };
             let columns: Vec<Option<Vec<DVector<f64>>>> = sides
                 .par_iter()
                 .map(|(low, high, step)| {
                     let low = match low {
-                        Some(low) => Some(predict(low, &low.forces(s))?),
+                        Some(low) => Some(predict(low, &start.forces_of(low))?),
                         None => None,
                     };
-                    let high = predict(high, &high.forces(s))?;
+                    let high = predict(high, &start.forces_of(high))?;
                     let low = low.as_ref().unwrap_or(&base);
                     Some(low.iter().zip(&high).map(|(a, b)| (b - a) / *step).collect())
                 })

@@ -1,5 +1,7 @@
 //! Torques and forces at every tick.
 
+use std::borrow::Cow;
+
 use model::frames::Twist;
 use model::robot::Support;
 
@@ -71,9 +73,86 @@ pub fn smooth_sign(x: f64, width: f64) -> f64 {
     (x / width).tanh()
 }
 
+/// Torques and forces of a model at every tick of a segment, with all that further loads look at.
+pub(super) struct Base<'a> {
+    model: &'a DriveModel,
+    segment: &'a Segment,
+    /// As of [`DriveModel::forces`].
+    pub(super) forces: Vec<f64>,
+    /// `[tick][5 wheels + 4]`, flat, without the last tick: duty, speed, sign, winding and sideways speed of the
+    /// wheels, twist, supply.
+    signals: Vec<f64>,
+    prepared: Vec<Vec<Vec<f64>>>,
+}
+
+impl<'a> Base<'a> {
+    /// Of a model at a segment.
+    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment) -> Self {
+        let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
+        let mut signals = Vec::with_capacity(segment.t.len() * (5 * model.wheels.len() + 4));
+        let forces = model.evaluate(segment, &prepared, Some(&mut signals));
+        Self { model, segment, forces, signals, prepared }
+    }
+
+    /// What another model makes of the same segment: added to this one where it only adds loads, else from the start.
+    pub(super) fn forces_of(&self, other: &DriveModel) -> Cow<'_, [f64]> {
+        let s = self.segment;
+        let n = self.model.wheels.len();
+        if self.signals.is_empty() || !other.only_loads_more(self.model) {
+            return Cow::Owned(other.forces(s));
+        }
+        let more = &other.loads[self.model.loads.len()..];
+        if more.is_empty() {
+            return Cow::Borrowed(&self.forces);
+        }
+        let new = &other.prepare[self.prepared.len()..];
+        let prepared = if new.is_empty() {
+            Cow::Borrowed(&self.prepared)
+        } else {
+            Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
+        };
+        let mut out = self.forces.clone();
+        let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
+        let signals = self.signals.chunks_exact(5 * n + 4);
+        for ((k, row), signals) in out.chunks_exact_mut(n + 3).enumerate().zip(signals) {
+            let (by_wheel, whole) = signals.split_at(5 * n);
+            let wheel = |index: usize| &by_wheel[index * n..(index + 1) * n];
+            let now = Instant {
+                segment: s,
+                tick: k,
+                time_s: s.t[k] - s.stretch[0],
+                duty: wheel(0),
+                supply: whole[3],
+                speed: wheel(1),
+                sign: wheel(2),
+                winding: wheel(3),
+                sideways: wheel(4),
+                twist: Twist::new(whole[0], whole[1], whole[2]),
+                heading: s.heading[k],
+                position: s.position[k],
+                prepared: &prepared,
+            };
+            loads.wheel.copy_from_slice(&row[..n]);
+            loads.body.copy_from_slice(&row[n..]);
+            for term in more {
+                term(&now, &mut loads);
+            }
+            row[..n].copy_from_slice(&loads.wheel);
+            row[n..].copy_from_slice(&loads.body);
+        }
+        Cow::Owned(out)
+    }
+}
+
 impl DriveModel {
     /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
     pub fn forces(&self, s: &Segment) -> Vec<f64> {
+        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
+        self.evaluate(s, &prepared, None)
+    }
+
+    /// The same; writes down what loads look at, if that is asked for.
+    fn evaluate(&self, s: &Segment, prepared: &[Vec<Vec<f64>>], mut signals: Option<&mut Vec<f64>>) -> Vec<f64> {
         let n = self.wheels.len();
         let width = n + 3;
         let ticks = s.t.len();
@@ -81,7 +160,6 @@ impl DriveModel {
         if s.duty.len() != n || s.angle.len() != n {
             return out;
         }
-        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
         let free: Vec<[f64; 3]> = self
             .wheels
             .iter()
@@ -98,7 +176,7 @@ impl DriveModel {
         let start = s.stretch[0];
         let from_wheels = self.twist_per_wheel_speed();
         // Only terms and maps look at more than duties and counts.
-        let bare = self.loads.is_empty() && self.supply_maps.is_empty();
+        let bare = self.loads.is_empty() && self.supply_maps.is_empty() && signals.is_none();
         let constants: Vec<[f64; 4]> = self
             .axes
             .iter()
@@ -161,7 +239,7 @@ impl DriveModel {
                         twist,
                         heading: s.heading[k],
                         position: s.position[k],
-                        prepared: &prepared,
+                        prepared,
                     };
                     self.supply_maps.iter().fold(s.supply[k], |v, map| map(&now, v, &currents))
                 };
@@ -200,7 +278,7 @@ impl DriveModel {
                     twist,
                     heading: s.heading[k],
                     position: s.position[k],
-                    prepared: &prepared,
+                    prepared,
                 };
                 for term in &self.loads {
                     term(&now, &mut loads);
@@ -209,6 +287,12 @@ impl DriveModel {
             let row = &mut out[k * width..(k + 1) * width];
             row[..n].copy_from_slice(&loads.wheel);
             row[n..].copy_from_slice(&loads.body);
+            if let Some(signals) = &mut signals {
+                for part in [&duty, &speed, &sign, &winding, &sideways] {
+                    signals.extend_from_slice(part);
+                }
+                signals.extend([twist.vx, twist.vy, twist.omega, supply]);
+            }
         }
         out
     }

@@ -13,6 +13,7 @@ use model::geometry::{Geometry, Wheel};
 use model::robot::{Robot, Support};
 use nalgebra::{DMatrix, Matrix3};
 
+use crate::effect::Values;
 use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
@@ -82,6 +83,8 @@ pub struct DriveModel {
     pub offsets: Vec<Prepare>,
     /// What carries the robot.
     pub support: Support,
+    /// The effects that made it, in this order.
+    pub effects: Vec<(String, Values)>,
 }
 
 impl DriveModel {
@@ -115,7 +118,22 @@ impl DriveModel {
             prepare: Vec::new(),
             offsets: Vec::new(),
             support: robot.support,
+            effects: Vec::new(),
         }
+    }
+
+    /// Whether it is `base` with further effects that change nothing but loads and offsets.
+    fn only_loads_more(&self, base: &Self) -> bool {
+        let numbers =
+            |m: &Self| (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.gear_ratio, m.duty_delay_s);
+        self.effects.starts_with(&base.effects)
+            && numbers(self) == numbers(base)
+            && self.wheels == base.wheels
+            && self.radius_scale == base.radius_scale
+            && self.axes == base.axes
+            && self.support == base.support
+            && self.duty_maps.len() == base.duty_maps.len()
+            && self.supply_maps.len() == base.supply_maps.len()
     }
 
     /// Mean inertia a wheel feels while the others are free to follow, kg m² at its shaft.
