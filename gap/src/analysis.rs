@@ -15,7 +15,7 @@ use crate::effect::{Effect, Link, Sizes};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Options, Thresholds};
-use crate::pieces::segments;
+use crate::pieces::{PIECE, segments};
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Bench, Selection};
 use crate::state::{Active, State};
@@ -217,7 +217,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             link.before.clone_from(&link.after);
         }
     }
-    let mut pieces = segments(robot, &geometry, &set.logs);
+    let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
     let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
@@ -226,7 +226,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let mut wheels = crate::motion::MotionModel::new(robot);
         active.effect.motion(&active.values, &mut wheels);
         if let Ok(true_geometry) = model::geometry::Geometry::new(wheels.wheels, robot.wheel_radius_m) {
-            pieces = segments(robot, &true_geometry, &set.logs);
+            pieces = segments(robot, &true_geometry, &set.logs, PIECE);
         }
     }
     if pieces.is_empty() {

@@ -20,7 +20,7 @@ use crate::drive::DriveLink;
 use crate::effect::{Effect, Link};
 use crate::motion::MotionLink;
 use crate::options::Thresholds;
-use crate::pieces::{Pieces, segments};
+use crate::pieces::{PIECE, Pieces, segments};
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::Role;
 use crate::select::{self, Bench};
@@ -154,7 +154,7 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
             let seconds = run.duration_s();
             let robot = Robot { support: m.support(), ..findings.robot.clone() };
             let log = [log(&robot, run, findings.pieces)?];
-            let pieces = segments(&robot, &robot.geometry().ok()?, &log);
+            let pieces = segments(&robot, &robot.geometry().ok()?, &log, PIECE);
             let there = State { robot, ..state.clone() };
             let linear = on_link(findings, &pieces, &there, link, |p| p.linearise(&there, &candidates))?;
             let new = information(&linear);

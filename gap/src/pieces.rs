@@ -19,15 +19,14 @@ use crate::segment::{Frame, Place, Segment, regular_stamps, segment};
 const GAP_TICKS: f64 = 20.0;
 /// A stretch with fewer ticks is none.
 const FEWEST: usize = 8;
-/// Ticks of a piece of a long stretch, and of the longest one that is not cut.
-const PIECE: usize = 1 << 16;
-const UNCUT: usize = PIECE * 5 / 4;
+/// Ticks of a piece of a long stretch; one that is a quarter longer is not cut.
+pub const PIECE: usize = 1 << 16;
 /// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
 /// and behind: a window of camera frames, a bump.
 const BEFORE: usize = 1 << 12;
 const BEHIND: usize = 1 << 11;
-/// Ticks of segments that are kept once they are derived; of the others only the last ones.
-const KEPT: usize = 1 << 18;
+/// Segments, in pieces' lengths, that are kept once they are derived; of the others only the last ones.
+const KEPT: usize = 4;
 const RECENT: usize = 2;
 /// What the links read.
 const COLUMNS: Columns = Columns { counts: true, duty: true, supply: true, ..Columns::NONE };
@@ -59,8 +58,8 @@ struct Piece {
     history: Arc<Vec<(f64, Vec<f64>)>>,
 }
 
-/// Cuts logs into segments.
-pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>]) -> Pieces<'a> {
+/// Cuts logs into segments, stretches that are much longer than `piece` ticks into several.
+pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], piece: usize) -> Pieces<'a> {
     let mut pieces = Pieces {
         robot: robot.clone(),
         geometry: geometry.clone(),
@@ -74,14 +73,14 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>]) -> 
         let tick = log.tick_s();
         pieces.stamps.push(tick.map_or_else(Vec::new, |t| regular_stamps(log.camera(), robot.camera_rate_hz, t)));
         for (stretch, stretch_s) in tick.map_or_else(Vec::new, |t| Pieces::stretches(log, t)) {
-            let cut = pieces.cut(run, &stretch, stretch_s);
+            let cut = pieces.cut(run, &stretch, stretch_s, piece.max(1));
             pieces.all.extend(cut);
         }
     }
     let mut ticks = 0;
     let fits = |p: &&Piece| {
         ticks += p.rows.len();
-        ticks <= KEPT
+        ticks <= KEPT * piece
     };
     pieces.kept = pieces.all.iter().take_while(fits).map(|_| OnceLock::new()).collect();
     pieces
@@ -175,8 +174,8 @@ impl<'a> Pieces<'a> {
     }
 
     /// Cuts a stretch into pieces.
-    fn cut(&self, run: usize, stretch: &Range<usize>, stretch_s: [f64; 2]) -> Vec<Piece> {
-        let number = if stretch.len() <= UNCUT { 1 } else { stretch.len().div_ceil(PIECE) };
+    fn cut(&self, run: usize, stretch: &Range<usize>, stretch_s: [f64; 2], piece: usize) -> Vec<Piece> {
+        let number = if stretch.len() <= piece * 5 / 4 { 1 } else { stretch.len().div_ceil(piece) };
         let length = stretch.len().div_ceil(number);
         let mut pieces: Vec<Piece> = (0..number)
             .map(|k| {
@@ -272,5 +271,57 @@ impl<'a> Pieces<'a> {
             before: &p.history[..p.before],
         };
         segment(&self.robot, &self.geometry, &part, place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::borrow::Cow;
+
+    use model::effects::Applied;
+    use model::manoeuvre::{Manoeuvre, simulate};
+
+    use super::*;
+
+    /// Greatest distance of two columns.
+    fn apart(a: &[f64], b: &[f64]) -> f64 {
+        assert_eq!(a.len(), b.len());
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn pieces_hold_what_the_whole_stretch_holds() {
+        let robot = Robot::racbot();
+        let run = simulate(Manoeuvre::Star, &Applied::of(&robot), &robot, Pose::default(), 1).unwrap();
+        let logs = [Log::from(Cow::Owned(run))];
+        let geometry = robot.geometry().unwrap();
+        let whole = segments(&robot, &geometry, &logs, PIECE).get(0);
+        let pieces = segments(&robot, &geometry, &logs, 5000);
+        assert!(pieces.len() > 3);
+        let (mut next, mut frames) = (0, 0);
+        for (p, s) in pieces.all.iter().zip(pieces.iter()) {
+            assert_eq!(p.own.start, next);
+            next = p.own.end;
+            frames += s.own_frames().len();
+            let (here, there) = (s.own.clone(), p.own.clone());
+            assert_eq!(s.t[here.clone()], whole.t[there.clone()]);
+            for i in 0..3 {
+                assert!(apart(&s.angle[i][here.clone()], &whole.angle[i][there.clone()]) < 1e-9);
+                assert!(apart(&s.speed[i][here.clone()], &whole.speed[i][there.clone()]) < 1e-9);
+                assert_eq!(s.duty[i][here.clone()], whole.duty[i][there.clone()]);
+                // Heat: mean squares of the seconds before, against every tick.
+                let mean: f64 = whole.duty[i][..p.rows.start].iter().map(|d| d * d * 1e-3).sum();
+                assert!((s.before.iter().map(|(t, squares)| t * squares[i]).sum::<f64>() - mean).abs() < 1e-6);
+            }
+            let turn = |a: f64, b: f64| (a - b).sin().abs();
+            let headings = s.heading[here.clone()].iter().zip(&whole.heading[there.clone()]);
+            assert!(headings.map(|(a, b)| turn(*a, *b)).fold(0.0, f64::max) < 1e-9);
+            for j in 0..2 {
+                let axis =
+                    |s: &Segment, range: Range<usize>| s.position[range].iter().map(|p| p[j]).collect::<Vec<_>>();
+                assert!(apart(&axis(&s, here.clone()), &axis(&whole, there.clone())) < 1e-9);
+            }
+        }
+        assert_eq!((next, frames), (whole.t.len(), whole.frames.len()));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::common::{simulate, with};
 use gap::drive::{DriveLink, DriveModel};
-use gap::pieces::segments;
+use gap::pieces::{PIECE, segments};
 use gap::statistics::rms;
 use model::manoeuvre::Manoeuvre;
 use model::robot::Robot;
@@ -14,7 +14,7 @@ fn unexplained(skew_rad: [f64; 3]) -> f64 {
     let parameters: Vec<(&str, f64)> = names.into_iter().zip(skew_rad).collect();
     let set = simulate(&with(&Robot::racbot(), "wheel-skew", &parameters), &[Manoeuvre::Chirp], 7);
     let set = Logs::from(&set);
-    let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &set.logs);
+    let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &set.logs, PIECE);
     let mut model = DriveModel::new(&set.robot);
     model.wheels.iter_mut().zip(skew_rad).for_each(|(wheel, skew)| wheel.drive_rad -= skew);
     let residuals = DriveLink::new(&pieces, &model).unwrap().residuals(&model).unwrap();

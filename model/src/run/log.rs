@@ -210,3 +210,89 @@ impl Log<'_> {
         self.failure().cloned().map_or(Ok(()), Err)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A log of more than one part, whose counters begin late, miss samples, and see a camera now and then.
+    fn text() -> String {
+        let mut text = "t,enc_1,enc_2,duty_1,duty_2,note,cam_x,cam_y,cam_theta\n".to_owned();
+        for k in 0..PART + 3000 {
+            let count =
+                |wheel: usize| if k < 5 || k % (7 + wheel) == 0 { String::new() } else { (k * wheel).to_string() };
+            let duty = if k % 11 == 0 { String::new() } else { format!("0.{:03}", k % 997) };
+            let camera = if k % 17 == 3 { format!("{k},0.5,-1") } else { ",,".to_owned() };
+            text += &format!("{}.{:03},{},{},{duty},0.5,a,{camera}\n", k / 1000, k % 1000, count(1), count(2));
+        }
+        text
+    }
+
+    fn write(text: &str) -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.csv");
+        std::fs::write(&path, text).unwrap();
+        (folder, path)
+    }
+
+    #[test]
+    fn a_log_in_a_file_has_what_a_run_has() {
+        let (_folder, path) = write(&text());
+        let run = Run::read(&path).unwrap();
+        let (here, there) = (Log::read(&path, usize::MAX, &mut None).unwrap(), Log::read(&path, 0, &mut None).unwrap());
+        assert!(matches!(there.store, Store::File(_)) && matches!(here.store, Store::Memory(_)));
+        assert_eq!((there.len(), there.tick_s()), (run.len(), run.tick_s()));
+        assert_eq!((here.camera(), there.camera()), (&seen(&run, 0).collect::<Vec<_>>()[..], here.camera()));
+        let bits = |run: &Run| {
+            let reals: Vec<Vec<u64>> =
+                run.reals().iter().map(|column| column.iter().map(|x| x.to_bits()).collect()).collect();
+            (reals, run.counts.clone(), run.count_gaps.clone())
+        };
+        let few = Columns { counts: true, ..Columns::NONE };
+        for (ticks, columns) in [
+            (0..run.len(), Columns::ALL),
+            (PART - 20..PART + 30, Columns::ALL),
+            (3..40, few),
+            (PART..PART, few),
+            (PART + 7..PART + 2999, Columns { duty: true, ..Columns::NONE }),
+        ] {
+            let expected = bits(&run.part(ticks.clone(), columns));
+            assert_eq!(bits(&here.part(ticks.clone(), columns)), expected, "{ticks:?}");
+            assert_eq!(bits(&there.part(ticks.clone(), columns)), expected, "{ticks:?}");
+        }
+        assert_eq!(there.failure(), None);
+    }
+
+    #[test]
+    fn faults_of_a_later_part_are_told_with_line_column_and_field() {
+        let good = text();
+        let lines: Vec<&str> = good.lines().collect();
+        let line = PART + 2000;
+        let swap = |with: &str| {
+            let mut lines = lines.clone();
+            lines[line - 1] = with;
+            lines.join("\r\n") + "\r\n"
+        };
+        let t = lines[line - 1].split(',').next().unwrap();
+        for (with, field) in [
+            (format!("{t},1,2,x,0.5,a,,,"), "duty_1"),
+            ("0.5,1,2,0.1,0.5,a,,,".to_owned(), "t"),
+            (format!("{t},1.5,2,0.1,0.5,a,,,"), "enc_1"),
+            (format!("{t},1,2,0.1,0.5,a,1,,"), "cam_x, cam_y, cam_theta"),
+            (format!("{t},1,2"), ""),
+        ] {
+            let (_folder, path) = write(&swap(&with));
+            let expected = Run::read(&path).unwrap_err();
+            assert_eq!((expected.line, expected.field.as_str()), (u32::try_from(line).ok(), field));
+            for in_memory in [0, 1000, usize::MAX] {
+                assert_eq!(Log::read(&path, in_memory, &mut None).unwrap_err(), expected);
+            }
+        }
+        let jump = swap(&format!("{t},90000000,2,0.1,0.5,a,,,"));
+        let (_folder, path) = write(&jump);
+        let robot = Robot { support: crate::robot::Support::Blocks, ..Robot::racbot() }.first_axes(2);
+        let expected = Run::read(&path).unwrap().check(&robot, &path).unwrap_err();
+        assert_eq!(expected.line, u32::try_from(line).ok());
+        assert_eq!(Log::read(&path, 0, &mut None).unwrap().check(&robot).unwrap_err(), expected);
+    }
+}

@@ -43,8 +43,16 @@ impl Logs<'static> {
     /// # Errors
     /// As [`Logs::open`].
     pub fn open_as(folder: impl AsRef<Path>, robot: Robot) -> Result<Self, RunError> {
+        Self::open_within(folder, robot, IN_MEMORY)
+    }
+
+    /// The same, with no more than so many ticks of all logs together in memory.
+    ///
+    /// # Errors
+    /// As [`Logs::open`].
+    pub fn open_within(folder: impl AsRef<Path>, robot: Robot, in_memory: usize) -> Result<Self, RunError> {
         let folder = folder.as_ref();
-        let (mut left, mut spool, mut logs) = (IN_MEMORY, None, Vec::new());
+        let (mut left, mut spool, mut logs) = (in_memory, None, Vec::new());
         for file in run_files(folder)? {
             let log = Log::read(&file, left, &mut spool)?;
             left = left.saturating_sub(log.len());
