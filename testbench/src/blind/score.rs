@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use truth::{Hidden, Truth};
 
-use super::{Answer, Group, Task};
+use super::{Answer, Group, NamedEffect, Task};
 
 /// How good an answer is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -57,13 +57,22 @@ fn found(hidden: &Hidden, answer: &Answer) -> Option<Grade> {
             && !hidden.wheels.iter().any(|w| named.wheels.contains(w));
         return (!apart).then_some(Grade::Right);
     }
-    look_alike(hidden, answer).is_some().then_some(Grade::Within)
+    answer.effects.iter().any(|e| look_alikes(&e.name, &hidden.name, answer)).then_some(Grade::Within)
 }
 
-/// The named effect that stands for a hidden one in a set of look-alikes.
-fn look_alike<'a>(hidden: &Hidden, answer: &'a Answer) -> Option<&'a str> {
-    let set = |name: &str| answer.alternatives.iter().any(|a| a.contains(&hidden.name) && a.iter().any(|n| n == name));
-    answer.effects.iter().map(|e| e.name.as_str()).find(|name| set(name))
+/// Whether a stated set holds both names.
+fn look_alikes(a: &str, b: &str, answer: &Answer) -> bool {
+    answer.alternatives.iter().any(|set| [a, b].iter().all(|name| set.iter().any(|n| n == name)))
+}
+
+/// Whether every named effect stands for a hidden one of its own.
+fn each_stands(named: &[NamedEffect], hidden: &[&Hidden], answer: &Answer) -> bool {
+    let Some((first, rest)) = named.split_first() else { return true };
+    (0..hidden.len()).any(|i| {
+        let mut others = hidden.to_vec();
+        let own = others.swap_remove(i);
+        (first.name == own.name || look_alikes(&first.name, &own.name, answer)) && each_stands(rest, &others, answer)
+    })
 }
 
 /// Grades an answer against what is hidden. With nothing hidden, `Right` is to name nothing.
@@ -75,8 +84,7 @@ pub fn grade(hidden: &[Hidden], answer: &Answer) -> Grade {
         return Grade::Nothing;
     }
     let hits: Vec<Grade> = hidden.iter().filter_map(|h| found(h, answer)).collect();
-    let stands = |name: &str| hidden.iter().any(|h| h.name == name || look_alike(h, answer) == Some(name));
-    let more = answer.effects.iter().any(|e| !stands(&e.name));
+    let more = !each_stands(&answer.effects, &hidden.iter().collect::<Vec<_>>(), answer);
     match (hits.len(), more) {
         (0, _) => Grade::Wrong,
         (n, true) if n == hidden.len() => Grade::Extra,
@@ -102,7 +110,7 @@ pub struct Scored {
     pub answer: Result<Answer, String>,
     /// 95 % intervals of parameters that truth and answer share: how many, and how many hold the true value.
     pub intervals: [usize; 2],
-    /// True size in units of the stated detection limit, where one is stated.
+    /// True size in units of the stated detection limit, where one is stated; of several effects the smallest.
     pub limits: Option<f64>,
     /// Seconds of the analysis.
     pub seconds: f64,
@@ -169,14 +177,14 @@ fn intervals(hidden: &[Hidden], answer: &Answer) -> [usize; 2] {
     out
 }
 
+/// The smallest of the hidden effects in its stated limits; `None` where one of them has none.
 fn in_limits(hidden: &[Hidden], answer: &Answer) -> Option<f64> {
-    let [h] = hidden else { return None };
-    answer
-        .limits
-        .iter()
-        .filter(|(name, _, limit)| *name == h.name && *limit > 0.0)
-        .filter_map(|(_, parameter, limit)| Some(h.parameters.get(parameter)?.abs() / limit))
-        .max_by(f64::total_cmp)
+    let of = |h: &Hidden| {
+        let own = answer.limits.iter().filter(|(name, _, limit)| *name == h.name && *limit > 0.0);
+        own.filter_map(|(_, parameter, limit)| Some(h.parameters.get(parameter)?.abs() / limit)).max_by(f64::total_cmp)
+    };
+    let ratios: Option<Vec<f64>> = hidden.iter().map(of).collect();
+    ratios?.into_iter().min_by(f64::total_cmp)
 }
 
 #[cfg(test)]
@@ -229,6 +237,10 @@ mod tests {
         let both = [hide("wheel-radius", &[1]), hide("floor-tilt", &[])];
         assert_eq!(grade(&both, &say(&[("floor-tilt", &[])], &[])), Grade::Partial);
         assert_eq!(grade(&both, &say(&[("floor-tilt", &[]), ("wheel-radius", &[1])], &[])), Grade::Right);
+        // Every name stands for one hidden effect: its own, or one that a set puts beside it.
+        let sets: &[&[&str]] = &[&["wheel-radius", "encoder-scale"], &["carpet-grain", "floor-tilt"]];
+        assert_eq!(grade(&both, &say(&[("wheel-radius", &[1]), ("carpet-grain", &[])], sets)), Grade::Within);
+        assert_eq!(graded(&[("wheel-radius", &[1]), ("encoder-scale", &[1])], sets), Grade::Extra);
     }
 
     #[test]
@@ -245,6 +257,10 @@ mod tests {
         assert_eq!((azimuth(3.15), azimuth(0.02), azimuth(1.5)), ([1, 1], [1, 1], [1, 0]));
         let ratio = in_limits(&[hide("wheel-radius", &[1])], &answer);
         assert!(ratio.is_some_and(|r| (r - 2.5).abs() < 1e-12));
+        let mut two = answer.clone();
+        two.limits.push(("encoder-scale".to_owned(), "scale_1".to_owned(), 0.02));
+        let pair = [hide("wheel-radius", &[1]), hide("encoder-scale", &[1])];
+        assert!(in_limits(&pair, &two).is_some_and(|r| (r - 0.5).abs() < 1e-12) && in_limits(&pair, &answer).is_none());
     }
 
     #[test]

@@ -59,6 +59,10 @@ impl Report {
         rows.push((format!("single, >= {WELL_ABOVE} limits"), above));
         for group in [Group::Pair, Group::Outside, Group::TranslationsOnly, Group::Ablation] {
             rows.push((group.name().to_owned(), self.group(group)));
+            if group == Group::Pair {
+                let above = self.group(group).into_iter().filter(|s| s.limits.is_some_and(|r| r >= WELL_ABOVE));
+                rows.push((format!("pair, >= {WELL_ABOVE} limits"), above.collect()));
+            }
         }
         rows.retain(|(_, sets)| !sets.is_empty());
         rows
