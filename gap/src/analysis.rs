@@ -96,7 +96,7 @@ pub struct Limit {
     pub estimate: f64,
     /// Its standard deviation.
     pub sd: f64,
-    /// Size from which it is named.
+    /// Size that is named in nine of ten such data sets.
     pub limit: f64,
     /// Materiality threshold.
     pub material: f64,
@@ -260,7 +260,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     } else {
         let problem = Problem::Motion(&motion_link);
         let matters = gaps::motion_matters(noise);
-        let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
+        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, matters);
+        let outcome = study(&problem, [&nominal, &start], selection, &catalogue, &thresholds);
         let before = motion_link.residuals(&nominal.motion(None));
         located.extend(crate::locate::motion(&motion_link, &before));
         let plots = [before, motion_link.residuals(&outcome.selection.state.motion(None))];
@@ -296,9 +297,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         }
         if let Some(residuals) = link.residuals(&start.drive(None)) {
             let stall = Sizes::of(robot).stall_nm;
-            let (floor, correlation) = crate::drive::floor(&link, &residuals, stall);
-            link.noise = floor.clone();
-            drive_noise.clone_from(&floor);
+            let (mut floor, correlation) = crate::drive::floor(&link, &residuals, stall);
+            link.noise.clone_from(&floor);
             if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
                 let structure = format!(
                     "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
@@ -309,9 +309,27 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 unexplained.push(Leftover { link: Link::Drive, structure });
             }
             thresholds.drive_correlation = correlation;
-            let problem = Problem::Drive(&link);
-            let matters = gaps::drive_matters(&floor, stall);
-            let outcome = study(&problem, &nominal, &start, &catalogue, &thresholds, matters);
+            let matters = |floor: &[f64]| gaps::drive_matters(floor, stall);
+            let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
+                chosen(&Problem::Drive(link), &start, known, &catalogue, thresholds, matters(floor))
+            };
+            let from = start.active.len();
+            let mut selection = looked(&link, &thresholds, &[], &floor);
+            // What has a name now is no noise: the next effect is looked for above the floor without it.
+            for _ in 0..LOOKS {
+                let is_named = |a: &Active| a.worth() && !a.effect.probe();
+                if !selection.state.active[from..].iter().any(is_named) {
+                    break;
+                }
+                let noise = (&floor[..], thresholds.drive_correlation);
+                let Some((lower, correlation)) = lowered(&link, &selection.state, noise, stall) else { break };
+                link.noise.clone_from(&lower);
+                floor = lower;
+                thresholds.drive_correlation = correlation;
+                selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
+            }
+            let outcome = study(&Problem::Drive(&link), [&nominal, &start], selection, &catalogue, &thresholds);
+            drive_noise.clone_from(&floor);
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
             located.extend(crate::locate::drive(&link, &before, &floor, stall));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
@@ -504,27 +522,58 @@ struct Outcome {
     leftovers: Vec<String>,
 }
 
-/// Selects and judges on one link; a gap of more than `matters` noise floors is not left to adjustments.
-fn study(
+/// Looks at the drive again above a floor lowered by what was named.
+const LOOKS: usize = 2;
+/// Share of the information on a small effect that the floor must have hidden for another look.
+const HIDDEN: f64 = 0.2;
+
+/// Floor and correlation of the drive with what was named in the model, if they hid enough to look again.
+fn lowered(
+    link: &DriveLink,
+    state: &State,
+    (floor, correlation): (&[f64], f64),
+    stall: f64,
+) -> Option<(Vec<f64>, f64)> {
+    let residuals = link.residuals(&state.drive(None))?;
+    let (now, correlated) = crate::drive::floor(link, &residuals, stall);
+    let lower: Vec<f64> = now.iter().zip(floor).map(|(a, b)| a.min(*b)).collect();
+    let correlated = correlated.min(correlation);
+    let noise = |floor: &[f64], correlation: f64| correlation * floor.iter().map(|f| f * f).sum::<f64>();
+    (noise(&lower, correlated) < (1.0 - HIDDEN) * noise(floor, correlation)).then_some((lower, correlated))
+}
+
+/// Selects on one link, beginning with effects `known` from an earlier look; a gap of more than `matters` noise floors
+/// is not left to adjustments.
+fn chosen(
     problem: &Problem,
-    nominal: &State,
     start: &State,
+    known: &[Active],
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
     matters: f64,
-) -> Outcome {
-    let all = select::candidates(start, catalogue, problem.link());
-    let mut selection = select::select(problem, start, catalogue, thresholds);
-    let from = start.active.len();
+) -> Selection {
+    let selection = select::select(problem, start, known, catalogue, thresholds);
     let (inherited, count) = problem.linearise_nothing(start).plain();
     let open = (inherited / count.max(1.0)).sqrt();
-    if !selection.state.active[from..].iter().any(Active::worth)
-        && open > matters
-        && select::figures(&selection.bench).1 < 0.7 * open
-        && let Some(single) = select::single(problem, start, catalogue, thresholds)
+    if selection.state.active[start.active.len()..].iter().any(Active::worth)
+        || open <= matters
+        || select::figures(&selection.bench).1 >= 0.7 * open
     {
-        selection = single;
+        return selection;
     }
+    select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
+}
+
+/// Judges what was selected on one link, between the nominal robot and where the study starts.
+fn study(
+    problem: &Problem,
+    [nominal, start]: [&State; 2],
+    selection: Selection,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Outcome {
+    let all = select::candidates(start, catalogue, problem.link());
+    let from = start.active.len();
     let bench = &selection.bench;
     let fit = bench.fit_roles(&bench.estimating());
     let covariance = bench.covariance(&bench.estimating(), &fit);

@@ -1,43 +1,79 @@
 //! Detection limits: the size from which an effect would be named in these data.
 
 use crate::analysis::Limit;
-use crate::effect::Link;
+use crate::effect::{Link, Parameter};
 use crate::options::Thresholds;
 use crate::problem::Owner;
-use crate::select::Bench;
+use crate::ridge::Role;
+use crate::select::{Bench, STRONG};
 
-/// The limits of every effect of a link, those found included: what is material, exceeds its own
-/// scatter, and explains enough of what the noise does not.
+/// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
+const NINE_OF_TEN: f64 = 1.2816;
+
+/// What an effect must pass to be named, as sizes.
+struct Gates<'a> {
+    bench: &'a Bench,
+    thresholds: &'a Thresholds,
+    link: Link,
+    /// Held-out sum of squares with what is named, and what of it is more than noise.
+    total: f64,
+    excess: f64,
+    left_by_laws: f64,
+}
+
+impl Gates<'_> {
+    /// Least size of an estimate that passes: in the objective, in materiality, and on held-out runs.
+    fn least(&self, column: usize, roles: &[Role], free: usize, margin: f64) -> f64 {
+        let t = self.thresholds;
+        let per_square = self.bench.gain_per_square(column, roles);
+        let by_gain = |gain: f64| ((gain + t.cost(free)) / per_square).sqrt();
+        let information = self.bench.information_beside_named(column);
+        let sum: f64 = information.iter().sum();
+        let squares: f64 = information.iter().map(|i| i * i).sum();
+        // The effect adds to the total that it must be a share of.
+        let of = |share: f64, what: f64| (share * what / (sum * (1.0 - share))).sqrt();
+        let by_share = of(t.share(self.link), self.total)
+            .max(of(t.share_of_excess, self.excess))
+            .max((self.left_by_laws / sum).sqrt());
+        // Gains of clusters scatter by what the effect does there, and by noise.
+        let by_t = |needed: f64| {
+            let room = sum * sum - needed * needed * squares;
+            if room > 0.0 { 2.0 * needed * (self.bench.variance * sum / room).sqrt() } else { f64::INFINITY }
+        };
+        let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(STRONG)));
+        by_gain(t.gain).max(margin).max(by_share).max(by_run)
+    }
+}
+
+/// The limits of every effect of a link, those found included: nine of ten such data sets in which an effect has this
+/// size, beside what is named already, would have it named.
 pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresholds) -> Vec<Limit> {
     let mut out: Vec<Limit> = Vec::new();
-    let gram = &bench.linear.gram;
-    let total: f64 = gram.clusters.iter().map(|c| c.rr).sum();
-    let needed = (thresholds.share(link) * total).max(thresholds.share_of_excess * (total - gram.n()).max(0.0));
-    let by_share = |column: usize| {
-        let own: f64 = gram.clusters.iter().map(|c| c.jj[(column, column)]).sum();
-        if own > 0.0 { (needed / own).sqrt() } else { f64::INFINITY }
-    };
-    let mut add =
-        |name: &str, parameter: &str, material: f64, estimate: f64, sd: f64, column: usize, unit: f64, free: usize| {
-            let known = out.iter().any(|l| l.name == name && l.parameter == parameter);
-            let limit =
-                material.max(unit * (thresholds.gain + thresholds.cost(free)).sqrt() * sd).max(unit * by_share(column));
-            if known || !sd.is_finite() || sd == 0.0 || !limit.is_finite() {
-                return;
-            }
+    let total: f64 = bench.held_out(None).iter().sum();
+    let excess = (total - bench.linear.gram.n()).max(0.0);
+    let left_by_laws = bench.left_by_laws();
+    let gates = Gates { bench, thresholds, link, total, excess, left_by_laws };
+    let mut add = |name: &str, p: &Parameter, unit: f64, estimate: f64, sd: f64, least: f64| {
+        let limit = unit * (least + NINE_OF_TEN * sd);
+        let known = out.iter().any(|l| l.name == name && l.parameter == p.name);
+        let most = p.bounds[0].abs().max(p.bounds[1].abs());
+        if !known && sd > 0.0 && limit < most {
+            let (estimate, sd) = (unit * estimate, unit * sd);
             out.push(Limit {
                 name: name.to_owned(),
-                parameter: parameter.to_owned(),
+                parameter: p.name.clone(),
                 estimate,
-                sd: unit * sd,
+                sd,
                 limit,
-                material,
+                material: p.material,
             });
-        };
+        }
+    };
     // What is named has a limit, too: that of its own columns.
     let roles = bench.estimating();
     let fit = bench.fit_roles(&roles);
     let covariance = bench.covariance(&roles, &fit);
+    let named: Vec<usize> = (from..bench.state.active.len()).filter(|i| bench.state.active[*i].worth()).collect();
     for (column, owner) in bench.linear.owners.iter().enumerate() {
         let Owner::Active(index, j) = *owner else { continue };
         let active = &bench.state.active[index];
@@ -46,13 +82,17 @@ pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresh
             continue;
         }
         let sd = covariance[(column, column)].max(0.0).sqrt();
-        let value = active.values.get(&p.name);
-        add(active.effect.name(), &p.name, p.material, value, sd, column, 1.0, active.form.free.len());
+        let mut without = bench.roles();
+        without[column] = Role::Held(thresholds.held_share * p.material, 0.0);
+        let least = gates.least(column, &without, active.form.free.len(), p.material);
+        add(active.effect.name(), p, 1.0, active.values.get(&p.name), sd, least);
     }
     for (c, candidate) in bench.candidates.iter().enumerate() {
         let wheels = bench.state.robot.wheel_count();
-        let named = bench.state.active.iter().any(|a| a.effect.name() == candidate.effect.name());
-        if named || candidate.effect.probe() || candidate.form.free.len() > wheels.max(3) {
+        let known = bench.state.active.iter().any(|a| a.effect.name() == candidate.effect.name());
+        // Beside its twin it has no size of its own.
+        let twin = || named.iter().any(|i| bench.is_twin(c, *i));
+        if known || candidate.effect.probe() || candidate.form.free.len() > wheels.max(3) || twin() {
             continue;
         }
         let roles = bench.freeing(&[c]);
@@ -66,8 +106,9 @@ pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresh
             let sd = covariance[(column, column)].max(0.0).sqrt();
             // The column of an effect that is switched on stands for its start value.
             let unit = if candidate.switched() { p.start.unwrap_or(1.0).abs() } else { 1.0 };
-            let free = candidate.form.free.len();
-            add(candidate.effect.name(), &p.name, p.material, unit * fit.step[column], sd, column, unit, free);
+            let margin = (p.material / unit).max(bench.margin(c, j));
+            let least = gates.least(column, &bench.roles(), candidate.form.free.len(), margin);
+            add(candidate.effect.name(), p, unit, fit.step[column], sd, least);
         }
     }
     out

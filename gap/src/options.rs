@@ -9,7 +9,8 @@ pub struct Thresholds {
     pub held_share: f64,
     /// The same for effects that are switched on, as a share of the size they are tried at.
     pub held_switch: f64,
-    /// Share of a named effect that an effect of the same look may have without being named.
+    /// Share of a named effect that an effect of the same look may have without being named, where the law is one of
+    /// friction or motors.
     pub law_share: f64,
     /// Objective an effect must gain after paying for its parameters.
     pub gain: f64,
@@ -29,6 +30,9 @@ pub struct Thresholds {
     /// Correlation of drive residuals: how many count as one.
     pub drive_correlation: f64,
 }
+
+/// Relative uncertainty of a law of friction or motors, to which `law_share` belongs.
+const ORDINARY_LAW: f64 = 0.015;
 
 impl Default for Thresholds {
     fn default() -> Self {
@@ -52,6 +56,11 @@ impl Thresholds {
     /// The same with next to no margin for what is not named.
     pub fn narrow(&self) -> Self {
         Self { held_share: 0.1 * self.held_share, held_switch: 0.1 * self.held_switch, ..self.clone() }
+    }
+
+    /// Share of a named effect whose law is that uncertain which a look-alike may have without being named.
+    pub fn law_share(&self, uncertainty: f64) -> f64 {
+        self.law_share * (uncertainty / ORDINARY_LAW).min(1.0)
     }
 
     /// Cost of freeing an effect with this many parameters.

@@ -40,6 +40,8 @@ pub enum Role {
     Held(f64, f64),
     /// Free.
     Free,
+    /// Taken along by this step, whatever the data say.
+    At(f64),
 }
 
 impl<'a> Ridge<'a> {
@@ -66,11 +68,45 @@ impl<'a> Ridge<'a> {
     /// The best step with these roles.
     pub fn fit(&self, roles: &[Role]) -> RidgeFit {
         let (step, columns) = self.solve(&self.jj, &self.jr, roles);
+        self.rated(step, &columns, roles)
+    }
+
+    /// The best step with these roles in which no free column leaves its limits.
+    pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> RidgeFit {
+        let mut roles = roles.to_vec();
+        loop {
+            let fit = self.fit(&roles);
+            let out = |c: &usize| {
+                let over = (limits[*c][0] - fit.step[*c]).max(fit.step[*c] - limits[*c][1]);
+                if roles[*c] == Role::Free { over / (limits[*c][1] - limits[*c][0]).max(1e-300) } else { 0.0 }
+            };
+            let worst = (0..roles.len()).max_by(|a, b| out(a).total_cmp(&out(b))).filter(|c| out(c) > 0.0);
+            let Some(worst) = worst else { return fit };
+            roles[worst] = Role::At(fit.step[worst].clamp(limits[worst][0], limits[worst][1]));
+        }
+    }
+
+    /// How well the other columns do in place of one, whatever the data say.
+    pub fn explain(&self, column: usize, roles: &[Role]) -> RidgeFit {
+        let mut roles = roles.to_vec();
+        roles[column] = if let Role::Held(..) = roles[column] { roles[column] } else { Role::Out };
+        let wanted = Self {
+            gram: self.gram,
+            variance: self.variance,
+            jj: self.jj.clone(),
+            jr: self.jj.column(column).into_owned(),
+            rr: self.jj[(column, column)],
+            folds: Vec::new(),
+        };
+        wanted.fit(&roles)
+    }
+
+    fn rated(&self, step: DVector<f64>, columns: &[usize], roles: &[Role]) -> RidgeFit {
         let mut linear = 0.0;
         let mut square = 0.0;
-        for &p in &columns {
+        for &p in columns {
             linear += step[p] * self.jr[p];
-            for &q in &columns {
+            for &q in columns {
                 square += step[p] * step[q] * self.jj[(p, q)];
             }
         }
@@ -101,9 +137,16 @@ impl<'a> Ridge<'a> {
     }
 
     fn solve(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
-        let columns: Vec<usize> =
-            (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.jj[(*i, *i)] > 0.0).collect();
+        let used = |i: &usize| roles[*i] != Role::Out && self.jj[(*i, *i)] > 0.0;
+        let (taken, columns): (Vec<usize>, Vec<usize>) =
+            (0..roles.len()).filter(used).partition(|i| matches!(roles[*i], Role::At(_)));
         let m = columns.len();
+        let mut step = DVector::zeros(roles.len());
+        for &c in &taken {
+            if let Role::At(by) = roles[c] {
+                step[c] = by;
+            }
+        }
         let mut a = DMatrix::from_fn(m, m, |p, q| jj[(columns[p], columns[q])]);
         let mut b = DVector::from_fn(m, |p, _| jr[columns[p]]);
         for (p, c) in columns.iter().enumerate() {
@@ -112,13 +155,13 @@ impl<'a> Ridge<'a> {
                 a[(p, p)] += weight;
                 b[p] -= weight * at;
             }
+            b[p] -= taken.iter().map(|t| jj[(*c, *t)] * step[*t]).sum::<f64>();
         }
         let x = solve(&a, &b);
-        let mut step = DVector::zeros(roles.len());
         for (p, c) in columns.iter().enumerate() {
             step[*c] = x[p];
         }
-        (step, columns)
+        (step, [columns, taken].concat())
     }
 }
 
@@ -128,4 +171,40 @@ fn penalty(step: &DVector<f64>, roles: &[Role]) -> f64 {
         .zip(step.iter())
         .map(|(r, x)| if let Role::Held(sd, at) = r { ((x + at) / sd).powi(2) } else { 0.0 })
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::*;
+    use crate::gram::Cluster;
+
+    /// Two columns that overlap, and residuals that are 3 of the first and 1 of the second.
+    fn gram() -> Gram {
+        let columns = DMatrix::from_fn(30, 2, |r, c| if c == 0 { 1.0 } else { f64::from(u8::from(r < 15)) });
+        let residual = &columns * DVector::from_column_slice(&[3.0, 1.0]);
+        Gram::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)])
+    }
+
+    #[test]
+    fn what_is_taken_along_is_not_fitted_but_counted() {
+        let gram = gram();
+        let ridge = Ridge::new(&gram, 1.0);
+        let fit = ridge.fit(&[Role::At(2.0), Role::Free]);
+        assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
+        // What is left is 1 where the second column is 0.
+        assert!((fit.loss - 15.0).abs() < 1e-6, "{}", fit.loss);
+    }
+
+    #[test]
+    fn no_free_step_leaves_its_limits() {
+        let gram = gram();
+        let ridge = Ridge::new(&gram, 1.0);
+        let roles = [Role::Free, Role::Free];
+        let fit = ridge.fit_within(&roles, &[[-2.0, 2.0], [-9.0, 9.0]]);
+        assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
+        let free = ridge.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
+        assert!((free.step[0] - 3.0).abs() < 1e-6 && (free.step[1] - 1.0).abs() < 1e-6, "{}", free.step);
+    }
 }

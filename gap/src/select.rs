@@ -1,16 +1,22 @@
 //! Selection: which effects must be named for a link, and which are there but immaterial.
 
 mod bench;
+mod gates;
+mod join;
 mod rivals;
 
 use std::sync::Arc;
 
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+
+use gates::Gates;
+use join::join;
 
 pub use bench::{Bench, Trial, candidates, is_material};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
@@ -21,8 +27,12 @@ const MOST: usize = 5;
 const SHORT_LIST: usize = 9;
 /// Rounds of relinearisation while the named effects still move.
 const ROUNDS: usize = 3;
-/// Standard deviations of the named effects' laws that another effect must explain more than.
-const LAW_SIGMAS: f64 = 2.0;
+/// Squared cosine from which an effect looks like others.
+pub(crate) const ALIKE: f64 = 0.98;
+/// Closer than this an explanation is in doubt (Kass and Raftery 1995: very strong from 10).
+const DOUBTFUL: f64 = 10.0;
+/// Gain from which less is asked of single clusters.
+pub(crate) const STRONG: f64 = 50.0;
 /// A removal that costs more than this in the linear approximation is not tried.
 const FAR: f64 = 40.0;
 
@@ -47,31 +57,70 @@ impl Selection {
     }
 }
 
-/// Selects the effects of one link.
-pub fn select(problem: &Problem, start: &State, catalogue: &[Arc<dyn Effect>], thresholds: &Thresholds) -> Selection {
+/// Selects the effects of one link, beginning with those `known` from an earlier look at it.
+pub fn select(
+    problem: &Problem,
+    start: &State,
+    known: &[Active],
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Selection {
     let all = candidates(start, catalogue, problem.link());
-    let first = Bench::new(problem, start, &all, thresholds);
-    let mut best = forward(problem, &first, &[], &all, thresholds);
-    // Pairs and triples that a greedy search may have missed, from the first linearisation.
-    let greedy: Vec<(String, Vec<usize>)> = names_of(&best, start.active.len());
-    for subset in short_subsets(&first, thresholds) {
-        let own: Vec<(String, Vec<usize>)> = subset
-            .iter()
-            .map(|c| (first.candidates[*c].effect.name().to_owned(), first.candidates[*c].form.wheels.clone()))
-            .collect();
-        let same = own.len() == greedy.len() && own.iter().all(|n| greedy.contains(n));
-        if same || own.len() > greedy.len().max(1) {
-            continue;
-        }
-        let other = forward(problem, &first, &subset, &all, thresholds);
-        if other.against(&best) < -2.0 {
-            best = other;
-        }
-        break;
-    }
+    let best = if known.is_empty() {
+        first(problem, start, &all, thresholds)
+    } else {
+        let bench = beginning(problem, start, known, &all, thresholds);
+        forward(problem, bench, start.active.len(), &all, thresholds)
+    };
     let best = backward(problem, best, start.active.len(), &all, thresholds);
-    let (best, changed) = swap(problem, best, start.active.len(), &all, thresholds);
-    if changed { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
+    let (best, swapped) = swap(problem, best, start.active.len(), &all, thresholds);
+    let (best, joined) = join(problem, best, start.active.len(), &all, thresholds);
+    if swapped || joined { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
+}
+
+/// The best of a greedy search and of one that begins with a pair or triple.
+fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Thresholds) -> Selection {
+    let from = start.active.len();
+    let first = Bench::new(problem, start, all, thresholds);
+    // A pair or triple that a greedy search may miss, from the first linearisation.
+    let subset: Vec<Active> = short_subset(&first, thresholds).map_or_else(Vec::new, |s| {
+        let fit = first.fit(&s);
+        s.iter().map(|c| placed(&first.candidates[*c], &first.values(&fit, *c))).collect()
+    });
+    let best = forward(problem, first, from, all, thresholds);
+    let greedy = &best.state.active[from..];
+    let alike = |a: &Active, b: &Active| a.effect.name() == b.effect.name() && a.form.wheels == b.form.wheels;
+    let same = subset.len() == greedy.len() && subset.iter().all(|a| greedy.iter().any(|b| alike(a, b)));
+    if subset.is_empty() || greedy.is_empty() || same || subset.len() > greedy.len() + 1 {
+        return best;
+    }
+    let larger = subset.len() > greedy.len();
+    let bench = beginning(problem, start, &subset, all, thresholds);
+    let other = forward(problem, bench, from, all, thresholds);
+    // What is larger must also stand on the held-out runs, every part of it beside the others.
+    let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
+    let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
+    if better && stands() { other } else { best }
+}
+
+/// The bench from which effects that are given go on.
+fn beginning(problem: &Problem, start: &State, given: &[Active], all: &[Active], thresholds: &Thresholds) -> Bench {
+    let mut state = start.clone();
+    state.active.extend_from_slice(given);
+    settle(problem, &mut state, all, thresholds)
+}
+
+/// Whether an effect of a selection passes the gates beside the others.
+fn admitted(problem: &Problem, found: &Selection, index: usize, all: &[Active], thresholds: &Thresholds) -> bool {
+    let mut without = found.state.clone();
+    let own = without.active.remove(index);
+    let bench = Bench::new(problem, &without, all, thresholds);
+    let is_own = |t: &Trial| {
+        let c = &bench.candidates[t.candidate];
+        c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
+    };
+    let gates = Gates::new(problem.link(), &bench, thresholds);
+    bench.trials(thresholds).iter().any(|t| is_own(t) && t.gain >= thresholds.gain && gates.pass(t))
 }
 
 /// The one effect that explains most where nothing may be adjusted but what is tiny: for a gap that matters
@@ -85,7 +134,7 @@ pub fn single(
     let all = candidates(start, catalogue, problem.link());
     let narrow = thresholds.narrow();
     let bench = Bench::new(problem, start, &all, &narrow);
-    let best = next(problem.link(), &bench, &narrow).filter(|t| t.material)?;
+    let best = next(problem.link(), &bench, &narrow, &[]).filter(|t| t.material && !t.beyond)?;
     let mut state = start.clone();
     state.active.push(placed(&bench.candidates[best.candidate], &best.values));
     let settled = settle(problem, &mut state, &all, thresholds);
@@ -142,12 +191,8 @@ fn swap(
     (best, changed)
 }
 
-fn names_of(selection: &Selection, first: usize) -> Vec<(String, Vec<usize>)> {
-    selection.state.active[first..].iter().map(|a| (a.effect.name().to_owned(), a.form.wheels.clone())).collect()
-}
-
-/// The best pair and the best triple by the linear objective, best first.
-fn short_subsets(bench: &Bench, thresholds: &Thresholds) -> Vec<Vec<usize>> {
+/// The best pair or triple by the linear objective.
+fn short_subset(bench: &Bench, thresholds: &Thresholds) -> Option<Vec<usize>> {
     let trials = bench.trials(thresholds);
     let mut list: Vec<usize> = Vec::new();
     for t in trials.iter().filter(|t| t.gain > 0.0) {
@@ -173,7 +218,7 @@ fn short_subsets(bench: &Bench, thresholds: &Thresholds) -> Vec<Vec<usize>> {
             s.iter().skip(i + 1).all(|b| bench.candidates[*a].effect.name() != bench.candidates[*b].effect.name())
         })
     };
-    let mut rated: Vec<(f64, Vec<usize>)> = subsets
+    let rated: Vec<(f64, Vec<usize>)> = subsets
         .into_par_iter()
         .filter(distinct)
         .filter_map(|s| {
@@ -185,45 +230,74 @@ fn short_subsets(bench: &Bench, thresholds: &Thresholds) -> Vec<Vec<usize>> {
             sound.then(|| (bench.objective(&fit, &s, thresholds), s))
         })
         .collect();
-    rated.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rated.into_iter().map(|r| r.1).take(1).collect()
+    rated.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|r| r.1)
 }
 
-/// Adds effects one after the other, beginning with `given` ones.
-fn forward(problem: &Problem, first: &Bench, given: &[usize], all: &[Active], thresholds: &Thresholds) -> Selection {
-    let mut state = first.state.clone();
-    if !given.is_empty() {
-        let fit = first.fit(given);
-        for c in given {
-            state.active.push(placed(&first.candidates[*c], &first.values(&fit, *c)));
-        }
-    }
-    let from = first.state.active.len();
-    let mut bench = None;
+/// Adds effects one after the other to those of a bench, those before `from` not its own.
+fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
+    let mut state = bench.state.clone();
+    let mut refused: Vec<usize> = Vec::new();
+    let mut beyond: Vec<usize> = Vec::new();
     loop {
-        let current = if state.active.len() == from {
-            Bench::new(problem, &first.state, all, thresholds)
-        } else {
-            settle(problem, &mut state, all, thresholds)
-        };
-        let bench_now = bench.insert(current);
-        if state.active.len() - from >= MOST {
-            break;
+        while state.active.len() - from < MOST {
+            let Some(next) = next(problem.link(), &bench, thresholds, &refused) else { break };
+            let mut active = placed(&bench.candidates[next.candidate], &next.values);
+            active.immaterial = !next.material;
+            let mut larger = state.clone();
+            // A richer form of the same effect takes its place.
+            larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
+            larger.active.push(active);
+            let settled = settle(problem, &mut larger, all, thresholds);
+            if !improves(&settled, &bench, from, thresholds) {
+                refused.push(next.candidate);
+                continue;
+            }
+            (state, bench) = (larger, settled);
+            if next.beyond {
+                beyond.push(next.candidate);
+            }
         }
-        let Some(next) = next(problem.link(), bench_now, thresholds) else { break };
-        let mut active = placed(&bench_now.candidates[next.candidate], &next.values);
-        active.immaterial = !next.material;
-        // A richer form of the same effect takes its place.
-        state.active.retain(|a| a.given || a.effect.name() != active.effect.name());
-        state.active.push(active);
+        // What the others do not bring back from its bound explains nothing.
+        let led = |a: &Active| beyond.iter().position(|c| all[*c].effect.name() == a.effect.name());
+        let Some(index) =
+            (from..state.active.len()).find(|i| led(&state.active[*i]).is_some() && stopped(&state.active[*i]))
+        else {
+            break;
+        };
+        if let Some(known) = led(&state.active.remove(index)) {
+            refused.push(beyond.swap_remove(known));
+        }
+        bench = settle(problem, &mut state, all, thresholds);
     }
-    let bench = bench.unwrap_or_else(|| Bench::new(problem, &state, all, thresholds));
     finish(state, bench, from, thresholds)
 }
 
+/// Whether an effect rests at a bound that is not its absence: what only helps beyond it explains nothing.
+fn stopped(active: &Active) -> bool {
+    active.form.free.iter().any(|p| {
+        let v = active.values.get(&p.name);
+        v != 0.0 && p.bounds.iter().any(|b| (v - b).abs() < 0.02 * p.scale)
+    })
+}
+
+/// Whether a straight line's promise is kept by the fit.
+fn improves(larger: &Bench, smaller: &Bench, from: usize, thresholds: &Thresholds) -> bool {
+    let variance = larger.variance.min(smaller.variance);
+    let objective = |bench: &Bench| {
+        let fit = bench.standing();
+        bench.linear.gram.loss_after(&fit.step) / variance + fit.penalty + cost(&bench.state, from, thresholds)
+    };
+    objective(larger) < objective(smaller)
+}
+
+/// Cost of the effects of a state from `from` on.
+fn cost(state: &State, from: usize, thresholds: &Thresholds) -> f64 {
+    state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum()
+}
+
 fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
-    let fit = bench.base();
-    let costs: f64 = state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum();
+    let fit = bench.near();
+    let costs = cost(&state, from, thresholds);
     Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench }
 }
 
@@ -241,73 +315,61 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
     let mut bench = Bench::new(problem, state, all, thresholds);
     for _ in 1..ROUNDS {
         let fit = bench.base();
-        let mut largest = 0.0_f64;
-        let mut trial = state.clone();
-        for (j, owner) in bench.linear.owners.iter().enumerate() {
-            let Owner::Active(index, parameter) = owner else { continue };
-            let p = &state.active[*index].form.free[*parameter];
-            let now = state.active[*index].values.get(&p.name);
-            let next = (now + fit.step[j]).clamp(p.bounds[0], p.bounds[1]);
-            largest = largest.max((next - now).abs() / p.scale);
-            trial.active[*index].values.set(&p.name, next);
-        }
-        if largest < 0.02 {
-            break;
-        }
-        let next = Bench::new(problem, &trial, all, thresholds);
-        let (a, b) = (bench.base(), next.base());
-        let before = bench.linear.gram.loss_after(&a.step) + a.penalty * bench.variance;
-        let after = next.linear.gram.loss_after(&b.step) + b.penalty * bench.variance;
-        if !after.is_finite() || after > before * 1.05 {
-            break;
-        }
-        *state = trial;
+        let Some(next) = stepped(problem, &bench, &fit.step, all, thresholds) else { break };
+        *state = next.state.clone();
         bench = next;
     }
     bench
 }
 
-/// The next effect to add, if any passes the gates.
-fn next(link: Link, bench: &Bench, thresholds: &Thresholds) -> Option<Trial> {
-    let trials = bench.trials(thresholds);
-    let without = bench.held_out(&[]);
-    let left_by_laws = bench.left_by_laws();
-    for t in trials.into_iter().take(8) {
-        if t.gain < thresholds.gain {
+/// The bench after a step of the named effects, or the half or a quarter of it, that does better; `None` if none
+/// does, or the step is too small to matter.
+fn stepped(
+    problem: &Problem,
+    bench: &Bench,
+    step: &DVector<f64>,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Bench> {
+    for part in [1.0, 0.5, 0.25] {
+        let mut largest = 0.0_f64;
+        let mut trial = bench.state.clone();
+        for (j, owner) in bench.linear.owners.iter().enumerate() {
+            let Owner::Active(index, parameter) = owner else { continue };
+            let p = &bench.state.active[*index].form.free[*parameter];
+            let now = bench.state.active[*index].values.get(&p.name);
+            let next = (now + part * step[j]).clamp(p.bounds[0], p.bounds[1]);
+            largest = largest.max((next - now).abs() / p.scale);
+            trial.active[*index].values.set(&p.name, next);
+        }
+        if largest < 0.02 {
             return None;
         }
-        // What is too small to be named brings no parameter along that nothing holds.
-        let loose = |p: &crate::effect::Parameter| p.material.is_infinite();
-        if !t.material && bench.candidates[t.candidate].form.free.iter().any(loose) {
-            continue;
-        }
-        let with = bench.held_out(&[t.candidate]);
-        // What is more than noise: an effect must explain a share of that.
-        let n = bench.linear.gram.n();
-        let passes = |without: &[f64], with: &[f64], t_needed: f64| {
-            let total: f64 = without.iter().sum();
-            let differences: Vec<f64> = without.iter().zip(with).map(|(a, b)| a - b).collect();
-            let sum: f64 = differences.iter().sum();
-            let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
-            let excess = (total - n).max(0.0);
-            sum >= thresholds.share(link) * total
-                && sum >= thresholds.share_of_excess * excess
-                && sum >= t_needed * spread
-                && sum >= LAW_SIGMAS * LAW_SIGMAS * left_by_laws
+        let next = Bench::new(problem, &trial, all, thresholds);
+        let variance = bench.variance.min(next.variance);
+        let standing = |b: &Bench| {
+            let fit = b.standing();
+            b.linear.gram.loss_after(&fit.step) / variance + fit.penalty
         };
-        let strong = t.gain > 50.0;
-        let by_run = passes(&without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 });
-        // What happens in one run only cannot be predicted from the others, but from its own parts.
-        let harmless: f64 = without.iter().zip(&with).map(|(a, b)| a - b).sum();
-        let by_block = strong
-            && harmless > -0.01 * without.iter().sum::<f64>()
-            && passes(&bench.held_out_blocks(&[]), &bench.held_out_blocks(&[t.candidate]), 1.0);
-        if !by_run && !by_block {
-            continue;
+        if standing(&next) < standing(bench) {
+            return Some(next);
         }
-        return Some(t);
     }
     None
+}
+
+/// The next effect to add, if any passes the gates.
+fn next(link: Link, bench: &Bench, thresholds: &Thresholds, refused: &[usize]) -> Option<Trial> {
+    let gates = Gates::new(link, bench, thresholds);
+    // What is too small to be named brings no parameter along that nothing holds.
+    let loose = |t: &Trial| {
+        let free = &bench.candidates[t.candidate].form.free;
+        !t.material && free.iter().any(|p| p.material.is_infinite())
+    };
+    let tried = bench.trials(thresholds).into_iter().filter(|t| !refused.contains(&t.candidate)).take(8);
+    // Where the straight line leads out of bounds its gain is a rough guess.
+    let sure = |t: &Trial| !t.beyond || t.gain > 2.0 * STRONG;
+    tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && sure(t) && gates.pass(t))
 }
 
 /// Drops effects whose removal costs little, and replaces forms by simpler ones.

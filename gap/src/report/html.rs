@@ -48,7 +48,7 @@ fn in_words(out: &mut String, a: &Analysis) {
         let _ = write!(out, "<li>{}</li>", escape(&words::effect(e)));
     }
     for set in &a.alternatives {
-        let _ = write!(out, "<li>These data cannot tell apart: {}.</li>", escape(&set.join(", ")));
+        let _ = write!(out, "<li>These data cannot tell apart: {}.</li>", escape(&words::tied(set)));
     }
     for u in &a.unexplained {
         let _ =
@@ -263,7 +263,7 @@ fn thin(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 fn limits(out: &mut String, a: &Analysis) {
-    out.push_str("<h2>Detection limits</h2><p class=\"s\">From this size on an effect is named in these data. Estimates below it that differ from 0 by more than two standard deviations are detectable but immaterial (bold).</p><div class=\"w\"><table><tr><th>effect</th><th>parameter</th><th>named from</th><th>estimate</th><th>standard deviation</th></tr>");
+    out.push_str("<h2>Detection limits</h2><p class=\"s\">An effect of this size, beside what is named already, is named in nine of ten such data sets; one that its twin or these drives hide is not listed. Estimates below it that differ from 0 by more than two standard deviations are detectable but immaterial (bold).</p><div class=\"w\"><table><tr><th>effect</th><th>parameter</th><th>named from</th><th>estimate</th><th>standard deviation</th></tr>");
     for l in &a.limits {
         let (b, e) = if l.estimate.abs() > 2.0 * l.sd { ("<b>", "</b>") } else { ("", "") };
         let _ = write!(
@@ -283,7 +283,7 @@ fn statement(out: &mut String, a: &Analysis) {
     let t = &a.thresholds;
     let _ = write!(
         out,
-        "<h2>How it was decided</h2><p>Fixed before fitting: motion is compared in windows of 1 s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves. Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.</p>",
+        "<h2>How it was decided</h2><p>Fixed before fitting: motion is compared in windows of 1 s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.</p>",
         100.0 * t.held_share,
         t.gain,
         100.0 * t.shares[0],

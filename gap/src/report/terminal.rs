@@ -40,7 +40,7 @@ pub(super) fn summary(a: &Analysis) -> String {
         }
     }
     for set in &a.alternatives {
-        wrap(&mut out, "  ", &format!("cannot be told apart: {}", set.join(", ")));
+        wrap(&mut out, "  ", &format!("cannot be told apart: {}", words::tied(set)));
     }
     for u in &a.unexplained {
         wrap(&mut out, "  ", &format!("unexplained ({}): {}", u.link.name(), u.structure));
@@ -64,7 +64,7 @@ pub(super) fn summary(a: &Analysis) -> String {
         wrap(&mut out, "  ", r);
     }
     if a.verdict == Verdict::Agrees {
-        out.push_str("\nWould be named from\n");
+        out.push_str("\nWould be named, nine times of ten, from\n");
         for l in &a.limits {
             let _ = writeln!(out, "  {:<22} {:<20} {:>10}", l.name, l.parameter, short(l.limit));
         }

@@ -54,6 +54,14 @@ pub(super) fn links(a: &Analysis) -> String {
     out
 }
 
+/// A set that cannot be told apart: a name, and one other or two that together do the same.
+pub(super) fn tied(set: &[String]) -> String {
+    match set {
+        [name, a, b] => format!("{name}, or {a} with {b}"),
+        _ => set.join(", "),
+    }
+}
+
 fn join(names: &[&str]) -> String {
     match names {
         [] => String::new(),

@@ -1,15 +1,20 @@
 //! A linearised link with all candidates: fits of any subset, their trials and covariances.
 
+use std::ops::Index;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::ALIKE;
 use crate::effect::{Effect, Link};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::{Ridge, RidgeFit, Role};
 use crate::state::{Active, State};
+
+/// Standard deviations of the named effects' laws that another effect must explain more than.
+const LAW_SIGMAS: f64 = 2.0;
 
 /// A linearised link with all candidates, ready for any question about subsets.
 pub struct Bench {
@@ -38,6 +43,8 @@ pub struct Trial {
     pub values: Vec<f64>,
     /// Whether any of them is material.
     pub material: bool,
+    /// Whether the straight line leads out of the bounds, at which the estimates were stopped.
+    pub beyond: bool,
 }
 
 /// The link's candidates: every form of every effect fitted there.
@@ -158,7 +165,7 @@ impl Bench {
     }
 
     /// The law of a large effect is not known to the last tenth: what looks like a named effect is
-    /// allowed a share of it without being named.
+    /// allowed a share of it without being named, less where the law is geometry.
     fn widen(&mut self, thresholds: &Thresholds) {
         let m = self.linear.owners.len();
         let jj = self.linear.gram.information();
@@ -168,6 +175,7 @@ impl Bench {
             if size2 <= 0.0 {
                 continue;
             }
+            let share = thresholds.law_share(self.state.active[index].effect.law_uncertainty());
             for c in 0..m {
                 let Role::Held(sd, at) = self.held[c] else { continue };
                 if jj[(c, c)] <= 0.0 {
@@ -175,20 +183,78 @@ impl Bench {
                 }
                 let overlap: f64 = columns.iter().zip(&p).map(|(a, x)| jj[(c, *a)] * x).sum();
                 let cos2 = overlap * overlap / (size2 * jj[(c, c)]);
-                let wide = thresholds.law_share * cos2 * (size2 / jj[(c, c)]).sqrt();
+                let wide = share * cos2 * (size2 / jj[(c, c)]).sqrt();
                 self.held[c] = Role::Held(sd.max(wide), at);
             }
         }
     }
 
-    /// What the laws of the named effects, none of them exact, may leave: a sum of squares in units of the noise.
-    pub(super) fn left_by_laws(&self) -> f64 {
+    /// What the laws of the named effects, none of them exact, may leave at two standard deviations: a sum of squares
+    /// in units of the noise.
+    pub fn left_by_laws(&self) -> f64 {
         let jj = self.linear.gram.information();
         let left = |index: usize| {
             let (columns, p) = whole(&self.linear, &self.state, index);
             self.state.active[index].effect.law_uncertainty().powi(2) * square(&jj, &columns, &p)
         };
-        (0..self.state.active.len()).map(left).sum()
+        LAW_SIGMAS * LAW_SIGMAS * (0..self.state.active.len()).map(left).sum::<f64>()
+    }
+
+    /// What some active effects do together, and what of it a candidate cannot do: sums of squares in units of the
+    /// variance.
+    pub fn left_by(&self, candidate: usize, indices: &[usize]) -> [f64; 2] {
+        self.beside(indices, &self.linear.of_candidate(candidate))
+    }
+
+    /// What an active effect does that another one cannot.
+    pub(super) fn own_part(&self, index: usize, other: usize) -> f64 {
+        self.beside(&[index], &whole(&self.linear, &self.state, other).0)[1]
+    }
+
+    fn beside(&self, indices: &[usize], others: &[usize]) -> [f64; 2] {
+        let jj = self.linear.gram.information();
+        let (mut columns, mut p) = (Vec::new(), Vec::new());
+        for index in indices {
+            let part = whole(&self.linear, &self.state, *index);
+            columns.extend(part.0);
+            p.extend(part.1);
+        }
+        let size2 = square(&jj, &columns, &p);
+        let a = DMatrix::from_fn(others.len(), others.len(), |i, j| jj[(others[i], others[j])]);
+        let b = nalgebra::DVector::from_fn(others.len(), |i, _| {
+            columns.iter().zip(&p).map(|(c, x)| jj[(others[i], *c)] * x).sum::<f64>()
+        });
+        let done = b.dot(&crate::gram::solve(&a, &b)).clamp(0.0, size2.max(0.0));
+        [size2 / self.variance, (size2 - done) / self.variance]
+    }
+
+    /// Whether a candidate does what an active effect does.
+    pub fn is_twin(&self, candidate: usize, index: usize) -> bool {
+        let [all, left] = self.left_by(candidate, &[index]);
+        left < (1.0 - ALIKE) * all
+    }
+
+    /// Decrease of the objective that naming a column brings for each square of its size, if it is what the data
+    /// hold: what is not named would have to be stretched for it.
+    pub fn gain_per_square(&self, column: usize, roles: &[Role]) -> f64 {
+        let roles: Vec<Role> =
+            roles.iter().map(|r| if let Role::Held(sd, _) = r { Role::Held(*sd, 0.0) } else { *r }).collect();
+        let fit = self.ridge().explain(column, &roles);
+        fit.loss + fit.penalty
+    }
+
+    /// What each cluster tells of a column that the named effects do not.
+    pub fn information_beside_named(&self, column: usize) -> Vec<f64> {
+        let jj = self.linear.gram.information();
+        let named: Vec<usize> = self.linear.active().into_iter().filter(|c| *c != column).collect();
+        let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
+        let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], column)]);
+        let x = crate::gram::solve(&a, &b);
+        let of = |k: &crate::gram::Cluster| {
+            let twice = 2.0 * named.iter().enumerate().map(|(i, c)| x[i] * k.jj[(*c, column)]).sum::<f64>();
+            k.jj[(column, column)] - twice + square(&k.jj, &named, x.as_slice())
+        };
+        self.linear.gram.clusters.iter().map(of).collect()
     }
 
     pub(super) fn ridge(&self) -> Ridge<'_> {
@@ -243,25 +309,83 @@ impl Bench {
         self.ridge().fit(&self.held)
     }
 
+    /// The fit with nothing freed in which named effects move no further than a straight line holds.
+    pub fn near(&self) -> RidgeFit {
+        let limits: Vec<[f64; 2]> = self
+            .linear
+            .owners
+            .iter()
+            .map(|owner| match *owner {
+                Owner::Active(index, j) => {
+                    let active = &self.state.active[index];
+                    let p = &active.form.free[j];
+                    let now = active.values.get(&p.name);
+                    [(p.bounds[0] - now).clamp(-p.scale, 0.0), (p.bounds[1] - now).clamp(0.0, p.scale)]
+                }
+                _ => [f64::NEG_INFINITY, f64::INFINITY],
+            })
+            .collect();
+        self.ridge().fit_within(&self.held, &limits)
+    }
+
+    /// Objective of the state as it stands, unnamed effects adjusted.
+    pub fn standing(&self) -> RidgeFit {
+        let still = |r: &Role| if *r == Role::Free { Role::Out } else { *r };
+        self.ridge().fit(&self.held.iter().map(still).collect::<Vec<_>>())
+    }
+
     /// The fit with some candidates freed.
     pub fn fit(&self, freed: &[usize]) -> RidgeFit {
         self.ridge().fit(&self.freeing(freed))
     }
 
-    /// Held-out losses per cluster with some candidates freed, and nothing held beside them.
-    pub fn held_out(&self, freed: &[usize]) -> Vec<f64> {
-        let bare: Vec<Role> =
-            self.freeing(freed).into_iter().map(|r| if r == Role::Free { r } else { Role::Out }).collect();
-        self.ridge().held_out(&bare)
+    /// The roles with one candidate freed, those of its parameters that the straight line leads out of their
+    /// bounds stopped there; `None` if it does not make sense at all.
+    fn inside(&self, ridge: &Ridge, c: usize) -> Option<(Vec<Role>, RidgeFit, bool)> {
+        let mut roles = self.freeing(&[c]);
+        let fit = ridge.fit(&roles);
+        if self.within_bounds(c, &self.values(&fit, c), &fit) {
+            return Some((roles, fit, false));
+        }
+        let candidate = &self.candidates[c];
+        let columns = self.linear.of_candidate(c);
+        if candidate.switched() {
+            return None;
+        }
+        for (p, column) in candidate.form.free.iter().zip(&columns) {
+            let x = fit.step[*column];
+            let stopped = x.clamp(p.bounds[0], p.bounds[1]);
+            if stopped == 0.0 && x != 0.0 {
+                // The other sign of what has one only.
+                return None;
+            }
+            if stopped != x {
+                roles[*column] = Role::At(stopped);
+            }
+        }
+        let fit = ridge.fit(&roles);
+        self.within_bounds(c, &self.values(&fit, c), &fit).then_some((roles, fit, true))
+    }
+
+    /// Roles with a candidate freed and nothing held beside it.
+    fn bare(&self, freed: Option<usize>) -> Vec<Role> {
+        let roles = match freed {
+            Some(c) => self.inside(&self.ridge(), c).map_or_else(|| self.freeing(&[c]), |i| i.0),
+            None => self.held.clone(),
+        };
+        roles.into_iter().map(|r| if matches!(r, Role::Held(..)) { Role::Out } else { r }).collect()
+    }
+
+    /// Held-out losses per cluster with a candidate freed, and nothing held beside it.
+    pub fn held_out(&self, freed: Option<usize>) -> Vec<f64> {
+        self.ridge().held_out(&self.bare(freed))
     }
 
     /// The same with parts of runs held out instead of runs.
-    pub fn held_out_blocks(&self, freed: &[usize]) -> Vec<f64> {
-        let bare: Vec<Role> =
-            self.freeing(freed).into_iter().map(|r| if r == Role::Free { r } else { Role::Out }).collect();
+    pub fn held_out_blocks(&self, freed: Option<usize>) -> Vec<f64> {
         let mut gram = self.linear.gram.clone();
         gram.folds = (0..gram.clusters.len()).map(|i| i % 5).collect();
-        Ridge::new(&gram, self.variance).held_out(&bare)
+        Ridge::new(&gram, self.variance).held_out(&self.bare(freed))
     }
 
     /// Estimated increase of the objective if an active effect went, or kept only some parameters.
@@ -325,12 +449,11 @@ impl Bench {
                     .all(|j| self.linear.gram.clusters.iter().any(|k| k.jj[(*j, *j)] > 0.0))
             })
             .filter(|c| !self.is_active(*c))
-            .map(|c| {
-                let fit = ridge.fit(&self.freeing(&[c]));
+            .filter_map(|c| {
+                let (_, fit, beyond) = self.inside(&ridge, c)?;
                 let values = self.values(&fit, c);
-                let within = self.within_bounds(c, &values, &fit);
-                let gain = if within { from - self.objective(&fit, &[c], thresholds) } else { f64::NEG_INFINITY };
-                Trial { candidate: c, gain, material: self.material(c, &values), values }
+                let gain = from - self.objective(&fit, &[c], thresholds);
+                Some(Trial { candidate: c, gain, material: self.material(c, &values), values, beyond })
             })
             .collect();
         // Equals keep the order of the catalogue.
@@ -360,16 +483,19 @@ impl Bench {
         })
     }
 
+    /// Size that a candidate's parameter must exceed beside its materiality threshold: more where a named effect of
+    /// the same look widened the margin.
+    pub fn margin(&self, c: usize, j: usize) -> f64 {
+        match self.linear.of_candidate(c).get(j).map(|j| self.held[*j]) {
+            Some(Role::Held(sd, _)) if !self.candidates[c].switched() => sd / self.held_share,
+            _ => 0.0,
+        }
+    }
+
     /// Whether an estimate exceeds the materiality threshold.
     pub fn material(&self, c: usize, values: &[f64]) -> bool {
-        let candidate = &self.candidates[c];
-        let columns = self.linear.of_candidate(c);
-        // Where a named effect of the same look widened the margin, it is wider here, too.
-        let margin = |j: usize| match columns.get(j).map(|j| self.held[*j]) {
-            Some(Role::Held(sd, _)) if !candidate.switched() => sd / self.held_share,
-            _ => 0.0,
-        };
-        candidate.form.free.iter().zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= margin(j))
+        let free = self.candidates[c].form.free.iter();
+        free.zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= self.margin(c, j))
     }
 
     /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
@@ -438,7 +564,7 @@ fn whole(linear: &Linear, state: &State, index: usize) -> (Vec<usize>, Vec<f64>)
 }
 
 /// Square of a step along some columns in units of the noise.
-fn square(jj: &DMatrix<f64>, columns: &[usize], p: &[f64]) -> f64 {
+fn square(jj: &impl Index<(usize, usize), Output = f64>, columns: &[usize], p: &[f64]) -> f64 {
     let row = |(a, x): (&usize, &f64)| columns.iter().zip(p).map(|(b, y)| jj[(*a, *b)] * x * y).sum::<f64>();
     columns.iter().zip(p).map(row).sum()
 }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::{Bench, Selection, Trial, finish, is_material, placed, settle};
+use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle};
 use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::Active;
@@ -78,6 +78,8 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         .filter(|t| bench.candidates[t.candidate].effect.name() == name)
         .map(|t| t.gain)
         .fold(0.0, f64::max);
+    // The same signal matters as much under any name.
+    let twin = |c: usize| found.bench.is_twin(c, index);
     let mut sets: Vec<Vec<String>> = Vec::new();
     let mut ambiguous = false;
     let mut tried: Vec<String> = vec![name.clone()];
@@ -92,7 +94,7 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         let shapes = tried.iter().filter(|n| **n == rival_name).count();
         if told.contains(&rival_name)
             || shapes >= MOST_SHAPES
-            || !t.material
+            || !(t.material || twin(t.candidate))
             || without.active.iter().any(|a| a.effect.name() == rival_name)
         {
             continue;
@@ -108,16 +110,20 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         // Without the price of parameters: what the data say.
         let difference = rival.against(found) + own_cost - rival_cost;
         let tie = thresholds.tie(own_gain).max(TIED);
-        if difference < tie.max(DOUBTFUL) && is_material(candidate, &values) {
+        if difference < tie.max(DOUBTFUL) && (twin(t.candidate) || is_material(candidate, &values)) {
             sets.push(vec![name.clone(), rival_name.clone()]);
             told.push(rival_name.clone());
             let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == rival_name);
             ambiguous |= difference < tie && candidate.form.free.len() <= own.form.free.len() && !preferred;
         }
     }
-    if sets.is_empty() {
-        sets.extend(pair_rivals(&bench, &trials, &name, own_gain, thresholds));
+    for other in twins_of_parts(&found.bench, index) {
+        if !told.contains(&other) {
+            sets.push(vec![name.clone(), other.clone()]);
+            told.push(other);
+        }
     }
+    sets.extend(pair_rivals(&bench, &trials, &told, own_gain, thresholds));
     Rivals { bench, sets, ambiguous }
 }
 
@@ -127,30 +133,59 @@ const MOST_TRIED: usize = 6;
 
 /// Objectives closer than this are a tie.
 const TIED: f64 = 6.0;
-/// Closer than this a rival is listed beside the named effect (Kass and Raftery 1995: very strong from 10).
-const DOUBTFUL: f64 = 10.0;
 
-/// Two effects that together do what one does.
+/// Effects of one wheel that do what an effect of several does on that wheel.
+fn twins_of_parts(bench: &Bench, index: usize) -> Vec<String> {
+    let active = &bench.state.active[index];
+    let parts: Vec<usize> = bench.linear.of_active(index);
+    let material = |j: &usize| active.form.free[*j].is_material(active.values.get(&active.form.free[*j].name));
+    if active.form.wheels.len() < 2 || (0..parts.len()).filter(material).count() < 2 {
+        return Vec::new();
+    }
+    let jj = bench.linear.gram.information();
+    let alike = |c: usize, j: usize| {
+        let [column] = bench.linear.of_candidate(c)[..] else { return false };
+        let own = active.values.get(&active.form.free[j].name);
+        let size = own * jj[(parts[j], column)] / jj[(column, column)].max(1e-300);
+        let bounds = bench.candidates[c].form.free[0].bounds;
+        let cos2 = jj[(parts[j], column)].powi(2) / (jj[(parts[j], parts[j])] * jj[(column, column)]).max(1e-300);
+        cos2 > ALIKE && size > bounds[0] && size < bounds[1]
+    };
+    let twins = (0..bench.candidates.len()).filter(|c| {
+        let candidate = &bench.candidates[*c];
+        candidate.effect.name() != active.effect.name()
+            && !candidate.switched()
+            && (0..parts.len()).filter(material).any(|j| alike(*c, j))
+    });
+    let mut names: Vec<String> = twins.map(|c| bench.candidates[c].effect.name().to_owned()).collect();
+    names.dedup();
+    names
+}
+
+/// Two effects that together do what the first of the `told` does, neither of them told already.
 fn pair_rivals(
     bench: &Bench,
     trials: &[Trial],
-    name: &str,
+    told: &[String],
     own_gain: f64,
     thresholds: &Thresholds,
 ) -> Option<Vec<String>> {
-    let others: Vec<usize> = trials
+    let effect = |c: usize| bench.candidates[c].effect.name();
+    let mut others: Vec<usize> = trials
         .iter()
-        .filter(|t| bench.candidates[t.candidate].effect.name() != name && t.gain > 0.0)
+        .filter(|t| !told.iter().any(|n| n == effect(t.candidate)) && !t.beyond && t.gain > 0.0)
         .map(|t| t.candidate)
         .take(14)
         .collect();
+    // Of equals the simplest, and what comes first in the catalogue.
+    others.sort_unstable();
     let base = bench.base();
     let from = base.loss + base.penalty;
     let pairs: Vec<(usize, usize)> =
         others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (*a, *b))).collect();
-    let best = pairs
+    let gains: Vec<(f64, usize, usize)> = pairs
         .into_par_iter()
-        .filter(|(a, b)| bench.candidates[*a].effect.name() != bench.candidates[*b].effect.name())
+        .filter(|(a, b)| effect(*a) != effect(*b))
         .filter_map(|(a, b)| {
             let fit = bench.fit(&[a, b]);
             let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
@@ -160,7 +195,10 @@ fn pair_rivals(
             });
             (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, a, b))
         })
-        .max_by(|x, y| x.0.total_cmp(&y.0))?;
-    let n = |c: usize| bench.candidates[c].effect.name().to_owned();
-    Some(vec![name.to_owned(), n(best.1), n(best.2)])
+        .collect();
+    let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
+    let parameters =
+        |g: &&(f64, usize, usize)| bench.candidates[g.1].form.free.len() + bench.candidates[g.2].form.free.len();
+    let (_, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
+    Some([&told[0], effect(*a), effect(*b)].map(str::to_owned).to_vec())
 }

@@ -4,6 +4,8 @@ mod catalogue;
 mod common;
 mod drive;
 mod experiment;
+mod margins;
+mod pairs;
 mod partial;
 
 use common::{RICH, example, names, simulate, value, with};

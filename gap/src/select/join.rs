@@ -1,0 +1,67 @@
+//! One effect in place of two that together look like it.
+
+use super::{DOUBTFUL, Selection, finish, settle, stopped};
+use crate::options::Thresholds;
+use crate::problem::Problem;
+use crate::state::Active;
+
+/// Share of what either of two effects adds to the other that one in place of both may leave.
+const DOES_BOTH: f64 = 0.1;
+/// Effects that are tried in place of two.
+const JOINTS: usize = 3;
+
+/// Replaces two effects by one that looks like both together: of explanations that cannot be told apart the simplest
+/// is named.
+pub(super) fn join(
+    problem: &Problem,
+    mut best: Selection,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> (Selection, bool) {
+    let mut changed = false;
+    while let Some(simpler) = joined(problem, &best, from, all, thresholds) {
+        best = simpler;
+        changed = true;
+    }
+    (best, changed)
+}
+
+fn joined(
+    problem: &Problem,
+    best: &Selection,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let active = &best.state.active;
+    let bench = &best.bench;
+    let worth: Vec<usize> = (from..active.len()).filter(|i| active[*i].worth() && !active[*i].effect.probe()).collect();
+    let pairs = worth.iter().enumerate().flat_map(|(i, a)| worth[i + 1..].iter().map(move |b| [*a, *b]));
+    for [a, b] in pairs {
+        let most = active[a].form.free.len() + active[b].form.free.len();
+        // What either adds to the other.
+        let added = bench.own_part(a, b).min(bench.own_part(b, a));
+        let fits = |c: &usize| {
+            let candidate = &all[*c];
+            let named = active.iter().any(|o| o.effect.name() == candidate.effect.name());
+            candidate.form.free.len() < most && !named && !candidate.effect.probe() && !candidate.switched()
+        };
+        let left = |c: usize| (bench.left_by(c, &[a, b])[1], c);
+        let mut alike: Vec<(f64, usize)> = (0..all.len()).filter(fits).map(left).collect();
+        alike.retain(|(left, _)| *left < DOES_BOTH * added);
+        alike.sort_by(|x, y| x.0.total_cmp(&y.0));
+        for (_, c) in alike.into_iter().take(JOINTS) {
+            let mut state = best.state.clone();
+            state.active.remove(b);
+            state.active[a] = all[c].clone();
+            let settled = settle(problem, &mut state, all, thresholds);
+            let rival = finish(state, settled, from, thresholds);
+            let sound = rival.state.active[a].worth() && !stopped(&rival.state.active[a]);
+            if sound && rival.against(best) < DOUBTFUL {
+                return Some(rival);
+            }
+        }
+    }
+    None
+}

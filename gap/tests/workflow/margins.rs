@@ -1,0 +1,67 @@
+//! The margins that unnamed effects have about zero, and what they must not swallow.
+
+use std::sync::Arc;
+
+use super::common::{RICH, cut, names, simulate, with};
+use gap::effect::{Effect, Link};
+use gap::motion::MotionLink;
+use gap::options::Thresholds;
+use gap::pieces::{PIECE, segments};
+use gap::problem::{Owner, Problem};
+use gap::ridge::Role;
+use gap::select::{Bench, candidates};
+use gap::state::State;
+use gap::{Options, analyse};
+use model::robot::Robot;
+use model::run::{DataSet, Logs};
+
+fn short(truth: &Robot, seed: u64) -> DataSet {
+    let mut set = simulate(truth, &RICH, seed);
+    set.runs.iter_mut().for_each(|r| cut(r, 6.0));
+    set
+}
+
+/// Margins so wide that adjustments could close a gap of centimetres without any of them being named.
+#[test]
+fn a_gap_that_matters_as_a_whole_gets_a_name() {
+    let thresholds = Thresholds { held_share: 6.0, ..Thresholds::default() };
+    let options = Options { thresholds, ..Options::default() };
+    let a = analyse(&short(&with(&Robot::racbot(), "wheel-radius-common", &[("scale", 0.06)]), 71), &options).unwrap();
+    let twins = a.alternatives.concat();
+    let told = names(&a) == ["wheel-radius-common"] || twins.iter().any(|n| n == "wheel-radius-common");
+    assert!(names(&a).len() == 1 && told, "{}", a.terminal_summary());
+}
+
+/// Counts may be lost from any of many speeds on, but the loss is one: its margin is not theirs added up.
+#[test]
+fn one_effect_at_many_thresholds_has_one_margin() {
+    let set = short(&Robot::racbot(), 72);
+    let state = State { robot: set.robot.clone(), active: Vec::new() };
+    let logs = Logs::from(&set);
+    let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &logs.logs, PIECE);
+    let link = MotionLink::new(&pieces, [1.5e-3, 1.5e-3, 9e-3], 1.0);
+    let catalogue: Vec<Arc<dyn Effect>> = vec![gap::effects::find("encoder-loss").unwrap().into()];
+    let all = candidates(&state, &catalogue, Link::Motion);
+    let thresholds = Thresholds::default();
+    let bench = Bench::new(&Problem::Motion(&link), &state, &all, &thresholds);
+    let jj = bench.linear.gram.information();
+    let own = |c: &usize| match bench.linear.owners[*c] {
+        Owner::Candidate(k, 0) => all[k].form.wheels == [0] && jj[(*c, *c)] > 0.0,
+        _ => false,
+    };
+    let columns: Vec<usize> = (0..bench.linear.owners.len()).filter(own).collect();
+    // What all thresholds together may do in place of the loss at the third of them, as a variance.
+    let of = columns[2];
+    let roles = bench.roles();
+    let together: f64 = columns
+        .iter()
+        .map(|c| match roles[*c] {
+            Role::Held(sd, _) => (sd * jj[(*c, of)] / jj[(of, of)]).powi(2),
+            _ => 0.0,
+        })
+        .sum();
+    let alone = thresholds.held_share * 0.02;
+    let like = columns.iter().filter(|c| jj[(**c, of)].powi(2) > 0.5 * jj[(**c, **c)] * jj[(of, of)]).count();
+    assert!(like >= 4, "{like} of {} look like it", columns.len());
+    assert!(together.sqrt() < 1.2 * alone, "{} instead of {alone}", together.sqrt());
+}
