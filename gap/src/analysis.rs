@@ -3,6 +3,7 @@
 mod driven;
 mod gaps;
 mod order;
+mod patterns;
 mod robot_file;
 
 use std::sync::Arc;
@@ -22,6 +23,7 @@ use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
 use order::{ORDER, order_named, wheel_order};
+use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
 
 pub use driven::{Driven, Moment};
@@ -164,6 +166,9 @@ const SHOWN: usize = 4;
 
 /// Share of the stall torque beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
+
+/// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
+const SEEN: f64 = 2.0;
 
 /// Analyses a data set in memory.
 ///
@@ -309,9 +314,17 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 unexplained.push(Leftover { link: Link::Drive, structure });
             }
             thresholds.drive_correlation = correlation;
+            // What a camera would have shown is not deduced from duties.
+            let shown = |e: &Arc<dyn Effect>| {
+                let own = limits.iter().filter(|l: &&Limit| l.name == e.name());
+                e.also() == Some(Link::Drive)
+                    && own.clone().count() > 0
+                    && own.clone().all(|l| l.limit < SEEN * l.material)
+            };
+            let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
             let matters = |floor: &[f64]| gaps::drive_matters(floor, stall);
             let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
-                chosen(&Problem::Drive(link), &start, known, &catalogue, thresholds, matters(floor))
+                chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
             };
             let from = start.active.len();
             let mut selection = looked(&link, &thresholds, &[], &floor);
@@ -328,8 +341,20 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 thresholds.drive_correlation = correlation;
                 selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
             }
-            let outcome = study(&Problem::Drive(&link), [&nominal, &start], selection, &catalogue, &thresholds);
+            let mut outcome = study(&Problem::Drive(&link), [&nominal, &start], selection, &here, &thresholds);
             drive_noise.clone_from(&floor);
+            let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
+                .filter(|r| !slides && robot.effect(&r.name).is_none());
+            if rattling.is_some() && !outcome.named.is_empty() {
+                let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
+                remarks.push(format!(
+                    "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
+                    names.join(", ")
+                ));
+                (outcome.after, outcome.ambiguous) = (outcome.before, false);
+                outcome.named.clear();
+                outcome.sets.clear();
+            }
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
             located.extend(crate::locate::drive(&link, &before, &floor, stall));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
@@ -352,6 +377,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none() && !slides) {
                 named.push(ripple_named(&ripple, &catalogue));
             }
+            if rattling.is_some() && motion_plots.is_none() {
+                // Sliding wheels shake, too; a camera would have seen that.
+                alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
+            }
+            named.extend(rattling);
             collect(
                 &outcome,
                 Link::Drive,
@@ -487,28 +517,6 @@ impl Misses {
 
 /// Share of the explained gap that the inexactness of a law may leave as structure.
 const LAW_LEAVES: f64 = 0.05;
-
-fn ripple_named(ripple: &crate::leftover::Ripple, catalogue: &[Arc<dyn Effect>]) -> Named {
-    let n = ripple.wheels.len().max(1) as f64;
-    let amplitude = (ripple.wheels.iter().map(|w| w.1 * w.1).sum::<f64>() / n).sqrt();
-    let sd = (ripple.wheels.iter().map(|w| w.2 * w.2).sum::<f64>()).sqrt() / n;
-    // Amplitudes of single wheels scatter by more than noise: load, speed, slip of the rollers.
-    let half = 1.96 * sd.hypot(0.06 * amplitude);
-    let count = ripple.count as f64;
-    let equation = catalogue.iter().find(|e| e.name() == "roller-ripple").map_or("", |e| e.equation());
-    Named {
-        name: "roller-ripple".to_owned(),
-        equation: equation.to_owned(),
-        link: Link::Drive,
-        wheels: ripple.wheels.iter().map(|w| w.0 + 1).collect(),
-        parameters: vec![
-            ("amplitude".to_owned(), amplitude, [amplitude - half, amplitude + half]),
-            ("count".to_owned(), count, [count; 2]),
-        ],
-        gain: 0.0,
-        p_value: ripple.p_value,
-    }
-}
 
 /// A link's selection with everything that is said about it.
 struct Outcome {

@@ -2,6 +2,11 @@
 
 use crate::robot::Robot;
 
+/// Relative growth of a copper winding's resistance, 1/K.
+pub const COPPER_PER_K: f64 = 0.0039;
+/// Relative loss of flux of neodymium magnets, 1/K (reversible, N-grades: 0.10 to 0.12 %).
+pub const MAGNET_PER_K: f64 = 0.0011;
+
 /// Everything between duty and wheel shaft, in wheel-shaft quantities.
 ///
 /// The winding's inductance is neglected: its time constant L/R is 23 µs (45 µH, 1.94 Ω), a

@@ -4,8 +4,8 @@ import math
 
 import mechanics
 import mujoco
+import numpy as np
 from mechanics import STEP_S
-from robot import WHEELS
 
 SETTLE_S = 0.3
 HOLDING_TORQUE = 0.05  # of the wheels while the robot settles, Nm
@@ -17,12 +17,17 @@ class Body:
     def __init__(self, nominal, plant, rng, wall):
         self.model = m = mujoco.MjModel.from_xml_string(mechanics.xml(nominal, plant, wall))
         self.data = d = mujoco.MjData(m)
-        wheels = [m.joint(f"wheel{i + 1}").id for i in range(WHEELS)]
+        wheels = [m.joint(f"wheel{i + 1}").id for i in range(plant.wheels)]
+        roller = {m.body(f"wheel{i + 1}").id: i for i in range(plant.wheels)}
+        owner = {g: roller.get(int(m.body_parentid[m.geom_bodyid[g]])) for g in range(m.ngeom)}
+        self.wheel_of = {g: i for g, i in owner.items() if i is not None}
+        self.drives = [a - math.pi / 2 for a in nominal.mounts]
         self.dof = [int(m.jnt_dofadr[j]) for j in wheels]
         self.place = [int(m.jnt_qposadr[j]) for j in wheels]
         touching = 0.9 + 250.0 * plant.contact_time  # rollers a wheel that drag at a time: measured, 1.3 to 1.5
-        for i in range(WHEELS):
-            d.qpos[self.place[i]] = rng.uniform(0.0, 2.0 * math.pi)
+        self.wheels = plant.wheels
+        for i in range(plant.wheels):
+            d.qpos[self.place[i]] = 0.0 if plant.same_start else rng.uniform(0.0, 2.0 * math.pi)
             for k in range(mechanics.ROLLERS):
                 dof = m.jnt_dofadr[m.joint(f"roller{i + 1}_{k}").id]
                 m.dof_frictionloss[dof] = plant.roller_drag[i] * mechanics.ROLLER_RADIUS_M / touching
@@ -62,11 +67,26 @@ class Body:
         """One step of the engine under torques and limits of dry friction at the shafts and a force on the chassis."""
         m, d = self.model, self.data
         self.speeds = self.wheel_speeds()
-        for i in range(WHEELS):
+        for i in range(self.wheels):
             d.qfrc_applied[self.dof[i]] = torques[i]
             m.dof_frictionloss[self.dof[i]] = limits[i]
         d.qfrc_applied[0], d.qfrc_applied[1] = force
         mujoco.mj_step(m, d)
+
+    def tractions(self):
+        """Force of the floor along each wheel's drive direction, N."""
+        m, d = self.model, self.data
+        heading, force, out = self.heading(), np.zeros(6), [0.0] * self.wheels
+        for k in range(d.ncon):
+            contact = d.contact[k]
+            wheel = self.wheel_of.get(int(contact.geom2), self.wheel_of.get(int(contact.geom1)))
+            if wheel is None:
+                continue
+            mujoco.mj_contactForce(m, d, k, force)
+            world = contact.frame.reshape(3, 3).T @ force[:3]
+            a = heading + self.drives[wheel]
+            out[wheel] += world[0] * math.cos(a) + world[1] * math.sin(a)
+        return out
 
     def accelerations(self):
         """Of the wheels over the last step, rad/s²."""

@@ -3,6 +3,20 @@
 import math
 
 
+def at(path, t, step):
+    """Pose at `t` s, between samples."""
+    place = max(t / step, 0.0)
+    k = min(int(place), len(path) - 2)
+    part = min(place - k, 1.0)
+    return [a + part * (b - a) for a, b in zip(path[k], path[k + 1], strict=True)]
+
+
+def speed(path, t, step):
+    """Of the robot over 20 ms about `t` s, m/s."""
+    a, b = at(path, t - 0.01, step), at(path, t + 0.01, step)
+    return math.hypot(b[0] - a[0], b[1] - a[1]) / 0.02
+
+
 class Camera:
     """Takes frames of a pose (x, y, heading) that it is told of at every step of the engine."""
 
@@ -17,6 +31,8 @@ class Camera:
             k += 1
             if stamp >= seconds - 0.001:
                 break
+            if plant.lost_frames and rng.random() < plant.lost_frames:
+                continue
             capture = stamp - plant.camera_latency
             logged = stamp * (1.0 + plant.stamp_drift) + (
                 rng.gauss(0.0, plant.stamp_jitter) if plant.stamp_jitter else 0.0
@@ -31,10 +47,10 @@ class Camera:
         """Logged rows {tick: (x, y, heading)} from a path sampled every `step` s."""
         p, rows = self.plant, {}
         for capture, tick in self.frames:
-            place = max(capture / step, 0.0)
-            k = min(int(place), len(path) - 2)
-            part = min(place - k, 1.0)
-            x, y, heading = (a + part * (b - a) for a, b in zip(path[k], path[k + 1], strict=True))
+            if p.camera_latency_per_speed:
+                capture -= p.camera_latency_per_speed * speed(path, capture, step)
+            x, y, heading = at(path, capture, step)
+            x, y = x + p.camera_drift[0] * capture, y + p.camera_drift[1] * capture
             mx, my = p.marker_offset
             c, s = math.cos(heading), math.sin(heading)
             x, y = x + c * mx - s * my, y + s * mx + c * my

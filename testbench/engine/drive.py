@@ -3,7 +3,6 @@
 import math
 
 from mechanics import STEP_S
-from robot import WHEELS
 
 MESH_STIFFNESS = 60.0  # Nm/rad at the wheel shaft, where there is play
 MESH_DAMPING = 0.004  # Nm s/rad
@@ -37,16 +36,16 @@ class Rotor:
 
 
 class Drive:
-    """Three drives on one battery."""
+    """All drives on one battery."""
 
     def __init__(self, nominal, plant, angles):
         self.plant = plant
         g = nominal.gear_ratio
         self.constant = nominal.torque_constant * plant.torque_constant_scale * g
         self.resistance = nominal.resistance * plant.resistance_scale
-        self.heat = [0.0] * WHEELS
+        self.heat = [0.0] * plant.wheels
         self.motor_friction = nominal.motor_friction * g
-        self.loss = 1.0 - nominal.gear_efficiency
+        self.loss = 1.0 - nominal.gear_efficiency - plant.gear_efficiency_more
         self.rotor_inertia = nominal.rotor_inertia * plant.rotor_inertia_scale * g * g
         self.open_voltage = nominal.supply - plant.battery_drop
         self.voltage = self.open_voltage
@@ -62,12 +61,13 @@ class Drive:
     def step(self, duties, angles, speeds, accelerations):
         """Torques at the wheel shafts and the limits of dry friction there, Nm."""
         p = self.plant
-        torques, limits = [0.0] * WHEELS, [0.0] * WHEELS
+        torques, limits = [0.0] * p.wheels, [0.0] * p.wheels
         load = 0.0
-        for i in range(WHEELS):
+        for i in range(p.wheels):
             u, w = duties[i], speeds[i]
             if p.dead_band > 0.0:
                 u = math.copysign(max(abs(u) - p.dead_band, 0.0), u)
+            u *= 1.0 + p.drive_curve * (abs(u) - 1.0)
             rotor = self.rotors[i]
             resistance = self.resistance * (1.0 + p.heating_per_joule * self.heat[i])
             current = (u * self.voltage - self.constant * (rotor.speed if rotor else w)) / resistance

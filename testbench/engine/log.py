@@ -1,6 +1,10 @@
 """The text of a run, as in the example logs."""
 
-HEADER = "t,cmd_vx,cmd_vy,cmd_w,ref_1,ref_2,ref_3,enc_1,enc_2,enc_3,duty_1,duty_2,duty_3,supply_v,cam_x,cam_y,cam_theta"
+
+def header(wheels, with_duty):
+    """The names of the columns."""
+    of = [f"{stem}_{i + 1}" for stem in ("ref", "enc", *(["duty"] if with_duty else [])) for i in range(wheels)]
+    return ",".join(["t", "cmd_vx", "cmd_vy", "cmd_w", *of, "supply_v", "cam_x", "cam_y", "cam_theta"])
 
 
 def decimals(value, places):
@@ -9,15 +13,15 @@ def decimals(value, places):
     return "0" if text in ("-0", "") else text
 
 
-def text(rows, frames):
+def text(rows, frames, with_duty=True):
     """Rows (t, command, references, counts, duties, supply), frames {row: pose}."""
-    lines = [HEADER]
+    lines = [header(len(rows[0][2]), with_duty)]
     for number, (t, command, references, counts, duties, supply) in enumerate(rows):
         cells = [decimals(t, 3)]
         cells += [decimals(c, 3) for c in command]
         cells += [decimals(r, 2) for r in references]
         cells += [str(c) for c in counts]
-        cells += [decimals(u, 3) for u in duties]
+        cells += [decimals(u, 3) for u in duties] if with_duty else []
         cells.append(decimals(supply, 2))
         cells += [decimals(c, 4) for c in frames[number]] if number in frames else ["", "", ""]
         lines.append(",".join(cells))

@@ -12,13 +12,15 @@ from pathlib import Path
 import run
 import effects
 import excitation
-from robot import WHEELS, Nominal, Plant
+import variety
+from robot import Nominal, Plant
 
 
-def usual(rng):
+def usual(rng, nominal):
     """What is in every set, drawn."""
-    plant = Plant()
-    plant.roller_drag = [rng.uniform(0.06, 0.09) for _ in range(WHEELS)]
+    plant = Plant(nominal)
+    weight = nominal.mass / 2.4
+    plant.roller_drag = [weight * rng.uniform(0.06, 0.09) for _ in range(nominal.wheels)]
     plant.friction = rng.uniform(0.75, 1.0)
     plant.contact_time = rng.uniform(0.0016, 0.0024)
     plant.grip = effects.between(rng, 4.0, 20.0)
@@ -41,24 +43,37 @@ def wall_across(commands, rng):
     return math.atan2(far[1], far[0]), 0.085 + rng.uniform(0.5, 0.8) * reach
 
 
-def make(folder, truth, seed, names):
-    """Writes the set; the same arguments give the same bytes."""
-    rng = random.Random(f"{seed} {' '.join(names)}")
-    nominal, plant = Nominal(), usual(rng)
+def make(folder, truth, seed, names, varied=False):
+    """Writes the set; the same arguments give the same bytes. `varied`: another robot, other rates, another camera."""
+    rng = random.Random(f"{seed} {' '.join(names)}{' varied' if varied else ''}")
+    nominal = variety.robot(rng) if varied else Nominal()
+    plant = usual(rng, nominal)
+    seconds = variety.log(rng, plant, names) if varied else [round(rng.uniform(6.0, 8.0), 1) for _ in range(4)]
     if "gear-backlash" in names:
         nominal.kp *= 0.3  # with the usual gain a rotor rattles in its play
     hidden = [effects.hide(name, rng, plant) for name in names]
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "robot.toml").write_text(nominal.toml())
     runs = []
-    for number, family in enumerate(excitation.FAMILIES, 1):
-        pattern, seconds = rng.choice(family), round(rng.uniform(6.0, 8.0), 1)
-        commands = excitation.commands(pattern, seconds, rng)
+    meter = run.CreepMeter() if "wheel-creep" in names else None
+    for number, length in enumerate(seconds, 1):
+        pattern = rng.choice(excitation.FAMILIES[(number - 1) % len(excitation.FAMILIES)])
+        commands = excitation.commands(pattern, length, rng)
         wall = wall_across(commands, rng) if plant.wall else None
         name = f"run_{number:02}.csv"
-        (folder / name).write_text(run.simulate(nominal, plant, commands, rng, wall))
-        runs.append({"file": name, "excitation": pattern, "seconds": seconds})
-    answer = {"seed": seed, "hidden": hidden, "supply_measured": plant.supply_measured, "runs": runs}
+        (folder / name).write_text(run.simulate(nominal, plant, commands, rng, wall, meter))
+        runs.append({"file": name, "excitation": pattern, "seconds": length})
+    for effect in hidden:
+        if effect["name"] == "wheel-creep":
+            effect["parameters"]["creep_s_per_kg"] = meter.creep()
+    answer = {
+        "seed": seed,
+        "hidden": hidden,
+        "supply_measured": plant.supply_measured,
+        "duty_logged": plant.duty_logged,
+        "camera": {"rate": nominal.camera_rate, "noise": plant.camera_noise, "lost": plant.lost_frames},
+        "runs": runs,
+    }
     truth.parent.mkdir(parents=True, exist_ok=True)
     truth.write_text(json.dumps(answer, indent=1) + "\n")
 
@@ -71,12 +86,13 @@ def main():
     parser.add_argument(
         "--hide", default="", help=f"comma-separated: {', '.join([*effects.CATALOGUE, *effects.OUTSIDE])}"
     )
+    parser.add_argument("--varied", action="store_true", help="another robot, other rates, another camera")
     arguments = parser.parse_args()
     names = [n for n in arguments.hide.split(",") if n]
     for name in names:
         if name not in effects.CATALOGUE and name not in effects.OUTSIDE:
             parser.error(f"{name}: no such effect; --help lists them")
-    make(arguments.out, arguments.truth, arguments.seed, names)
+    make(arguments.out, arguments.truth, arguments.seed, names, arguments.varied)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,6 @@
-"""The robot as a rigid-body model in MuJoCo's XML: a chassis, three wheels, fifteen rollers each, a floor."""
+"""The robot as a rigid-body model in MuJoCo's XML: a chassis, its wheels, fifteen rollers each, a floor."""
 
 import math
-
-from robot import MOUNTS, WHEELS
 
 STEP_S = 0.0002
 ROLLERS = 15
@@ -21,8 +19,8 @@ def roller_half_length(wheel_radius):
     return half_pitch / math.sqrt(1.0 - (1.0 - sagitta / ROLLER_RADIUS_M) ** 2)
 
 
-def wheel_xml(i, azimuth, direction, body_radius, radius):
-    """Wheel `i`: hinge along its axle, local x along the drive direction, rollers on a ring."""
+def wheel_xml(i, azimuth, direction, body_radius, radius, eccentricity):
+    """Wheel `i`: hinge along its axle, local x along the drive direction, rollers on a ring that may be off centre."""
     px, py = body_radius * math.cos(azimuth), body_radius * math.sin(azimuth)
     dx, dy = math.cos(direction), math.sin(direction)
     ring, half = radius - ROLLER_RADIUS_M, roller_half_length(radius)
@@ -32,7 +30,7 @@ def wheel_xml(i, azimuth, direction, body_radius, radius):
         a = 2.0 * math.pi * k / ROLLERS
         c, s = math.cos(a), math.sin(a)
         rollers.append(f"""
-      <body pos="{ring * c:.9g} {ring * s:.9g} 0" xyaxes="{-s:.9g} {c:.9g} 0 0 0 1">
+      <body pos="{ring * c + eccentricity * radius:.9g} {ring * s:.9g} 0" xyaxes="{-s:.9g} {c:.9g} 0 0 0 1">
         <inertial pos="0 0 0" mass="{ROLLER_MASS_KG}" diaginertia="{inertia:g} {inertia:g} {inertia:g}"/>
         <joint name="roller{i}_{k}" axis="1 0 0" class="roller"/>
         <geom type="ellipsoid" size="{half:.9g} {ROLLER_RADIUS_M} {ROLLER_RADIUS_M}" class="roller"/>
@@ -58,8 +56,8 @@ def xml(nominal, plant, wall=None):
     """The whole model. Chassis mass and inertia make the totals those of the nominal robot times the plant's scales."""
     body_radius = nominal.body_radius * plant.body_radius_scale
     wheel_mass = HUB_MASS_KG + ROLLERS * ROLLER_MASS_KG
-    mass = nominal.mass * plant.mass_scale - WHEELS * wheel_mass
-    yaw = nominal.yaw_inertia * plant.yaw_inertia_scale - WHEELS * wheel_mass * body_radius**2
+    mass = nominal.mass * plant.mass_scale - nominal.wheels * wheel_mass
+    yaw = nominal.yaw_inertia * plant.yaw_inertia_scale - nominal.wheels * wheel_mass * body_radius**2
     # The offset is that of the whole robot, the wheels stay where they are.
     share = nominal.mass * plant.mass_scale / mass
     cx, cy = (share * c for c in plant.centre_of_mass)
@@ -68,12 +66,13 @@ def xml(nominal, plant, wall=None):
     wheels = "".join(
         wheel_xml(
             i + 1,
-            MOUNTS[i] + plant.wheel_angle[i],
-            MOUNTS[i] + plant.wheel_angle[i] - math.pi / 2 - plant.skew[i],
+            nominal.mounts[i] + plant.wheel_angle[i],
+            nominal.mounts[i] + plant.wheel_angle[i] - math.pi / 2 - plant.skew[i],
             body_radius,
             nominal.wheel_radius * plant.wheel_radius_scale[i],
+            plant.eccentricity[i],
         )
-        for i in range(WHEELS)
+        for i in range(nominal.wheels)
     )
     gravity = 9.81
     tx, ty = plant.tilt

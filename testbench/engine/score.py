@@ -8,6 +8,7 @@ Sets are kept in the folder of --work; a second call goes on where the first one
 
 import argparse
 import json
+import math
 import resource
 import subprocess
 import sys
@@ -18,7 +19,8 @@ from pathlib import Path
 import effects
 from make import make
 
-GRADES = ["right", "twin", "extra", "part", "nothing", "wrong", "failed"]
+GRADES = ["right", "twin", "honest", "extra", "part", "below", "nothing", "wrong", "failed"]
+BELOW = 1.5  # times the detection limit that the answer states: what is smaller need not be named
 
 
 def stands_for(name, hidden, answer):
@@ -55,14 +57,25 @@ def grade(truth, answer):
     if not hidden:
         return ("wrong" if too_many else "right"), too_many
     found = [h for h in hidden if any(stands_for(e["name"], h, answer) and on_the_wheel(e, h) for e in named)]
+    if not found and not too_many and answer["verdict"] == "unexplained":
+        return "honest", []
+    if not found and not too_many:
+        return ("below" if all(below(h, answer) for h in hidden) else "nothing"), []
     if not found:
-        return ("wrong" if too_many else "nothing"), too_many
+        return "wrong", too_many
     if too_many:
         return ("extra" if len(found) == len(hidden) else "wrong"), too_many
     if len(found) < len(hidden):
         return "part", []
     exact = all(any(e["name"] == h["name"] for e in named) for h in hidden)
     return ("right" if exact else "twin"), []
+
+
+def below(hidden, answer):
+    """Whether the answer says that something of this size would not be named."""
+    sizes = hidden["parameters"]
+    limits = [e for e in answer["detection_limits"] if e["name"] == hidden["name"] and e["parameter"] in sizes]
+    return bool(limits) and all(abs(sizes[e["parameter"]]) < BELOW * e["limit"] for e in limits)
 
 
 def parameters(truth, answer):
@@ -73,6 +86,8 @@ def parameters(truth, answer):
             if e["name"] == h["name"]:
                 for name, found in e["parameters"].items():
                     true = h["parameters"].get(name)
+                    if name == "azimuth_rad" and true is not None:  # a grain has no front
+                        true += math.pi * round((found["value"] - true) / math.pi)
                     if true is not None:
                         rows.append([h["name"], name, true, found["value"], found["ci95"]])
     return rows
@@ -80,7 +95,7 @@ def parameters(truth, answer):
 
 def one(job):
     """Makes a set unless it is there, runs the workflow, writes the score beside the truth."""
-    work, racbot, seed, group, names, again = job
+    work, racbot, seed, group, names, again, varied = job
     label = f"{seed:05}"
     folder, truth_file, score_file = (
         work / "sets" / label,
@@ -90,7 +105,7 @@ def one(job):
     if score_file.exists() and not again:
         return json.loads(score_file.read_text())
     if not truth_file.exists():
-        make(folder, truth_file, seed, names)
+        make(folder, truth_file, seed, names, varied)
     out = work / "answers" / label
     out.mkdir(parents=True, exist_ok=True)
     begin, used = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -129,7 +144,7 @@ def jobs(arguments):
     outside = [n for n in effects.OUTSIDE if not only or n in only]
     wanted += [("outside", [n]) for _ in range(arguments.outside) for n in outside]
     return [
-        (arguments.work, arguments.racbot, arguments.seed * 1000 + k, group, names, arguments.again)
+        (arguments.work, arguments.racbot, arguments.seed * 1000 + k, group, names, arguments.again, arguments.varied)
         for k, (group, names) in enumerate(wanted)
     ]
 
@@ -160,6 +175,10 @@ def table(scores):
     if rows:
         inside = sum(lo <= true <= hi for _, _, true, _, (lo, hi) in rows)
         print(f"\n95 % intervals that hold the truth: {inside} of {len(rows)}")
+    closed = sorted(s["gap"]["closed"] for s in scores if s.get("gap", {}).get("closed") is not None)
+    if closed:
+        most = sum(c >= 0.9 for c in closed)
+        print(f"gap closed: {closed[len(closed) // 2]:.0%} in the middle, 90 % or more in {most} of {len(closed)}")
     cpu, clock = (max(s[key] for s in scores) for key in ("cpu_seconds", "seconds"))
     print(f"slowest analysis: {cpu:.1f} s of CPU, {clock:.1f} s by the clock")
 
@@ -174,6 +193,7 @@ def main():
     for group, count in (("controls", 4), ("singles", 1), ("pairs", 0), ("outside", 0)):
         parser.add_argument(f"--{group}", type=int, default=count, help="how many (of every kind)")
     parser.add_argument("--only", default="", help="these effects only, comma-separated")
+    parser.add_argument("--varied", action="store_true", help="another robot, other rates, another camera in every set")
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--again", action="store_true", help="analyse the sets that are there again")
     arguments = parser.parse_args()

@@ -9,6 +9,11 @@ use serde_json::Value;
 
 /// Has the engine make a set in which `hidden` is, and the workflow look at it.
 fn look(hidden: &str, seed: u64) -> (Analysis, Value) {
+    look_at(hidden, seed, &[])
+}
+
+/// The same with more said to the engine.
+fn look_at(hidden: &str, seed: u64, more: &[&str]) -> (Analysis, Value) {
     let scratch = tempfile::tempdir().unwrap();
     let (set, truth) = (scratch.path().join("set"), scratch.path().join("sealed/truth.json"));
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("engine/make.py");
@@ -19,6 +24,7 @@ fn look(hidden: &str, seed: u64) -> (Analysis, Value) {
         .arg(&set)
         .arg("--truth")
         .arg(&truth)
+        .args(more)
         .output()
         .unwrap_or_else(|error| panic!("python3: {error}"));
     let complaint = String::from_utf8_lossy(&output.stderr);
@@ -65,4 +71,27 @@ fn friction_of_a_wheel_is_named_on_logs_of_a_physics_engine() {
 #[test]
 fn late_commands_are_named_on_logs_of_a_physics_engine() {
     named_alone("command-latency", 1, 0.05);
+}
+
+#[test]
+fn another_robot_as_drawn_agrees_on_logs_of_a_physics_engine() {
+    // Four wheels, 2.35 kg, a loop and a camera of 100 Hz.
+    let (analysis, _) = look_at("", 32, &["--varied"]);
+    assert_eq!(analysis.verdict, Verdict::Agrees, "{}", analysis.terminal_summary());
+    assert!(analysis.effects.is_empty(), "{}", analysis.terminal_summary());
+}
+
+#[test]
+fn creep_is_named_on_logs_of_a_physics_engine() {
+    named_alone("wheel-creep", 1, 0.12);
+}
+
+#[test]
+fn a_rotor_that_rattles_in_play_is_named_on_logs_of_a_physics_engine() {
+    let (analysis, truth) = look("gear-backlash/stiff", 1);
+    let [effect] = &analysis.effects[..] else { panic!("{}", analysis.terminal_summary()) };
+    assert_eq!(effect.name, "gear-backlash");
+    let play = truth["parameters"]["play_rad"].as_f64().unwrap();
+    let (name, _, [low, high]) = &effect.parameters[0];
+    assert!(name == "play_rad" && *low < play && play < *high, "{name} from {low} to {high}, in truth {play}");
 }

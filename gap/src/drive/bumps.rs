@@ -246,6 +246,9 @@ impl<'a> DriveLink<'a> {
 
     /// Unexplained wheel acceleration at every inner tick of a segment, rad/s², and the torque it
     /// stands for, Nm, `[wheel][tick]`; as noisy as counts are, for what is averaged over many ticks.
+    ///
+    /// More than three wheels turn in ways that no body follows, against creep alone: Newton's law says
+    /// nothing of those, and they are left out.
     pub fn raw(&self, model: &DriveModel, segment: usize) -> Option<[Vec<Vec<f64>>; 2]> {
         let mechanics = model.mechanics()?;
         let (n, s) = (self.noise.len(), &*self.pieces.get(segment));
@@ -259,6 +262,8 @@ impl<'a> DriveLink<'a> {
             }
             a
         };
+        let follow = &mechanics.response * &mechanics.inertia;
+        let share: Vec<f64> = (0..n).map(|i| follow[(i, i)].max(0.1)).collect();
         let mut out = [vec![vec![0.0; ticks]; n], vec![vec![0.0; ticks]; n]];
         let mut before = acceleration(0);
         for k in 1..ticks - 1 {
@@ -270,8 +275,9 @@ impl<'a> DriveLink<'a> {
                 measured - (before[i] * h + now[i] * g) / (h + g) / model.axes[i].encoder_scale
             });
             let torque = &self.inertia * &a;
+            let a = &follow * a;
             for i in 0..n {
-                out[0][i][k] = a[i];
+                out[0][i][k] = a[i] / share[i];
                 out[1][i][k] = torque[i];
             }
             before = now;

@@ -26,7 +26,10 @@ impl Effect for CameraLatency {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-robot.camera_latency_s - 0.001, 0.5], 0.003)])]
+        // Frames stand at ticks of the log: their age is not known to better than the rounding, which a camera in step
+        // with the ticks never averages out.
+        let material = 0.003_f64.max(0.6 / robot.control_rate_hz);
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-robot.camera_latency_s - 0.001, 0.5], material)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

@@ -26,8 +26,10 @@ impl Effect for EncoderLag {
         Link::Motion
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [0.0, 0.3], 0.003)])]
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        // As that of a camera frame.
+        let material = 0.003_f64.max(0.6 / robot.control_rate_hz);
+        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [0.0, 0.3], material)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

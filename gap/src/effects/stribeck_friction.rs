@@ -2,8 +2,11 @@
 
 use model::robot::Robot;
 
-use crate::drive::DriveModel;
+use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+
+/// Speed over which it turns round, rad/s: nearer to rest than other friction, because it is largest there.
+const TURNS_ROUND: f64 = 0.15;
 
 /// Friction that is larger near standstill.
 pub(super) struct StribeckFriction;
@@ -42,14 +45,14 @@ impl Effect for StribeckFriction {
         let (t, w) = (values.get("torque_nm"), values.find("speed_rad_s").unwrap_or(3.0));
         model.loads.push(Box::new(move |now, loads| {
             for i in 0..now.speed.len() {
-                loads.wheel[i] -= t * (-(now.speed[i] / w).powi(2)).exp() * now.sign[i];
+                loads.wheel[i] -= t * (-(now.speed[i] / w).powi(2)).exp() * smooth_sign(now.speed[i], TURNS_ROUND);
             }
         }));
     }
 
     fn law_uncertainty(&self) -> f64 {
         // How the extra friction falls with speed is a convention, and at rest it is not seen.
-        0.06
+        0.1
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

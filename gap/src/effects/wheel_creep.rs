@@ -1,10 +1,14 @@
 //! `wheel-creep`: wheels that creep in proportion to the force they transmit.
 
+use model::frames::Twist;
+use model::geometry::{Geometry, Wheel};
 use model::robot::Robot;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
+use crate::segment::Segment;
 
 /// Wheels that creep in proportion to the force they transmit.
 pub(super) struct WheelCreep;
@@ -31,28 +35,31 @@ impl Effect for WheelCreep {
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
-        let creep = values.get("creep_s_per_kg") / (model.wheel_radius_m * model.wheel_radius_m);
-        let inertia = model.inertia.clone();
+        let Some(contact) = Contact::new(
+            &model.wheels,
+            model.wheel_radius_m,
+            [model.mass_kg, model.yaw_inertia_kg_m2],
+            values.get("creep_s_per_kg"),
+        ) else {
+            return;
+        };
         model.angles.push(Box::new(move |segment, angles| {
-            // The time integral of the inertial force is the change of speed.
-            for (i, angle) in angles.iter_mut().enumerate() {
-                for k in 0..angle.len() {
-                    let momentum: f64 = (0..segment.speed.len()).map(|j| inertia[(i, j)] * segment.speed[j][k]).sum();
-                    angle[k] -= creep * momentum;
-                }
+            for (angle, lost) in angles.iter_mut().zip(contact.lost(segment)) {
+                angle.iter_mut().zip(lost).for_each(|(a, l)| *a -= l);
             }
         }));
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let creep = values.get("creep_s_per_kg") / (model.wheel_radius_m * model.wheel_radius_m);
-        let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
-        // Encoder minus rolled angle: the time integral of the inertial force is the change of speed.
-        model.offsets.push(Box::new(move |_, segment| {
-            let n = segment.speed.len();
-            let momentum = |i: usize, k: usize| (0..n).map(|j| inertia[(i, j)] * segment.speed[j][k]).sum::<f64>();
-            (0..n).map(|i| (0..segment.t.len()).map(|k| creep * momentum(i, k)).collect()).collect()
-        }));
+        let Some(contact) = Contact::new(
+            &model.wheels,
+            model.wheel_radius_m,
+            [model.mass, model.yaw_inertia],
+            values.get("creep_s_per_kg"),
+        ) else {
+            return;
+        };
+        model.offsets.push(Box::new(move |_, segment| contact.lost(segment)));
     }
 
     fn law_uncertainty(&self) -> f64 {
@@ -63,4 +70,66 @@ impl Effect for WheelCreep {
     fn also(&self) -> Option<Link> {
         Some(Link::Drive)
     }
+}
+
+/// A body that its wheels pull along through dampers.
+struct Contact {
+    geometry: Geometry,
+    /// Mass twice and yaw inertia.
+    inertia: Vector3<f64>,
+    /// Torque at a shaft per speed that the contact lacks, Nm s/rad.
+    grip: f64,
+    /// Body force per twist by which the robot is slower than its wheels.
+    pull: Matrix3<f64>,
+}
+
+impl Contact {
+    /// `None` without creep, or where the wheels cannot drive the robot.
+    fn new(wheels: &[Wheel], radius: f64, [mass, yaw]: [f64; 2], creep: f64) -> Option<Self> {
+        let geometry = Geometry::new(wheels.to_vec(), radius).ok().filter(|_| creep > 0.0)?;
+        let grip = radius * radius / creep;
+        let rows = geometry.inverse();
+        let pull = Matrix3::from_fn(|a, b| grip * (0..wheels.len()).map(|i| rows[(i, a)] * rows[(i, b)]).sum::<f64>());
+        Some(Self { geometry, inertia: Vector3::new(mass, mass, yaw), grip, pull })
+    }
+
+    /// By how much each wheel has turned further than it rolled, rad, `[wheel][tick]`.
+    ///
+    /// The equation of motion of the body, a step of implicit Euler a tick: creep may be as stiff as it likes,
+    /// and counts enter as they are.
+    fn lost(&self, segment: &Segment) -> Vec<Vec<f64>> {
+        let (n, ticks) = (segment.angle.len(), segment.t.len());
+        let mut lost = vec![vec![0.0; ticks]; n];
+        let rows = self.geometry.inverse();
+        let start: Vec<f64> = segment.speed.iter().map(|w| w[0]).collect();
+        let mut twist = as_vector(self.geometry.twist(&start));
+        let mut solver = (0.0, Matrix3::zeros());
+        for k in 1..ticks {
+            let dt = segment.t[k] - segment.t[k - 1];
+            if (dt - solver.0).abs() > 1e-6 * dt {
+                let stiff = Matrix3::from_diagonal(&self.inertia) + self.pull * dt;
+                solver = (dt, stiff.try_inverse().unwrap_or_default());
+            }
+            // The body frame turns under the robot.
+            let turned = twist + Vector3::new(twist.z * twist.y, -twist.z * twist.x, 0.0) * dt;
+            let mut push = self.inertia.component_mul(&turned);
+            for i in 0..n {
+                let moved = segment.angle[i][k] - segment.angle[i][k - 1];
+                for (a, x) in push.iter_mut().enumerate() {
+                    *x += self.grip * rows[(i, a)] * moved;
+                }
+            }
+            twist = solver.1 * push;
+            for i in 0..n {
+                let moved = segment.angle[i][k] - segment.angle[i][k - 1];
+                let rolled = (0..3).map(|a| rows[(i, a)] * twist[a]).sum::<f64>() * dt;
+                lost[i][k] = lost[i][k - 1] + moved - rolled;
+            }
+        }
+        lost
+    }
+}
+
+fn as_vector(t: Twist) -> Vector3<f64> {
+    Vector3::new(t.vx, t.vy, t.omega)
 }

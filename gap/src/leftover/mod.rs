@@ -8,6 +8,7 @@
 mod bursts;
 mod camera;
 mod orders;
+mod rattle;
 mod spectrum;
 
 use std::collections::HashSet;
@@ -18,6 +19,7 @@ use crate::pieces::Pieces;
 
 pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;
+pub(crate) use rattle::rattle;
 
 /// Length of the bumps the torques are averaged over, s: a tenth of a second is over before the
 /// loop has answered, and lines up to 15 Hz pass.

@@ -47,6 +47,8 @@ pub struct MotionModel {
     pub inertia: DMatrix<f64>,
     /// Mass, kg.
     pub mass_kg: f64,
+    /// Yaw inertia about the chassis centre, kg m².
+    pub yaw_inertia_kg_m2: f64,
     /// Motor turns per wheel turn.
     pub gear_ratio: f64,
 }
@@ -70,6 +72,7 @@ impl MotionModel {
                 .mechanics()
                 .map_or_else(|| DMatrix::zeros(robot.wheel_count(), robot.wheel_count()), |m| m.inertia),
             mass_kg: robot.mass_kg,
+            yaw_inertia_kg_m2: robot.yaw_inertia_kg_m2,
             gear_ratio: robot.gear_ratio,
         }
     }

@@ -1,6 +1,7 @@
 //! Effects on motors, body and floor.
 
 use super::{Applied, of_wheel};
+use crate::motor::{COPPER_PER_K, MAGNET_PER_K};
 use crate::plant::{Contact, WheelDeviation};
 use crate::robot::Effect;
 
@@ -28,6 +29,16 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
         "robot-mass" => robot.mass_kg *= scale,
         "yaw-inertia" => robot.yaw_inertia_kg_m2 *= scale,
         "rotor-inertia" => robot.motor.rotor_inertia *= scale,
+        "motor-heating" => {
+            let warmer = value("start_k");
+            let magnets = 1.0 - MAGNET_PER_K * warmer;
+            let back_emf = robot.motor.back_emf() * magnets;
+            robot.motor.resistance_ohm *= 1.0 + COPPER_PER_K * warmer;
+            robot.motor.torque_constant *= magnets;
+            robot.motor.back_emf_constant = Some(back_emf);
+            // Warming up under way is the bridge's.
+            return value("rise") == 0.0;
+        }
         "gear-efficiency" => robot.gear_efficiency = (robot.gear_efficiency + value("scale")).clamp(0.01, 1.0),
         _ => return false,
     }

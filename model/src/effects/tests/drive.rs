@@ -107,6 +107,15 @@ fn warm_windings_resist() {
 }
 
 #[test]
+fn windings_may_be_warm_from_the_start() {
+    let (cold, warm) = (Axis::of(&applied("wheel-skew", &[]).robot), applied("motor-heating", &[("start_k", 50.0)]));
+    let warm = Axis::of(&warm.robot);
+    let (copper, magnets) = (1.0 + 50.0 * 0.0039, 1.0 - 50.0 * 0.0011);
+    close(warm.torque_per_volt, cold.torque_per_volt * magnets / copper, 1e-9);
+    close(warm.damping, cold.damping * magnets * magnets / copper, 1e-9);
+}
+
+#[test]
 fn figures_of_motor_and_gear() {
     let robot = |name, p: &[(&str, f64)]| applied(name, p).robot;
     let strong = robot("torque-constant", &[("scale", 0.1)]);

@@ -1,0 +1,134 @@
+//! Rotors that rattle in the play of their gears.
+//!
+//! A loop that is stiff enough for a robot drives a rotor alone from flank to flank at hundreds of hertz. Newton's law
+//! for the robot says nothing of that, and taken for noise it would hide everything; but the encoder sits on the rotor,
+//! and what it does beyond the robot's motion is the play, and what the wheel shakes along.
+
+use std::sync::Arc;
+
+use model::robot::Robot;
+
+use crate::drive::DriveModel;
+use crate::effect::Sizes;
+use crate::segment::Segment;
+
+/// Counts by which second differences of a steady wheel may differ from 0, twice.
+const QUANTISATION: f64 = 4.0;
+/// Times the acceleration that stalled motors can give a wheel with its share of the robot: they brake twice as hard.
+const BEYOND: f64 = 2.0;
+/// Ticks longer than this, s, do not show what happens at hundreds of hertz.
+const LONGEST_TICK_S: f64 = 0.004;
+/// Ticks about a tick over which rattling is told from single knocks, and the share of them beyond.
+const NEAR: usize = 15;
+const SHARE: f64 = 0.3;
+/// Share of the ticks of all runs at which a wheel rattles.
+const OFTEN: f64 = 0.05;
+/// Shaking worth naming, rad at the motor shaft.
+const MATERIAL: f64 = 0.03;
+/// Share of the places of a rotor between its flanks that are looked at, the same on either side.
+const MIDDLE: f64 = 0.9;
+/// Length of the mean that is the robot's motion, s.
+const SMOOTHING_S: f64 = 0.03;
+
+/// What rotors shake by: wheel (from 0), rad at the motor shaft.
+pub(crate) fn rattle(
+    segments: impl Iterator<Item = Arc<Segment>>,
+    robot: &Robot,
+    model: &DriveModel,
+) -> Vec<(usize, f64)> {
+    let count = 1.0 / robot.counts_per_wheel_rad();
+    let Some(mechanics) = model.mechanics() else { return Vec::new() };
+    let response = (0..robot.wheel_count())
+        .map(|i| mechanics.response.row(i).iter().map(|x| x.abs()).sum::<f64>())
+        .fold(0.0, f64::max);
+    let most = BEYOND * Sizes::of(robot).stall_nm * response;
+    let n = robot.wheel_count();
+    let (mut all, mut ticks) = (vec![Vec::new(); n], 0);
+    for s in segments.filter(|s| s.angle.len() == n && s.t.len() > 4 * NEAR) {
+        ticks += s.t.len();
+        for (wheel, places) in all.iter_mut().enumerate() {
+            places.extend(between_flanks(&s, wheel, count, most).into_iter().map(|x| x as f32));
+        }
+    }
+    let mut found = Vec::new();
+    for (wheel, places) in all.iter_mut().enumerate() {
+        if (places.len() as f64) < OFTEN * ticks as f64 || places.is_empty() {
+            continue;
+        }
+        places.sort_by(f32::total_cmp);
+        let at = |share: f64| f64::from(places[((places.len() - 1) as f64 * share) as usize]);
+        let play = (at(0.5 + 0.5 * MIDDLE) - at(0.5 - 0.5 * MIDDLE)) * model.gear_ratio;
+        if play >= MATERIAL {
+            found.push((wheel, play));
+        }
+    }
+    found
+}
+
+/// Where the encoder is beside the robot's motion, rad at the wheel, while it rattles.
+fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64) -> Vec<f64> {
+    let angle = &s.angle[wheel];
+    let n = angle.len();
+    let tick = (s.t[n - 1] - s.t[0]) / (n - 1) as f64;
+    if tick > LONGEST_TICK_S {
+        return Vec::new();
+    }
+    let limit = QUANTISATION * count + most * tick * tick;
+    let beyond: Vec<bool> =
+        (0..n).map(|k| k > 0 && k + 1 < n && (angle[k + 1] - 2.0 * angle[k] + angle[k - 1]).abs() > limit).collect();
+    let half = ((0.5 * SMOOTHING_S / tick).round() as usize).max(4);
+    let window: Vec<f64> = (0..=2 * half)
+        .map(|j| (std::f64::consts::PI * (j as f64 + 1.0) / (2 * half + 2) as f64).sin().powi(2))
+        .collect();
+    let total: f64 = window.iter().sum();
+    let edge = half.max(NEAR);
+    let mut near = beyond[..(2 * edge).min(n)].iter().filter(|b| **b).count();
+    (edge..n.saturating_sub(edge))
+        .filter_map(|k| {
+            if k > edge {
+                near += usize::from(beyond[k + edge - 1]);
+                near -= usize::from(beyond[k - edge - 1]);
+            }
+            (near as f64 > SHARE * 2.0 * edge as f64).then(|| {
+                let mean: f64 = window.iter().zip(&angle[k - half..]).map(|(w, a)| w * a).sum::<f64>() / total;
+                angle[k] - mean
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wheel that speeds up, its encoder moved by `jitter` of the tick, in counts.
+    fn segment(robot: &Robot, jitter: impl Fn(usize) -> f64) -> Segment {
+        let n = 2000;
+        let t: Vec<f64> = (0..n).map(|k| 1e-3 * k as f64).collect();
+        let scale = robot.counts_per_wheel_rad();
+        let angle = |k: usize| ((10.0 * t[k] * t[k] * scale + jitter(k)).floor()) / scale;
+        let wheel: Vec<f64> = (0..n).map(angle).collect();
+        Segment { angle: vec![wheel; robot.wheel_count()], t, ..Segment::default() }
+    }
+
+    fn one(segment: Segment) -> impl Iterator<Item = Arc<Segment>> {
+        std::iter::once(Arc::new(segment))
+    }
+
+    #[test]
+    fn the_play_a_rotor_rattles_in_is_measured() {
+        let robot = Robot::racbot();
+        let model = DriveModel::new(&robot);
+        let play = 0.1;
+        let width = play / robot.gear_ratio * robot.counts_per_wheel_rad();
+        let bouncing = segment(&robot, |k| width * ((k as f64 / 3.7).fract() - 0.5));
+        let found = rattle(one(bouncing), &robot, &model);
+        assert_eq!(found.len(), robot.wheel_count());
+        for (_, found) in found {
+            assert!((found / play - 1.0).abs() < 0.15, "{found}");
+        }
+        let knocks = segment(&robot, |k| if k % 200 == 0 { width } else { 0.0 });
+        assert!(rattle(one(knocks), &robot, &model).is_empty());
+        assert!(rattle(one(segment(&robot, |_| 0.0)), &robot, &model).is_empty());
+    }
+}
