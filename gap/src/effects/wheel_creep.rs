@@ -2,7 +2,7 @@
 
 use model::frames::Twist;
 use model::geometry::{Geometry, Wheel};
-use model::robot::Robot;
+use model::robot::{Robot, Support};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::drive::DriveModel;
@@ -51,6 +51,17 @@ impl Effect for WheelCreep {
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
+        if model.support == Support::Blocks {
+            // Off the floor it is the gear that gives way: each wheel's own inertia, and no body's.
+            let creep = values.get("creep_s_per_kg") / (model.wheel_radius_m * model.wheel_radius_m);
+            let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
+            model.offsets.push(Box::new(move |_, segment| {
+                let n = segment.speed.len();
+                let momentum = |i: usize, k: usize| (0..n).map(|j| inertia[(i, j)] * segment.speed[j][k]).sum::<f64>();
+                (0..n).map(|i| (0..segment.t.len()).map(|k| creep * momentum(i, k)).collect()).collect()
+            }));
+            return;
+        }
         let Some(contact) = Contact::new(
             &model.wheels,
             model.wheel_radius_m,
