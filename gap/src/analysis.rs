@@ -330,8 +330,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             let mut selection = looked(&link, &thresholds, &[], &floor);
             // What has a name now is no noise: the next effect is looked for above the floor without it.
             for _ in 0..LOOKS {
-                let is_named = |a: &Active| a.worth() && !a.effect.probe();
-                if !selection.state.active[from..].iter().any(is_named) {
+                if !selection.state.active[from..].iter().any(Active::is_named) {
                     break;
                 }
                 let noise = (&floor[..], thresholds.drive_correlation);

@@ -1,6 +1,7 @@
 //! What an effect is: a name, parameters with physical bounds, and what it changes in the links.
 
 use model::geometry::Wheel;
+use model::plant::GRAVITY;
 use model::robot::Robot;
 
 use crate::drive::DriveModel;
@@ -225,7 +226,7 @@ impl Sizes {
         Self {
             stall_nm: robot.gear_ratio * m.torque_constant * stall_a,
             no_load: robot.no_load_wheel_speed(robot.supply_v),
-            weight_n: 9.806_65 * robot.mass_kg,
+            weight_n: GRAVITY * robot.mass_kg,
             rim_m: robot.layout.wheels().iter().map(rim).fold(0.0, f64::max),
             stall_a,
         }

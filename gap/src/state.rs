@@ -53,6 +53,11 @@ impl Active {
         !self.given && crate::select::is_material(self, &self.parameters())
     }
 
+    /// Whether it is named: worth it, and an effect of the catalogue.
+    pub fn is_named(&self) -> bool {
+        self.worth() && !self.effect.probe()
+    }
+
     /// Whether it is switched on from a start value instead of growing from 0.
     pub fn switched(&self) -> bool {
         self.form.free.iter().any(|p| p.start.is_some())

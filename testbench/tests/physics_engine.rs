@@ -34,6 +34,13 @@ fn look_at(hidden: &str, seed: u64, more: &[&str]) -> (Analysis, Value) {
     (analysis, truth["hidden"][0].clone())
 }
 
+/// Nothing is named where nothing is hidden.
+fn agrees(seed: u64, more: &[&str]) {
+    let (analysis, _) = look_at("", seed, more);
+    assert_eq!(analysis.verdict, Verdict::Agrees, "{}", analysis.terminal_summary());
+    assert!(analysis.effects.is_empty(), "{}", analysis.terminal_summary());
+}
+
 /// Nothing but what is hidden is named, and every parameter is right within `share` of the largest.
 fn named_alone(hidden: &str, seed: u64, share: f64) {
     let (analysis, truth) = look(hidden, seed);
@@ -53,9 +60,7 @@ fn named_alone(hidden: &str, seed: u64, share: f64) {
 
 #[test]
 fn a_robot_as_drawn_agrees_on_logs_of_a_physics_engine() {
-    let (analysis, _) = look("", 1);
-    assert_eq!(analysis.verdict, Verdict::Agrees, "{}", analysis.terminal_summary());
-    assert!(analysis.effects.is_empty(), "{}", analysis.terminal_summary());
+    agrees(1, &[]);
 }
 
 #[test]
@@ -76,9 +81,7 @@ fn late_commands_are_named_on_logs_of_a_physics_engine() {
 #[test]
 fn another_robot_as_drawn_agrees_on_logs_of_a_physics_engine() {
     // Four wheels, 2.35 kg, a loop and a camera of 100 Hz.
-    let (analysis, _) = look_at("", 32, &["--varied"]);
-    assert_eq!(analysis.verdict, Verdict::Agrees, "{}", analysis.terminal_summary());
-    assert!(analysis.effects.is_empty(), "{}", analysis.terminal_summary());
+    agrees(32, &["--varied"]);
 }
 
 #[test]

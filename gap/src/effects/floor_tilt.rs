@@ -1,5 +1,6 @@
 //! `floor-tilt`: a floor that is not level.
 
+use model::plant::GRAVITY;
 use model::robot::Robot;
 
 use crate::drive::DriveModel;
@@ -34,7 +35,7 @@ impl Effect for FloorTilt {
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let (x, y, weight) = (values.get("x_rad"), values.get("y_rad"), model.mass * 9.806_65);
+        let (x, y, weight) = (values.get("x_rad"), values.get("y_rad"), model.mass * GRAVITY);
         model.loads.push(Box::new(move |now, loads| loads.push_world(now.heading, [weight * x, weight * y])));
     }
 

@@ -2,13 +2,13 @@
 
 use model::frames::Twist;
 use model::geometry::Geometry;
+use model::plant::GRAVITY;
 use model::robot::Robot;
 use nalgebra::DMatrix;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
-const GRAVITY: f64 = 9.806_65;
 /// Height of the centre of mass, which no file of a robot gives, in body radii: batteries and motors lie low.
 const HEIGHT: f64 = 0.45;
 /// Time over which the suspension of rollers and carpet passes a load on, s: smooths what counts say.

@@ -5,6 +5,7 @@
 //! fourth power of the frequency) is taken from all orders at the same frequency, so that a block
 //! counts by what it can say. Counters start anywhere, so phases are free in every piece of a log.
 
+use model::plant::GRAVITY;
 use std::f64::consts::{PI, TAU};
 
 use super::{FALSE_ALARM, Structure};
@@ -98,7 +99,7 @@ pub(super) fn orders(
         }
     }
     // What a wheel carries, at its rim, as an acceleration of the wheel.
-    let carried = 9.806_65 * model.mass / n as f64 * model.wheel_radius_m;
+    let carried = GRAVITY * model.mass / n as f64 * model.wheel_radius_m;
     let bob = BOBS[usize::from(n > 3)] * carried / model.felt_inertia().max(1e-12);
     let tests = 2.0 * n as f64 * candidates.len() as f64;
     let mut ripples: Vec<(usize, usize, Line)> = Vec::new();

@@ -36,8 +36,8 @@ fn joined(
 ) -> Option<Selection> {
     let active = &best.state.active;
     let bench = &best.bench;
-    let worth: Vec<usize> = (from..active.len()).filter(|i| active[*i].worth() && !active[*i].effect.probe()).collect();
-    let pairs = worth.iter().enumerate().flat_map(|(i, a)| worth[i + 1..].iter().map(move |b| [*a, *b]));
+    let named: Vec<usize> = (from..active.len()).filter(|i| active[*i].is_named()).collect();
+    let pairs = named.iter().enumerate().flat_map(|(i, a)| named[i + 1..].iter().map(move |b| [*a, *b]));
     for [a, b] in pairs {
         let most = active[a].form.free.len() + active[b].form.free.len();
         // What either adds to the other.

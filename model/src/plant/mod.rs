@@ -34,7 +34,7 @@ pub enum Contact {
 }
 
 /// Standard gravity, m/s².
-const GRAVITY: f64 = 9.806_65;
+pub const GRAVITY: f64 = 9.806_65;
 /// Longest internal step, s. Halving it changes a second of driving by less than 0.1 mm.
 const LONGEST_STEP_S: f64 = 0.000_25;
 
