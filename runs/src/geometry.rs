@@ -270,7 +270,7 @@ fn one_way(wheels: &[Wheel]) -> Option<DMatrix<f64>> {
     // Two wheels share one axle; of more, those in front and behind scrub about the middle.
     if let [a, b] = wheels {
         let (ex, ey) = (b.x_m - a.x_m, b.y_m - a.y_m);
-        if (ex * dx + ey * dy).abs() >= ONE_WAY * ex.hypot(ey) {
+        if (ex * dx + ey * dy).abs() > ONE_WAY * ex.hypot(ey) {
             return None;
         }
     }
