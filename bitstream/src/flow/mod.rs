@@ -1,8 +1,11 @@
 //! From a netlist to a bitstream: map, pack, place, route, set bits, and what it costs in time.
 
+pub mod constraints;
 pub mod logic;
 pub mod netlist;
+pub mod nets;
 pub mod pack;
+pub mod timing;
 
 use thiserror::Error;
 
@@ -17,6 +20,14 @@ pub enum FlowError {
     Netlist {
         /// What is wrong, and where.
         what: String,
+    },
+    /// A line of the constraint file is not understood.
+    #[error("constraints, line {line}: `{text}` is not understood")]
+    Constraint {
+        /// Number of the line, from 1.
+        line: usize,
+        /// The line.
+        text: String,
     },
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
