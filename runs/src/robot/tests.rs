@@ -189,7 +189,7 @@ fn errors_say_where_what_and_what_to_do() {
         (format!("{EXAMPLE}{}", wheel(0.1)), "body_radius_m", 2, "wheel 1 stands 0.1000 m from the centre"),
         (format!("{EXAMPLE}{}", wheel(0.085).repeat(3)), "skew_rad", 3, "wheel 2 drives another way"),
         (format!("{EXAMPLE}{}", wheel(0.085)), "skew_rad", 3, "has 3 entries, but there are 1"),
-        (format!("{EXAMPLE}[[wheel]]\nx_m = 0"), "wheel.y_m", 41, "is missing"),
+        (format!("{EXAMPLE}[[wheel]]\nx_m = 0"), "wheel.y_m", 38, "is missing"),
         (with("mass_kg = 2.4", "mass_kg = = 2"), "", 4, ""),
         (with("mass_kg = 2.4", "mass_kg = 2.4\nmass_kg = 2.4"), "", 5, "duplicate"),
     ];
