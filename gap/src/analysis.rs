@@ -203,7 +203,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let catalogue: Vec<Arc<dyn Effect>> =
         effects::catalogue().into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
-    let mut remarks: Vec<String> = Vec::new();
+    let mut remarks = set.notes();
     let mut exact: Vec<ExactLink> = [
         timing::analyse(robot, &set.logs),
         command::analyse(robot, &geometry, &set.logs, &mut remarks),

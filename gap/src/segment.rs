@@ -107,7 +107,8 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         s.speed = s.angle.iter().map(|a| smooth_speed(&t, a)).collect();
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, SIGN_WIDTH)).collect()).collect();
     }
-    if part.duty.len() == n {
+    // Duties of motors that nobody described predict nothing.
+    if part.duty.len() == n && robot.lacks(&runs::DRIVE_KEYS).is_empty() {
         s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
     }
     s.supply = match &part.supply_v {

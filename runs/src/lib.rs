@@ -13,6 +13,7 @@ mod mcap;
 mod part;
 mod read;
 pub mod robot;
+mod signals;
 mod spool;
 mod stream;
 pub mod ticks;
@@ -27,6 +28,7 @@ pub use log::{Log, Seen};
 pub use logs::Logs;
 pub use mcap::McapStream;
 pub use part::Columns;
+pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, is_dead_reckoning};
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// What is wrong in a log, where, and what to do about it.
@@ -81,6 +83,8 @@ pub struct Run {
     pub has_camera: bool,
     /// Columns we do not know, in the order of the file, as text.
     pub other: Vec<(String, Vec<String>)>,
+    /// What its counts and duties were made of.
+    pub source: Source,
     /// What was read another way than it is written, in sentences.
     pub notes: Vec<String>,
 }

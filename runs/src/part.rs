@@ -104,6 +104,8 @@ impl Run {
             acceleration: triple(&self.acceleration),
             imu_temp: self.imu_temp.as_ref().filter(|_| columns.sensors).map(|_| Vec::new()),
             has_camera: self.has_camera,
+            source: self.source,
+            notes: self.notes.clone(),
             other: self.other.iter().map(|(name, _)| (name.clone(), Vec::new())).collect(),
             ..Self::default()
         }

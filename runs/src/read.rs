@@ -253,7 +253,8 @@ impl<'a> Reader<'a> {
         let same = self.last_t.is_some() && self.time_of(record) == self.last_t && !self.run.is_empty();
         let apart = || record.iter().zip(&self.slots).zip(&self.filled);
         let says = apart().any(|((f, s), _)| s.column != Column::Time && !f.is_empty());
-        let joined = same && says && apart().all(|((f, s), filled)| s.column == Column::Time || f.is_empty() || !filled);
+        let joined =
+            same && says && apart().all(|((f, s), filled)| s.column == Column::Time || f.is_empty() || !filled);
         if !joined {
             self.filled.fill(false);
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use runs::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
-use runs::{Columns, Log, Logs};
+use runs::{Columns, Log, Logs, as_logged};
 
 use super::Named;
 use super::order::ORDER;
@@ -18,6 +18,8 @@ use crate::state::Active;
 pub(super) fn completed(robot: &Robot, logs: &[Log]) -> Robot {
     const USUAL: f64 = 4.0;
     const UNUSUAL: f64 = 20.0;
+    let source = logs.first().map(|log| log.layout().source).unwrap_or_default();
+    let robot = &as_logged(robot, source, logs.iter().find_map(Log::tick_s));
     let columns = Columns { counts: true, ..Columns::NONE };
     let of_part = |part: Part| part.run.counts.iter().map(|c| fastest(&part.run.t, c)).fold(0.0, f64::max);
     let fastest = logs.iter().flat_map(|log| parts(log, columns)).map(of_part);
@@ -79,7 +81,7 @@ pub(super) fn robot_text(set: &Logs, options: &Options, robot: &Robot) -> String
     };
     std::fs::read_to_string(&file)
         .ok()
-        .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
+        .filter(|text| Robot::parse_partial(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
         .and_then(|text| Robot::edited(&text, &robot.effects, &file).ok())
         .unwrap_or_else(|| robot.to_toml())
 }

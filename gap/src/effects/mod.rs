@@ -17,6 +17,7 @@ mod drive_curve;
 mod encoder_lag;
 mod encoder_loss;
 mod encoder_scale;
+mod fits;
 mod floor_tilt;
 mod gear_backlash;
 mod gear_efficiency;
@@ -43,6 +44,8 @@ mod wheel_slip;
 mod yaw_inertia;
 
 use crate::effect::Effect;
+
+pub(crate) use fits::fits;
 
 /// All effects fitted on the motion and drive links, in the order in which equals are named.
 pub fn catalogue() -> Vec<Box<dyn Effect>> {

@@ -53,6 +53,7 @@ pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> V
         (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
+            && crate::effects::fits(e.name(), &state.robot)
     });
     wanted
         .flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))

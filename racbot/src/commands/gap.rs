@@ -45,7 +45,7 @@ impl Options {
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
         let set = match &self.robot {
             None => Logs::open(folder)?,
-            Some(file) => Logs::open_as(folder, Robot::load(file)?)?,
+            Some(file) => Logs::open_as(folder, Robot::load_partial(file)?)?,
         };
         let progress = Progress::new("looking for the missing effect", 1);
         let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
@@ -69,7 +69,7 @@ impl Options {
         let Some(file) = self.robot.clone().or(of_set) else {
             return Err(Failure::usage("--undo: say which robot.toml, with --robot or a data set"));
         };
-        let robot = Robot::load(&file)?;
+        let robot = Robot::load_partial(&file)?;
         let Some(without) = gap::undo(&robot, name) else {
             return Err(unknown_effect(&file, &robot, name).into());
         };

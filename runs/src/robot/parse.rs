@@ -75,7 +75,9 @@ pub(super) fn robot(text: &str, path: &Path, whole: bool) -> Result<Robot, Input
             return Err(top.fault(synonym.name, value, what, "keep one of the two"));
         }
         (field.set)(&mut robot, x);
-        missing.retain(|(name, ..)| name != synonym.of);
+        // An encoder on the output shaft needs no gear ratio: it is then 1, unless the file says it.
+        let counts = synonym.of == "encoder_counts_per_motor_rev";
+        missing.retain(|(name, ..)| name != synonym.of && !(counts && name == "gear_ratio"));
     }
     let turns = robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2 > 0.0;
     if robot.support == Support::Blocks && !turns && missing.iter().all(|(name, ..)| name != "motor.rotor_inertia") {

@@ -80,9 +80,9 @@ impl Options {
         };
         let set = match &self.robot {
             None => DataSet::open(folder)?,
-            Some(file) => DataSet::open_as(folder, Robot::load(file)?)?,
+            Some(file) => DataSet::open_as(folder, Robot::load_partial(file)?)?,
         };
-        let estimate = estimate_skew(&set.robot, &set.runs).map_err(|error| Failure::about(folder, error))?;
+        let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
         let calibrated = Calibrated::new(&set.robot, &found, &found)?;
