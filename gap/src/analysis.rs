@@ -17,7 +17,7 @@ use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Options, Thresholds};
 use crate::pieces::{PIECE, segments};
-use crate::problem::{Owner, Problem};
+use crate::problem::Problem;
 use crate::select::{self, Bench, Selection};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
@@ -164,7 +164,7 @@ pub struct Analysis {
 /// Whole runs that a report shows.
 const SHOWN: usize = 4;
 
-/// Share of the stall torque beyond which scatter is no noise of a drive.
+/// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
 
 /// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
@@ -276,6 +276,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         driven.frames = Driven::at_frames(&pieces, &plots[0]);
         driven.seen = Driven::seen(&pieces, SHOWN);
         motion_plots = Some(plots);
+        remarks.extend(outcome.refused.iter().cloned());
         collect(
             &outcome,
             Link::Motion,
@@ -292,6 +293,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     let mut drive_plots = None;
     let mut drive_noise = Vec::new();
+    let mut drive_nm = f64::INFINITY;
     if let Some(mut link) = DriveLink::new(&pieces, &start.drive(None)) {
         link.mask_slip(&start.motion(None));
         let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
@@ -301,15 +303,16 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             link.mask_times(|run, t| misses.are_near(run, t));
         }
         if let Some(residuals) = link.residuals(&start.drive(None)) {
-            let stall = Sizes::of(robot).stall_nm;
-            let (mut floor, correlation) = crate::drive::floor(&link, &residuals, stall);
+            let drive = link.sizes.drive_nm;
+            drive_nm = drive;
+            let (mut floor, correlation) = crate::drive::floor(&link, &residuals, drive);
             link.noise.clone_from(&floor);
-            if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
+            if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * drive) {
                 let structure = format!(
-                    "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
+                    "what the duties predict scatters by {:.0} mNm, {:.0} % of what they reach, at random: are these the \
                      duties of this drive?",
                     1e3 * worst,
-                    100.0 * worst / stall
+                    100.0 * worst / drive
                 );
                 unexplained.push(Leftover { link: Link::Drive, structure });
             }
@@ -322,7 +325,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                     && own.clone().all(|l| l.limit < SEEN * l.material)
             };
             let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-            let matters = |floor: &[f64]| gaps::drive_matters(floor, stall);
+            let matters = |floor: &[f64]| gaps::drive_matters(floor, drive);
             let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
                 chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
             };
@@ -334,7 +337,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                     break;
                 }
                 let noise = (&floor[..], thresholds.drive_correlation);
-                let Some((lower, correlation)) = lowered(&link, &selection.state, noise, stall) else { break };
+                let Some((lower, correlation)) = lowered(&link, &selection.state, noise, drive) else { break };
                 link.noise.clone_from(&lower);
                 floor = lower;
                 thresholds.drive_correlation = correlation;
@@ -355,14 +358,14 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 outcome.sets.clear();
             }
             let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
-            located.extend(crate::locate::drive(&link, &before, &floor, stall));
+            located.extend(crate::locate::drive(&link, &before, &floor, Sizes::of(robot).stall_nm));
             let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
             let plots = [before, after];
             links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
             let model = outcome.selection.state.drive(None);
             let misses = Misses::new(motion_plots.as_ref().map(|p| &p[1]), FAR);
             let rolls = |run: usize, t: f64| !misses.are_near(run, t);
-            let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
+            let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, link.sizes);
             // Beside a named effect only what its law's inexactness cannot leave.
             let explained = if outcome.named.is_empty() { 0.0 } else { outcome.before.powi(2) - outcome.after.powi(2) };
             for structure in leftover.structures {
@@ -381,6 +384,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
             }
             named.extend(rattling);
+            remarks.extend(outcome.refused.iter().cloned());
             collect(
                 &outcome,
                 Link::Drive,
@@ -424,7 +428,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     // What slides drives no body as Newton has it: the name says so already.
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let far = links.iter().filter(|l| !slides(l) && !unexplained.iter().any(|u| u.link == l.link));
-    let far: Vec<Leftover> = far.filter_map(|l| gaps::stays_open(l, &located, Sizes::of(robot).stall_nm)).collect();
+    let far: Vec<Leftover> = far.filter_map(|l| gaps::stays_open(l, &located, drive_nm)).collect();
     unexplained.extend(far);
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
@@ -527,6 +531,8 @@ struct Outcome {
     ambiguous: bool,
     limits: Vec<Limit>,
     leftovers: Vec<String>,
+    /// What the gate did not let through, and why.
+    refused: Vec<String>,
 }
 
 /// Looks at the drive again above a floor lowered by what was named.
@@ -539,10 +545,10 @@ fn lowered(
     link: &DriveLink,
     state: &State,
     (floor, correlation): (&[f64], f64),
-    stall: f64,
+    drive_nm: f64,
 ) -> Option<(Vec<f64>, f64)> {
     let residuals = link.residuals(&state.drive(None))?;
-    let (now, correlated) = crate::drive::floor(link, &residuals, stall);
+    let (now, correlated) = crate::drive::floor(link, &residuals, drive_nm);
     let lower: Vec<f64> = now.iter().zip(floor).map(|(a, b)| a.min(*b)).collect();
     let correlated = correlated.min(correlation);
     let noise = |floor: &[f64], correlation: f64| correlation * floor.iter().map(|f| f * f).sum::<f64>();
@@ -579,15 +585,14 @@ fn study(
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
 ) -> Outcome {
-    let all = select::candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let from = start.active.len();
     let bench = &selection.bench;
-    let fit = bench.fit_roles(&bench.estimating());
-    let covariance = bench.covariance(&bench.estimating(), &fit);
     let (plain, n) = problem.linearise_nothing(nominal).plain();
     let before = (plain / n.max(1.0)).sqrt();
     let (_, after) = select::figures(bench);
     let (mut named, mut sets, mut leftovers, mut ambiguous) = (Vec::new(), Vec::new(), Vec::new(), false);
+    let mut refused = Vec::new();
     for index in from..selection.state.active.len() {
         let active = &selection.state.active[index];
         if !active.worth() {
@@ -605,27 +610,15 @@ fn study(
         });
         let p_value = own.map_or(1.0, |c| select::sign_flip(&rivals.bench, c));
         let (_, without) = raw_pair(&rivals.bench);
+        let estimates = select::estimates(bench, index);
+        if let Err(refusal) = crate::thresholds::gate(&estimates, Some(p_value)) {
+            refused.push(format!("{} is fitted, and not named: {}.", active.effect.name(), refusal.reason()));
+            continue;
+        }
         sets.extend(rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe"))));
         ambiguous |= rivals.ambiguous;
-        let half = |j: usize| {
-            let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
-            let df = (bench.linear.gram.clusters.len()).saturating_sub(active.form.free.len());
-            column.map_or(0.0, |c| model::fit::t_quantile_975(df) * covariance[(c, c)].max(0.0).sqrt())
-        };
-        let mut parameters: Vec<(String, f64, [f64; 2])> = active
-            .form
-            .free
-            .iter()
-            .enumerate()
-            .map(|(j, p)| {
-                let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
-                let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
-                let v = active.effect.period(&p.name).map_or(v, |period| v.rem_euclid(period));
-                // The effect's own law is not known to better than that.
-                let half = half(j).hypot(2.0 * active.effect.law_uncertainty() * v);
-                (p.name.clone(), v, [v - half, v + half])
-            })
-            .collect();
+        let mut parameters: Vec<(String, f64, [f64; 2])> =
+            estimates.into_iter().map(|e| (e.name, e.value, e.interval)).collect();
         parameters.extend(active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])));
         let with = after * after * n;
         named.push(Named {
@@ -647,6 +640,7 @@ fn study(
         ambiguous,
         limits: crate::limits::limits(problem.link(), bench, from, thresholds),
         leftovers,
+        refused,
         selection,
     }
 }

@@ -91,7 +91,7 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// What matters within a second of motion, m and rad.
 const MATTERS: [f64; 2] = [0.004, 0.02];
-/// Share of the stall torque that matters: twice what rollers and contacts cost every omni drive.
+/// Share of the drive's torque that matters: twice what rollers and contacts cost every omni drive.
 const DRIVE_MATTERS: f64 = 0.06;
 
 /// Gap of the motion link that matters, in noise floors.
@@ -101,19 +101,19 @@ pub(super) fn motion_matters(noise: [f64; 3]) -> f64 {
 }
 
 /// Gap of the drive link that matters, in noise floors (Nm, one a wheel).
-pub(super) fn drive_matters(floor: &[f64], stall_nm: f64) -> f64 {
-    DRIVE_MATTERS * stall_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
+pub(super) fn drive_matters(floor: &[f64], drive_nm: f64) -> f64 {
+    DRIVE_MATTERS * drive_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
 }
 
 /// What to say of a link of motion or drive on which much is left and little was explained.
-pub(super) fn stays_open(link: &LinkGap, located: &[Located], stall_nm: f64) -> Option<Leftover> {
+pub(super) fn stays_open(link: &LinkGap, located: &[Located], drive_nm: f64) -> Option<Leftover> {
     /// Noise floors, and the share of the squared gap that may be left.
     const FAR: [f64; 2] = [3.0, 0.1];
     let open = |rms: f64| (rms * rms - 1.0).max(0.0);
     let material = link.rms.iter().zip(&link.units).any(|([_, after], unit)| match *unit {
         "m" => *after >= MATTERS[0],
         "rad" => *after >= MATTERS[1],
-        _ => *after >= DRIVE_MATTERS * stall_nm,
+        _ => *after >= DRIVE_MATTERS * drive_nm,
     });
     let counts = matches!(link.link, Link::Motion | Link::Drive) && material;
     if !counts || link.after < FAR[0] || open(link.after) < FAR[1] * open(link.before) {
