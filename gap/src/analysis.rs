@@ -25,11 +25,11 @@ use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
 use gaps::Remains;
-use measure::{Data, Drive, Measured};
+use measure::{Data, Drive, Measured, MeasuredDrive};
 use order::{ORDER, order_named, wheel_order};
 use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
-use study::{Outcome, chosen};
+use study::{FAR as FAR_OFF, Outcome, chosen};
 
 pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
@@ -176,7 +176,7 @@ pub struct Analysis {
 /// Whole runs that a report shows.
 const SHOWN: usize = 4;
 
-/// Share of the stall torque beyond which scatter is no noise of a drive.
+/// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
 
 /// Share of a link's gap that must be left at most once its effects stand in the file.
@@ -273,7 +273,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     if has_motion {
         let problem = Problem::Motion(&motion_link);
         let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(noise));
-        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds);
+        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, FAR_OFF);
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
         start.active.iter_mut().for_each(|a| a.given = true);
@@ -284,13 +284,13 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let Drive { mut link, correlation, .. } = found;
         let mut floor = link.noise.clone();
         let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
-        let stall = Sizes::of(robot).stall_nm;
-        if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
+        let reached = link.sizes.drive_nm;
+        if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * reached) {
             let structure = format!(
-                "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
+                "what the duties predict scatters by {:.0} mNm, {:.0} % of what they reach, at random: are these the \
                  duties of this drive?",
                 1e3 * worst,
-                100.0 * worst / stall
+                100.0 * worst / reached
             );
             study.leave(Link::Drive, [structure]);
         }
@@ -302,7 +302,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             e.also() == Some(Link::Drive) && own.clone().count() > 0 && own.clone().all(|l| l.limit < SEEN * l.material)
         };
         let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-        let matters = |floor: &[f64]| gaps::drive_matters(floor, stall);
+        let matters = |floor: &[f64]| gaps::drive_matters(floor, reached);
         let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
             chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
         };
@@ -314,13 +314,14 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 break;
             }
             let noise = (&floor[..], thresholds.drive_correlation);
-            let Some((lower, correlation)) = lowered(&link, &selection.state, noise, stall) else { break };
+            let Some((lower, correlation)) = lowered(&link, &selection.state, noise, reached) else { break };
             link.noise.clone_from(&lower);
             floor = lower;
             thresholds.drive_correlation = correlation;
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
-        let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds);
+        let far = FAR_OFF.max(matters(&floor));
+        let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, far);
         let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
         if rattling.is_some() && !outcome.named.is_empty() {
@@ -335,7 +336,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let misses = Misses::new(seen.as_ref(), FAR);
         let rolls = |run: usize, t: f64| !misses.are_near(run, t);
         let model = outcome.selection.state.drive(None);
-        let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
+        let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, link.sizes);
         // Beside a named effect only what its law's inexactness cannot leave.
         let explained = if outcome.named.is_empty() { 0.0 } else { before.powi(2) - after.powi(2) };
         for structure in leftover.structures {
@@ -421,16 +422,16 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         located.extend(crate::locate::motion(&motion_link, &plots[0]));
     }
     let stall = Sizes::of(robot).stall_nm;
-    let drive_noise = drive.as_ref().map_or_else(Vec::new, |d| d.1.clone());
-    if let Some((plots, floor)) = &drive
+    let drive_noise = drive.as_ref().map_or_else(Vec::new, |d| d.floor.clone());
+    if let Some(measured) = &drive
         && let Some(drive) = data.drive(&data.state(&robot_with), motion_plots.as_ref().map(|p| &p[1]))
     {
-        located.extend(crate::locate::drive(&drive.link, &plots[0], floor, stall));
+        located.extend(crate::locate::drive(&drive.link, &measured.plots[0], &measured.floor, stall));
     }
     for link in &exact {
         located.extend(crate::locate::exact(link));
     }
-    let weightless = gaps::weightless(&pieces, &motion_plots, &drive);
+    let weightless = gaps::weightless(&pieces, &motion_plots, drive.as_ref());
     links.extend(exact_links);
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
@@ -447,7 +448,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let mut remains = Vec::new();
     for l in links.iter().filter(|l| !slides(l)) {
-        match gaps::remains(l, &located) {
+        let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
+        match gaps::remains(l, &located, far) {
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });
             }
@@ -503,7 +505,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         remains,
         thresholds,
         motion: motion_plots,
-        drive: drive.map(|d| d.0),
+        drive: drive.map(|d| d.plots),
         driven,
         remarks,
         exact,

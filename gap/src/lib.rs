@@ -38,6 +38,7 @@ pub mod select;
 pub mod state;
 pub mod statistics;
 mod symmetric;
+pub mod thresholds;
 mod timing;
 pub mod user;
 mod words;

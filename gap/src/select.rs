@@ -5,6 +5,7 @@ mod gates;
 mod join;
 mod plain;
 mod rivals;
+mod sure;
 
 use std::sync::Arc;
 
@@ -20,8 +21,9 @@ use crate::state::{Active, State};
 use gates::Gates;
 use join::join;
 
-pub use bench::{Bench, Trial, candidates, is_material};
+pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
 pub(crate) use plain::{held_out, plain};
+pub use sure::estimates;
 pub use rivals::{Rivals, figures, rivals, sign_flip};
 
 /// Largest number of effects named on one link.
@@ -70,7 +72,7 @@ pub fn select(
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
 ) -> Selection {
-    let all = candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let best = if known.is_empty() {
         first(problem, start, &all, thresholds)
     } else {
@@ -80,7 +82,8 @@ pub fn select(
     let best = backward(problem, best, start.active.len(), &all, thresholds);
     let (best, swapped) = swap(problem, best, start.active.len(), &all, thresholds);
     let (best, joined) = join(problem, best, start.active.len(), &all, thresholds);
-    if swapped || joined { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
+    let best = if swapped || joined { backward(problem, best, start.active.len(), &all, thresholds) } else { best };
+    sure::sure(problem, best, start.active.len(), &all, thresholds)
 }
 
 /// The best of a greedy search and of one that begins with a pair or triple.
@@ -105,7 +108,7 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
     // What is larger must also stand on the held-out runs, every part of it beside the others.
     let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
-    if better && stands() { other } else { best }
+    if better && stands() && !problem.runs_away(&other.state, &best.state) { other } else { best }
 }
 
 /// The bench from which effects that are given go on.
@@ -136,7 +139,7 @@ pub fn single(
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
 ) -> Option<Selection> {
-    let all = candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let narrow = thresholds.narrow();
     let bench = Bench::new(problem, start, &all, &narrow);
     let best = next(problem.link(), &bench, &narrow, &[]).filter(|t| t.material && !t.beyond)?;
@@ -144,7 +147,9 @@ pub fn single(
     state.active.push(placed(&bench.candidates[best.candidate], &best.values));
     let settled = settle(problem, &mut state, &all, thresholds);
     let found = finish(state, settled, start.active.len(), thresholds);
-    found.state.active.last().is_some_and(Active::worth).then_some(found)
+    let found = sure::sure(problem, found, start.active.len(), &all, thresholds);
+    let sound = found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start);
+    sound.then_some(found)
 }
 
 /// Replaces each effect by whatever explains the same better, or as well and comes earlier in the
@@ -186,7 +191,7 @@ fn swap(
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
             let tie = thresholds.tie(gain_of_own);
             let needed = if simpler { tie } else { -tie };
-            if rival.against(&best) < needed {
+            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &best.state) {
                 best = rival;
                 changed = true;
                 break;
@@ -253,7 +258,7 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
             larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
             larger.active.push(active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &bench, from, thresholds) {
+            if !improves(&settled, &bench, from, thresholds) || problem.runs_away(&larger, &state) {
                 refused.push(next.candidate);
                 continue;
             }

@@ -1,5 +1,6 @@
 //! The gap in figures: per link, over all signals, and how it falls.
 
+use super::measure::MeasuredDrive;
 use super::{Located, Named};
 use crate::drive::DriveResiduals;
 use crate::effect::Link;
@@ -92,7 +93,7 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// What matters within a second of motion, m and rad.
 const MATTERS: [f64; 2] = [0.004, 0.02];
-/// Share of the stall torque that matters: twice what rollers and contacts cost every omni drive.
+/// Share of the drive's torque that matters: twice what rollers and contacts cost every omni drive.
 const DRIVE_MATTERS: f64 = 0.06;
 
 /// Gap of the motion link that matters, in noise floors.
@@ -102,8 +103,8 @@ pub(super) fn motion_matters(noise: [f64; 3]) -> f64 {
 }
 
 /// Gap of the drive link that matters, in noise floors (Nm, one a wheel).
-pub(super) fn drive_matters(floor: &[f64], stall_nm: f64) -> f64 {
-    DRIVE_MATTERS * stall_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
+pub(super) fn drive_matters(floor: &[f64], drive_nm: f64) -> f64 {
+    DRIVE_MATTERS * drive_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
 }
 
 /// What is left on a link after everything that is named.
@@ -119,8 +120,8 @@ const WORTH: f64 = 1.5;
 /// Share of the squared gap that named effects close at least on a link that they explain.
 const EXPLAINED: f64 = 0.5;
 
-/// What to say of a link of motion or drive on which more than noise is left.
-pub(super) fn remains(link: &LinkGap, located: &[Located]) -> Option<Remains> {
+/// What to say of a link of motion or drive on which more than noise is left; from `far` floors on it stays open.
+pub(super) fn remains(link: &LinkGap, located: &[Located], far: f64) -> Option<Remains> {
     if !matches!(link.link, Link::Motion | Link::Drive) || link.after < WORTH {
         return None;
     }
@@ -144,14 +145,14 @@ pub(super) fn remains(link: &LinkGap, located: &[Located]) -> Option<Remains> {
         unit.0,
     );
     let explained = open(link.after) < (1.0 - EXPLAINED) * open(link.before);
-    Some(if link.after >= super::study::FAR && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
+    Some(if link.after >= far && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
 }
 
 /// Links without a moment that could show anything, and what would be needed.
 pub(super) fn weightless(
     pieces: &Pieces,
     motion: &Option<[Vec<WindowResiduals>; 2]>,
-    drive: &Option<([DriveResiduals; 2], Vec<f64>)>,
+    drive: Option<&MeasuredDrive>,
 ) -> Vec<(Link, String)> {
     let mut out = Vec::new();
     let turned = |s: &crate::segment::Segment| {
@@ -164,8 +165,8 @@ pub(super) fn weightless(
             format!("Motion: compared nothing, for no wheel turns by more than {:.3} rad; drive a metre and turn once.", most),
         ));
     }
-    if let Some((plots, _)) = drive {
-        let used = plots[1].weights.iter().flatten().any(|w| *w > 0.0);
+    if let Some(drive) = drive {
+        let used = drive.plots[1].weights.iter().flatten().any(|w| *w > 0.0);
         if !used {
             let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
             out.push((

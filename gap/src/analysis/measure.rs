@@ -10,7 +10,7 @@ use super::robot_file::{completed, given};
 use super::study::rms;
 use super::{Driven, LinkGap, Misses, gaps};
 use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::{Effect, Link, Sizes};
+use crate::effect::{Effect, Link};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::pieces::Pieces;
 use crate::problem::Problem;
@@ -36,13 +36,29 @@ pub(super) struct Drive<'a> {
     pub(super) residuals: DriveResiduals,
 }
 
+/// The drive link as measured.
+pub(super) struct MeasuredDrive {
+    /// Residuals, nominal and written.
+    pub(super) plots: [DriveResiduals; 2],
+    /// Nm, one a wheel.
+    pub(super) floor: Vec<f64>,
+    /// Torque that the motors reach in the logs, Nm.
+    reached_nm: f64,
+}
+
+impl MeasuredDrive {
+    /// Noise floors from which the link does not agree: those of a torque that matters beside what is driven.
+    pub(super) fn far(&self) -> f64 {
+        super::study::FAR.max(gaps::drive_matters(&self.floor, self.reached_nm))
+    }
+}
+
 /// Figures of a written model beside the nominal one's.
 pub(super) struct Measured {
     pub(super) links: Vec<LinkGap>,
     /// Motion residuals, nominal and written.
     pub(super) motion: Option<[Vec<WindowResiduals>; 2]>,
-    /// Drive residuals, nominal and written, and the floor, Nm.
-    pub(super) drive: Option<([DriveResiduals; 2], Vec<f64>)>,
+    pub(super) drive: Option<MeasuredDrive>,
     /// Share of the link's squared gap that goes with each effect of the file, by name.
     pub(super) gains: Vec<(String, f64)>,
     /// RMS of motion and drive in floors after each effect of the file, in its order.
@@ -87,7 +103,7 @@ impl<'a> Data<'a> {
             link.mask_times(|run, t| misses.are_near(run, t));
         }
         let residuals = link.residuals(&state.drive(None))?;
-        let (floor, correlation) = crate::drive::floor(&link, &residuals, Sizes::of(&state.robot).stall_nm);
+        let (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
         link.noise = floor;
         Some(Drive { link, correlation, residuals })
     }
@@ -126,7 +142,8 @@ impl<'a> Data<'a> {
             let plots = [nominally, drive.residuals.clone()];
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
             out.driven.bumps = Driven::at_bumps(&drive.link);
-            out.drive = Some((plots, drive.link.noise.clone()));
+            let (floor, reached_nm) = (drive.link.noise.clone(), drive.link.sizes.drive_nm);
+            out.drive = Some(MeasuredDrive { plots, floor, reached_nm });
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
             let motion = self.has_motion.then(|| (Link::Motion, rms(&motion, state)));

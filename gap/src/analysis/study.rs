@@ -3,18 +3,17 @@
 use std::sync::Arc;
 
 use super::{Limit, Named};
-use crate::effect::Effect;
+use crate::effect::{Effect, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Selection};
 use crate::state::{Active, State};
+use crate::thresholds;
 
-/// A name needs a test with a smaller p-value.
-pub(super) const P_VALUE: f64 = 0.05;
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;
-/// Noise floors that may be left before effects too small to matter alone are named together.
+/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
 pub(super) const FAR: f64 = 3.0;
 /// Share of the squared residual that the estimates may leave more than the best ones of what is named.
 const WORSE: f64 = 0.1;
@@ -73,7 +72,7 @@ pub(super) fn chosen(
     if select::figures(&selection.bench).1 <= OPEN {
         return selection;
     }
-    let all = select::candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let Some(plain) = select::plain(problem, start, &all, thresholds, false) else { return selection };
     let named = |s: &Selection| {
         let mut state = start.clone();
@@ -93,19 +92,20 @@ pub(super) fn rms(problem: &Problem, state: &State) -> f64 {
     (square / n.max(1.0)).sqrt()
 }
 
-/// Judges what was selected on one link from where the study starts.
+/// Judges what was selected on one link from where the study starts; from `far` noise floors on it does not agree.
 pub(super) fn study(
     problem: &Problem,
     start: &State,
     selection: Selection,
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
+    far: f64,
 ) -> Outcome {
-    let all = select::candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let from = start.active.len();
     let (selection, mut refused) = admitted(problem, selection, from, &all, thresholds);
     let mut judged = judge(problem, start, selection);
-    if judged.rms > FAR
+    if judged.rms > far
         && let Some(several) = several(problem, start, &judged, &all, thresholds)
     {
         let (selection, more) = admitted(problem, several, from, &all, thresholds);
@@ -221,32 +221,21 @@ fn admitted(
 
 /// What forbids to name an effect.
 fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
-    let free = &active.form.free;
-    if estimate.p > P_VALUE {
-        return Some(format!("p = {}", crate::report::short(estimate.p)));
-    }
-    let at_bound = |j: usize| {
-        let (p, v) = (&free[j], estimate.parameters[j].1);
-        v != 0.0 && active.effect.period(&p.name).is_none() && p.bounds.iter().any(|b| (v - b).abs() < 0.02 * p.scale)
+    let known = |(p, (name, value, interval)): (&Parameter, &(String, f64, Interval))| {
+        let no_angle = active.effect.period(name).is_none();
+        thresholds::Estimate {
+            name: name.clone(),
+            value: *value,
+            interval: interval.ends().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
+            bounds: p.bounds,
+            sized: p.material.is_finite() && no_angle,
+            // What is switched on is not absent at 0.
+            absent_at_zero: p.below.is_none() && p.start.is_none(),
+        }
     };
-    if let Some(j) = (0..free.len()).find(|j| at_bound(*j)) {
-        return Some(format!("{} stands at its bound, {}", free[j].name, crate::report::short(estimate.parameters[j].1)));
-    }
-    // What is switched on is not absent at 0, and an angle has no size.
-    let sized: Vec<usize> = (0..free.len())
-        .filter(|j| free[*j].start.is_none() && free[*j].below.is_none())
-        .filter(|j| free[*j].material.is_finite() && active.effect.period(&free[*j].name).is_none())
-        .collect();
-    let ends = |j: usize| estimate.parameters[j].2.ends().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-    if !sized.is_empty() && sized.iter().all(|j| ends(*j)[0] <= 0.0 && ends(*j)[1] >= 0.0) {
-        return Some("the 95 % intervals of all its parameters hold 0".to_owned());
-    }
-    let wide = |j: &usize| {
-        let ([low, high], bounds) = (ends(*j), free[*j].bounds);
-        // Not only wide: it says nothing about the value.
-        !(high - low < bounds[1] - bounds[0])
-    };
-    sized.iter().find(|j| wide(j)).map(|j| format!("the 95 % interval of {} is wider than its bounds", free[*j].name))
+    let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
+    let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
+    Some(format!("{}; p = {}", refusal.reason(), crate::report::short(estimate.p)))
 }
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.

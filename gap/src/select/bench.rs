@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::ALIKE;
-use crate::effect::{Effect, Link};
+use crate::effect::{Effect, Link, Sizes};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::{Ridge, RidgeFit, Role};
@@ -52,13 +52,18 @@ pub struct Trial {
 
 /// The link's candidates: every form of every effect fitted there.
 pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
+    candidates_in(state, catalogue, link, &Sizes::of(&state.robot))
+}
+
+/// The same for logs of these sizes.
+pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, sizes: &Sizes) -> Vec<Active> {
     let wanted = catalogue.iter().filter(|e| {
         (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
     });
     wanted
-        .flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
+        .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
         .collect()
 }
 
@@ -115,6 +120,7 @@ impl Bench {
         bench.merge_twins();
         bench.share_margins();
         bench.narrow.clone_from(&bench.held);
+        bench.freeze_twins();
         bench.widen(thresholds);
         let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
         let n = bench.linear.gram.n();
@@ -163,6 +169,26 @@ impl Bench {
         for (c, many) in held.iter().zip(many) {
             if let Role::Held(sd, _) = &mut self.held[*c] {
                 *sd /= many.max(1.0).sqrt();
+            }
+        }
+    }
+
+    /// What does the same as the named effects together is frozen while their sizes are estimated: these are the sizes of
+    /// "this is the cause".
+    fn freeze_twins(&mut self) {
+        let jj = self.linear.gram.information();
+        let named = self.linear.active();
+        if named.is_empty() {
+            return;
+        }
+        let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
+        for c in 0..self.linear.owners.len() {
+            if !matches!(self.narrow[c], Role::Held(..)) {
+                continue;
+            }
+            let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
+            if b.dot(&crate::gram::solve(&a, &b)) > ALIKE * jj[(c, c)] {
+                self.narrow[c] = Role::Out;
             }
         }
     }

@@ -15,8 +15,8 @@ use crate::state::{Active, State};
 
 /// Effects at most.
 const MOST: usize = 8;
-/// Share of the held-out sum of squares that an effect must explain, and each parameter beyond its first again.
-const SHARE: f64 = 0.02;
+/// Share of the held-out sum of squares that each parameter of an effect must explain.
+const SHARE: f64 = 0.004;
 /// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as good.
 const AS_GOOD: f64 = 0.97;
 /// Share of what exceeds the noise that all effects together must close, held out.
@@ -56,6 +56,7 @@ pub(crate) fn plain(
         larger.active.push(active);
         problem.fit(&mut larger);
         let sound = larger.active[from..].iter().all(|a| !stopped(a));
+        let sound = sound && !problem.runs_away(&larger, &state);
         if sound && held_out(problem, &larger).0 < (1.0 - 0.5 * SHARE) * now {
             state = larger;
         } else {

@@ -63,8 +63,13 @@ pub struct Rivals {
     pub ambiguous: bool,
 }
 
-/// Pairs between which the drawing decides: wheels are mounted where they are drawn.
-const CONVENTIONS: [(&str, &str); 2] = [("wheel-skew", "wheel-angle"), ("wheel-skew", "marker-heading")];
+/// Pairs between which the drawing decides: wheels are mounted where they are drawn, and a camera was calibrated.
+const CONVENTIONS: [(&str, &str); 4] = [
+    ("wheel-skew", "wheel-angle"),
+    ("wheel-skew", "marker-heading"),
+    ("wheel-radius", "camera-scale"),
+    ("wheel-radius-common", "camera-scale"),
+];
 
 /// Finds what an effect cannot be told from.
 pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active], thresholds: &Thresholds) -> Rivals {
