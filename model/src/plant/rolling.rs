@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, friction, turn};
-use crate::geometry::Geometry;
+use runs::geometry::Geometry;
 use crate::motor::Axis;
 
 /// What depends on the step length only.

@@ -249,7 +249,7 @@ fn four_wheels_roll_and_odometry_closes() {
 
 #[test]
 fn a_differential_drive_never_slides_sideways() {
-    use crate::geometry::Wheel;
+    use runs::geometry::Wheel;
     let wheel = |x_m: f64| Wheel { x_m, y_m: 0.0, drive_rad: std::f64::consts::FRAC_PI_2, roller_rad: 0.0 };
     let robot = Robot { layout: Layout::Wheels(vec![wheel(0.08), wheel(-0.08)]), ..Robot::racbot() };
     for mut plant in plants(&robot) {
