@@ -94,7 +94,7 @@ impl Log<'static> {
                     }
                 };
                 camera.extend(seen(&run, spooled.len()));
-                for t in &run.t {
+                for t in run.sampled().iter() {
                     if let Some(last) = last.replace(*t).filter(|_| steps.len() < STEPS) {
                         steps.push(t - last);
                     }

@@ -39,20 +39,14 @@ impl Run {
             let pose = camera.next_if(|sample| sample.tick == tick).map(|s| [s.pose.x, s.pose.y, s.pose.theta]);
             for column in &columns {
                 let number = match *column {
-                    Column::Time => self.t[tick],
-                    Column::Command(i) => self.command.as_ref().map_or(f64::NAN, |c| c[i][tick]),
-                    Column::Reference(wheel) => self.reference[wheel][tick],
                     Column::Counts(wheel) => {
                         let gap = gaps.get_mut(wheel).and_then(|g| g.next_if(|t| **t == tick)).is_some();
                         let text = if gap { String::new() } else { self.counts[wheel][tick].to_string() };
                         csv.write_field(text)?;
                         continue;
                     }
-                    Column::Duty(wheel) => self.duty[wheel][tick],
-                    Column::Measured(wheel) => self.measured[wheel][tick],
-                    Column::Supply => self.supply_v.as_ref().map_or(f64::NAN, |s| s[tick]),
                     Column::Camera(i) => pose.map_or(f64::NAN, |p| p[i]),
-                    Column::Other => continue,
+                    column => self.real(column).map_or(f64::NAN, |numbers| numbers[tick]),
                 };
                 csv.write_field(if number.is_nan() { String::new() } else { number.to_string() })?;
             }
