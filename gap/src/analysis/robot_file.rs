@@ -8,6 +8,7 @@ use runs::{Columns, Log, Logs, as_logged};
 use super::Named;
 use super::order::ORDER;
 use crate::effect::{Effect, Values};
+use crate::evidence::Interval;
 use crate::options::Options;
 use crate::parts::{Part, parts};
 use crate::state::Active;
@@ -66,7 +67,7 @@ pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active>
             let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
             let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
             let link = effect.link();
-            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true })
+            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true, together: false })
         })
         .collect()
 }
@@ -94,7 +95,10 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         let strings = |v: &[String]| toml::Value::Array(v.iter().map(|s| toml::Value::String(s.clone())).collect());
         other.insert("runs".to_owned(), strings(runs));
         other.insert("gain".to_owned(), toml::Value::Float((n.gain * 1e4).round() / 1e4));
-        other.insert("p_value".to_owned(), toml::Value::Float(n.p_value));
+        other.insert("evidence".to_owned(), toml::Value::String(n.evidence.kind().to_owned()));
+        if let Some(p) = n.evidence.p_value() {
+            other.insert("p_value".to_owned(), toml::Value::Float(p));
+        }
         let twins: Vec<String> =
             alternatives.iter().filter(|a| a.contains(&n.name)).flatten().filter(|x| **x != n.name).cloned().collect();
         if !twins.is_empty() {
@@ -103,8 +107,18 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         let parameters: Vec<(String, EffectParameter)> = n
             .parameters
             .iter()
-            .map(|(name, value, ci)| {
-                (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
+            .map(|(name, value, interval)| {
+                let mut parameter = EffectParameter { value: *value, ..EffectParameter::default() };
+                match interval {
+                    Interval::Ci95(ends) => parameter.ci95 = Some(*ends),
+                    known => {
+                        if let (Some(key), Some(ends)) = (known.key(), known.ends()) {
+                            let ends = ends.map(toml::Value::Float).to_vec();
+                            parameter.other.insert(key.to_owned(), toml::Value::Array(ends));
+                        }
+                    }
+                }
+                (name.clone(), parameter)
             })
             .collect();
         let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };

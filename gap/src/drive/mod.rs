@@ -8,6 +8,7 @@
 mod bumps;
 mod floor;
 mod forces;
+mod free_run;
 
 use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
@@ -18,7 +19,8 @@ use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
-pub use forces::{Instant, Loads, SIGN_WIDTH, SLIDE_WIDTH, smooth_sign};
+pub use free_run::{further, runaway};
+pub use forces::{Instant, Loads, smooth_sign};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -169,7 +171,7 @@ impl DriveModel {
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;
-            return Some(Mechanics { rows, body: None, response: inverse, inertia });
+            return Some(Mechanics { ln_inertia: spin.iter().map(|j| j.ln()).sum(), rows, body: None, response: inverse, inertia });
         }
         let [cx, cy] = self.centre_of_mass;
         let (m, i) = (self.mass, self.yaw_inertia);
@@ -189,6 +191,7 @@ impl DriveModel {
         let total = DMatrix::from_fn(3, 3, |a, b| total[(a, b)]);
         let body = &rows * inverse;
         Some(Mechanics {
+            ln_inertia: total.determinant().ln(),
             response: &body * rows.transpose(),
             inertia: twist.transpose() * total * &twist,
             body: Some(body),
@@ -214,4 +217,6 @@ pub struct Mechanics {
     pub response: DMatrix<f64>,
     /// Wheel torque per wheel acceleration, N × N.
     pub inertia: DMatrix<f64>,
+    /// Natural logarithm of the determinant of the inertia of all that can move, SI units.
+    pub ln_inertia: f64,
 }

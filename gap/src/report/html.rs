@@ -96,22 +96,24 @@ fn effects(out: &mut String, a: &Analysis) {
     if a.effects.is_empty() {
         return;
     }
-    out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>95 % interval</th><th>in other units</th><th>gap closed on its link</th><th>p</th></tr>");
+    out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>interval</th><th>in other units</th><th>gap closed on its link</th><th>evidence</th></tr>");
     for e in &a.effects {
-        for (k, (name, v, [lo, hi])) in e.parameters.iter().enumerate() {
+        for (k, (name, v, known)) in e.parameters.iter().enumerate() {
+            let interval = known.ends().map_or_else(String::new, |[lo, hi]| {
+                format!("{} {} to {}", known.label(), short(lo), short(hi))
+            });
             let first = |s: String| if k == 0 { s } else { String::new() };
             let _ = write!(
                 out,
-                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
                 first(escape(&e.name)),
                 first(terminal::list(&e.wheels)),
                 escape(name),
                 short(*v),
-                short(*lo),
-                short(*hi),
+                interval,
                 escape(&units::value(name, *v)),
                 first(format!("{:.1} %", 100.0 * e.gain)),
-                first(short(e.p_value))
+                first(escape(&e.evidence.words()))
             );
         }
     }
@@ -125,7 +127,7 @@ fn waterfall(out: &mut String, a: &Analysis) {
     let (before, after) = overall(&a.links);
     let _ = write!(
         out,
-        "<h2>How the gap shrinks</h2><p>Held-out RMS over all compared signals, in units of the noise floor: {before:.2} before, {after:.2} after.</p>"
+        "<h2>How the gap shrinks</h2><p>RMS over all compared signals, in units of the noise floor: {before:.2} before, {after:.2} with robot.toml as it is written, read again; nothing else is adjusted.</p>"
     );
     let top = a.waterfall.iter().map(|w| w.1).fold(1.0, f64::max);
     let (row, left, width) = (30.0, 250.0, 300.0);

@@ -4,13 +4,8 @@ use super::Machine;
 use super::stand_in::StandIn;
 use crate::fpga::{BitTrue, Fpga, FpgaError};
 use driver::Registers;
-use fixed_kin::AXES;
 use fixed_kin::kicker::State;
-use fixed_kin::modulation::modulate;
-use fixed_kin::registers::{
-    BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, PWM_PERIOD, STATUS, STATUS_FIELDS, TICK_PERIOD,
-    TIME,
-};
+use fixed_kin::registers::{BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, TICK_PERIOD, TIME};
 
 /// An FPGA with a clock that runs, and a robot on its pins.
 pub trait Live: Send {
@@ -66,18 +61,6 @@ impl BitTrueLive {
         self.kicking = kicking;
         Ok(())
     }
-
-    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        if STATUS_FIELDS[0].of(self.fpga.read(STATUS.offset)?) == 0 {
-            return Ok([0.0; AXES]);
-        }
-        let period = self.fpga.read(PWM_PERIOD.offset)? as u16;
-        Ok(self.fpga.outputs().duties.map(|duty| {
-            let pwm = modulate(duty, period);
-            let share = if period == 0 { 0.0 } else { f64::from(pwm.compare) / f64::from(period) };
-            if pwm.reverse { -share } else { share }
-        }))
-    }
 }
 
 impl Live for BitTrueLive {
@@ -92,7 +75,7 @@ impl Live for BitTrueLive {
                 return Ok(());
             }
             self.tick += u64::from(period);
-            let duties = self.duties()?;
+            let duties = self.fpga.duties()?;
             machine.step(&duties, f64::from(period) / clock_hz);
             self.fpga.pins.encoder_errors = machine.illegal_steps();
             if let Err(error) = self.fpga.advance(&machine.positions()) {

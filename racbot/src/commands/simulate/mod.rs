@@ -283,9 +283,10 @@ fn figures(drive: &Drive, timed: &Timed) -> String {
     let ending = match &timed.driven.ending {
         Ending::Finished => "at rest".to_owned(),
         Ending::TimeLimit => format!("after {} s, the time limit", drive.limit_s),
-        Ending::Disarmed(faults) => format!("card disarmed: {faults}"),
+        Ending::Stopped => "stopped".to_owned(),
+        Ending::Fault(fault) => fault.to_string(),
     };
-    let _ = writeln!(text, "ended        {ending}");
+    let _ = write!(text, "ended        {}", wrapped(&ending, 13));
     let _ = writeln!(text, "simulated    {} times real time", ratio(timed.times_real_time));
     text
 }
@@ -309,7 +310,8 @@ fn to_json(drive: &Drive, timed: &Timed) -> Value {
         "ended": match &timed.driven.ending {
             Ending::Finished => "finished".to_owned(),
             Ending::TimeLimit => "time-limit".to_owned(),
-            Ending::Disarmed(faults) => format!("disarmed: {faults}"),
+            Ending::Stopped => "stopped".to_owned(),
+            Ending::Fault(fault) => fault.to_string(),
         },
         "times_real_time": timed.times_real_time,
     })
