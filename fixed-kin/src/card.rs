@@ -247,6 +247,8 @@ impl Card {
             }
             o if o == map::ENCODER_ERROR.offset => u32::from(self.encoder_errors),
             o if o == map::KICKER_STATUS.offset => self.kicker_status(),
+            // Levels of the lines are not here, only what was counted of them.
+            o if o == map::ENCODER_LINES.offset => 0,
             o if o == map::STALL.offset => self.stalled(),
             o if o == map::INDEX_STATUS.offset => {
                 map::INDEX_WAITING.place(self.index_waiting.into()) | map::INDEX_SEEN.place(self.index_seen.into())
