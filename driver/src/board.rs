@@ -90,6 +90,8 @@ pub struct Identity {
     pub content_hash: u32,
     /// Axes.
     pub axes: u32,
+    /// Board whose pins it drives.
+    pub board: map::Target,
     /// Nominal clock, Hz.
     pub clock_hz: u32,
 }
@@ -214,23 +216,41 @@ impl<R: Registers> Board<R> {
         Self { bus }
     }
 
-    /// Reads and checks the identification.
+    /// Reads and checks the identification, on any board that a top module is written for.
+    ///
+    /// # Errors
+    /// [`BoardError::Identity`] for another design, map or an unknown board.
+    pub fn identify(&mut self) -> Result<Identity, BoardError> {
+        self.identify_on(&map::BOARDS)
+    }
+
+    /// As [`Self::identify`], where only one board makes sense: the card behind a PCI bridge, say.
     ///
     /// # Errors
     /// [`BoardError::Identity`] for another design, map or board.
-    pub fn identify(&mut self) -> Result<Identity, BoardError> {
+    pub fn identify_as(&mut self, board: map::Target) -> Result<Identity, BoardError> {
+        self.identify_on(&[board])
+    }
+
+    fn identify_on(&mut self, boards: &[map::Target]) -> Result<Identity, BoardError> {
         self.expect(
             &map::COOKIE,
             map::COOKIE_VALUE,
             u32::MAX,
             "no racbot design is loaded; all ones is an absent card",
         )?;
-        self.expect(&map::BOARD, map::BOARD_VALUE, u32::MAX, "the bitstream drives the pins of another board")?;
+        let found = self.bus.read(map::BOARD.offset)?;
+        let Some(board) = boards.iter().copied().find(|board| board.word == found) else {
+            let expected = boards.first().map_or(0, |board| board.word);
+            let (register, hint) = (map::BOARD.name, "the bitstream drives the pins of another board");
+            return Err(BoardError::Identity { register, found, expected, hint });
+        };
         self.expect(&map::MAP_VERSION, map::VERSION, 0xFFFF_0000, "the register map has another major version")?;
         Ok(Identity {
             version: self.bus.read(map::MAP_VERSION.offset)?,
             content_hash: self.bus.read(map::CONTENT_HASH.offset)?,
             axes: self.bus.read(map::AXIS_COUNT.offset)?,
+            board,
             clock_hz: self.bus.read(map::CLOCK_HZ.offset)?,
         })
     }

@@ -25,6 +25,7 @@ pub use state::{CardState, inspect};
 use crate::bitstream::Bitstream;
 use crate::board::{Board, Identity};
 use crate::pci::{PciCard, RegisterWindow};
+use fixed_kin::registers::BOARD_4I65;
 use std::time::Duration;
 
 /// How to load.
@@ -120,7 +121,7 @@ fn attempt<C: PciCard>(
     sequence::send(card, bitstream.lanes(), progress)?;
     let transfer = card.now().saturating_sub(begun);
     sequence::finish(card)?;
-    let identity = Board::new(RegisterWindow::new(&mut *card)).identify()?;
+    let identity = Board::new(RegisterWindow::new(&mut *card)).identify_as(BOARD_4I65)?;
     if let Some(expected) = options.content_hash
         && identity.content_hash != expected
     {

@@ -6,7 +6,7 @@
 //! the meaning of the frames.
 
 use super::select_map::{DeviceCrc, FRAME_WORDS, FRAMES};
-use fixed_kin::registers::BOARD_VALUE;
+use fixed_kin::registers::BOARD_4I65;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -28,7 +28,7 @@ impl StandIn {
     /// For the committed design.
     #[must_use]
     pub fn committed() -> Self {
-        Self { content_hash: hdl::design::content_hash(), board: BOARD_VALUE }
+        Self { content_hash: hdl::design::content_hash(), board: BOARD_4I65.word }
     }
 
     /// What the frames of a configured device hold, if a stand-in configured it.
