@@ -7,6 +7,7 @@ mod data_set;
 pub mod error;
 pub mod frames;
 pub mod geometry;
+pub mod import;
 mod log;
 mod logs;
 mod mcap;

@@ -141,7 +141,7 @@ fn parse(
 }
 
 /// What stands between the fields of a file: a comma, unless its first line has none but semicolons or tabs.
-fn separator(head: &[u8]) -> u8 {
+pub(crate) fn separator(head: &[u8]) -> u8 {
     let line = head.split(|b| *b == b'\n').next().unwrap_or(head);
     let number = |byte: u8| line.iter().filter(|b| **b == byte).count();
     match (number(b','), number(b';'), number(b'\t')) {

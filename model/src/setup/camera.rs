@@ -13,7 +13,7 @@ use runs::robot::{Robot, Support};
 
 use super::orders::{moved, orders, words};
 use super::samples::{Sample, of_camera};
-use super::{Mistake, common_ratio, is_true, near, short};
+use super::{Mistake, common_ratio, is_true, short};
 
 /// Fewest stretches with motion that tell anything.
 const FEWEST: usize = 20;
@@ -191,10 +191,10 @@ fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
     let spin = fit.spin.unwrap_or(fit.scale);
     let told = |kinds: &[&str]| before.iter().any(|m| kinds.contains(&m.kind));
     let distances = ["wheel-diameter", "encoder-counts", "gear-ratio"];
-    if let Some((unit, name)) = [(1000.0, "millimetres"), (100.0, "centimetres")]
-        .iter()
-        .find(|(u, _)| near(fit.scale / spin.clamp(0.05, 20.0), *u))
-    {
+    // Where distances by the counts are wrong, too, turns tell how far.
+    let own = if is_true(spin) { 1.0 } else { spin.clamp(0.05, 20.0) };
+    let unit = [(1000.0, "millimetres"), (100.0, "centimetres")];
+    if let Some((unit, name)) = unit.iter().find(|(u, _)| is_true(fit.scale / (own * u))) {
         let what = format!("the camera's distances are {} times those of the counts: {name}", short(fit.scale));
         let remedy = format!("write metres (divide cam_x and cam_y by {unit}), or name the unit to `racbot convert`");
         found.push(Mistake::new("camera-unit", "cam_x", what, remedy));

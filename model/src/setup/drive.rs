@@ -11,6 +11,8 @@ use super::{Mistake, common_ratio, is_true, near, short};
 const SPAN_S: f64 = 0.05;
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
+/// Spans by which commands may run ahead.
+const LAGS: usize = 6;
 /// Samples from which anything is said.
 const FEWEST: usize = 50;
 /// Ratio of supplies from which they are not one robot's: a battery between full and empty has 1.5.
@@ -125,22 +127,28 @@ fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
 /// Commands in another frame.
 fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     let geometry = robot.geometry().ok()?;
-    let (mut pp, mut re, mut im, mut cc, mut n) = (0.0, 0.0, 0.0, 0.0, 0);
-    for s in signals {
-        for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
-            let w: Vec<f64> = s.speed.iter().map(|w| w[k]).collect();
-            let p = geometry.twist(&w);
-            pp += p.vx * p.vx + p.vy * p.vy;
-            re += c[0] * p.vx + c[1] * p.vy;
-            im += c[1] * p.vx - c[0] * p.vy;
-            cc += c[0] * c[0] + c[1] * c[1];
-            n += 1;
+    // Commands run ahead of the wheels: the lag at which they follow best.
+    let of = |lag: usize| {
+        let (mut pp, mut re, mut im, mut cc, mut n) = (0.0, 0.0, 0.0, 0.0, 0);
+        for s in signals {
+            for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
+                let w: Vec<f64> = s.speed.iter().filter_map(|w| w.get(k + lag).copied()).collect();
+                if w.len() == s.speed.len() {
+                    let p = geometry.twist(&w);
+                    pp += p.vx * p.vx + p.vy * p.vy;
+                    re += c[0] * p.vx + c[1] * p.vy;
+                    im += c[1] * p.vx - c[0] * p.vy;
+                    cc += c[0] * c[0] + c[1] * c[1];
+                    n += 1;
+                }
+            }
         }
-    }
-    let turn = f64::atan2(im, re);
-    // What wheels that are wired in another order make of a command is no frame.
-    let follows = re.hypot(im) / (pp * cc).sqrt().max(1e-300);
-    if n < FEWEST || follows < 0.85 || turn.abs() < 1.0 {
+        (f64::hypot(re, im) / f64::sqrt(pp * cc).max(1e-300), f64::atan2(im, re), n)
+    };
+    let (follows, turn, n) = (0..=LAGS).map(of).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // What wheels that are wired in another order make of a command is no frame: frames are quarter turns.
+    let quarter = (turn / std::f64::consts::FRAC_PI_2).round() * std::f64::consts::FRAC_PI_2;
+    if n < FEWEST || follows < FOLLOWS || quarter == 0.0 || (turn - quarter).abs() > 0.4 {
         return None;
     }
     let what = format!("commands point {:.0} degrees from where the wheels drive", turn.to_degrees());

@@ -5,7 +5,6 @@ use crate::terminal::{Answer, Failure, save, wrapped};
 use clap::Args;
 use gap::effect::Effect;
 use gap::user::UserEffect;
-use runs::Logs;
 use runs::error::InputError;
 use runs::robot::Robot;
 use serde_json::json;
@@ -32,6 +31,10 @@ pub(crate) struct Options {
     #[arg(long, value_name = "DIR", default_value = "out/gap")]
     out: PathBuf,
 
+    /// Go on although the data set looks set up wrong (see `racbot check`)
+    #[arg(long)]
+    force: bool,
+
     /// Take an effect out of a robot.toml (--robot, or that of the data set) again; analyse nothing
     #[arg(long, value_name = "NAME")]
     undo: Option<String>,
@@ -43,10 +46,8 @@ impl Options {
             return self.undo(name);
         }
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
-        let set = match &self.robot {
-            None => Logs::open(folder)?,
-            Some(file) => Logs::open_as(folder, Robot::load_partial(file)?)?,
-        };
+        let set = super::check::open(folder, self.robot.as_deref())?;
+        let hints = super::check::first_stage(folder, &set, self.force)?;
         let progress = Progress::new("looking for the missing effect", 1);
         let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
         for file in &self.effect {
@@ -60,7 +61,7 @@ impl Options {
         progress.at(1);
         drop(progress);
         analysis.write(&self.out).map_err(Failure::data)?;
-        let text = format!("{}\nreport in {}\n", analysis.terminal_summary().trim_end(), self.out.display());
+        let text = format!("{hints}{}\nreport in {}\n", analysis.terminal_summary().trim_end(), self.out.display());
         Ok(Answer { text, json: analysis.to_json(), wrong: None })
     }
 

@@ -39,6 +39,10 @@ pub(crate) struct Options {
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
+    /// Go on although the data set looks set up wrong (see `racbot check`)
+    #[arg(long)]
+    force: bool,
+
     /// Folder for the calibrated robot.toml, the FPGA's coefficient words and pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -54,6 +58,9 @@ enum Procedure {
     #[cfg(feature = "simulation")]
     Paper,
 }
+
+/// Largest skew that is one: a wheel turned further drives another way altogether.
+const LARGEST_DEG: f64 = 45.0;
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
@@ -82,11 +89,24 @@ impl Options {
             None => DataSet::open(folder)?,
             Some(file) => DataSet::open_as(folder, Robot::load_partial(file)?)?,
         };
+        if runs::is_dead_reckoning(&set.as_logged()) {
+            let what =
+                "the logs have the robot's odometry and no wheels: log enc_1..N or speed_1..N to find their skews";
+            return Err(Failure::about(folder, what));
+        }
+        let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.force)?;
         let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
+        let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
+        if !self.force && largest > LARGEST_DEG {
+            let what = format!(
+                "the best fit turns a wheel by {largest:.0}°: no skew does that; see `racbot check`, or --force"
+            );
+            return Err(Failure::about(folder, what));
+        }
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
         let calibrated = Calibrated::new(&set.robot, &found, &found)?;
-        Ok((Answer { text: estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
+        Ok((Answer { text: hints + &estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
     }
 
     #[cfg(feature = "simulation")]
