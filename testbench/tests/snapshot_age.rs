@@ -6,7 +6,7 @@ use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::cosim::{Session, Verilated};
+use simulator::cosim::{Session, Verilated};
 
 /// Clocks in which the program certainly ends, and an access of the bus.
 const PROGRAM: u32 = 1_000;
