@@ -163,6 +163,8 @@ pub struct Analysis {
     pub drive: Option<[DriveResiduals; 2]>,
     /// What was driven where those residuals are, and what the camera saw.
     pub driven: Driven,
+    /// Windows of the motion link, s.
+    pub window_s: f64,
     /// Held-out RMS in floors of the links that were fitted: every run predicted by what the others say.
     pub held_out: Vec<(Link, f64)>,
     /// What remains beside what is named, one sentence a link.
@@ -240,7 +242,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-    let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
+    let rim_m = Sizes::of(robot).rim_m;
+    let window_s = crate::motion::window_s(&pieces, rim_m);
+    let order = wheel_order(&MotionLink::new(&pieces, noise, window_s), &start, &catalogue);
     let cabled = |a: &&Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
     let wired = order.as_ref().map(|o| o.0.clone()).or_else(|| start.active.iter().find(cabled).cloned());
     if let Some(active) = &wired {
@@ -255,7 +259,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     let mut thresholds = options.thresholds.clone();
-    let motion_link = MotionLink::new(&pieces, noise, 1.0);
+    let motion_link = MotionLink::new(&pieces, noise, window_s);
     let has_motion = !motion_link.is_empty() && robot.support == Support::Floor;
     let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
     start = data.state(&set.robot);
@@ -384,6 +388,14 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } = study;
     remarks.extend(refused);
+    let odd = odd_clock(robot, &set.logs);
+    if let Some(remark) = &odd {
+        // What was found by that clock is nothing.
+        remarks.push(remark.clone());
+        named.clear();
+        alternatives.clear();
+        unexplained.clear();
+    }
     let runs: Vec<String> = set.logs.iter().map(|r| r.name.clone()).collect();
     // What is reported is what the file, read again, gives; where that does not fall, nothing is named.
     let (robot_with, text, measured) = loop {
@@ -450,6 +462,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for l in links.iter().filter(|l| !slides(l)) {
         let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
         match gaps::remains(l, &located, far) {
+            _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });
             }
@@ -457,7 +470,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             None => {}
         }
     }
-    let weight = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
+    let compared = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
+    let weight = if odd.is_some() { 0 } else { compared };
     remarks.extend(weightless.iter().map(|w| w.1.clone()));
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
@@ -477,6 +491,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         active: &found,
         pieces: &pieces,
         noise: (noise, &drive_noise),
+        window_s,
         thresholds: &thresholds,
         catalogue: &catalogue,
     };
@@ -501,6 +516,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         runs,
+        window_s,
         held_out,
         remains,
         thresholds,
@@ -509,6 +525,20 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         driven,
         remarks,
         exact,
+    })
+}
+
+/// Control periods between two rows of a log beyond which its times are in another unit.
+const ODD_ROWS: f64 = 300.0;
+
+/// What to say of logs whose times cannot be seconds.
+fn odd_clock(robot: &Robot, logs: &[runs::Log]) -> Option<String> {
+    let periods = logs.iter().filter_map(runs::Log::tick_s).map(|tick| tick * robot.control_rate_hz);
+    periods.filter(|p| *p > 0.0).find(|p| p.max(1.0 / p) > ODD_ROWS).map(|odd| {
+        format!(
+            "Compared nothing: the rows are {odd:.3} control periods apart by the column t and control_rate_hz; t is in seconds \
+             (are these milliseconds?)."
+        )
     })
 }
 

@@ -12,7 +12,7 @@ use crate::state::{Active, State};
 use crate::thresholds;
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
-const OPEN: f64 = 1.5;
+const OPEN: f64 = 1.2;
 /// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
 pub(super) const FAR: f64 = 3.0;
 /// Share of the squared residual that the estimates may leave more than the best ones of what is named.
