@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
     after_help = "IN may be any CSV with a header row (PlotJuggler's too), a ROS 2 bag in an MCAP, a game log of the \
 small-size league (.log, .log.gz) or a WPILib log. MAP.toml says which of its series is which column, such as\n\n  \
 [columns]\n  enc_1 = \"left/ticks\"\n  cam_x = { from = \"pose.x\", unit = \"mm\" }\n  [frame]\n  x = \"forward\"\n\n\
-docs/log-format.md has all of it."
+docs/book/src/log-format.md has all of it."
 )]
 pub(crate) struct Options {
     /// Map, file to read, file to write (*.csv or *.mcap); with --list the file to read alone

@@ -12,7 +12,7 @@ use crate::error::{InputError, line_and_column, nearest};
 use crate::frames::{Pose, wrap_angle};
 use crate::{CameraSample, Run};
 
-/// A map as its TOML has it; see `docs/log-format.md`.
+/// A map as its TOML has it; see `docs/book/src/log-format.md`.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Map {
@@ -114,7 +114,7 @@ impl Map {
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
         let map: Self = toml::from_str(text).map_err(|e| {
             let (line, column) = line_and_column(text, e.span().map_or(0, |s| s.start));
-            let hint = "see docs/log-format.md for what a map may say";
+            let hint = "see docs/book/src/log-format.md for what a map may say";
             InputError::new(path, e.message().replace('\n', " "), hint).at(line, column)
         })?;
         if let Some(name) = map.format.as_deref().filter(|name| Format::from_name(name).is_none()) {
@@ -158,7 +158,7 @@ impl Map {
                 let known: Vec<String> = Column::all(4).into_iter().map(Column::name).collect();
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
                 let hint = nearest(name, &known).map_or_else(
-                    || "the columns are those of docs/log-format.md; time has a table [time]".to_owned(),
+                    || "the columns are those of docs/book/src/log-format.md; time has a table [time]".to_owned(),
                     |near| format!("did you mean {near}?"),
                 );
                 return Err(fail("is no column of a run".to_owned(), hint));
