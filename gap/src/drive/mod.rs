@@ -19,7 +19,7 @@ use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
-pub use free_run::{further, runaway};
+pub use free_run::{further, misses, runaway};
 pub use forces::{Instant, Loads, smooth_sign};
 
 /// Adds torques and forces at one instant.
