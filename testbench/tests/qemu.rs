@@ -186,7 +186,8 @@ fn says(scene: &str, parts: &[&str]) {
 #[test]
 fn virtual_machine_from_power_up_to_reset() {
     let folder = tempfile::tempdir().unwrap();
-    let Session { console, looks, files } = session(VirtualCard::new(&robot()).unwrap(), Ids::MESA_4I65, folder.path(), "1");
+    let Session { console, looks, files } =
+        session(VirtualCard::new(&robot()).unwrap(), Ids::MESA_4I65, folder.path(), "1");
     let scene = |name| scene(&console, name);
     says(scene("find"), &["0000:00:05.0  Mesa 4I65", "not configured"]);
     says(scene("load"), &["2 CRC words right", "try 1", "the committed gateware", "disarmed"]);

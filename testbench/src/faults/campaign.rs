@@ -4,7 +4,6 @@ use super::judge::{Course, Injected};
 use super::{BusFault, Cable, Outcome, RigFault, Trouble, Verdict};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -151,40 +150,34 @@ pub fn run(seed: u64, size: f64) -> Result<Vec<Line>, String> {
     Ok(lines)
 }
 
-/// The table, as the README has it.
+/// Headings of [`rows`].
+pub const COLUMNS: [&str; 9] = [
+    "fault",
+    "cases",
+    "drove as commanded",
+    "refused or ended, off, cause named",
+    "off by watchdog",
+    "over before noticed",
+    "off after, at most, ms",
+    "armed again once the cause is gone",
+    "violations",
+];
+
+/// The campaign as a table, a row a fault and one for all.
 #[must_use]
-pub fn table(lines: &[Line]) -> String {
-    let mut text = String::from(
-        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | over before noticed | off after, at most | can be armed again once the cause is gone | violations |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
-    for line in lines {
-        let slowest = line.slowest().map_or_else(String::new, |time| format!("{} ms", time.as_millis()));
-        let count = |outcome| line.count(outcome);
-        let _ = writeln!(
-            text,
-            "| {} | {} | {} | {} | {} | {} | {slowest} | {} | {} |",
-            line.fault,
-            line.cases.len(),
-            count(Outcome::Drove),
-            count(Outcome::Ended),
-            count(Outcome::Watchdog),
-            count(Outcome::Unnoticed),
-            line.armed_again(),
-            line.violations().count()
-        );
-    }
-    let total = |f: fn(&Line) -> usize| lines.iter().map(f).sum::<usize>();
-    let _ = writeln!(
-        text,
-        "| all | {} | {} | {} | {} | {} | | {} | {} |",
-        total(|l| l.cases.len()),
-        total(|l| l.count(Outcome::Drove)),
-        total(|l| l.count(Outcome::Ended)),
-        total(|l| l.count(Outcome::Watchdog)),
-        total(|l| l.count(Outcome::Unnoticed)),
-        total(Line::armed_again),
-        total(|l| l.violations().count())
-    );
-    text
+pub fn rows(lines: &[Line]) -> Vec<Vec<String>> {
+    let outcomes = [Outcome::Drove, Outcome::Ended, Outcome::Watchdog, Outcome::Unnoticed];
+    let row = |name: &str, lines: &[Line], slowest: Option<Duration>| {
+        let total = |count: &dyn Fn(&Line) -> usize| lines.iter().map(count).sum::<usize>().to_string();
+        let mut row = vec![name.to_owned(), total(&|line| line.cases.len())];
+        row.extend(outcomes.map(|outcome| total(&|line| line.count(outcome))));
+        row.push(slowest.map_or_else(String::new, |time| time.as_millis().to_string()));
+        row.push(total(&Line::armed_again));
+        row.push(total(&|line| line.violations().count()));
+        row
+    };
+    let mut rows: Vec<_> =
+        lines.iter().map(|line| row(line.fault, std::slice::from_ref(line), line.slowest())).collect();
+    rows.push(row("all", lines, None));
+    rows
 }

@@ -48,12 +48,7 @@ impl<'a> Port<'a> {
     pub(super) const WINDOWS: [Option<Window>; 6] =
         [Some(Window { bytes: SIZE, memory: false }), None, None, None, None, None];
 
-    pub(super) fn new(
-        card: LockedCard,
-        running: &'a Running,
-        limit: Duration,
-        control: &'a mut Control<'a>,
-    ) -> Self {
+    pub(super) fn new(card: LockedCard, running: &'a Running, limit: Duration, control: &'a mut Control<'a>) -> Self {
         let (message, reply) = (Vec::new(), Vec::new());
         Self { card, running, control, limit, now: Duration::ZERO, stamp: 0, resets: 0, message, reply }
     }
@@ -123,8 +118,8 @@ impl Device for Port<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use simulator::virtual_card::VirtualCard;
     use runs::robot::Robot;
+    use simulator::virtual_card::VirtualCard;
     use std::sync::{Arc, Mutex};
 
     #[test]
