@@ -48,12 +48,7 @@ impl<'a> Port<'a> {
     pub(super) const WINDOWS: [Option<Window>; 6] =
         [Some(Window { bytes: SIZE, memory: false }), None, None, None, None, None];
 
-    pub(super) fn new(
-        card: LockedCard,
-        running: &'a Running,
-        limit: Duration,
-        control: &'a mut Control<'a>,
-    ) -> Self {
+    pub(super) fn new(card: LockedCard, running: &'a Running, limit: Duration, control: &'a mut Control<'a>) -> Self {
         let (message, reply) = (Vec::new(), Vec::new());
         Self { card, running, control, limit, now: Duration::ZERO, stamp: 0, resets: 0, message, reply }
     }

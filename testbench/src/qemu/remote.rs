@@ -71,12 +71,7 @@ impl Device for CardDevice {
 ///
 /// # Errors
 /// A socket that fails, a message nobody knows, or what the device wants the machine stopped for.
-pub fn serve(
-    socket: UnixStream,
-    device: &mut dyn Device,
-    ids: Ids,
-    windows: [Option<Window>; 6],
-) -> io::Result<()> {
+pub fn serve(socket: UnixStream, device: &mut dyn Device, ids: Ids, windows: [Option<Window>; 6]) -> io::Result<()> {
     let mut remote = Remote { device, config: ConfigSpace::new(ids, windows) };
     let mut socket = BufReader::new(socket);
     let mut header = [0; 16];
@@ -132,7 +127,9 @@ impl Remote<'_> {
                 let value = u64::from_ne_bytes(field(body, 8));
                 let size = u32::from_ne_bytes(field(body, 16));
                 let memory = body.get(20).is_some_and(|flag| *flag != 0);
-                let Some((window, offset)) = self.config.decode(address, memory) else { return Ok(Some(u64::MAX >> 1)) };
+                let Some((window, offset)) = self.config.decode(address, memory) else {
+                    return Ok(Some(u64::MAX >> 1));
+                };
                 // The local bus has 32 bits: longer accesses come as several.
                 let parts = (0..size.div_ceil(4)).map(|n| (n * 4, (size - n * 4).min(4)));
                 let mut out = 0;
