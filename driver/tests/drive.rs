@@ -54,7 +54,8 @@ fn the_loop_allocates_nothing_recording_and_camera_included() {
     }
     let allocations = |seconds: f64| {
         let folder = tempfile::tempdir().unwrap();
-        let mut recording = Recording::start(&folder.path().join("run.csv"), Layout::of_robot(3, true), Existing::Refuse).unwrap();
+        let mut recording =
+            Recording::start(&folder.path().join("run.csv"), Layout::of_robot(3, true), Existing::Refuse).unwrap();
         let robot = Robot { camera_latency_s: 0.05, ..Robot::racbot() };
         let plan = Plan { fused: true, limit_s: seconds, ..Plan::new(&robot, &[SetPoint::pass(90.0, 0.0, 1.0, 0.0)]) };
         let (card, never) = (Treadmill::new(), AtomicBool::new(false));

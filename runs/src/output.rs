@@ -83,9 +83,7 @@ pub fn create_growing(path: &Path, existing: Existing) -> io::Result<File> {
         }
     }
     OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
-        io::ErrorKind::AlreadyExists => {
-            io::Error::new(error.kind(), "exists already; replace it with --force")
-        }
+        io::ErrorKind::AlreadyExists => io::Error::new(error.kind(), "exists already; replace it with --force"),
         _ => error,
     })
 }
@@ -126,7 +124,10 @@ mod tests {
         assert!(error.contains("run.csv") && error.contains("exists already") && error.contains("--force"), "{error}");
         assert_eq!(fs::read(&path).unwrap(), b"one");
         write_whole(&path, b"two", Existing::Replace).unwrap();
-        assert_eq!((fs::read(&path).unwrap().as_slice(), names(path.parent().unwrap())), (&b"two"[..], vec!["run.csv".to_owned()]));
+        assert_eq!(
+            (fs::read(&path).unwrap().as_slice(), names(path.parent().unwrap())),
+            (&b"two"[..], vec!["run.csv".to_owned()])
+        );
         // Readable by others, as the mask says, not by the owner alone as temporary files are.
         let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
         fs::write(folder.path().join("ordinary"), "").unwrap();

@@ -5,8 +5,8 @@ use crate::output::{Existing, write_with};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use super::columns::Column;
 use super::Run;
+use super::columns::Column;
 
 impl Run {
     /// Writes the run so that [`Run::read`] reads it back unchanged: as CSV, or as MCAP where the

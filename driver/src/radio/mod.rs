@@ -64,9 +64,9 @@ mod tests {
     #[test]
     fn a_boot_frame_arms_again_after_an_encoder_error_and_after_a_stall() {
         let scale = Scale::new(&Robot::racbot(), 33_333_333.0).unwrap();
-        let mut sequence = 0;
+        let mut sequence = 0_u8;
         let mut next = || {
-            sequence += 1;
+            sequence = sequence.wrapping_add(1);
             sequence
         };
         let mut card = Card::slave(0, ROBOT);

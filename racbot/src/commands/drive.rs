@@ -192,7 +192,9 @@ impl Options {
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
         }
-        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing()).map(Some).map_err(Failure::data)
+        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing())
+            .map(Some)
+            .map_err(Failure::data)
     }
 
     /// Makes a data set of the recording's folder, unless it is one already.

@@ -36,7 +36,8 @@ impl Options {
             return Err(Failure::usage(format!("--charge-s: {} is not between 0 and 16 seconds", self.charge_s)));
         }
         let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
-        let ReadyCard { name, registers, clock_hz, mut clock, .. } = self.card.ready(Use::Drive, &robot, self.card.pace())?;
+        let ReadyCard { name, registers, clock_hz, mut clock, .. } =
+            self.card.ready(Use::Drive, &robot, self.card.pace())?;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = Plan::new(&robot, &[]).scale(clock_hz).map_err(|error| about(&error))?;
         let stop = stop_on_signals().map_err(Failure::data)?;

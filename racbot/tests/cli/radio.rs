@@ -84,7 +84,10 @@ fn frames_over_a_serial_line_arm_drive_and_switch_off() {
     let status = child.wait().unwrap();
     let mut text = String::new();
     child.stdout.unwrap().read_to_string(&mut text).unwrap();
-    assert!(status.success() && text.contains("3 boot frames") && text.contains("stopped early; switched off"), "{text}");
+    assert!(
+        status.success() && text.contains("3 boot frames") && text.contains("stopped early; switched off"),
+        "{text}"
+    );
     // Armed until the first of the frames that switch off.
     assert!(frames > ENOUGH && robot.armed == frames - 1, "{frames} {}", robot.armed);
     let fastest = robot.velocities.iter().max().unwrap();

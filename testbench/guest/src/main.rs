@@ -1,6 +1,7 @@
 //! The guest's end of the line.
 //!
 //! ```text
+//! testport now          tells the time once
 //! testport clock        tells the time every 250 µs, for ever
 //! testport say WORDS    says something, prints the reply
 //! testport send NAME    sends standard input as a file
@@ -12,13 +13,18 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::unix::fs::FileExt;
 use testport::{DEVICE, LENGTH, STAMP_US, TIME, VENDOR, WORD};
+use thread_priority::unix::{
+    RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+};
+use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
-const USAGE: &str = "usage: testport clock | say WORDS | send NAME < FILE";
+const USAGE: &str = "usage: testport now | clock | say WORDS | send NAME < FILE";
 
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let port = Port::find()?;
     match arguments.split_first().map(|(verb, rest)| (verb.as_str(), rest)) {
+        Some(("now", [])) => port.tell().map(drop),
         Some(("clock", [])) => port.tell_time(),
         Some(("say", words)) => {
             let reply = port.exchange(format!("{}\n", words.join(" ")).as_bytes())?;
@@ -81,15 +87,25 @@ impl Port {
         Ok(reply)
     }
 
-    /// Writes the time on a grid of [`STAMP_US`]; ticks that were slept through are left out.
+    /// Writes the time, µs since the start of the machine; returns it.
+    fn tell(&self) -> io::Result<u64> {
+        let now = clock_gettime(ClockId::Monotonic);
+        let microseconds = now.tv_sec as u64 * 1_000_000 + now.tv_nsec as u64 / 1_000;
+        self.write(TIME, microseconds as u32)?;
+        Ok(microseconds)
+    }
+
+    /// Writes the time on a grid of [`STAMP_US`], before everything else that wants to run; ticks that were slept
+    /// through are left out.
     fn tell_time(&self) -> io::Result<()> {
+        let highest = ThreadPriority::Crossplatform(ThreadPriorityValue::try_from(99).map_err(io::Error::other)?);
+        let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+        set_thread_priority_and_policy(thread_native_id(), highest, policy)
+            .map_err(|error| io::Error::other(format!("SCHED_FIFO: {error}")))?;
         loop {
-            let now = clock_gettime(ClockId::Monotonic);
-            let microseconds = now.tv_sec as u64 * 1_000_000 + now.tv_nsec as u64 / 1_000;
-            self.write(TIME, microseconds as u32)?;
+            let microseconds = self.tell()?;
             let next = (microseconds / u64::from(STAMP_US) + 1) * u64::from(STAMP_US);
-            let next =
-                Timespec { tv_sec: (next / 1_000_000) as i64, tv_nsec: (next % 1_000_000 * 1_000) as i64 };
+            let next = Timespec { tv_sec: (next / 1_000_000) as i64, tv_nsec: (next % 1_000_000 * 1_000) as i64 };
             while clock_nanosleep_absolute(rustix::thread::ClockId::Monotonic, &next) == Err(rustix::io::Errno::INTR) {}
         }
     }
