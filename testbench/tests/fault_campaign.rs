@@ -15,6 +15,14 @@ fn after_every_fault_the_robot_obeys_or_is_off() {
         violations.len(),
         violations[..violations.len().min(20)].join("\n")
     );
+    for line in &lines {
+        assert_eq!(
+            line.armed_again(),
+            line.cases.len(),
+            "{}: not always armed again once the cause was gone",
+            line.fault
+        );
+    }
     // A campaign whose faults do nothing would pass too.
     let all = |outcome| lines.iter().map(|line| line.count(outcome)).sum::<usize>();
     let cases: usize = lines.iter().map(|line| line.cases.len()).sum();

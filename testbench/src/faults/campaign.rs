@@ -24,6 +24,12 @@ impl Line {
         self.cases.iter().filter(|verdict| verdict.outcome == Ok(outcome)).count()
     }
 
+    /// Cases after which the card could be armed again.
+    #[must_use]
+    pub fn armed_again(&self) -> usize {
+        self.cases.iter().filter(|verdict| verdict.armed_again).count()
+    }
+
     /// What should not have been.
     pub fn violations(&self) -> impl Iterator<Item = &str> {
         self.cases.iter().filter_map(|verdict| verdict.outcome.as_ref().err().map(String::as_str))
@@ -39,7 +45,7 @@ impl Line {
 type Draw = fn(&Course, &mut ChaCha8Rng, u64) -> Injected;
 
 /// Name, cases at size 1, and how the case of a number is drawn.
-const FAULTS: [(&str, u64, Draw); 17] = [
+const FAULTS: [(&str, u64, Draw); 18] = [
     ("read: a bit flipped", 600, |c, r, i| read(c, r, i, |r| Trouble::Flip(r.random_range(0..32)))),
     ("read: lost, answered with zero", 300, |c, r, i| read(c, r, i, |_| Trouble::Drop)),
     ("read: made twice", 300, |c, r, i| read(c, r, i, |_| Trouble::Repeat)),
@@ -70,6 +76,7 @@ const FAULTS: [(&str, u64, Draw); 17] = [
         let cable = [Cable::Cut, Cable::Swapped, Cable::Shorted, Cable::Crossed][(i % 4) as usize];
         Injected::Rig(c.moment(r), RigFault::Cable((i / 4 % 3) as usize, cable))
     }),
+    ("emergency stop pressed", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::EmergencyStop)),
     ("camera gone", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::CameraGone)),
     ("card's clock off by 25 %", 60, |c, r, i| {
         Injected::Rig(c.moment(r), RigFault::Clock(if i.is_multiple_of(2) { 0.75 } else { 1.25 }))
@@ -148,33 +155,35 @@ pub fn run(seed: u64, size: f64) -> Result<Vec<Line>, String> {
 #[must_use]
 pub fn table(lines: &[Line]) -> String {
     let mut text = String::from(
-        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | over before noticed | off after, at most | violations |\n\
-         |---|---|---|---|---|---|---|---|\n",
+        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | over before noticed | off after, at most | can be armed again once the cause is gone | violations |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
     );
     for line in lines {
         let slowest = line.slowest().map_or_else(String::new, |time| format!("{} ms", time.as_millis()));
         let count = |outcome| line.count(outcome);
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {slowest} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {slowest} | {} | {} |",
             line.fault,
             line.cases.len(),
             count(Outcome::Drove),
             count(Outcome::Ended),
             count(Outcome::Watchdog),
             count(Outcome::Unnoticed),
+            line.armed_again(),
             line.violations().count()
         );
     }
     let total = |f: fn(&Line) -> usize| lines.iter().map(f).sum::<usize>();
     let _ = writeln!(
         text,
-        "| all | {} | {} | {} | {} | {} | | {} |",
+        "| all | {} | {} | {} | {} | {} | | {} | {} |",
         total(|l| l.cases.len()),
         total(|l| l.count(Outcome::Drove)),
         total(|l| l.count(Outcome::Ended)),
         total(|l| l.count(Outcome::Watchdog)),
         total(|l| l.count(Outcome::Unnoticed)),
+        total(Line::armed_again),
         total(|l| l.violations().count())
     );
     text
