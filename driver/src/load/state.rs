@@ -67,6 +67,9 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
             Err(error) if Bridge::new(card).read(GPIO_CONTROL)? == u32::MAX => {
                 return Err(LoadError::Gone { error: error.to_string() });
             }
+            Err(BoardError::Bus(_)) => {
+                state.other = Some("DONE is high, but nothing answers at the registers: another design".to_owned());
+            }
             Err(error) => state.other = Some(error.to_string()),
         }
     }
