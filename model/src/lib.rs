@@ -37,6 +37,7 @@ pub mod localisation;
 pub mod manoeuvre;
 pub mod motor;
 pub mod odometry;
+pub mod output;
 pub mod pi;
 pub mod plant;
 pub mod plot;

@@ -7,7 +7,7 @@ mod result;
 
 #[cfg(feature = "simulation")]
 use super::options::{Hidden, load_robot};
-use crate::terminal::{Answer, Failure, wrapped};
+use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
 use model::robot::Robot;
@@ -42,6 +42,9 @@ pub(crate) struct Options {
     /// Folder for the calibrated robot.toml, the FPGA's coefficient words and pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 /// How to calibrate.
@@ -64,7 +67,7 @@ impl Options {
         };
         answer.json["configuration"] = calibrated.words();
         if let Some(folder) = &self.out {
-            let files = calibrated.save(folder)?;
+            let files = calibrated.save(folder, self.target)?;
             answer.text += &wrapped(&format!("written to {}: {}", folder.display(), files.join(", ")), 2);
         }
         Ok(answer)
