@@ -8,3 +8,5 @@ pub mod configuration;
 pub mod device;
 #[cfg(feature = "device")]
 pub mod element;
+#[cfg(feature = "device")]
+pub mod flow;
