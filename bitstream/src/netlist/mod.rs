@@ -69,6 +69,13 @@ pub enum CellKind {
         /// The output.
         output: NetId,
     },
+    /// Another name of a signal: the output of an element that passes it on.
+    Alias {
+        /// The signal.
+        input: Signal,
+        /// Its other name.
+        output: NetId,
+    },
     /// select ? one : zero.
     Mux {
         /// What it is in the slice.
