@@ -5,7 +5,11 @@ pub mod logic;
 pub mod netlist;
 pub mod nets;
 pub mod pack;
+pub mod place;
+mod progress;
 pub mod timing;
+
+pub use progress::{Progress, Stage};
 
 use thiserror::Error;
 
@@ -28,6 +32,14 @@ pub enum FlowError {
         line: usize,
         /// The line.
         text: String,
+    },
+    /// A port that has no usable pin.
+    #[error("port {port} {what}")]
+    Pad {
+        /// Which port.
+        port: String,
+        /// What is wrong.
+        what: String,
     },
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
