@@ -7,6 +7,7 @@ pub mod nets;
 pub mod pack;
 pub mod place;
 mod progress;
+pub mod route;
 pub mod timing;
 
 pub use progress::{Progress, Stage};
@@ -40,6 +41,20 @@ pub enum FlowError {
         port: String,
         /// What is wrong.
         what: String,
+    },
+    /// A net for which there is no way.
+    #[error("there is no way for net {net}")]
+    Unroutable {
+        /// Which net.
+        net: String,
+    },
+    /// Nets that could not agree.
+    #[error("{wires} wires are wanted by more than one net after {rounds} rounds; try another seed")]
+    Congested {
+        /// Rounds of negotiation.
+        rounds: usize,
+        /// Wires still shared.
+        wires: usize,
     },
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
