@@ -3,6 +3,10 @@
 //! Nothing of the robot is in here.
 
 #[cfg(feature = "device")]
+pub mod configuration;
+#[cfg(feature = "device")]
 pub mod device;
+#[cfg(feature = "device")]
+pub mod element;
 #[cfg(feature = "device")]
 pub mod flow;

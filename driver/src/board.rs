@@ -8,7 +8,7 @@ use fixed_kin::format::{Duty, Speed};
 use fixed_kin::registers as map;
 use fixed_kin::safety::{ARM_FIRST, ARM_SECOND};
 use fixed_kin::speed::SpeedMode;
-use model::frames::Twist;
+use runs::frames::Twist;
 
 /// What went wrong between host and card.
 #[derive(Debug, thiserror::Error)]
@@ -503,7 +503,7 @@ mod tests {
     use super::*;
     use crate::registers::{Recorder, Transfer};
     use fixed_kin::card::{Card, Pins};
-    use model::robot::Robot;
+    use runs::robot::Robot;
 
     fn ready() -> (Board<Recorder<Card>>, Scale) {
         let scale = Scale::new(&Robot::racbot(), 33_333_333.0).unwrap();
@@ -543,7 +543,7 @@ mod tests {
             }
             board.bus.inner.tick(&pins);
         }
-        let exact = model::frames::Pose::default().advance(twist, 1_000.0 * scale.tick_s());
+        let exact = runs::frames::Pose::default().advance(twist, 1_000.0 * scale.tick_s());
         let pose = scale.pose(board.snapshot().unwrap().pose);
         assert!((pose.x - exact.x).hypot(pose.y - exact.y) < 2e-4, "{pose:?} for {exact:?}");
         assert!((pose.theta - exact.theta).abs() < 1e-3);

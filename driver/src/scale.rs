@@ -21,9 +21,9 @@ use fixed_kin::pi::PiGains;
 use fixed_kin::registers::MIN_TICK_PERIOD;
 use fixed_kin::slew::SlewLimits;
 use fixed_kin::word::WORD_BITS;
-use model::frames::{Pose, Twist};
-use model::geometry::GeometryError;
-use model::robot::Robot;
+use runs::frames::{Pose, Twist};
+use runs::geometry::GeometryError;
+use runs::robot::Robot;
 use std::f64::consts::{PI, TAU};
 
 /// PWM frequency. At 20 kHz the current of a coreless 2224 motor (L/R = 23 µs) follows the voltage
@@ -286,7 +286,7 @@ mod tests {
     use super::*;
     use fixed_kin::kinematics::inverse;
     use fixed_kin::pose::displacement;
-    use model::robot::Layout;
+    use runs::robot::Layout;
 
     const CLOCK: f64 = 33_333_333.0;
 

@@ -3,7 +3,7 @@
 use driver::realtime::{Clock, MonotonicClock, Timer};
 use driver::recording::{Recording, Sample};
 use fixed_kin::AXES;
-use model::run::{Layout, Run};
+use runs::{Layout, Run};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};

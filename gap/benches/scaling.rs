@@ -9,10 +9,10 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use gap::user::UserEffect;
 use gap::{Options, analyse};
 use model::effects::Applied;
-use model::frames::Pose;
 use model::manoeuvre::{Manoeuvre, simulate};
-use model::robot::{Effect, EffectParameter, Robot};
-use model::run::DataSet;
+use runs::DataSet;
+use runs::frames::Pose;
+use runs::robot::{Effect, EffectParameter, Robot};
 
 /// Runs of the robot with a camera 30 ms late, four for each step of length, 7 s or so each.
 fn logs(times: usize) -> DataSet {
@@ -49,7 +49,7 @@ fn length(c: &mut Criterion) {
     group.sample_size(10);
     for times in [1, 4, 16] {
         let set = logs(times);
-        let seconds: f64 = set.runs.iter().map(model::run::Run::duration_s).sum();
+        let seconds: f64 = set.runs.iter().map(runs::Run::duration_s).sum();
         group.throughput(Throughput::Elements(seconds as u64));
         group.bench_function(BenchmarkId::from_parameter(format!("{times}x, {seconds:.0} s")), |b| {
             b.iter(|| analyse(black_box(&set), &Options::default()).expect("an analysis"));

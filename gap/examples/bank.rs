@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if args.get(2).is_some_and(|o| !name.contains(o.as_str()) && !hidden.contains(o.as_str())) {
             continue;
         }
-        let set = model::run::DataSet::open(base.join(name))?;
+        let set = runs::DataSet::open(base.join(name))?;
         let start = std::time::Instant::now();
         let a = match gap::analyse(&set, &gap::Options::default()) {
             Ok(a) => a,

@@ -8,8 +8,8 @@ mod robot_file;
 
 use std::sync::Arc;
 
-use model::robot::{Robot, Support};
-use model::run::{DataSet, Logs};
+use runs::robot::{Robot, Support};
+use runs::{DataSet, Logs};
 
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link, Sizes};
@@ -230,7 +230,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         // Everything derived from the wheels follows their true order.
         let mut wheels = crate::motion::MotionModel::new(robot);
         active.effect.motion(&active.values, &mut wheels);
-        if let Ok(true_geometry) = model::geometry::Geometry::new(wheels.wheels, robot.wheel_radius_m) {
+        if let Ok(true_geometry) = runs::geometry::Geometry::new(wheels.wheels, robot.wheel_radius_m) {
             pieces = segments(robot, &true_geometry, &set.logs, PIECE);
         }
     }

@@ -1,9 +1,9 @@
 //! The `command` link: body command to wheel set points, by the inverse kinematics.
 
-use model::geometry::Geometry;
-use model::robot::Robot;
-use model::run::{Columns, Log};
-use model::ticks::Ticks;
+use runs::geometry::Geometry;
+use runs::robot::Robot;
+use runs::ticks::Ticks;
+use runs::{Columns, Log};
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding, quantum};

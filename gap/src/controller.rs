@@ -1,8 +1,8 @@
 //! The `controller` link: set points and encoder counts to duty, by replay of the speed loop.
 
-use model::robot::Robot;
-use model::run::{Columns, Log};
-use model::ticks::{Gaps, Ticks};
+use runs::robot::Robot;
+use runs::ticks::{Gaps, Ticks};
+use runs::{Columns, Log};
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};

@@ -1,8 +1,8 @@
 //! What an effect is: a name, parameters with physical bounds, and what it changes in the links.
 
-use model::geometry::Wheel;
 use model::plant::GRAVITY;
-use model::robot::Robot;
+use runs::geometry::Wheel;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::motion::MotionModel;

@@ -14,7 +14,7 @@ pub enum GapError {
     Write(String),
     /// A log could not be read again.
     #[error("{0}")]
-    Log(model::run::RunError),
+    Log(runs::RunError),
     /// A user's effect is wrong.
     #[error("{0}")]
     Effect(String),

@@ -1,6 +1,6 @@
 //! What the deterministic links share: findings that are proved by replay, not fitted.
 
-use model::run::{Columns, Log, Run};
+use runs::{Columns, Log, Run};
 
 use crate::effect::Link;
 

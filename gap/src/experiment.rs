@@ -9,12 +9,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use model::effects::Applied;
-use model::frames::Pose;
 use model::manoeuvre::{self, Manoeuvre};
-use model::robot::Robot;
-use model::run::{Log, Run};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use runs::frames::Pose;
+use runs::robot::Robot;
+use runs::{Log, Run};
 
 use crate::drive::DriveLink;
 use crate::effect::{Effect, Link};
@@ -248,7 +248,7 @@ fn on_link<T>(
     match link {
         Link::Motion => {
             let motion = MotionLink::new(pieces, findings.noise.0, 1.0);
-            let lifted = state.robot.support == model::robot::Support::Blocks;
+            let lifted = state.robot.support == runs::robot::Support::Blocks;
             (!motion.is_empty() && !lifted).then(|| ask(&Problem::Motion(&motion)))
         }
         Link::Drive => {

@@ -2,7 +2,7 @@
 //! physical effect, adds it to the model and shows how much of the gap it closes.
 //!
 //! ```no_run
-//! let set = model::run::DataSet::open("data/runs/wheel-skew")?;
+//! let set = runs::DataSet::open("data/runs/wheel-skew")?;
 //! let analysis = gap::analyse(&set, &gap::Options::default())?;
 //! println!("{}", analysis.terminal_summary());
 //! analysis.write("out")?;

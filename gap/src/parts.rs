@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use model::run::{Columns, Log, Run};
+use runs::{Columns, Log, Run};
 
 /// Own ticks of a part.
 const PART: usize = 1 << 16;

@@ -8,10 +8,10 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use model::frames::{Pose, displacement};
-use model::geometry::Geometry;
-use model::robot::Robot;
-use model::run::{Columns, Log};
+use runs::frames::{Pose, displacement};
+use runs::geometry::Geometry;
+use runs::robot::Robot;
+use runs::{Columns, Log};
 
 use crate::segment::{Frame, Place, Segment, regular_stamps, segment};
 

@@ -1,9 +1,9 @@
 //! A piece of a run without gaps, with everything the links need derived from it once.
 
-use model::frames::{Pose, Twist, displacement, wrap_angle};
-use model::geometry::Geometry;
-use model::robot::Robot;
-use model::run::{Run, Seen};
+use runs::frames::{Pose, Twist, displacement, wrap_angle};
+use runs::geometry::Geometry;
+use runs::robot::Robot;
+use runs::{Run, Seen};
 
 use crate::drive::{SIGN_WIDTH, smooth_sign};
 

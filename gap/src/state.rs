@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Values};

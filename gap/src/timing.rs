@@ -1,7 +1,7 @@
 //! The `timing` link: stamps of ticks and camera frames.
 
-use model::robot::Robot;
-use model::run::Log;
+use runs::Log;
+use runs::robot::Robot;
 
 use crate::effect::Link;
 use crate::exact::{ExactLink, Finding};

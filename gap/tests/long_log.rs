@@ -8,10 +8,10 @@ use gap::motion::{MotionLink, MotionModel};
 use gap::pieces::segments;
 use gap::{Options, analyse, analyse_logs};
 use model::effects::Applied;
-use model::frames::Pose;
 use model::manoeuvre::{Manoeuvre, simulate};
-use model::robot::{Effect, EffectParameter, Robot};
-use model::run::{DataSet, Logs};
+use runs::frames::Pose;
+use runs::robot::{Effect, EffectParameter, Robot};
+use runs::{DataSet, Logs};
 
 /// Bytes that a tick of a longer log may add; the log alone has 136.
 const MOST_BYTES: f64 = 60.0;

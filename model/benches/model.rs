@@ -6,11 +6,11 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 use model::calibration::estimate_skew;
 use model::camera::CameraModel;
-use model::frames::{Pose, Twist};
 use model::fusion::{Fusion, FusionOptions};
 use model::plant::{Contact, Plant};
-use model::robot::Robot;
 use model::simulation::{VirtualRobot, calibration_drive};
+use runs::frames::{Pose, Twist};
+use runs::robot::Robot;
 
 /// A second of driving at 1 kHz: the time per iteration is the inverse of the real-time factor.
 fn plant(c: &mut Criterion) {

@@ -1,9 +1,9 @@
 //! The paper's Fig. 6 and 7 by kinematics alone: `cargo run -p model --example fig_6_and_7 > fig.svg`.
 
-use model::frames::Pose;
-use model::geometry::{Geometry, GeometryError};
-use model::plot::{Axis, Color, Figure, Panel, Series};
 use model::trajectory::{FIG_6, FIG_7_SKEW_DEG, MotionSample, simulate_motion};
+use plot::{Axis, Color, Figure, Panel, Series};
+use runs::frames::Pose;
+use runs::geometry::{Geometry, GeometryError};
 
 fn main() -> Result<(), GeometryError> {
     let ideal = Geometry::rac(0.0275, 0.085, [0.0; 3])?;

@@ -6,8 +6,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::frames::{Pose, wrap_angle};
-use crate::robot::Robot;
+use runs::frames::{Pose, wrap_angle};
+use runs::robot::Robot;
 
 /// What a camera does to a pose.
 #[derive(Debug, Clone, Copy, PartialEq)]

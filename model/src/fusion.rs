@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::frames::{Pose, Twist, wrap_angle};
-use crate::geometry::Geometry;
 use crate::odometry::{DEFAULT_WHEEL_VARIANCE, Estimate, Increment, Odometer};
-use crate::robot::Robot;
+use runs::frames::{Pose, Twist, wrap_angle};
+use runs::geometry::Geometry;
+use runs::robot::Robot;
 
 /// What the filter is told about its sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]

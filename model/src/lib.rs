@@ -15,7 +15,7 @@
 //!
 //! ```
 //! use model::calibration::estimate_skew;
-//! use model::run::DataSet;
+//! use runs::DataSet;
 //!
 //! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/runs/wheel-skew");
 //! let set = DataSet::open(folder)?;
@@ -28,20 +28,13 @@
 pub mod calibration;
 pub mod camera;
 pub mod effects;
-pub mod error;
 pub mod fit;
-pub mod frames;
 pub mod fusion;
-pub mod geometry;
 pub mod localisation;
 pub mod manoeuvre;
 pub mod motor;
 pub mod odometry;
 pub mod pi;
 pub mod plant;
-pub mod plot;
-pub mod robot;
-pub mod run;
 pub mod simulation;
-pub mod ticks;
 pub mod trajectory;

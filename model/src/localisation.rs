@@ -1,10 +1,10 @@
 //! Where the controller believes the robot to be: by odometry alone, or corrected by the camera.
 
-use crate::frames::Pose;
 use crate::fusion::{Fusion, FusionOptions};
-use crate::geometry::Geometry;
 use crate::odometry::{DEFAULT_WHEEL_VARIANCE, Estimate, Odometer};
-use crate::robot::Robot;
+use runs::frames::Pose;
+use runs::geometry::Geometry;
+use runs::robot::Robot;
 
 /// The paper's two modes.
 #[derive(Debug, Clone)]

@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_3, TAU};
 
 use crate::effects::Applied;
-use crate::frames::{Pose, Twist};
-use crate::geometry::{Geometry, GeometryError};
-use crate::robot::{Robot, Support};
-use crate::run::Run;
 use crate::simulation::VirtualRobot;
+use runs::Run;
+use runs::frames::{Pose, Twist};
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::{Robot, Support};
 
 /// A drive with a purpose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

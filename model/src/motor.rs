@@ -1,6 +1,6 @@
 //! A DC motor behind a gear, seen from the wheel shaft.
 
-use crate::robot::Robot;
+use runs::robot::Robot;
 
 /// Relative growth of a copper winding's resistance, 1/K.
 pub const COPPER_PER_K: f64 = 0.0039;

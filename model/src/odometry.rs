@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use crate::frames::{Pose, Twist, displacement};
-use crate::geometry::Geometry;
+use runs::frames::{Pose, Twist, displacement};
+use runs::geometry::Geometry;
 
 /// Variance of a wheel's angle per angle turned, rad²/rad: slip and roller contact make the
 /// distance rolled a random walk. 1e-4 is 1 cm after 13 m on wheels of 27.5 mm.

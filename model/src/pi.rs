@@ -1,6 +1,6 @@
 //! The PI speed loop of every axis, in floating point.
 
-use crate::robot::Robot;
+use runs::robot::Robot;
 
 /// The law, as `robot.toml` states it: e = ref − w (rad/s at the wheel); t = I + ki·e/rate;
 /// I stays if |kp·e + t| > 1 and e·(kp·e + t) > 0, else I = t; duty = clip(kp·e + I, −1, 1).
@@ -82,7 +82,7 @@ impl SpeedLoop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::DataSet;
+    use runs::DataSet;
     use std::path::Path;
 
     #[test]

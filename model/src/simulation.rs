@@ -2,14 +2,14 @@
 
 use crate::camera::{Camera, CameraModel};
 use crate::effects::{Applied, ControlDeviations};
-use crate::frames::{Pose, Twist};
-use crate::geometry::{Geometry, GeometryError};
 use crate::localisation::Localiser;
 use crate::pi::SpeedLoop;
 use crate::plant::{Contact, Plant};
-use crate::robot::Robot;
-use crate::run::{CameraSample, Run};
 use crate::trajectory::{Follower, SetPoint, TrajectoryReport};
+use runs::frames::{Pose, Twist};
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::Robot;
+use runs::{CameraSample, Run};
 
 /// A robot that is driven by body twists and keeps a log of everything a real one would.
 ///
@@ -235,8 +235,8 @@ mod tests {
     use super::*;
     use crate::fusion::FusionOptions;
     use crate::pi::PiLaw;
-    use crate::robot::Layout;
     use crate::trajectory::{FIG_6, FIG_7_SKEW_DEG, FollowerOptions, Limits};
+    use runs::robot::Layout;
 
     fn robot() -> Robot {
         Robot::racbot()

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use model::calibration::{PaperOptions, calibrate_like_the_paper, estimate_skew};
 use model::camera::CameraModel;
-use model::frames::Pose;
-use model::geometry::Geometry;
 use model::plant::Contact;
-use model::robot::{Layout, Robot};
 use model::simulation::{VirtualRobot, calibration_drive};
 use model::trajectory::{FIG_6, simulate_motion};
+use runs::frames::Pose;
+use runs::geometry::Geometry;
+use runs::robot::{Layout, Robot};
 
 struct Case {
     skew_deg: [f64; 3],

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use model::calibration::estimate_skew;
 use model::camera::CameraModel;
-use model::frames::Pose;
 use model::localisation::Localiser;
 use model::plant::Contact;
-use model::robot::{Layout, Robot};
 use model::simulation::{VirtualRobot, calibration_drive, follow};
 use model::trajectory::{FIG_6, Follower, FollowerOptions, Limits};
+use runs::frames::Pose;
+use runs::robot::{Layout, Robot};
 
 fn robot() -> Robot {
     Robot::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/robot-four-wheels.toml")).unwrap()

@@ -5,10 +5,10 @@
 use std::path::Path;
 use std::time::Instant;
 
-use model::robot::Robot;
-use model::run::{DataSet, Run};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use runs::robot::Robot;
+use runs::{DataSet, Run};
 
 const TOKENS: [&str; 22] = [
     "nan",

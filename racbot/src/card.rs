@@ -7,7 +7,7 @@ use driver::drive::PoseSource;
 use driver::load::{Options as LoadOptions, inspect, measure_clock};
 use driver::pci::{PciCard, SYSFS_DEVICES, SysfsCard, Use, find};
 use driver::realtime::{Clock, MonotonicClock};
-use model::robot::Robot;
+use runs::robot::Robot;
 use std::path::Path;
 
 /// Name that stands for the built-in card.
@@ -100,7 +100,7 @@ impl CardOptions {
         #[cfg(feature = "simulation")]
         if open.built_in {
             use driver::bitstream::Bitstream;
-            use testbench::virtual_card::StandIn;
+            use simulator::virtual_card::StandIn;
             let bitstream = Bitstream::parse(&StandIn::committed().bit()).map_err(Failure::data)?;
             driver::load::load(&mut open.card, &bitstream, &LoadOptions::default(), |_| {})
                 .map_err(|error| about(error.to_string()))?;
@@ -126,7 +126,7 @@ impl CardOptions {
 #[cfg(feature = "simulation")]
 fn built_in(robot: &Robot, pace: Pace) -> Result<OpenCard, Failure> {
     use model::camera::CameraModel;
-    use testbench::virtual_card::{SharedCard, VirtualCard};
+    use simulator::virtual_card::{SharedCard, VirtualCard};
     /// Seed of the camera's noise.
     const SEED: u64 = 1;
     let card = VirtualCard::new(robot).map_err(Failure::data)?;

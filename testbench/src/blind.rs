@@ -184,7 +184,7 @@ impl Task {
         let sealed = truth::write(&case, scratch.path())?;
         let start = Instant::now();
         let answer = std::panic::catch_unwind(AssertUnwindSafe(|| {
-            let set = model::run::DataSet::open(scratch.path()).map_err(|e| e.to_string())?;
+            let set = runs::DataSet::open(scratch.path()).map_err(|e| e.to_string())?;
             let analysis = gap::analyse(&set, &gap::Options::default()).map_err(|e| e.to_string())?;
             Answer::from_json(&analysis.to_json()).ok_or_else(|| "gap.json lacks a key".to_owned())
         }))

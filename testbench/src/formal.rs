@@ -15,7 +15,7 @@ mod proofs;
 
 pub use proofs::PROOFS;
 
-use crate::cosim::{CosimError, folder};
+use simulator::cosim::{CosimError, folder};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -13,7 +13,7 @@ mod paths;
 
 pub use paths::{Path, Paths};
 
-use crate::cosim::{CosimError, folder};
+use simulator::cosim::{CosimError, folder};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

@@ -1,11 +1,11 @@
 //! The open board's logic behind its serial line: bytes on pins, registers on top.
 
-use crate::cosim::{Change, CosimError, Session, Verilated};
 use driver::{BusError, Registers};
 use fixed_kin::serial_host::{CLOCKS_PER_BIT, LONGEST_REPLY, Reply, read_request, reply, write_request};
 use hdl::design::{COMMITTED_OPEN_BOARD, COMMITTED_VERILOG};
 use hdl::emit::open_board::NAME;
 use hdl::emit::ports::Ports;
+use simulator::cosim::{Change, CosimError, Session, Verilated};
 
 /// Clocks of a byte on the line.
 pub const BYTE: u64 = 10 * CLOCKS_PER_BIT as u64;

@@ -1,7 +1,7 @@
 //! Place and route with open tools: what frequency a design reaches on a device of today.
 
-use crate::cosim::{CosimError, folder};
 use serde_json::Value;
+use simulator::cosim::{CosimError, folder};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

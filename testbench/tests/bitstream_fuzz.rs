@@ -5,11 +5,11 @@
 use driver::bitstream::{Bitstream, Fault};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use simulator::virtual_card::{SelectMap, StandIn};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use testbench::virtual_card::{SelectMap, StandIn};
 
 const SEED: u64 = 0xB175;
 /// Cases of the seeded part.

@@ -11,7 +11,7 @@ use hdl::design::{COMMITTED_VERILOG, content_hash};
 use hdl::emit::ports::Ports;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::cosim::{Session, Verilated};
+use simulator::cosim::{Session, Verilated};
 
 const CYCLES: usize = 10_000;
 /// The bound that `testbench/proofs/bus.v` proves.

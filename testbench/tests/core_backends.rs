@@ -5,11 +5,11 @@ use fixed_kin::AXES;
 use fixed_kin::control::SetPointMode;
 use fixed_kin::registers as map;
 use fixed_kin::speed::SpeedMode;
-use model::frames::Twist;
-use model::robot::{Layout, Robot};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::fpga::{BitTrue, Fpga, Kind, QUIET_CLOCKS};
+use runs::frames::Twist;
+use runs::robot::{Layout, Robot};
+use simulator::fpga::{BitTrue, Fpga, Kind, QUIET_CLOCKS};
 
 const CLOCK_HZ: f64 = 33_333_333.0;
 

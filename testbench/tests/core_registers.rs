@@ -6,7 +6,7 @@ use fixed_kin::card::{Card, Pins};
 use fixed_kin::registers::{self as map, REGISTERS};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::fpga::Verilog;
+use simulator::fpga::Verilog;
 
 const STEPS: usize = 60_000;
 

@@ -10,11 +10,11 @@ use fixed_kin::speed::SpeedMode;
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
 use hdl::stimulus::control::word;
-use model::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::cosim::{Change, Session, Verilated};
-use testbench::fpga::edges::{Counter, Motion, lines};
+use runs::robot::Robot;
+use simulator::cosim::{Change, Session, Verilated};
+use simulator::fpga::edges::{Counter, Motion, lines};
 
 const PERIOD: u32 = map::MIN_TICK_PERIOD;
 const TICKS: usize = 12_000;

@@ -3,7 +3,7 @@
 
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
-use testbench::cosim::{CosimError, Ports, Verilated, icarus, lint};
+use simulator::cosim::{CosimError, Ports, Verilated, icarus, lint};
 
 /// Signed subtraction with a widening cast: right in rust-hdl's simulation, one bit short in its
 /// Verilog.

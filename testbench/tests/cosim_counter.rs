@@ -2,8 +2,8 @@
 
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
+use simulator::cosim::{Change, Clocks, Levels, Ports, Verilated, icarus, lint};
 use std::ops::ControlFlow;
-use testbench::cosim::{Change, Clocks, Levels, Ports, Verilated, icarus, lint};
 
 #[derive(LogicBlock, Default)]
 struct Accumulator {

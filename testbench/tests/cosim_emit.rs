@@ -5,8 +5,8 @@ use hdl::blocks::local_bus::LocalBus;
 use hdl::board::{Assignment, Board, Buffer, Place};
 use hdl::emit::{top, verilog};
 use rust_hdl::prelude::*;
+use simulator::cosim::{BusConfig, BusOperation, Ports, Verilated, icarus, lint};
 use std::collections::HashMap;
-use testbench::cosim::{BusConfig, BusOperation, Ports, Verilated, icarus, lint};
 
 /// Two equal chains of two accumulators.
 #[derive(LogicBlock, Default)]

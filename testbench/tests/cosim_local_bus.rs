@@ -5,8 +5,8 @@ use fixed_kin::local_bus::{Inputs, LocalBus as Twin};
 use hdl::blocks::local_bus::LocalBus;
 use hdl::emit::verilog;
 use rust_hdl::prelude::Block;
+use simulator::cosim::{Ports, Verilated, lint};
 use std::ops::ControlFlow;
-use testbench::cosim::{Ports, Verilated, lint};
 
 const CLOCKS: u64 = if cfg!(debug_assertions) { 1_000_000 } else { 4_000_000 };
 

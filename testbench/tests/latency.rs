@@ -7,12 +7,12 @@ use fixed_kin::registers as map;
 use fixed_kin::speed::SpeedMode;
 use hdl::design::COMMITTED_VERILOG;
 use hdl::emit::ports::Ports;
-use model::frames::Twist;
-use model::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::cosim::{Change, Session, Verilated};
-use testbench::fpga::edges::lines;
+use runs::frames::Twist;
+use runs::robot::Robot;
+use simulator::cosim::{Change, Session, Verilated};
+use simulator::fpga::edges::lines;
 
 const CORE: &str = "rac4i65_core";
 const PERIOD: u32 = map::MIN_TICK_PERIOD;

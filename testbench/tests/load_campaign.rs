@@ -6,14 +6,14 @@ use driver::bitstream::Bitstream;
 use driver::load::{Loaded, Options, load};
 use driver::pci::{Bar, PciCard, PciError};
 use fixed_kin::registers::STATUS;
-use model::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use runs::robot::Robot;
+use simulator::virtual_card::{Faults, StandIn, VirtualCard};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
-use testbench::virtual_card::{Faults, StandIn, VirtualCard};
 
 const SEED: u64 = 0x4_165;
 

@@ -5,13 +5,13 @@ use fixed_kin::registers as map;
 use fixed_kin::speed::SpeedMode;
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
-use model::frames::Twist;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::closed_loop::Drive;
-use testbench::cosim::{Layout, Verilated};
-use testbench::cross_check::{Traced, play};
-use testbench::fpga::{BitTrue, QUIET_CLOCKS, Verilog};
+use runs::frames::Twist;
+use simulator::closed_loop::Drive;
+use simulator::cosim::{Layout, Verilated};
+use simulator::cross_check::{Traced, play};
+use simulator::fpga::{BitTrue, QUIET_CLOCKS, Verilog};
 use testbench::netlist::{BLOCK_MEMORY, Netlist, block_memory};
 
 /// Control ticks of the chip at 8 kHz.

@@ -9,12 +9,12 @@ use fixed_kin::registers as map;
 use fixed_kin::serial_host::{FRAME_TIMEOUT, Reply, read_request, reply, write_request};
 use fixed_kin::speed::SpeedMode;
 use hdl::emit::open_board::NAME;
-use model::robot::Robot;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use runs::robot::Robot;
+use simulator::cosim::Change;
+use simulator::fpga::edges::{Counter, Motion, lines};
 use std::process::Command;
-use testbench::cosim::Change;
-use testbench::fpga::edges::{Counter, Motion, lines};
 use testbench::open_board::{BYTE, OpenBoard, verilog};
 use testbench::place::Device;
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use gap::{Analysis, Options, Verdict, analyse};
-use model::run::DataSet;
+use runs::DataSet;
 use serde_json::Value;
 
 /// Has the engine make a set in which `hidden` is, and the workflow look at it.

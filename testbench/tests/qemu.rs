@@ -5,7 +5,8 @@
 //! as a card whose clock is slow, 1 MHz, which the driver measures as it would any other.
 
 use driver::pci::Ids;
-use model::robot::Robot;
+use runs::robot::Robot;
+use simulator::virtual_card::{Faults, StandIn, VirtualCard};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,6 @@ use std::process::Command;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use testbench::qemu::{Initramfs, LockedCard, Options, Outcome, Tools, run};
-use testbench::virtual_card::{Faults, StandIn, VirtualCard};
 
 /// One machine at a time: two would starve each other of processors.
 static MACHINE: Mutex<()> = Mutex::new(());
@@ -217,7 +217,7 @@ fn recorded(disk: &Path, folder: &Path) {
     fs::create_dir(&set).unwrap();
     let untarred = Command::new("tar").arg("xf").arg(disk).arg("-C").arg(&set).status().unwrap();
     assert!(untarred.success());
-    let set = model::run::DataSet::open(&set).unwrap();
+    let set = runs::DataSet::open(&set).unwrap();
     let run = &set.runs[0];
     assert!(run.duration_s() > 1.0 && run.len() > 40, "{} ticks in {} s", run.len(), run.duration_s());
     let analysis = gap::analyse(&set, &gap::Options::default()).unwrap();

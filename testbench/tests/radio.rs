@@ -6,11 +6,11 @@ use fixed_kin::radio::{CLOCKS_PER_BIT, Frame, Inputs, Radio, decode};
 use fixed_kin::registers as map;
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
-use model::frames::Twist;
-use model::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use testbench::cosim::{Change, Verilated};
+use runs::frames::Twist;
+use runs::robot::Robot;
+use simulator::cosim::{Change, Verilated};
 
 const CLOCK_HZ: f64 = 33_333_333.0;
 const ROBOT: u8 = 6;
@@ -204,13 +204,13 @@ fn the_chip_obeys_whole_frames_and_switches_off_without_them() {
     }
     let rx = session.layout().input("radio_rx").unwrap();
     session.run(20_000).unwrap();
-    let send = |session: &mut testbench::cosim::Session, levels: &[(u64, bool)], clocks: u64| {
+    let send = |session: &mut simulator::cosim::Session, levels: &[(u64, bool)], clocks: u64| {
         let now = session.clock();
         let change = |(at, level): &(u64, bool)| Change { clock: now + at, port: rx, value: u32::from(*level) };
         session.schedule(&levels.iter().map(change).collect::<Vec<_>>()).unwrap();
         session.run(clocks).unwrap();
     };
-    let set_points = |session: &mut testbench::cosim::Session| -> Vec<u32> {
+    let set_points = |session: &mut simulator::cosim::Session| -> Vec<u32> {
         session.bus_burst_read(map::ACTIVE_SET_POINTS.offset.into(), 4).unwrap()
     };
     let mut sender = Sender::new(77);

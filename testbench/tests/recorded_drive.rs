@@ -9,17 +9,17 @@ use fixed_kin::speed::SpeedMode;
 use gap::effect::Link;
 use gap::{Analysis, Options, Verdict};
 use model::effects::Applied;
-use model::robot::{Effect, EffectParameter, Robot};
-use model::run::{DataSet, Layout};
 use model::trajectory::SetPoint;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use runs::robot::{Effect, EffectParameter, Robot};
+use runs::{DataSet, Layout};
+use simulator::fpga::BitTrue;
+use simulator::replay::{Part, replay};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use testbench::faults::Rig;
-use testbench::fpga::BitTrue;
-use testbench::replay::{Part, replay};
 
 /// A host that oversleeps by some milliseconds now and then.
 struct Sleepy {

@@ -13,7 +13,7 @@ use hdl::stimulus::{self, Columns};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rust_hdl::prelude::Block;
-use testbench::cosim::{Clocks, Verilated};
+use simulator::cosim::{Clocks, Verilated};
 
 /// Clocks per block of clock-by-clock comparison.
 const CLOCKS: usize = 2_000_000;

@@ -25,9 +25,9 @@ use hdl::emit::blocks::resources;
 use hdl::emit::verilog::emit;
 use hdl::program::control_tick;
 use rust_hdl::prelude::Block;
+use simulator::cosim::lint;
 use std::path::PathBuf;
 use std::process::Command;
-use testbench::cosim::lint;
 
 /// Whether a tool was content, and what it printed.
 fn run(tool: &str, arguments: &[&str]) -> (bool, String) {

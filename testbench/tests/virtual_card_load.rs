@@ -4,10 +4,10 @@ use driver::bitstream::{Bitstream, Fault, Order};
 use driver::load::{LoadError, Loaded, Options, inspect, load};
 use driver::pci::Bar;
 use driver::{Board, PciCard, PciError, RegisterWindow, Scale, Settings};
-use model::frames::Twist;
-use model::robot::Robot;
+use runs::frames::Twist;
+use runs::robot::Robot;
+use simulator::virtual_card::{Eeprom, Faults, StandIn, VirtualCard};
 use std::time::Duration;
-use testbench::virtual_card::{Eeprom, Faults, StandIn, VirtualCard};
 
 fn card() -> VirtualCard {
     VirtualCard::new(&Robot::racbot()).unwrap()

@@ -4,10 +4,10 @@
 use driver::bitstream::Bitstream;
 use driver::load::{Options, load};
 use driver::{Board, PciCard, RegisterWindow, Scale, Settings};
-use model::frames::Twist;
-use model::robot::Robot;
+use runs::frames::Twist;
+use runs::robot::Robot;
+use simulator::virtual_card::{StandIn, VirtualCard};
 use std::time::Duration;
-use testbench::virtual_card::{StandIn, VirtualCard};
 
 /// A slow bus clock: 5,000 clocks a control tick.
 const CLOCK_HZ: f64 = 1e6;

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
     use crate::{Scale, Settings};
     use fixed_kin::card::{Card, Pins};
-    use model::robot::Robot;
+    use runs::robot::Robot;
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
     fn configured(card: &mut Card) -> Board<&mut Card> {

@@ -1,9 +1,9 @@
 //! Who makes body velocities out of set points.
 
-use model::frames::{Pose, Twist};
-use model::geometry::GeometryError;
-use model::robot::Robot;
 use model::trajectory::{Arrival, Follower, FollowerOptions, Limits, MotionController, SetPoint};
+use runs::frames::{Pose, Twist};
+use runs::geometry::GeometryError;
+use runs::robot::Robot;
 
 /// Which controller drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

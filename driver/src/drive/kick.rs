@@ -110,7 +110,7 @@ impl Kick {
             if stop.load(Ordering::Relaxed) {
                 return Err(KickError::Stopped);
             }
-            armed.set_twist(scale, model::frames::Twist::default())?;
+            armed.set_twist(scale, runs::frames::Twist::default())?;
             if armed.status()?.armed || armed.status()?.armed {
                 return Ok(armed.bus.read(map::KICKER_STATUS.offset).map_err(BoardError::from)?);
             }

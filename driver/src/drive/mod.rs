@@ -26,7 +26,7 @@ pub use run::{Driven, Ending, Plan};
 pub use source::{NoSource, PoseSource};
 
 use crate::{BoardError, ScaleError};
-use model::geometry::GeometryError;
+use runs::geometry::GeometryError;
 
 /// A drive that could not begin.
 #[derive(Debug, thiserror::Error)]

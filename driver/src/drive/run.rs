@@ -8,11 +8,11 @@ use crate::{Board, Registers, Scale, Settings, Snapshot};
 use fixed_kin::AXES;
 use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
-use model::frames::{Pose, Twist};
 use model::fusion::FusionOptions;
 use model::localisation::Localiser;
-use model::robot::Robot;
 use model::trajectory::{Arrival, SetPoint};
+use runs::frames::{Pose, Twist};
+use runs::robot::Robot;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! Who sees the robot from outside.
 
-use model::frames::Pose;
+use runs::frames::Pose;
 
 /// A source of poses in the field frame, such as an overhead camera.
 pub trait PoseSource {

@@ -6,7 +6,7 @@ use super::Fault;
 use crate::{Scale, Snapshot};
 use fixed_kin::AXES;
 use fixed_kin::registers::FAULT_FIELDS;
-use model::robot::Robot;
+use runs::robot::Robot;
 use std::time::Duration;
 
 /// How much faster than without load a wheel may seem: pushed from outside, a supply above nominal.

@@ -5,7 +5,7 @@ use super::{Line, RadioError, boot};
 use crate::realtime::Clock;
 use crate::{Scale, Settings};
 use fixed_kin::radio::{Frame, GAP_BYTES};
-use model::frames::Twist;
+use runs::frames::Twist;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -115,7 +115,7 @@ impl<L: Line> BaseStation<L> {
 mod tests {
     use super::*;
     use fixed_kin::card::{Card, Pins};
-    use model::robot::Robot;
+    use runs::robot::Robot;
     use std::cell::RefCell;
     use std::io;
     use std::rc::Rc;

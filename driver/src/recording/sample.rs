@@ -5,9 +5,9 @@ use fixed_kin::AXES;
 use fixed_kin::control::SetPointMode;
 use fixed_kin::format::{Format, Speed};
 use fixed_kin::recording::{RecordedWords, SetPointWords};
-use model::frames::{Pose, Twist, wrap_angle};
-use model::robot::Robot;
-use model::run::Tick;
+use runs::Tick;
+use runs::frames::{Pose, Twist, wrap_angle};
+use runs::robot::Robot;
 
 /// Decimals of a logged number: finer than any LSB of the card, so that words survive the log.
 const DECIMALS: f64 = 1e9;

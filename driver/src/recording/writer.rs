@@ -2,8 +2,8 @@
 
 use super::Sample;
 use fixed_kin::AXES;
-use model::run::{Layout, RunStream, create};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
+use runs::{Layout, RunStream, create};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -184,7 +184,7 @@ impl Writer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::run::{Run, RunStream, Tick};
+    use runs::{Run, RunStream, Tick};
 
     fn sample(tick: u32) -> Sample {
         let k = f64::from(tick);

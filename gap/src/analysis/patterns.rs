@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use super::Named;
 use crate::drive::DriveModel;

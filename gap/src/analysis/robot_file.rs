@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use model::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
-use model::run::{Columns, Log, Logs};
+use runs::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
+use runs::{Columns, Log, Logs};
 
 use super::Named;
 use super::order::ORDER;

@@ -3,9 +3,9 @@
 //! Where a log begins, and behind ticks that it lacks, nobody knows the integrator. Every duty that follows
 //! narrows it down to what its rounding leaves, and then the law is as exact as if it had been known.
 
-use model::robot::Robot;
-use model::run::Log;
-use model::ticks::Ticks;
+use runs::Log;
+use runs::robot::Robot;
+use runs::ticks::Ticks;
 
 use super::{COLUMNS, Law, SLACK};
 use crate::parts::parts;
@@ -138,10 +138,10 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
 mod tests {
     use super::*;
     use model::effects::Applied;
-    use model::frames::Pose;
     use model::manoeuvre::{Manoeuvre, simulate};
-    use model::robot::{Effect, EffectParameter};
-    use model::run::Run;
+    use runs::Run;
+    use runs::frames::Pose;
+    use runs::robot::{Effect, EffectParameter};
     use std::borrow::Cow;
 
     /// A drive whose duties are rounded as loggers do, without every row that `keep` refuses.

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use model::frames::Twist;
-use model::robot::Support;
+use runs::frames::Twist;
+use runs::robot::Support;
 
 use super::DriveModel;
 use crate::segment::Segment;

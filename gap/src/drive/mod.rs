@@ -9,9 +9,9 @@ mod bumps;
 mod floor;
 mod forces;
 
-use model::geometry::{Geometry, Wheel};
-use model::robot::{Robot, Support};
 use nalgebra::{DMatrix, Matrix3};
+use runs::geometry::{Geometry, Wheel};
+use runs::robot::{Robot, Support};
 
 use crate::effect::Values;
 use crate::segment::Segment;

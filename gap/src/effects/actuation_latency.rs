@@ -1,6 +1,6 @@
 //! `actuation-latency`: duties that act later than logged.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

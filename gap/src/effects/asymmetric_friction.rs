@@ -1,6 +1,6 @@
 //! `asymmetric-friction`: dry friction in one sense of rotation only.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};

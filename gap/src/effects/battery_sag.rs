@@ -1,6 +1,6 @@
 //! `battery-sag`: a supply that drops under load.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

@@ -1,6 +1,6 @@
 //! `body-radius`: contact points further from the centre than drawn.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values, turn_wheels};

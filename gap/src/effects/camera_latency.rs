@@ -1,6 +1,6 @@
 //! `camera-latency`: a camera frame that is older than its stamp.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

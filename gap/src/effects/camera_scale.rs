@@ -1,7 +1,7 @@
 //! `camera-scale`: a camera whose metre is not a metre.
 
-use model::frames::Pose;
-use model::robot::Robot;
+use runs::frames::Pose;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

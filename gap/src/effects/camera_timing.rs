@@ -1,6 +1,6 @@
 //! `camera-timing`: stamps of the camera frames by a clock that runs fast or slow.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

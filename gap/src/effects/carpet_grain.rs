@@ -1,7 +1,7 @@
 //! `carpet-grain`: a carpet that drags along one direction of the field only.
 
 use crate::drive::{SLIDE_WIDTH, smooth_sign};
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

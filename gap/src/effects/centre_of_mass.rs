@@ -1,6 +1,6 @@
 //! `centre-of-mass`: a centre of mass that is not the chassis centre.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

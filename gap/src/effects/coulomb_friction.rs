@@ -1,6 +1,6 @@
 //! `coulomb-friction`: dry friction at the wheel shaft beyond nominal.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};

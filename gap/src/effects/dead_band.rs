@@ -1,6 +1,6 @@
 //! `dead-band`: a bridge that does nothing at small duties.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

@@ -1,6 +1,6 @@
 //! `drive-curve`: a bridge whose mean voltage is not in proportion to the duty.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

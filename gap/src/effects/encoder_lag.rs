@@ -1,6 +1,6 @@
 //! `encoder-lag`: encoder counts that are older than the tick they stand at.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

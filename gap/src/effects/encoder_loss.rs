@@ -1,6 +1,6 @@
 //! `encoder-loss`: an encoder that loses counts above a speed.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;

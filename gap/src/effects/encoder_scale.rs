@@ -1,6 +1,6 @@
 //! `encoder-scale`: more or fewer counts a wheel turn than stated.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};

@@ -1,7 +1,7 @@
 //! `floor-tilt`: a floor that is not level.
 
 use model::plant::GRAVITY;
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

@@ -1,7 +1,7 @@
 //! `gear-backlash`: play between motor and wheel.
 
-use model::robot::Robot;
 use nalgebra::DMatrix;
+use runs::robot::Robot;
 
 use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};

@@ -1,6 +1,6 @@
 //! `gear-efficiency`: a gear that loses another share of the torque than stated.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

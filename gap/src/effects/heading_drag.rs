@@ -1,6 +1,6 @@
 //! `heading-drag`: friction of a wheel that depends on the heading, as a dragging cable gives.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

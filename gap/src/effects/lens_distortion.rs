@@ -1,7 +1,7 @@
 //! `lens-distortion`: a lens whose scale changes with the distance from the field centre.
 
-use model::frames::Pose;
-use model::robot::Robot;
+use runs::frames::Pose;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

@@ -1,6 +1,6 @@
 //! `marker-heading`: a marker plate that is turned on the robot.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

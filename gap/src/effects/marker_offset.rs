@@ -1,6 +1,6 @@
 //! `marker-offset`: a marker plate that is off the centre.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
 use crate::motion::MotionModel;

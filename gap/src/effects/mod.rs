@@ -112,7 +112,7 @@ pub fn find(name: &str) -> Option<Box<dyn Effect>> {
 
 #[cfg(test)]
 mod tests {
-    use model::robot::Robot;
+    use runs::robot::Robot;
 
     use super::*;
 

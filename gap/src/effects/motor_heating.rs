@@ -1,6 +1,6 @@
 //! `motor-heating`: windings whose resistance grows as they warm up, or that are warm from the start.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

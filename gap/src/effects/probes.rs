@@ -1,7 +1,7 @@
 //! Probes for structure that no effect of the catalogue has. They compete with the effects, and
 //! where one wins, the verdict says what it saw instead of the nearest name.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};

@@ -1,6 +1,6 @@
 //! `robot-mass`: a robot heavier or lighter than stated.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

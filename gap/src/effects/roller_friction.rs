@@ -1,7 +1,7 @@
 //! `roller-friction`: rollers that resist being rolled sideways.
 
 use crate::drive::{SLIDE_WIDTH, smooth_sign};
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

@@ -1,6 +1,6 @@
 //! `roller-ripple`: a rolling radius that varies with the angle of the wheel.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};
 use crate::motion::MotionModel;

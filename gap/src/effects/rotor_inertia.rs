@@ -1,6 +1,6 @@
 //! `rotor-inertia`: rotors with another inertia than stated.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

@@ -1,6 +1,6 @@
 //! `stribeck-friction`: friction that is larger near standstill.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};

@@ -1,6 +1,6 @@
 //! `torque-constant`: motors stronger or weaker than the data sheet says.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

@@ -1,6 +1,6 @@
 //! `viscous-friction`: friction in proportion to speed.
 
-use model::robot::{Robot, Support};
+use runs::robot::{Robot, Support};
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};

@@ -1,7 +1,7 @@
 //! `wheel-angle`: wheels mounted at another angle round the centre.
 
-use model::geometry::Wheel;
-use model::robot::Robot;
+use runs::geometry::Wheel;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values, turn_wheels, wheel_name};

@@ -1,9 +1,9 @@
 //! `wheel-creep`: wheels that creep in proportion to the force they transmit.
 
-use model::frames::Twist;
-use model::geometry::{Geometry, Wheel};
-use model::robot::{Robot, Support};
 use nalgebra::{Matrix3, Vector3};
+use runs::frames::Twist;
+use runs::geometry::{Geometry, Wheel};
+use runs::robot::{Robot, Support};
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

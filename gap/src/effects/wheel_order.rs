@@ -1,7 +1,7 @@
 //! `wheel-order`: axes that drive and count each other's wheels, or turn the other way; or set points that are
 //! computed for each other's wheels. Cables (`cable_i`) and set points (`axis_i`) are two things: either, or both.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Values};
@@ -40,7 +40,7 @@ impl Effect for WheelOrder {
     }
 }
 
-fn reordered(wheels: &[model::geometry::Wheel], values: &Values) -> Vec<model::geometry::Wheel> {
+fn reordered(wheels: &[runs::geometry::Wheel], values: &Values) -> Vec<runs::geometry::Wheel> {
     (0..wheels.len())
         .map(|i| {
             let cable = values.find(&format!("cable_{}", i + 1)).unwrap_or(i as f64 + 1.0);

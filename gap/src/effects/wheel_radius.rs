@@ -1,6 +1,6 @@
 //! `wheel-radius`: wheels of unequal radius.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};

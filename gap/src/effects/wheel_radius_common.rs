@@ -1,6 +1,6 @@
 //! `wheel-radius-common`: all wheels larger or smaller by the same share.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

@@ -1,6 +1,6 @@
 //! `wheel-skew`: wheels whose drive direction is turned clockwise by a small angle.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values, turn_wheels, wheel_name};

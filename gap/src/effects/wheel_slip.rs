@@ -1,10 +1,10 @@
 //! `wheel-slip`: wheels that slip when the force exceeds what friction holds.
 
-use model::frames::Twist;
-use model::geometry::Geometry;
 use model::plant::GRAVITY;
-use model::robot::Robot;
 use nalgebra::DMatrix;
+use runs::frames::Twist;
+use runs::geometry::Geometry;
+use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;

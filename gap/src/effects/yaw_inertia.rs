@@ -1,6 +1,6 @@
 //! `yaw-inertia`: a robot with another moment of inertia than stated.
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};

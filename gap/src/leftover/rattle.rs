@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::Sizes;

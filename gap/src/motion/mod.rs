@@ -7,10 +7,10 @@
 
 mod windows;
 
-use model::frames::{Pose, Twist, Walk};
-use model::geometry::{Geometry, Wheel};
-use model::robot::Robot;
 use nalgebra::DMatrix;
+use runs::frames::{Pose, Twist, Walk};
+use runs::geometry::{Geometry, Wheel};
+use runs::robot::Robot;
 
 use crate::segment::{Frame, Segment};
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use model::frames::{Pose, wrap_angle};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
+use runs::frames::{Pose, wrap_angle};
 
 use super::MotionModel;
 use crate::gram::Cluster;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use model::plot::{Axis, Color, Figure, Panel, Series};
+use plot::{Axis, Color, Figure, Panel, Series};
 
 use super::{regimes, short, terminal, units, words};
 use crate::analysis::{Analysis, overall};

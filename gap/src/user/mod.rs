@@ -16,7 +16,7 @@ mod expression;
 
 use std::path::Path;
 
-use model::robot::Robot;
+use runs::robot::Robot;
 
 pub use expression::{Expression, ExpressionError};
 

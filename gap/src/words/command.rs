@@ -3,8 +3,8 @@
 use fixed_kin::format::Speed;
 use fixed_kin::kinematics::TWIST;
 use fixed_kin::recording::SetPointWords;
-use model::robot::Robot;
-use model::run::{Columns, Log};
+use runs::robot::Robot;
+use runs::{Columns, Log};
 
 use super::{Card, Compared, NoWord, Signal, twist};
 use crate::effect::Link;

@@ -3,9 +3,9 @@
 use fixed_kin::format::{Format, Speed};
 use fixed_kin::recording::{Compared as Word, LoopReplay};
 use fixed_kin::speed::{SpeedMode, by_difference};
-use model::robot::Robot;
-use model::run::{Columns, Log, Run};
-use model::ticks::Gaps;
+use runs::robot::Robot;
+use runs::ticks::Gaps;
+use runs::{Columns, Log, Run};
 
 use super::{Card, Compared, NoWord, Signal, duty};
 use crate::effect::Link;

@@ -7,8 +7,8 @@ mod controller;
 use fixed_kin::format::{Duty, Format, Speed};
 use fixed_kin::kinematics::TWIST;
 use fixed_kin::recording::RecordedWords;
-use model::robot::Robot;
-use model::run::Run;
+use runs::Run;
+use runs::robot::Robot;
 
 use crate::exact::ExactLink;
 

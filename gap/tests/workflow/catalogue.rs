@@ -3,8 +3,8 @@
 use super::common::{RICH, cut, names, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
-use model::robot::{Robot, Support};
 use rayon::prelude::*;
+use runs::robot::{Robot, Support};
 
 /// One effect to hide.
 struct Case {
@@ -142,6 +142,6 @@ fn crossed_cables_and_crossed_set_points_are_kept_apart() {
     assert_eq!([a.effects[0].link, a.effects[1].link].map(gap::effect::Link::name), ["motion", "command"]);
     let told = a.robot.effect("wheel-order").unwrap();
     assert!(a.robot.effects.len() == 1 && both.iter().all(|(name, v)| told.value(name) == Some(*v)), "{told:?}");
-    let again = analyse(&model::run::DataSet { robot: a.robot.clone(), ..set }, &Options::default()).unwrap();
+    let again = analyse(&runs::DataSet { robot: a.robot.clone(), ..set }, &Options::default()).unwrap();
     assert_eq!(again.verdict, Verdict::Agrees, "{}", again.terminal_summary());
 }

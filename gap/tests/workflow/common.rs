@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use gap::Analysis;
 use model::effects::Applied;
-use model::frames::Pose;
 use model::manoeuvre::{self, Manoeuvre};
 use model::plant::Contact;
-use model::robot::{Effect, EffectParameter, Robot};
-use model::run::{DataSet, Run};
+use runs::frames::Pose;
+use runs::robot::{Effect, EffectParameter, Robot};
+use runs::{DataSet, Run};
 
 /// The example set whose hidden skews are +4, −3 and +2 degrees.
 pub(super) fn example() -> DataSet {

@@ -5,8 +5,8 @@ use gap::drive::{DriveLink, DriveModel};
 use gap::pieces::{PIECE, segments};
 use gap::statistics::rms;
 use model::manoeuvre::Manoeuvre;
-use model::robot::Robot;
-use model::run::Logs;
+use runs::Logs;
+use runs::robot::Robot;
 
 /// Unexplained torque of all wheels, Nm RMS, where the model knows the skews in rad.
 fn unexplained(skew_rad: [f64; 3]) -> f64 {

@@ -3,7 +3,7 @@
 use super::common::{names, run, simulate, with};
 use gap::{Options, analyse};
 use model::manoeuvre::Manoeuvre;
-use model::robot::Robot;
+use runs::robot::Robot;
 
 /// Hides an effect in drives that cannot show what it is, follows the proposal, and returns its name.
 fn settled(name: &str, parameters: &[(&str, f64)], poor: &[Manoeuvre], twin: &str) -> String {

@@ -10,8 +10,8 @@ mod partial;
 
 use common::{RICH, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};
-use model::robot::Robot;
-use model::run::DataSet;
+use runs::DataSet;
+use runs::robot::Robot;
 
 #[test]
 fn the_skew_set_is_named_added_and_then_agrees() {

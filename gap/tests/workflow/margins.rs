@@ -12,8 +12,8 @@ use gap::ridge::Role;
 use gap::select::{Bench, candidates};
 use gap::state::State;
 use gap::{Options, analyse};
-use model::robot::Robot;
-use model::run::{DataSet, Logs};
+use runs::robot::Robot;
+use runs::{DataSet, Logs};
 
 fn short(truth: &Robot, seed: u64) -> DataSet {
     let mut set = simulate(truth, &RICH, seed);

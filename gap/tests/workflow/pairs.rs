@@ -3,7 +3,7 @@
 use super::common::{RICH, cut, names, simulate, value, with};
 use gap::{Analysis, Options, analyse};
 use model::manoeuvre::Manoeuvre;
-use model::robot::Robot;
+use runs::robot::Robot;
 
 type Hidden<'a> = (&'a str, &'a [(&'a str, f64)]);
 

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::common::{cut, example, names, run, simulate, value, with};
 use gap::{Analysis, GapError, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
-use model::robot::{Layout, Robot, Support};
-use model::run::{DataSet, Run};
+use runs::robot::{Layout, Robot, Support};
+use runs::{DataSet, Run};
 
 use Manoeuvre::{Blocks, Chirp, Spin, Star};
 
@@ -107,7 +107,7 @@ fn four_wheels_and_mecanum_rollers() {
     assert_eq!(names(&a), ["body-radius"], "{}", a.terminal_summary());
     assert!((value(&a, "scale") - 0.04).abs() < 0.008);
 
-    let at = |x: f64, y: f64, side: f64| model::geometry::Wheel {
+    let at = |x: f64, y: f64, side: f64| runs::geometry::Wheel {
         x_m: x,
         y_m: y,
         drive_rad: std::f64::consts::FRAC_PI_2,

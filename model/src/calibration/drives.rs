@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::frames::{Pose, Twist, wrap_angle};
-use crate::geometry::Geometry;
 use crate::simulation::VirtualRobot;
+use runs::frames::{Pose, Twist, wrap_angle};
+use runs::geometry::Geometry;
 
 /// Why a drive did not happen.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -6,9 +6,9 @@ use serde_json::json;
 use super::excitation::{Excitation, best_direction};
 use super::{KinematicModel, KinematicParameter};
 use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals};
-use crate::frames::wrap_angle;
-use crate::robot::{Layout, Robot};
-use crate::run::Run;
+use runs::Run;
+use runs::frames::wrap_angle;
+use runs::robot::{Layout, Robot};
 
 /// Longer than the engine's default: a skew shows as curvature, which grows with the window, and
 /// wheels that creep by a part in a thousand still do not matter in two seconds.

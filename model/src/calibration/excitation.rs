@@ -1,8 +1,8 @@
 //! What the drives in a log could show, and which drive would show more.
 
-use crate::frames::Twist;
-use crate::robot::Robot;
-use crate::run::Run;
+use runs::Run;
+use runs::frames::Twist;
+use runs::robot::Robot;
 
 /// How a robot moved in its logs, by its encoders and nominal geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]

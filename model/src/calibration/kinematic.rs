@@ -1,10 +1,10 @@
 //! The motion link as a [`PoseModel`]: encoder counts to camera poses, with what may be wrong.
 
 use crate::fit::PoseModel;
-use crate::frames::{Pose, Twist, displacement};
-use crate::geometry::{Geometry, Wheel};
-use crate::robot::Robot;
-use crate::run::Run;
+use runs::Run;
+use runs::frames::{Pose, Twist, displacement};
+use runs::geometry::{Geometry, Wheel};
+use runs::robot::Robot;
 
 /// Something between encoders and camera that may differ from its nominal value. Wheels from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,8 +13,8 @@
 //! common skew as the camera's marker shows it, and straight lines stay straight.
 
 use super::drives::{DriveError, Drives, Straightness, opposite};
-use crate::geometry::{Geometry, GeometryError};
-use crate::robot::{Layout, Robot};
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::{Layout, Robot};
 
 /// How to calibrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -218,7 +218,7 @@ impl Procedure<'_> {
             raised[other] += small;
         }
         let (s, c) = Self::axle(wheel).sin_cos();
-        let wheel_speeds = self.geometry(raised)?.wheel_speeds(crate::frames::Twist::new(c, s, 0.0));
+        let wheel_speeds = self.geometry(raised)?.wheel_speeds(runs::frames::Twist::new(c, s, 0.0));
         Ok(self.geometry(skew)?.twist(&wheel_speeds).omega / small)
     }
 
@@ -236,9 +236,9 @@ impl Procedure<'_> {
 mod tests {
     use super::*;
     use crate::camera::CameraModel;
-    use crate::frames::Pose;
     use crate::plant::Contact;
     use crate::simulation::VirtualRobot;
+    use runs::frames::Pose;
 
     fn calibrate(deg: [f64; 3], noise: f64) -> PaperCalibration {
         let layout = Layout::Rac { body_radius_m: 0.085, skew_rad: deg.map(f64::to_radians) };
@@ -280,7 +280,7 @@ mod tests {
             skew[wheel] = 0.01;
             let actual = Geometry::rac(0.0275, 0.085, skew).unwrap();
             let speeds =
-                Geometry::rac(0.0275, 0.085, [0.0; 3]).unwrap().wheel_speeds(crate::frames::Twist::new(0.0, 1.0, 0.0));
+                Geometry::rac(0.0275, 0.085, [0.0; 3]).unwrap().wheel_speeds(runs::frames::Twist::new(0.0, 1.0, 0.0));
             actual.twist(&speeds).omega
         };
         let [front, left, right] = [rate(0), rate(1), rate(2)];

@@ -1,7 +1,7 @@
 //! Effects of camera and marker plate.
 
 use crate::camera::CameraModel;
-use crate::robot::Effect;
+use runs::robot::Effect;
 
 /// Applies an effect if it is one of these.
 pub(super) fn apply(effect: &Effect, camera: &mut CameraModel) -> bool {

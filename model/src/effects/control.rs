@@ -1,9 +1,9 @@
 //! Effects of the controller: what it does with commands, counts and duties.
 
-use crate::frames::Twist;
-use crate::geometry::Geometry;
 use crate::pi::PiLaw;
-use crate::robot::{Effect, Robot};
+use runs::frames::Twist;
+use runs::geometry::Geometry;
+use runs::robot::{Effect, Robot};
 
 /// By what a controller differs from its nominal law; all zero is the nominal one.
 #[derive(Debug, Clone, PartialEq, Default)]

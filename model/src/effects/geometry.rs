@@ -1,7 +1,7 @@
 //! Effects on where the wheels are and how far they roll.
 
 use super::of_wheel;
-use crate::robot::{Effect, Layout, Robot};
+use runs::robot::{Effect, Layout, Robot};
 
 /// Stem of the parameters that say which wheel an axis is wired to.
 pub(super) const CABLE: &str = "cable_";

@@ -16,10 +16,10 @@ use rand_distr::{Distribution, StandardNormal};
 pub use control::ControlDeviations;
 
 use crate::camera::CameraModel;
-use crate::geometry::GeometryError;
 use crate::plant::{Contact, Deviations, Plant};
-use crate::robot::{Effect, Robot};
-use crate::run::Run;
+use runs::Run;
+use runs::geometry::GeometryError;
+use runs::robot::{Effect, Robot};
 
 /// What to simulate for a robot with effects.
 #[derive(Debug, Clone, PartialEq)]

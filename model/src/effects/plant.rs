@@ -3,7 +3,7 @@
 use super::{Applied, of_wheel};
 use crate::motor::{COPPER_PER_K, MAGNET_PER_K};
 use crate::plant::{Contact, WheelDeviation};
-use crate::robot::Effect;
+use runs::robot::Effect;
 
 /// Coefficient of friction where only creep is given: more than any wheel uses.
 const HELD: f64 = 10.0;

@@ -12,8 +12,8 @@ mod windows;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::frames::Pose;
-use crate::run::Run;
+use runs::Run;
+use runs::frames::Pose;
 
 pub use noise::{camera_noise, camera_noise_of};
 pub use statistics::t_quantile_975;

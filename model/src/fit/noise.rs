@@ -1,8 +1,8 @@
 //! The camera's noise, from its own frames.
 
 use super::statistics::median;
-use crate::frames::{Pose, wrap_angle};
-use crate::run::Run;
+use runs::Run;
+use runs::frames::{Pose, wrap_angle};
 
 /// Noise below which no real camera is; keeps a noiseless simulation from dividing by zero.
 const FLOOR: [f64; 3] = [1e-5, 1e-5, 1e-5];

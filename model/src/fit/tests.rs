@@ -2,8 +2,8 @@ use super::*;
 use crate::calibration::{KinematicModel, KinematicParameter as P};
 use crate::camera::CameraModel;
 use crate::plant::Contact;
-use crate::robot::Robot;
 use crate::simulation::{VirtualRobot, calibration_drive};
+use runs::robot::Robot;
 
 fn log(robot: &Robot, camera: CameraModel, seed: u64) -> Run {
     let mut v = VirtualRobot::new(robot, Contact::Rolling, camera, Pose::new(0.4, -0.2, 2.0), seed).unwrap();
@@ -27,7 +27,7 @@ fn every_kind_of_parameter_is_found_where_it_is() {
     let mut larger = nominal.clone();
     larger.wheel_radius_m *= 1.01;
     let mut wider = nominal.clone();
-    wider.layout = crate::robot::Layout::Rac { body_radius_m: 0.085 * 1.02, skew_rad: [0.0; 3] };
+    wider.layout = runs::robot::Layout::Rac { body_radius_m: 0.085 * 1.02, skew_rad: [0.0; 3] };
     let late = CameraModel { latency_s: 0.03, ..camera() };
     let table = [
         (P::WheelRadiusCommon, 0.01, log(&larger, camera(), 1)),

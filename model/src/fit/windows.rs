@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
 use super::statistics::median;
-use crate::frames::{Pose, wrap_angle};
-use crate::run::Run;
+use runs::Run;
+use runs::frames::{Pose, wrap_angle};
 
 /// Fewer frames than this fix a start pose but hardly anything else.
 const FEWEST_FRAMES: usize = 4;

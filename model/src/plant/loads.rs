@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{GRAVITY, Plant};
-use crate::robot::Support;
+use runs::robot::Support;
 
 /// Speed over which the drag of rollers and carpet turns round, m/s.
 const SLIDE_WIDTH: f64 = 0.005;

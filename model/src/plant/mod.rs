@@ -12,10 +12,10 @@ use nalgebra::Vector3;
 
 pub use deviations::{Deviations, HeadingDrag, WheelDeviation};
 
-use crate::frames::{Pose, Twist};
-use crate::geometry::{Geometry, GeometryError};
 use crate::motor::Axis;
-use crate::robot::{Robot, Support};
+use runs::frames::{Pose, Twist};
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::{Robot, Support};
 
 /// How the wheels hold the floor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, WheelState, friction, turn};
-use crate::geometry::{Geometry, Wheel};
 use crate::motor::Axis;
+use runs::geometry::{Geometry, Wheel};
 
 /// Newton steps; piecewise linear and convex, so that 2 or 3 are the rule.
 const NEWTON_STEPS: usize = 40;

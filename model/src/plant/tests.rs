@@ -1,7 +1,7 @@
 use super::*;
-use crate::frames::wrap_angle;
 use crate::pi::SpeedLoop;
-use crate::robot::Layout;
+use runs::frames::wrap_angle;
+use runs::robot::Layout;
 
 const GRIPPY: Contact = Contact::Friction { friction_coefficient: 0.6, creep_s_per_kg: 0.001 };
 
@@ -222,7 +222,7 @@ fn a_speed_loop_drives_the_plant_to_its_set_points() {
 fn four_wheels_roll_and_odometry_closes() {
     let wheels = [45.0_f64, 135.0, 225.0, 315.0].map(|deg| {
         let m = deg.to_radians();
-        crate::geometry::Wheel {
+        runs::geometry::Wheel {
             x_m: 0.08 * m.cos(),
             y_m: 0.08 * m.sin(),
             drive_rad: m - std::f64::consts::FRAC_PI_2,

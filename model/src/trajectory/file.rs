@@ -4,7 +4,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 use super::SetPoint;
-use crate::error::{InputError, line_and_column, nearest};
+use runs::error::{InputError, line_and_column, nearest};
 
 const NAMES: [&str; 4] = ["x", "y", "v", "omega"];
 const HINT: &str = "give x, y (m), v (m/s), omega (rad/s), and stop if the robot shall halt there";

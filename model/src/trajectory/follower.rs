@@ -1,10 +1,10 @@
 //! A controller for real robots: limits, corners, stops.
 
 use super::{Limits, SetPoint};
-use crate::frames::{Pose, Twist};
-use crate::geometry::{Geometry, GeometryError};
 use crate::motor::Axis;
-use crate::robot::Robot;
+use runs::frames::{Pose, Twist};
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::Robot;
 
 /// How closely to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]

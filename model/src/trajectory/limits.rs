@@ -1,9 +1,9 @@
 //! What a robot can do.
 
-use crate::frames::Twist;
-use crate::geometry::{Geometry, GeometryError};
 use crate::motor::Axis;
-use crate::robot::Robot;
+use runs::frames::Twist;
+use runs::geometry::{Geometry, GeometryError};
+use runs::robot::Robot;
 
 /// Share of the stall torque and of the no-load speed that plans may use; the rest is for the
 /// speed loops and for friction.

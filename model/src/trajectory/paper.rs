@@ -1,8 +1,8 @@
 //! The paper's motion controller and motion simulator (Fig. 5): kinematics only.
 
 use super::SetPoint;
-use crate::frames::{Pose, Twist};
-use crate::geometry::Geometry;
+use runs::frames::{Pose, Twist};
+use runs::geometry::Geometry;
 
 /// The paper's open-loop motion controller: straight at the next set point from the current pose,
 /// at the set point's speed and rotation.

@@ -1,7 +1,7 @@
 //! How well a trajectory was driven.
 
 use super::{Arrival, SetPoint};
-use crate::frames::Pose;
+use runs::frames::Pose;
 
 /// What became of one set point.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::terminal::Failure;
 use clap::ValueEnum;
 use fixed_kin::speed::SpeedMode;
-use testbench::fpga::{Fpga, Kind};
+use simulator::fpga::{Fpga, Kind};
 
 /// Which FPGA.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -3,10 +3,10 @@
 use crate::terminal::{Answer, Failure, Table, save};
 use clap::Args;
 use hdl::design::{File, files};
-use model::error::InputError;
+use runs::error::InputError;
 use serde_json::json;
+use simulator::virtual_card::StandIn;
 use std::path::{Path, PathBuf};
-use testbench::virtual_card::StandIn;
 
 /// Options of `generate`.
 #[derive(Args, Debug)]

@@ -7,7 +7,7 @@ use driver::drive::{Kick, Plan};
 use driver::pci::Use;
 use driver::realtime::stop_on_signals;
 use driver::{Board, Settings};
-use model::robot::Robot;
+use runs::robot::Robot;
 use serde_json::json;
 use std::path::PathBuf;
 

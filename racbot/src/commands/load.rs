@@ -79,7 +79,7 @@ impl Options {
     fn built_in(&self) -> Result<Bitstream, Failure> {
         #[cfg(feature = "simulation")]
         if self.card.is_built_in() {
-            return Bitstream::parse(&testbench::virtual_card::StandIn::committed().bit()).map_err(Failure::data);
+            return Bitstream::parse(&simulator::virtual_card::StandIn::committed().bit()).map_err(Failure::data);
         }
         Err(Failure::usage("which FILE is to be loaded?"))
     }

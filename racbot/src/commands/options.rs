@@ -2,8 +2,8 @@
 
 use crate::terminal::Failure;
 use clap::Args;
-use model::error::InputError;
-use model::robot::{Layout, Robot};
+use runs::error::InputError;
+use runs::robot::{Layout, Robot};
 use std::path::{Path, PathBuf};
 
 /// A list of angles in degrees, such as `4,-3,2`.

@@ -4,15 +4,15 @@ use super::fpga_options::FpgaChoice;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save};
 use clap::Args;
-use model::robot::Robot;
-use model::run::{DataSet, Run};
+use runs::robot::Robot;
+use runs::{DataSet, Run};
 use serde_json::{Value, json};
+use simulator::fpga::Kind;
+use simulator::replay::picture::duties;
+use simulator::replay::{Deviation, Part, Replayed, WheelAgreement, lsb, replay};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
-use testbench::fpga::Kind;
-use testbench::replay::picture::duties;
-use testbench::replay::{Deviation, Part, Replayed, WheelAgreement, lsb, replay};
 
 /// Options of `replay`.
 #[derive(Args, Debug)]

@@ -1,6 +1,6 @@
 //! A start pose on the command line.
 
-use model::frames::Pose;
+use runs::frames::Pose;
 
 /// `X,Y,DEG`.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use crate::terminal::{Answer, Failure, save};
 use clap::{Args, ValueEnum};
 use serde_json::json;
+use simulator::wave::{Scene, record};
 use std::path::PathBuf;
-use testbench::wave::{Scene, record};
 
 /// Options of `wave`.
 #[derive(Args, Debug)]

@@ -11,15 +11,15 @@ use driver::{Board, PciCard, RegisterWindow};
 use gap::Analysis;
 use model::calibration::estimate_skew;
 use model::camera::CameraModel;
-use model::plot::{Axis, Color, Figure, Panel, Series};
-use model::robot::{Layout, Robot};
-use model::run::{DataSet, Layout as Columns, Run};
 use model::trajectory::{FIG_6, FIG_7_SKEW_DEG, SetPoint};
+use plot::{Axis, Color, Figure, Panel, Series};
+use runs::robot::{Layout, Robot};
+use runs::{DataSet, Layout as Columns, Run};
 use serde_json::json;
+use simulator::virtual_card::{SharedCard, StandIn, VirtualCard};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
-use testbench::virtual_card::{SharedCard, StandIn, VirtualCard};
 
 /// Seed of the camera's noise.
 const SEED: u64 = 1;

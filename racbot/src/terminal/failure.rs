@@ -1,7 +1,7 @@
 //! Why a command could not be done: one line.
 
 use super::Exit;
-use model::error::InputError;
+use runs::error::InputError;
 use std::fmt::Display;
 use std::io::Write;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Commands that work on a card, over the built-in one.
 
 use super::{data, racbot};
-use model::run::Run;
+use runs::Run;
 
 #[test]
 fn a_drive_reaches_its_set_points_and_leaves_a_data_set_for_the_other_commands() {

@@ -1,6 +1,6 @@
 //! A recording in memory that can be cut off anywhere, as a kill does to a file.
 
-use model::run::{CsvStream, Layout, McapStream, Run, RunStream, Tick};
+use runs::{CsvStream, Layout, McapStream, Run, RunStream, Tick};
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,14 +1,14 @@
 //! A configured card, a robot and a camera in simulated time, with things that can break.
 
-use crate::virtual_card::{BitTrueLive, Live, Machine, StandIn, Wiring};
 use driver::drive::PoseSource;
 use driver::realtime::Clock;
 use driver::{BusError, Registers};
 use fixed_kin::registers::{NOMINAL_CLOCK_HZ, STATUS, STATUS_FIELDS};
 use model::camera::{Camera, CameraModel};
-use model::frames::Pose;
-use model::geometry::GeometryError;
-use model::robot::Robot;
+use runs::frames::Pose;
+use runs::geometry::GeometryError;
+use runs::robot::Robot;
+use simulator::virtual_card::{BitTrueLive, Live, Machine, StandIn, Wiring};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;

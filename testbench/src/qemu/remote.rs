@@ -5,8 +5,8 @@
 //! As in QEMU 7.2, `include/hw/remote/mpqemu-link.h`; file descriptors that ride along are dropped.
 
 use super::config_space::ConfigSpace;
-use crate::virtual_card::VirtualCard;
 use driver::pci::Ids;
+use simulator::virtual_card::VirtualCard;
 use std::io::{self, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,9 +1,9 @@
 use super::*;
 use crate::camera::CameraModel;
-use crate::frames::{Pose, Twist};
 use crate::plant::Contact;
-use crate::run::DataSet;
 use crate::simulation::{VirtualRobot, calibration_drive};
+use runs::DataSet;
+use runs::frames::{Pose, Twist};
 use std::path::Path;
 
 fn skewed(deg: [f64; 3]) -> Robot {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::manoeuvre::{Manoeuvre, simulate};
 use crate::pi::SpeedLoop;
-use crate::run::Run;
+use runs::Run;
 
 fn log(name: &str, parameters: &[(&str, f64)]) -> Run {
     let nominal = Robot::racbot();

@@ -6,8 +6,8 @@ mod drive;
 mod wheels;
 
 use super::*;
-use crate::frames::{Pose, Twist};
-use crate::robot::{EffectParameter, Support};
+use runs::frames::{Pose, Twist};
+use runs::robot::{EffectParameter, Support};
 
 fn robot(name: &str, parameters: &[(&str, f64)]) -> Robot {
     let parameters = parameters

@@ -10,9 +10,9 @@ use super::options::{Hidden, load_robot};
 use crate::terminal::{Answer, Failure, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
-use model::robot::Robot;
-use model::run::DataSet;
 use result::Calibrated;
+use runs::DataSet;
+use runs::robot::Robot;
 use std::path::PathBuf;
 
 /// Options of `calibrate`.

@@ -5,10 +5,10 @@ use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, wrapped};
 use model::calibration::{Iteration, PaperCalibration, PaperOptions, Stage, calibrate_like_the_paper};
 use model::plant::Contact;
-use model::robot::{Layout, Robot};
+use runs::robot::{Layout, Robot};
 use serde_json::{Value, json};
+use simulator::calibration::{BoardRobot, skew_fan};
 use std::fmt::Write as _;
-use testbench::calibration::{BoardRobot, skew_fan};
 
 /// Largest skew of the fan of trajectories, degrees.
 const FAN_DEG: f64 = 8.0;

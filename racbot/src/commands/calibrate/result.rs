@@ -3,7 +3,7 @@
 use crate::terminal::{Failure, save};
 use driver::Scale;
 use fixed_kin::registers::{CONFIGURATION, NOMINAL_CLOCK_HZ};
-use model::robot::Robot;
+use runs::robot::Robot;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -29,11 +29,11 @@ impl Calibrated {
     /// Fig. 6 with ideal geometry, before and after, on odometry alone.
     #[cfg(feature = "simulation")]
     fn drive(nominal: &Robot, actual: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
-        use model::plot::Color;
         use model::trajectory::FIG_6;
-        use testbench::closed_loop::Drive;
-        use testbench::closed_loop::picture::{Curve, trajectory};
-        use testbench::fpga::BitTrue;
+        use plot::Color;
+        use simulator::closed_loop::Drive;
+        use simulator::closed_loop::picture::{Curve, trajectory};
+        use simulator::fpga::BitTrue;
 
         let drive = |believed: &Robot, actual: &Robot| {
             let drive = Drive { actual: actual.clone(), ..Drive::new(believed, &FIG_6) };

@@ -9,7 +9,7 @@ use clap::Args;
 use driver::pci::Use;
 use driver::realtime::stop_on_signals;
 use driver::{Board, Observation, Scale, fault_names};
-use model::robot::Robot;
+use runs::robot::Robot;
 use screen::Screen;
 use serde_json::{Value, json};
 use std::io::IsTerminal;

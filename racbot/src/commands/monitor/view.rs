@@ -119,7 +119,7 @@ mod tests {
     use driver::{Snapshot, Status};
     use fixed_kin::AXES;
     use fixed_kin::format::Duty;
-    use model::robot::Robot;
+    use runs::robot::Robot;
 
     fn seen() -> Observation {
         Observation {

@@ -3,10 +3,10 @@
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
 use model::effects::Applied;
-use model::error::InputError;
-use model::frames::Pose;
 use model::manoeuvre::{Manoeuvre, simulate};
-use model::robot::Robot;
+use runs::error::InputError;
+use runs::frames::Pose;
+use runs::robot::Robot;
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

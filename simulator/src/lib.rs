@@ -1,0 +1,11 @@
+//! The virtual robot: FPGAs behind one seam, the virtual card on its bus, the closed loop around them,
+//! co-simulation with compiled Verilog, and the replay of measured logs.
+
+pub mod calibration;
+pub mod closed_loop;
+pub mod cosim;
+pub mod cross_check;
+pub mod fpga;
+pub mod replay;
+pub mod virtual_card;
+pub mod wave;

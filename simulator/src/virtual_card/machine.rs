@@ -1,0 +1,79 @@
+//! Motors, wheels and body behind the card's connector.
+
+use super::Wiring;
+use fixed_kin::AXES;
+use model::plant::Plant;
+use runs::geometry::GeometryError;
+use runs::robot::Robot;
+
+/// A robot that is there whether or not the FPGA is configured.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    plant: Plant,
+    supply_v: f64,
+    /// Encoder positions when the FPGA started, whole turns of its lines.
+    origin: [f64; AXES],
+    /// Encoder positions before the last step.
+    before: [f64; AXES],
+    /// Encoder cables.
+    pub wiring: [Wiring; AXES],
+}
+
+impl Machine {
+    /// At rest.
+    ///
+    /// # Errors
+    /// A robot whose wheels cannot drive it.
+    pub fn new(robot: &Robot) -> Result<Self, GeometryError> {
+        Ok(Self {
+            plant: Plant::new(robot)?,
+            supply_v: robot.supply_v,
+            origin: [0.0; AXES],
+            before: [0.0; AXES],
+            wiring: [Wiring::Whole; AXES],
+        })
+    }
+
+    /// The robot, for whoever watches.
+    #[must_use]
+    pub fn plant(&self) -> &Plant {
+        &self.plant
+    }
+
+    /// Lets time pass with duties in [−1, 1]; 0 shorts a motor.
+    pub fn step(&mut self, duty: &[f64; AXES], time_s: f64) {
+        self.before = self.encoders();
+        self.plant.step(duty, self.supply_v, time_s);
+    }
+
+    /// A new counter starts here.
+    pub fn restart_encoders(&mut self) {
+        for (origin, position) in self.origin.iter_mut().zip(self.plant.encoder_after()) {
+            *origin = (position / 4.0).floor() * 4.0;
+        }
+    }
+
+    /// Encoder positions since then as they reach the card, in counts.
+    #[must_use]
+    pub fn positions(&self) -> [f64; AXES] {
+        let real = self.encoders();
+        std::array::from_fn(|axis| self.wiring[axis].position(axis, &real))
+    }
+
+    /// Axes on which both lines changed at once in the last step, a bit each.
+    #[must_use]
+    pub fn illegal_steps(&self) -> u8 {
+        let real = self.encoders();
+        (0..AXES).fold(0, |bits, axis| {
+            let shorted = matches!(self.wiring[axis], Wiring::Shorted(_));
+            bits | u8::from(shorted && real[axis].floor() != self.before[axis].floor()) << axis
+        })
+    }
+
+    /// Where the encoders really are.
+    #[must_use]
+    pub fn encoders(&self) -> [f64; AXES] {
+        let now = self.plant.encoder_after();
+        std::array::from_fn(|axis| now.get(axis).map_or(0.0, |position| position - self.origin[axis]))
+    }
+}
