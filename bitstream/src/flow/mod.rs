@@ -1,5 +1,7 @@
 //! From a netlist to a bitstream: map, pack, place, route, set bits, and what it costs in time.
 
+pub mod bits;
+mod build;
 pub mod constraints;
 pub mod logic;
 pub mod netlist;
@@ -8,8 +10,10 @@ pub mod pack;
 pub mod place;
 mod progress;
 pub mod route;
+pub mod synthesis;
 pub mod timing;
 
+pub use build::{Built, Resources, build};
 pub use progress::{Progress, Stage};
 
 use thiserror::Error;
@@ -56,6 +60,15 @@ pub enum FlowError {
         /// Wires still shared.
         wires: usize,
     },
+    /// Synthesis failed.
+    #[error("synthesis: {what}")]
+    Synthesis {
+        /// Why.
+        what: String,
+    },
+    /// A rule of the device is broken: a fault of the flow.
+    #[error("a fault of the flow: {0}")]
+    Rule(#[from] route::RouteFault),
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
     Full {

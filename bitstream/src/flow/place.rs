@@ -98,16 +98,17 @@ pub struct Design<'a> {
 }
 
 impl Design<'_> {
-    /// How near to the worst every connection is, 0 to 255, the square of its share of the worst path's time.
-    fn weights(&self, wires: &[u32]) -> Vec<u16> {
-        weights(&Report::of(self.graph, wires).criticality)
+    /// How near to the worst every connection is, 0 to 255.
+    fn weights(&self, wires: &[u32], power: u32) -> Vec<u16> {
+        weights(&Report::of(self.graph, wires).criticality, power)
     }
 }
 
-/// Shares of the period as weights: the square of the share of the largest.
-pub(super) fn weights(shares: &[u16]) -> Vec<u16> {
-    let worst = u32::from(shares.iter().copied().max().unwrap_or(1).max(1));
-    shares.iter().map(|share| (u32::from(*share).pow(2) * 255 / worst.pow(2)) as u16).collect()
+/// Weights of connections, 0 to 255: a power of each share of the period, against that of the largest.
+pub(super) fn weights(shares: &[u16], power: u32) -> Vec<u16> {
+    let worst = u64::from(shares.iter().copied().max().unwrap_or(1).max(1));
+    let weight = |share: u16| (0..power).fold(255 << 16, |weight: u64, _| weight * u64::from(share) / worst) >> 16;
+    shares.iter().map(|share| weight(*share) as u16).collect()
 }
 
 fn pads(device: &Device, logic: &Logic, constraints: &Constraints) -> Result<Vec<(u8, u8)>, FlowError> {

@@ -14,8 +14,9 @@ mod search;
 mod terminals;
 mod tree;
 
-pub use rules::{RouteFault, check};
+pub use rules::{Extremes, RouteFault, check};
 pub use terminals::Terminals;
+pub(crate) use terminals::element;
 pub use tree::{Branch, Tree};
 
 use super::FlowError;
@@ -39,6 +40,9 @@ const FIRST_PRESSURE: u64 = 8;
 const PRESSURE_GROWTH: u64 = 22;
 /// Largest pressure.
 const LAST_PRESSURE: u64 = 1 << 20;
+
+/// Power of the weights of slow connections.
+const POWER: u32 = 5;
 
 /// A routed design.
 #[derive(Clone, Debug)]
@@ -76,7 +80,7 @@ impl Routing {
         let mut order: Vec<usize> = (0..general.len()).collect();
         order.sort_by_key(|net| (std::cmp::Reverse(terminals.general[*net].sinks.len()), *net));
         for round in 0..ROUNDS {
-            let weights = weights(&Report::of(design.graph, &delays).criticality);
+            let weights = weights(&Report::of(design.graph, &delays).criticality, POWER);
             for net in &order {
                 let first = design.graph.first[*net] as usize;
                 let ends = &terminals.general[*net];

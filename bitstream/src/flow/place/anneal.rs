@@ -8,13 +8,13 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Moves a temperature for every movable part.
-const MOVES: usize = 14;
+const MOVES: usize = 30;
 /// A net of more pins is everywhere anyway and does not count.
 const WIDEST: usize = 120;
 /// What a unit of wire length weighs against a unit of critical distance.
 const LENGTH: i64 = 96;
 /// What a critical connection's distance weighs: this times its weight (0..=255), over 64.
-const TIME: i64 = 56;
+const TIME: i64 = 160;
 
 /// A net as the placer sees it: movable parts and their weights.
 struct PlacedNet {
@@ -38,6 +38,8 @@ struct Annealer<'a, 'b> {
     stamp: Vec<u32>,
     now: u32,
     random: ChaCha8Rng,
+    /// Power of the weights: all connections count at first, in the end the slowest.
+    power: u32,
 }
 
 /// Anneals a placement.
@@ -67,6 +69,7 @@ pub(super) fn anneal(design: &Design<'_>, placement: &mut Placement, seed: u64, 
         progress.tell(super::STAGE, (step * 100 / total).min(99) as u32, || {
             format!("temperature {temperature}, {share} of 1000 moves taken, cost {}", annealer.costs.iter().sum::<i64>())
         });
+        annealer.power = 2 + (step * 7 / total).min(6) as u32;
         annealer.recount();
     }
     for _ in 0..4 * MOVES * parts {
@@ -147,12 +150,12 @@ impl<'a, 'b> Annealer<'a, 'b> {
         nets_of.iter_mut().for_each(|list| list.dedup());
         let (costs, stamp) = (vec![0; nets.len()], vec![0; nets.len()]);
         let random = ChaCha8Rng::seed_from_u64(seed);
-        Self { design, placement, grid, nets, nets_of, costs, weights: Vec::new(), stamp, now: 0, random }
+        Self { design, placement, grid, nets, nets_of, costs, weights: Vec::new(), stamp, now: 0, random, power: 2 }
     }
 
     /// New weights from the present placement's timing, and all costs anew.
     fn recount(&mut self) {
-        self.weights = self.design.weights(&self.placement.estimate(self.design.nets));
+        self.weights = self.design.weights(&self.placement.estimate(self.design.nets), self.power);
         for net in 0..self.nets.len() {
             self.costs[net] = self.cost(net);
         }
