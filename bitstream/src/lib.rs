@@ -4,6 +4,7 @@
 
 #[cfg(feature = "device")]
 pub mod configuration;
+pub mod container;
 #[cfg(feature = "device")]
 pub mod device;
 #[cfg(feature = "device")]

@@ -171,7 +171,14 @@ impl Builder<'_> {
         if taken {
             table = Table::of(bit.select);
         }
-        ChainBit { table, selects: bit.data.is_some(), data, sum: bit.sum, carry_out: bit.carry, shows: bit.select.net() }
+        ChainBit {
+            table,
+            selects: bit.data.is_some(),
+            data,
+            sum: bit.sum,
+            carry_out: bit.carry,
+            shows: bit.select.net(),
+        }
     }
 
     /// Sums whose carry is no chain's: tables.

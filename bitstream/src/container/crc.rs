@@ -27,7 +27,7 @@ impl Crc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bitstream::packets::{COMMAND, CONTROL, FRAME_DATA};
+    use crate::container::packets::{COMMAND, CONTROL, FRAME_DATA};
 
     /// The end of the bitstreams that Xilinx's tools make for this device: last frame, start, control,
     /// and the CRC word 38FE that stands behind them in every file looked at.
