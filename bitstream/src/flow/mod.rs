@@ -3,6 +3,7 @@
 pub mod bits;
 mod build;
 pub mod constraints;
+pub mod floorplan;
 pub mod logic;
 pub mod netlist;
 pub mod nets;

@@ -33,12 +33,7 @@ impl Placement {
     ///
     /// # Errors
     /// A design that does not fit, or a pad that the package does not have.
-    pub fn of(
-        device: &Device,
-        design: &Design<'_>,
-        seed: u64,
-        progress: &mut Progress<'_>,
-    ) -> Result<Self, FlowError> {
+    pub fn of(device: &Device, design: &Design<'_>, seed: u64, progress: &mut Progress<'_>) -> Result<Self, FlowError> {
         let pads = pads(device, design.logic, design.constraints)?;
         if design.logic.memories.len() > MEMORY_SITES.len() {
             let (used, there) = (design.logic.memories.len(), MEMORY_SITES.len());
@@ -113,10 +108,10 @@ pub(super) fn weights(shares: &[u16], power: u32) -> Vec<u16> {
 
 fn pads(device: &Device, logic: &Logic, constraints: &Constraints) -> Result<Vec<(u8, u8)>, FlowError> {
     let place = |port: &str| {
-        let constraint = constraints.pads.get(port).ok_or_else(|| FlowError::Pad {
-            port: port.to_owned(),
-            what: "has no pin in the constraints".into(),
-        })?;
+        let constraint = constraints
+            .pads
+            .get(port)
+            .ok_or_else(|| FlowError::Pad { port: port.to_owned(), what: "has no pin in the constraints".into() })?;
         match device.pad(constraint.pin).map(|pad| pad.site) {
             Some(PadSite::Io { tile, .. } | PadSite::Clock { tile, .. }) => {
                 let tile = device.tile(tile);

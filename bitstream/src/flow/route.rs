@@ -89,9 +89,9 @@ impl Routing {
                     continue;
                 }
                 general[*net].wires(ends.source).for_each(|wire| congestion.leave(wire));
-                let tree = search.tree(ends, &weights[first..], &congestion).ok_or_else(|| FlowError::Unroutable {
-                    net: name(design, &design.nets.general[*net]),
-                })?;
+                let tree = search
+                    .tree(ends, &weights[first..], &congestion)
+                    .ok_or_else(|| FlowError::Unroutable { net: name(design, &design.nets.general[*net]) })?;
                 tree.wires(ends.source).for_each(|wire| congestion.enter(wire));
                 general[*net] = tree;
             }
@@ -117,9 +117,9 @@ impl Routing {
         search: &mut Search<'_>,
     ) -> Result<Vec<Tree>, FlowError> {
         let tree = |(index, ends): (usize, &terminals::Ends)| {
-            search.clock_tree(device, ends).ok_or_else(|| FlowError::Unroutable {
-                net: name(design, &design.nets.clocks[index]),
-            })
+            search
+                .clock_tree(device, ends)
+                .ok_or_else(|| FlowError::Unroutable { net: name(design, &design.nets.clocks[index]) })
         };
         terminals.clocks.iter().enumerate().map(tree).collect()
     }

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 /// Moves a temperature for every movable part.
 const MOVES: usize = 30;
 /// A net of more pins is everywhere anyway and does not count.
-const WIDEST: usize = 120;
+const WIDEST: usize = 400;
 /// What a unit of wire length weighs against a unit of critical distance.
 const LENGTH: i64 = 96;
 /// What a critical connection's distance weighs: this times its weight (0..=255), over 64.
@@ -67,7 +67,10 @@ pub(super) fn anneal(design: &Design<'_>, placement: &mut Placement, seed: u64, 
         temperature = temperature * cooling(share) / 1_000;
         step += 1;
         progress.tell(super::STAGE, (step * 100 / total).min(99) as u32, || {
-            format!("temperature {temperature}, {share} of 1000 moves taken, cost {}", annealer.costs.iter().sum::<i64>())
+            format!(
+                "temperature {temperature}, {share} of 1000 moves taken, cost {}",
+                annealer.costs.iter().sum::<i64>()
+            )
         });
         annealer.power = 2 + (step * 7 / total).min(6) as u32;
         annealer.recount();
@@ -200,7 +203,11 @@ impl<'a, 'b> Annealer<'a, 'b> {
     fn try_move(&mut self, temperature: i64, window: i64, logs: &[i64]) -> bool {
         let part = self.below(self.nets_of.len() as u64) as usize;
         let columns = self.placement.columns.len();
-        if part >= columns { self.move_memory(part - columns, temperature, logs) } else { self.move_column(part, temperature, window, logs) }
+        if part >= columns {
+            self.move_memory(part - columns, temperature, logs)
+        } else {
+            self.move_column(part, temperature, window, logs)
+        }
     }
 
     fn step(&mut self, from: u8, window: i64, low: u8, high: u8) -> Option<u8> {
@@ -214,8 +221,8 @@ impl<'a, 'b> Annealer<'a, 'b> {
         let Some(column) = self.step(old.column, window, *COLUMNS.start(), *COLUMNS.end()) else { return false };
         let Some(row) = self.step(old.row, window, 1, ROWS + 1 - height as u8) else { return false };
         let new = Site { column, slice: self.below(2) as u8, row };
-        let overlaps = (new.column, new.slice) == (old.column, old.slice)
-            && usize::from(new.row.abs_diff(old.row)) < height;
+        let overlaps =
+            (new.column, new.slice) == (old.column, old.slice) && usize::from(new.row.abs_diff(old.row)) < height;
         if overlaps && height == 1 {
             return false;
         }
@@ -286,7 +293,8 @@ impl<'a, 'b> Annealer<'a, 'b> {
         let costs: Vec<i64> = affected.iter().map(|net| self.cost(*net as usize)).collect();
         let change: i64 = affected.iter().zip(&costs).map(|(net, cost)| cost - self.costs[*net as usize]).sum();
         let draw = logs[(self.random.next_u64() >> 52) as usize];
-        let taken = change <= 0 || (temperature > 0 && change <= temperature.saturating_mul(draw) / 1_024)
+        let taken = change <= 0
+            || (temperature > 0 && change <= temperature.saturating_mul(draw) / 1_024)
             || temperature >= i64::MAX / (1 << 24);
         if taken {
             affected.iter().zip(costs).for_each(|(net, cost)| self.costs[*net as usize] = cost);

@@ -78,12 +78,10 @@ pub(super) fn first(packed: &Packed) -> Result<Vec<Site>, FlowError> {
     order.sort_by_key(|column| (std::cmp::Reverse(packed.columns[*column].slices.len()), *column));
     let mut grid = Grid::new();
     let mut sites = vec![Site::default(); packed.columns.len()];
-    let mut ground: Vec<Site> = COLUMNS
-        .flat_map(|column| (0..2).map(move |slice| Site { column, slice, row: 1 }))
-        .collect();
+    let mut ground: Vec<Site> =
+        COLUMNS.flat_map(|column| (0..2).map(move |slice| Site { column, slice, row: 1 })).collect();
     ground.sort_by_key(|site| (site.column.abs_diff(22), *site));
-    let starts: Vec<Site> =
-        ground.iter().flat_map(|site| (1..=ROWS).map(move |row| Site { row, ..*site })).collect();
+    let starts: Vec<Site> = ground.iter().flat_map(|site| (1..=ROWS).map(move |row| Site { row, ..*site })).collect();
     for column in order {
         let height = packed.columns[column].slices.len();
         let fits = |site: &Site| {

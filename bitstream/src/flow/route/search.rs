@@ -13,7 +13,10 @@ const NONE: u32 = u32::MAX;
 /// Lowest cost of a cell's distance on the way, in 1/256 of a price: what the search may hope for.
 const HOPE_PRICE: u64 = 2 * 256;
 /// Lowest time of a cell's distance, in ps: a hex wire over six cells, less a tenth.
-const HOPE_TIME: u64 = 225;
+const HOPE_TIME: u64 = 102;
+
+/// What a ps weighs against 1/256 of a price: a single-length wire costs 10 × 256 or 320 × 8.
+const TIME: u64 = 8;
 
 /// Who uses which wire, and how dear it has become.
 pub(super) struct Congestion {
@@ -92,6 +95,8 @@ struct Grown {
     wire: u32,
     gates: u8,
     group: u16,
+    /// Delay from the source, in ps.
+    time: u64,
 }
 
 impl<'a> Search<'a> {
@@ -122,7 +127,7 @@ impl<'a> Search<'a> {
             (Reverse(weights[*sink] / 32), self.fabric.distance(wire.0, from), *sink)
         });
         let mut tree = Tree::default();
-        let mut grown = vec![Grown { wire: ends.source.0, gates: 0, group: 0 }];
+        let mut grown = vec![Grown { wire: ends.source.0, gates: 0, group: 0, time: 0 }];
         // Wires of every group of joined single-length wires; group 0 is none.
         let mut groups = vec![0_u8];
         self.in_tree[at(ends.source)] = true;
@@ -147,28 +152,21 @@ impl<'a> Search<'a> {
         complete.then_some(tree)
     }
 
-    fn extend(
-        &mut self,
-        target: u32,
-        weight: u64,
-        grown: &[Grown],
-        groups: &[u8],
-        congestion: &Congestion,
-    ) -> bool {
+    fn extend(&mut self, target: u32, weight: u64, grown: &[Grown], groups: &[u8], congestion: &Congestion) -> bool {
         let lane = &self.fabric.lanes[target as usize];
         let goal = (lane.columns.0, lane.rows.0);
         let fabric = self.fabric;
-        // A weight moves from price to time: 256 units of price are about 60 ps.
         let hope = move |wire: u32| {
             let cells = u64::from(fabric.distance(wire, goal).saturating_sub(1));
-            cells * (weight * HOPE_TIME * 4 + (256 - weight) * HOPE_PRICE)
+            cells * (weight * HOPE_TIME * TIME + (256 - weight) * HOPE_PRICE)
         };
         for grown in grown {
             let joined = groups[usize::from(grown.group)];
-            let mark = Mark { cost: 0, gates: grown.gates, joined, group: grown.group, ..FRESH };
+            let cost = weight * grown.time * TIME;
+            let mark = Mark { cost, gates: grown.gates, joined, group: grown.group, ..FRESH };
             self.marks[grown.wire as usize] = mark;
             self.touched.push(grown.wire);
-            self.heap.push((Reverse(hope(grown.wire)), Reverse(grown.wire)));
+            self.heap.push((Reverse(cost + hope(grown.wire)), Reverse(grown.wire)));
         }
         while let Some((Reverse(key), Reverse(wire))) = self.heap.pop() {
             if wire == target {
@@ -193,7 +191,7 @@ impl<'a> Search<'a> {
                 if gates > GATES || joined > JOINED {
                     continue;
                 }
-                let step = weight * u64::from(lane.delay) * 4 + (256 - weight) * congestion.price(to, lane.price);
+                let step = weight * u64::from(lane.delay) * TIME + (256 - weight) * congestion.price(to, lane.price);
                 let cost = mark.cost + step;
                 let old = &mut self.marks[index];
                 if cost < old.cost {
@@ -218,6 +216,8 @@ impl<'a> Search<'a> {
             wire = mark.from;
         }
         let mut group = 0;
+        let start = grown.iter().find(|grown| grown.wire == wire);
+        let mut time = start.map_or(0, |grown| grown.time);
         for wire in way.into_iter().rev() {
             let mark = self.marks[wire as usize];
             group = match (mark.joined, mark.gates) {
@@ -233,7 +233,8 @@ impl<'a> Search<'a> {
                 groups[usize::from(group)] += 1;
             }
             tree.branches.push(Branch { from: WireId(mark.from), to: WireId(wire), pip: mark.pip });
-            grown.push(Grown { wire, gates: mark.gates, group });
+            time += u64::from(self.fabric.lanes[wire as usize].delay);
+            grown.push(Grown { wire, gates: mark.gates, group, time });
             self.in_tree[wire as usize] = true;
         }
     }
