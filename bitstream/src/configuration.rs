@@ -2,8 +2,10 @@
 
 mod attributes;
 mod blank;
+mod frames;
 
 pub use attributes::{Attributes, Value};
+pub use frames::{FrameError, StartUp};
 
 use crate::device::{Attribute, Bit, Coding, Device, FRAME_BITS, FRAMES, PipId, PipKind, TileId};
 

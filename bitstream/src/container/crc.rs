@@ -1,5 +1,7 @@
 //! The CRC inside a Virtex or Spartan-II bitstream.
 
+use super::packets;
+
 /// Polynomial x¹⁶ + x¹⁵ + x² + 1, reflected.
 const POLYNOMIAL: u16 = 0xA001;
 /// Bits of a register address.
@@ -14,6 +16,15 @@ impl Crc {
     pub fn write(&mut self, register: u32, data: u32) {
         self.shift(data, u32::BITS);
         self.shift(register, ADDRESS_BITS);
+    }
+
+    /// A write to any register, with what it does to the CRC itself: a check or a reset leaves zero.
+    pub fn update(&mut self, register: u32, data: u32) {
+        if register == packets::CRC || (register == packets::COMMAND && data == packets::RESET_CRC) {
+            self.0 = 0;
+        } else {
+            self.write(register, data);
+        }
     }
 
     fn shift(&mut self, bits: u32, count: u32) {
