@@ -54,6 +54,18 @@ pub fn configure(
     Ok(configuration)
 }
 
+/// Puts a word of the user's into the configuration (USERCODE of boundary scan): the hash of the design, say.
+///
+/// # Errors
+/// None on this device.
+pub fn set_user_id(device: &Device, configuration: &mut Configuration, id: u32) -> Result<(), FlowError> {
+    for (tile, _) in device.tiles_of("CNR_NW") {
+        let set = configuration.set_number(device, tile, "BSCAN:USERID", id.into());
+        set.map_err(|error| FlowError::Netlist { what: error.to_string() })?;
+    }
+    Ok(())
+}
+
 /// Whether the inverter of a pin is on; a pin with a constant floats, and a floating pin is 1.
 fn inverts(signal: Signal) -> bool {
     match signal {

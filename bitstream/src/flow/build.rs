@@ -2,10 +2,10 @@
 
 use super::constraints::Constraints;
 use super::logic::Logic;
-use super::netlist::Netlist;
+use super::netlist::{Net, Netlist};
 use super::nets::{Nets, Part};
 use super::pack::Packed;
-use super::place::{Design, Placement};
+use super::place::{Design, MEMORY_SITES, Placement};
 use super::route::{Extremes, Routing, Terminals, check};
 use super::timing::{Graph, Report};
 use super::{FlowError, Progress, Stage, bits};
@@ -35,6 +35,21 @@ pub struct Resources {
     pub rounds: usize,
 }
 
+/// Where a net is driven.
+#[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
+pub struct Driver {
+    /// Name of the net.
+    pub net: String,
+    /// Column and row.
+    pub at: (u8, u8),
+    /// Element, such as `SLICE[1]` or `BRAM`.
+    pub element: String,
+    /// Pin of it, such as `XQ`.
+    pub pin: String,
+    /// The cell of a flip-flop.
+    pub flip_flop: Option<String>,
+}
+
 /// A design as bits, and where its parts went.
 #[derive(Clone, Debug)]
 pub struct Built {
@@ -46,8 +61,8 @@ pub struct Built {
     pub extremes: Extremes,
     /// Timing.
     pub timing: Report,
-    /// For every flip-flop of the netlist: its name, net, and place, such as `X5Y7.SLICE[1].XQ`.
-    pub registers: Vec<(String, String, String)>,
+    /// Where every net is driven.
+    pub drivers: Vec<Driver>,
     /// Its logic.
     pub logic: Logic,
     /// Its slices.
@@ -97,24 +112,40 @@ pub fn build(
         wires: routing.used(&terminals),
         rounds: routing.rounds,
     };
-    let registers = registers(&logic, &packed, &placement);
+    let drivers = drivers(&logic, &packed, &placement);
     let timing = Report::of(&graph, &routing.delays);
-    Ok(Built { configuration, resources, extremes, timing, registers, logic, packed, nets, placement })
+    Ok(Built { configuration, resources, extremes, timing, drivers, logic, packed, nets, placement })
 }
 
-fn registers(logic: &Logic, packed: &Packed, placement: &Placement) -> Vec<(String, String, String)> {
-    let mut registers = Vec::new();
+fn drivers(logic: &Logic, packed: &Packed, placement: &Placement) -> Vec<Driver> {
+    let mut drivers = Vec::new();
     for (column, slices) in packed.columns.iter().enumerate() {
         for (row, slice) in slices.slices.iter().enumerate() {
-            let (x, y) = placement.at(Part::Slice(column as u32, row as u16));
-            for (half, pin) in slice.halves.iter().zip(["XQ", "YQ"]) {
-                let Some(flop) = half.flop else { continue };
-                let place = format!("X{x}Y{y}.SLICE[{}].{pin}", placement.columns[column].slice);
-                let net = logic.nets[flop.output.index()].clone();
-                registers.push((logic.flip_flops[flop.index].name.clone(), net, place));
-            }
+            let at = placement.at(Part::Slice(column as u32, row as u16));
+            let element = format!("SLICE[{}]", placement.columns[column].slice);
+            let cell = |net: Net| {
+                let flops = slice.halves.iter().filter_map(|half| half.flop);
+                flops.filter(|flop| flop.output == net).map(|flop| logic.flip_flops[flop.index].name.clone()).next()
+            };
+            drivers.extend(slice.sources().into_iter().map(|(pin, net)| Driver {
+                net: logic.nets[net.index()].clone(),
+                at,
+                element: element.clone(),
+                pin: pin.to_owned(),
+                flip_flop: cell(net),
+            }));
         }
     }
-    registers.sort();
-    registers
+    for (index, memory) in logic.memories.iter().enumerate() {
+        let at = MEMORY_SITES[placement.memories[index]];
+        for (port, side) in memory.ports.iter().zip(['A', 'B']) {
+            let outputs = port.iter().flat_map(|port| port.output.iter().enumerate());
+            drivers.extend(outputs.filter_map(|(bit, net)| {
+                let net = logic.nets[(*net)?.index()].clone();
+                Some(Driver { net, at, element: "BRAM".into(), pin: format!("DO{side}{bit}"), flip_flop: None })
+            }));
+        }
+    }
+    drivers.sort();
+    drivers
 }

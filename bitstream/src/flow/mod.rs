@@ -14,7 +14,7 @@ pub mod route;
 pub mod synthesis;
 pub mod timing;
 
-pub use build::{Built, Resources, build};
+pub use build::{Built, Driver, Resources, build};
 pub use progress::{Progress, Stage};
 
 use thiserror::Error;
