@@ -44,7 +44,7 @@ pub struct Driver {
     pub at: (u8, u8),
     /// Element, such as `SLICE[1]` or `BRAM`.
     pub element: String,
-    /// Pin of it, such as `XQ`.
+    /// Pin of it, such as `XQ`; `CF` and `CG` are the carries out of its halves.
     pub pin: String,
     /// The cell of a flip-flop.
     pub flip_flop: Option<String>,
@@ -127,7 +127,10 @@ fn drivers(logic: &Logic, packed: &Packed, placement: &Placement) -> Vec<Driver>
                 let flops = slice.halves.iter().filter_map(|half| half.flop);
                 flops.filter(|flop| flop.output == net).map(|flop| logic.flip_flops[flop.index].name.clone()).next()
             };
-            drivers.extend(slice.sources().into_iter().map(|(pin, net)| Driver {
+            // Carries that stay in the slice count too: proofs cut there.
+            let carries = slice.halves.iter().zip(["CF", "CG"]);
+            let carries = carries.filter_map(|(half, pin)| Some((pin, half.carry.filter(|_| half.selects)?)));
+            drivers.extend(slice.sources().into_iter().chain(carries).map(|(pin, net)| Driver {
                 net: logic.nets[net.index()].clone(),
                 at,
                 element: element.clone(),

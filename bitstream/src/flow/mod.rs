@@ -10,6 +10,7 @@ pub mod nets;
 pub mod pack;
 pub mod place;
 mod progress;
+pub mod prove;
 pub mod route;
 pub mod synthesis;
 pub mod timing;
