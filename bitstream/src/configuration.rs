@@ -265,7 +265,7 @@ fn find<'a>(device: &'a Device, tile: TileId, name: &str) -> Result<&'a Attribut
     Ok(&class.attributes[usize::from(found)])
 }
 
-fn bad_pattern(device: &Device, tile: TileId, attribute: &Attribute, pattern: u64) -> AttributeError {
+pub(crate) fn bad_pattern(device: &Device, tile: TileId, attribute: &Attribute, pattern: u64) -> AttributeError {
     AttributeError::Pattern {
         tile: device.describe_tile(tile),
         attribute: attribute.name.clone(),

@@ -11,3 +11,7 @@ pub mod device;
 pub mod element;
 #[cfg(feature = "device")]
 pub mod flow;
+#[cfg(feature = "device")]
+pub mod netlist;
+#[cfg(feature = "device")]
+pub mod verilog;

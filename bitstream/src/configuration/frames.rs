@@ -286,7 +286,7 @@ mod tests {
             let read = Bitstream::parse(&file).expect("what we write can be read");
             assert_eq!((read.header.as_ref(), read.summary.crc_checks), (Some(&header), 2));
             assert_eq!(Configuration::from_packets(device, &read.packets), Ok(configuration));
-            assert_eq!(read.encode(), file);
+            assert_eq!(read.encode(&read.packets), file);
             assert_eq!(read.packets.last(OPTIONS), Some(0x0080_5F1D));
         }
     }

@@ -106,12 +106,11 @@ impl Bitstream {
         Ok(Self { header, order, summary, packets, head: file[..start].to_vec(), lanes })
     }
 
-    /// The file: header as it was read, packets with their CRC computed anew, in the order of bits of the file.
+    /// The file again: its header with these packets, their CRC computed anew, in the file's order of bits.
     #[must_use]
-    pub fn encode(&self) -> Vec<u8> {
-        let stream = self.packets.encode();
+    pub fn encode(&self, packets: &Packets) -> Vec<u8> {
         let reverse = |byte: u8| if self.order == Order::Prom { byte.reverse_bits() } else { byte };
-        self.head.iter().copied().chain(stream.into_iter().map(reverse)).collect()
+        self.head.iter().copied().chain(packets.encode().into_iter().map(reverse)).collect()
     }
 
     /// Bytes as they go over the bus, one 8-bit write each.
