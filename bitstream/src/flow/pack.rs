@@ -117,6 +117,7 @@ fn column(chain: &Chain) -> Column {
                 shape: if bit.sum.is_some() { Shape::Sum } else { Shape::Table },
                 shows: bit.sum.or(bit.shows),
                 selects: bit.selects,
+                carry: bit.carry,
                 carry_out: bit.carry_out,
                 ..Half::of(&bit.table, first)
             };
