@@ -94,3 +94,16 @@ fn a_blank_device_uses_nothing() {
     assert_eq!((decoded.report.unexplained, decoded.report.absent, decoded.report.bytes), (0, 0, 166_980));
     assert!(decoded.report.used.iter().all(|(_, used, _)| *used == 0));
 }
+
+/// One file of every kind of fault, as kept for the loader.
+#[test]
+fn the_corpus_is_refused_with_reasons() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../testbench/tests/corpus/bitstream");
+    let mut files = 0;
+    for entry in std::fs::read_dir(folder).expect("the corpus") {
+        let file = std::fs::read(entry.expect("an entry").path()).expect("a file");
+        assert!(Bitstream::parse(&file).is_err_and(|fault| !fault.to_string().is_empty()));
+        files += 1;
+    }
+    assert!(files >= 20, "{files} files");
+}

@@ -137,7 +137,8 @@ pub enum CellKind {
         /// The bit read.
         output: NetId,
     },
-    /// A bus of three-state buffers. Undriven it is 1 (DS001, "3-state buffers": weak keepers).
+    /// A bus of three-state buffers. Drivers that disagree give 0, and a bus that nobody drives is 1 here; on silicon
+    /// neither is promised, so no design rests on it.
     Bus {
         /// Buffers: what they drive, and 1 while they are off.
         drivers: Vec<(Signal, Signal)>,
