@@ -9,7 +9,7 @@
 //! configure, arm, command, read snapshots. [`drive`] is the control loop over all that, [`realtime`] its
 //! time, [`recording`] its way to a file.
 
-pub mod bitstream;
+pub use ::bitstream::container as bitstream;
 mod board;
 pub mod design;
 pub mod drive;
