@@ -1,7 +1,7 @@
 //! `racbot bitstream decode`
 
 use super::{decoded, wrong};
-use crate::terminal::{Answer, Failure, save};
+use crate::terminal::{Answer, Failure, Target};
 use bitstream::verilog::emit;
 use clap::Args;
 use serde_json::json;
@@ -21,6 +21,9 @@ pub(crate) struct Options {
     /// Name of the module
     #[arg(long, value_name = "NAME", default_value = "fpga", value_parser = module)]
     module: String,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 fn module(text: &str) -> Result<String, String> {
@@ -31,12 +34,13 @@ fn module(text: &str) -> Result<String, String> {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        self.target.check_free([&self.verilog])?;
         let decoded = decoded(&self.bitstream)?;
         let report = &decoded.report;
         let Some(netlist) = &decoded.netlist else {
             return Err(Failure::data(wrong(&self.bitstream, &report.faults).unwrap_or_default()));
         };
-        save(&self.verilog, &emit(netlist, &self.module))?;
+        self.target.save(&self.verilog, &emit(netlist, &self.module))?;
         let text = format!(
             "{}: module {}, {} cells, {} nets, {} pads\n",
             self.verilog.display(),
