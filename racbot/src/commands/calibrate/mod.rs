@@ -105,8 +105,15 @@ impl Options {
         }
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
-        let calibrated = Calibrated::new(&set.robot, &found, &found)?;
-        Ok((Answer { text: hints + &estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
+        let mut text = hints + &estimate::text(&estimate);
+        // Logs come from robots of any kind; words and drives are for those that the card can drive.
+        let whole = set.robot.missing.is_empty() && set.robot.geometry().is_ok_and(|g| !g.is_differential());
+        let card = if whole { Calibrated::new(&set.robot, &found, &found).ok() } else { None };
+        let calibrated = card.unwrap_or_else(|| {
+            text += "\nNo words for the FPGA and no drive: this robot is none that the card drives.\n";
+            Calibrated::without_card(&found)
+        });
+        Ok((Answer { text, json: estimate.to_json(), wrong: None }, calibrated))
     }
 
     #[cfg(feature = "simulation")]
