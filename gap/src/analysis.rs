@@ -390,7 +390,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let robot_with = with_effects(&set.robot, &named, &alternatives, &runs);
         let text = robot_text(set, options, &robot_with);
         let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
-        let reread = Robot::parse(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
+        let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
         let new: Vec<&str> = named.iter().map(|n| n.name.as_str()).collect();
         let measured = data.measure(&set.robot, &reread, &new);
         let idle = |n: &Named| {
