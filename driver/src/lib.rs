@@ -9,7 +9,7 @@
 //! configure, arm, command, read snapshots. [`drive`] is the control loop over all that, [`realtime`] its
 //! time, [`recording`] its way to a file.
 
-pub mod bitstream;
+pub use ::bitstream::container as bitstream;
 mod board;
 pub mod design;
 pub mod drive;
@@ -23,7 +23,7 @@ pub mod recording;
 mod registers;
 mod scale;
 
-pub use board::{Board, BoardError, Identity, Settings, Snapshot, Status, fault_names};
+pub use board::{Board, BoardError, Identity, Settings, Snapshot, Standing, Status, fault_names};
 pub use observation::Observation;
 pub use pci::{Bar, PciCard, PciError, RegisterWindow};
 pub use registers::{BusError, Recorder, Registers, Transfer};

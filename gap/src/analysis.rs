@@ -163,6 +163,8 @@ pub struct Analysis {
     pub drive: Option<[DriveResiduals; 2]>,
     /// What was driven where those residuals are, and what the camera saw.
     pub driven: Driven,
+    /// Windows of the motion link, s.
+    pub window_s: f64,
     /// Held-out RMS in floors of the links that were fitted: every run predicted by what the others say.
     pub held_out: Vec<(Link, f64)>,
     /// What remains beside what is named, one sentence a link.
@@ -215,8 +217,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
         }
     }
-    let catalogue: Vec<Arc<dyn Effect>> =
-        effects::catalogue_for(set.logs.len()).into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
+    let catalogue: Vec<Arc<dyn Effect>> = effects::catalogue_for(set.logs.len())
+        .into_iter()
+        .map(Arc::from)
+        .chain(options.effects.iter().cloned())
+        .collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
     let mut remarks = set.notes();
     let mut exact: Vec<ExactLink> = [
@@ -240,7 +245,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-    let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
+    let rim_m = Sizes::of(robot).rim_m;
+    let window_s = crate::motion::window_s(&pieces, rim_m);
+    let order = wheel_order(&MotionLink::new(&pieces, noise, window_s), &start, &catalogue);
     let cabled = |a: &&Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
     let wired = order.as_ref().map(|o| o.0.clone()).or_else(|| start.active.iter().find(cabled).cloned());
     if let Some(active) = &wired {
@@ -255,7 +262,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     let mut thresholds = options.thresholds.clone();
-    let motion_link = MotionLink::new(&pieces, noise, 1.0);
+    let motion_link = MotionLink::new(&pieces, noise, window_s);
     let has_motion = !motion_link.is_empty() && robot.support == Support::Floor;
     let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
     start = data.state(&set.robot);
@@ -382,8 +389,17 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
         exact_links.push(gaps::exact_gap(link));
     }
-    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } = study;
+    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } =
+        study;
     remarks.extend(refused);
+    let odd = odd_clock(robot, &set.logs);
+    if let Some(remark) = &odd {
+        // What was found by that clock is nothing.
+        remarks.push(remark.clone());
+        named.clear();
+        alternatives.clear();
+        unexplained.clear();
+    }
     let runs: Vec<String> = set.logs.iter().map(|r| r.name.clone()).collect();
     // What is reported is what the file, read again, gives; where that does not fall, nothing is named.
     let (robot_with, text, measured) = loop {
@@ -411,7 +427,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         ambiguous &= !named.is_empty();
     };
     for n in &mut named {
-        if let Some((_, gain)) = measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. })) {
+        if let Some((_, gain)) =
+            measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
+        {
             n.gain = *gain;
         }
     }
@@ -450,6 +468,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for l in links.iter().filter(|l| !slides(l)) {
         let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
         match gaps::remains(l, &located, far) {
+            _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });
             }
@@ -457,7 +476,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             None => {}
         }
     }
-    let weight = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
+    let compared = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
+    let weight = if odd.is_some() { 0 } else { compared };
     remarks.extend(weightless.iter().map(|w| w.1.clone()));
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
@@ -477,6 +497,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         active: &found,
         pieces: &pieces,
         noise: (noise, &drive_noise),
+        window_s,
         thresholds: &thresholds,
         catalogue: &catalogue,
     };
@@ -501,6 +522,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
         runs,
+        window_s,
         held_out,
         remains,
         thresholds,
@@ -509,6 +531,20 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         driven,
         remarks,
         exact,
+    })
+}
+
+/// Control periods between two rows of a log beyond which its times are in another unit.
+const ODD_ROWS: f64 = 300.0;
+
+/// What to say of logs whose times cannot be seconds.
+fn odd_clock(robot: &Robot, logs: &[runs::Log]) -> Option<String> {
+    let periods = logs.iter().filter_map(runs::Log::tick_s).map(|tick| tick * robot.control_rate_hz);
+    periods.filter(|p| *p > 0.0).find(|p| p.max(1.0 / p) > ODD_ROWS).map(|odd| {
+        format!(
+            "Compared nothing: the rows are {odd:.3} control periods apart by the column t and control_rate_hz; t is in seconds \
+             (are these milliseconds?)."
+        )
     })
 }
 

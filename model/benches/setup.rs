@@ -47,7 +47,7 @@ fn main() {
     let hidden = |(i, e): (usize, &truth::Entry)| {
         [0, 1].map(|k| (7500 + 2 * i as u64 + k, format!("single:{}:{MIDDLE}", e.name)))
     };
-    good("hiding one effect", effects.iter().enumerate().flat_map(hidden).collect());
+    good("hiding one effect", effects.enumerate().flat_map(hidden).collect());
     let sets: Vec<DataSet> = (0..SPOILED).map(|i| set(8000 + i, "effect-free")).collect();
     for spoil in SPOILS {
         let can: Vec<&DataSet> = sets.iter().filter(|set| (spoil.shows)(set)).collect();

@@ -11,6 +11,7 @@ pub mod import;
 mod log;
 mod logs;
 mod mcap;
+pub mod output;
 mod part;
 mod read;
 pub mod robot;

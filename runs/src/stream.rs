@@ -1,6 +1,6 @@
 //! Writing a run while it is being driven, tick by tick.
 
-use std::fs::File;
+use crate::output::{Existing, create_growing};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -150,14 +150,14 @@ pub trait RunStream: Send {
     fn finish(&mut self) -> io::Result<()>;
 }
 
-/// A new run file, MCAP where the name ends in `.mcap`, else CSV.
+/// A new run file that grows under its name, MCAP where that ends in `.mcap`, else CSV.
 ///
 /// `start_ns`: time of t = 0 in nanoseconds since 1970, for MCAP's own time stamps.
 ///
 /// # Errors
-/// A file that cannot be created.
-pub fn create(path: &Path, layout: Layout, start_ns: u64) -> io::Result<Box<dyn RunStream>> {
-    let file = File::create(path)?;
+/// A file that cannot be created, or exists and is to stay.
+pub fn create(path: &Path, layout: Layout, start_ns: u64, existing: Existing) -> io::Result<Box<dyn RunStream>> {
+    let file = create_growing(path, existing)?;
     Ok(if is_mcap(path) {
         Box::new(McapStream::new(io::BufWriter::new(file), layout, start_ns)?)
     } else {

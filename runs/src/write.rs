@@ -1,27 +1,38 @@
 //! Writing a log.
 
-use std::fs::File;
+use crate::error::InputError;
+use crate::output::{Existing, write_with};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use super::Run;
 use super::columns::Column;
-use super::{Run, RunError};
 
 impl Run {
     /// Writes the run so that [`Run::read`] reads it back unchanged: as CSV, or as MCAP where the
-    /// name ends in `.mcap`, which has no place for [`Run::other`].
+    /// name ends in `.mcap`, which has no place for [`Run::other`]. A file that is there is replaced.
     ///
     /// # Errors
-    /// [`RunError`] if the file cannot be written.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), RunError> {
+    /// [`InputError`] if the file cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), InputError> {
+        self.save(path, Existing::Replace)
+    }
+
+    /// The same, where a file that is there may have to stay.
+    ///
+    /// # Errors
+    /// [`InputError`] if it has to, or the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>, existing: Existing) -> Result<(), InputError> {
         let path = path.as_ref();
-        if super::stream::is_mcap(path) {
-            let mut stream = super::create(path, self.layout(), 0).map_err(|e| RunError::io(path, &e))?;
-            return self.stream_to(&mut *stream).map_err(|e| RunError::io(path, &e));
-        }
-        let io = |e: std::io::Error| RunError::io(path, &e);
-        let mut file = BufWriter::new(File::create(path).map_err(io)?);
-        self.write_to(&mut file).and_then(|()| file.flush()).map_err(io)
+        write_with(path, existing, |file| {
+            let mut file = BufWriter::new(file);
+            if super::stream::is_mcap(path) {
+                self.stream_to(&mut super::McapStream::new(&mut file, self.layout(), 0)?)?;
+            } else {
+                self.write_to(&mut file)?;
+            }
+            file.flush()
+        })
     }
 
     /// Writes the run as CSV to anywhere.

@@ -37,9 +37,7 @@ impl Table {
         match signal {
             Signal::Constant(value) => Self::constant(value),
             Signal::Open => Self::constant(false),
-            Signal::Wire { net, inverted } => {
-                Self { inputs: vec![net], table: if inverted { 0x5555 } else { 0xAAAA } }
-            }
+            Signal::Wire { net, inverted } => Self { inputs: vec![net], table: if inverted { 0x5555 } else { 0xAAAA } },
         }
     }
 

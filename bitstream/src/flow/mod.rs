@@ -1,11 +1,22 @@
 //! From a netlist to a bitstream: map, pack, place, route, set bits, and what it costs in time.
 
+pub mod bits;
+mod build;
 pub mod constraints;
+pub mod floorplan;
 pub mod logic;
 pub mod netlist;
 pub mod nets;
 pub mod pack;
+pub mod place;
+mod progress;
+pub mod prove;
+pub mod route;
+pub mod synthesis;
 pub mod timing;
+
+pub use build::{Built, Driver, Resources, build};
+pub use progress::{Progress, Stage};
 
 use thiserror::Error;
 
@@ -29,6 +40,37 @@ pub enum FlowError {
         /// The line.
         text: String,
     },
+    /// A port that has no usable pin.
+    #[error("port {port} {what}")]
+    Pad {
+        /// Which port.
+        port: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// A net for which there is no way.
+    #[error("there is no way for net {net}")]
+    Unroutable {
+        /// Which net.
+        net: String,
+    },
+    /// Nets that could not agree.
+    #[error("{wires} wires are wanted by more than one net after {rounds} rounds; try another seed")]
+    Congested {
+        /// Rounds of negotiation.
+        rounds: usize,
+        /// Wires still shared.
+        wires: usize,
+    },
+    /// Synthesis failed.
+    #[error("synthesis: {what}")]
+    Synthesis {
+        /// Why.
+        what: String,
+    },
+    /// A rule of the device is broken: a fault of the flow.
+    #[error("a fault of the flow: {0}")]
+    Rule(#[from] route::RouteFault),
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
     Full {

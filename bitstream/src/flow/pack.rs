@@ -7,7 +7,7 @@
 mod fill;
 mod slice;
 
-pub use slice::{Bypass, CarryIn, CarryData, Control, Half, Shape, Slice};
+pub use slice::{Bypass, CarryData, CarryIn, Control, Half, Shape, Slice};
 
 use super::FlowError;
 use super::logic::{Chain, Data, Logic, Table};
@@ -102,11 +102,8 @@ fn column(chain: &Chain) -> Column {
             (_, true) => CarryData::One,
             _ => CarryData::Zero,
         };
-        let mut slice = Slice {
-            carry: Some(if row == 0 { CarryIn::Bypass } else { CarryIn::Below }),
-            data,
-            ..Slice::default()
-        };
+        let mut slice =
+            Slice { carry: Some(if row == 0 { CarryIn::Bypass } else { CarryIn::Below }), data, ..Slice::default() };
         if row == 0 {
             slice.bypass[0] = Bypass::CarryIn(chain.carry);
         }
@@ -120,6 +117,7 @@ fn column(chain: &Chain) -> Column {
                 shape: if bit.sum.is_some() { Shape::Sum } else { Shape::Table },
                 shows: bit.sum.or(bit.shows),
                 selects: bit.selects,
+                carry: bit.carry,
                 carry_out: bit.carry_out,
                 ..Half::of(&bit.table, first)
             };

@@ -1,5 +1,6 @@
 //! Static timing: how long every path takes, and how much of the period is left.
 
+pub mod decoded;
 pub mod delays;
 mod graph;
 mod report;

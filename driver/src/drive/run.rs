@@ -4,7 +4,7 @@ use super::watch::Watch;
 use super::{Armed, Control, Controller, DriveError, Fault, PoseSource};
 use crate::realtime::{Clock, Latency, Timer};
 use crate::recording::{Recording, Sample};
-use crate::{Board, Registers, Scale, Settings, Snapshot};
+use crate::{Board, Registers, Scale, Settings, Snapshot, Standing};
 use fixed_kin::AXES;
 use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
@@ -119,7 +119,8 @@ impl Plan {
         board.configuration_in_force(&scale, || {
             timer.wait(clock);
         })?;
-        let mut armed = Armed::new(board)?;
+        let (mut armed, stood) = Armed::new(board)?;
+        state.driven.stood = stood;
         state.begin(&armed.snapshot()?, clock.now());
         let ending = loop {
             let wake = timer.wait(clock);
@@ -163,6 +164,8 @@ pub struct Driven {
     pub ending: Ending,
     /// Whether the card said that it is off; if not, its watchdog switches it off.
     pub switched_off: Result<(), Fault>,
+    /// What stood in the card's sticky registers before it was armed, and was cleared.
+    pub stood: Standing,
     /// What became of each set point.
     pub arrivals: Vec<Arrival>,
     /// Time of the last tick, s.
@@ -230,6 +233,7 @@ impl<'a> State<'a> {
             driven: Driven {
                 ending: Ending::TimeLimit,
                 switched_off: Ok(()),
+                stood: Standing::default(),
                 arrivals: Vec::new(),
                 t: 0.0,
                 pose: plan.start,

@@ -28,7 +28,8 @@ const STUCK_SHARE: f64 = 0.35;
 pub struct DriveLink<'a> {
     /// The pieces of the runs.
     pub pieces: &'a Pieces<'a>,
-    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
+    /// Torque per wheel acceleration of the robot that the link was made with, and its [`Mechanics::ln_inertia`].
+    inertia: DMatrix<f64>,
     ln_inertia: f64,
     /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
     pub noise: Vec<f64>,
@@ -82,7 +83,7 @@ impl<'a> DriveLink<'a> {
 
     /// Lays bumps of a length in s over the segments.
     pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
-        let ln_inertia = nominal.mechanics()?.ln_inertia;
+        let Mechanics { inertia, ln_inertia, .. } = nominal.mechanics()?;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
@@ -115,7 +116,7 @@ impl<'a> DriveLink<'a> {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link = Self { pieces, ln_inertia, noise: vec![1.0; n], sizes, bumps };
+        let mut link = Self { pieces, inertia, ln_inertia, noise: vec![1.0; n], sizes, bumps };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         Some(link)
     }
@@ -148,7 +149,8 @@ impl<'a> DriveLink<'a> {
                 let end = bump.first + bump.intervals;
                 let slips = (0..s.angle.len()).any(|i| {
                     let off = |k: usize| changed[i][k] - s.angle[i][k];
-                    (off(end) - off(bump.first)).abs() > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
+                    (off(end) - off(bump.first)).abs()
+                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
                 });
                 if slips {
                     bump.weights.fill(0.0);
@@ -190,6 +192,11 @@ impl<'a> DriveLink<'a> {
 
     fn first_bump(&self, of: impl Fn(&Segment, &Bump) -> f64) -> f64 {
         self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
+    }
+
+    /// Torque per wheel acceleration of the robot that the link was made with, kg m².
+    pub fn inertia(&self) -> &DMatrix<f64> {
+        &self.inertia
     }
 
     /// Number of bumps.

@@ -25,6 +25,30 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
 }
 
+/// Sum of squares of what a model leaves of the accelerations, in torques of the link's own robot and in units of the
+/// noise, one for each cluster.
+///
+/// An inertia too small explains accelerations that are noisy (it makes little of them in its own torque), one too large
+/// those that are predicted badly (it predicts none): what it really is does better in either unit.
+pub fn misses(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
+    let back = link.inertia() * model.mechanics()?.response;
+    let residuals = link.residuals(model)?;
+    let mut out: Vec<f64> = Vec::new();
+    let mut before = None;
+    for b in 0..link.len() {
+        if before != Some(link.cluster(b)) {
+            out.push(0.0);
+            before = Some(link.cluster(b));
+        }
+        let torque = &back * DVector::from_column_slice(&residuals.torque[b]);
+        let weighted = torque.iter().zip(&residuals.weights[b]).zip(&link.noise).map(|((t, w), s)| (w * t / s).powi(2));
+        if let Some(last) = out.last_mut() {
+            *last += weighted.sum::<f64>();
+        }
+    }
+    Some(out)
+}
+
 fn squares(
     link: &DriveLink,
     residuals: &DriveResiduals,

@@ -1,6 +1,6 @@
 //! `racbot convert`
 
-use crate::terminal::{Answer, Failure, wrapped};
+use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
 use runs::import::{Map, Table};
 use serde_json::json;
@@ -23,9 +23,8 @@ pub(crate) struct Options {
     #[arg(long)]
     list: bool,
 
-    /// Write over a file that is there
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    target: Target,
 }
 
 impl Options {
@@ -44,16 +43,14 @@ impl Options {
         if !out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("mcap")) {
             return Err(Failure::about(out, "is neither *.csv nor *.mcap; runs are one of the two"));
         }
-        if out.exists() && !self.force {
-            return Err(Failure::about(out, "is there already; give another name, or --force"));
-        }
+        self.target.check_free([out])?;
         let map = Map::load(map)?;
         let table = Table::read(file, map.format(), map.time()?)?;
         let run = map.run(&table, file)?;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|error| runs::error::InputError::io(folder, &error))?;
         }
-        run.write(out)?;
+        run.save(out, self.target.existing())?;
         let said = format!(
             "{}: {} ticks in {:.1} s, {} camera poses",
             out.display(),

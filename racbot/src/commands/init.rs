@@ -1,6 +1,6 @@
 //! `racbot init`
 
-use crate::terminal::{Answer, Failure, save};
+use crate::terminal::{Answer, Failure, Target};
 use clap::{Args, ValueEnum};
 use runs::Run;
 use runs::error::InputError;
@@ -95,9 +95,8 @@ pub(crate) struct Options {
     #[arg(long, value_name = "LOG")]
     log: Option<PathBuf>,
 
-    /// Write over a file that is there
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    target: Target,
 }
 
 /// Where x points.
@@ -127,9 +126,7 @@ struct Key {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        if self.file.exists() && !self.force {
-            return Err(Failure::about(&self.file, "is there already; give another name, or --force"));
-        }
+        self.target.check_free([&self.file])?;
         let wheels = self.layout()?;
         let log = self.log.as_deref().map(signals).transpose()?;
         let of = |signal: fn(&Run) -> bool| log.as_ref().is_some_and(signal);
@@ -205,7 +202,7 @@ impl Options {
         let text = self.text(&keys, &motor, &wheels);
         // What was written must be read.
         Robot::parse_partial(&text, &self.file)?;
-        save(&self.file, &text)?;
+        self.target.save(&self.file, &text)?;
         let said = format!("{} with {} wheels\n", self.file.display(), wheels.len());
         Ok(Answer { text: said, json: json!({ "robot": self.file, "wheels": wheels.len() }), wrong: None })
     }

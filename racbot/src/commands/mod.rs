@@ -1,5 +1,7 @@
 //! One file per subcommand: its options, what it calls, what it prints.
 
+#[cfg(feature = "simulation")]
+mod bitstream;
 mod calibrate;
 mod check;
 #[cfg(feature = "simulation")]
@@ -42,6 +44,9 @@ pub(crate) enum Command {
     /// Write the gateware: Verilog, pin constraints, register documents
     #[cfg(feature = "simulation")]
     Generate(generate::Options),
+    /// Make and look into bitstreams of the card's device
+    #[cfg(feature = "simulation")]
+    Bitstream(bitstream::Options),
     /// Drive a virtual robot along set points, its speed loops in an FPGA
     #[cfg(feature = "simulation")]
     Simulate(simulate::Options),
@@ -95,6 +100,8 @@ impl Command {
             Self::Demo(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Generate(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Bitstream(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Simulate(options) => options.run(),
             #[cfg(feature = "simulation")]

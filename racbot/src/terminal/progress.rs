@@ -15,6 +15,11 @@ impl Progress {
         Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ")))
     }
 
+    /// Another name, for the next part of the work.
+    pub(crate) fn rename(&self, what: &'static str) {
+        self.0.set_message(what);
+    }
+
     /// So many steps are done.
     pub(crate) fn at(&self, done: u64) {
         self.0.set_position(done);

@@ -226,7 +226,7 @@ impl Robot {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), InputError> {
         let path = path.as_ref();
         self.validate(path)?;
-        std::fs::write(path, self.to_toml()).map_err(|e| InputError::io(path, &e))
+        crate::output::write_whole(path, self.to_toml().as_bytes(), crate::output::Existing::Replace)
     }
 
     /// The text of the robot's `robot.toml`.

@@ -4,6 +4,7 @@ use super::Machine;
 use super::stand_in::StandIn;
 use crate::fpga::{BitTrue, Fpga, FpgaError};
 use driver::Registers;
+use fixed_kin::card::Pins;
 use fixed_kin::kicker::State;
 use fixed_kin::registers::{BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, TICK_PERIOD, TIME};
 
@@ -51,6 +52,11 @@ impl BitTrueLive {
     #[must_use]
     pub fn new(design: StandIn) -> Self {
         Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None, kicks: 0, kicking: false }
+    }
+
+    /// Its pins other than the encoders.
+    pub fn pins(&mut self) -> &mut Pins {
+        &mut self.fpga.pins
     }
 
     /// A pulse may be shorter than a tick, but the lock-out after it is not.

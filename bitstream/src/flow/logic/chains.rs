@@ -32,7 +32,9 @@ pub struct ChainBit {
     pub data: Data,
     /// The net of the sum, table ^ carry.
     pub sum: Option<Net>,
-    /// The net of the carry out, where something beside the chain reads it.
+    /// The net of the carry out.
+    pub carry: Option<Net>,
+    /// The same, where something beside the chain reads it.
     pub carry_out: Option<Net>,
     /// The net of the table's own output, where the chain's slice shows it.
     pub shows: Option<Net>,
@@ -171,7 +173,15 @@ impl Builder<'_> {
         if taken {
             table = Table::of(bit.select);
         }
-        ChainBit { table, selects: bit.data.is_some(), data, sum: bit.sum, carry_out: bit.carry, shows: bit.select.net() }
+        ChainBit {
+            table,
+            selects: bit.data.is_some(),
+            data,
+            sum: bit.sum,
+            carry: bit.carry,
+            carry_out: bit.carry,
+            shows: bit.select.net(),
+        }
     }
 
     /// Sums whose carry is no chain's: tables.

@@ -51,21 +51,19 @@ fn merged(select: Signal, low: &Table, high: &Table) -> Option<Table> {
         return None;
     }
     let word_of = |table: &Table, word: usize| {
-        let inner = table.inputs.iter().enumerate().fold(0, |inner, (at, net)| {
-            inner | (word >> inputs.binary_search(net).expect("listed") & 1) << at
-        });
+        let inner = table
+            .inputs
+            .iter()
+            .enumerate()
+            .fold(0, |inner, (at, net)| inner | (word >> inputs.binary_search(net).expect("listed") & 1) << at);
         table.table >> inner & 1
     };
     let chosen = |word: usize| match select {
         Signal::Constant(value) => value,
         Signal::Open => false,
-        Signal::Wire { net, inverted } => {
-            (word >> inputs.binary_search(&net).expect("listed") & 1 == 1) != inverted
-        }
+        Signal::Wire { net, inverted } => (word >> inputs.binary_search(&net).expect("listed") & 1 == 1) != inverted,
     };
-    let table = (0..16).fold(0, |all, word| {
-        all | word_of(if chosen(word) { high } else { low }, word) << word
-    });
+    let table = (0..16).fold(0, |all, word| all | word_of(if chosen(word) { high } else { low }, word) << word);
     let signals: Vec<Signal> = inputs.iter().map(|net| Signal::of(*net)).collect();
     Some(tables::reduce(&signals, table))
 }

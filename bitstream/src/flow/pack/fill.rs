@@ -1,7 +1,7 @@
 //! Pairs halves into slices: flip-flops by control set, tables by the nets that they share.
 
-use super::{Column, Packer, control, half_of};
 use super::slice::{Bypass, Control, Half, Slice};
+use super::{Column, Packer, control, half_of};
 use crate::flow::netlist::{Net, Signal};
 use std::collections::{BTreeMap, BTreeSet};
 

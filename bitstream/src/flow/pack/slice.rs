@@ -31,7 +31,9 @@ pub struct Half {
     pub shows: Option<Net>,
     /// Whether the carry listens to the table.
     pub selects: bool,
-    /// The net on the carry output (XB, YB).
+    /// The net of the carry out of this half, wherever it is read.
+    pub carry: Option<Net>,
+    /// The net on the carry output (XB, YB), if something beside the chain reads it.
     pub carry_out: Option<Net>,
     /// The flip-flop: index, output net, value after configuration, and whether its data come from the output.
     pub flop: Option<Flop>,

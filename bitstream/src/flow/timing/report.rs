@@ -51,7 +51,7 @@ pub struct DomainReport {
 pub struct Report {
     /// Every domain.
     pub domains: Vec<DomainReport>,
-    /// Share of the period that a connection's worst path takes, in 1/256, up to 256.
+    /// Share of the period that a connection's worst path takes, in 1/256.
     pub criticality: Vec<u16>,
 }
 
@@ -89,7 +89,7 @@ impl Report {
             let mut share = |arc: Arc, own: i64| {
                 let (From::Connection(connection), Some(time)) = (arc.from, time(arc)) else { return };
                 let slack = own - i64::from(time);
-                let share = ((period - slack) * 256 / period).clamp(0, 256) as u16;
+                let share = ((period - slack) * 256 / period).clamp(0, 4_095) as u16;
                 let entry = &mut criticality[connection as usize];
                 *entry = share.max(*entry);
             };

@@ -7,7 +7,7 @@ mod result;
 
 #[cfg(feature = "simulation")]
 use super::options::{Hidden, load_robot};
-use crate::terminal::{Answer, Failure, wrapped};
+use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
 use result::Calibrated;
@@ -39,13 +39,12 @@ pub(crate) struct Options {
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// Go on although the data set looks set up wrong (see `racbot check`)
-    #[arg(long)]
-    force: bool,
-
     /// Folder for the calibrated robot.toml, the FPGA's coefficient words and pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 /// How to calibrate.
@@ -71,7 +70,7 @@ impl Options {
         };
         answer.json["configuration"] = calibrated.words();
         if let Some(folder) = &self.out {
-            let files = calibrated.save(folder)?;
+            let files = calibrated.save(folder, self.target)?;
             answer.text += &wrapped(&format!("written to {}: {}", folder.display(), files.join(", ")), 2);
         }
         Ok(answer)
@@ -99,10 +98,10 @@ impl Options {
                         and camera";
             return Err(Failure::about(folder, what));
         }
-        let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.force)?;
+        let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.target.forced())?;
         let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
         let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
-        if !self.force && largest > LARGEST_DEG {
+        if !self.target.forced() && largest > LARGEST_DEG {
             let what = format!(
                 "the best fit turns a wheel by {largest:.0}°: no skew does that; see `racbot check`, or --force"
             );

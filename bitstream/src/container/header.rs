@@ -19,6 +19,25 @@ pub struct Header {
     pub time: String,
 }
 
+impl Header {
+    /// The header of a file with a bitstream of this many bytes, up to the bitstream.
+    #[must_use]
+    pub fn encode(&self, bytes: usize) -> Vec<u8> {
+        let mut out = PREAMBLE.to_vec();
+        for (field, text) in [(b'a', &self.design), (b'b', &self.part), (b'c', &self.date), (b'd', &self.time)] {
+            // Longer text has no place in the format's 16 bits of length.
+            let text = &text.as_bytes()[..text.len().min(usize::from(u16::MAX) - 1)];
+            out.push(field);
+            out.extend((text.len() as u16 + 1).to_be_bytes());
+            out.extend(text);
+            out.push(0);
+        }
+        out.push(b'e');
+        out.extend((bytes as u32).to_be_bytes());
+        out
+    }
+}
+
 /// Whether this is meant to be a `.bit` file, damaged or not.
 pub(super) fn begins(file: &[u8]) -> bool {
     PREAMBLE.iter().zip(file).filter(|(a, b)| a == b).count() >= PREAMBLE.len() / 2

@@ -1,5 +1,7 @@
 //! The CRC inside a Virtex or Spartan-II bitstream.
 
+use super::packets;
+
 /// Polynomial x¹⁶ + x¹⁵ + x² + 1, reflected.
 const POLYNOMIAL: u16 = 0xA001;
 /// Bits of a register address.
@@ -16,6 +18,15 @@ impl Crc {
         self.shift(register, ADDRESS_BITS);
     }
 
+    /// A write to any register, with what it does to the CRC itself: a check or a reset leaves zero.
+    pub fn update(&mut self, register: u32, data: u32) {
+        if register == packets::CRC || (register == packets::COMMAND && data == packets::RESET_CRC) {
+            self.0 = 0;
+        } else {
+            self.write(register, data);
+        }
+    }
+
     fn shift(&mut self, bits: u32, count: u32) {
         for n in 0..count {
             let feedback = (self.0 ^ (bits >> n) as u16) & 1;
@@ -27,7 +38,7 @@ impl Crc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bitstream::packets::{COMMAND, CONTROL, FRAME_DATA};
+    use crate::container::packets::{COMMAND, CONTROL, FRAME_DATA};
 
     /// The end of the bitstreams that Xilinx's tools make for this device: last frame, start, control,
     /// and the CRC word 38FE that stands behind them in every file looked at.

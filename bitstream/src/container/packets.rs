@@ -12,21 +12,33 @@ use super::{FRAME_WORDS, FRAMES, Fault, Order, SYNC};
 
 /// Register: CRC check.
 pub const CRC: u32 = 0;
+/// Register: address of the next frame.
+pub const FRAME_ADDRESS: u32 = 1;
 /// Register: frame data in.
 pub const FRAME_DATA: u32 = 2;
 /// Register: command.
 pub const COMMAND: u32 = 4;
 /// Register: control.
 pub const CONTROL: u32 = 5;
+/// Register: mask of the control register.
+pub const MASK: u32 = 6;
+/// Register: configuration options, with the order of the start-up.
+pub const OPTIONS: u32 = 9;
 /// Register: frame length, one less than a frame's words.
 pub const FRAME_LENGTH: u32 = 11;
 /// Registers there are.
 const REGISTERS: u32 = 12;
 
+/// Command: write configuration.
+pub const WRITE_CONFIGURATION: u32 = 1;
+/// Command: the frame that follows is the last.
+pub const LAST_FRAME: u32 = 3;
 /// Command: start-up.
 pub const START: u32 = 5;
 /// Command: CRC register to zero.
 pub const RESET_CRC: u32 = 7;
+/// Command: take over the configuration clock's options.
+pub const SWITCH_CLOCK: u32 = 9;
 
 /// The sync word stands this near to the beginning.
 const SYNC_WITHIN: usize = 256;
@@ -40,6 +52,69 @@ pub struct Summary {
     pub frame_words: usize,
     /// CRC words that were right; a wrong one is an error.
     pub crc_checks: usize,
+}
+
+/// A packet, or a word that does nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Packet {
+    /// A word between packets.
+    Idle(u32),
+    /// A write to a register.
+    Write {
+        /// The header as it stands.
+        header: u32,
+        /// The register.
+        register: u32,
+        /// What is written.
+        words: Vec<u32>,
+        /// Byte of the file at which the first word stands.
+        offset: usize,
+    },
+}
+
+/// A bitstream taken apart, so that putting it together again gives the same bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Packets {
+    /// Dummy bytes (FF) before the sync word.
+    pub lead: usize,
+    /// What follows it.
+    pub packets: Vec<Packet>,
+    /// Bytes after the last whole word.
+    pub rest: Vec<u8>,
+}
+
+impl Packets {
+    /// The bytes, in `.bit` order, with the CRC words computed anew.
+    #[must_use]
+    pub fn encode(&self) -> Vec<u8> {
+        let mut bytes = vec![0xFF; self.lead];
+        let mut crc = Crc::default();
+        let mut push = |word: u32| bytes.extend(word.to_be_bytes());
+        push(SYNC);
+        for packet in &self.packets {
+            match packet {
+                Packet::Idle(word) => push(*word),
+                Packet::Write { header, register, words, .. } => {
+                    push(*header);
+                    for word in words {
+                        push(if *register == CRC { crc.0.into() } else { *word });
+                        crc.update(*register, *word);
+                    }
+                }
+            }
+        }
+        bytes.extend(&self.rest);
+        bytes
+    }
+
+    /// The last value written to a register.
+    #[must_use]
+    pub fn last(&self, wanted: u32) -> Option<u32> {
+        self.packets.iter().rev().find_map(|packet| match packet {
+            Packet::Write { register, words, .. } if *register == wanted => words.last().copied(),
+            _ => None,
+        })
+    }
 }
 
 /// Where the sync word is, and in which order of bits.
@@ -59,14 +134,22 @@ pub(super) fn sync(stream: &[u8]) -> Option<(Order, usize)> {
 }
 
 /// Walks a bitstream in `.bit` order that begins at byte `start` of its file.
-pub(super) fn walk(stream: &[u8], start: usize) -> Result<Summary, Fault> {
+pub(super) fn walk(stream: &[u8], start: usize) -> Result<(Summary, Packets), Fault> {
     let Some((Order::Bit, at)) = sync(stream) else { return Err(Fault::NoSync { searched: stream.len() }) };
     if let Some(stray) = stream[..at].iter().position(|byte| *byte != 0xFF) {
         let word = u32::from(stream[stray]);
         return Err(Fault::Packet { offset: start + stray, word, why: "stands before the sync word" });
     }
-    Walk { stream, start, at: at + 4, crc: Crc::default(), summary: Summary::default(), started: false, checked: false }
-        .run()
+    let walk = Walk {
+        stream,
+        start,
+        at: at + 4,
+        crc: Crc::default(),
+        summary: Summary::default(),
+        started: false,
+        checked: false,
+    };
+    walk.run(Packets { lead: at, packets: Vec::new(), rest: Vec::new() })
 }
 
 struct Walk<'a> {
@@ -93,15 +176,21 @@ impl Walk<'_> {
         self.start + self.at - 4
     }
 
-    fn run(mut self) -> Result<Summary, Fault> {
+    fn run(mut self, mut all: Packets) -> Result<(Summary, Packets), Fault> {
         let mut register = None;
         while let Some(header) = self.word() {
             let offset = self.offset();
             let fault = |why| Fault::Packet { offset, word: header, why };
             let (kind, operation) = (header >> 29, header >> 27 & 3);
             let words = match (kind, operation) {
-                (0, _) if header == 0 => continue,
-                (1, 0) => continue,
+                (0, _) if header == 0 => {
+                    all.packets.push(Packet::Idle(header));
+                    continue;
+                }
+                (1, 0) => {
+                    all.packets.push(Packet::Idle(header));
+                    continue;
+                }
                 (1, 2) => {
                     let address = header >> 13 & 0x3FFF;
                     if address >= REGISTERS {
@@ -120,11 +209,16 @@ impl Walk<'_> {
                 return Err(fault("has more words than the file"));
             }
             self.summary.packets += 1;
+            let offset = self.start + self.at;
+            let mut data = Vec::with_capacity(words as usize);
             for _ in 0..words {
-                let data = self.word().unwrap_or_default();
-                self.write(address, data)?;
+                let word = self.word().unwrap_or_default();
+                self.write(address, word)?;
+                data.push(word);
             }
+            all.packets.push(Packet::Write { header, register: address, words: data, offset });
         }
+        all.rest = self.stream[self.at..].to_vec();
         if !self.checked {
             return Err(Fault::NoCrc);
         }
@@ -134,7 +228,7 @@ impl Walk<'_> {
         if !self.started {
             return Err(Fault::NoStart);
         }
-        Ok(self.summary)
+        Ok((self.summary, all))
     }
 
     fn write(&mut self, register: u32, data: u32) -> Result<(), Fault> {
@@ -144,11 +238,9 @@ impl Walk<'_> {
                 return Err(Fault::Crc { offset: self.offset(), stored, computed });
             }
             self.summary.crc_checks += 1;
-            self.crc = Crc::default();
             self.checked = true;
-            return Ok(());
         }
-        self.crc.write(register, data);
+        self.crc.update(register, data);
         match register {
             FRAME_DATA => {
                 self.summary.frame_words += 1;
@@ -158,7 +250,6 @@ impl Walk<'_> {
                 return Err(Fault::FrameLength { offset: self.offset(), found: data });
             }
             COMMAND if data == START => self.started = true,
-            COMMAND if data == RESET_CRC => self.crc = Crc::default(),
             _ => {}
         }
         Ok(())

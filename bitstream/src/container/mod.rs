@@ -18,7 +18,7 @@ pub use crc::Crc;
 pub use error::{BitstreamError, Fault};
 pub use header::Header;
 
-use packets::Summary;
+use packets::{Packets, Summary};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -55,6 +55,10 @@ pub struct Bitstream {
     pub order: Order,
     /// What the packets do.
     pub summary: Summary,
+    /// The packets.
+    pub packets: Packets,
+    /// Bytes of the file before the bitstream.
+    head: Vec<u8>,
     /// Bytes as they go over the bus, the first configuration bit on data line 0.
     lanes: Vec<u8>,
 }
@@ -95,11 +99,18 @@ impl Bitstream {
             return Err(Fault::Length { found: stream.len() });
         }
         let reversed = || stream.iter().map(|byte| byte.reverse_bits()).collect::<Vec<u8>>();
-        let (summary, lanes) = match order {
+        let ((summary, packets), lanes) = match order {
             Order::Bit => (packets::walk(stream, start)?, reversed()),
             Order::Prom => (packets::walk(&reversed(), start)?, stream.to_vec()),
         };
-        Ok(Self { header, order, summary, lanes })
+        Ok(Self { header, order, summary, packets, head: file[..start].to_vec(), lanes })
+    }
+
+    /// The file again: its header with these packets, their CRC computed anew, in the file's order of bits.
+    #[must_use]
+    pub fn encode(&self, packets: &Packets) -> Vec<u8> {
+        let reverse = |byte: u8| if self.order == Order::Prom { byte.reverse_bits() } else { byte };
+        self.head.iter().copied().chain(packets.encode().into_iter().map(reverse)).collect()
     }
 
     /// Bytes as they go over the bus, one 8-bit write each.

@@ -1,0 +1,154 @@
+//! The whole flow, from a netlist to a configuration and what is known of it.
+
+use super::constraints::Constraints;
+use super::logic::Logic;
+use super::netlist::{Net, Netlist};
+use super::nets::{Nets, Part};
+use super::pack::Packed;
+use super::place::{Design, MEMORY_SITES, Placement};
+use super::route::{Extremes, Routing, Terminals, check};
+use super::timing::{Graph, Report};
+use super::{FlowError, Progress, Stage, bits};
+use crate::configuration::Configuration;
+use crate::device::Device;
+
+/// What a design takes of the device.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub struct Resources {
+    /// Slices of 2,352.
+    pub slices: usize,
+    /// Tables of 4,704.
+    pub tables: usize,
+    /// Flip-flops of 4,704.
+    pub flip_flops: usize,
+    /// Bits of carry.
+    pub carries: usize,
+    /// Block memories of 14.
+    pub memories: usize,
+    /// Pads of 144.
+    pub pads: usize,
+    /// Nets through the interconnect.
+    pub nets: usize,
+    /// Wires that they take.
+    pub wires: usize,
+    /// Rounds of the router.
+    pub rounds: usize,
+}
+
+/// Where a net is driven.
+#[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
+pub struct Driver {
+    /// Name of the net.
+    pub net: String,
+    /// Column and row.
+    pub at: (u8, u8),
+    /// Element, such as `SLICE[1]` or `BRAM`.
+    pub element: String,
+    /// Pin of it, such as `XQ`; `CF` and `CG` are the carries out of its halves.
+    pub pin: String,
+    /// The cell of a flip-flop.
+    pub flip_flop: Option<String>,
+}
+
+/// A design as bits, and where its parts went.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// All bits.
+    pub configuration: Configuration,
+    /// What it takes.
+    pub resources: Resources,
+    /// Pass gates in series and wires joined, at most.
+    pub extremes: Extremes,
+    /// Timing.
+    pub timing: Report,
+    /// Where every net is driven.
+    pub drivers: Vec<Driver>,
+    /// Its logic.
+    pub logic: Logic,
+    /// Its slices.
+    pub packed: Packed,
+    /// Its nets.
+    pub nets: Nets,
+    /// Where everything stands.
+    pub placement: Placement,
+}
+
+/// Builds a design.
+///
+/// # Errors
+/// See [`FlowError`].
+pub fn build(
+    json: &str,
+    top: &str,
+    constraints: &Constraints,
+    seed: u64,
+    progress: &mut Progress<'_>,
+) -> Result<Built, FlowError> {
+    progress.tell(Stage::Pack, 0, || format!("netlist of {} bytes", json.len()));
+    let device = Device::xc2s200();
+    let logic = Logic::of(Netlist::from_yosys(json, top)?)?;
+    let packed = Packed::of(&logic)?;
+    let nets = Nets::of(&logic, &packed);
+    if let Some(name) = nets.undriven(&logic, &packed).first() {
+        return Err(FlowError::Netlist { what: format!("nothing drives net {name}") });
+    }
+    let graph = Graph::of(&logic, &packed, &nets, constraints);
+    let design = Design { logic: &logic, packed: &packed, nets: &nets, graph: &graph, constraints };
+    let placement = Placement::of(device, &design, seed, progress)?;
+    let routing = Routing::of(device, &design, &placement, progress)?;
+    progress.tell(Stage::Bits, 0, || "setting bits".into());
+    let terminals = Terminals::of(device, &design, &placement)?;
+    let extremes = check(device, &routing, &terminals)?;
+    let configuration = bits::configure(device, &design, &placement, &routing)?;
+    let halves = || packed.slices().flat_map(|slice| &slice.halves);
+    let resources = Resources {
+        slices: packed.slices().count(),
+        tables: halves().filter(|half| half.tabled).count(),
+        flip_flops: halves().filter(|half| half.flop.is_some()).count(),
+        carries: logic.chains.iter().map(|chain| chain.bits.len()).sum(),
+        memories: logic.memories.len(),
+        pads: logic.pads.len(),
+        nets: nets.general.len(),
+        wires: routing.used(&terminals),
+        rounds: routing.rounds,
+    };
+    let drivers = drivers(&logic, &packed, &placement);
+    let timing = Report::of(&graph, &routing.delays);
+    Ok(Built { configuration, resources, extremes, timing, drivers, logic, packed, nets, placement })
+}
+
+fn drivers(logic: &Logic, packed: &Packed, placement: &Placement) -> Vec<Driver> {
+    let mut drivers = Vec::new();
+    for (column, slices) in packed.columns.iter().enumerate() {
+        for (row, slice) in slices.slices.iter().enumerate() {
+            let at = placement.at(Part::Slice(column as u32, row as u16));
+            let element = format!("SLICE[{}]", placement.columns[column].slice);
+            let cell = |net: Net| {
+                let flops = slice.halves.iter().filter_map(|half| half.flop);
+                flops.filter(|flop| flop.output == net).map(|flop| logic.flip_flops[flop.index].name.clone()).next()
+            };
+            // Carries that stay in the slice count too: proofs cut there.
+            let carries = slice.halves.iter().zip(["CF", "CG"]);
+            let carries = carries.filter_map(|(half, pin)| Some((pin, half.carry.filter(|_| half.selects)?)));
+            drivers.extend(slice.sources().into_iter().chain(carries).map(|(pin, net)| Driver {
+                net: logic.nets[net.index()].clone(),
+                at,
+                element: element.clone(),
+                pin: pin.to_owned(),
+                flip_flop: cell(net),
+            }));
+        }
+    }
+    for (index, memory) in logic.memories.iter().enumerate() {
+        let at = MEMORY_SITES[placement.memories[index]];
+        for (port, side) in memory.ports.iter().zip(['A', 'B']) {
+            let outputs = port.iter().flat_map(|port| port.output.iter().enumerate());
+            drivers.extend(outputs.filter_map(|(bit, net)| {
+                let net = logic.nets[(*net)?.index()].clone();
+                Some(Driver { net, at, element: "BRAM".into(), pin: format!("DO{side}{bit}"), flip_flop: None })
+            }));
+        }
+    }
+    drivers.sort();
+    drivers
+}

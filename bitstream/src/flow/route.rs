@@ -1,0 +1,147 @@
+//! Routes nets through the device by negotiated congestion (PathFinder), with time.
+//!
+//! Every net becomes a tree of wires. In the first rounds nets may share wires; a shared wire grows dearer
+//! from round to round until none is shared. A connection on a slow path pays for time, the others for
+//! congestion.
+//!
+//! The rules of the device's pass gates are kept while searching: the vendor's tools never go through more than
+//! seven gates in series from where a net is driven into single-length wires, nor join more than fifteen such
+//! wires (counted in 22 files of the card's maker). Here the limits are [`GATES`] and [`JOINED`].
+
+mod fabric;
+mod rules;
+mod search;
+mod terminals;
+mod tree;
+
+pub use rules::{Extremes, RouteFault, check};
+pub use terminals::Terminals;
+pub(crate) use terminals::element;
+pub use tree::{Branch, Tree};
+
+use super::FlowError;
+use super::nets::Routed;
+use super::place::{Design, Placement, weights};
+use super::timing::Report;
+use super::{Progress, Stage};
+use crate::device::{Device, WireId};
+use fabric::Fabric;
+use search::{Congestion, Search};
+
+/// Most pass gates in series.
+pub const GATES: u8 = 6;
+/// Most single-length wires joined by pass gates.
+pub const JOINED: u8 = 15;
+/// Rounds after which a design counts as not routable.
+const ROUNDS: usize = 80;
+/// What a shared wire costs more in the first round, in 1/16 of its price for each net too many.
+const FIRST_PRESSURE: u64 = 8;
+/// How the pressure grows, in 1/16 a round.
+const PRESSURE_GROWTH: u64 = 22;
+/// Largest pressure.
+const LAST_PRESSURE: u64 = 1 << 20;
+
+/// Power of the weights of slow connections.
+const POWER: u32 = 5;
+
+/// A routed design.
+#[derive(Clone, Debug)]
+pub struct Routing {
+    /// A tree for every general net.
+    pub general: Vec<Tree>,
+    /// A tree for every clock.
+    pub clocks: Vec<Tree>,
+    /// Wire delay of every connection, in ps.
+    pub delays: Vec<u32>,
+    /// Rounds that it took.
+    pub rounds: usize,
+}
+
+impl Routing {
+    /// Routes a placed design.
+    ///
+    /// # Errors
+    /// A pin that the device does not have, or wires that stay shared.
+    pub fn of(
+        device: &Device,
+        design: &Design<'_>,
+        placement: &Placement,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, FlowError> {
+        let terminals = Terminals::of(device, design, placement)?;
+        let fabric = Fabric::of(device);
+        let mut search = Search::new(&fabric);
+        let mut congestion = Congestion::new(fabric.wires(), FIRST_PRESSURE);
+        let reserved = terminals.general.iter().flat_map(|net| &net.sinks).map(|wire| wire.0);
+        search.reserve(reserved);
+        let clocks = Self::clocks(device, design, &terminals, &mut search)?;
+        let mut general = vec![Tree::default(); terminals.general.len()];
+        let mut delays = placement.estimate(design.nets);
+        let mut order: Vec<usize> = (0..general.len()).collect();
+        order.sort_by_key(|net| (std::cmp::Reverse(terminals.general[*net].sinks.len()), *net));
+        for round in 0..ROUNDS {
+            let weights = weights(&Report::of(design.graph, &delays).criticality, POWER);
+            for net in &order {
+                let first = design.graph.first[*net] as usize;
+                let ends = &terminals.general[*net];
+                let shared = round == 0 || general[*net].wires(ends.source).any(|wire| congestion.is_shared(wire));
+                if !shared {
+                    continue;
+                }
+                general[*net].wires(ends.source).for_each(|wire| congestion.leave(wire));
+                let tree = search
+                    .tree(ends, &weights[first..], &congestion)
+                    .ok_or_else(|| FlowError::Unroutable { net: name(design, &design.nets.general[*net]) })?;
+                tree.wires(ends.source).for_each(|wire| congestion.enter(wire));
+                general[*net] = tree;
+            }
+            for (net, tree) in general.iter().enumerate() {
+                let first = design.graph.first[net] as usize;
+                tree.delays(&fabric, &terminals.general[net], &mut delays[first..]);
+            }
+            let left = congestion.settle(PRESSURE_GROWTH, LAST_PRESSURE);
+            progress.tell(Stage::Route, percent(left, general.len()), || {
+                format!("round {}: {left} wires shared", round + 1)
+            });
+            if left == 0 {
+                return Ok(Self { general, clocks, delays, rounds: round + 1 });
+            }
+        }
+        Err(FlowError::Congested { rounds: ROUNDS, wires: congestion.shared() })
+    }
+
+    fn clocks(
+        device: &Device,
+        design: &Design<'_>,
+        terminals: &Terminals,
+        search: &mut Search<'_>,
+    ) -> Result<Vec<Tree>, FlowError> {
+        let tree = |(index, ends): (usize, &terminals::Ends)| {
+            search
+                .clock_tree(device, ends)
+                .ok_or_else(|| FlowError::Unroutable { net: name(design, &design.nets.clocks[index]) })
+        };
+        terminals.clocks.iter().enumerate().map(tree).collect()
+    }
+
+    /// Wires in use, clocks apart.
+    #[must_use]
+    pub fn used(&self, terminals: &Terminals) -> usize {
+        self.general.iter().zip(&terminals.general).map(|(tree, ends)| tree.wires(ends.source).count()).sum()
+    }
+}
+
+fn name(design: &Design<'_>, routed: &Routed) -> String {
+    design.logic.nets[routed.net.index()].clone()
+}
+
+fn percent(left: usize, nets: usize) -> u32 {
+    // Sharing falls about by a third a round: the logarithm is the work that remains.
+    let bits = |number: usize| usize::BITS - number.leading_zeros();
+    100 - (bits(left) * 100 / bits(8 * nets.max(1))).min(100)
+}
+
+/// A wire as an index.
+fn at(wire: WireId) -> usize {
+    wire.0 as usize
+}

@@ -1,0 +1,50 @@
+//! Runs yosys: Verilog to a netlist of this family's cells.
+
+use super::{FlowError, Progress, Stage};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What yosys is told. Cells are mapped with carry chains, wide multiplexers, block memories, buffers of pads
+/// and of clocks.
+#[must_use]
+pub fn script(top: &str) -> String {
+    format!("read_verilog design.v; synth_xilinx -family xcv -top {top} -flatten; write_json netlist.json")
+}
+
+/// Synthesises a design in a folder of its own; the netlist as JSON.
+///
+/// # Errors
+/// A missing yosys, or a design that it does not take, with its last words.
+pub fn synthesise(verilog: &str, top: &str, folder: &Path, progress: &mut Progress<'_>) -> Result<String, FlowError> {
+    progress.tell(Stage::Synthesis, 0, || format!("yosys, {} lines of Verilog", verilog.lines().count()));
+    let file = |name: &str| folder.join(name);
+    let failed = |what: String| FlowError::Synthesis { what };
+    std::fs::create_dir_all(folder).map_err(|error| failed(format!("{}: {error}", folder.display())))?;
+    std::fs::write(file("design.v"), verilog)
+        .map_err(|error| failed(format!("{}: {error}", file("design.v").display())))?;
+    let run = Command::new("yosys")
+        .args(["-q", "-p", &script(top)])
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                failed("there is no yosys on this machine; install it (Debian: apt install yosys)".into())
+            }
+            _ => failed(format!("yosys: {error}")),
+        })?;
+    if !run.status.success() {
+        let said = String::from_utf8_lossy(&run.stderr);
+        let last: Vec<&str> = said.lines().rev().take(5).collect();
+        return Err(failed(format!("yosys: {}", last.into_iter().rev().collect::<Vec<_>>().join("; "))));
+    }
+    std::fs::read_to_string(file("netlist.json"))
+        .map_err(|error| failed(format!("{}: {error}", file("netlist.json").display())))
+}
+
+/// The version of yosys, as it says; other versions may make another netlist of the same source.
+#[must_use]
+pub fn version() -> Option<String> {
+    let run = Command::new("yosys").arg("-V").output().ok()?;
+    Some(String::from_utf8_lossy(&run.stdout).trim().to_owned())
+}

@@ -1,0 +1,168 @@
+//! `racbot bitstream build`
+
+use crate::terminal::progress::Progress as Bar;
+use crate::terminal::{Answer, Failure, Table, save};
+use bitstream::configuration::StartUp;
+use bitstream::container::{Header, PART};
+use bitstream::device::Device;
+use bitstream::flow::constraints::Constraints;
+use bitstream::flow::timing::DomainReport;
+use bitstream::flow::{Built, Progress, SLICES, Stage, bits, build, floorplan, synthesis};
+use clap::Args;
+use hdl::board::Board;
+use hdl::design::{COMMITTED_VERILOG, NAME, content_hash};
+use hdl::emit::ucf::ucf;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Seed of the committed bitstream.
+const SEED: u64 = 1;
+/// The header's date and time: the same sources give the same bytes on any day.
+const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
+
+/// Options of `bitstream build`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Seed of the placement; another seed gives another, equally valid bitstream
+    #[arg(long, value_name = "N", default_value_t = SEED)]
+    seed: u64,
+
+    /// File to write
+    #[arg(long, value_name = "FILE", default_value = "generated/rac4i65.bit")]
+    out: PathBuf,
+
+    /// Write nothing; fail if FILE is not what would be written
+    #[arg(long)]
+    check: bool,
+
+    /// Also write a floor plan, an SVG picture
+    #[arg(long, value_name = "FILE")]
+    floor_plan: Option<PathBuf>,
+
+    /// Also write where every net is driven: net, place, element, pin, flip-flop, with tabs between
+    #[arg(long, value_name = "FILE")]
+    drivers: Option<PathBuf>,
+
+    /// Also write the netlist that it was made from, as yosys has it (JSON)
+    #[arg(long, value_name = "FILE")]
+    netlist: Option<PathBuf>,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let board = Board::mesa_4i65_7i30();
+        let constraints = Constraints::parse(&ucf(&board, NAME).map_err(Failure::data)?).map_err(Failure::data)?;
+        let bar = Bar::new("synthesis", 100);
+        let mut tell = |stage: Stage, percent: u32, _: &str| {
+            bar.rename(stage.name());
+            bar.at(percent.into());
+        };
+        let mut progress = Progress::new(&mut tell);
+        let folder = std::env::temp_dir().join(format!("racbot-bitstream-{}", std::process::id()));
+        let json = synthesis::synthesise(COMMITTED_VERILOG, NAME, &folder, &mut progress).map_err(Failure::data)?;
+        // A folder that stays is no reason to fail.
+        let _ = std::fs::remove_dir_all(&folder);
+        let mut built = build(&json, NAME, &constraints, self.seed, &mut progress).map_err(Failure::data)?;
+        drop(bar);
+        let device = Device::xc2s200();
+        bits::set_user_id(device, &mut built.configuration, content_hash()).map_err(Failure::data)?;
+        let header = Header {
+            design: format!("{NAME};HASH={:08x}", content_hash()),
+            part: PART.into(),
+            date: DATE.0.into(),
+            time: DATE.1.into(),
+        };
+        let file = built.configuration.file(device, &header, StartUp::default());
+        let mut wrong = None;
+        if self.check {
+            let found = std::fs::read(&self.out).map_err(|error| Failure::about(&self.out, error))?;
+            if found != file {
+                wrong = Some(format!(
+                    "{}: is not what the gateware makes; run racbot bitstream build --out {}",
+                    self.out.display(),
+                    self.out.display()
+                ));
+            }
+        } else {
+            save(&self.out, &file)?;
+        }
+        if let Some(path) = &self.floor_plan {
+            save(path, &floorplan::svg(&built))?;
+        }
+        if let Some(path) = &self.drivers {
+            let lines = built.drivers.iter().map(|driver| {
+                let (x, y) = driver.at;
+                let cell = driver.flip_flop.as_deref().unwrap_or("");
+                format!("{}\tX{x}Y{y}\t{}\t{}\t{cell}\n", driver.net, driver.element, driver.pin)
+            });
+            save(path, &lines.collect::<String>())?;
+        }
+        if let Some(path) = &self.netlist {
+            save(path, &json)?;
+        }
+        Ok(Answer { text: text(&built, file.len()), json: report(&built, file.len(), self.seed), wrong })
+    }
+}
+
+fn text(built: &Built, bytes: usize) -> String {
+    let used = &built.resources;
+    let mut table = Table::new(1, &["part", "used", "of"]);
+    for (name, number, of) in [
+        ("slices", used.slices, SLICES),
+        ("tables", used.tables, 2 * SLICES),
+        ("flip-flops", used.flip_flops, 2 * SLICES),
+        ("carries", used.carries, 2 * SLICES),
+        ("block memories", used.memories, 14),
+        ("pads", used.pads, 144),
+    ] {
+        table.row([name.to_owned(), number.to_string(), of.to_string()]);
+    }
+    let mut clocks = Table::new(1, &["clock", "period ns", "slowest ns", "slack ns", "steps"]);
+    for domain in &built.timing.domains {
+        let Some(worst) = domain.worst.first() else { continue };
+        let ns = |ps: i64| format!("{}.{:02}", ps / 1_000, ps.abs() % 1_000 / 10);
+        let slack = if worst.slack() < 0 { format!("-{}", ns(-worst.slack())) } else { ns(worst.slack()) };
+        let steps = worst.steps.len().to_string();
+        clocks.row([domain.port.clone(), ns(domain.period.into()), ns(worst.delay.into()), slack, steps]);
+    }
+    format!(
+        "{}\n{} nets on {} wires, legal after {} rounds\nat most {} pass gates in series and {} wires joined by them\n\n\
+         {}\nDelays of logic: data sheet DS001-3, speed grade -5. Delays of wires: a model\n\
+         that files known to run bound; never measured, never tried on silicon.\n{bytes} bytes\n",
+        table.render(),
+        used.nets,
+        used.wires,
+        used.rounds,
+        built.extremes.gates,
+        built.extremes.joined,
+        clocks.render(),
+    )
+}
+
+fn report(built: &Built, bytes: usize, seed: u64) -> Value {
+    let used = &built.resources;
+    let clock = |domain: &DomainReport| {
+        let paths = domain.worst.iter().map(|path| {
+            let steps = path.steps.iter().map(|step| {
+                let net = step.net.map_or("(carry)", |net| &built.logic.nets[net.index()]);
+                json!({ "net": net, "driven_ps": step.driven, "wire_ps": step.wire })
+            });
+            let steps: Vec<Value> = steps.collect();
+            json!({ "delay_ps": path.delay, "due_ps": path.due, "slack_ps": path.slack(), "steps": steps })
+        });
+        json!({ "port": domain.port, "period_ps": domain.period, "worst": paths.collect::<Vec<_>>() })
+    };
+    json!({
+        "bytes": bytes,
+        "seed": seed,
+        "used": {
+            "slices": used.slices, "tables": used.tables, "flip_flops": used.flip_flops, "carries": used.carries,
+            "memories": used.memories, "pads": used.pads, "nets": used.nets, "wires": used.wires,
+        },
+        "rounds": used.rounds,
+        "gates_in_series": built.extremes.gates,
+        "wires_joined": built.extremes.joined,
+        "clocks": built.timing.domains.iter().map(clock).collect::<Vec<_>>(),
+        "yosys": synthesis::version(),
+    })
+}
