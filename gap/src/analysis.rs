@@ -217,8 +217,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
         }
     }
-    let catalogue: Vec<Arc<dyn Effect>> =
-        effects::catalogue_for(set.logs.len()).into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
+    let catalogue: Vec<Arc<dyn Effect>> = effects::catalogue_for(set.logs.len())
+        .into_iter()
+        .map(Arc::from)
+        .chain(options.effects.iter().cloned())
+        .collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
     let mut remarks = set.notes();
     let mut exact: Vec<ExactLink> = [
@@ -386,7 +389,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
         exact_links.push(gaps::exact_gap(link));
     }
-    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } = study;
+    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } =
+        study;
     remarks.extend(refused);
     let odd = odd_clock(robot, &set.logs);
     if let Some(remark) = &odd {
@@ -402,7 +406,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let robot_with = with_effects(&set.robot, &named, &alternatives, &runs);
         let text = robot_text(set, options, &robot_with);
         let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
-        let reread = Robot::parse(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
+        let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
         let new: Vec<&str> = named.iter().map(|n| n.name.as_str()).collect();
         let measured = data.measure(&set.robot, &reread, &new);
         let idle = |n: &Named| {
@@ -423,7 +427,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         ambiguous &= !named.is_empty();
     };
     for n in &mut named {
-        if let Some((_, gain)) = measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. })) {
+        if let Some((_, gain)) =
+            measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
+        {
             n.gain = *gain;
         }
     }

@@ -131,11 +131,20 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], far: f64) -> Option<R
         let left = |i: &usize| link.rms[*i][1] / link.floor[*i].max(1e-300);
         left(a).total_cmp(&left(b))
     })?;
-    let names = |i: usize| if link.link == Link::Motion { ["cam_x", "cam_y", "cam_theta"][i].to_owned() } else { format!("enc_{}", i + 1) };
-    let place = located.iter().find(|l| l.link == link.link && l.signal == names(worst)).map_or_else(String::new, |l| {
-        l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
-    });
-    let unit = if link.units[worst] == "m" { ("mm", 1e3) } else if link.units[worst] == "Nm" { ("mNm", 1e3) } else { ("mrad", 1e3) };
+    let names = |i: usize| {
+        if link.link == Link::Motion { ["cam_x", "cam_y", "cam_theta"][i].to_owned() } else { format!("enc_{}", i + 1) }
+    };
+    let place =
+        located.iter().find(|l| l.link == link.link && l.signal == names(worst)).map_or_else(String::new, |l| {
+            l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
+        });
+    let unit = if link.units[worst] == "m" {
+        ("mm", 1e3)
+    } else if link.units[worst] == "Nm" {
+        ("mNm", 1e3)
+    } else {
+        ("mrad", 1e3)
+    };
     let sentence = format!(
         "{:.1} noise floors remain on the {} link ({} {:.2} {} RMS{place}), which no effect of the catalogue explains",
         link.after,
@@ -162,7 +171,10 @@ pub(super) fn weightless(
     if motion.is_some() && most < STILL {
         out.push((
             Link::Motion,
-            format!("Motion: compared nothing, for no wheel turns by more than {:.3} rad; drive a metre and turn once.", most),
+            format!(
+                "Motion: compared nothing, for no wheel turns by more than {:.3} rad; drive a metre and turn once.",
+                most
+            ),
         ));
     }
     if let Some(drive) = drive {

@@ -255,7 +255,8 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
         let parameters = active.form.free.iter().enumerate().map(|(j, p)| {
             let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
             let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
-            let v = active.effect.period(&p.name).map_or(v.clamp(p.bounds[0], p.bounds[1]), |period| v.rem_euclid(period));
+            let v =
+                active.effect.period(&p.name).map_or(v.clamp(p.bounds[0], p.bounds[1]), |period| v.rem_euclid(period));
             let df = clusters.saturating_sub(active.form.free.len());
             let half = column.map_or(0.0, |c| {
                 let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();

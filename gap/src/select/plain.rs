@@ -83,7 +83,8 @@ fn best(
             let a = &all[*c];
             let fits = !a.effect.probe() && !a.switched() && a.form.free.iter().all(|p| p.material.is_finite());
             let larger = |o: &Active| o.effect.name() == a.effect.name() && o.form.free.len() >= a.form.free.len();
-            fits && !refused.contains(c) && !state.active.iter().any(|o| larger(o) || o.given && o.effect.name() == a.effect.name())
+            fits && !refused.contains(c)
+                && !state.active.iter().any(|o| larger(o) || o.given && o.effect.name() == a.effect.name())
         })
         .collect();
     let candidates: Vec<Active> = indices.iter().map(|c| all[*c].clone()).collect();
@@ -163,12 +164,10 @@ fn shared(ridge: &Ridge, roles: &[Role], nuisance: &[bool]) -> Vec<f64> {
 /// Held-out sum of squares of a state whose effects are fitted, and the number of residuals.
 pub(crate) fn held_out(problem: &Problem, state: &State) -> (f64, f64) {
     let linear = problem.linearise(state, &[]);
-    let roles: Vec<Role> = linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
-    let nuisance: Vec<bool> = linear
-        .owners
-        .iter()
-        .map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance()))
-        .collect();
+    let roles: Vec<Role> =
+        linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
+    let nuisance: Vec<bool> =
+        linear.owners.iter().map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance())).collect();
     let losses = shared(&Ridge::new(&linear.gram, 1.0), &roles, &nuisance);
     let plain = losses.iter().zip(&linear.gram.clusters).map(|(l, c)| l / c.weight).sum();
     (plain, linear.gram.plain().1)

@@ -17,6 +17,8 @@ use super::{Mistake, common_ratio, is_true, short};
 
 /// Fewest stretches with motion that tell anything.
 const FEWEST: usize = 20;
+/// Most stretches of all logs together: with four wheels each is looked at in 3072 ways.
+const MOST: usize = 3000;
 /// Share of the camera's motion that a way to read the log may leave more than the best one and still count as equal:
 /// skews, slip and lags of the worst robots leave a few hundredths.
 const EQUAL: (f64, f64) = (1.6, 0.04);
@@ -62,6 +64,8 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     if moving.len() < FEWEST {
         return Vec::new();
     }
+    let every = moving.len().div_ceil(MOST);
+    let moving: Vec<Sample> = moving.into_iter().step_by(every).collect();
     let mut fits = Vec::new();
     for degrees in [false, true] {
         for (clockwise, down) in [(false, false), (true, false), (false, true), (true, true)] {

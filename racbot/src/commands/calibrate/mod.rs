@@ -93,6 +93,11 @@ impl Options {
                 "the logs have the robot's odometry and no wheels: log enc_1..N or speed_1..N to find their skews";
             return Err(Failure::about(folder, what));
         }
+        if set.robot.geometry().is_ok_and(|g| g.is_differential()) {
+            let what = "the wheels of a differential drive have no skew that a camera shows; `racbot gap` finds radius, track \
+                        and camera";
+            return Err(Failure::about(folder, what));
+        }
         let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.target.forced())?;
         let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
         let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
@@ -104,8 +109,15 @@ impl Options {
         }
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
-        let calibrated = Calibrated::new(&set.robot, &found, &found)?;
-        Ok((Answer { text: hints + &estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
+        let mut text = hints + &estimate::text(&estimate);
+        // Logs come from robots of any kind; words and drives are for those that the card can drive.
+        let whole = set.robot.missing.is_empty();
+        let card = if whole { Calibrated::new(&set.robot, &found, &found).ok() } else { None };
+        let calibrated = card.unwrap_or_else(|| {
+            text += "\nNo words for the FPGA and no drive: this robot is none that the card drives.\n";
+            Calibrated::without_card(&found)
+        });
+        Ok((Answer { text, json: estimate.to_json(), wrong: None }, calibrated))
     }
 
     #[cfg(feature = "simulation")]

@@ -26,6 +26,17 @@ impl Calibrated {
         Self::drive(nominal, actual, calibrated, words)
     }
 
+    /// A robot that no card of ours drives: its file alone.
+    pub(super) fn without_card(calibrated: &Robot) -> Self {
+        Self {
+            robot: calibrated.clone(),
+            words: Vec::new(),
+            pictures: Vec::new(),
+            #[cfg(feature = "simulation")]
+            path_errors_m: [f64::NAN; 3],
+        }
+    }
+
     /// Fig. 6 with ideal geometry, before and after, on odometry alone.
     #[cfg(feature = "simulation")]
     fn drive(nominal: &Robot, actual: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
@@ -78,7 +89,8 @@ impl Calibrated {
     pub(super) fn save(&self, folder: &Path, target: Target) -> Result<Vec<&'static str>, Failure> {
         let rows = self.words.iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
         let words = format!("offset,word\n{}", rows.collect::<String>());
-        let mut files = vec![("robot.toml", self.robot.to_toml()), ("configuration.csv", words)];
+        let mut files = vec![("robot.toml", self.robot.to_toml())];
+        files.extend((!self.words.is_empty()).then_some(("configuration.csv", words)));
         files.extend(self.pictures.iter().cloned());
         target.check_free(files.iter().map(|(name, _)| folder.join(name)))?;
         for (name, content) in &files {
