@@ -5,8 +5,11 @@ use bitstream::container::{Bitstream, Header};
 use bitstream::device::{BelKind, Device};
 use bitstream::element::{Carry0, FOutput, GOutput, Slice};
 use bitstream::flow::constraints::Constraints;
+use bitstream::flow::netlist::Netlist;
+use bitstream::flow::prove::prove;
 use bitstream::flow::timing::decoded::longest;
 use bitstream::flow::{Built, FlowError, Progress, build};
+use bitstream::netlist::extract;
 use serde_json::{Map, Value, json};
 
 /// A netlist of yosys under construction; nets are numbers from 2 up, as yosys has them.
@@ -132,6 +135,40 @@ fn what_the_bits_say_of_time_is_what_the_flow_says() {
     let bits = longest(Device::xc2s200(), &built.configuration)[2].clone();
     assert_eq!(bits.delay, flow);
     assert_eq!(bits.flip_flops, 16, "slices with a clock");
+}
+
+#[test]
+fn a_flipped_bit_is_seen_by_the_decoder_or_by_the_proof() {
+    let source = counter(8);
+    let built = source.build(1).unwrap();
+    let netlist = Netlist::from_yosys(&source.json(), "top").unwrap();
+    let constraints = Constraints::parse(&source.constraints).unwrap();
+    let (device, at) = (Device::xc2s200(), built.placement.columns[0]);
+    let tile = device.tile_at("CLB", at.column, at.row).unwrap();
+    let differs = |attribute: &str, bit: usize| {
+        let mut broken = built.configuration.clone();
+        let class = device.class(tile);
+        let found = &class.attributes[usize::from(class.attribute(attribute).unwrap())];
+        let place = device.bit(tile, found.bits[bit]);
+        broken.set_bit(place, !broken.bit(place));
+        match extract(device, &broken) {
+            Err(_) => true,
+            Ok(decoded) => !prove(device, &netlist, &constraints, &built.drivers, &decoded).holds(),
+        }
+    };
+    assert!(built.proof.holds());
+    assert_eq!((built.proof.flip_flops, built.proof.pads, built.proof.unobservable.len()), (8, 3, 0));
+    let slice = |attribute: &str| format!("SLICE[{}]:{attribute}", at.slice);
+    for attribute in
+        ["F", "G", "FXMUX", "GYMUX", "CY0", "CYINIT", "CYSELF", "CYSELG", "DXMUX", "DYMUX", "INITX", "INITY"]
+    {
+        assert!(differs(&slice(attribute), 0), "{attribute}");
+    }
+    for attribute in ["FF_LATCH", "FF_SR_SYNC", "INV.CE", "INV.CLK", "INV.SR", "INV.BX", "RAMCONFIG"] {
+        assert!(differs(&slice(attribute), 0), "{attribute}");
+    }
+    // YB is not used.
+    assert!(!differs(&slice("YBMUX"), 0));
 }
 
 #[test]

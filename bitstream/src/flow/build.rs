@@ -1,4 +1,5 @@
-//! The whole flow, from a netlist to a configuration and what is known of it.
+//! The whole flow, from a netlist to a configuration and what is known of it: its time, and the proof that its
+//! bits, decoded, are the netlist.
 
 use super::constraints::Constraints;
 use super::logic::Logic;
@@ -6,6 +7,7 @@ use super::netlist::{Net, Netlist};
 use super::nets::{Nets, Part};
 use super::pack::Packed;
 use super::place::{Design, MEMORY_SITES, Placement};
+use super::prove::{Proof, prove};
 use super::route::{Extremes, Routing, Terminals, check};
 use super::timing::{Graph, Report};
 use super::{FlowError, Progress, Stage, bits};
@@ -63,6 +65,8 @@ pub struct Built {
     pub timing: Report,
     /// Where every net is driven.
     pub drivers: Vec<Driver>,
+    /// Whether the decoded bits are the netlist.
+    pub proof: Proof,
     /// Its logic.
     pub logic: Logic,
     /// Its slices.
@@ -86,7 +90,8 @@ pub fn build(
 ) -> Result<Built, FlowError> {
     progress.tell(Stage::Pack, 0, || format!("netlist of {} bytes", json.len()));
     let device = Device::xc2s200();
-    let logic = Logic::of(Netlist::from_yosys(json, top)?)?;
+    let netlist = Netlist::from_yosys(json, top)?;
+    let logic = Logic::of(netlist.clone())?;
     let packed = Packed::of(&logic)?;
     let nets = Nets::of(&logic, &packed);
     if let Some(name) = nets.undriven(&logic, &packed).first() {
@@ -113,8 +118,12 @@ pub fn build(
         rounds: routing.rounds,
     };
     let drivers = drivers(&logic, &packed, &placement);
+    progress.tell(Stage::Proof, 0, || "decoding and proving".into());
+    let decoded = crate::netlist::extract(device, &configuration)
+        .map_err(|faults| FlowError::Faulty { faults: faults.iter().map(ToString::to_string).collect() })?;
+    let proof = prove(device, &netlist, constraints, &drivers, &decoded);
     let timing = Report::of(&graph, &routing.delays);
-    Ok(Built { configuration, resources, extremes, timing, drivers, logic, packed, nets, placement })
+    Ok(Built { configuration, resources, extremes, timing, drivers, proof, logic, packed, nets, placement })
 }
 
 fn drivers(logic: &Logic, packed: &Packed, placement: &Placement) -> Vec<Driver> {

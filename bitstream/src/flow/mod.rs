@@ -1,4 +1,4 @@
-//! From a netlist to a bitstream: map, pack, place, route, set bits, and what it costs in time.
+//! From a netlist to a bitstream: map, pack, place, route, set bits, prove them, and what it costs in time.
 
 pub mod bits;
 mod build;
@@ -71,6 +71,12 @@ pub enum FlowError {
     /// A rule of the device is broken: a fault of the flow.
     #[error("a fault of the flow: {0}")]
     Rule(#[from] route::RouteFault),
+    /// The decoder finds faults in the flow's own bits: a fault of the flow.
+    #[error("a fault of the flow: the bits decode with faults: {}", faults.join("; "))]
+    Faulty {
+        /// All of them.
+        faults: Vec<String>,
+    },
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
     Full {

@@ -13,6 +13,8 @@ pub enum Stage {
     Route,
     /// Setting bits.
     Bits,
+    /// Decoding the bits and proving them.
+    Proof,
 }
 
 impl Stage {
@@ -25,6 +27,7 @@ impl Stage {
             Self::Place => "place",
             Self::Route => "route",
             Self::Bits => "bits",
+            Self::Proof => "proof",
         }
     }
 }

@@ -22,7 +22,7 @@ use circuits::{Gate, Gold};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most cut nets under a function; more are reported as not proven.
-const WIDEST: usize = 18;
+const WIDEST: usize = 14;
 
 /// What was compared, and what differs.
 #[derive(Clone, Debug, Default, Eq, PartialEq)]
@@ -75,12 +75,11 @@ pub fn prove(
         return prover.proof;
     }
     prover.pads(device, gold, constraints, gate);
-    let mut proven: BTreeSet<Net> = BTreeSet::new();
     while let Some(id) = prover.todo.pop() {
-        proven.extend(prover.gate.names.get(&id));
         prover.net(id, gold, gate);
     }
     prover.memories(gold, gate);
+    let proven: BTreeSet<Net> = prover.seen.iter().filter_map(|id| prover.gate.names.get(id).copied()).collect();
     let unseen = gold.flip_flops.iter().filter(|flop| !proven.contains(&flop.output));
     prover.proof.unobservable = unseen.map(|flop| gold.nets[flop.output.index()].clone()).collect();
     prover.proof
@@ -100,20 +99,27 @@ impl Prover<'_> {
         self.proof.differences.push(what);
     }
 
-    /// Compares two functions for all values of the cut nets; `root` is the net whose function it is, if it is one.
-    fn same(&mut self, what: &str, gate: netlist::Signal, gold: Signal, root: Option<Net>) -> bool {
-        let mut leaves: BTreeSet<Net> = BTreeSet::new();
-        let mut read: BTreeSet<NetId> = BTreeSet::new();
-        if let Err(fault) = self.gate.support(gate, root, &mut leaves, &mut read) {
-            self.differ(format!("{what}: {fault}"));
-            return false;
-        }
-        for id in read {
-            if self.seen.insert(id) {
-                self.todo.push(id);
+    /// Compares two functions for all values of the cut nets. A net of the netlist is looked into, cut or not: inside a
+    /// slice it may go on without its name.
+    fn same(&mut self, what: &str, gate: netlist::Signal, gold: Signal) -> bool {
+        let mut open: BTreeSet<Net> = gold.net().into_iter().filter(|net| self.gold.is_logic(*net)).collect();
+        let leaves = loop {
+            let mut leaves: BTreeSet<Net> = BTreeSet::new();
+            let mut read: BTreeSet<NetId> = BTreeSet::new();
+            if let Err(fault) = self.gate.support(gate, &open, &mut leaves, &mut read) {
+                self.differ(format!("{what}: {fault}"));
+                return false;
             }
-        }
-        self.gold.support(gold, root, &self.gate.cuts, &mut leaves);
+            self.gold.support(gold, &open, &self.gate.cuts, &mut leaves);
+            // A leaf that is a function of other leaves is none: a table may stand inside a slice and outside.
+            let thin: Vec<Net> = leaves.iter().copied().filter(|net| self.depends(*net, &open, &leaves)).collect();
+            if thin.is_empty() {
+                let fresh: Vec<NetId> = read.into_iter().filter(|id| self.seen.insert(*id)).collect();
+                self.todo.extend(fresh);
+                break leaves;
+            }
+            open.extend(thin);
+        };
         if leaves.len() > WIDEST {
             self.differ(format!("{what}: not proven, a function of {} nets", leaves.len()));
             return false;
@@ -123,7 +129,7 @@ impl Prover<'_> {
         for row in 0..rows {
             let values: BTreeMap<Net, bool> =
                 leaves.iter().enumerate().map(|(at, net)| (*net, row >> at & 1 == 1)).collect();
-            if self.gate.value(gate, root, &values) != self.gold.value(gold, root, &values) {
+            if self.gate.value(gate, &open, &values) != self.gold.value(gold, &open, &values) {
                 self.differ(format!("{what}: another function"));
                 return false;
             }
@@ -132,6 +138,17 @@ impl Prover<'_> {
         self.proof.rows += rows;
         self.proof.widest = self.proof.widest.max(leaves.len());
         true
+    }
+
+    /// Whether a leaf is a function of other leaves.
+    fn depends(&self, net: Net, open: &BTreeSet<Net>, leaves: &BTreeSet<Net>) -> bool {
+        if !self.gold.is_logic(net) {
+            return false;
+        }
+        let (mut open, mut under) = (open.clone(), BTreeSet::new());
+        open.insert(net);
+        self.gold.support(Signal::of(net), &open, &self.gate.cuts, &mut under);
+        under.iter().all(|other| leaves.contains(other))
     }
 
     /// Proves what drives a net of the decoded circuit.
@@ -148,7 +165,7 @@ impl Prover<'_> {
             if self.gate.is_element(id) {
                 self.differ(format!("{name}: is no logic"));
             } else {
-                self.same(&name, netlist::Signal::Net(id), Signal::of(net), Some(net));
+                self.same(&name, netlist::Signal::Net(id), Signal::of(net));
             }
         }
         // Pads and memories are compared as wholes.

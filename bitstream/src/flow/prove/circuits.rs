@@ -79,26 +79,26 @@ impl<'a> Gold<'a> {
         None
     }
 
-    /// Cut nets under a signal.
-    pub(super) fn support(&self, of: Signal, root: Option<Net>, cuts: &BTreeSet<Net>, leaves: &mut BTreeSet<Net>) {
+    /// Nets under a signal at which it is cut; nets in `open` are looked into.
+    pub(super) fn support(&self, of: Signal, open: &BTreeSet<Net>, cuts: &BTreeSet<Net>, leaves: &mut BTreeSet<Net>) {
         let Some(net) = of.net() else { return };
-        if self.is_logic(net) && (Some(net) == root || !cuts.contains(&net)) {
+        if self.is_logic(net) && (open.contains(&net) || !cuts.contains(&net)) {
             for input in self.inputs(net) {
-                self.support(input, root, cuts, leaves);
+                self.support(input, open, cuts, leaves);
             }
         } else {
             leaves.insert(net);
         }
     }
 
-    pub(super) fn value(&self, of: Signal, root: Option<Net>, values: &BTreeMap<Net, bool>) -> bool {
+    pub(super) fn value(&self, of: Signal, open: &BTreeSet<Net>, values: &BTreeMap<Net, bool>) -> bool {
         let (net, inverted) = match of {
             Signal::Constant(value) => return value,
             Signal::Open => return false,
             Signal::Wire { net, inverted } => (net, inverted),
         };
-        let known = if Some(net) == root { None } else { values.get(&net).copied() };
-        let value = |signal: Signal| self.value(signal, root, values);
+        let known = if open.contains(&net) { None } else { values.get(&net).copied() };
+        let value = |signal: Signal| self.value(signal, open, values);
         known.unwrap_or_else(|| match &self.logic.get(&net) {
             None => values.get(&net).copied().unwrap_or(false),
             Some(Logic::Lut(lut)) => {
@@ -118,7 +118,7 @@ pub(super) struct Gate<'a> {
     cells: BTreeMap<NetId, &'a CellKind>,
     /// Nets that have a name in the netlist.
     pub(super) names: BTreeMap<NetId, Net>,
-    /// Nets of the netlist that have a place.
+    /// Logic of the netlist that has a place.
     pub(super) cuts: BTreeSet<Net>,
 }
 
@@ -207,41 +207,41 @@ impl<'a> Gate<'a> {
     pub(super) fn support(
         &self,
         of: netlist::Signal,
-        root: Option<Net>,
+        open: &BTreeSet<Net>,
         leaves: &mut BTreeSet<Net>,
         read: &mut BTreeSet<NetId>,
     ) -> Result<(), String> {
         let (netlist::Signal::Net(id) | netlist::Signal::Not(id)) = of else { return Ok(()) };
-        if let Some(net) = self.leaf(id, root) {
+        if let Some(net) = self.leaf(id, open) {
             leaves.insert(net);
             read.insert(id);
             return Ok(());
         }
         match self.cells.get(&id) {
             Some(kind) if !self.is_element(id) => {
-                inputs(kind).into_iter().try_for_each(|input| self.support(input, root, leaves, read))
+                inputs(kind).into_iter().try_for_each(|input| self.support(input, open, leaves, read))
             }
             _ => Err("reads a net of no name in the netlist".into()),
         }
     }
 
-    /// The net for which a decoded net stands; the root itself is looked into.
-    fn leaf(&self, id: NetId, root: Option<Net>) -> Option<Net> {
+    /// The net for which a decoded net stands, if it is not looked into.
+    fn leaf(&self, id: NetId, open: &BTreeSet<Net>) -> Option<Net> {
         let net = self.names.get(&id).copied()?;
-        (Some(net) != root || self.is_element(id)).then_some(net)
+        (!open.contains(&net) || self.is_element(id)).then_some(net)
     }
 
-    pub(super) fn value(&self, of: netlist::Signal, root: Option<Net>, values: &BTreeMap<Net, bool>) -> bool {
+    pub(super) fn value(&self, of: netlist::Signal, open: &BTreeSet<Net>, values: &BTreeMap<Net, bool>) -> bool {
         let (id, inverted) = match of {
             netlist::Signal::Zero => return false,
             netlist::Signal::One => return true,
             netlist::Signal::Net(id) => (id, false),
             netlist::Signal::Not(id) => (id, true),
         };
-        if let Some(net) = self.leaf(id, root) {
+        if let Some(net) = self.leaf(id, open) {
             return values.get(&net).copied().unwrap_or(false) != inverted;
         }
-        let value = |signal: netlist::Signal| self.value(signal, root, values);
+        let value = |signal: netlist::Signal| self.value(signal, open, values);
         let found = match self.cells.get(&id) {
             Some(CellKind::Lut { table, inputs, .. }) => {
                 let word =

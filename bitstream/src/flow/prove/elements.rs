@@ -18,10 +18,10 @@ impl Prover<'_> {
             (_, true) => (gold.reset, ZERO),
             (_, false) => (ZERO, gold.reset),
         };
-        let mut equal = self.same(&format!("{name}: data"), gate.data, gold.data, None);
-        equal &= self.same(&format!("{name}: enable"), gate.enable, gold.enable, None);
-        equal &= self.same(&format!("{name}: reset"), gate.reset, reset, None);
-        equal &= self.same(&format!("{name}: reverse"), gate.reverse, reverse, None);
+        let mut equal = self.same(&format!("{name}: data"), gate.data, gold.data);
+        equal &= self.same(&format!("{name}: enable"), gate.enable, gold.enable);
+        equal &= self.same(&format!("{name}: reset"), gate.reset, reset);
+        equal &= self.same(&format!("{name}: reverse"), gate.reverse, reverse);
         let settings = [
             (gate.init == initial, "initial value"),
             (!gate.latch, "latch"),
@@ -77,7 +77,7 @@ impl Prover<'_> {
 
     fn memory_port(&mut self, name: &str, gate: &netlist::MemoryPort, gold: Option<&MemoryPort>, netlist: &Netlist) {
         let Some(gold) = gold else {
-            self.same(&format!("{name}: write"), gate.write, ZERO, None);
+            self.same(&format!("{name}: write"), gate.write, ZERO);
             return;
         };
         if gate.width.bits() != gold.width {
@@ -87,13 +87,13 @@ impl Prover<'_> {
         if !self.clocked(gate.clock, gold.clock, false, netlist) {
             self.differ(format!("{name}: another clock"));
         }
-        self.same(&format!("{name}: enable"), gate.enable, gold.enable, None);
-        self.same(&format!("{name}: reset"), gate.reset, gold.reset, None);
-        self.same(&format!("{name}: write"), gate.write, gold.write, None);
+        self.same(&format!("{name}: enable"), gate.enable, gold.enable);
+        self.same(&format!("{name}: reset"), gate.reset, gold.reset);
+        self.same(&format!("{name}: write"), gate.write, gold.write);
         let first = 12 - gold.address.len();
         for (bit, (gate, gold)) in gate.address[first..].iter().zip(&gold.address).enumerate() {
             if *gold != Signal::Open {
-                self.same(&format!("{name}: address {bit}"), *gate, *gold, None);
+                self.same(&format!("{name}: address {bit}"), *gate, *gold);
             }
         }
         if gold.write == ZERO {
@@ -101,7 +101,7 @@ impl Prover<'_> {
         }
         for (bit, (gate, gold)) in gate.data.iter().zip(&gold.data).enumerate() {
             if *gold != Signal::Open {
-                self.same(&format!("{name}: data {bit}"), *gate, *gold, None);
+                self.same(&format!("{name}: data {bit}"), *gate, *gold);
             }
         }
     }
@@ -115,8 +115,8 @@ impl Prover<'_> {
             match (pad.output, found.and_then(|found| found.output)) {
                 (None, None) => {}
                 (Some(output), Some((o, t))) => {
-                    self.same(&format!("{name}: output"), o, output, None);
-                    self.same(&format!("{name}: output enable"), t, pad.tristate, None);
+                    self.same(&format!("{name}: output"), o, output);
+                    self.same(&format!("{name}: output enable"), t, pad.tristate);
                 }
                 (None, Some(_)) => self.differ(format!("{name}: an input that drives")),
                 (Some(_), None) => self.differ(format!("{name}: an output that does not drive")),
