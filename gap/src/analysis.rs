@@ -217,8 +217,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
         }
     }
-    let catalogue: Vec<Arc<dyn Effect>> =
-        effects::catalogue_for(set.logs.len()).into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
+    let catalogue: Vec<Arc<dyn Effect>> = effects::catalogue_for(set.logs.len())
+        .into_iter()
+        .map(Arc::from)
+        .chain(options.effects.iter().cloned())
+        .collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
     let mut remarks: Vec<String> = Vec::new();
     let mut exact: Vec<ExactLink> = [
@@ -242,8 +245,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-    let rim_m = Sizes::of(robot).rim_m;
-    let window_s = crate::motion::window_s(&pieces, rim_m);
+    let window_s = crate::motion::WINDOW_S;
     let order = wheel_order(&MotionLink::new(&pieces, noise, window_s), &start, &catalogue);
     let cabled = |a: &&Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
     let wired = order.as_ref().map(|o| o.0.clone()).or_else(|| start.active.iter().find(cabled).cloned());
@@ -386,7 +388,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
         exact_links.push(gaps::exact_gap(link));
     }
-    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } = study;
+    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } =
+        study;
     remarks.extend(refused);
     let odd = odd_clock(robot, &set.logs);
     if let Some(remark) = &odd {
@@ -423,7 +426,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         ambiguous &= !named.is_empty();
     };
     for n in &mut named {
-        if let Some((_, gain)) = measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. })) {
+        if let Some((_, gain)) =
+            measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
+        {
             n.gain = *gain;
         }
     }
@@ -443,7 +448,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for link in &exact {
         located.extend(crate::locate::exact(link));
     }
-    let weightless = gaps::weightless(&pieces, &motion_plots, drive.as_ref());
+    let weightless = gaps::weightless(&pieces, drive.as_ref());
     links.extend(exact_links);
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
@@ -472,7 +477,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     let compared = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
     let weight = if odd.is_some() { 0 } else { compared };
-    remarks.extend(weightless.iter().map(|w| w.1.clone()));
+    let mut why: Vec<String> = weightless.into_iter().map(|w| w.1).collect();
+    why.dedup();
+    remarks.extend(why);
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
         named.iter().filter(|n| structural.contains(&n.link.name().to_owned())).map(|n| n.name.clone()).collect();

@@ -135,7 +135,8 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
         && e < best.0 * 0.999
     {
         let latency = ticks as f64 * tick;
-        let parameters = vec![("latency_s".to_owned(), latency, Interval::Resolution([latency - 0.5 * tick, latency + 0.5 * tick]))];
+        let parameters =
+            vec![("latency_s".to_owned(), latency, Interval::Resolution([latency - 0.5 * tick, latency + 0.5 * tick]))];
         let evidence = replayed(&straight, latency);
         let finding =
             Finding { link: Link::Command, name: "command-latency", wheels: Vec::new(), parameters, evidence };

@@ -147,7 +147,9 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         offer(Law { windup: Some(limit), ..nominal }, "integrator-windup", vec![("limit_duty".to_owned(), limit, ci)]);
     }
     let gains = fit_gains(&nominal, |law| total(&rms(law)));
-    let named = |name: &str, v: f64| (name.to_owned(), v, Interval::Resolution([v - (1.0 + v) * FINEST_GAIN, v + (1.0 + v) * FINEST_GAIN]));
+    let named = |name: &str, v: f64| {
+        (name.to_owned(), v, Interval::Resolution([v - (1.0 + v) * FINEST_GAIN, v + (1.0 + v) * FINEST_GAIN]))
+    };
     let parameters =
         vec![named("kp_scale", gains.kp / nominal.kp - 1.0), named("ki_scale", gains.ki / nominal.ki.max(1e-12) - 1.0)];
     offer(gains, "pi-gain", parameters);

@@ -93,9 +93,8 @@ impl<'a> Ridge<'a> {
 
     /// The best steps with each fold left out in turn.
     pub fn left_out(&self, roles: &[Role]) -> Vec<DVector<f64>> {
-        let without = |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| {
-            self.solve(&(&self.jj - jj), &(&self.jr - jr), roles).0
-        };
+        let without =
+            |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| self.solve(&(&self.jj - jj), &(&self.jr - jr), roles).0;
         self.folds.iter().map(without).collect()
     }
 

@@ -23,8 +23,8 @@ use join::join;
 
 pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
 pub(crate) use plain::{held_out, plain};
-pub use sure::estimates;
 pub use rivals::{Rivals, figures, rivals, sign_flip};
+pub use sure::estimates;
 
 /// Largest number of effects named on one link.
 const MOST: usize = 5;

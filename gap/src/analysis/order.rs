@@ -35,8 +35,15 @@ pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn
             free: Vec::new(),
             fixed: values.0.clone(),
         };
-        let active =
-            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Motion, given: true, together: false };
+        let active = Active {
+            effect: effect.clone(),
+            form,
+            values,
+            immaterial: false,
+            link: Link::Motion,
+            given: true,
+            together: false,
+        };
         let mut state = start.clone();
         state.active.push(active.clone());
         (plain(&state).0, active)

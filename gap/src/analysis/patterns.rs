@@ -46,7 +46,8 @@ pub(super) fn ripple_named(
     } else {
         model::fit::t_quantile_975(usize::MAX) * noise
     };
-    let what = format!("a line {} times a turn whose phase the wheel's angle fixes (Rayleigh, chi-squared)", ripple.count);
+    let what =
+        format!("a line {} times a turn whose phase the wheel's angle fixes (Rayleigh, chi-squared)", ripple.count);
     Ok(Named {
         name: "roller-ripple".to_owned(),
         equation: equation("roller-ripple", catalogue),
@@ -77,7 +78,8 @@ pub(super) fn rattling(
     let mean = rattles.iter().map(|r| r.1).sum::<f64>() / rattles.len() as f64;
     let alike = rattles.len() > 1 && rattles.iter().all(|r| (r.1 / mean - 1.0).abs() < ALIKE);
     let middle = 0.5 * (PLAY_SHARE[0] + PLAY_SHARE[1]);
-    let parameter = |name: String, shakes: f64| (name, middle * shakes, Interval::Bound(PLAY_SHARE.map(|s| s * shakes)));
+    let parameter =
+        |name: String, shakes: f64| (name, middle * shakes, Interval::Bound(PLAY_SHARE.map(|s| s * shakes)));
     let parameters = if alike {
         vec![parameter("play_rad".to_owned(), mean)]
     } else {

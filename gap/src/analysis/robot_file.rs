@@ -65,7 +65,15 @@ pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active>
             let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
             let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
             let link = effect.link();
-            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true, together: false })
+            Some(Active {
+                effect,
+                form: crate::effect::Form::default(),
+                values,
+                immaterial: false,
+                link,
+                given: true,
+                together: false,
+            })
         })
         .collect()
 }

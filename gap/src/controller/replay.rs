@@ -148,8 +148,7 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
             }
         }
     }
-    let figures =
-        |w: &Wheel| Replayed { rms: (w.square / w.all.max(1) as f64).sqrt(), ticks: w.all, wrong: w.wrong };
+    let figures = |w: &Wheel| Replayed { rms: (w.square / w.all.max(1) as f64).sqrt(), ticks: w.all, wrong: w.wrong };
     wheels.iter().map(figures).collect()
 }
 

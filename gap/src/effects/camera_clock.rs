@@ -90,6 +90,10 @@ mod tests {
         let mut model = MotionModel::new(&robot);
         clock.motion(&values, &mut model);
         let wanted = [0.02, -0.05, 0.03];
-        assert!(model.clock_offset_s.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{:?}", model.clock_offset_s);
+        assert!(
+            model.clock_offset_s.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12),
+            "{:?}",
+            model.clock_offset_s
+        );
     }
 }

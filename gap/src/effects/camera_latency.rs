@@ -43,7 +43,12 @@ impl Effect for CameraLatency {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         // Clocks that were set by hand may also run ahead.
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.005, [-robot.camera_latency_s - EARLY_S, 0.5], material(robot))])]
+        vec![Form::whole(vec![Parameter::new(
+            "latency_s",
+            0.005,
+            [-robot.camera_latency_s - EARLY_S, 0.5],
+            material(robot),
+        )])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

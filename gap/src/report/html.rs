@@ -99,9 +99,9 @@ fn effects(out: &mut String, a: &Analysis) {
     out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>interval</th><th>in other units</th><th>gap closed on its link</th><th>evidence</th></tr>");
     for e in &a.effects {
         for (k, (name, v, known)) in e.parameters.iter().enumerate() {
-            let interval = known.ends().map_or_else(String::new, |[lo, hi]| {
-                format!("{} {} to {}", known.label(), short(lo), short(hi))
-            });
+            let interval = known
+                .ends()
+                .map_or_else(String::new, |[lo, hi]| format!("{} {} to {}", known.label(), short(lo), short(hi)));
             let first = |s: String| if k == 0 { s } else { String::new() };
             let _ = write!(
                 out,

@@ -34,9 +34,9 @@ pub(super) fn summary(a: &Analysis) -> String {
             );
             for (name, v, known) in &e.parameters {
                 let people = units::value(name, *v);
-                let known = known.ends().map_or_else(String::new, |[lo, hi]| {
-                    format!("{} {} to {}", known.label(), short(lo), short(hi))
-                });
+                let known = known
+                    .ends()
+                    .map_or_else(String::new, |[lo, hi]| format!("{} {} to {}", known.label(), short(lo), short(hi)));
                 let line = format!("    {name:<22} {:>9}  {known}  {people}", short(*v));
                 let _ = writeln!(out, "{}", line.chars().take(WIDTH).collect::<String>().trim_end());
             }

@@ -16,7 +16,7 @@ use crate::state::{Active, State};
 /// Effects at most.
 const MOST: usize = 8;
 /// Share of the held-out sum of squares that each parameter of an effect must explain.
-const SHARE: f64 = 0.006;
+const SHARE: f64 = 0.004;
 /// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as good.
 const AS_GOOD: f64 = 0.97;
 /// Share of what exceeds the noise that all effects together must close, held out.
@@ -83,7 +83,8 @@ fn best(
             let a = &all[*c];
             let fits = !a.effect.probe() && !a.switched() && a.form.free.iter().all(|p| p.material.is_finite());
             let larger = |o: &Active| o.effect.name() == a.effect.name() && o.form.free.len() >= a.form.free.len();
-            fits && !refused.contains(c) && !state.active.iter().any(|o| larger(o) || o.given && o.effect.name() == a.effect.name())
+            fits && !refused.contains(c)
+                && !state.active.iter().any(|o| larger(o) || o.given && o.effect.name() == a.effect.name())
         })
         .collect();
     let candidates: Vec<Active> = indices.iter().map(|c| all[*c].clone()).collect();
@@ -163,12 +164,10 @@ fn shared(ridge: &Ridge, roles: &[Role], nuisance: &[bool]) -> Vec<f64> {
 /// Held-out sum of squares of a state whose effects are fitted, and the number of residuals.
 pub(crate) fn held_out(problem: &Problem, state: &State) -> (f64, f64) {
     let linear = problem.linearise(state, &[]);
-    let roles: Vec<Role> = linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
-    let nuisance: Vec<bool> = linear
-        .owners
-        .iter()
-        .map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance()))
-        .collect();
+    let roles: Vec<Role> =
+        linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
+    let nuisance: Vec<bool> =
+        linear.owners.iter().map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance())).collect();
     let losses = shared(&Ridge::new(&linear.gram, 1.0), &roles, &nuisance);
     let plain = losses.iter().zip(&linear.gram.clusters).map(|(l, c)| l / c.weight).sum();
     (plain, linear.gram.plain().1)
