@@ -245,8 +245,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-    let rim_m = Sizes::of(robot).rim_m;
-    let window_s = crate::motion::window_s(&pieces, rim_m);
+    let window_s = crate::motion::WINDOW_S;
     let order = wheel_order(&MotionLink::new(&pieces, noise, window_s), &start, &catalogue);
     let cabled = |a: &&Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
     let wired = order.as_ref().map(|o| o.0.clone()).or_else(|| start.active.iter().find(cabled).cloned());
@@ -449,7 +448,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for link in &exact {
         located.extend(crate::locate::exact(link));
     }
-    let weightless = gaps::weightless(&pieces, &motion_plots, drive.as_ref());
+    let weightless = gaps::weightless(&pieces, drive.as_ref());
     links.extend(exact_links);
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
@@ -478,7 +477,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     let compared = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
     let weight = if odd.is_some() { 0 } else { compared };
-    remarks.extend(weightless.iter().map(|w| w.1.clone()));
+    let mut why: Vec<String> = weightless.into_iter().map(|w| w.1).collect();
+    why.dedup();
+    remarks.extend(why);
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
         named.iter().filter(|n| structural.contains(&n.link.name().to_owned())).map(|n| n.name.clone()).collect();

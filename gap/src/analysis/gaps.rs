@@ -158,24 +158,19 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], far: f64) -> Option<R
 }
 
 /// Links without a moment that could show anything, and what would be needed.
-pub(super) fn weightless(
-    pieces: &Pieces,
-    motion: &Option<[Vec<WindowResiduals>; 2]>,
-    drive: Option<&MeasuredDrive>,
-) -> Vec<(Link, String)> {
+pub(super) fn weightless(pieces: &Pieces, drive: Option<&MeasuredDrive>) -> Vec<(Link, String)> {
     let mut out = Vec::new();
     let turned = |s: &crate::segment::Segment| {
         s.angle.iter().map(|a| a.iter().fold(0.0_f64, |most, x| most.max((x - a[0]).abs()))).fold(0.0, f64::max)
     };
+    let counted = pieces.iter().any(|s| !s.angle.is_empty());
     let most = pieces.iter().map(|s| turned(&s)).fold(0.0, f64::max);
-    if motion.is_some() && most < STILL {
-        out.push((
-            Link::Motion,
-            format!(
-                "Motion: compared nothing, for no wheel turns by more than {:.3} rad; drive a metre and turn once.",
-                most
-            ),
-        ));
+    if counted && most < STILL {
+        let why = format!(
+            "Compared nothing, for no wheel turns by more than {most:.3} rad; drive a metre, and turn once on the spot."
+        );
+        // What stands still follows any command and any law.
+        return [Link::Command, Link::Controller, Link::Drive, Link::Motion].map(|link| (link, why.clone())).to_vec();
     }
     if let Some(drive) = drive {
         let used = drive.plots[1].weights.iter().flatten().any(|w| *w > 0.0);

@@ -12,7 +12,7 @@ use crate::state::{Active, State};
 use crate::thresholds;
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
-const OPEN: f64 = 1.2;
+const OPEN: f64 = 1.5;
 /// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
 pub(super) const FAR: f64 = 3.0;
 /// Share of the squared residual that the estimates may leave more than the best ones of what is named.
@@ -126,8 +126,16 @@ pub(super) fn study(
         }
         let Some(estimate) = estimates.iter().find(|e| e.index == index) else { continue };
         let rivals = select::rivals(problem, &selection, index, &all, thresholds);
-        sets.extend(rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe"))));
-        ambiguous |= rivals.ambiguous;
+        let bench = &selection.bench;
+        let twin = |name: &str| {
+            (0..bench.candidates.len()).any(|c| bench.candidates[c].effect.name() == name && bench.is_twin(c, index))
+        };
+        // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
+        let counts = |s: &Vec<String>| !selection.bare || matches!(&s[..], [_, other] if twin(other));
+        let own: Vec<Vec<String>> =
+            rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
+        ambiguous |= rivals.ambiguous && !own.is_empty();
+        sets.extend(own);
         let fixed = active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact));
         named.push(Named {
             name: active.effect.name().to_owned(),

@@ -14,7 +14,7 @@ use runs::robot::Robot;
 
 use crate::segment::{Frame, Segment};
 
-pub use windows::{MotionLink, WindowResiduals, window_s};
+pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
 pub type AngleChange = Box<dyn Fn(&Segment, &mut [Vec<f64>]) + Send + Sync>;

@@ -16,7 +16,7 @@ use crate::state::{Active, State};
 /// Effects at most.
 const MOST: usize = 8;
 /// Share of the held-out sum of squares that each parameter of an effect must explain.
-const SHARE: f64 = 0.006;
+const SHARE: f64 = 0.004;
 /// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as good.
 const AS_GOOD: f64 = 0.97;
 /// Share of what exceeds the noise that all effects together must close, held out.
