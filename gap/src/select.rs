@@ -21,8 +21,8 @@ use gates::Gates;
 use join::join;
 
 pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
-pub use sure::estimates;
 pub use rivals::{Rivals, figures, rivals, sign_flip};
+pub use sure::estimates;
 
 /// Largest number of effects named on one link.
 const MOST: usize = 5;
@@ -87,13 +87,7 @@ fn raw(found: &Selection) -> f64 {
     (square / n.max(1.0)).sqrt()
 }
 
-fn searched(
-    problem: &Problem,
-    start: &State,
-    known: &[Active],
-    all: &[Active],
-    thresholds: &Thresholds,
-) -> Selection {
+fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
     let from = start.active.len();
     let best = if known.is_empty() {
         first(problem, start, all, thresholds)

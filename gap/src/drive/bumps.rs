@@ -149,7 +149,8 @@ impl<'a> DriveLink<'a> {
                 let end = bump.first + bump.intervals;
                 let slips = (0..s.angle.len()).any(|i| {
                     let off = |k: usize| changed[i][k] - s.angle[i][k];
-                    (off(end) - off(bump.first)).abs() > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
+                    (off(end) - off(bump.first)).abs()
+                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
                 });
                 if slips {
                     bump.weights.fill(0.0);

@@ -19,8 +19,8 @@ use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
-pub use free_run::{further, misses, runaway};
 pub use forces::{Instant, Loads, smooth_sign};
+pub use free_run::{further, misses, runaway};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -165,7 +165,13 @@ impl DriveModel {
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;
-            return Some(Mechanics { ln_inertia: spin.iter().map(|j| j.ln()).sum(), rows, body: None, response: inverse, inertia });
+            return Some(Mechanics {
+                ln_inertia: spin.iter().map(|j| j.ln()).sum(),
+                rows,
+                body: None,
+                response: inverse,
+                inertia,
+            });
         }
         let [cx, cy] = self.centre_of_mass;
         let (m, i) = (self.mass, self.yaw_inertia);
