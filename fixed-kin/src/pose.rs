@@ -220,7 +220,20 @@ mod tests {
                 }
             }
         }
-        std::println!("pose error after 10 m: {worst:?} m, rad at 1 and 32 kHz");
+        let row = |rate: &str, (distance, turn): (f64, f64)| {
+            std::vec![
+                std::string::String::from(rate),
+                std::format!("{:.2}", 1e3 * distance),
+                std::format!("{:.2}", 1e3 * turn)
+            ]
+        };
+        let table = measured::Table {
+            name: "pose",
+            title: "Worst error of the gateware's pose after 10 m, straight, oblique and turning, against f64",
+            command: "cargo test --release -p fixed-kin after_ten_metres",
+            columns: &["control rate", "distance, mm", "heading, mrad"],
+        };
+        table.check(&[row("1 kHz", worst[0]), row("32 kHz", worst[1])]);
         assert!(worst[0].0 < 1e-3 && worst[0].1 < 2e-4, "{worst:?}");
         assert!(worst[1].0 < 2.5e-3 && worst[1].1 < 3e-3, "{worst:?}");
     }

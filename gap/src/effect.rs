@@ -205,6 +205,11 @@ pub trait Effect: Send + Sync {
         // Geometry holds to the width of a contact, laws of friction and motors less well.
         if self.link() == Link::Motion { 0.005 } else { 0.015 }
     }
+    /// Whether its parameters are the recording's, not the robot's: a file that carries it declares that they are fitted
+    /// anew for the runs at hand.
+    fn nuisance(&self) -> bool {
+        false
+    }
     /// A measurement without driving that settles it, and the minutes it takes.
     fn measurement(&self) -> Option<(&str, f64)> {
         None

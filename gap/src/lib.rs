@@ -19,6 +19,7 @@ pub mod drive;
 pub mod effect;
 pub mod effects;
 mod error;
+pub mod evidence;
 pub mod exact;
 pub mod experiment;
 pub mod gram;
@@ -44,4 +45,5 @@ mod words;
 
 pub use analysis::{Analysis, Verdict, analyse, analyse_logs, undo};
 pub use error::GapError;
+pub use evidence::{Evidence, Interval};
 pub use options::Options;

@@ -24,7 +24,7 @@ pub const PIECE: usize = 1 << 16;
 /// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
 /// and behind: a window of camera frames, a bump.
 const BEFORE: usize = 1 << 12;
-const BEHIND: usize = 1 << 11;
+const BEHIND: usize = 1 << 12;
 /// Segments, in pieces' lengths, that are kept once they are derived; of the others only the last ones.
 const KEPT: usize = 4;
 const RECENT: usize = 2;

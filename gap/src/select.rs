@@ -3,6 +3,7 @@
 mod bench;
 mod gates;
 mod join;
+mod plain;
 mod rivals;
 mod sure;
 
@@ -12,6 +13,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
+use crate::gram::Gram;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
@@ -21,6 +23,7 @@ use gates::Gates;
 use join::join;
 
 pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
+pub(crate) use plain::{held_out, plain};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
 pub use sure::estimates;
 
@@ -49,6 +52,8 @@ pub struct Selection {
     pub loss: f64,
     /// Penalty of what is held near zero, and cost of what is named.
     pub costs: f64,
+    /// Whether it was chosen with nothing adjusted beside what is named.
+    pub bare: bool,
 }
 
 impl Selection {
@@ -304,7 +309,7 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
 }
 
 /// Whether an effect rests at a bound that is not its absence: what only helps beyond it explains nothing.
-fn stopped(active: &Active) -> bool {
+pub(crate) fn stopped(active: &Active) -> bool {
     active.form.free.iter().any(|p| {
         let v = active.values.get(&p.name);
         v != 0.0 && p.bounds.iter().any(|b| (v - b).abs() < 0.02 * p.scale)
@@ -329,7 +334,41 @@ fn cost(state: &State, from: usize, thresholds: &Thresholds) -> f64 {
 fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
     let fit = bench.near();
     let costs = cost(&state, from, thresholds);
-    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench }
+    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench, bare: false }
+}
+
+/// A selection in which nothing is adjusted beside what is named.
+fn finish_bare(problem: &Problem, state: State, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
+    let bench = Bench::new(problem, &state, all, thresholds);
+    Selection { bare: true, ..finish(state, bench, from, thresholds) }
+}
+
+/// The same clusters with parts of the runs as folds.
+fn in_parts(gram: &Gram, parts: usize) -> Gram {
+    Gram { folds: (0..gram.clusters.len()).map(|i| i % parts).collect(), ..gram.clone() }
+}
+
+/// A selection with some of its own effects taken out, the others fitted anew.
+pub(crate) fn without(
+    problem: &Problem,
+    found: &Selection,
+    from: usize,
+    keep: impl Fn(&Active) -> bool,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Selection {
+    let mut state = found.state.clone();
+    let mut index = 0;
+    state.active.retain(|a| {
+        index += 1;
+        index <= from || keep(a)
+    });
+    if found.bare {
+        problem.fit(&mut state);
+        return finish_bare(problem, state, from, all, thresholds);
+    }
+    let bench = settle(problem, &mut state, all, thresholds);
+    finish(state, bench, from, thresholds)
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {

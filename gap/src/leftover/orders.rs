@@ -143,7 +143,7 @@ pub(super) fn orders(
     let ripple = best.map(|(count, p)| Ripple {
         count,
         wheels: ripples.iter().filter(|r| r.1 == count).map(|r| (r.0, r.2.amplitude, r.2.sd)).collect(),
-        p_value: (p * tests).max(1e-12),
+        p_value: (p * tests).max(f64::MIN_POSITIVE),
     });
     (ripple, structures)
 }

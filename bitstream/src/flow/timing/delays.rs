@@ -1,0 +1,77 @@
+//! Delays in ps, of the slower speed grade −5.
+//!
+//! Logic: Xilinx data sheet DS001-3 v2.8, table "CLB Switching Characteristics". Its tables of carry, block
+//! memory and pads are not quoted here; for these stand bounds that are longer than what the family's
+//! data sheets print, marked *bound*.
+//!
+//! No delay of a wire or switch was ever published. [`wire`] gives each family of wires a bound: the delay
+//! from the input of the switch that drives it to its far end.
+
+use crate::device::WireFamily;
+
+/// Table inputs to X or Y (T_ILO).
+pub const TABLE: u32 = 700;
+/// Inputs of a pair of tables, or its select, to X (T_IF5X).
+pub const WIDE: u32 = 1_100;
+/// Clock to XQ or YQ (T_CKO).
+pub const CLOCK_TO_OUTPUT: u32 = 1_300;
+/// Table inputs to the flip-flop of their half (T_ICK).
+pub const TABLE_SETUP: u32 = 1_400;
+/// Inputs of a pair to the flip-flop (T_IF5CK).
+pub const WIDE_SETUP: u32 = 1_800;
+/// Bypass to its flip-flop (T_DICK).
+pub const BYPASS_SETUP: u32 = 800;
+/// Enable (T_CECK).
+pub const ENABLE_SETUP: u32 = 900;
+/// Synchronous reset (T_RCK).
+pub const RESET_SETUP: u32 = 800;
+/// Table inputs to the carry out of their half: *bound*.
+pub const TABLE_TO_CARRY: u32 = 1_700;
+/// BX to the carry into the slice: *bound*.
+pub const BYPASS_TO_CARRY: u32 = 1_200;
+/// Carry through a half: *bound*.
+pub const CARRY: u32 = 150;
+/// Carry to X, Y, XB or YB: *bound*.
+pub const CARRY_TO_OUTPUT: u32 = 1_200;
+/// Table inputs through the sum to X or Y: *bound*.
+pub const TABLE_TO_SUM: u32 = 1_200;
+/// What a flip-flop adds after X or Y (T_ICK − T_ILO).
+pub const OUTPUT_SETUP: u32 = TABLE_SETUP - TABLE;
+/// Clock to data out of a block memory: *bound*.
+pub const MEMORY_TO_OUTPUT: u32 = 4_500;
+/// Address and data of a block memory before its clock: *bound*.
+pub const MEMORY_SETUP: u32 = 1_600;
+/// Enable, reset and write of a block memory: *bound*.
+pub const MEMORY_CONTROL_SETUP: u32 = 3_500;
+/// Pad to I: *bound*.
+pub const PAD_IN: u32 = 1_600;
+/// O or T to the pad, fast: *bound*, with 35 pF.
+pub const PAD_OUT_FAST: u32 = 6_000;
+/// O or T to the pad, slow: *bound*.
+pub const PAD_OUT_SLOW: u32 = 9_000;
+/// From a clock's pad to the flip-flops, at most: *bound*.
+pub const CLOCK_INSERTION: u32 = 3_000;
+/// Between the leaves of a clock: *bound*.
+pub const CLOCK_SKEW: u32 = 400;
+
+/// A wire with the switch that drives it.
+#[must_use]
+pub fn wire(family: WireFamily) -> u32 {
+    match family {
+        WireFamily::Single => 700,
+        WireFamily::Hex | WireFamily::HexOneWay => 1_500,
+        WireFamily::LongHorizontal | WireFamily::LongVertical => 3_000,
+        WireFamily::BlockRamBus => 1_000,
+        WireFamily::OutputMux | WireFamily::Input => 600,
+        WireFamily::SingleBuffer | WireFamily::HexBuffer => 300,
+        WireFamily::Output | WireFamily::Other | WireFamily::ClockRoot | WireFamily::ClockLeaf => 0,
+    }
+}
+
+/// What a connection over this many columns and rows takes, before it is routed: output multiplexer, input
+/// multiplexer, and a hex wire each six cells with singles for the rest.
+#[must_use]
+pub fn estimate(columns: u32, rows: u32) -> u32 {
+    let along = |cells: u32| cells / 6 * wire(WireFamily::Hex) + cells % 6 * 500;
+    2 * wire(WireFamily::Input) + wire(WireFamily::SingleBuffer) + 400 + along(columns) + along(rows)
+}

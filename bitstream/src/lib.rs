@@ -1,0 +1,8 @@
+//! XC2S200 bitstreams: what is in a `.bit` file, and what the device makes of it.
+//!
+//! Nothing of the robot is in here.
+
+#[cfg(feature = "device")]
+pub mod device;
+#[cfg(feature = "device")]
+pub mod flow;
