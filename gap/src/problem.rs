@@ -153,7 +153,7 @@ impl Problem<'_> {
     }
 
     /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
-    /// changes what is to be moved, in the inertia of the robot it is said of.
+    /// changes what is to be moved, half-way to the inertia of the robot it is said of.
     pub fn runs_away(&self, state: &State, other: &State) -> bool {
         let Self::Drive(link) = self else { return false };
         let (one, other) = (state.drive(None), other.drive(None));

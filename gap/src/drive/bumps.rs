@@ -28,8 +28,7 @@ const STUCK_SHARE: f64 = 0.35;
 pub struct DriveLink<'a> {
     /// The pieces of the runs.
     pub pieces: &'a Pieces<'a>,
-    /// Torque per wheel acceleration of the robot that the link was made with, and its [`Mechanics::ln_inertia`].
-    inertia: DMatrix<f64>,
+    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
     ln_inertia: f64,
     /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
     pub noise: Vec<f64>,
@@ -83,7 +82,7 @@ impl<'a> DriveLink<'a> {
 
     /// Lays bumps of a length in s over the segments.
     pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
-        let Mechanics { inertia, ln_inertia, .. } = nominal.mechanics()?;
+        let ln_inertia = nominal.mechanics()?.ln_inertia;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
@@ -116,7 +115,7 @@ impl<'a> DriveLink<'a> {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link = Self { pieces, inertia, ln_inertia, noise: vec![1.0; n], sizes, bumps };
+        let mut link = Self { pieces, ln_inertia, noise: vec![1.0; n], sizes, bumps };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         Some(link)
     }
@@ -194,9 +193,9 @@ impl<'a> DriveLink<'a> {
         self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
-    /// Torque per wheel acceleration of the robot that the link was made with, kg m².
-    pub fn inertia(&self) -> &DMatrix<f64> {
-        &self.inertia
+    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
+    pub fn ln_inertia(&self) -> f64 {
+        self.ln_inertia
     }
 
     /// Number of bumps.

@@ -190,7 +190,12 @@ mod tests {
         let mut robot = Robot::racbot();
         let wheel = |k: usize| {
             let at = std::f64::consts::FRAC_PI_4 * (2 * k + 1) as f64;
-            runs::geometry::Wheel { x_m: 0.08 * at.cos(), y_m: 0.08 * at.sin(), drive_rad: at, roller_rad: 0.0 }
+            runs::geometry::Wheel {
+                x_m: 0.08 * at.cos(),
+                y_m: 0.08 * at.sin(),
+                drive_rad: at + std::f64::consts::FRAC_PI_2,
+                roller_rad: 0.0,
+            }
         };
         robot.layout = Layout::Wheels((0..4).map(wheel).collect());
         let platform = Platform::new(&robot.geometry().unwrap(), 2.0, 0.01).unwrap();
