@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, friction, turn};
-use runs::geometry::Geometry;
 use crate::motor::Axis;
+use runs::geometry::Geometry;
 
 /// What depends on the step length only.
 ///
