@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
                 }
             }
         } else if let Some((name, kind)) = entries.get(&entry) {
-            sample(&mut table, name, kind, stamp as f64 * 1e-6, payload);
+            sample(&mut table, name, kind, stamp as f64 / 1e6, payload);
         }
     }
     Ok(table)
