@@ -35,7 +35,8 @@ fn main() {
     let mut bits: Vec<(Bit, String)> = Vec::new();
     for (tile, _) in device.tiles() {
         let class = device.class(tile);
-        let own = || class.attributes.iter().flat_map(|attribute| attribute.bits.iter().map(move |bit| (attribute, *bit)));
+        let own =
+            || class.attributes.iter().flat_map(|attribute| attribute.bits.iter().map(move |bit| (attribute, *bit)));
         if own().any(|(_, bit)| built.configuration.bit(device.bit(tile, bit)) != blank.bit(device.bit(tile, bit))) {
             bits.extend(own().map(|(attribute, bit)| (device.bit(tile, bit), attribute.name.clone())));
         }
