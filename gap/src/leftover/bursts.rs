@@ -116,6 +116,10 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_
 /// A wheel that is braked or pushed for seconds in one run and not in the others.
 pub(super) fn stretches(series: &Series, drive_nm: f64) -> Option<Structure> {
     let length = (STRETCH_S / series.hop) as usize;
+    if length < 2 {
+        // Rows so far apart hold no stretch.
+        return None;
+    }
     let mut worst: Option<(f64, f64, usize, usize, f64)> = None;
     for (i, w) in series.wheels.iter().enumerate() {
         let along: Vec<f64> = w.torque.iter().zip(&w.sign).map(|(x, s)| x * s).collect();
