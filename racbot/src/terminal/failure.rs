@@ -21,6 +21,11 @@ impl Failure {
         Self { what: what.to_string(), exit: Exit::BadData, excerpt: false }
     }
 
+    /// What is wrong.
+    pub(crate) fn what(&self) -> &str {
+        &self.what
+    }
+
     /// The command line is wrong.
     pub(crate) fn usage(what: impl Display) -> Self {
         Self { what: what.to_string(), exit: Exit::Usage, excerpt: false }

@@ -85,8 +85,13 @@ impl Options {
         let estimate = estimate_skew(&set.robot, &set.runs).map_err(|error| Failure::about(folder, error))?;
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
-        let calibrated = Calibrated::new(&set.robot, &found, &found)?;
-        Ok((Answer { text: estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
+        let mut text = estimate::text(&estimate);
+        let calibrated = Calibrated::new(&set.robot, &found, &found).unwrap_or_else(|why| {
+            // The estimate needs no card; only the words for one do.
+            text += &wrapped(&format!("No configuration words for the card: {}", why.what()), 0);
+            Calibrated::without_card(&found)
+        });
+        Ok((Answer { text, json: estimate.to_json(), wrong: None }, calibrated))
     }
 
     #[cfg(feature = "simulation")]

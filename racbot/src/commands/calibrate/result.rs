@@ -26,6 +26,17 @@ impl Calibrated {
         Self::drive(nominal, actual, calibrated, words)
     }
 
+    /// A calibration of a robot that the card does not drive: its file alone.
+    pub(super) fn without_card(calibrated: &Robot) -> Self {
+        Self {
+            robot: calibrated.clone(),
+            words: Vec::new(),
+            pictures: Vec::new(),
+            #[cfg(feature = "simulation")]
+            path_errors_m: [f64::NAN; 3],
+        }
+    }
+
     /// Fig. 6 with ideal geometry, before and after, on odometry alone.
     #[cfg(feature = "simulation")]
     fn drive(nominal: &Robot, actual: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
@@ -76,6 +87,10 @@ impl Calibrated {
 
     /// Writes the files; gives their names.
     pub(super) fn save(&self, folder: &Path) -> Result<Vec<&'static str>, Failure> {
+        if self.words.is_empty() {
+            save(&folder.join("robot.toml"), &self.robot.to_toml())?;
+            return Ok(vec!["robot.toml"]);
+        }
         let rows = self.words.iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
         let words = format!("offset,word\n{}", rows.collect::<String>());
         let mut files = vec![("robot.toml", self.robot.to_toml()), ("configuration.csv", words)];
