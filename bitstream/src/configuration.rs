@@ -231,7 +231,7 @@ impl Configuration {
         match pip.kind {
             PipKind::Joined => {}
             PipKind::Buffer { attribute } | PipKind::Switch { attribute } | PipKind::Gate { attribute } => {
-                on(attribute)
+                on(attribute);
             }
             PipKind::Mux { attribute, choice, drive } => {
                 drive.into_iter().for_each(&mut on);

@@ -30,7 +30,8 @@ impl Source {
         net
     }
 
-    fn cell(&mut self, name: &str, kind: &str, parameters: Value, pins: &[(&str, Value)]) {
+    fn cell(&mut self, name: &str, kind: &str, parameters: impl Into<Value>, pins: &[(&str, Value)]) {
+        let parameters = parameters.into();
         let pins: Map<String, Value> = pins.iter().map(|(pin, bits)| ((*pin).to_owned(), json!([bits]))).collect();
         self.cells.insert(name.to_owned(), json!({ "type": kind, "parameters": parameters, "connections": pins }));
     }

@@ -177,7 +177,7 @@ mod tests {
             name: "q".into(),
             clock: Net(9),
             falling: false,
-            enable: Signal::of(Net(8)).not(),
+            enable: Signal::of(Net(8)).inverse(),
             data: Signal::of(Net(5)),
             reset,
             reset_value,
@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn a_reset_to_the_initial_value_goes_to_sr() {
         let mut packed = pack::Slice::default();
-        assert!(packed.add_flop(1, 0, &flop(Signal::of(Net(7)).not(), true, None), false));
+        assert!(packed.add_flop(1, 0, &flop(Signal::of(Net(7)).inverse(), true, None), false));
         let made = slice(&packed);
         assert!(!made.reverse && made.y_init && made.invert_sr && made.y_register_takes_by);
         let names: Vec<_> = packed.sinks().into_iter().map(|(name, _)| name).collect();
@@ -227,7 +227,7 @@ mod tests {
                 Half { shape: Shape::Wide, shows: Some(Net(4)), ..Half::of(&table, None) },
                 Half::of(&table, None),
             ],
-            bypass: [Bypass::Select(Signal::of(Net(3)).not()), Bypass::Free],
+            bypass: [Bypass::Select(Signal::of(Net(3)).inverse()), Bypass::Free],
             ..pack::Slice::default()
         };
         let made = slice(&packed);

@@ -220,7 +220,7 @@ impl Aliases {
     pub(crate) fn resolve(&self, mut signal: Signal) -> Signal {
         while let Signal::Wire { net, inverted } = signal {
             let Some(next) = self.0.get(&net) else { break };
-            signal = if inverted { next.not() } else { *next };
+            signal = if inverted { next.inverse() } else { *next };
         }
         signal
     }

@@ -51,7 +51,7 @@ impl Signal {
 
     /// The opposite; an open pin stays open.
     #[must_use]
-    pub fn not(self) -> Self {
+    pub fn inverse(self) -> Self {
         match self {
             Self::Constant(value) => Self::Constant(!value),
             Self::Open => Self::Open,

@@ -32,8 +32,11 @@ impl Stage {
     }
 }
 
+/// Takes the stage, how much of it is done in percent, and a line about it.
+type Callback<'a> = &'a mut dyn FnMut(Stage, u32, &str);
+
 /// Is told the stage, how much of it is done in percent, and a line about it.
-pub struct Progress<'a>(Option<&'a mut dyn FnMut(Stage, u32, &str)>);
+pub struct Progress<'a>(Option<Callback<'a>>);
 
 impl<'a> Progress<'a> {
     /// Tells this callback.

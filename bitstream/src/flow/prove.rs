@@ -156,7 +156,7 @@ impl Prover<'_> {
         let Some(net) = self.gate.names.get(&id).copied() else { return };
         let name = format!("{} at {}", gold.nets[net.index()], gate.nets[id.0 as usize]);
         if let Some(flop) = self.gold.flip_flop(net) {
-            let found = self.gate.flip_flop(id).cloned();
+            let found = self.gate.flip_flop(id).copied();
             match found {
                 Some(found) => self.flip_flop(&name, flop, &found, gold),
                 None => self.differ(format!("{name}: is no flip-flop")),

@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn an_inverter_goes_into_the_table() {
         // and(not a, b)
-        let table = reduce(&[Signal::of(A).not(), Signal::of(B)], 0b1000);
+        let table = reduce(&[Signal::of(A).inverse(), Signal::of(B)], 0b1000);
         assert_eq!(table, Table { inputs: vec![A, B], table: 0x4444 });
     }
 

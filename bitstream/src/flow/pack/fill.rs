@@ -16,10 +16,10 @@ pub(super) fn fill(packer: &mut Packer) {
     let mut fill = Fill { sharers: BTreeMap::new(), pins: vec![0; packer.logic.nets.len()], packer };
     fill.count();
     let (mut units, lone) = fill.units();
-    let lone = fill.into_carriers(lone);
+    let lone = fill.fill_carriers(lone);
     units.extend(lone);
     let tables = fill.by_control(units);
-    let tables = fill.into_halves(tables);
+    let tables = fill.fill_halves(tables);
     fill.pair_tables(tables);
 }
 
@@ -120,7 +120,7 @@ impl Fill<'_, '_> {
     }
 
     /// Puts lone flip-flops into chains and pairs with the same control set that they are joined to.
-    fn into_carriers(&mut self, lone: Vec<Unit>) -> Vec<Unit> {
+    fn fill_carriers(&mut self, lone: Vec<Unit>) -> Vec<Unit> {
         let mut left = Vec::new();
         for unit in lone {
             let index = unit.flop.expect("a flip-flop");
@@ -187,7 +187,7 @@ impl Fill<'_, '_> {
     }
 
     /// Puts tables into free halves of slices that they are joined to.
-    fn into_halves(&mut self, tables: Vec<Unit>) -> Vec<Unit> {
+    fn fill_halves(&mut self, tables: Vec<Unit>) -> Vec<Unit> {
         let mut left = Vec::new();
         for unit in tables {
             let mut scores: BTreeMap<Place, usize> = BTreeMap::new();

@@ -113,10 +113,10 @@ fn logarithms() -> Vec<i64> {
         let one = 1_i64 << 30;
         let (rest, mut power, mut series) = (one - x, one, 0_i64);
         for n in 1..40 {
-            power = power * rest >> 30;
+            power = (power * rest) >> 30;
             series += power / n;
         }
-        table.push(sum + series >> 20);
+        table.push((sum + series) >> 20);
     }
     table
 }
@@ -150,7 +150,7 @@ impl<'a, 'b> Annealer<'a, 'b> {
             let first = design.graph.first[index] as usize;
             nets.push(PlacedNet { source: routed.source.part, sinks, first, factor });
         }
-        nets_of.iter_mut().for_each(|list| list.dedup());
+        nets_of.iter_mut().for_each(Vec::dedup);
         let (costs, stamp) = (vec![0; nets.len()], vec![0; nets.len()]);
         let random = ChaCha8Rng::seed_from_u64(seed);
         Self { design, placement, grid, nets, nets_of, costs, weights: Vec::new(), stamp, now: 0, random, power: 2 }

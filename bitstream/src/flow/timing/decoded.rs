@@ -166,7 +166,7 @@ impl<'a> Decoded<'a> {
         }
         // A loop of logic has no longest path: it counts as never.
         self.known.insert(key, NEVER);
-        let slice = self.slices[&(tile, index)].clone();
+        let slice = self.slices[&(tile, index)];
         let half = usize::from(matches!(name, "Y" | "YQ" | "YB" | "C2"));
         let times = match name {
             "XQ" | "YQ" => self.clock(tile, index).map_or(NEVER, |clock| {
@@ -213,7 +213,7 @@ impl<'a> Decoded<'a> {
 
     /// Arrivals and set-up times at the ends in a slice.
     fn ends(&mut self, tile: TileId, index: u8) -> Vec<([Option<Time>; CLOCKS], u32)> {
-        let slice = self.slices[&(tile, index)].clone();
+        let slice = self.slices[&(tile, index)];
         let mut ends = vec![
             (self.input(tile, index, "CE"), ENABLE_SETUP),
             (self.input(tile, index, "SR"), RESET_SETUP),

@@ -60,8 +60,9 @@ pub const CLOCK_SKEW: u32 = 400;
 /// input or output multiplexer is less than one, a buffer half of that.
 ///
 /// Size: files of the card's maker run a domain at 100 MHz and one at 33 MHz, so no path in them takes longer
-/// than 10 and 30 ns. [`super::decoded`] finds their longest paths; with these figures the 100 MHz domains
-/// of four files come to 11.4 to 12.5 ns: the model takes them for too slow, though they run. So wires are, on such
+/// than 10 and 30 ns. [`super::decoded`] finds their longest paths; with these figures the 100 MHz domains of 19 files
+/// come to 10.8 to 16.0 ns and the 33 MHz domains of 22 files to 17.1 to 29.1 ns (example `envelope`): the model
+/// takes every 100 MHz domain for too slow, though they run. So wires are, on such
 /// paths, faster than this. What it cannot bound is one kind of wire alone, or a chip slower than the
 /// slowest speed grade sold.
 #[must_use]
