@@ -9,6 +9,6 @@ mod size;
 
 pub use drives::{DriveError, Drives, Straightness};
 pub use estimate::{Residual, SkewEstimate, estimate_skew};
-pub use size::Sizes;
 pub use kinematic::{KinematicModel, KinematicParameter};
 pub use paper::{Iteration, PaperCalibration, PaperError, PaperOptions, Stage, calibrate_like_the_paper};
+pub use size::Sizes;

@@ -53,7 +53,9 @@ impl Sizes {
 
     /// In a sentence.
     pub(super) fn remark(self) -> String {
-        let percent = |(v, [low, high]): (f64, [f64; 2])| format!("{:+.2} % (95 %: {:+.2} to {:+.2})", 1e2 * v, 1e2 * low, 1e2 * high);
+        let percent = |(v, [low, high]): (f64, [f64; 2])| {
+            format!("{:+.2} % (95 %: {:+.2} to {:+.2})", 1e2 * v, 1e2 * low, 1e2 * high)
+        };
         let skew = if self.instead_of_skew {
             "What the camera shows is a radius, not a skew: no wheel needs to be turned beside it."
         } else {
