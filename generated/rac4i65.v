@@ -1,5 +1,5 @@
 // rac4i65
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.1.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.2.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -35,6 +35,32 @@ module rac4i65 (
     wire lad_drive;
     assign lad = lad_drive ? lad_out : 32'bz;
 
+`ifndef SYNTHESIS
+    // synthesis translate_off
+    pullup (encoder_a[0]);
+    pullup (encoder_a[1]);
+    pullup (encoder_a[2]);
+    pullup (encoder_a[3]);
+    pullup (encoder_b[0]);
+    pullup (encoder_b[1]);
+    pullup (encoder_b[2]);
+    pullup (encoder_b[3]);
+    pullup (encoder_index[0]);
+    pullup (encoder_index[1]);
+    pullup (encoder_index[2]);
+    pullup (encoder_index[3]);
+    pullup (kicker_full);
+    pullup (emergency_stop);
+    pullup (ball_sensor);
+    pullup (radio_rx);
+    pullup (host_select);
+    pullup (robot_number[0]);
+    pullup (robot_number[1]);
+    pullup (robot_number[2]);
+    pullup (robot_number[3]);
+    // synthesis translate_on
+`endif
+
     rac4i65_core core (
         .lclk(lclk),
         .synclk(synclk),
@@ -61,13 +87,17 @@ module rac4i65 (
         .ball_sensor(ball_sensor),
         .radio_rx(radio_rx),
         .host_select(host_select),
-        .robot_number(robot_number)
+        .robot_number(robot_number),
+        .board(32'h34493635),
+        .clock_hz(32'd33333333)
     );
 endmodule
 
 module rac4i65_core (
     input wire lclk,
     input wire synclk,
+    input wire [31:0] board,
+    input wire [31:0] clock_hz,
     input wire ads_n,
     input wire blast_n,
     input wire lw_r,
@@ -153,7 +183,8 @@ module rac4i65_core (
     wire [1:0] registers_clear_interrupt;
     wire registers_select_radio;
     wire registers_arm_write;
-    wire registers_clear_faults;
+    wire [7:0] registers_clear_faults;
+    wire registers_clear_kicker;
     wire [3:0] registers_clear_encoder_error;
     wire registers_commit_set_points;
     wire registers_commit_configuration;
@@ -187,8 +218,8 @@ module rac4i65_core (
 
     reg snapshot_read_first;
     reg snapshot_read_last;
-    wire snapshot_write_bank;
-    wire snapshot_read_bank;
+    wire [1:0] snapshot_write_bank;
+    wire [1:0] snapshot_read_bank;
 
     reg safety_encoder_fault;
     reg safety_stall_fault;
@@ -211,6 +242,7 @@ module rac4i65_core (
     wire kicker_timed_out;
     wire kicker_dropped;
     wire kicker_is_full;
+    wire kicker_on_ball;
 
     wire monitor_lclk_dead;
 
@@ -501,6 +533,8 @@ module rac4i65_core (
         .data(write_data),
         .read_data(registers_read_data),
         .armed(safety_armed),
+        .board(board),
+        .clock_hz(clock_hz),
         .clock_count(timebase_clock_count),
         .faults(safety_faults),
         .first_fault(safety_first_fault),
@@ -538,6 +572,7 @@ module rac4i65_core (
         .select_radio(registers_select_radio),
         .arm_write(registers_arm_write),
         .clear_faults(registers_clear_faults),
+        .clear_kicker(registers_clear_kicker),
         .clear_encoder_error(registers_clear_encoder_error),
         .commit_set_points(registers_commit_set_points),
         .commit_configuration(registers_commit_configuration),
@@ -626,7 +661,7 @@ module rac4i65_core (
         .lockout(registers_kicker_lockout),
         .ball(ball_sensor),
         .arm_on_ball(kicker_arm_on_ball),
-        .clear(registers_clear_faults),
+        .clear(registers_clear_kicker),
         .full(kicker_full),
         .by_time(kicker_by_time),
         .charge(kicker_charge),
@@ -635,7 +670,8 @@ module rac4i65_core (
         .state(kicker_state),
         .timed_out(kicker_timed_out),
         .dropped(kicker_dropped),
-        .is_full(kicker_is_full)
+        .is_full(kicker_is_full),
+        .on_ball(kicker_on_ball)
     );
     rac4i65_core_monitor monitor (.lclk(lclk), .synclk(synclk), .lclk_dead(monitor_lclk_dead));
     rac4i65_core_sequencer sequencer(
@@ -1330,7 +1366,7 @@ module rac4i65_core (
     always @(*) kicker_discharge = shut & ~holds;
     always @(*) registers_radio = ((radio_selected) & 24'hffffff) | (((radio_accepted) & 24'hffffff) << 32'h8) | (((radio_dropped) & 24'hffffff) << 32'h10);
     always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
-    always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6) | (((kicker_is_full) & 8'hff) << 32'h7);
+    always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_on_ball) & 8'hff) << 32'h3) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6) | (((kicker_is_full) & 8'hff) << 32'h7);
 endmodule
 
 module rac4i65_core_bus (
@@ -1519,6 +1555,8 @@ module rac4i65_core_registers (
     input wire [31:0] data,
     output reg [31:0] read_data,
     input wire armed,
+    input wire [31:0] board,
+    input wire [31:0] clock_hz,
     input wire [31:0] clock_count,
     input wire [7:0] faults,
     input wire [7:0] first_fault,
@@ -1555,7 +1593,8 @@ module rac4i65_core_registers (
     output reg [1:0] clear_interrupt,
     output reg select_radio,
     output reg arm_write,
-    output reg clear_faults,
+    output reg [7:0] clear_faults,
+    output reg clear_kicker,
     output reg [3:0] clear_encoder_error,
     output reg commit_set_points,
     output reg commit_configuration,
@@ -1564,16 +1603,15 @@ module rac4i65_core_registers (
 
     // Constants
     localparam cookie = 32'h52414334;
-    localparam version = 32'h20001;
-    localparam board = 32'h34493635;
-    localparam clock_hz = 32'h1fca055;
+    localparam version = 32'h20002;
     localparam blocks = 32'hff444;
     localparam axes = 32'h4;
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
+    localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h665f99a2;
+    localparam content_hash = 32'hefa3dc7e;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1695,7 +1733,8 @@ module rac4i65_core_registers (
         tick_period_written = 1'b0;
         arm_write = 1'b0;
         select_radio = 1'b0;
-        clear_faults = 1'b0;
+        clear_faults = no_faults;
+        clear_kicker = 1'b0;
         commit_set_points = 1'b0;
         commit_configuration = 1'b0;
         fire = 1'b0;
@@ -1748,7 +1787,8 @@ module rac4i65_core_registers (
                 end
                 15:
                 begin
-                    clear_faults = data != zero;
+                    clear_faults = data[(32'h0)+:(8)];
+                    clear_kicker = data != zero;
                 end
                 18:
                 begin
@@ -2145,7 +2185,7 @@ module rac4i65_core_decoder (
     input wire [13:0] address,
     input wire configuration_bank,
     input wire set_point_bank,
-    input wire snapshot_bank,
+    input wire [1:0] snapshot_bank,
     output reg in_registers,
     output reg in_memory,
     output reg [7:0] memory_address,
@@ -2160,8 +2200,6 @@ module rac4i65_core_decoder (
     localparam configuration_1 = 8'h40;
     localparam at_set_points = 8'h80;
     localparam set_points_1 = 8'h8;
-    localparam at_snapshot = 8'hc0;
-    localparam snapshot_1 = 8'h20;
     localparam page_registers = 8'h0;
     localparam page_configuration = 8'h4;
     localparam page_active = 8'h5;
@@ -2180,6 +2218,11 @@ module rac4i65_core_decoder (
     localparam first = 6'b0;
     localparam last = 6'b10111;
 
+    // Pins of the parts
+    reg [4:0] place_word;
+
+    wire [7:0] place_address;
+
     // Intermediate values
     reg [7:0] page;
     reg [5:0] index;
@@ -2188,6 +2231,9 @@ module rac4i65_core_decoder (
     reg [7:0] base;
     reg [7:0] bank;
 
+    // Parts
+    rac4i65_core_place place (.word(place_word), .bank(snapshot_bank), .address(place_address));
+
     always @(*) begin
         page = address[(32'h6)+:(8)];
         index = address[(32'h0)+:(6)];
@@ -2195,6 +2241,7 @@ module rac4i65_core_decoder (
 
     always @(*) begin
         wide = ((index) & 8'hff);
+        place_word = index[(32'h0)+:(5)];
         set_point = ((index[(32'h0)+:(2)]) & 8'hff) | at_set_points;
     end
 
@@ -2245,14 +2292,50 @@ module rac4i65_core_decoder (
             in_memory = index < snapshot_end;
             snapshot_first = index == first;
             snapshot_last = index == last;
-            base = wide | at_snapshot;
-            if (snapshot_bank) begin
-                bank = snapshot_1;
-            end
+            base = place_address;
         end
     end
 
     always @(*) memory_address = base | bank;
+endmodule
+
+module rac4i65_core_place (
+    input wire [4:0] word,
+    input wire [1:0] bank,
+    output reg [7:0] address
+);
+
+    // Constants
+    localparam at_first = 8'hc0;
+    localparam at_second = 8'he0;
+    localparam at_third = 8'hd8;
+    localparam at_third_middle = 8'hf8;
+    localparam at_third_end = 8'h78;
+
+    // Intermediate values
+    reg [7:0] wide;
+    reg [7:0] row;
+
+    always @(*) begin
+        wide = ((word) & 8'hff);
+        row = ((word[(32'h0)+:(3)]) & 8'hff);
+    end
+
+    always @(*) begin
+        address = wide | at_first;
+        if (bank[32'h0]) begin
+            address = wide | at_second;
+        end
+        if (bank[32'h1]) begin
+            address = row | at_third;
+            if (word[32'h3]) begin
+                address = row | at_third_middle;
+            end
+            if (word[32'h4]) begin
+                address = row | at_third_end;
+            end
+        end
+    end
 endmodule
 
 module rac4i65_core_commit (
@@ -2415,39 +2498,46 @@ module rac4i65_core_snapshot (
     input wire done,
     input wire read_first,
     input wire read_last,
-    output reg write_bank,
-    output reg read_bank
+    output reg [1:0] write_bank,
+    output reg [1:0] read_bank
 );
 
-    // Pins of the parts
-    reg writing_d;
-    wire writing_q;
+    // Constants
+    localparam first_bank = 2'b0;
+    localparam second_bank = 2'b1;
 
-    reg latest_d;
-    wire latest_q;
+    // Pins of the parts
+    reg [1:0] writing_d;
+    wire [1:0] writing_q;
+
+    reg [1:0] latest_d;
+    wire [1:0] latest_q;
 
     reg held_d;
     wire held_q;
 
-    reg held_bank_d;
-    wire held_bank_q;
+    reg [1:0] held_bank_d;
+    wire [1:0] held_bank_q;
 
     // Intermediate values
-    reg target;
+    reg [1:0] kept;
+    reg [1:0] target;
 
     // Parts
-    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
-    rac4i65_core_dff_1 latest (.d(latest_d), .q(latest_q), .clock(clock));
+    rac4i65_core_dff_2 writing (.d(writing_d), .q(writing_q), .clock(clock));
+    rac4i65_core_dff_2 latest (.d(latest_d), .q(latest_q), .clock(clock));
     rac4i65_core_dff_1 held (.d(held_d), .q(held_q), .clock(clock));
-    rac4i65_core_dff_1 held_bank (.d(held_bank_d), .q(held_bank_q), .clock(clock));
+    rac4i65_core_dff_2 held_bank (.d(held_bank_d), .q(held_bank_q), .clock(clock));
 
     always @(*) begin
         writing_d = writing_q;
-        latest_d = latest_q;
         if (tick) begin
             writing_d = target;
-            latest_d = ~target;
         end
+    end
+
+    always @(*) begin
+        latest_d = latest_q;
         if (done) begin
             latest_d = writing_q;
         end
@@ -2468,9 +2558,19 @@ module rac4i65_core_snapshot (
     end
 
     always @(*) begin
-        target = ~latest_q;
-        if (held_q & ~read_first) begin
-            target = ~held_bank_q;
+        kept = latest_q;
+        if (held_q) begin
+            kept = held_bank_q;
+        end
+    end
+
+    always @(*) begin
+        target = ~(latest_q ^ kept);
+        if (latest_q == kept) begin
+            target = first_bank;
+            if (latest_q == first_bank) begin
+                target = second_bank;
+            end
         end
     end
 
@@ -2488,7 +2588,7 @@ module rac4i65_core_safety (
     input wire stall_fault,
     input wire commit_fault,
     input wire external_fault,
-    input wire clear_faults,
+    input wire [7:0] clear_faults,
     input wire tick,
     input wire [15:0] set_point_timeout,
     output reg armed,
@@ -2560,6 +2660,7 @@ module rac4i65_core_safety (
     reg [7:0] event_refused;
     reg [7:0] event_stall;
     reg [7:0] events;
+    reg [7:0] first_kept;
 
     // Parts
     rac4i65_core_encoders_line_a released(
@@ -2626,15 +2727,13 @@ module rac4i65_core_safety (
 
     always @(*) begin
         sticky_d = sticky_q;
-        sticky_d = sticky_q | events;
-        if (clear_faults) begin
-            sticky_d = events;
-        end
+        sticky_d = (sticky_q & ~clear_faults) | events;
     end
 
     always @(*) begin
         first_d = first_q;
-        if (clear_faults | ~|first_q) begin
+        first_d = first_kept;
+        if (~|first_kept) begin
             first_d = events;
         end
     end
@@ -2699,6 +2798,7 @@ module rac4i65_core_safety (
     end
 
     always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused | event_stall;
+    always @(*) first_kept = first_q & ~clear_faults;
     always @(*) armed = is_armed_q;
     always @(*) setpoints_valid = has_setpoint_q;
     always @(*) faults = sticky_q;
@@ -2795,7 +2895,8 @@ module rac4i65_core_kicker (
     output reg [2:0] state,
     output reg timed_out,
     output reg dropped,
-    output reg is_full
+    output reg is_full,
+    output reg on_ball
 );
 
     // Constants
@@ -2877,6 +2978,7 @@ module rac4i65_core_kicker (
     reg gap_over;
     reg expired;
     reg may_charge;
+    reg clears_time_out;
 
     // Parts
     rac4i65_core_encoders_line_a ball_filter(
@@ -2980,7 +3082,7 @@ module rac4i65_core_kicker (
         if (microsecond & charge_pin_q & ~expired) begin
             charged_d = charged_q + charged_one;
         end
-        if (~charge_request | stuffed | in_pulse | (clear & expired)) begin
+        if (~enable | stuffed | in_pulse) begin
             charged_d = charged_zero;
         end
     end
@@ -3007,7 +3109,7 @@ module rac4i65_core_kicker (
 
     always @(*) begin
         timed_out_flag_d = timed_out_flag_q;
-        timed_out_flag_d = (timed_out_flag_q & ~clear) | (charge_pin_q & expired);
+        timed_out_flag_d = (timed_out_flag_q & ~clears_time_out) | (charge_pin_q & expired);
     end
 
     always @(*) begin
@@ -3050,11 +3152,13 @@ module rac4i65_core_kicker (
 
     always @(*) expired = charged_q >= charge_timeout;
     always @(*) may_charge = (next_state == ready_state) | (next_state == lockout_state);
+    always @(*) clears_time_out = clear & (~expired | ~enable);
     always @(*) charge = charge_pin_q;
     always @(*) trigger = trigger_pin_q;
     always @(*) ready = is_ready_q;
     always @(*) timed_out = timed_out_flag_q;
     always @(*) dropped = dropped_flag_q;
+    always @(*) on_ball = arm_on_ball & ~spent_q;
 endmodule
 
 module rac4i65_core_monitor (
@@ -3154,7 +3258,7 @@ module rac4i65_core_sequencer (
     output reg done,
     input wire configuration_bank,
     input wire set_point_bank,
-    input wire snapshot_bank,
+    input wire [1:0] snapshot_bank,
     output reg [4:0] input_port,
     output reg [1:0] axis,
     input wire [31:0] input_data,
@@ -3186,7 +3290,6 @@ module rac4i65_core_sequencer (
     localparam sign_of_8 = 32'hffffff00;
     localparam configuration_region = 8'h40;
     localparam set_point_region = 8'h8;
-    localparam snapshot_region = 8'h20;
     localparam region_0 = 2'b0;
     localparam region_set_points = 5'b10000;
     localparam region_3 = 2'b11;
@@ -3213,6 +3316,9 @@ module rac4i65_core_sequencer (
 
     wire divider_busy;
     wire [31:0] divider_quotient;
+    reg [4:0] place_word;
+
+    wire [7:0] place_address;
     reg active_d;
     wire active_q;
 
@@ -3234,6 +3340,12 @@ module rac4i65_core_sequencer (
     reg [1:0] axis_number_d;
     wire [1:0] axis_number_q;
 
+    reg bus_hits_d;
+    wire bus_hits_q;
+
+    reg [31:0] bus_written_d;
+    wire [31:0] bus_written_q;
+
     // Intermediate values
     reg [8:0] pc_next;
     reg stall;
@@ -3245,7 +3357,7 @@ module rac4i65_core_sequencer (
     reg [7:0] read_address;
     reg [7:0] read_bank;
     reg [7:0] write_address;
-    reg [7:0] write_bank;
+    reg [7:0] store_address;
     reg [4:0] op;
     reg [31:0] word;
     reg subtracting;
@@ -3292,6 +3404,7 @@ module rac4i65_core_sequencer (
         .busy(divider_busy),
         .quotient(divider_quotient)
     );
+    rac4i65_core_place place (.word(place_word), .bank(snapshot_bank), .address(place_address));
     rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(clock));
     rac4i65_core_dff_9 pc (.d(pc_d), .q(pc_q), .clock(clock));
     rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(clock));
@@ -3299,6 +3412,8 @@ module rac4i65_core_sequencer (
     rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(clock));
     rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(clock));
     rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(clock));
+    rac4i65_core_dff_1 bus_hits (.d(bus_hits_d), .q(bus_hits_q), .clock(clock));
+    rac4i65_core_dff_32 bus_written (.d(bus_written_d), .q(bus_written_q), .clock(clock));
 
     always @(*) begin
         active_d = active_q;
@@ -3460,6 +3575,16 @@ module rac4i65_core_sequencer (
         end
     end
 
+    always @(*) begin
+        bus_hits_d = bus_hits_q;
+        bus_hits_d = memory_write_enable & (memory_write_address == bus_address);
+    end
+
+    always @(*) begin
+        bus_written_d = bus_written_q;
+        bus_written_d = memory_write_data;
+    end
+
     always @(*) read_instruction = rom_read_data;
 
     always @(*) begin
@@ -3574,10 +3699,12 @@ module rac4i65_core_sequencer (
         end
     end
 
+    always @(*) place_word = write_address[(32'h0)+:(5)];
+
     always @(*) begin
-        write_bank = no_bank;
-        if (snapshot_bank & (write_address[(32'h6)+:(2)] == region_3)) begin
-            write_bank = snapshot_region;
+        store_address = write_address;
+        if (write_address[(32'h6)+:(2)] == region_3) begin
+            store_address = place_address;
         end
     end
 
@@ -3585,7 +3712,7 @@ module rac4i65_core_sequencer (
         memory_write_address = bus_address;
         memory_write_data = bus_write_data;
         if (storing) begin
-            memory_write_address = write_address | write_bank;
+            memory_write_address = store_address;
             memory_write_data = accumulator_q;
         end
     end
@@ -3595,7 +3722,13 @@ module rac4i65_core_sequencer (
         bus_write_taken = bus_write & ~storing;
     end
 
-    always @(*) bus_read_data = mirror_read_data;
+    always @(*) begin
+        bus_read_data = mirror_read_data;
+        if (bus_hits_q) begin
+            bus_read_data = bus_written_q;
+        end
+    end
+
     always @(*) bus_blocked = storing;
     always @(*) axis = axis_number_q;
     always @(*) output_data = accumulator_q;
@@ -3607,6 +3740,7 @@ module rac4i65_core_sequencer_rom (
     output reg [15:0] read_data
 );
 
+    (* no_rw_check *)
     reg [15:0] mem [0:511];
 
     initial begin
@@ -4139,6 +4273,7 @@ module rac4i65_core_sequencer_memory (
     input wire write_enable
 );
 
+    (* no_rw_check *)
     reg [31:0] mem [0:255];
 
     initial begin
@@ -4842,6 +4977,7 @@ module rac4i65_core_trigonometry_cosines (
     output reg [15:0] read_data
 );
 
+    (* no_rw_check *)
     reg [15:0] mem [0:255];
 
     initial begin
@@ -5731,6 +5867,7 @@ module rac4i65_core_radio_memory (
     input wire write_enable
 );
 
+    (* no_rw_check *)
     reg [7:0] mem [0:511];
 
     initial begin

@@ -1,5 +1,5 @@
 // rac_hx8k
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.1.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.2.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -116,6 +116,8 @@ module rac_hx8k_logic (
         .lad_drive(lad_drive),
         .ready_n(ready_n),
         .led_n(led_n),
+        .board(32'h4858384b),
+        .clock_hz(32'd33000000),
         .emergency_stop(emergency_stop),
         .int_n(int_n),
         .encoder_a(encoder_a),

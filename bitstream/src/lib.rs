@@ -14,4 +14,6 @@ pub mod flow;
 #[cfg(feature = "device")]
 pub mod netlist;
 #[cfg(feature = "device")]
+pub mod report;
+#[cfg(feature = "device")]
 pub mod verilog;

@@ -6,9 +6,10 @@ use fixed_kin::AXES;
 use fixed_kin::control::{SET_POINT_WORDS, SetPointMode};
 use fixed_kin::format::{Duty, Speed};
 use fixed_kin::registers as map;
-use fixed_kin::safety::{ARM_FIRST, ARM_SECOND};
+use fixed_kin::safety::{ARM_FIRST, ARM_SECOND, Fault};
 use fixed_kin::speed::SpeedMode;
 use runs::frames::Twist;
+use std::fmt;
 
 /// What went wrong between host and card.
 #[derive(Debug, thiserror::Error)]
@@ -40,14 +41,9 @@ pub enum BoardError {
         /// Fault register.
         faults: u32,
     },
-    /// The card stayed disarmed.
-    #[error("the card refused to arm, faults {faults:#04x} ({names}); clear the cause, then arm again")]
-    Arm {
-        /// Fault register.
-        faults: u32,
-        /// Names of its bits.
-        names: String,
-    },
+    /// The card stayed disarmed: what stands came again after it was cleared.
+    #[error("the card refused to arm, faults {faults:#04x} ({0}); clear the cause, then arm again", faults = .0.faults)]
+    Arm(Standing),
     /// A register does not hold what was written.
     #[error("{register} reads {found:#x} after {written:#x} was written; is the card armed, or the bus broken?")]
     ReadBack {
@@ -90,6 +86,8 @@ pub struct Identity {
     pub content_hash: u32,
     /// Axes.
     pub axes: u32,
+    /// Board whose pins it drives.
+    pub board: map::Target,
     /// Nominal clock, Hz.
     pub clock_hz: u32,
 }
@@ -150,6 +148,41 @@ impl Status {
     fn of(word: u32) -> Self {
         let bit = |n: usize| map::STATUS_FIELDS[n].of(word) == 1;
         Self { armed: bit(0), set_points_valid: bit(1), emergency_stop: bit(2), ball: bit(3) }
+    }
+}
+
+/// What keeps or kept a card from being armed: sticky registers, as they read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Standing {
+    /// Fault register.
+    pub faults: u32,
+    /// Axes with an encoder error, a bit each.
+    pub encoder_errors: u32,
+    /// Axes that stalled, a bit each.
+    pub stalls: u32,
+}
+
+impl Standing {
+    /// Whether there is anything worth telling. That the watchdog bit while nobody commanded is not, nor a stop
+    /// that was pressed and released: both also stand after every power-up.
+    #[must_use]
+    pub fn is_notable(&self) -> bool {
+        let expected = u32::from(Fault::Watchdog.mask() | Fault::EmergencyStop.mask());
+        self.faults & !expected != 0 || self.encoder_errors != 0 || self.stalls != 0
+    }
+}
+
+impl fmt::Display for Standing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&fault_names(self.faults))?;
+        for (what, axes) in [("encoder error", self.encoder_errors), ("stall", self.stalls)] {
+            let axes: Vec<String> =
+                (0..AXES).filter(|axis| axes >> axis & 1 == 1).map(|axis| (axis + 1).to_string()).collect();
+            if !axes.is_empty() {
+                write!(f, "; {what} on axis {}", axes.join(", "))?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -214,23 +247,41 @@ impl<R: Registers> Board<R> {
         Self { bus }
     }
 
-    /// Reads and checks the identification.
+    /// Reads and checks the identification, on any board that a top module is written for.
+    ///
+    /// # Errors
+    /// [`BoardError::Identity`] for another design, map or an unknown board.
+    pub fn identify(&mut self) -> Result<Identity, BoardError> {
+        self.identify_on(&map::BOARDS)
+    }
+
+    /// As [`Self::identify`], where only one board makes sense: the card behind a PCI bridge, say.
     ///
     /// # Errors
     /// [`BoardError::Identity`] for another design, map or board.
-    pub fn identify(&mut self) -> Result<Identity, BoardError> {
+    pub fn identify_as(&mut self, board: map::Target) -> Result<Identity, BoardError> {
+        self.identify_on(&[board])
+    }
+
+    fn identify_on(&mut self, boards: &[map::Target]) -> Result<Identity, BoardError> {
         self.expect(
             &map::COOKIE,
             map::COOKIE_VALUE,
             u32::MAX,
             "no racbot design is loaded; all ones is an absent card",
         )?;
-        self.expect(&map::BOARD, map::BOARD_VALUE, u32::MAX, "the bitstream drives the pins of another board")?;
+        let found = self.bus.read(map::BOARD.offset)?;
+        let Some(board) = boards.iter().copied().find(|board| board.word == found) else {
+            let expected = boards.first().map_or(0, |board| board.word);
+            let (register, hint) = (map::BOARD.name, "the bitstream drives the pins of another board");
+            return Err(BoardError::Identity { register, found, expected, hint });
+        };
         self.expect(&map::MAP_VERSION, map::VERSION, 0xFFFF_0000, "the register map has another major version")?;
         Ok(Identity {
             version: self.bus.read(map::MAP_VERSION.offset)?,
             content_hash: self.bus.read(map::CONTENT_HASH.offset)?,
             axes: self.bus.read(map::AXIS_COUNT.offset)?,
+            board,
             clock_hz: self.bus.read(map::CLOCK_HZ.offset)?,
         })
     }
@@ -331,38 +382,53 @@ impl<R: Registers> Board<R> {
         self.bus.write(commit.offset, sum)
     }
 
-    /// Clears faults, commits a standstill and arms.
+    /// What stands in the sticky registers.
+    ///
+    /// # Errors
+    /// A bus that fails.
+    pub fn standing(&mut self) -> Result<Standing, BoardError> {
+        Ok(Standing {
+            faults: self.bus.read(map::FAULTS.offset)?,
+            encoder_errors: self.bus.read(map::ENCODER_ERROR.offset)?,
+            stalls: self.bus.read(map::STALL.offset)?,
+        })
+    }
+
+    /// Commits a standstill, clears every sticky register and arms; returns what stood in them before.
     ///
     /// # Errors
     /// [`BoardError::Arm`] while a cause stands.
-    pub fn arm(&mut self) -> Result<(), BoardError> {
+    pub fn arm(&mut self) -> Result<Standing, BoardError> {
+        let stood = self.standing()?;
         for _ in 0..TRIES {
             self.commit("the set points", &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[0; SET_POINT_WORDS])?;
-            self.bus.write(map::FAULTS.offset, u32::MAX)?;
-            self.bus.write(map::ENCODER_ERROR.offset, u32::MAX)?;
-            self.bus.write(map::FAULTS.offset, u32::MAX)?;
+            // The axes first: while one stands, its fault comes again at once.
+            self.clear_axes(u32::MAX)?;
+            self.clear_faults()?;
             self.bus.write(map::ARM.offset, ARM_FIRST)?;
             self.bus.write(map::ARM.offset, ARM_SECOND)?;
             if self.status()?.armed {
-                return Ok(());
+                return Ok(stood);
             }
         }
-        let faults = self.bus.read(map::FAULTS.offset)?;
-        Err(BoardError::Arm { faults, names: fault_names(faults) })
+        Err(BoardError::Arm(self.standing()?))
     }
 
-    /// Outputs off at once.
+    /// Outputs off at once. A transfer that fails is no reason to give up: every try writes and looks again.
     ///
     /// # Errors
-    /// A bus that fails, or [`BoardError::StillArmed`]; the card's watchdog then does it.
+    /// The last failure of the bus, or [`BoardError::StillArmed`]; the card's watchdog then does it.
     pub fn disarm(&mut self) -> Result<(), BoardError> {
+        let mut failed = BoardError::StillArmed(TRIES);
         for _ in 0..TRIES {
-            self.bus.write(map::ARM.offset, 0)?;
-            if !self.status()?.armed {
-                return Ok(());
+            let written = self.bus.write(map::ARM.offset, 0).map_err(BoardError::Bus);
+            match written.and_then(|()| self.status()) {
+                Ok(status) if !status.armed => return Ok(()),
+                Ok(_) => {}
+                Err(error) => failed = error,
             }
         }
-        Err(BoardError::StillArmed(TRIES))
+        Err(failed)
     }
 
     /// Waits for the tick at which a committed configuration acts, by calling `wait`, and compares what is in
@@ -582,6 +648,101 @@ mod tests {
         assert!(!board.status().unwrap().armed);
         let message = board.arm().unwrap_err().to_string();
         assert!(message.contains("emergency-stop"), "{message}");
+    }
+
+    #[test]
+    fn what_stood_is_named_and_cleared_at_arming() {
+        let (mut board, _) = ready();
+        board.bus.inner.tick(&Pins { encoder_errors: 0b0010, ..Pins::default() });
+        assert!(!board.status().unwrap().armed);
+        let stood = board.arm().unwrap();
+        assert!(board.status().unwrap().armed && stood.is_notable());
+        assert_eq!(stood.to_string(), "encoder; encoder error on axis 2");
+        assert_eq!(board.standing().unwrap(), Standing::default());
+        board.disarm().unwrap();
+        assert!(!board.arm().unwrap().is_notable());
+    }
+
+    #[test]
+    fn a_blocked_wheel_can_drive_again_once_it_is_free() {
+        let (mut board, scale) = ready();
+        let mut driven = 0;
+        while board.status().unwrap().armed && driven < 1_000 {
+            board.set_twist(&scale, Twist { vx: 1.0, vy: 0.0, omega: 0.0 }).unwrap();
+            board.bus.inner.tick(&Pins::default());
+            driven += 1;
+        }
+        // 0.2 s at more than half duty, which the integrator needs some time to reach.
+        assert!((200..800).contains(&driven), "{driven} ticks");
+        let stood = board.arm().unwrap();
+        assert!(stood.stalls != 0 && stood.to_string().contains("stall on axis "), "{stood}");
+        board.bus.inner.tick(&Pins::default());
+        assert!(board.status().unwrap().armed);
+    }
+
+    #[test]
+    fn a_fault_that_still_stands_is_named_with_its_axis() {
+        /// An encoder that is broken for good: its error cannot be cleared.
+        struct Broken(Card);
+        impl Registers for Broken {
+            fn read(&mut self, offset: u16) -> Result<u32, BusError> {
+                Ok(self.0.read(offset))
+            }
+            fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
+                if offset != map::ENCODER_ERROR.offset {
+                    self.0.write(offset, data);
+                }
+                Ok(())
+            }
+        }
+        let (board, _) = ready();
+        let mut card = board.bus.inner;
+        card.tick(&Pins { encoder_errors: 0b0100, ..Pins::default() });
+        let message = Board::new(Broken(card)).arm().unwrap_err().to_string();
+        assert!(message.contains("refused to arm") && message.contains("encoder error on axis 3"), "{message}");
+    }
+
+    /// A bus on which so many transfers fail from one on.
+    struct Failing {
+        card: Card,
+        transfers: usize,
+        fails: std::ops::Range<usize>,
+    }
+
+    impl Failing {
+        fn fails(&mut self) -> bool {
+            self.transfers += 1;
+            self.fails.contains(&(self.transfers - 1))
+        }
+    }
+
+    impl Registers for Failing {
+        fn read(&mut self, offset: u16) -> Result<u32, BusError> {
+            if self.fails() { Err(BusError::read(offset, "a parity error")) } else { Ok(self.card.read(offset)) }
+        }
+        fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
+            if self.fails() {
+                return Err(BusError::write(offset, "a parity error"));
+            }
+            self.card.write(offset, data);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_bus_error_does_not_keep_the_outputs_on() {
+        for fails in [0..1, 0..2, 1..2, 1..3] {
+            let (board, _) = ready();
+            let mut board = Board::new(Failing { card: board.bus.inner, transfers: 0, fails: fails.clone() });
+            let disarmed = board.disarm();
+            assert!(!board.bus.card.armed(), "transfers {fails:?} fail");
+            assert!(disarmed.is_ok(), "{fails:?}: {disarmed:?}");
+        }
+        let (board, _) = ready();
+        let mut board = Board::new(Failing { card: board.bus.inner, transfers: 0, fails: 0..usize::MAX });
+        let message = board.disarm().unwrap_err().to_string();
+        assert!(message.contains("parity error"), "{message}");
+        assert_eq!(board.bus.transfers, 3, "it writes zero on every try");
     }
 
     /// A bus that flips one bit of one write.

@@ -23,7 +23,7 @@ pub mod recording;
 mod registers;
 mod scale;
 
-pub use board::{Board, BoardError, Identity, Settings, Snapshot, Status, fault_names};
+pub use board::{Board, BoardError, Identity, Settings, Snapshot, Standing, Status, fault_names};
 pub use observation::Observation;
 pub use pci::{Bar, PciCard, PciError, RegisterWindow};
 pub use registers::{BusError, Recorder, Registers, Transfer};

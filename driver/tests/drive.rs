@@ -7,6 +7,7 @@ use driver::drive::{Driven, Ending, Fault, NoSource, Plan, PoseSource};
 use driver::recording::Recording;
 use model::trajectory::{Arrival, SetPoint};
 use runs::frames::Pose;
+use runs::output::Existing;
 use runs::robot::Robot;
 use runs::{Layout, Run};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +28,7 @@ fn drive(plan: &Plan, card: &Treadmill, recording: Option<&mut Recording>) -> Dr
 fn a_set_point_is_reached_recorded_and_left_switched_off() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.csv");
-    let mut recording = Recording::start(&path, Layout::of_robot(3, false)).unwrap();
+    let mut recording = Recording::start(&path, Layout::of_robot(3, false), Existing::Refuse).unwrap();
     let card = Treadmill::new();
     let driven = drive(&plan(60.0), &card, Some(&mut recording));
     assert!(matches!(driven.ending, Ending::Finished), "{:?}", driven.ending);
@@ -53,7 +54,8 @@ fn the_loop_allocates_nothing_recording_and_camera_included() {
     }
     let allocations = |seconds: f64| {
         let folder = tempfile::tempdir().unwrap();
-        let mut recording = Recording::start(&folder.path().join("run.csv"), Layout::of_robot(3, true)).unwrap();
+        let mut recording =
+            Recording::start(&folder.path().join("run.csv"), Layout::of_robot(3, true), Existing::Refuse).unwrap();
         let robot = Robot { camera_latency_s: 0.05, ..Robot::racbot() };
         let plan = Plan { fused: true, limit_s: seconds, ..Plan::new(&robot, &[SetPoint::pass(90.0, 0.0, 1.0, 0.0)]) };
         let (card, never) = (Treadmill::new(), AtomicBool::new(false));

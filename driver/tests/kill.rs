@@ -3,6 +3,7 @@
 use driver::realtime::{Clock, MonotonicClock, Timer};
 use driver::recording::{Recording, Sample};
 use fixed_kin::AXES;
+use runs::output::Existing;
 use runs::{Layout, Run};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -13,7 +14,9 @@ const FILE: &str = "RACBOT_TEST_RECORDS_TO";
 
 /// Not a test of its own: what the child runs, forever.
 fn record_until_killed(path: &Path) -> ! {
-    let mut recording = Recording::start(path, Layout::of_robot(3, true)).unwrap();
+    let mut recording = Recording::start(path, Layout::of_robot(3, true), Existing::Refuse).unwrap();
+    // However long this machine lets the other thread wait.
+    recording.wait_where_full();
     let mut clock = MonotonicClock;
     let mut timer = Timer::new(Duration::from_micros(500), &mut clock);
     let begun = clock.now();

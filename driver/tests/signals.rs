@@ -36,7 +36,7 @@ impl Clock for Slow {
 fn drive_until_asked() {
     let stop = stop_on_signals().unwrap();
     let card = Treadmill::new();
-    let plan = Plan { limit_s: 30.0, ..Plan::new(&Robot::racbot(), &[SetPoint::pass(90.0, 0.0, 1.0, 0.0)]) };
+    let plan = Plan { limit_s: 3_600.0, ..Plan::new(&Robot::racbot(), &[SetPoint::pass(9_000.0, 0.0, 1.0, 0.0)]) };
     println!("begins");
     let mut clock = Slow(card.clone());
     let driven = plan.drive(Board::new(card.clone()), &mut clock, CLOCK_HZ, &mut NoSource, None, &stop).unwrap();

@@ -105,10 +105,11 @@ pub struct Card {
     index_clear: u8,
     plain: Plain,
     content_hash: u32,
+    target: map::Target,
     configuration: [[i32; CONFIGURATION_WORDS]; 2],
     parsed: Configuration,
     set_points: [[i32; SET_POINT_WORDS]; 2],
-    snapshots: [[u32; map::SNAPSHOT_WORDS]; 2],
+    snapshots: [[u32; map::SNAPSHOT_WORDS]; 3],
     latest: usize,
     held: Option<usize>,
     held_bank: usize,
@@ -122,7 +123,7 @@ impl Card {
     /// A card just configured with a bitstream of this hash.
     #[must_use]
     pub fn new(content_hash: u32) -> Self {
-        Self {
+        let mut card = Self {
             core: Core::default(),
             commit: Commit::default(),
             safety: Safety::default(),
@@ -155,10 +156,11 @@ impl Card {
                 interrupt_enable: map::INTERRUPT_ENABLE.reset,
             },
             content_hash,
+            target: map::BOARD_4I65,
             configuration: [[0; CONFIGURATION_WORDS]; 2],
             parsed: Configuration::default(),
             set_points: [[0; SET_POINT_WORDS]; 2],
-            snapshots: [[0; map::SNAPSHOT_WORDS]; 2],
+            snapshots: [[0; map::SNAPSHOT_WORDS]; 3],
             latest: 0,
             held: None,
             held_bank: 0,
@@ -166,13 +168,22 @@ impl Card {
             time: 0,
             pins: Pins::default(),
             encoder_errors: 0,
-        }
+        };
+        // The capacitor counts as full until its input has been low for a while.
+        card.kicker.clock(&card.kicker_inputs());
+        card
     }
 
     /// As [`Self::new`], with the straps of a robot without a PC, 0 to 15: commanded by radio.
     #[must_use]
     pub fn slave(content_hash: u32, robot: u8) -> Self {
         Self { link: Link::new(robot), by_radio: true, ..Self::new(content_hash) }
+    }
+
+    /// The same design on another board.
+    #[must_use]
+    pub fn on(self, target: map::Target) -> Self {
+        Self { target, ..self }
     }
 
     /// What came over the radio between two silences; acts as a whole, in no time, if the radio commands.
@@ -224,6 +235,8 @@ impl Card {
         }
         match register.offset {
             o if o == map::CONTENT_HASH.offset => self.content_hash,
+            o if o == map::BOARD.offset => self.target.word,
+            o if o == map::CLOCK_HZ.offset => self.target.clock_hz,
             o if o == map::TIME.offset => self.time,
             o if o == map::FAULTS.offset => u32::from(self.safety.outputs().faults),
             o if o == map::FIRST_FAULT.offset => u32::from(self.safety.outputs().first_fault),
@@ -234,6 +247,8 @@ impl Card {
             }
             o if o == map::ENCODER_ERROR.offset => u32::from(self.encoder_errors),
             o if o == map::KICKER_STATUS.offset => self.kicker_status(),
+            // Levels of the lines are not here, only what was counted of them.
+            o if o == map::ENCODER_LINES.offset => 0,
             o if o == map::STALL.offset => self.stalled(),
             o if o == map::INDEX_STATUS.offset => {
                 map::INDEX_WAITING.place(self.index_waiting.into()) | map::INDEX_SEEN.place(self.index_seen.into())
@@ -256,7 +271,9 @@ impl Card {
             }
             o if o == map::INDEX_POSITION.offset => self.core.index_positions[index] as u32,
             o if o == map::INTEGRALS.offset => self.core.loops[index].integral.to_bits() as u32,
-            o if o >= map::SNAPSHOT_SEQUENCE.offset => self.read_snapshot(usize::from(o - 0x800) / 4 + index),
+            o if o >= map::SNAPSHOT_SEQUENCE.offset => {
+                self.read_snapshot(usize::from(o - map::SNAPSHOT_SEQUENCE.offset) / 4 + index)
+            }
             _ if register.access == map::Access::ReadOnly => register.reset,
             _ => 0,
         }
@@ -289,6 +306,9 @@ impl Card {
         }
         if let Some((place, mask)) = self.plain.of(register) {
             *place = data & mask;
+            if register.offset == map::KICKER_CONTROL.offset {
+                self.kicker.clock(&self.kicker_inputs());
+            }
             return;
         }
         let quiet = self.safety_inputs();
@@ -297,7 +317,7 @@ impl Card {
                 self.safety.clock(&safety::Inputs { arm_write: true, arm_data: data, ..quiet });
             }
             o if o == map::FAULTS.offset && data != 0 => {
-                self.safety.clock(&safety::Inputs { clear_faults: true, ..quiet });
+                self.safety.clock(&safety::Inputs { clear_faults: data as u8, ..quiet });
                 self.kicker.clock(&kicker::Inputs { clear: true, ..self.kicker_inputs() });
             }
             o if o == map::ENCODER_ERROR.offset => self.encoder_errors &= !(data as u8),
@@ -441,7 +461,7 @@ impl Card {
     }
 
     fn publish(&mut self, outputs: &TickOutputs, now: u32, safe: safety::Outputs) {
-        let bank = 1 - self.held.unwrap_or(self.latest);
+        let bank = free_bank(self.latest, self.held.unwrap_or(self.latest));
         self.sequence = self.sequence.wrapping_add(1);
         // What is pending is over at the tick.
         let (status, faults) = (self.status() & 0x0F, u32::from(safe.faults));
@@ -479,6 +499,7 @@ impl Card {
     fn kicker_status(&self) -> u32 {
         let outputs = self.kicker.outputs();
         map::KICKER_STATE.place(outputs.state.into())
+            | map::KICKER_ON_BALL.place(outputs.on_ball.into())
             | map::KICKER_READY.place(outputs.ready.into())
             | map::KICKER_TIMED_OUT.place(outputs.timed_out.into())
             | map::KICKER_DROPPED.place(outputs.dropped.into())
@@ -524,6 +545,17 @@ impl Card {
     }
 }
 
+/// The bank that a tick writes: neither the latest nor the one a reader holds.
+const fn free_bank(latest: usize, held: usize) -> usize {
+    if latest != held {
+        3 - latest - held
+    } else if latest == 0 {
+        1
+    } else {
+        0
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -565,10 +597,12 @@ mod tests {
     fn identification_and_reset_values() {
         let mut card = Card::new(0xABCD);
         for register in map::REGISTERS {
-            let live = [map::FAULTS, map::FIRST_FAULT].iter().any(|r| r.offset == register.offset);
-            let expected = if register.offset == map::CONTENT_HASH.offset { 0xABCD } else { register.reset };
-            if !live && register.access != map::Access::WriteOnly {
-                assert_eq!(card.read(register.offset), expected, "{}", register.name);
+            // Faults of power-up come with the first clocks, which the card does not have.
+            let faults = [map::FAULTS, map::FIRST_FAULT].iter().any(|r| r.offset == register.offset);
+            let reset = if register.offset == map::CONTENT_HASH.offset { 0xABCD } else { register.reset };
+            let live = if register.offset == map::KICKER_STATUS.offset { 0 } else { register.live };
+            if !faults {
+                assert_eq!(card.read(register.offset) & !live, reset & !live, "{}", register.name);
             }
         }
         assert_eq!(card.read(0x3FC), 0);
@@ -654,6 +688,39 @@ mod tests {
         card.write(map::ARM.offset, 0);
         card.write(map::PWM_PERIOD.offset, 5);
         assert_eq!(card.read(map::PWM_PERIOD.offset), 5);
+    }
+
+    #[test]
+    fn word_0_is_always_of_the_last_tick_however_a_reader_holds() {
+        let mut card = Card::new(0);
+        for tick in 1..50 {
+            card.tick(&Pins::default());
+            assert_eq!(card.read(map::SNAPSHOT_SEQUENCE.offset), tick);
+            if tick % 3 == 0 {
+                assert_eq!(card.read(map::SNAPSHOT_SEQUENCE_END.offset), tick);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sticky_fault_whose_cause_is_gone_does_not_keep_from_arming() {
+        let mut card = driving();
+        card.tick(&Pins { emergency_stop: true, ..Pins::default() });
+        assert!(!card.armed());
+        card.tick(&Pins::default());
+        stage(&mut card, &map::SET_POINTS, &map::COMMIT_SET_POINTS, &[0; 4]);
+        card.write(map::COMMIT_SET_POINTS.offset, 1);
+        for word in [safety::ARM_SECOND, safety::ARM_FIRST, safety::ARM_SECOND] {
+            card.write(map::ARM.offset, word);
+        }
+        assert!(card.armed());
+        let faults = [safety::Fault::EmergencyStop, safety::Fault::CommitChecksum, safety::Fault::ArmRefused];
+        for fault in faults {
+            let before = card.read(map::FAULTS.offset);
+            assert_eq!(before & u32::from(fault.mask()), u32::from(fault.mask()), "{fault:?}");
+            card.write(map::FAULTS.offset, fault.mask().into());
+            assert_eq!(card.read(map::FAULTS.offset), before & !u32::from(fault.mask()), "a one clears its bit alone");
+        }
     }
 
     #[test]

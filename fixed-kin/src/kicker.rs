@@ -14,8 +14,13 @@
 //! value stretches the longest pulse beyond [`MAXIMUM_PULSE_CLOCKS`].
 //!
 //! Charging pauses while the capacitor is full and goes on when it is not; the comparator in front of
-//! `full` has the hysteresis. An open wire reads as full. The time-out counts the charging since it was
-//! last full.
+//! `full` has the hysteresis. An open wire reads as full. The time-out counts all charging since the
+//! capacitor was last full, the last pulse or the last time the card was disarmed, whichever came last:
+//! neither a new request nor clearing the flag gives more, so a charger that never gets the capacitor full
+//! runs for one time-out in an arming.
+//!
+//! The ball trigger has one shot for every time `arm_on_ball` rises while enabled. One that was set before,
+//! or stands while the card is disarmed, has none: it must drop and rise again.
 //!
 //! The pulse is not the kick strength where a triac switches: it conducts until its current ends.
 //! Hence the commutation time before charging.
@@ -95,9 +100,9 @@ pub struct Inputs {
     pub lockout: u32,
     /// Raw ball sensor, true = ball.
     pub ball: bool,
-    /// Level: fire when the ball is seen, once until this drops or the kicker is disabled.
+    /// Level: fire when the ball is seen, once for every rise of this while enabled.
     pub arm_on_ball: bool,
-    /// Strobe: clears the sticky flags and a charging time-out.
+    /// Strobe: clears the sticky flags; a charging time-out that still stops the charger stays.
     pub clear: bool,
     /// Raw pin, high or open: the capacitor is full.
     pub full: bool,
@@ -122,6 +127,8 @@ pub struct Outputs {
     pub dropped: bool,
     /// The capacitor is full, filtered.
     pub is_full: bool,
+    /// The next ball fires.
+    pub on_ball: bool,
 }
 
 /// State of the kicker block.
@@ -135,7 +142,7 @@ pub struct Kicker {
     elapsed: u32,
     /// Strobes until a pulse may begin.
     gap: u16,
-    /// Strobes of charging since the request or the last pulse.
+    /// Strobes of charging since the capacitor was full, the last pulse, or disarmed.
     charged: u32,
     /// The ball trigger has had its shot.
     spent: bool,
@@ -197,7 +204,7 @@ impl Kicker {
         self.spent = inputs.arm_on_ball && (before.spent || !inputs.enable || accepts);
 
         let expired = before.charged >= inputs.charge_timeout & CHARGE_MASK;
-        if !inputs.charge_request || full || before.state == State::Pulse || (inputs.clear && expired) {
+        if !inputs.enable || full || before.state == State::Pulse {
             self.charged = 0;
         } else if inputs.microsecond && before.outputs.charge && !expired {
             self.charged = before.charged + 1;
@@ -214,9 +221,11 @@ impl Kicker {
             trigger: self.state == State::Pulse,
             ready: self.state == State::Ready && pulse != 0,
             state: self.state as u8,
-            timed_out: (before.outputs.timed_out && !inputs.clear) || (before.outputs.charge && expired),
+            timed_out: (before.outputs.timed_out && !(inputs.clear && (!expired || !inputs.enable)))
+                || (before.outputs.charge && expired),
             dropped: (before.outputs.dropped && !inputs.clear) || (inputs.fire && !takes) || cancels,
             is_full: !self.hungry.value,
+            on_ball: inputs.arm_on_ball && !self.spent,
         };
         self.outputs
     }

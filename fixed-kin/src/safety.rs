@@ -14,6 +14,9 @@
 //!
 //! Set points time out before the watchdog bites: at the `set_point_timeout`-th control tick after a
 //! pet `setpoints_valid` falls, the wheels are to stand, and the outputs stay armed.
+//!
+//! What keeps from arming is the cause itself, as long as it stands: [`Fault::disarms`]. A sticky bit whose
+//! cause is gone does not, nor do the two faults that only report.
 
 use crate::encoder::GlitchFilter;
 
@@ -100,8 +103,8 @@ pub struct Inputs {
     pub commit_fault: bool,
     /// Level: link loss or another block's fault.
     pub external_fault: bool,
-    /// Strobe: clears both fault registers; what still stands appears again at the same clock.
-    pub clear_faults: bool,
+    /// Strobe: bits to clear in both fault registers; what still stands appears again at the same clock.
+    pub clear_faults: u8,
     /// Strobe: a control tick.
     pub tick: bool,
     /// Control ticks a set point lasts, 16 bits; 0 = none at all.
@@ -117,7 +120,7 @@ pub struct Outputs {
     pub setpoints_valid: bool,
     /// Sticky faults, bits as in [`Fault`].
     pub faults: u8,
-    /// Those that came first since the last clearing.
+    /// Those that came first and have not been cleared since.
     pub first_fault: u8,
     /// The emergency stop stands, synchronised and filtered.
     pub stopped: bool,
@@ -172,15 +175,11 @@ impl Safety {
             | Fault::External.when(inputs.external_fault)
             | Fault::ArmRefused.when(refused)
             | Fault::Stall.when(inputs.stall_fault);
-        if inputs.clear_faults {
-            self.outputs.faults = events;
-            self.outputs.first_fault = events;
-        } else {
-            self.outputs.faults |= events;
-            if before.outputs.first_fault == 0 {
-                self.outputs.first_fault = events;
-            }
-        }
+        self.outputs.faults = (before.outputs.faults & !inputs.clear_faults) | events;
+        self.outputs.first_fault = match before.outputs.first_fault & !inputs.clear_faults {
+            0 => events,
+            first => first,
+        };
         self.outputs
     }
 

@@ -31,8 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .iter()
             .map(|e| {
                 let p: Vec<String> =
-                    e.parameters.iter().map(|(n, v, ci)| format!("{n}={v:.4}[{:.4},{:.4}]", ci[0], ci[1])).collect();
-                format!("{}{:?}({}) g{:.2} p{:.4}", e.name, e.wheels, p.join(","), e.gain, e.p_value)
+                    e.parameters.iter().map(|(n, v, known)| format!("{n}={v:.4}{:?}", known.ends())).collect();
+                format!("{}{:?}({}) g{:.2} {}", e.name, e.wheels, p.join(","), e.gain, e.evidence.words())
             })
             .collect();
         let j = a.to_json();

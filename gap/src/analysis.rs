@@ -2,9 +2,11 @@
 
 mod driven;
 mod gaps;
+mod measure;
 mod order;
 mod patterns;
 mod robot_file;
+mod study;
 
 use std::sync::Arc;
 
@@ -13,18 +15,21 @@ use runs::{DataSet, Logs};
 
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link, Sizes};
+use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Options, Thresholds};
 use crate::pieces::{PIECE, segments};
-use crate::problem::{Owner, Problem};
-use crate::select::{self, Bench, Selection};
+use crate::problem::Problem;
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
+use gaps::Remains;
+use measure::{Data, Drive, Measured, MeasuredDrive};
 use order::{ORDER, order_named, wheel_order};
 use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
+use study::{FAR as FAR_OFF, Outcome, chosen};
 
 pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
@@ -41,6 +46,8 @@ pub enum Verdict {
     Ambiguous,
     /// Something significant and structured is left that no effect explains.
     Unexplained,
+    /// Nothing in the logs had any weight: the remarks say what would be needed.
+    NotCompared,
 }
 
 impl Verdict {
@@ -51,6 +58,7 @@ impl Verdict {
             Self::MissingEffect => "missing-effect",
             Self::Ambiguous => "ambiguous",
             Self::Unexplained => "unexplained",
+            Self::NotCompared => "not-compared",
         }
     }
 }
@@ -79,12 +87,12 @@ pub struct Named {
     pub link: Link,
     /// Wheels from 1; empty for the whole robot.
     pub wheels: Vec<usize>,
-    /// Parameters with 95 % intervals.
-    pub parameters: Vec<(String, f64, [f64; 2])>,
-    /// Share of the link's squared gap it closes, 0 to 1.
+    /// Parameters, and how well each is known.
+    pub parameters: Vec<(String, f64, Interval)>,
+    /// Share of its link's squared gap that comes back if it alone is taken out of the written file, 0 to 1.
     pub gain: f64,
-    /// By flipping the signs of clusters.
-    pub p_value: f64,
+    /// What the name rests on.
+    pub evidence: Evidence,
 }
 
 /// An effect that is detectable but immaterial, or the limit from which it would be named.
@@ -155,6 +163,12 @@ pub struct Analysis {
     pub drive: Option<[DriveResiduals; 2]>,
     /// What was driven where those residuals are, and what the camera saw.
     pub driven: Driven,
+    /// Windows of the motion link, s.
+    pub window_s: f64,
+    /// Held-out RMS in floors of the links that were fitted: every run predicted by what the others say.
+    pub held_out: Vec<(Link, f64)>,
+    /// What remains beside what is named, one sentence a link.
+    pub remains: Vec<String>,
     /// What could not be compared, and why.
     pub remarks: Vec<String>,
     /// Deterministic links.
@@ -164,8 +178,11 @@ pub struct Analysis {
 /// Whole runs that a report shows.
 const SHOWN: usize = 4;
 
-/// Share of the stall torque beyond which scatter is no noise of a drive.
+/// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
+
+/// Share of a link's gap that must be left at most once its effects stand in the file.
+const FALLS: f64 = 0.98;
 
 /// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
 const SEEN: f64 = 2.0;
@@ -200,10 +217,13 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
         }
     }
-    let catalogue: Vec<Arc<dyn Effect>> =
-        effects::catalogue().into_iter().map(Arc::from).chain(options.effects.iter().cloned()).collect();
+    let catalogue: Vec<Arc<dyn Effect>> = effects::catalogue_for(set.logs.len())
+        .into_iter()
+        .map(Arc::from)
+        .chain(options.effects.iter().cloned())
+        .collect();
     let mut start = State { robot: robot.clone(), active: given(robot, &catalogue) };
-    let mut remarks: Vec<String> = Vec::new();
+    let mut remarks = set.notes();
     let mut exact: Vec<ExactLink> = [
         timing::analyse(robot, &set.logs),
         command::analyse(robot, &geometry, &set.logs, &mut remarks),
@@ -225,8 +245,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut pieces = segments(robot, &geometry, &set.logs, PIECE);
     let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
     let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-    let order = wheel_order(&MotionLink::new(&pieces, noise, 1.0), &start, &catalogue);
-    if let Some((active, _)) = &order {
+    let window_s = crate::motion::WINDOW_S;
+    let order = wheel_order(&MotionLink::new(&pieces, noise, window_s), &start, &catalogue);
+    let cabled = |a: &&Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
+    let wired = order.as_ref().map(|o| o.0.clone()).or_else(|| start.active.iter().find(cabled).cloned());
+    if let Some(active) = &wired {
         // Everything derived from the wheels follows their true order.
         let mut wheels = crate::motion::MotionModel::new(robot);
         active.effect.motion(&active.values, &mut wheels);
@@ -238,172 +261,120 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     let mut thresholds = options.thresholds.clone();
-    let motion_link = MotionLink::new(&pieces, noise, 1.0);
-    let mut links: Vec<LinkGap> = Vec::new();
-    let mut located = Vec::new();
-    let mut named = Vec::new();
-    let mut alternatives = Vec::new();
-    let mut limits = Vec::new();
-    let mut unexplained = Vec::new();
-    let mut waterfall_parts: Vec<(String, Link, f64)> = Vec::new();
-    let mut ambiguous = false;
+    let motion_link = MotionLink::new(&pieces, noise, window_s);
+    let has_motion = !motion_link.is_empty() && robot.support == Support::Floor;
+    let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
+    start = data.state(&set.robot);
     let nominal = start.clone();
-    let mut found: Vec<Active> = Vec::new();
+    let mut study = Findings::default();
 
     if let Some((active, gain)) = order {
-        named.push(order_named(&active, gain));
-        found.push(active.clone());
+        study.named.push(order_named(&active, gain));
+        study.found.push(active.clone());
         start.active.push(active);
     }
-    unexplained.extend(crate::leftover::frozen(&pieces));
-    unexplained.extend(crate::leftover::torn(&pieces));
-    let mut driven = Driven::default();
-    let mut motion_plots = None;
-    let mut whole = None;
-    if motion_link.is_empty() || robot.support == Support::Blocks {
-        remarks.push(missing(set));
-    } else {
+    study.unexplained.extend(crate::leftover::frozen(&pieces));
+    study.unexplained.extend(crate::leftover::torn(&pieces));
+    let mut seen = None;
+    if has_motion {
         let problem = Problem::Motion(&motion_link);
-        let matters = gaps::motion_matters(noise);
-        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, matters);
-        let outcome = study(&problem, [&nominal, &start], selection, &catalogue, &thresholds);
-        let before = motion_link.residuals(&nominal.motion(None));
-        located.extend(crate::locate::motion(&motion_link, &before));
-        let plots = [before, motion_link.residuals(&outcome.selection.state.motion(None))];
-        links.push(gaps::motion_gap([outcome.before, outcome.after], noise, &plots));
-        let uncut = MotionLink::new(&pieces, noise, f64::INFINITY).first(SHOWN);
-        whole = Some([uncut.residuals(&nominal.motion(None)), uncut.residuals(&outcome.selection.state.motion(None))]);
-        driven.frames = Driven::at_frames(&pieces, &plots[0]);
-        driven.seen = Driven::seen(&pieces, SHOWN);
-        motion_plots = Some(plots);
-        collect(
-            &outcome,
-            Link::Motion,
-            &mut named,
-            &mut alternatives,
-            &mut limits,
-            &mut unexplained,
-            &mut waterfall_parts,
-            &mut ambiguous,
-        );
-        found.extend(outcome.selection.state.active[start.active.len()..].iter().filter(|a| a.worth()).cloned());
-        start = outcome.selection.state.clone();
+        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(noise));
+        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, FAR_OFF);
+        seen = Some(motion_link.residuals(&outcome.written.motion(None)));
+        start = study.take(outcome, Link::Motion, start.active.len());
         start.active.iter_mut().for_each(|a| a.given = true);
+    } else {
+        remarks.push(missing(set));
     }
-    let mut drive_plots = None;
-    let mut drive_noise = Vec::new();
-    if let Some(mut link) = DriveLink::new(&pieces, &start.drive(None)) {
-        link.mask_slip(&start.motion(None));
+    if let Some(found) = data.drive(&start, seen.as_ref()) {
+        let Drive { mut link, correlation, .. } = found;
+        let mut floor = link.noise.clone();
         let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
-        if slides {
-            // Where the law of slip did not catch what slipped, Newton's law has no body to push.
-            let misses = Misses::new(motion_plots.as_ref().map(|p: &[Vec<WindowResiduals>; 2]| &p[1]), FAR_AMISS);
-            link.mask_times(|run, t| misses.are_near(run, t));
-        }
-        if let Some(residuals) = link.residuals(&start.drive(None)) {
-            let stall = Sizes::of(robot).stall_nm;
-            let (mut floor, correlation) = crate::drive::floor(&link, &residuals, stall);
-            link.noise.clone_from(&floor);
-            if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * stall) {
-                let structure = format!(
-                    "what the duties predict scatters by {:.0} mNm, {:.0} % of the stall torque, at random: are these the \
-                     duties of this drive?",
-                    1e3 * worst,
-                    100.0 * worst / stall
-                );
-                unexplained.push(Leftover { link: Link::Drive, structure });
-            }
-            thresholds.drive_correlation = correlation;
-            // What a camera would have shown is not deduced from duties.
-            let shown = |e: &Arc<dyn Effect>| {
-                let own = limits.iter().filter(|l: &&Limit| l.name == e.name());
-                e.also() == Some(Link::Drive)
-                    && own.clone().count() > 0
-                    && own.clone().all(|l| l.limit < SEEN * l.material)
-            };
-            let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-            let matters = |floor: &[f64]| gaps::drive_matters(floor, stall);
-            let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
-                chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
-            };
-            let from = start.active.len();
-            let mut selection = looked(&link, &thresholds, &[], &floor);
-            // What has a name now is no noise: the next effect is looked for above the floor without it.
-            for _ in 0..LOOKS {
-                if !selection.state.active[from..].iter().any(Active::is_named) {
-                    break;
-                }
-                let noise = (&floor[..], thresholds.drive_correlation);
-                let Some((lower, correlation)) = lowered(&link, &selection.state, noise, stall) else { break };
-                link.noise.clone_from(&lower);
-                floor = lower;
-                thresholds.drive_correlation = correlation;
-                selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
-            }
-            let mut outcome = study(&Problem::Drive(&link), [&nominal, &start], selection, &here, &thresholds);
-            drive_noise.clone_from(&floor);
-            let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
-                .filter(|r| !slides && robot.effect(&r.name).is_none());
-            if rattling.is_some() && !outcome.named.is_empty() {
-                let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
-                remarks.push(format!(
-                    "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
-                    names.join(", ")
-                ));
-                (outcome.after, outcome.ambiguous) = (outcome.before, false);
-                outcome.named.clear();
-                outcome.sets.clear();
-            }
-            let before = link.residuals(&nominal.drive(None)).unwrap_or(residuals);
-            located.extend(crate::locate::drive(&link, &before, &floor, stall));
-            let after = link.residuals(&outcome.selection.state.drive(None)).unwrap_or_else(|| before.clone());
-            let plots = [before, after];
-            links.push(gaps::drive_gap([outcome.before, outcome.after], &floor, &plots));
-            let model = outcome.selection.state.drive(None);
-            let misses = Misses::new(motion_plots.as_ref().map(|p| &p[1]), FAR);
-            let rolls = |run: usize, t: f64| !misses.are_near(run, t);
-            let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, Sizes::of(robot));
-            // Beside a named effect only what its law's inexactness cannot leave.
-            let explained = if outcome.named.is_empty() { 0.0 } else { outcome.before.powi(2) - outcome.after.powi(2) };
-            for structure in leftover.structures {
-                if structure.share * outcome.after.powi(2) >= LAW_LEAVES * explained {
-                    unexplained.push(Leftover { link: Link::Drive, structure: structure.text });
-                } else {
-                    remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
-                }
-            }
-            // Wheels that slide chatter from roller to roller.
-            if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none() && !slides) {
-                named.push(ripple_named(&ripple, &catalogue));
-            }
-            if rattling.is_some() && motion_plots.is_none() {
-                // Sliding wheels shake, too; a camera would have seen that.
-                alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
-            }
-            named.extend(rattling);
-            collect(
-                &outcome,
-                Link::Drive,
-                &mut named,
-                &mut alternatives,
-                &mut limits,
-                &mut unexplained,
-                &mut waterfall_parts,
-                &mut ambiguous,
+        let reached = link.sizes.drive_nm;
+        if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * reached) {
+            let structure = format!(
+                "what the duties predict scatters by {:.0} mNm, {:.0} % of what they reach, at random: are these the \
+                 duties of this drive?",
+                1e3 * worst,
+                100.0 * worst / reached
             );
-            found.extend(outcome.selection.state.active[start.active.len()..].iter().filter(|a| a.worth()).cloned());
-            driven.bumps = Driven::at_bumps(&link);
-            drive_plots = Some(plots);
+            study.leave(Link::Drive, [structure]);
         }
+        thresholds.drive_correlation = correlation;
+        // What a camera would have shown is not deduced from duties.
+        let limits = &study.limits;
+        let shown = |e: &Arc<dyn Effect>| {
+            let own = limits.iter().filter(|l: &&Limit| l.name == e.name());
+            e.also() == Some(Link::Drive) && own.clone().count() > 0 && own.clone().all(|l| l.limit < SEEN * l.material)
+        };
+        let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
+        let matters = |floor: &[f64]| gaps::drive_matters(floor, reached);
+        let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
+            chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
+        };
+        let from = start.active.len();
+        let mut selection = looked(&link, &thresholds, &[], &floor);
+        // What has a name now is no noise: the next effect is looked for above the floor without it.
+        for _ in 0..LOOKS {
+            if !selection.state.active[from..].iter().any(Active::is_named) {
+                break;
+            }
+            let noise = (&floor[..], thresholds.drive_correlation);
+            let Some((lower, correlation)) = lowered(&link, &selection.state, noise, reached) else { break };
+            link.noise.clone_from(&lower);
+            floor = lower;
+            thresholds.drive_correlation = correlation;
+            selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
+        }
+        let far = FAR_OFF.max(matters(&floor));
+        let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, far);
+        let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
+            .filter(|r| !slides && robot.effect(&r.name).is_none());
+        if rattling.is_some() && !outcome.named.is_empty() {
+            let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
+            remarks.push(format!(
+                "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
+                names.join(", ")
+            ));
+            outcome.forget(&start);
+        }
+        let [before, after] = [&start, &outcome.written].map(|s| study::rms(&Problem::Drive(&link), s));
+        let misses = Misses::new(seen.as_ref(), FAR);
+        let rolls = |run: usize, t: f64| !misses.are_near(run, t);
+        let model = outcome.selection.state.drive(None);
+        let leftover = crate::leftover::drive(&pieces, &model, &link.masked(), &rolls, link.sizes);
+        // Beside a named effect only what its law's inexactness cannot leave.
+        let explained = if outcome.named.is_empty() { 0.0 } else { before.powi(2) - after.powi(2) };
+        for structure in leftover.structures {
+            if structure.share * after.powi(2) >= LAW_LEAVES * explained {
+                study.leave(Link::Drive, [structure.text]);
+            } else {
+                remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
+            }
+        }
+        // Wheels that slide chatter from roller to roller.
+        if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none() && !slides) {
+            match ripple_named(&ripple, robot, &catalogue) {
+                Ok(ripple) => study.named.push(ripple),
+                Err(structure) => study.leave(Link::Drive, [structure]),
+            }
+        }
+        if rattling.is_some() && !has_motion {
+            // Sliding wheels shake, too; a camera would have seen that.
+            study.alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
+        }
+        study.named.extend(rattling);
+        study.take(outcome, Link::Drive, from);
     } else {
         remarks.push(
             "No duties in the logs (or none that belong to the wheels): the drive link is not compared.".to_owned(),
         );
     }
+    let mut exact_links = Vec::new();
     for link in &exact {
-        let is_new = |f: &&Finding| f.name == ORDER || !named.iter().any(|n: &Named| n.name == f.name);
+        let is_new = |f: &&Finding| f.name == ORDER || !study.named.iter().any(|n: &Named| n.name == f.name);
         if let Some(f) = link.finding.as_ref().filter(is_new) {
-            named.push(exact_named(f, link));
+            study.named.push(exact_named(f, link));
         } else if link.unexplained {
             let told = link.replay.as_ref().and_then(|r| r.structure.clone());
             let structure = told.unwrap_or_else(|| {
@@ -412,44 +383,127 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                     100.0 * link.wrong_share
                 )
             });
-            unexplained.push(Leftover { link: link.link, structure });
+            study.leave(link.link, [structure]);
         }
         remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
-        located.extend(crate::locate::exact(link));
-        links.push(gaps::exact_gap(link));
+        exact_links.push(gaps::exact_gap(link));
     }
-    if links.is_empty() {
+    let Findings { mut named, mut alternatives, limits, mut unexplained, mut ambiguous, found, refused, held_out } =
+        study;
+    remarks.extend(refused);
+    let odd = odd_clock(robot, &set.logs);
+    if let Some(remark) = &odd {
+        // What was found by that clock is nothing.
+        remarks.push(remark.clone());
+        named.clear();
+        alternatives.clear();
+        unexplained.clear();
+    }
+    let runs: Vec<String> = set.logs.iter().map(|r| r.name.clone()).collect();
+    // What is reported is what the file, read again, gives; where that does not fall, nothing is named.
+    let (robot_with, text, measured) = loop {
+        let robot_with = with_effects(&set.robot, &named, &alternatives, &runs);
+        let text = robot_text(set, options, &robot_with);
+        let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
+        let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
+        let new: Vec<&str> = named.iter().map(|n| n.name.as_str()).collect();
+        let measured = data.measure(&set.robot, &reread, &new);
+        let idle = |n: &Named| {
+            let link = measured.links.iter().find(|l| l.link == n.link);
+            matches!(n.evidence, Evidence::Test { .. })
+                && matches!(n.link, Link::Motion | Link::Drive)
+                && link.is_some_and(|l| l.after >= FALLS * l.before)
+        };
+        if !named.iter().any(idle) {
+            break (robot_with, text, measured);
+        }
+        for n in named.iter().filter(|n| idle(n)) {
+            remarks.push(format!("Fitted, and not named: {}; as written it does not lower the gap.", n.name));
+        }
+        let gone: Vec<String> = named.iter().filter(|n| idle(n)).map(|n| n.name.clone()).collect();
+        named.retain(|n| !gone.contains(&n.name));
+        alternatives.retain(|set| !set.first().is_some_and(|first| gone.contains(first)));
+        ambiguous &= !named.is_empty();
+    };
+    for n in &mut named {
+        if let Some((_, gain)) =
+            measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
+        {
+            n.gain = *gain;
+        }
+    }
+    named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let Measured { mut links, motion: motion_plots, drive, mut driven, steps, .. } = measured;
+    let mut located = Vec::new();
+    if let Some(plots) = &motion_plots {
+        located.extend(crate::locate::motion(&motion_link, &plots[0]));
+    }
+    let stall = Sizes::of(robot).stall_nm;
+    let drive_noise = drive.as_ref().map_or_else(Vec::new, |d| d.floor.clone());
+    if let Some(measured) = &drive
+        && let Some(drive) = data.drive(&data.state(&robot_with), motion_plots.as_ref().map(|p| &p[1]))
+    {
+        located.extend(crate::locate::drive(&drive.link, &measured.plots[0], &measured.floor, stall));
+    }
+    for link in &exact {
+        located.extend(crate::locate::exact(link));
+    }
+    let weightless = gaps::weightless(&pieces, drive.as_ref());
+    links.extend(exact_links);
+    if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
+    }
+    let whole = has_motion.then(|| {
+        let uncut = MotionLink::new(&pieces, noise, f64::INFINITY).first(SHOWN);
+        let now = data.state(&robot_with);
+        [uncut.residuals(&nominal.motion(None)), uncut.residuals(&now.motion(None))]
+    });
+    if has_motion {
+        driven.seen = Driven::seen(&pieces, SHOWN);
     }
     // What slides drives no body as Newton has it: the name says so already.
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
-    let far = links.iter().filter(|l| !slides(l) && !unexplained.iter().any(|u| u.link == l.link));
-    let far: Vec<Leftover> = far.filter_map(|l| gaps::stays_open(l, &located, Sizes::of(robot).stall_nm)).collect();
-    unexplained.extend(far);
+    let mut remains = Vec::new();
+    for l in links.iter().filter(|l| !slides(l)) {
+        let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
+        match gaps::remains(l, &located, far) {
+            _ if odd.is_some() => {}
+            Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
+                unexplained.push(Leftover { link: l.link, structure });
+            }
+            Some(Remains::Open(sentence) | Remains::Beside(sentence)) => remains.push(sentence),
+            None => {}
+        }
+    }
+    let compared = links.iter().filter(|l| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing).count();
+    let weight = if odd.is_some() { 0 } else { compared };
+    let mut why: Vec<String> = weightless.into_iter().map(|w| w.1).collect();
+    why.dedup();
+    remarks.extend(why);
     let structural: Vec<String> = unexplained.iter().map(|u: &Leftover| u.link.name().to_owned()).collect();
     let nearest: Vec<String> =
         named.iter().filter(|n| structural.contains(&n.link.name().to_owned())).map(|n| n.name.clone()).collect();
     let verdict = match () {
         () if !unexplained.is_empty() && named.iter().all(|n| nearest.contains(&n.name)) => Verdict::Unexplained,
+        () if named.is_empty() && weight == 0 => Verdict::NotCompared,
         () if named.is_empty() => Verdict::Agrees,
         () if ambiguous => Verdict::Ambiguous,
         () => Verdict::MissingEffect,
     };
     located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
-    let waterfall = gaps::waterfall(&links, &waterfall_parts);
-    let robot_with =
-        with_effects(&set.robot, &named, &alternatives, &set.logs.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
-    let findings = crate::experiment::Findings {
+    let waterfall = gaps::waterfall(&links, &steps, &named);
+    let known = crate::experiment::Findings {
         robot,
         found: &completed(&robot_with, &set.logs),
         active: &found,
         pieces: &pieces,
         noise: (noise, &drive_noise),
+        window_s,
         thresholds: &thresholds,
         catalogue: &catalogue,
     };
     let next_experiment = match verdict {
-        Verdict::Ambiguous | Verdict::MissingEffect => crate::experiment::propose(&findings, &alternatives),
+        Verdict::Ambiguous | Verdict::MissingEffect => crate::experiment::propose(&known, &alternatives),
         _ => None,
     };
     Ok(Analysis {
@@ -462,19 +516,36 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         next_experiment,
         links,
         limits,
-        robot_text: robot_text(set, options, &robot_with),
+        robot_text: text,
         robot: robot_with,
         tried: catalogue.iter().filter(|e| !e.probe()).map(|e| e.name().to_owned()).collect(),
         whole,
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
-        runs: set.logs.iter().map(|r| r.name.clone()).collect(),
+        runs,
+        window_s,
+        held_out,
+        remains,
         thresholds,
         motion: motion_plots,
-        drive: drive_plots,
+        drive: drive.map(|d| d.plots),
         driven,
         remarks,
         exact,
+    })
+}
+
+/// Control periods between two rows of a log beyond which its times are in another unit.
+const ODD_ROWS: f64 = 300.0;
+
+/// What to say of logs whose times cannot be seconds.
+fn odd_clock(robot: &Robot, logs: &[runs::Log]) -> Option<String> {
+    let periods = logs.iter().filter_map(runs::Log::tick_s).map(|tick| tick * robot.control_rate_hz);
+    periods.filter(|p| *p > 0.0).find(|p| p.max(1.0 / p) > ODD_ROWS).map(|odd| {
+        format!(
+            "Compared nothing: the rows are {odd:.3} control periods apart by the column t and control_rate_hz; t is in seconds \
+             (are these milliseconds?)."
+        )
     })
 }
 
@@ -491,8 +562,6 @@ fn missing(set: &Logs) -> String {
 
 /// RMS residual of a window far from what a second of noise reaches.
 const FAR: f64 = 1.35;
-/// The same where wheels slip, whose law is not exact.
-const FAR_AMISS: f64 = 2.0;
 
 /// Seconds in which the camera saw something else than the wheels said.
 struct Misses(Vec<(usize, f64, f64)>);
@@ -517,18 +586,6 @@ impl Misses {
 /// Share of the explained gap that the inexactness of a law may leave as structure.
 const LAW_LEAVES: f64 = 0.05;
 
-/// A link's selection with everything that is said about it.
-struct Outcome {
-    selection: Selection,
-    before: f64,
-    after: f64,
-    named: Vec<Named>,
-    sets: Vec<Vec<String>>,
-    ambiguous: bool,
-    limits: Vec<Limit>,
-    leftovers: Vec<String>,
-}
-
 /// Looks at the drive again above a floor lowered by what was named.
 const LOOKS: usize = 2;
 /// Share of the information on a small effect that the floor must have hidden for another look.
@@ -549,152 +606,38 @@ fn lowered(
     (noise(&lower, correlated) < (1.0 - HIDDEN) * noise(floor, correlation)).then_some((lower, correlated))
 }
 
-/// Selects on one link, beginning with effects `known` from an earlier look; a gap of more than `matters` noise floors
-/// is not left to adjustments.
-fn chosen(
-    problem: &Problem,
-    start: &State,
-    known: &[Active],
-    catalogue: &[Arc<dyn Effect>],
-    thresholds: &Thresholds,
-    matters: f64,
-) -> Selection {
-    let selection = select::select(problem, start, known, catalogue, thresholds);
-    let (inherited, count) = problem.linearise_nothing(start).plain();
-    let open = (inherited / count.max(1.0)).sqrt();
-    if selection.state.active[start.active.len()..].iter().any(Active::worth)
-        || open <= matters
-        || select::figures(&selection.bench).1 >= 0.7 * open
-    {
-        return selection;
-    }
-    select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
+/// What the links of a data set gave so far.
+#[derive(Default)]
+struct Findings {
+    named: Vec<Named>,
+    alternatives: Vec<Vec<String>>,
+    limits: Vec<Limit>,
+    unexplained: Vec<Leftover>,
+    ambiguous: bool,
+    /// What was found, with values.
+    found: Vec<Active>,
+    refused: Vec<String>,
+    held_out: Vec<(Link, f64)>,
 }
 
-/// Judges what was selected on one link, between the nominal robot and where the study starts.
-fn study(
-    problem: &Problem,
-    [nominal, start]: [&State; 2],
-    selection: Selection,
-    catalogue: &[Arc<dyn Effect>],
-    thresholds: &Thresholds,
-) -> Outcome {
-    let all = select::candidates(start, catalogue, problem.link());
-    let from = start.active.len();
-    let bench = &selection.bench;
-    let fit = bench.fit_roles(&bench.estimating());
-    let covariance = bench.covariance(&bench.estimating(), &fit);
-    let (plain, n) = problem.linearise_nothing(nominal).plain();
-    let before = (plain / n.max(1.0)).sqrt();
-    let (_, after) = select::figures(bench);
-    let (mut named, mut sets, mut leftovers, mut ambiguous) = (Vec::new(), Vec::new(), Vec::new(), false);
-    for index in from..selection.state.active.len() {
-        let active = &selection.state.active[index];
-        if !active.worth() {
-            continue;
-        }
-        if active.effect.probe() {
-            leftovers.push(active.effect.describe(&active.values));
-            continue;
-        }
-        let rivals = select::rivals(problem, &selection, index, &all, thresholds);
-        let own = rivals.bench.candidates.iter().position(|c| {
-            c.effect.name() == active.effect.name()
-                && c.form.wheels == active.form.wheels
-                && c.form.fixed == active.form.fixed
-        });
-        let p_value = own.map_or(1.0, |c| select::sign_flip(&rivals.bench, c));
-        let (_, without) = raw_pair(&rivals.bench);
-        sets.extend(rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe"))));
-        ambiguous |= rivals.ambiguous;
-        let half = |j: usize| {
-            let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
-            let df = (bench.linear.gram.clusters.len()).saturating_sub(active.form.free.len());
-            column.map_or(0.0, |c| model::fit::t_quantile_975(df) * covariance[(c, c)].max(0.0).sqrt())
-        };
-        let mut parameters: Vec<(String, f64, [f64; 2])> = active
-            .form
-            .free
-            .iter()
-            .enumerate()
-            .map(|(j, p)| {
-                let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
-                let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
-                let v = active.effect.period(&p.name).map_or(v, |period| v.rem_euclid(period));
-                // The effect's own law is not known to better than that.
-                let half = half(j).hypot(2.0 * active.effect.law_uncertainty() * v);
-                (p.name.clone(), v, [v - half, v + half])
-            })
-            .collect();
-        parameters.extend(active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])));
-        let with = after * after * n;
-        named.push(Named {
-            name: active.effect.name().to_owned(),
-            equation: active.effect.equation().to_owned(),
-            link: problem.link(),
-            wheels: material_wheels(active),
-            parameters,
-            gain: ((without - with) / plain.max(without)).clamp(0.0, 1.0),
-            p_value,
-        });
+impl Findings {
+    /// Structures that nothing explains.
+    fn leave(&mut self, link: Link, structures: impl IntoIterator<Item = String>) {
+        self.unexplained.extend(structures.into_iter().map(|structure| Leftover { link, structure }));
     }
-    named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    Outcome {
-        before,
-        after,
-        named,
-        sets,
-        ambiguous,
-        limits: crate::limits::limits(problem.link(), bench, from, thresholds),
-        leftovers,
-        selection,
-    }
-}
 
-/// RMS and sum of squares of a bench as it stands.
-fn raw_pair(bench: &Bench) -> (f64, f64) {
-    let (square, n) = bench.linear.gram.plain();
-    ((square / n.max(1.0)).sqrt(), square)
-}
-
-fn material_wheels(active: &Active) -> Vec<usize> {
-    let per_wheel = active.form.wheels.len() > 1 && active.form.free.len() >= active.form.wheels.len();
-    if !per_wheel {
-        return active.form.wheels.iter().map(|w| w + 1).collect();
+    /// Takes over what was found on a link from effect `from` on; the state that the next link starts from.
+    fn take(&mut self, outcome: Outcome, link: Link, from: usize) -> State {
+        self.found.extend(outcome.written.active[from..].iter().cloned());
+        self.named.extend(outcome.named);
+        self.alternatives.extend(outcome.sets);
+        self.limits.extend(outcome.limits);
+        self.leave(link, outcome.leftovers);
+        self.ambiguous |= outcome.ambiguous;
+        self.refused.extend(outcome.refused);
+        self.held_out.push((link, outcome.held_out));
+        outcome.written
     }
-    let each = active.form.free.len() / active.form.wheels.len();
-    active
-        .form
-        .wheels
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| {
-            (k * each..(k + 1) * each)
-                .any(|j| active.form.free[j].is_material(active.values.get(&active.form.free[j].name)))
-        })
-        .map(|(_, w)| w + 1)
-        .collect()
-}
-
-#[allow(clippy::too_many_arguments)]
-fn collect(
-    outcome: &Outcome,
-    link: Link,
-    named: &mut Vec<Named>,
-    alternatives: &mut Vec<Vec<String>>,
-    limits: &mut Vec<Limit>,
-    unexplained: &mut Vec<Leftover>,
-    parts: &mut Vec<(String, Link, f64)>,
-    ambiguous: &mut bool,
-) {
-    for n in &outcome.named {
-        parts.push((n.name.clone(), link, n.gain));
-    }
-    named.extend(outcome.named.iter().cloned());
-    alternatives.extend(outcome.sets.iter().cloned());
-    limits.extend(outcome.limits.iter().cloned());
-    unexplained.extend(outcome.leftovers.iter().map(|s| Leftover { link, structure: s.clone() }));
-    *ambiguous |= outcome.ambiguous;
 }
 
 fn exact_named(f: &Finding, link: &ExactLink) -> Named {
@@ -707,6 +650,6 @@ fn exact_named(f: &Finding, link: &ExactLink) -> Named {
         wheels: f.wheels.iter().map(|w| w + 1).collect(),
         parameters: f.parameters.clone(),
         gain: gain.clamp(0.0, 1.0),
-        p_value: 2e-4,
+        evidence: f.evidence.clone(),
     }
 }

@@ -6,6 +6,7 @@ use runs::ticks::Ticks;
 use runs::{Columns, Log};
 
 use crate::effect::Link;
+use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding, quantum};
 use crate::parts::parts;
 use crate::words;
@@ -46,9 +47,11 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
     let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
     let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
-    let errors = |order: &[(usize, f64)], delay: f64| -> Vec<f64> {
+    // RMS error of every axis, set points compared, and those that are wrong.
+    let compared = |order: &[(usize, f64)], delay: f64| -> (Vec<f64>, [u64; 2]) {
         let mut sums = vec![0.0; n];
         let mut count = 0.0_f64;
+        let (mut all, mut wrong) = (0, 0);
         for (log, part) in logs.iter().flat_map(|log| parts(log, COLUMNS).map(move |part| (log, part))) {
             let run = &part.run;
             let Some(command) = &run.command else { continue };
@@ -69,14 +72,21 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
                     let e = ((run.reference[i][k] - expected).abs() - tolerance).max(0.0);
                     if e.is_finite() {
                         sums[i] += e * e;
+                        all += 1;
+                        wrong += u64::from(e > 0.0);
                     }
                 }
             }
         }
-        sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect()
+        (sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect(), [all, wrong])
     };
+    let errors = |order: &[(usize, f64)], delay: f64| compared(order, delay).0;
     let straight = given_order(robot, n);
-    let before = errors(&straight, 0.0);
+    let (before, [_, wrong_before]) = compared(&straight, 0.0);
+    let replayed = |order: &[(usize, f64)], delay: f64| {
+        let [ticks, wrong] = compared(order, delay).1;
+        Evidence::Replay { ticks, wrong: [wrong_before, wrong] }
+    };
     let size = references_rms(logs).max(1e-9);
     let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
     let wrong = wrong_share(logs, &rows, &straight, tolerance);
@@ -106,10 +116,12 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
                 .enumerate()
                 .map(|(i, (row, sign))| {
                     let v = sign * (*row as f64 + 1.0);
-                    (format!("axis_{}", i + 1), v, [v, v])
+                    (format!("axis_{}", i + 1), v, Interval::Exact)
                 })
                 .collect();
-            best = (total(&e), Some(Finding { link: Link::Command, name: "wheel-order", wheels, parameters }), e);
+            let evidence = replayed(&order, 0.0);
+            let finding = Finding { link: Link::Command, name: "wheel-order", wheels, parameters, evidence };
+            best = (total(&e), Some(finding), e);
         }
     }
     let tick = logs[0].tick_s().unwrap_or(0.001);
@@ -123,8 +135,11 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
         && e < best.0 * 0.999
     {
         let latency = ticks as f64 * tick;
-        let parameters = vec![("latency_s".to_owned(), latency, [latency - tick, latency + tick])];
-        let finding = Finding { link: Link::Command, name: "command-latency", wheels: Vec::new(), parameters };
+        let parameters =
+            vec![("latency_s".to_owned(), latency, Interval::Resolution([latency - 0.5 * tick, latency + 0.5 * tick]))];
+        let evidence = replayed(&straight, latency);
+        let finding =
+            Finding { link: Link::Command, name: "command-latency", wheels: Vec::new(), parameters, evidence };
         best = (e, Some(finding), errors(&straight, latency));
     }
     if best.0 < (1.0 - REMOVED) * total(&link.before) {

@@ -5,10 +5,11 @@ use runs::ticks::{Gaps, Ticks};
 use runs::{Columns, Log};
 
 use crate::effect::Link;
+use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
 use crate::parts::parts;
 use crate::words;
-use replay::replay;
+use replay::{Replayed, replay};
 
 mod replay;
 
@@ -19,6 +20,9 @@ const REMOVED: f64 = 0.8;
 /// How far the arithmetic of another controller may stray: fixed-point or single-precision numbers, that an
 /// integrator adds up.
 const SLACK: f64 = 5e-5;
+/// Last steps of the searches for an integrator's limit (duty) and for gains (relative).
+const FINE_LIMIT: f64 = 0.01;
+const FINEST_GAIN: f64 = 0.000_5;
 /// Rates that differ by more cannot be replayed.
 const RATE_TOLERANCE: f64 = 0.05;
 
@@ -62,9 +66,11 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
     let floor = 0.5 * step.max(logged.min(0.001)) + SLACK;
     let nominal = Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: step, shift: [0, 0] };
-    let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.0).collect() };
-    let (before, wrong): (Vec<f64>, Vec<f64>) = replay(robot, logs, &nominal, floor).into_iter().unzip();
-    let wrong = wrong.into_iter().fold(0.0, f64::max);
+    let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.rms).collect() };
+    let nominally = replay(robot, logs, &nominal, floor);
+    let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
+    let wrong = nominally.iter().map(Replayed::wrong_share).fold(0.0, f64::max);
+    let wrong_ticks = |wheels: &[Replayed]| wheels.iter().map(|w| w.wrong).sum::<u64>();
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -85,13 +91,17 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         return link;
     }
     let mut best: (f64, Option<Finding>, Vec<f64>) = (start, None, link.before.clone());
-    let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, [f64; 2])>| {
+    let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, Interval)>| {
         let e = rms(&law);
         if total(&e) < best.0 * 0.999 {
-            best = (total(&e), Some(Finding { link: Link::Controller, name, wheels: Vec::new(), parameters }), e);
+            let now = replay(robot, logs, &law, floor);
+            let ticks = now.iter().map(|w| w.ticks).sum();
+            let evidence = Evidence::Replay { ticks, wrong: [wrong_ticks(&nominally), wrong_ticks(&now)] };
+            let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };
+            best = (total(&e), Some(finding), e);
         }
     };
-    let exact = |name: &str, v: f64| (name.to_owned(), v, [v, v]);
+    let exact = |name: &str, v: f64| (name.to_owned(), v, Interval::Exact);
     for signal in 0..2 {
         for ticks in 1..=4 {
             let mut shift = [0, 0];
@@ -128,16 +138,18 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         .map(|l| (total(&rms(&Law { windup: Some(*l), ..nominal })), *l))
         .min_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((_, coarse)) = windup {
-        let fine = (-10..=10).map(|k| coarse + 0.01 * f64::from(k)).filter(|l| *l > 0.0);
+        let fine = (-10..=10).map(|k| coarse + FINE_LIMIT * f64::from(k)).filter(|l| *l > 0.0);
         let limit = fine
             .map(|l| (total(&rms(&Law { windup: Some(l), ..nominal })), l))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map_or(coarse, |b| b.1);
-        let ci = [limit - 0.01, limit + 0.01];
+        let ci = Interval::Resolution([limit - FINE_LIMIT, limit + FINE_LIMIT]);
         offer(Law { windup: Some(limit), ..nominal }, "integrator-windup", vec![("limit_duty".to_owned(), limit, ci)]);
     }
     let gains = fit_gains(&nominal, |law| total(&rms(law)));
-    let named = |name: &str, v: f64| (name.to_owned(), v, [v - 0.002, v + 0.002]);
+    let named = |name: &str, v: f64| {
+        (name.to_owned(), v, Interval::Resolution([v - (1.0 + v) * FINEST_GAIN, v + (1.0 + v) * FINEST_GAIN]))
+    };
     let parameters =
         vec![named("kp_scale", gains.kp / nominal.kp - 1.0), named("ki_scale", gains.ki / nominal.ki.max(1e-12) - 1.0)];
     offer(gains, "pi-gain", parameters);
@@ -194,7 +206,7 @@ fn spacing(logs: &[&Log]) -> f64 {
 fn fit_gains(nominal: &Law, cost: impl Fn(&Law) -> f64) -> Law {
     let mut best = (cost(nominal), *nominal);
     let mut step = 0.2;
-    while step > 0.000_5 {
+    while step > FINEST_GAIN {
         let mut better = false;
         for (p, i) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, -1.0)] {
             let (_, now) = best;

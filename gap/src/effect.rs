@@ -2,10 +2,11 @@
 
 use model::plant::GRAVITY;
 use runs::geometry::Wheel;
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 
 use crate::drive::DriveModel;
 use crate::motion::MotionModel;
+use crate::thresholds;
 
 /// A piece of the chain from command to camera, cut at logged signals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,10 +176,18 @@ pub trait Effect: Send + Sync {
     }
     /// Its parametrisations for a robot, simplest first.
     fn forms(&self, robot: &Robot) -> Vec<Form>;
+    /// The same for logs in which the robot did no more than `sizes`.
+    fn forms_in(&self, robot: &Robot, _sizes: &Sizes) -> Vec<Form> {
+        self.forms(robot)
+    }
     /// Acts on the motion link.
     fn motion(&self, _values: &Values, _model: &mut MotionModel) {}
     /// Acts on the drive link.
     fn drive(&self, _values: &Values, _model: &mut DriveModel) {}
+    /// Whether it adds loads to the drive in proportion to its parameters, and does nothing else there.
+    fn is_load(&self) -> bool {
+        false
+    }
     /// Whether it only probes for structure and is never named.
     fn probe(&self) -> bool {
         false
@@ -196,13 +205,18 @@ pub trait Effect: Send + Sync {
         // Geometry holds to the width of a contact, laws of friction and motors less well.
         if self.link() == Link::Motion { 0.005 } else { 0.015 }
     }
+    /// Whether its parameters are the recording's, not the robot's: a file that carries it declares that they are fitted
+    /// anew for the runs at hand.
+    fn nuisance(&self) -> bool {
+        false
+    }
     /// A measurement without driving that settles it, and the minutes it takes.
     fn measurement(&self) -> Option<(&str, f64)> {
         None
     }
 }
 
-/// Sizes of a robot that materiality is measured in.
+/// Sizes of a robot and its logs that materiality is measured in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sizes {
     /// Torque of a stalled motor at the wheel shaft, Nm.
@@ -215,20 +229,44 @@ pub struct Sizes {
     pub rim_m: f64,
     /// Stall current, A.
     pub stall_a: f64,
+    /// Torque at the wheel shaft beside which torques are large or small, Nm: what the motors gave in the logs, or what
+    /// the floor can take.
+    pub drive_nm: f64,
+    /// Speed of the wheels while they turned, rad/s.
+    pub speed: f64,
 }
 
 impl Sizes {
-    /// The sizes of a robot.
+    /// The sizes of a robot that was driven as hard as it can be.
     pub fn of(robot: &Robot) -> Self {
         let m = &robot.motor;
         let stall_a = robot.supply_v / m.resistance_ohm;
         let rim = |w: &Wheel| w.x_m.hypot(w.y_m);
+        let stall_nm = robot.gear_ratio * m.torque_constant * stall_a;
+        let no_load = robot.no_load_wheel_speed(robot.supply_v);
         Self {
-            stall_nm: robot.gear_ratio * m.torque_constant * stall_a,
-            no_load: robot.no_load_wheel_speed(robot.supply_v),
+            stall_nm,
+            no_load,
             weight_n: GRAVITY * robot.mass_kg,
             rim_m: robot.layout.wheels().iter().map(rim).fold(0.0, f64::max),
             stall_a,
+            drive_nm: stall_nm,
+            speed: thresholds::USUAL_SPEED * no_load,
+        }
+    }
+
+    /// The sizes of a robot whose motors gave this torque (RMS, Nm at the wheel shaft) at this speed (rad/s).
+    pub fn driven(robot: &Robot, torque_nm: f64, speed: f64) -> Self {
+        let sizes = Self::of(robot);
+        let load = match robot.support {
+            Support::Floor => sizes.weight_n * robot.wheel_radius_m / robot.wheel_count() as f64,
+            Support::Blocks => 0.0,
+        };
+        let drive_nm = (thresholds::PEAK_OF_RMS * torque_nm).max(thresholds::GRIP * load);
+        Self {
+            drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm },
+            speed: if speed > 0.0 { speed } else { sizes.speed },
+            ..sizes
         }
     }
 }

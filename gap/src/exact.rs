@@ -3,6 +3,7 @@
 use runs::{Columns, Log, Run};
 
 use crate::effect::Link;
+use crate::evidence::{Evidence, Interval};
 
 /// An effect on a link that can be replayed to the last digit.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,8 +14,10 @@ pub struct Finding {
     pub name: &'static str,
     /// Wheels from 0; empty for the whole robot.
     pub wheels: Vec<usize>,
-    /// Parameters with their 95 % intervals.
-    pub parameters: Vec<(String, f64, [f64; 2])>,
+    /// Parameters, and how well each is known.
+    pub parameters: Vec<(String, f64, Interval)>,
+    /// What it rests on.
+    pub evidence: Evidence,
 }
 
 /// How well a deterministic link agrees.

@@ -68,6 +68,8 @@ pub(crate) struct Findings<'a> {
     pub pieces: &'a Pieces<'a>,
     /// Camera noise, and that of a bump of the drive, Nm.
     pub noise: ([f64; 3], &'a [f64]),
+    /// Windows of the motion link, s.
+    pub window_s: f64,
     /// Thresholds in force.
     pub thresholds: &'a Thresholds,
     /// The catalogue.
@@ -247,7 +249,7 @@ fn on_link<T>(
 ) -> Option<T> {
     match link {
         Link::Motion => {
-            let motion = MotionLink::new(pieces, findings.noise.0, 1.0);
+            let motion = MotionLink::new(pieces, findings.noise.0, findings.window_s);
             let lifted = state.robot.support == runs::robot::Support::Blocks;
             (!motion.is_empty() && !lifted).then(|| ask(&Problem::Motion(&motion)))
         }

@@ -24,12 +24,13 @@ pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Loca
             let bad = per_window.iter().filter(|r| **r > 1.5).count();
             let worst = windows.iter().zip(&per_window).max_by(|a, b| a.1.total_cmp(b.1))?;
             let place = format!(
-                "{} is off by {:.2} {} (noise {:.2}) in {bad} of {} windows of 1 s, most in run {} at {:.1} s",
+                "{} is off by {:.2} {} (noise {:.2}) in {bad} of {} windows of {:.0} s, most in run {} at {:.1} s",
                 names[i],
                 excess * link.noise[i] * units[i].1,
                 units[i].0,
                 link.noise[i] * units[i].1,
                 windows.len(),
+                link.window_s,
                 worst.0.run + 1,
                 worst.0.t[0]
             );

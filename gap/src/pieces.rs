@@ -24,7 +24,7 @@ pub const PIECE: usize = 1 << 16;
 /// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
 /// and behind: a window of camera frames, a bump.
 const BEFORE: usize = 1 << 12;
-const BEHIND: usize = 1 << 11;
+const BEHIND: usize = 1 << 12;
 /// Segments, in pieces' lengths, that are kept once they are derived; of the others only the last ones.
 const KEPT: usize = 4;
 const RECENT: usize = 2;
@@ -41,6 +41,8 @@ pub struct Pieces<'a> {
     all: Vec<Piece>,
     kept: Vec<OnceLock<Arc<Segment>>>,
     recent: Mutex<VecDeque<(usize, Arc<Segment>)>>,
+    /// Speed of the wheels while they turned, rad/s.
+    speed: f64,
 }
 
 /// Where a segment lies, and what it needs to know of the log before it.
@@ -68,6 +70,7 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
         all: Vec::new(),
         kept: Vec::new(),
         recent: Mutex::default(),
+        speed: crate::segment::usual_speed(robot, logs),
     };
     for (run, log) in logs.iter().enumerate() {
         let tick = log.tick_s();
@@ -116,6 +119,16 @@ impl<'a> Pieces<'a> {
     /// All segments, one after the other.
     pub fn iter(&self) -> impl Iterator<Item = Arc<Segment>> {
         (0..self.len()).map(|i| self.get(i))
+    }
+
+    /// The robot as its file has it.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Speed of the wheels while they turned, rad/s; 0 if they never did.
+    pub fn speed(&self) -> f64 {
+        self.speed
     }
 
     /// All ticks.
@@ -269,6 +282,7 @@ impl<'a> Pieces<'a> {
             stretch_frames: at(p.stretch.end) - at(p.stretch.start),
             frames: frames.map(|i| Frame { t: self.stamps[p.run][i], pose: seen[i].pose }).collect(),
             before: &p.history[..p.before],
+            speed: self.speed,
         };
         segment(&self.robot, &self.geometry, &part, place)
     }

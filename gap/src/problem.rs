@@ -1,7 +1,10 @@
 //! A link as a regression problem: linearising it about a state, and fitting its active effects.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use crate::drive::{DriveLink, DriveModel};
-use crate::effect::Link;
+use crate::effect::{Effect, Link, Sizes};
 use crate::gram::{Cluster, Gram};
 use crate::motion::{MotionLink, MotionModel};
 use crate::state::{Active, State};
@@ -66,6 +69,15 @@ impl Problem<'_> {
         }
     }
 
+    /// The link's candidates: every form of every effect fitted there, in the sizes of its logs.
+    pub fn candidates(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+        let sizes = match self {
+            Self::Motion(_) => Sizes::of(&state.robot),
+            Self::Drive(link) => link.sizes,
+        };
+        crate::select::candidates_in(state, catalogue, self.link(), &sizes)
+    }
+
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
@@ -86,25 +98,36 @@ impl Problem<'_> {
             // Backwards, which turns the sign round.
             moves.push((None, off, -1.0));
         }
+        // Forms of one effect share parameters: each is worked out once.
+        let mut known: HashMap<(&str, String, &str), usize> = HashMap::new();
+        let mut column_of: Vec<usize> = (0..moves.len()).collect();
         for (c, candidate) in candidates.iter().enumerate() {
             if candidate.switched() {
                 // One column for the whole effect: off to on.
                 owners.push(Owner::Candidate(c, 0));
                 let mut on = state.clone();
                 on.active.push(candidate.clone());
+                column_of.push(moves.len());
                 moves.push((None, on, 1.0));
                 continue;
             }
             for (j, p) in candidate.form.free.iter().enumerate() {
                 let h = p.scale;
                 owners.push(Owner::Candidate(c, j));
+                let key = (candidate.effect.name(), format!("{:?}", candidate.form.fixed), p.name.as_str());
+                let column = *known.entry(key).or_insert(moves.len());
+                column_of.push(column);
+                if column < moves.len() {
+                    continue;
+                }
                 let side = |by: f64| {
                     let mut s = state.clone();
                     s.active.push(candidate.moved(j, by));
                     s
                 };
-                // One-sided where the negative makes no sense.
-                let low = (p.bounds[0] < 0.0).then(|| side(-h));
+                // One-sided where the negative makes no sense, or tells nothing new.
+                let both = p.bounds[0] < 0.0 && !(self.link() == Link::Drive && candidate.effect.is_load());
+                let low = both.then(|| side(-h));
                 let step = if low.is_some() { 2.0 * h } else { h };
                 moves.push((low, side(h), step));
             }
@@ -121,7 +144,27 @@ impl Problem<'_> {
                 link.linearise(&state.drive(None), &sides)
             }
         };
+        let clusters = if column_of.len() == moves.len() {
+            clusters
+        } else {
+            clusters.into_iter().map(|c| c.spread(&column_of)).collect()
+        };
         Linear { gram: Gram::new(clusters), owners }
+    }
+
+    /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
+    /// changes what is to be moved, half-way to the inertia of the robot it is said of.
+    pub fn runs_away(&self, state: &State, other: &State) -> bool {
+        let Self::Drive(link) = self else { return false };
+        let (one, other) = (state.drive(None), other.drive(None));
+        let worse = |of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64| match (of(&one), of(&other)) {
+            (Some(one), Some(other)) => crate::drive::further(&one, &other, sigmas),
+            (None, _) => true,
+            (_, None) => false,
+        };
+        let heavier = |m: &DriveModel| m.mechanics().map(|m| m.ln_inertia);
+        heavier(&one) != heavier(&other) && worse(&|m| crate::drive::misses(link, m), 0.0)
+            || worse(&|m| crate::drive::runaway(link, m), crate::thresholds::RUNAWAY)
     }
 
     /// Sum of squares of the residuals of a state.

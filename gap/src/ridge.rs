@@ -65,6 +65,11 @@ impl<'a> Ridge<'a> {
         Self { gram, variance, jj, jr, rr, folds }
     }
 
+    /// What the data say of one column: its sum of squares.
+    pub fn information(&self, column: usize) -> f64 {
+        self.jj[(column, column)]
+    }
+
     /// The best step with these roles.
     pub fn fit(&self, roles: &[Role]) -> RidgeFit {
         let (step, columns) = self.solve(&self.jj, &self.jr, roles);
@@ -84,6 +89,13 @@ impl<'a> Ridge<'a> {
             let Some(worst) = worst else { return fit };
             roles[worst] = Role::At(fit.step[worst].clamp(limits[worst][0], limits[worst][1]));
         }
+    }
+
+    /// The best steps with each fold left out in turn.
+    pub fn left_out(&self, roles: &[Role]) -> Vec<DVector<f64>> {
+        let without =
+            |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| self.solve(&(&self.jj - jj), &(&self.jr - jr), roles).0;
+        self.folds.iter().map(without).collect()
     }
 
     /// How well the other columns do in place of one, whatever the data say.

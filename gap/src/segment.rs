@@ -3,9 +3,10 @@
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
 use runs::geometry::Geometry;
 use runs::robot::Robot;
-use runs::{Run, Seen};
+use runs::{Columns, Log, Run, Seen};
 
-use crate::drive::{SIGN_WIDTH, smooth_sign};
+use crate::drive::smooth_sign;
+use crate::thresholds;
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
 /// millisecond the quantum of a speed, 0.83 rad/s, becomes 0.04 rad/s.
@@ -32,6 +33,8 @@ pub struct Segment {
     pub speed: Vec<Vec<f64>>,
     /// Direction of rotation, −1 to 1, smooth about 0, `[wheel][tick]`.
     pub sign: Vec<Vec<f64>>,
+    /// Speed over which friction turns round, rad/s at the wheel: what is known of a direction.
+    pub turning: f64,
     /// Duty, `[wheel][tick]`, from its tick to the next; empty if not logged.
     pub duty: Vec<Vec<f64>>,
     /// Supply, V, at each tick.
@@ -78,6 +81,43 @@ pub(crate) struct Place<'a> {
     pub(crate) frames: Vec<Frame>,
     /// Mean squared duty of every second of the stretch before it: length in s, wheels.
     pub(crate) before: &'a [(f64, Vec<f64>)],
+    /// Speed of the wheels of the data set while they turned, rad/s.
+    pub(crate) speed: f64,
+}
+
+/// Speed of the wheels while they turned, rad/s: how long they stood makes no difference. Of a long log some parts are
+/// looked at.
+pub(crate) fn usual_speed(robot: &Robot, logs: &[Log]) -> f64 {
+    /// Ticks of a part, and parts of a log at most.
+    const PART: usize = 1 << 12;
+    const PARTS: usize = 24;
+    let per_count = 1.0 / robot.counts_per_wheel_rad();
+    let (mut square, mut sum) = (0.0, 0.0);
+    for log in logs {
+        let every = log.len().div_ceil(PART).div_ceil(PARTS).max(1) * PART;
+        let step = log.tick_s().map_or(1, |t| (SMOOTHING_S / t).round().max(2.0) as usize);
+        for first in (0..log.len()).step_by(every) {
+            let columns = Columns { counts: true, ..Columns::NONE };
+            let part = log.part(first..(first + PART).min(log.len()), columns);
+            for counts in &part.counts {
+                for k in (step..counts.len().min(part.t.len())).step_by(step) {
+                    let turned = counts[k].wrapping_sub(counts[k - step]) as f64 * per_count;
+                    let lasted = part.t[k] - part.t[k - step];
+                    square += turned * turned / lasted;
+                    sum += turned.abs();
+                }
+            }
+        }
+    }
+    if sum > 0.0 { square / sum } else { 0.0 }
+}
+
+/// Speed about 0 within which the direction of a wheel is not known, rad/s: a share of the `speed` of the log, and some
+/// counts within the smoothing.
+fn turns_round(robot: &Robot, t: &[f64], speed: f64) -> f64 {
+    let tick = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
+    let quantum = 1.0 / robot.counts_per_wheel_rad() / SMOOTHING_S.max(2.0 * tick);
+    (thresholds::TURNS_ROUND * speed).max(thresholds::TURNS_ROUND_COUNTS * quantum)
 }
 
 /// Derives a segment from the ticks of `part`.
@@ -105,10 +145,15 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
             })
             .collect();
         s.speed = s.angle.iter().map(|a| smooth_speed(&t, a)).collect();
-        s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, SIGN_WIDTH)).collect()).collect();
+        s.turning = turns_round(robot, &t, place.speed);
+        s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
     }
-    if part.duty.len() == n {
+    // Duties of motors that nobody described predict nothing.
+    if part.duty.len() == n && robot.lacks(&runs::DRIVE_KEYS).is_empty() {
         s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
+        if between_rows(robot, &t) {
+            s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
+        }
     }
     s.supply = match &part.supply_v {
         Some(v) => held(v, robot.supply_v),
@@ -247,6 +292,19 @@ fn unwrapped(run: &Run, wheel: usize, first: f64, t: &[f64]) -> Vec<f64> {
         }
     }
     out
+}
+
+/// Whether the loop set further duties between the rows of a log.
+fn between_rows(robot: &Robot, t: &[f64]) -> bool {
+    let tick = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
+    tick * robot.control_rate_hz > thresholds::ROWS_APART
+}
+
+/// In place of a signal at each tick its mean until the next, if it goes there straight.
+fn mean_of_neighbours(values: &mut [f64]) {
+    for k in 1..values.len() {
+        values[k - 1] = 0.5 * (values[k - 1] + values[k]);
+    }
 }
 
 /// Values with gaps filled by the value before.

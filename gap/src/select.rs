@@ -3,7 +3,9 @@
 mod bench;
 mod gates;
 mod join;
+mod plain;
 mod rivals;
+mod sure;
 
 use std::sync::Arc;
 
@@ -11,15 +13,19 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
+use crate::gram::Gram;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::{AS_WELL, FAR_LEFT, UNDECIDED};
 
 use gates::Gates;
 use join::join;
 
-pub use bench::{Bench, Trial, candidates, is_material};
+pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
+pub(crate) use plain::{held_out, plain};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
+pub use sure::estimates;
 
 /// Largest number of effects named on one link.
 const MOST: usize = 5;
@@ -46,6 +52,8 @@ pub struct Selection {
     pub loss: f64,
     /// Penalty of what is held near zero, and cost of what is named.
     pub costs: f64,
+    /// Whether it was chosen with nothing adjusted beside what is named.
+    pub bare: bool,
 }
 
 impl Selection {
@@ -65,17 +73,38 @@ pub fn select(
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
 ) -> Selection {
-    let all = candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
+    let best = searched(problem, start, known, &all, thresholds);
+    // What is left far above the noise is not a little of everything: another search in which next to nothing is
+    // adjusted without a name.
+    let left = raw(&best);
+    if problem.link() != Link::Drive || left < FAR_LEFT {
+        return best;
+    }
+    let other = searched(problem, start, &[], &all, &thresholds.narrow());
+    let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
+    if named(&other) && raw(&other) < AS_WELL * left { other } else { best }
+}
+
+/// RMS of the residuals in units of the noise.
+fn raw(found: &Selection) -> f64 {
+    let (square, n) = found.bench.linear.gram.plain();
+    (square / n.max(1.0)).sqrt()
+}
+
+fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
+    let from = start.active.len();
     let best = if known.is_empty() {
-        first(problem, start, &all, thresholds)
+        first(problem, start, all, thresholds)
     } else {
-        let bench = beginning(problem, start, known, &all, thresholds);
-        forward(problem, bench, start.active.len(), &all, thresholds)
+        let bench = beginning(problem, start, known, all, thresholds);
+        forward(problem, bench, from, all, thresholds)
     };
-    let best = backward(problem, best, start.active.len(), &all, thresholds);
-    let (best, swapped) = swap(problem, best, start.active.len(), &all, thresholds);
-    let (best, joined) = join(problem, best, start.active.len(), &all, thresholds);
-    if swapped || joined { backward(problem, best, start.active.len(), &all, thresholds) } else { best }
+    let best = backward(problem, best, from, all, thresholds);
+    let (best, swapped) = swap(problem, best, from, all, thresholds);
+    let (best, joined) = join(problem, best, from, all, thresholds);
+    let best = if swapped || joined { backward(problem, best, from, all, thresholds) } else { best };
+    sure::sure(problem, best, from, all, thresholds)
 }
 
 /// The best of a greedy search and of one that begins with a pair or triple.
@@ -100,7 +129,7 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
     // What is larger must also stand on the held-out runs, every part of it beside the others.
     let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
-    if better && stands() { other } else { best }
+    if better && stands() && !problem.runs_away(&other.state, &best.state) { other } else { best }
 }
 
 /// The bench from which effects that are given go on.
@@ -131,7 +160,7 @@ pub fn single(
     catalogue: &[Arc<dyn Effect>],
     thresholds: &Thresholds,
 ) -> Option<Selection> {
-    let all = candidates(start, catalogue, problem.link());
+    let all = problem.candidates(start, catalogue);
     let narrow = thresholds.narrow();
     let bench = Bench::new(problem, start, &all, &narrow);
     let best = next(problem.link(), &bench, &narrow, &[]).filter(|t| t.material && !t.beyond)?;
@@ -139,7 +168,9 @@ pub fn single(
     state.active.push(placed(&bench.candidates[best.candidate], &best.values));
     let settled = settle(problem, &mut state, &all, thresholds);
     let found = finish(state, settled, start.active.len(), thresholds);
-    found.state.active.last().is_some_and(Active::worth).then_some(found)
+    let found = sure::sure(problem, found, start.active.len(), &all, thresholds);
+    let sound = found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start);
+    sound.then_some(found)
 }
 
 /// Replaces each effect by whatever explains the same better, or as well and comes earlier in the
@@ -163,11 +194,17 @@ fn swap(
             .filter(|t| bench.candidates[t.candidate].effect.name() == own.effect.name())
             .map(|t| t.gain)
             .fold(0.0, f64::max);
+        // Laws that leave much above the noise are not exact enough to decide by little.
+        let (square, n) = best.bench.linear.gram.plain();
+        let open = UNDECIDED * (square - n).max(0.0) / best.bench.variance;
+        let far = raw(&best) > FAR_LEFT && problem.link() == Link::Drive;
+        let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
+        let most = if far { 8 } else { 3 };
         let mut tried: Vec<&str> = vec![own.effect.name()];
         for t in &trials {
             let candidate = &bench.candidates[t.candidate];
             let name = candidate.effect.name();
-            if t.gain < gain_of_own - 12.0 - 0.1 * gain_of_own.abs() || tried.len() > 3 {
+            if t.gain < gain_of_own - tie.max(12.0 + 0.1 * gain_of_own.abs()) || tried.len() > most {
                 break;
             }
             if tried.contains(&name) || !t.material || best.state.active.iter().any(|a| a.effect.name() == name) {
@@ -179,9 +216,8 @@ fn swap(
             let settled = settle(problem, &mut state, all, thresholds);
             let rival = finish(state, settled, from, thresholds);
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
-            let tie = thresholds.tie(gain_of_own);
             let needed = if simpler { tie } else { -tie };
-            if rival.against(&best) < needed {
+            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &best.state) {
                 best = rival;
                 changed = true;
                 break;
@@ -248,7 +284,7 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
             larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
             larger.active.push(active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &bench, from, thresholds) {
+            if !improves(&settled, &bench, from, thresholds) || problem.runs_away(&larger, &state) {
                 refused.push(next.candidate);
                 continue;
             }
@@ -273,7 +309,7 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
 }
 
 /// Whether an effect rests at a bound that is not its absence: what only helps beyond it explains nothing.
-fn stopped(active: &Active) -> bool {
+pub(crate) fn stopped(active: &Active) -> bool {
     active.form.free.iter().any(|p| {
         let v = active.values.get(&p.name);
         v != 0.0 && p.bounds.iter().any(|b| (v - b).abs() < 0.02 * p.scale)
@@ -298,7 +334,41 @@ fn cost(state: &State, from: usize, thresholds: &Thresholds) -> f64 {
 fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
     let fit = bench.near();
     let costs = cost(&state, from, thresholds);
-    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench }
+    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench, bare: false }
+}
+
+/// A selection in which nothing is adjusted beside what is named.
+fn finish_bare(problem: &Problem, state: State, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
+    let bench = Bench::new(problem, &state, all, thresholds);
+    Selection { bare: true, ..finish(state, bench, from, thresholds) }
+}
+
+/// The same clusters with parts of the runs as folds.
+fn in_parts(gram: &Gram, parts: usize) -> Gram {
+    Gram { folds: (0..gram.clusters.len()).map(|i| i % parts).collect(), ..gram.clone() }
+}
+
+/// A selection with some of its own effects taken out, the others fitted anew.
+pub(crate) fn without(
+    problem: &Problem,
+    found: &Selection,
+    from: usize,
+    keep: impl Fn(&Active) -> bool,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Selection {
+    let mut state = found.state.clone();
+    let mut index = 0;
+    state.active.retain(|a| {
+        index += 1;
+        index <= from || keep(a)
+    });
+    if found.bare {
+        problem.fit(&mut state);
+        return finish_bare(problem, state, from, all, thresholds);
+    }
+    let bench = settle(problem, &mut state, all, thresholds);
+    finish(state, bench, from, thresholds)
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {

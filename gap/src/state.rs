@@ -23,6 +23,8 @@ pub struct Active {
     pub link: Link,
     /// Whether it stood in the robot's file and is not fitted again.
     pub given: bool,
+    /// Whether it is named for what it does together with others, however small it is alone.
+    pub together: bool,
 }
 
 impl Active {
@@ -32,7 +34,7 @@ impl Active {
         for p in &form.free {
             values.set(&p.name, p.start.unwrap_or(0.0));
         }
-        Self { link: effect.link(), effect, form, values, immaterial: false, given: false }
+        Self { link: effect.link(), effect, form, values, immaterial: false, given: false, together: false }
     }
 
     /// Values of the fitted parameters.
@@ -50,7 +52,7 @@ impl Active {
 
     /// Whether it is material, and so named or reported.
     pub fn worth(&self) -> bool {
-        !self.given && crate::select::is_material(self, &self.parameters())
+        !self.given && (self.together || crate::select::is_material(self, &self.parameters()))
     }
 
     /// Whether it is named: worth it, and an effect of the catalogue.

@@ -19,6 +19,12 @@ impl Symmetric {
         Self { order, upper }
     }
 
+    /// The matrix with rows and columns that stand several times: i is `of[i]` of this one's.
+    pub fn spread(&self, of: &[usize]) -> Self {
+        let upper = (0..of.len()).flat_map(|c| (0..=c).map(move |r| self[(of[r], of[c])])).collect();
+        Self { order: of.len(), upper }
+    }
+
     /// All of it.
     pub fn full(&self) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(self.order, self.order);
@@ -82,6 +88,8 @@ mod tests {
         assert!((0..4).all(|r| (0..4).all(|c| half[(r, c)] == full[(r, c)])));
         let x = DVector::from_fn(4, |i, _| 0.5 - i as f64);
         assert!((half.square(&x) - (x.transpose() * &full * &x)[0]).abs() < 1e-12);
+        let spread = half.spread(&[2, 0, 2]);
+        assert_eq!(spread.full(), full.select_rows(&[2, 0, 2]).select_columns(&[2, 0, 2]));
         let mut twice = half.clone();
         twice.add(&half);
         twice.scale(0.5);

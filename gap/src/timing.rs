@@ -4,6 +4,7 @@ use runs::Log;
 use runs::robot::Robot;
 
 use crate::effect::Link;
+use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
 
 /// Scatter of the stamps about a regular grid that rounding to a tick cannot give, in ticks, and
@@ -42,13 +43,19 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
         _ => 1.0,
     };
     let error = 2.0 / (2.0 * n).sqrt();
-    let mut parameters =
-        vec![("jitter_s".to_owned(), scatter, [scatter * (1.0 - error), scatter * (1.0 + error) * folded])];
+    let ends = [scatter * (1.0 - error), scatter * (1.0 + error) * folded];
+    let known = if folded > 1.0 { Interval::Bound(ends) } else { Interval::Ci95(ends) };
+    let mut parameters = vec![("jitter_s".to_owned(), scatter, known)];
     if lost > 0.01 {
         let sd = (lost * (1.0 - lost) / frames).sqrt();
-        parameters.push(("dropped".to_owned(), lost, [(lost - 2.0 * sd).max(0.0), lost + 2.0 * sd]));
+        parameters.push(("dropped".to_owned(), lost, Interval::Ci95([(lost - 2.0 * sd).max(0.0), lost + 2.0 * sd])));
     }
-    let finding = named.then(|| Finding { link: Link::Timing, name: "camera-timing", wheels: Vec::new(), parameters });
+    let evidence = Evidence::Test {
+        method: "chi-squared of the stamps' scatter against rounding to ticks",
+        p: crate::statistics::chi2_upper(n * (scatter / floor).powi(2), n).max(f64::MIN_POSITIVE),
+    };
+    let finding =
+        named.then(|| Finding { link: Link::Timing, name: "camera-timing", wheels: Vec::new(), parameters, evidence });
     let after = if named { floor.min(scatter) } else { scatter };
     Some(ExactLink {
         link: Link::Timing,

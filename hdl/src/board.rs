@@ -11,6 +11,7 @@
 //! and the pins on P3 are our choice. Both are therefore data: change [`Board::assignments`] and
 //! write the constraints again. A 5I20 has other pins, although its FPGA is the same.
 
+use fixed_kin::registers::{BOARD_4I65, Target};
 use std::collections::BTreeMap;
 
 /// FPGA pin of every I/O line; line 24·c + n is pin 2n + 1 of connector P1, P3, P4 for c = 0, 1, 2.
@@ -140,6 +141,8 @@ pub struct Assignment {
 pub struct Board {
     /// What it is, for the head of the constraint file.
     pub name: String,
+    /// What the registers `board` and `clock_hz` say.
+    pub target: Target,
     /// Every used pin.
     pub assignments: Vec<Assignment>,
 }
@@ -199,6 +202,7 @@ impl Board {
     pub fn mesa_4i65_7i30() -> Self {
         let mut board = Self {
             name: "Mesa 4I65, 7I30 on P1 (layout not confirmed), kicker and radio on P3".into(),
+            target: BOARD_4I65,
             assignments: vec![],
         };
         board.add_card();

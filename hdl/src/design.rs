@@ -4,7 +4,8 @@ use crate::blocks::core::Core;
 use crate::blocks::serial_host::SerialHost;
 use crate::board::{Board, BoardError};
 use crate::emit::{blocks, hash, ise, open_board, registers, top, ucf, verilog, wavejson};
-use rust_hdl::prelude::Block;
+use fixed_kin::registers::BOARD_4I65;
+use rust_hdl::prelude::{Block, ToBits};
 
 /// Name of the top module and of the files.
 pub const NAME: &str = "rac4i65";
@@ -48,6 +49,8 @@ pub fn content_hash() -> u32 {
 #[must_use]
 pub fn core() -> Core {
     let mut core = Core::new(content_hash());
+    core.board.next = u64::from(BOARD_4I65.word).to_bits();
+    core.clock_hz.next = u64::from(BOARD_4I65.clock_hz).to_bits();
     core.connect_all();
     core
 }

@@ -120,8 +120,10 @@ impl<const N: usize, const V: u64> Logic for Preset<N, V> {
 
 /// Memory of 2ᴺ words of `W` ≤ 32 bits: one write port, one registered read port, one clock.
 ///
-/// A read of the word that is written in the same clock gives the **old** word. Where nothing is
-/// given the memory starts at zero, so that no pattern is left to chance.
+/// A read of the word that is written in the same clock gives garbage: the device's block memories promise
+/// nothing then. Its user must not make such a read, or not use what it gives; `no_rw_check` tells yosys,
+/// which otherwise builds the missing promise from flip-flops without a start value. Where nothing is given
+/// the memory starts at zero, so that no pattern is left to chance.
 #[derive(LogicBlock)]
 pub struct Memory<const W: usize, const N: usize> {
     /// Clock.
@@ -168,7 +170,9 @@ impl<const W: usize, const N: usize> Default for Memory<W, N> {
 impl<const W: usize, const N: usize> Logic for Memory<W, N> {
     fn update(&mut self) {
         if self.clock.pos_edge() {
-            self.read_data.next = u64::from(self._words[self.read_address.val().index()]).to_bits();
+            let word = u64::from(self._words[self.read_address.val().index()]).to_bits();
+            let meets = self.write_enable.val() && self.write_address.val() == self.read_address.val();
+            self.read_data.next = if meets { !word } else { word };
             if self.write_enable.val() {
                 self._words[self.write_address.val().index()] = self.write_data.val().index() as u32;
             }
@@ -265,7 +269,7 @@ fn memory_of<const W: usize, const N: usize>(words: &[u32]) -> String {
     let initial: Vec<String> =
         words.iter().enumerate().map(|(i, word)| format!("   mem[{i}] = {W}'h{word:x};")).collect();
     format!(
-        "reg [{top}:0] mem [0:{last}];\n\ninitial begin\n   read_data = {W}'h0;\n{initial}\nend",
+        "(* no_rw_check *)\nreg [{top}:0] mem [0:{last}];\n\ninitial begin\n   read_data = {W}'h0;\n{initial}\nend",
         top = W - 1,
         last = (1 << N) - 1,
         initial = initial.join("\n")

@@ -36,5 +36,6 @@ pub mod motor;
 pub mod odometry;
 pub mod pi;
 pub mod plant;
+pub mod setup;
 pub mod simulation;
 pub mod trajectory;

@@ -66,7 +66,7 @@ fn both_procedures_over_the_matrix() {
     );
     for (k, c) in CASES.iter().enumerate() {
         let skew_rad = c.skew_deg.map(f64::to_radians);
-        let nominal = Robot { encoder_counts_per_motor_rev: c.counts, ..Robot::racbot() };
+        let nominal = Robot { encoder_counts_per_motor_rev: f64::from(c.counts), ..Robot::racbot() };
         let actual = with_skew(&nominal, skew_rad);
         let truth = actual.geometry().unwrap();
         let camera = CameraModel {

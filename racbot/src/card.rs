@@ -65,7 +65,16 @@ pub(crate) struct ReadyCard {
 impl CardOptions {
     /// Opens the card, loaded or not. The built-in one is new, and not loaded.
     pub(crate) fn open(&self, purpose: Use) -> Result<OpenCard, Failure> {
-        self.open_with(purpose, &Robot::racbot(), Pace::Real)
+        self.open_with(purpose, &Robot::racbot(), self.pace())
+    }
+
+    /// The card's own time where nobody looks on meanwhile: what comes out does not depend on this machine.
+    pub(crate) fn pace(&self) -> Pace {
+        #[cfg(feature = "simulation")]
+        if self.is_built_in() {
+            return Pace::Simulated;
+        }
+        Pace::Real
     }
 
     /// The same, where behind a built-in card there is this robot in this time.

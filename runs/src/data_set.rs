@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::signals::{Reading, as_logged};
 use super::{Run, RunError};
 use crate::robot::{Robot, Support};
 
@@ -17,7 +18,7 @@ pub struct DataSet {
 }
 
 impl DataSet {
-    /// Reads `robot.toml` and every `*.csv` and `*.mcap` of a folder, and checks that they belong
+    /// Reads `robot.toml`, which need say no more than the logs' signals ask for, and every `*.csv` and `*.mcap` of a folder, and checks that they belong
     /// together. Of a CSV and an MCAP of one name, the CSV is read: it is the same run twice.
     ///
     /// # Errors
@@ -38,10 +39,18 @@ impl DataSet {
         // On blocks every axis is alone, and a log may speak of some of them only.
         let logged = runs.iter().map(Run::wheel_count).max().unwrap_or(0);
         let robot = if robot.support == Support::Blocks && logged > 0 { robot.first_axes(logged) } else { robot };
+        let reading = |(run, path): (Run, &PathBuf)| Ok(Reading::new(&robot, &run, path)?.apply(run));
+        let runs = runs.into_iter().zip(&files).map(reading).collect::<Result<Vec<Run>, RunError>>()?;
         for (run, path) in runs.iter().zip(&files) {
             run.check(&robot, path)?;
         }
         Ok(Self { folder: folder.to_owned(), robot, runs })
+    }
+
+    /// The robot as the columns of the logs show it, see [`as_logged`].
+    pub fn as_logged(&self) -> Robot {
+        let source = self.runs.first().map(|run| run.source).unwrap_or_default();
+        as_logged(&self.robot, source, self.runs.iter().find_map(Run::tick_s))
     }
 }
 
@@ -52,7 +61,7 @@ pub(super) fn robot_of(folder: &Path) -> Result<Robot, RunError> {
         let hint = "put the robot's robot.toml beside its logs";
         return Err(RunError::new(folder, "has no robot.toml", hint));
     }
-    Robot::load(robot)
+    Robot::load_partial(robot)
 }
 
 /// Every run of a folder, in the order of their names; at least one.

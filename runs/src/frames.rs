@@ -137,6 +137,15 @@ pub fn displacement(d: Twist) -> Pose {
     Pose::new(a * d.vx - b * d.vy, b * d.vx + a * d.vy, d.omega)
 }
 
+/// The body displacement that leads to a pose in the start frame: the SE(2) logarithm, inverse of [`displacement`] for
+/// turns of less than half a circle.
+pub fn displacement_to(pose: Pose) -> Twist {
+    let half = 0.5 * pose.theta;
+    // θ/2 · cot(θ/2), by its series where the quotient loses digits.
+    let a = if half.abs() < 1e-4 { 1.0 - half * half / 3.0 } else { half / half.tan() };
+    Twist::new(a * pose.x + half * pose.y, a * pose.y - half * pose.x, pose.theta)
+}
+
 /// A pose on its way, for many small displacements one after the other: the cosine and sine of the
 /// heading turn with it, so that no step needs a trigonometric function.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -229,6 +238,16 @@ mod tests {
 
     fn close(a: Pose, b: Pose) -> bool {
         (a.x - b.x).abs() < 1e-12 && (a.y - b.y).abs() < 1e-12 && (a.theta - b.theta).abs() < 1e-12
+    }
+
+    #[test]
+    fn the_logarithm_undoes_the_exponential() {
+        for d in [Twist::new(0.3, -0.2, 1.1), Twist::new(0.1, 0.4, -2.5), Twist::new(1.0, 2.0, 1e-6), Twist::default()]
+        {
+            let back = displacement_to(displacement(d));
+            let off = (back.vx - d.vx).abs() + (back.vy - d.vy).abs() + (back.omega - d.omega).abs();
+            assert!(off < 1e-12, "{d:?} {back:?}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Where the wheels are and what they measure: inverse and direct kinematics (paper, section 3).
 
-use nalgebra::{Dyn, OMatrix, U3};
+use nalgebra::{DMatrix, Dyn, Matrix3, OMatrix, U3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::frames::Twist;
@@ -40,9 +40,15 @@ impl Wheel {
 /// Why wheels do not make a robot.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
-    /// Fewer than three wheels cannot drive three degrees of freedom.
-    #[error("{0} wheels cannot drive three degrees of freedom; give at least 3")]
+    /// Fewer than two wheels drive no robot.
+    #[error("{0} wheels cannot drive a robot; give at least 3, or 2 on one axle (differential drive)")]
     TooFewWheels(usize),
+    /// Two wheels that do not stand on one axle.
+    #[error(
+        "two wheels drive a robot only where both stand on one axle and drive across it: \
+         put them beside each other and give both the same drive_rad (or opposite ones)"
+    )]
+    NoAxle,
     /// A number is infinite, not a number, or the wheel radius is not positive.
     #[error("wheel {wheel}: {what}")]
     Invalid {
@@ -62,17 +68,27 @@ pub enum GeometryError {
     },
 }
 
-/// Wheels that can drive the platform in any direction, with both kinematic matrices.
+/// Wheels that can drive the platform, with both kinematic matrices.
 ///
 /// Wheel speeds are in rad/s at the wheel. A wheel's row is
 /// w = (v_contact · a) / (r cos roller) with a the unit vector at drive + roller angle.
+///
+/// Wheels without rollers that all drive one way make a **differential drive**: the middle between their contact points
+/// has no sideways speed, so that (vx, vy, ω) has two degrees of freedom. Its direct kinematics keeps to that; inverse
+/// kinematics of a twist with sideways speed drops it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
     wheels: Vec<Wheel>,
     wheel_radius_m: f64,
     inverse: InverseMatrix,
     direct: DirectMatrix,
+    /// Twists that the wheels allow, one a column, of a differential drive; `None` where they allow every twist.
+    allowed: Option<DMatrix<f64>>,
 }
+
+/// Wheels that differ less in direction (sine) and stand less in front of each other (share of their distance) make a
+/// differential drive: a wheel turned by a quarter of a right angle scrubs, but drives.
+const ONE_WAY: f64 = 0.4;
 
 /// Ratio of singular values below which a geometry counts as singular: at 1e-6, a camera's
 /// millimetres would have to become kilometres before the lost direction showed.
@@ -82,15 +98,20 @@ impl Geometry {
     /// A platform on `wheels`, all of radius `wheel_radius_m`.
     ///
     /// # Errors
-    /// [`GeometryError`] for fewer than three wheels, numbers that make no wheel (roller angle
+    /// [`GeometryError`] for fewer than two wheels, two that share no axle, numbers that make no wheel (roller angle
     /// ±π/2 included) and wheels that leave a motion undriven.
     pub fn new(wheels: Vec<Wheel>, wheel_radius_m: f64) -> Result<Self, GeometryError> {
-        if wheels.len() < 3 {
+        if wheels.len() < 2 {
             return Err(GeometryError::TooFewWheels(wheels.len()));
         }
         let inverse = inverse_of(&wheels, wheel_radius_m)?;
-        let direct = direct_of(&inverse, &wheels)?;
-        Ok(Self { wheels, wheel_radius_m, inverse, direct })
+        let allowed = one_way(&wheels);
+        let direct = match &allowed {
+            Some(allowed) => differential(&inverse, allowed)?,
+            None if wheels.len() == 2 => return Err(GeometryError::NoAxle),
+            None => direct_of(&inverse, &wheels)?,
+        };
+        Ok(Self { wheels, wheel_radius_m, inverse, direct, allowed })
     }
 
     /// Axes on blocks, one or more: no turn of a wheel moves the body, so [`Self::twist`] is zero.
@@ -103,8 +124,9 @@ impl Geometry {
         }
         let inverse = inverse_of(&wheels, wheel_radius_m)?;
         let direct = DirectMatrix::zeros(wheels.len());
-        Ok(Self { wheels, wheel_radius_m, inverse, direct })
+        Ok(Self { wheels, wheel_radius_m, inverse, direct, allowed: None })
     }
+
     /// The paper's robot, equation (6): wheel 1 in front (90°), 2 rear left (210°), 3 rear right
     /// (330°), each turned **clockwise** by its skew α; positive wheel speed turns the robot
     /// clockwise.
@@ -118,7 +140,27 @@ impl Geometry {
         Self::new(rac_wheels(body_radius_m, skew_rad), wheel_radius_m)
     }
 
-    /// Number of wheels; at least 3 unless they are [`Self::axes`].
+    /// Whether the wheels keep the robot from moving sideways.
+    pub fn is_differential(&self) -> bool {
+        self.allowed.is_some()
+    }
+
+    /// The twists that the wheels allow, one a column, orthonormal for a differential drive; the identity for a robot
+    /// that drives in any direction.
+    pub fn allowed_twists(&self) -> DMatrix<f64> {
+        self.allowed.clone().unwrap_or_else(|| DMatrix::identity(3, 3))
+    }
+
+    /// The inverse of a 3 × 3 inertia (or any symmetric form of the twist) among the twists that the wheels allow:
+    /// what forbids the others takes their share of a push. `None` where it has none.
+    pub fn invert_allowed(&self, form: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+        let Some(allowed) = &self.allowed else { return form.try_inverse() };
+        let within = allowed.transpose() * form * allowed;
+        let product = allowed * within.try_inverse()? * allowed.transpose();
+        Some(Matrix3::from_fn(|i, j| product[(i, j)]))
+    }
+
+    /// Number of wheels; at least 2 unless they are [`Self::axes`].
     pub fn wheel_count(&self) -> usize {
         self.wheels.len()
     }
@@ -205,6 +247,56 @@ fn inverse_of(wheels: &[Wheel], wheel_radius_m: f64) -> Result<InverseMatrix, Ge
     }))
 }
 
+/// Twists that wheels without rollers, all driving one way, allow: orthonormal columns; `None` for other wheels.
+fn one_way(wheels: &[Wheel]) -> Option<DMatrix<f64>> {
+    let n = wheels.len() as f64;
+    // Wheels may be mounted to turn either way round.
+    let [ax, ay] = wheels.first()?.traction();
+    let sided = wheels.iter().map(|w| {
+        let [x, y] = w.traction();
+        if x * ax + y * ay < 0.0 { [-x, -y] } else { [x, y] }
+    });
+    let sum = sided.fold([0.0; 2], |s, a| [s[0] + a[0], s[1] + a[1]]);
+    let length = sum[0].hypot(sum[1]);
+    let (dx, dy) = (sum[0] / length, sum[1] / length);
+    let (x, y) = (wheels.iter().map(|w| w.x_m).sum::<f64>() / n, wheels.iter().map(|w| w.y_m).sum::<f64>() / n);
+    let across = |w: &Wheel| {
+        let [ax, ay] = w.traction();
+        w.roller_rad == 0.0 && (ax * dy - ay * dx).abs() < ONE_WAY
+    };
+    if !wheels.iter().all(across) {
+        return None;
+    }
+    // Two wheels share one axle; of more, those in front and behind scrub about the middle.
+    if let [a, b] = wheels {
+        let (ex, ey) = (b.x_m - a.x_m, b.y_m - a.y_m);
+        if (ex * dx + ey * dy).abs() > ONE_WAY * ex.hypot(ey) {
+            return None;
+        }
+    }
+    // Sideways is (dy, −dx): its speed at the middle is zero.
+    let sideways = Vector3::new(dy, -dx, -(x * dx + y * dy));
+    // Lengths count in units of the wheels' distance, so that the basis is well conditioned.
+    let along = Vector3::new(dx, dy, 0.0).normalize();
+    let turning = sideways.cross(&along).normalize();
+    Some(DMatrix::from_fn(3, 2, |i, j| if j == 0 { along[i] } else { turning[i] }))
+}
+
+/// Direct kinematics among the twists that the wheels allow, least squares for more than two wheels.
+fn differential(inverse: &InverseMatrix, allowed: &DMatrix<f64>) -> Result<DirectMatrix, GeometryError> {
+    let rows: DMatrix<f64> = inverse * allowed;
+    let normal = rows.transpose() * &rows;
+    let (scale, determinant) = (normal[(0, 0)] * normal[(1, 1)], normal.determinant());
+    // Wheels at one place cannot turn the robot.
+    if determinant.is_nan() || determinant <= SINGULAR_RATIO.powi(2) * scale || scale <= 0.0 {
+        let free = allowed.column(1);
+        return Err(GeometryError::Singular { free: [free[0], free[1], free[2]] });
+    }
+    let inverted = normal.try_inverse().ok_or(GeometryError::Singular { free: [0.0; 3] })?;
+    let direct = allowed * inverted * rows.transpose();
+    Ok(DirectMatrix::from_fn(direct.ncols(), |i, j| direct[(i, j)]))
+}
+
 /// Pseudo-inverse, or the motion that nothing resists.
 fn direct_of(inverse: &InverseMatrix, wheels: &[Wheel]) -> Result<DirectMatrix, GeometryError> {
     // Rotation counts at the rim, so that the rank does not depend on the unit of length.
@@ -228,7 +320,6 @@ fn direct_of(inverse: &InverseMatrix, wheels: &[Wheel]) -> Result<DirectMatrix, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Matrix3;
     use std::f64::consts::{FRAC_PI_3, FRAC_PI_4};
 
     const R_WHEEL: f64 = 0.0275;
@@ -322,6 +413,47 @@ mod tests {
         }
     }
 
+    fn wheel(x_m: f64, y_m: f64, drive_rad: f64) -> Wheel {
+        Wheel { x_m, y_m, drive_rad, roller_rad: 0.0 }
+    }
+
+    #[test]
+    fn two_wheels_on_one_axle_drive_and_turn_but_never_sideways() {
+        let (half, r) = (0.1, 0.042);
+        let g = Geometry::new(vec![wheel(half, 0.0, FRAC_PI_2), wheel(-half, 0.0, FRAC_PI_2)], r).unwrap();
+        assert!(g.is_differential());
+        // Textbook: v = r (wr + wl) / 2, omega = r (wr - wl) / (2 half).
+        let t = g.twist(&[3.0, 1.0]);
+        assert!(t.vx.abs() < 1e-15 && (t.vy - r * 2.0).abs() < 1e-15 && (t.omega - r / half).abs() < 1e-14, "{t:?}");
+        let back = g.wheel_speeds(t);
+        assert!((back[0] - 3.0).abs() < 1e-12 && (back[1] - 1.0).abs() < 1e-12);
+        // Mounted the other way round, and the axle half a metre behind the body's origin: it swings sideways in turns.
+        let g = Geometry::new(vec![wheel(half, -0.5, FRAC_PI_2), wheel(-half, -0.5, -FRAC_PI_2)], r).unwrap();
+        let t = g.twist(&[1.0, 1.0]);
+        assert!(t.vy.abs() < 1e-14 && (t.omega - r / half).abs() < 1e-14, "{t:?}");
+        assert!((t.vx + 0.5 * t.omega).abs() < 1e-14, "the axle's middle stays: {t:?}");
+        // Driving along x: sideways is y.
+        let g = Geometry::new(vec![wheel(0.0, half, 0.0), wheel(0.0, -half, 0.0)], r).unwrap();
+        let t = g.twist(&[1.0, 1.0]);
+        assert!((t.vx - r).abs() < 1e-15 && t.vy.abs() < 1e-15 && t.omega.abs() < 1e-14);
+        // Four wheels that drive one way skid about their middle.
+        let four = [[half, 0.2], [-half, 0.2], [half, -0.2], [-half, -0.2]];
+        let g = Geometry::new(four.map(|[x, y]| wheel(x, y, FRAC_PI_2)).to_vec(), r).unwrap();
+        let t = g.twist(&[3.0, 1.0, 3.0, 1.0]);
+        assert!(t.vx.abs() < 1e-14 && (t.vy - r * 2.0).abs() < 1e-14 && (t.omega - r / half).abs() < 1e-13, "{t:?}");
+        assert!(!Geometry::rac(r, half, [0.0; 3]).unwrap().is_differential());
+    }
+
+    #[test]
+    fn what_wheels_forbid_takes_its_share_of_a_push() {
+        let g = Geometry::new(vec![wheel(0.1, 0.0, FRAC_PI_2), wheel(-0.1, 0.0, FRAC_PI_2)], 0.042).unwrap();
+        let inertia = Matrix3::from_diagonal(&Vector3::new(2.0, 4.0, 0.5));
+        let inverse = g.invert_allowed(&inertia).unwrap();
+        assert!((inverse - Matrix3::from_diagonal(&Vector3::new(0.0, 0.25, 2.0))).amax() < 1e-12, "{inverse}");
+        let free = Geometry::rac(0.02, 0.1, [0.0; 3]).unwrap().invert_allowed(&inertia).unwrap();
+        assert!((free * inertia - Matrix3::identity()).amax() < 1e-12);
+    }
+
     #[test]
     fn singular_and_senseless_geometry_is_an_error() {
         // All three wheels along their own radius: nothing resists rotation.
@@ -332,6 +464,11 @@ mod tests {
             other => panic!("{other:?}"),
         }
         assert_eq!(Geometry::new(vec![], 0.1).unwrap_err(), GeometryError::TooFewWheels(0));
+        let two = |a: Wheel, b: Wheel| Geometry::new(vec![a, b], 0.1);
+        let one = wheel(-0.1, 0.0, FRAC_PI_2);
+        assert_eq!(two(one, wheel(0.1, 0.0, 0.0)).unwrap_err(), GeometryError::NoAxle);
+        assert_eq!(two(one, wheel(-0.1, 0.2, FRAC_PI_2)).unwrap_err(), GeometryError::NoAxle);
+        assert!(matches!(two(one, one), Err(GeometryError::Singular { .. })));
         assert!(Geometry::rac(0.0, R_BODY, [0.0; 3]).is_err());
         assert!(Geometry::rac(R_WHEEL, f64::NAN, [0.0; 3]).is_err());
         let mut wheels = rac_wheels(R_BODY, [0.0; 3]);

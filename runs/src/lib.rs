@@ -7,17 +7,21 @@ mod data_set;
 pub mod error;
 pub mod frames;
 pub mod geometry;
+pub mod import;
 mod log;
 mod logs;
 mod mcap;
+pub mod output;
 mod part;
 mod read;
 pub mod robot;
+mod signals;
 mod spool;
 mod stream;
 pub mod ticks;
 mod write;
 
+use crate::columns::Column;
 use crate::error::InputError;
 use crate::frames::Pose;
 
@@ -26,6 +30,7 @@ pub use log::{Log, Seen};
 pub use logs::Logs;
 pub use mcap::McapStream;
 pub use part::Columns;
+pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, is_dead_reckoning};
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// What is wrong in a log, where, and what to do about it.
@@ -34,9 +39,11 @@ pub type RunError = InputError;
 /// One recorded drive, column by column; every column has one entry a tick.
 ///
 /// The file is a CSV with a header row, SI units, columns in any order:
-/// `t, cmd_vx, cmd_vy, cmd_w, ref_1..N, enc_1..N, duty_1..N, meas_1..N, supply_v, cam_x, cam_y, cam_theta`.
+/// `t, cmd_vx, cmd_vy, cmd_w, ref_1..N, enc_1..N, duty_1..N, meas_1..N, supply_v, cam_x, cam_y, cam_theta`, and
+/// `speed_1..N, current_1..N, odom_x, odom_y, odom_theta, gyro_x..z, acc_x..z, imu_temp`.
 /// An MCAP has fields of the same names. Only `t` must be there. An empty field means no sample at this tick: it is NaN in the columns
-/// of numbers here, and see [`Run::counts`] for the encoders.
+/// of numbers here, and see [`Run::counts`] for the encoders. Signals need not share a clock: lines of one time
+/// are one tick where none of their fields stands twice.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Run {
     /// Name of the run: the file's name without extension.
@@ -60,12 +67,28 @@ pub struct Run {
     pub measured: Vec<Vec<f64>>,
     /// `supply_v`, V, if logged.
     pub supply_v: Option<Vec<f64>>,
+    /// `speed_i`: wheel speeds (rad/s at the wheel), where there are no counts, `[wheel][tick]`; empty if not logged.
+    pub speed: Vec<Vec<f64>>,
+    /// `current_i`: motor currents, A, `[wheel][tick]`; empty if not logged.
+    pub current: Vec<Vec<f64>>,
+    /// `odom_x`, `odom_y`, `odom_theta`: the robot's own dead reckoning (m, m, rad), if logged.
+    pub odometry: Option<[Vec<f64>; 3]>,
+    /// `gyro_x..z`: rates of turn about the body's axes, rad/s, if any is logged; an axis that is not is NaN.
+    pub gyro: Option<[Vec<f64>; 3]>,
+    /// `acc_x..z`: accelerations along the body's axes, m/s², likewise.
+    pub acceleration: Option<[Vec<f64>; 3]>,
+    /// `imu_temp`, °C, if logged.
+    pub imu_temp: Option<Vec<f64>>,
     /// Camera poses, on the ticks that had one.
     pub camera: Vec<CameraSample>,
     /// Whether the log has camera columns at all.
     pub has_camera: bool,
     /// Columns we do not know, in the order of the file, as text.
     pub other: Vec<(String, Vec<String>)>,
+    /// What its counts and duties were made of.
+    pub source: Source,
+    /// What was read another way than it is written, in sentences.
+    pub notes: Vec<String>,
 }
 
 /// One pose from the overhead camera.
@@ -90,7 +113,82 @@ impl Run {
 
     /// Number of wheels in the log's columns, 0 if it has none by wheel.
     pub fn wheel_count(&self) -> usize {
-        self.reference.len().max(self.counts.len()).max(self.duty.len())
+        let groups = [&self.reference, &self.duty, &self.measured, &self.speed, &self.current];
+        groups.iter().map(|g| g.len()).fold(self.counts.len(), usize::max)
+    }
+
+    /// Times of the ticks at which the first encoder counts, or all where it has not twice.
+    pub(crate) fn sampled(&self) -> std::borrow::Cow<'_, [f64]> {
+        let gaps = self.count_gaps.first().map_or(&[][..], Vec::as_slice);
+        if gaps.is_empty() || gaps.len() + 2 > self.len() {
+            return std::borrow::Cow::Borrowed(&self.t);
+        }
+        let mut gaps = gaps.iter().peekable();
+        let counts = |tick: &usize| gaps.next_if(|gap| **gap == *tick).is_none();
+        (0..self.len()).filter(counts).map(|tick| self.t[tick]).collect()
+    }
+
+    /// A column of numbers; `None` for those of another kind and those that are not logged.
+    pub(crate) fn real(&self, column: Column) -> Option<&Vec<f64>> {
+        match column {
+            Column::Time => Some(&self.t),
+            Column::Command(i) => self.command.as_ref().map(|c| &c[i]),
+            Column::Reference(wheel) => self.reference.get(wheel),
+            Column::Duty(wheel) => self.duty.get(wheel),
+            Column::Measured(wheel) => self.measured.get(wheel),
+            Column::Supply => self.supply_v.as_ref(),
+            Column::Speed(wheel) => self.speed.get(wheel),
+            Column::Current(wheel) => self.current.get(wheel),
+            Column::Odometry(i) => self.odometry.as_ref().map(|c| &c[i]),
+            Column::Gyro(i) => self.gyro.as_ref().map(|c| &c[i]),
+            Column::Acceleration(i) => self.acceleration.as_ref().map(|c| &c[i]),
+            Column::ImuTemperature => self.imu_temp.as_ref(),
+            Column::Counts(_) | Column::Camera(_) | Column::Other => None,
+        }
+    }
+
+    /// The same to be written to.
+    pub(crate) fn real_mut(&mut self, column: Column) -> Option<&mut Vec<f64>> {
+        match column {
+            Column::Time => Some(&mut self.t),
+            Column::Command(i) => self.command.as_mut().map(|c| &mut c[i]),
+            Column::Reference(wheel) => self.reference.get_mut(wheel),
+            Column::Duty(wheel) => self.duty.get_mut(wheel),
+            Column::Measured(wheel) => self.measured.get_mut(wheel),
+            Column::Supply => self.supply_v.as_mut(),
+            Column::Speed(wheel) => self.speed.get_mut(wheel),
+            Column::Current(wheel) => self.current.get_mut(wheel),
+            Column::Odometry(i) => self.odometry.as_mut().map(|c| &mut c[i]),
+            Column::Gyro(i) => self.gyro.as_mut().map(|c| &mut c[i]),
+            Column::Acceleration(i) => self.acceleration.as_mut().map(|c| &mut c[i]),
+            Column::ImuTemperature => self.imu_temp.as_mut(),
+            Column::Counts(_) | Column::Camera(_) | Column::Other => None,
+        }
+    }
+
+    /// A run with these columns and no ticks.
+    pub(crate) fn with_columns(columns: &[Column]) -> Self {
+        let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
+        let wheels = |group: fn(usize) -> Column| vec![Vec::new(); width(group)];
+        let triple = |group: fn(usize) -> Column| (0..3).any(|i| columns.contains(&group(i))).then(Default::default);
+        let single = |column: Column| columns.contains(&column).then(Vec::new);
+        Self {
+            command: triple(Column::Command),
+            reference: wheels(Column::Reference),
+            counts: vec![Vec::new(); width(Column::Counts)],
+            count_gaps: vec![Vec::new(); width(Column::Counts)],
+            duty: wheels(Column::Duty),
+            measured: wheels(Column::Measured),
+            supply_v: single(Column::Supply),
+            speed: wheels(Column::Speed),
+            current: wheels(Column::Current),
+            odometry: triple(Column::Odometry),
+            gyro: triple(Column::Gyro),
+            acceleration: triple(Column::Acceleration),
+            imu_temp: single(Column::ImuTemperature),
+            has_camera: columns.contains(&Column::Camera(0)),
+            ..Self::default()
+        }
     }
 
     /// From the first to the last tick, s.
@@ -101,9 +199,10 @@ impl Run {
         }
     }
 
-    /// Median distance of two ticks, s; `None` for fewer than two ticks.
+    /// Median distance of two ticks, s; `None` for fewer than two ticks. Where the encoders do not count at every
+    /// tick, as in logs of several clocks, of those at which they do.
     pub fn tick_s(&self) -> Option<f64> {
-        let mut steps: Vec<f64> = self.t.windows(2).map(|w| w[1] - w[0]).collect();
+        let mut steps: Vec<f64> = self.sampled().windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
         (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
     }

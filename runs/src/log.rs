@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
+use super::signals::Reading;
 use super::spool::{Spool, Spooled};
 use super::{Columns, Run, RunError};
 use crate::frames::Pose;
@@ -66,15 +67,26 @@ fn seen(run: &Run, first: usize) -> impl Iterator<Item = Seen> {
 }
 
 impl Log<'static> {
-    /// Reads a log; up to `in_memory` ticks stay in memory, and else all of them go to `spool`, which is made when it
+    /// Reads a log, as the links read it where the robot is given; up to `in_memory` ticks stay in memory, and else all of them go to `spool`, which is made when it
     /// is needed first.
-    pub(super) fn read(path: &Path, in_memory: usize, spool: &mut Option<Arc<Spool>>) -> Result<Self, RunError> {
+    pub(super) fn read(
+        path: &Path,
+        robot: Option<&Robot>,
+        in_memory: usize,
+        spool: &mut Option<Arc<Spool>>,
+    ) -> Result<Self, RunError> {
         let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
         let mut whole: Option<Run> = None;
         let mut file: Option<Spooled> = None;
         let (mut camera, mut steps): (Vec<Seen>, Vec<f64>) = Default::default();
         let mut last = None;
+        let mut reading = None;
         let mut take = |run: Run| -> Result<(), RunError> {
+            let run = match (robot, &mut reading) {
+                (None, _) => run,
+                (_, Some(reading)) => Reading::apply(reading, run),
+                (Some(robot), slot) => slot.insert(Reading::new(robot, &run, path)?).apply(run),
+            };
             if file.is_none() && whole.as_ref().map_or(0, Run::len) + run.len() <= in_memory {
                 match &mut whole {
                     Some(whole) => whole.append(run),
@@ -94,7 +106,7 @@ impl Log<'static> {
                     }
                 };
                 camera.extend(seen(&run, spooled.len()));
-                for t in &run.t {
+                for t in run.sampled().iter() {
                     if let Some(last) = last.replace(*t).filter(|_| steps.len() < STEPS) {
                         steps.push(t - last);
                     }
@@ -239,7 +251,8 @@ mod tests {
     fn a_log_in_a_file_has_what_a_run_has() {
         let (_folder, path) = write(&text());
         let run = Run::read(&path).unwrap();
-        let (here, there) = (Log::read(&path, usize::MAX, &mut None).unwrap(), Log::read(&path, 0, &mut None).unwrap());
+        let (here, there) =
+            (Log::read(&path, None, usize::MAX, &mut None).unwrap(), Log::read(&path, None, 0, &mut None).unwrap());
         assert!(matches!(there.store, Store::File(_)) && matches!(here.store, Store::Memory(_)));
         assert_eq!((there.len(), there.tick_s()), (run.len(), run.tick_s()));
         assert_eq!((here.camera(), there.camera()), (&seen(&run, 0).collect::<Vec<_>>()[..], here.camera()));
@@ -285,7 +298,7 @@ mod tests {
             let expected = Run::read(&path).unwrap_err();
             assert_eq!((expected.line, expected.field.as_str()), (u32::try_from(line).ok(), field));
             for in_memory in [0, 1000, usize::MAX] {
-                assert_eq!(Log::read(&path, in_memory, &mut None).unwrap_err(), expected);
+                assert_eq!(Log::read(&path, None, in_memory, &mut None).unwrap_err(), expected);
             }
         }
         let jump = swap(&format!("{t},90000000,2,0.1,0.5,a,,,"));
@@ -293,6 +306,6 @@ mod tests {
         let robot = Robot { support: crate::robot::Support::Blocks, ..Robot::racbot() }.first_axes(2);
         let expected = Run::read(&path).unwrap().check(&robot, &path).unwrap_err();
         assert_eq!(expected.line, u32::try_from(line).ok());
-        assert_eq!(Log::read(&path, 0, &mut None).unwrap().check(&robot).unwrap_err(), expected);
+        assert_eq!(Log::read(&path, None, 0, &mut None).unwrap().check(&robot).unwrap_err(), expected);
     }
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::data_set::{robot_of, run_files};
+use super::signals::{DRIVE_KEYS, as_logged};
 use super::{DataSet, Log, RunError};
 use crate::robot::{Robot, Support};
 
@@ -25,6 +26,37 @@ impl<'a> From<&'a DataSet> for Logs<'a> {
     fn from(set: &'a DataSet) -> Self {
         let logs = set.runs.iter().map(|run| Log::from(Cow::Borrowed(run))).collect();
         Self { folder: set.folder.clone(), robot: set.robot.clone(), logs }
+    }
+}
+
+impl Logs<'_> {
+    /// The robot as the columns of the logs show it, see [`as_logged`].
+    pub fn as_logged(&self) -> Robot {
+        let source = self.logs.first().map(|log| log.layout().source).unwrap_or_default();
+        as_logged(&self.robot, source, self.logs.iter().find_map(Log::tick_s))
+    }
+
+    /// What was read another way than it is written, by log, in sentences; one that several logs share stands once.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
+        for log in &self.logs {
+            for note in &log.layout().notes {
+                match notes.iter_mut().find(|(text, _)| text == note) {
+                    Some((_, logs)) => logs.push(&log.name),
+                    None => notes.push((note.clone(), vec![&log.name])),
+                }
+            }
+        }
+        let all = self.logs.len();
+        let drives = self.logs.iter().any(|log| !log.layout().duty.is_empty());
+        let lacking = self.as_logged().lacks(&DRIVE_KEYS).join(", ");
+        let narrowed = (drives && !lacking.is_empty()).then(|| {
+            format!("duties are not compared, for robot.toml does not say {lacking}: add it to have them compared")
+        });
+        let said = |(note, logs): (String, Vec<&str>)| {
+            if logs.len() == all { note } else { format!("{}: {note}", logs.join(", ")) }
+        };
+        notes.into_iter().map(said).chain(narrowed).collect()
     }
 }
 
@@ -54,7 +86,7 @@ impl Logs<'static> {
         let folder = folder.as_ref();
         let (mut left, mut spool, mut logs) = (in_memory, None, Vec::new());
         for file in run_files(folder)? {
-            let log = Log::read(&file, left, &mut spool)?;
+            let log = Log::read(&file, Some(&robot), left, &mut spool)?;
             left = left.saturating_sub(log.len());
             logs.push(log);
         }

@@ -19,30 +19,55 @@ pub struct Columns {
     pub measured: bool,
     /// Supply voltage.
     pub supply: bool,
+    /// Wheel speeds, currents, dead reckoning and inertial sensors.
+    pub sensors: bool,
 }
 
 impl Columns {
     /// Every column.
     pub const ALL: Self =
-        Self { command: true, reference: true, counts: true, duty: true, measured: true, supply: true };
+        Self { command: true, reference: true, counts: true, duty: true, measured: true, supply: true, sensors: true };
     /// The time alone.
-    pub const NONE: Self =
-        Self { command: false, reference: false, counts: false, duty: false, measured: false, supply: false };
+    pub const NONE: Self = Self {
+        command: false,
+        reference: false,
+        counts: false,
+        duty: false,
+        measured: false,
+        supply: false,
+        sensors: false,
+    };
 }
 
 impl Run {
     /// The columns of numbers, the time first.
     pub(super) fn reals(&self) -> Vec<&Vec<f64>> {
-        let command = self.command.iter().flatten();
         let wheels = [&self.reference, &self.duty, &self.measured].into_iter().flatten();
-        std::iter::once(&self.t).chain(command).chain(wheels).chain(&self.supply_v).collect()
+        let sensors = [&self.speed, &self.current].into_iter().flatten();
+        let triples = [&self.odometry, &self.gyro, &self.acceleration].into_iter().flatten().flatten();
+        std::iter::once(&self.t)
+            .chain(self.command.iter().flatten())
+            .chain(wheels)
+            .chain(&self.supply_v)
+            .chain(sensors)
+            .chain(triples)
+            .chain(&self.imu_temp)
+            .collect()
     }
 
     /// The same to be written to.
     pub(super) fn reals_mut(&mut self) -> Vec<&mut Vec<f64>> {
-        let command = self.command.iter_mut().flatten();
         let wheels = [&mut self.reference, &mut self.duty, &mut self.measured].into_iter().flatten();
-        std::iter::once(&mut self.t).chain(command).chain(wheels).chain(&mut self.supply_v).collect()
+        let sensors = [&mut self.speed, &mut self.current].into_iter().flatten();
+        let triples = [&mut self.odometry, &mut self.gyro, &mut self.acceleration].into_iter().flatten().flatten();
+        std::iter::once(&mut self.t)
+            .chain(self.command.iter_mut().flatten())
+            .chain(wheels)
+            .chain(&mut self.supply_v)
+            .chain(sensors)
+            .chain(triples)
+            .chain(&mut self.imu_temp)
+            .collect()
     }
 
     /// Which of the columns of numbers are wanted.
@@ -53,12 +78,15 @@ impl Run {
         wanted.extend(self.duty.iter().map(|_| columns.duty));
         wanted.extend(self.measured.iter().map(|_| columns.measured));
         wanted.extend(self.supply_v.iter().map(|_| columns.supply));
+        wanted.resize(self.reals().len(), columns.sensors);
         wanted
     }
 
     /// A run with these columns and no ticks.
     pub(super) fn emptied(&self, columns: Columns) -> Self {
         let none = |wanted: bool, like: &[Vec<f64>]| vec![Vec::new(); if wanted { like.len() } else { 0 }];
+        let triple =
+            |like: &Option<[Vec<f64>; 3]>| like.as_ref().filter(|_| columns.sensors).map(|_| Default::default());
         let wheels = if columns.counts { self.counts.len() } else { 0 };
         Self {
             name: self.name.clone(),
@@ -69,7 +97,15 @@ impl Run {
             duty: none(columns.duty, &self.duty),
             measured: none(columns.measured, &self.measured),
             supply_v: self.supply_v.as_ref().filter(|_| columns.supply).map(|_| Vec::new()),
+            speed: none(columns.sensors, &self.speed),
+            current: none(columns.sensors, &self.current),
+            odometry: triple(&self.odometry),
+            gyro: triple(&self.gyro),
+            acceleration: triple(&self.acceleration),
+            imu_temp: self.imu_temp.as_ref().filter(|_| columns.sensors).map(|_| Vec::new()),
             has_camera: self.has_camera,
+            source: self.source,
+            notes: self.notes.clone(),
             other: self.other.iter().map(|(name, _)| (name.clone(), Vec::new())).collect(),
             ..Self::default()
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use csv::ByteRecord;
 
-use super::columns::{Column, missing_member};
+use super::columns::{Column, GROUPS, WHEEL_GROUPS, missing_member};
 use super::{CameraSample, Columns, Run, RunError};
 use crate::error::nearest;
 use crate::frames::Pose;
@@ -108,7 +108,14 @@ fn parse(
     keep_other: bool,
     mut take: impl FnMut(Run) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    let mut csv = csv::ReaderBuilder::new().flexible(true).has_headers(false).trim(csv::Trim::All).from_reader(source);
+    let mut source = std::io::BufReader::with_capacity(1 << 16, source);
+    let separator = separator(source.fill_buf().map_err(|e| RunError::io(path, &e))?);
+    let mut csv = csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .flexible(true)
+        .has_headers(false)
+        .trim(csv::Trim::All)
+        .from_reader(source);
     let mut record = ByteRecord::new();
     let mut next = |record: &mut ByteRecord| {
         csv.read_byte_record(record).map_err(|e| RunError::new(path, e.to_string(), "save the log as CSV"))
@@ -116,19 +123,32 @@ fn parse(
     if !next(&mut record)? {
         return Err(RunError::new(path, "is empty", "log at least a header row and one tick"));
     }
-    let mut reader = Reader::header(path, text, &record, keep_other)?;
+    let mut reader = Reader::header(path, text, &record, keep_other, separator)?;
     while next(&mut record)? {
-        reader.row(&record)?;
+        // A line of the last tick's time may belong to it.
         if reader.run.len() >= ticks
+            && reader.time_of(&record) != reader.last_t
             && let Some(part) = reader.part()
         {
             take(part)?;
         }
+        reader.row(&record)?;
     }
     if let Some(rest) = reader.finish()? {
         take(rest)?;
     }
     Ok(())
+}
+
+/// What stands between the fields of a file: a comma, unless its first line has none but semicolons or tabs.
+pub(crate) fn separator(head: &[u8]) -> u8 {
+    let line = head.split(|b| *b == b'\n').next().unwrap_or(head);
+    let number = |byte: u8| line.iter().filter(|b| **b == byte).count();
+    match (number(b','), number(b';'), number(b'\t')) {
+        (0, n, tabs) if n > 0 && n >= tabs => b';',
+        (0, _, tabs) if tabs > 0 => b'\t',
+        _ => b',',
+    }
 }
 
 /// What one column fills.
@@ -142,6 +162,9 @@ struct Reader<'a> {
     text: Text<'a>,
     slots: Vec<Slot>,
     keep_other: bool,
+    separator: u8,
+    /// Which fields the last tick has.
+    filled: Vec<bool>,
     /// The part that is being read.
     run: Run,
     /// Time of the last tick, in this part or the one before.
@@ -155,7 +178,13 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn header(path: &'a Path, text: Text<'a>, record: &ByteRecord, keep_other: bool) -> Result<Self, RunError> {
+    fn header(
+        path: &'a Path,
+        text: Text<'a>,
+        record: &ByteRecord,
+        keep_other: bool,
+        separator: u8,
+    ) -> Result<Self, RunError> {
         let mut slots: Vec<Slot> = Vec::new();
         for (i, field) in record.iter().enumerate() {
             let field = if i == 0 { field.strip_prefix(b"\xef\xbb\xbf").unwrap_or(field) } else { field };
@@ -167,6 +196,7 @@ impl<'a> Reader<'a> {
             }
             slots.push(Slot { column: Column::from_name(&name), name });
         }
+        let notes = variants(&mut slots, separator);
         let names: Vec<&str> = slots.iter().map(|s| s.name.as_str()).collect();
         let columns: Vec<Column> = slots.iter().map(|s| s.column).collect();
         let missing =
@@ -182,47 +212,25 @@ impl<'a> Reader<'a> {
             };
             return missing("t".to_owned(), hint);
         }
-        type Group = (fn(usize) -> Column, usize);
-        let groups: [Group; 6] = [
-            (Column::Reference, 0),
-            (Column::Counts, 0),
-            (Column::Duty, 0),
-            (Column::Measured, 0),
-            (Column::Command, 3),
-            (Column::Camera, 3),
-        ];
-        for (group, at_least) in groups {
+        for (group, at_least) in GROUPS {
             if let Some(column) = missing_member(&columns, group, at_least) {
                 return missing(column.name(), "log the whole group of columns, or none of it".to_owned());
             }
         }
         let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
-        let widths = [Column::Reference, Column::Counts, Column::Duty, Column::Measured].map(width);
-        let wheels = widths.into_iter().max().unwrap_or(0);
-        for ((group, _), n) in groups.iter().zip(widths) {
-            if n > 0 && n < wheels {
+        let widths: Vec<usize> = GROUPS[..WHEEL_GROUPS].iter().map(|(group, _)| width(*group)).collect();
+        let wheels = widths.iter().copied().max().unwrap_or(0);
+        for ((group, _), n) in GROUPS.iter().zip(&widths) {
+            if (1..wheels).contains(n) {
                 let hint = format!("other columns speak of {wheels} wheels; log this one for all of them");
-                return missing(group(n).name(), hint);
+                return missing(group(*n).name(), hint);
             }
         }
-        let run = Run {
-            command: columns.contains(&Column::Command(0)).then(Default::default),
-            reference: vec![Vec::new(); widths[0]],
-            counts: vec![Vec::new(); widths[1]],
-            count_gaps: vec![Vec::new(); widths[1]],
-            duty: vec![Vec::new(); widths[2]],
-            measured: vec![Vec::new(); widths[3]],
-            supply_v: columns.contains(&Column::Supply).then(Vec::new),
-            has_camera: columns.contains(&Column::Camera(0)),
-            other: slots
-                .iter()
-                .filter(|s| keep_other && s.column == Column::Other)
-                .map(|s| (s.name.clone(), Vec::new()))
-                .collect(),
-            ..Run::default()
-        };
-        let held = vec![None; widths[1]];
-        Ok(Self { path, text, slots, keep_other, run, last_t: None, held, fresh: true, short: None })
+        let others = slots.iter().filter(|s| keep_other && s.column == Column::Other);
+        let other = others.map(|s| (s.name.clone(), Vec::new())).collect();
+        let run = Run { other, notes, ..Run::with_columns(&columns) };
+        let (held, filled) = (vec![None; widths[1]], vec![false; slots.len()]);
+        Ok(Self { path, text, slots, keep_other, separator, filled, run, last_t: None, held, fresh: true, short: None })
     }
 
     fn row(&mut self, record: &ByteRecord) -> Result<(), RunError> {
@@ -241,20 +249,35 @@ impl<'a> Reader<'a> {
             self.short = Some((offset, record.len()));
             return Ok(());
         }
-        let tick = self.run.t.len();
+        // Lines of one time with different fields are one tick of signals with clocks of their own.
+        let same = self.last_t.is_some() && self.time_of(record) == self.last_t && !self.run.is_empty();
+        let apart = || record.iter().zip(&self.slots).zip(&self.filled);
+        let says = apart().any(|((f, s), _)| s.column != Column::Time && !f.is_empty());
+        let joined =
+            same && says && apart().all(|((f, s), filled)| s.column == Column::Time || f.is_empty() || !filled);
+        if !joined {
+            self.filled.fill(false);
+        }
+        let tick = self.run.t.len() - usize::from(joined);
         let mut camera = [f64::NAN; 3];
         let mut other = 0;
+        let (path, text) = (self.path, self.text);
         for (i, field) in record.iter().enumerate() {
             let Slot { name, column } = &self.slots[i];
             let fail = |what: String, hint: &str| {
-                Err(RunError::new(self.path, what, hint)
-                    .at(self.line(offset), column_of(record, i))
-                    .field(name.clone()))
+                Err(RunError::new(path, what, hint).at(text.line(offset), column_of(record, i)).field(name.clone()))
             };
+            self.filled[i] |= !field.is_empty();
             let number = match column {
                 Column::Other => {
                     if self.keep_other {
-                        self.run.other[other].1.push(String::from_utf8_lossy(field).into_owned());
+                        let text = String::from_utf8_lossy(field).into_owned();
+                        let texts = &mut self.run.other[other].1;
+                        match texts.get_mut(tick) {
+                            Some(slot) if !text.is_empty() => *slot = text,
+                            Some(_) => {}
+                            None => texts.push(text),
+                        }
                         other += 1;
                     }
                     continue;
@@ -264,17 +287,22 @@ impl<'a> Reader<'a> {
                         let what = format!("{} is no whole number", quoted(field));
                         return fail(what, "log cumulative encoder counts, or leave the field empty");
                     };
+                    let (counts, gaps) = (&mut self.run.counts[*wheel], &mut self.run.count_gaps[*wheel]);
                     if count.is_some() {
                         self.held[*wheel] = count;
-                    } else {
-                        self.run.count_gaps[*wheel].push(tick);
                     }
-                    // Before the first sample there is nothing to hold; take() fills it in.
-                    self.run.counts[*wheel].push(self.held[*wheel].unwrap_or(0));
+                    if !joined {
+                        // Before the first sample there is nothing to hold; take() fills it in.
+                        counts.push(self.held[*wheel].unwrap_or(0));
+                        gaps.extend(count.is_none().then_some(tick));
+                    } else if let Some(count) = count {
+                        counts[tick] = count;
+                        gaps.pop_if(|gap| *gap == tick);
+                    }
                     continue;
                 }
                 _ if field.is_empty() => f64::NAN,
-                _ => match std::str::from_utf8(field).ok().and_then(|s| s.parse::<f64>().ok()) {
+                _ => match self.number(field) {
                     Some(x) if x.is_finite() => x,
                     Some(x) => {
                         return fail(
@@ -288,6 +316,7 @@ impl<'a> Reader<'a> {
                 },
             };
             match column {
+                Column::Time if joined => continue,
                 Column::Time => {
                     if number.is_nan() {
                         return fail("is empty".to_owned(), "every tick needs its time");
@@ -300,34 +329,26 @@ impl<'a> Reader<'a> {
                         };
                         return fail(what, "sort the log by time, one line a tick");
                     }
-                    self.run.t.push(number);
                     self.last_t = Some(number);
                 }
-                Column::Command(i) => {
-                    if let Some(command) = &mut self.run.command {
-                        command[*i].push(number);
-                    }
-                }
-                Column::Reference(wheel) => self.run.reference[*wheel].push(number),
-                Column::Measured(wheel) => self.run.measured[*wheel].push(number),
-                Column::Duty(wheel) => {
-                    // Roundings of a logger may pass the limit by a digit, no more.
-                    if number.abs() > 1.001 {
-                        return fail(
-                            format!("duty {number} is not within ±1"),
-                            "log the duty as a share of the supply",
-                        );
-                    }
-                    self.run.duty[*wheel].push(number);
-                }
-                Column::Supply => {
-                    if let Some(supply) = &mut self.run.supply_v {
-                        supply.push(number);
-                    }
+                // Roundings of a logger may pass the limit by a digit, no more.
+                Column::Duty(_) if number.abs() > 1.001 => {
+                    return fail(format!("duty {number} is not within ±1"), "log the duty as a share of the supply");
                 }
                 Column::Camera(i) => camera[*i] = number,
-                Column::Counts(_) | Column::Other => {}
+                _ => {}
             }
+            if let Some(numbers) = self.run.real_mut(*column) {
+                match numbers.get_mut(tick) {
+                    Some(slot) if !number.is_nan() => *slot = number,
+                    Some(_) => {}
+                    None => numbers.push(number),
+                }
+            }
+        }
+        // An inertial sensor may have some of its axes only.
+        for group in [&mut self.run.gyro, &mut self.run.acceleration].into_iter().flatten() {
+            group.iter_mut().for_each(|axis| axis.resize(tick + 1, f64::NAN));
         }
         match camera.iter().filter(|c| !c.is_nan()).count() {
             0 => {}
@@ -339,6 +360,21 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The number in a field; German and French spreadsheets, which part fields by semicolons, have decimal commas.
+    fn number(&self, field: &[u8]) -> Option<f64> {
+        let text = std::str::from_utf8(field).ok()?;
+        if self.separator != b',' && text.contains(',') {
+            return text.replace(',', ".").parse().ok();
+        }
+        text.parse().ok()
+    }
+
+    /// The time in a line, if there is one.
+    fn time_of(&self, record: &ByteRecord) -> Option<f64> {
+        let slot = self.slots.iter().position(|s| s.column == Column::Time)?;
+        record.get(slot).and_then(|field| self.number(field))
     }
 
     /// What was read since the last part; nothing while a wheel has no count to begin with.
@@ -382,6 +418,29 @@ impl<'a> Reader<'a> {
         let what = format!("{fields} fields, but the header has {}", self.slots.len());
         RunError::new(self.path, what, hint).at(self.line(offset), 1)
     }
+}
+
+/// Takes columns whose names are ours but for their spelling, and says so; and what looks like a slip of one of ours.
+fn variants(slots: &mut [Slot], separator: u8) -> Vec<String> {
+    let mut notes = Vec::new();
+    if separator != b',' {
+        let which = if separator == b';' { "semicolons" } else { "tabs" };
+        notes.push(format!("fields are parted by {which}, decimal commas read as points"));
+    }
+    for i in 0..slots.len() {
+        if slots[i].column != Column::Other {
+            continue;
+        }
+        if let Some(column) = Column::from_variant(&slots[i].name).filter(|c| slots.iter().all(|s| s.column != *c)) {
+            notes.push(format!("column {} is read as {}", slots[i].name, column.name()));
+            slots[i].column = column;
+        } else if let Some(ours) = Column::resembling(&slots[i].name)
+            && slots.iter().all(|s| s.name != ours)
+        {
+            notes.push(format!("column {} is not read: if it is {ours}, rename it", slots[i].name));
+        }
+    }
+    notes
 }
 
 /// Column (from 1) of a field in its line; exact where nothing is quoted.

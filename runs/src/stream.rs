@@ -1,6 +1,6 @@
 //! Writing a run while it is being driven, tick by tick.
 
-use std::fs::File;
+use crate::output::{Existing, create_growing};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::{McapStream, Run};
 use crate::frames::Pose;
 
 /// Which columns a run will have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Layout {
     /// Commanded body twist.
     pub command: bool,
@@ -25,13 +25,25 @@ pub struct Layout {
     pub supply: bool,
     /// Camera poses, on the ticks that have one.
     pub camera: bool,
+    /// Wheels with speeds; 0 or the robot's number.
+    pub speeds: usize,
+    /// Wheels with currents; 0 or the robot's number.
+    pub currents: usize,
+    /// The robot's own dead reckoning.
+    pub odometry: bool,
+    /// Rates of turn.
+    pub gyro: bool,
+    /// Accelerations.
+    pub acceleration: bool,
+    /// Temperature of the inertial sensors.
+    pub imu_temp: bool,
 }
 
 impl Layout {
     /// Everything that a robot's own computer knows; nobody measures its supply.
     pub fn of_robot(wheels: usize, camera: bool) -> Self {
         let [references, counts, duties, measured] = [wheels; 4];
-        Self { command: true, references, counts, duties, measured, supply: false, camera }
+        Self { command: true, references, counts, duties, measured, camera, ..Self::default() }
     }
 
     pub(super) fn columns(self) -> Vec<Column> {
@@ -44,12 +56,18 @@ impl Layout {
         columns.extend((0..self.measured).map(Column::Measured));
         columns.extend(self.supply.then_some(Column::Supply));
         columns.extend(group(self.camera, Column::Camera));
+        columns.extend((0..self.speeds).map(Column::Speed));
+        columns.extend((0..self.currents).map(Column::Current));
+        columns.extend(group(self.odometry, Column::Odometry));
+        columns.extend(group(self.gyro, Column::Gyro));
+        columns.extend(group(self.acceleration, Column::Acceleration));
+        columns.extend(self.imu_temp.then_some(Column::ImuTemperature));
         columns
     }
 }
 
 /// One tick to be written; what its [`Layout`] does not have is ignored, NaN is "no sample".
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tick<'a> {
     /// Time, s; greater than that of the tick before.
     pub t: f64,
@@ -67,6 +85,18 @@ pub struct Tick<'a> {
     pub supply_v: f64,
     /// Camera pose, where there is one at this tick.
     pub camera: Option<Pose>,
+    /// Wheel speeds where there are no counts, rad/s at the wheel.
+    pub speed: &'a [f64],
+    /// Motor currents, A.
+    pub current: &'a [f64],
+    /// Dead reckoning, m, m, rad.
+    pub odometry: [f64; 3],
+    /// Rates of turn about the body's axes, rad/s.
+    pub gyro: [f64; 3],
+    /// Accelerations along the body's axes, m/s².
+    pub acceleration: [f64; 3],
+    /// Temperature of the inertial sensors, °C.
+    pub imu_temp: f64,
 }
 
 impl Tick<'_> {
@@ -81,6 +111,12 @@ impl Tick<'_> {
             Column::Measured(wheel) => of(self.measured, wheel),
             Column::Supply => self.supply_v,
             Column::Camera(i) => self.camera.map_or(f64::NAN, |p| [p.x, p.y, p.theta][i]),
+            Column::Speed(wheel) => of(self.speed, wheel),
+            Column::Current(wheel) => of(self.current, wheel),
+            Column::Odometry(i) => self.odometry[i],
+            Column::Gyro(i) => self.gyro[i],
+            Column::Acceleration(i) => self.acceleration[i],
+            Column::ImuTemperature => self.imu_temp,
             Column::Counts(_) | Column::Other => f64::NAN,
         }
     }
@@ -114,14 +150,14 @@ pub trait RunStream: Send {
     fn finish(&mut self) -> io::Result<()>;
 }
 
-/// A new run file, MCAP where the name ends in `.mcap`, else CSV.
+/// A new run file that grows under its name, MCAP where that ends in `.mcap`, else CSV.
 ///
 /// `start_ns`: time of t = 0 in nanoseconds since 1970, for MCAP's own time stamps.
 ///
 /// # Errors
-/// A file that cannot be created.
-pub fn create(path: &Path, layout: Layout, start_ns: u64) -> io::Result<Box<dyn RunStream>> {
-    let file = File::create(path)?;
+/// A file that cannot be created, or exists and is to stay.
+pub fn create(path: &Path, layout: Layout, start_ns: u64, existing: Existing) -> io::Result<Box<dyn RunStream>> {
+    let file = create_growing(path, existing)?;
     Ok(if is_mcap(path) {
         Box::new(McapStream::new(io::BufWriter::new(file), layout, start_ns)?)
     } else {
@@ -205,6 +241,12 @@ impl Run {
             measured: self.measured.len(),
             supply: self.supply_v.is_some(),
             camera: self.has_camera,
+            speeds: self.speed.len(),
+            currents: self.current.len(),
+            odometry: self.odometry.is_some(),
+            gyro: self.gyro.is_some(),
+            acceleration: self.acceleration.is_some(),
+            imu_temp: self.imu_temp.is_some(),
         }
     }
 
@@ -215,6 +257,9 @@ impl Run {
     /// What the stream reports.
     pub fn stream_to(&self, stream: &mut dyn RunStream) -> io::Result<()> {
         let at = |columns: &[Vec<f64>], tick: usize| columns.iter().map(|c| c[tick]).collect::<Vec<_>>();
+        let triple = |group: &Option<[Vec<f64>; 3]>, tick: usize| {
+            group.as_ref().map_or([f64::NAN; 3], |g| [0, 1, 2].map(|i| g[i][tick]))
+        };
         let mut camera = self.camera.iter().peekable();
         for index in 0..self.len() {
             let counts: Vec<Option<i64>> = self
@@ -225,13 +270,19 @@ impl Run {
                 .collect();
             stream.tick(&Tick {
                 t: self.t[index],
-                command: self.command.as_ref().map_or([f64::NAN; 3], |c| [c[0][index], c[1][index], c[2][index]]),
+                command: triple(&self.command, index),
                 reference: &at(&self.reference, index),
                 counts: &counts,
                 duty: &at(&self.duty, index),
                 measured: &at(&self.measured, index),
                 supply_v: self.supply_v.as_ref().map_or(f64::NAN, |s| s[index]),
                 camera: camera.next_if(|sample| sample.tick == index).map(|sample| sample.pose),
+                speed: &at(&self.speed, index),
+                current: &at(&self.current, index),
+                odometry: triple(&self.odometry, index),
+                gyro: triple(&self.gyro, index),
+                acceleration: triple(&self.acceleration, index),
+                imu_temp: self.imu_temp.as_ref().map_or(f64::NAN, |c| c[index]),
             })?;
         }
         stream.finish()

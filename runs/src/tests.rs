@@ -59,6 +59,51 @@ fn windows_files_blanks_and_a_missing_last_line_end_are_accepted() {
 }
 
 #[test]
+fn lines_of_one_time_are_one_tick_where_no_field_stands_twice() {
+    let run = read("t,enc_1,duty_1,gyro_z\n0,5,,\n0,,0.5,\n0.01,,0.6,1\n0.02,7,,\n0.02,,,2\n0.03,,0.7,\n").unwrap();
+    assert_eq!(run.t, [0.0, 0.01, 0.02, 0.03]);
+    assert_eq!((run.counts[0].clone(), run.count_gaps[0].clone()), (vec![5, 5, 7, 7], vec![1, 3]));
+    assert_eq!(run.duty[0][0], 0.5);
+    assert!(run.duty[0][2].is_nan());
+    assert_eq!(run.gyro.as_ref().unwrap()[2][2], 2.0);
+    assert!(run.gyro.as_ref().unwrap()[0].iter().all(|x| x.is_nan()), "an axis nobody logged");
+    assert!((run.tick_s().unwrap() - 0.02).abs() < 1e-12, "the encoder's");
+    assert!(error("t,enc_1\n0,1\n0,2\n").contains("time 0 s stands twice"));
+}
+
+#[test]
+fn every_column_survives_writing_and_reading() {
+    let names = "t,speed_1,speed_2,current_1,current_2,odom_x,odom_y,odom_theta,gyro_x,gyro_y,gyro_z,acc_x,acc_y,acc_z,\
+                 imu_temp";
+    let line = |k: u32| format!("{k}{}", (1..15).map(|i| format!(",{}.5", i * k)).collect::<String>());
+    let run = read(&format!("{names}\n{}\n{}\n", line(1), line(2))).unwrap();
+    assert_eq!((run.wheel_count(), run.speed.len(), run.current[1][1]), (2, 2, 8.5));
+    assert_eq!(run.odometry.as_ref().unwrap()[2], [7.5, 14.5]);
+    assert_eq!(run.imu_temp.as_ref().unwrap()[0], 14.5);
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["again.csv", "again.mcap"] {
+        let path = folder.path().join(name);
+        run.write(&path).unwrap();
+        let again = Run { name: String::new(), ..Run::read(&path).unwrap() };
+        assert_eq!(again, run, "{name}");
+    }
+}
+
+#[test]
+fn other_spellings_and_separators_are_read_and_said() {
+    let run = read("t;Enc_1;enc 2;duty1;Duty_2;ecn_3\n0;1;2;0,5;-0,25;9\n1;2;3;0,5;0;9\n").unwrap();
+    assert_eq!((run.counts.len(), run.duty[0][0], run.duty[1][0]), (2, 0.5, -0.25));
+    let notes = run.notes.join("; ");
+    for part in ["semicolons", "Enc_1 is read as enc_1", "duty1 is read as duty_1", "ecn_3 is not read: if it is enc_3"]
+    {
+        assert!(notes.contains(part), "{notes}");
+    }
+    let latin = [&b"t,enc_1,Geschwindigkeit_in_m\xb2\n0,1,2\n"[..]].concat();
+    assert_eq!(Run::from_reader(&latin[..], Path::new("r")).unwrap().counts, [[1]]);
+    assert!(read("t,enc_1\n0,1\n").unwrap().notes.is_empty());
+}
+
+#[test]
 fn one_to_many_wheels() {
     for n in 1..=6 {
         let header: Vec<String> = (1..=n).map(|i| format!("duty_{i}")).collect();

@@ -1,27 +1,38 @@
 //! Writing a log.
 
-use std::fs::File;
+use crate::error::InputError;
+use crate::output::{Existing, write_with};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use super::Run;
 use super::columns::Column;
-use super::{Run, RunError};
 
 impl Run {
     /// Writes the run so that [`Run::read`] reads it back unchanged: as CSV, or as MCAP where the
-    /// name ends in `.mcap`, which has no place for [`Run::other`].
+    /// name ends in `.mcap`, which has no place for [`Run::other`]. A file that is there is replaced.
     ///
     /// # Errors
-    /// [`RunError`] if the file cannot be written.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), RunError> {
+    /// [`InputError`] if the file cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), InputError> {
+        self.save(path, Existing::Replace)
+    }
+
+    /// The same, where a file that is there may have to stay.
+    ///
+    /// # Errors
+    /// [`InputError`] if it has to, or the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>, existing: Existing) -> Result<(), InputError> {
         let path = path.as_ref();
-        if super::stream::is_mcap(path) {
-            let mut stream = super::create(path, self.layout(), 0).map_err(|e| RunError::io(path, &e))?;
-            return self.stream_to(&mut *stream).map_err(|e| RunError::io(path, &e));
-        }
-        let io = |e: std::io::Error| RunError::io(path, &e);
-        let mut file = BufWriter::new(File::create(path).map_err(io)?);
-        self.write_to(&mut file).and_then(|()| file.flush()).map_err(io)
+        write_with(path, existing, |file| {
+            let mut file = BufWriter::new(file);
+            if super::stream::is_mcap(path) {
+                self.stream_to(&mut super::McapStream::new(&mut file, self.layout(), 0)?)?;
+            } else {
+                self.write_to(&mut file)?;
+            }
+            file.flush()
+        })
     }
 
     /// Writes the run as CSV to anywhere.
@@ -39,20 +50,14 @@ impl Run {
             let pose = camera.next_if(|sample| sample.tick == tick).map(|s| [s.pose.x, s.pose.y, s.pose.theta]);
             for column in &columns {
                 let number = match *column {
-                    Column::Time => self.t[tick],
-                    Column::Command(i) => self.command.as_ref().map_or(f64::NAN, |c| c[i][tick]),
-                    Column::Reference(wheel) => self.reference[wheel][tick],
                     Column::Counts(wheel) => {
                         let gap = gaps.get_mut(wheel).and_then(|g| g.next_if(|t| **t == tick)).is_some();
                         let text = if gap { String::new() } else { self.counts[wheel][tick].to_string() };
                         csv.write_field(text)?;
                         continue;
                     }
-                    Column::Duty(wheel) => self.duty[wheel][tick],
-                    Column::Measured(wheel) => self.measured[wheel][tick],
-                    Column::Supply => self.supply_v.as_ref().map_or(f64::NAN, |s| s[tick]),
                     Column::Camera(i) => pose.map_or(f64::NAN, |p| p[i]),
-                    Column::Other => continue,
+                    column => self.real(column).map_or(f64::NAN, |numbers| numbers[tick]),
                 };
                 csv.write_field(if number.is_nan() { String::new() } else { number.to_string() })?;
             }

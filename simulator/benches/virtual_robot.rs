@@ -11,9 +11,10 @@ use fixed_kin::speed::{EncoderSample, SpeedMode};
 use model::plant::Plant;
 use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
-use simulator::closed_loop::{ClosedLoop, Drive, whole_tick_clock_hz};
+use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::fpga::{BitTrue, Fpga};
 use std::hint::black_box;
+use std::time::Duration;
 
 const TICKS: usize = 1_000;
 
@@ -115,15 +116,20 @@ fn closed_loop(c: &mut Criterion) {
     group.throughput(Throughput::Elements(TICKS as u64));
     group.bench_function("dynamics", |b| {
         let robot = Robot::racbot();
+        let scale = scale();
         let start = || {
             let plant = Plant::new(&robot).expect("drives").at(Pose::default());
-            ClosedLoop::start(BitTrue::new(), &robot, plant, &Settings::default()).expect("starts")
+            let period = Duration::from_secs_f64(scale.tick_s());
+            let robot = VirtualRobot::new(BitTrue::new(), plant, robot.supply_v, period);
+            (armed(robot.clone(), |_| robot.tick().expect("ticks")), robot)
         };
         b.iter_batched(
             start,
-            |mut robot| {
+            |(mut board, robot)| {
                 for _ in 0..TICKS {
-                    robot.tick(Twist::new(0.4, 0.6, 1.0)).expect("ticks");
+                    board.set_twist(&scale, Twist::new(0.4, 0.6, 1.0)).expect("commits");
+                    robot.tick().expect("ticks");
+                    black_box(board.snapshot().expect("answers"));
                 }
                 robot
             },

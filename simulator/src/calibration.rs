@@ -1,9 +1,9 @@
 //! The paper's calibration on the virtual robot: every drive goes through the FPGA, whose
 //! coefficient registers hold the skews believed in so far.
 
-use crate::closed_loop::{ClosedLoop, LoopError};
+use crate::closed_loop::{LoopError, VirtualRobot, whole_tick_clock_hz};
 use crate::fpga::BitTrue;
-use driver::Settings;
+use driver::{Board, Scale, Settings};
 use model::calibration::{DriveError, Drives};
 use model::camera::{Camera, CameraModel};
 use model::plant::{Contact, Plant};
@@ -11,6 +11,7 @@ use plot::{Axis, Color, Figure, Panel, Series};
 use runs::frames::{Pose, Twist};
 use runs::geometry::Geometry;
 use runs::robot::{Layout, Robot};
+use std::time::Duration;
 
 /// Speed of a calibration drive, m/s.
 const SPEED: f64 = 0.6;
@@ -49,8 +50,13 @@ impl BoardRobot {
 
     fn drive(&mut self, believed: &Robot, direction: [f64; 2], distance_m: f64) -> Result<Vec<Pose>, LoopError> {
         let plant = Plant::new(&self.actual)?.with_contact(self.contact).at(self.pose);
-        let mut robot = ClosedLoop::start(BitTrue::new(), believed, plant, &Settings::default())?;
-        let tick = robot.scale().tick_s();
+        let scale = Scale::new(believed, whole_tick_clock_hz(believed.control_rate_hz))?;
+        let tick = scale.tick_s();
+        let robot = VirtualRobot::new(BitTrue::new(), plant, self.actual.supply_v, Duration::from_secs_f64(tick));
+        let mut board = Board::new(robot.clone());
+        board.configure(&scale, &Settings::default())?;
+        robot.tick()?;
+        board.arm()?;
         let ramp = SPEED / ACCELERATION;
         let cruise = (distance_m / SPEED - ramp).max(0.0);
         let end = 2.0 * REST_S + 2.0 * ramp + cruise;
@@ -60,11 +66,12 @@ impl BoardRobot {
             let rising = (t - REST_S) * ACCELERATION;
             let falling = (end - REST_S - t) * ACCELERATION;
             let speed = rising.min(falling).clamp(0.0, SPEED);
-            robot.tick(Twist::new(speed * direction[0], speed * direction[1], 0.0))?;
-            seen.extend(self.camera.observe(self.time + t, robot.plant().pose()));
+            board.set_twist(&scale, Twist::new(speed * direction[0], speed * direction[1], 0.0))?;
+            robot.tick()?;
+            seen.extend(self.camera.observe(self.time + t, robot.pose()));
         }
         self.time += end;
-        self.pose = robot.plant().pose();
+        self.pose = robot.pose();
         self.drives += 1;
         Ok(seen)
     }

@@ -19,7 +19,7 @@ pub use compare::{Deviation, WheelAgreement, duty_quantum, lsb};
 
 use crate::closed_loop::LoopError;
 use crate::fpga::{BitTrue, Fpga};
-use driver::BoardError;
+use driver::{BoardError, Standing};
 use fixed_kin::AXES;
 use fixed_kin::format::Duty;
 use model::pi::PiLaw;
@@ -116,7 +116,7 @@ pub fn replay<F: Fpga>(
     (replayed.telling, replayed.off) = (replayed.ticks - seen, pair.off);
     progress(replayed.ticks);
     if seen > 0 && !pair.player.armed() {
-        return Err(BoardError::Arm { faults: pair.player.faults(), names: "during the replay".to_owned() }.into());
+        return Err(BoardError::Arm(Standing { faults: pair.player.faults(), ..Standing::default() }).into());
     }
     Ok(replayed)
 }

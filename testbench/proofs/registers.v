@@ -18,9 +18,10 @@ end
 
 always @(*) begin
     if (formal_running && (formal_armed || !formal_wrote)) assert (formal_locked == formal_before);
-    if (arm_write || select_radio || fire || clear_faults || |clear_encoder_error || |clear_stall || |index_arm || |clear_interrupt || commit_set_points || commit_configuration)
+    if (arm_write || select_radio || fire || |clear_faults || clear_kicker || |clear_encoder_error || |clear_stall || |index_arm || |clear_interrupt || commit_set_points || commit_configuration)
         assert (write);
     assert (!(fire && arm_write) && !(commit_set_points && commit_configuration));
+    if (|clear_faults) assert (clear_faults == data[7:0]);
     if (fire) assert (data == 32'h4b49434b);
     if (tick_period_written) assert (!armed && write);
     assert (unlocked == !armed);

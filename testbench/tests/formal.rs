@@ -1,22 +1,23 @@
 //! Every proof of `testbench::formal` on the committed Verilog.
 
 use hdl::design::COMMITTED_VERILOG;
+use measured::Table;
 use testbench::formal::{FormalError, Mutant, PROOFS, Proof};
+
+const TABLE: Table<'_> = Table {
+    name: "proofs",
+    title: "Claims proven on the committed Verilog, by temporal induction, for every input and reachable state",
+    command: "cargo test --release -p testbench --test formal",
+    columns: &["block", "claim", "assertions", "induction depth", "mutants, all refuted"],
+};
 
 fn run(name: &str) {
     let proof = PROOFS.iter().find(|proof| proof.name == name).expect("a proof of this name");
     let proven = proof.run(COMMITTED_VERILOG).unwrap_or_else(|error| panic!("{error}"));
     assert!(!proof.mutants.is_empty(), "a claim without a mutant may be empty");
-    println!(
-        "| {} | {} | {} assertions, induction over {} | {} refuted | {:.1} s, mutants {:.1} s |",
-        proof.name,
-        proof.claim,
-        proven.assertions,
-        proven.depth,
-        proof.mutants.len(),
-        proven.time.as_secs_f64(),
-        proven.mutants_time.as_secs_f64()
-    );
+    println!("{}: {:.1} s, mutants {:.1} s", proof.name, proven.time.as_secs_f64(), proven.mutants_time.as_secs_f64());
+    let counts = [proven.assertions.to_string(), proven.depth.to_string(), proof.mutants.len().to_string()];
+    TABLE.check_row(&[&[proof.name.to_owned(), proof.claim.to_owned()], &counts[..]].concat());
 }
 
 macro_rules! proofs {

@@ -7,6 +7,7 @@ use fixed_kin::registers as map;
 use fixed_kin::speed::SpeedMode;
 use hdl::design::COMMITTED_VERILOG;
 use hdl::emit::ports::Ports;
+use measured::Table;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::Twist;
@@ -117,9 +118,20 @@ fn a_duty_follows_its_encoder_sample_within_a_tick() {
         }
     }
     let period = board.bus.read(map::PWM_PERIOD.offset).unwrap();
-    println!("encoder sample to duty, clocks, least and most, axis 1 to {AXES}: {least:?} {most:?}");
-    println!("then at most one PWM period of {period} clocks until the pin follows");
-    println!("bus words a tick: {} read, {} written", most_words[0], most_words[1]);
+    let table = Table {
+        name: "latency",
+        title: "From an encoder sample to the duty, and bus words, on the emitted Verilog",
+        command: "cargo test --release -p testbench --test latency",
+        columns: &["what", "least", "most"],
+    };
+    let row = |what: String, least: u64, most: u64| vec![what, least.to_string(), most.to_string()];
+    let mut rows: Vec<_> = (0..AXES)
+        .map(|axis| row(format!("sample to duty, axis {}, clocks", axis + 1), least[axis], most[axis]))
+        .collect();
+    rows.push(row("then until the pin follows, clocks".to_owned(), 0, u64::from(period)));
+    rows.push(row("bus words read a tick".to_owned(), 0, most_words[0] as u64));
+    rows.push(row("bus words written a tick".to_owned(), 0, most_words[1] as u64));
+    table.check(&rows);
     assert!(updates.iter().all(|updates| *updates + 5 > TICKS), "{updates:?}");
     assert!(most.iter().all(|clocks| *clocks < u64::from(PERIOD)), "{most:?}");
     assert!(most_words[0] <= 24 && most_words[1] <= 8, "{most_words:?}");

@@ -46,7 +46,10 @@ fn driven_through_its_serial_line_it_equals_fixed_kin() {
     let settings =
         Settings { speed_mode: SpeedMode::CountAndTime, set_point_mode: SetPointMode::Wheels, ..Settings::default() };
     let (mut real, mut twin) = (Board::new(board()), Board::new(Card::new(hdl::design::content_hash())));
-    real.identify().unwrap();
+    let identity = real.identify().unwrap();
+    assert_eq!((identity.board, identity.clock_hz), (map::BOARD_HX8K, CLOCK_HZ as u32));
+    let refused = real.identify_as(map::BOARD_4I65).unwrap_err().to_string();
+    assert!(refused.contains("pins of another board"), "{refused}");
     real.configure(&scale, &settings).unwrap();
     twin.configure(&scale, &settings).unwrap();
     real.bus.write(map::WATCHDOG_TIMEOUT.offset, 0xFF_FFFF).unwrap();

@@ -95,6 +95,7 @@ fn a_rotor_that_rattles_in_play_is_named_on_logs_of_a_physics_engine() {
     let [effect] = &analysis.effects[..] else { panic!("{}", analysis.terminal_summary()) };
     assert_eq!(effect.name, "gear-backlash");
     let play = truth["parameters"]["play_rad"].as_f64().unwrap();
-    let (name, _, [low, high]) = &effect.parameters[0];
-    assert!(name == "play_rad" && *low < play && play < *high, "{name} from {low} to {high}, in truth {play}");
+    let (name, _, interval) = &effect.parameters[0];
+    let [low, high] = interval.ends().expect("an interval");
+    assert!(name == "play_rad" && low < play && play < high, "{name} from {low} to {high}, in truth {play}");
 }

@@ -12,6 +12,7 @@ use model::effects::Applied;
 use model::trajectory::SetPoint;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use runs::output::Existing;
 use runs::robot::{Effect, EffectParameter, Robot};
 use runs::{DataSet, Layout};
 use simulator::fpga::BitTrue;
@@ -50,7 +51,7 @@ fn record(robot: &Robot, speed_mode: SpeedMode, late: u32, file: &Path) -> u64 {
     let rig = Rig::new(&actual, Rig::nominal_clock_hz(), None).unwrap();
     let mut plan = Plan::new(robot, &points);
     plan.settings.speed_mode = speed_mode;
-    let mut recording = Recording::start(file, Layout::of_robot(3, late == 0)).unwrap();
+    let mut recording = Recording::start(file, Layout::of_robot(3, late == 0), Existing::Refuse).unwrap();
     recording.wait_where_full();
     let (mut clock, mut camera) =
         (Sleepy { rig: rig.clone(), late, random: ChaCha8Rng::seed_from_u64(1) }, rig.clone());

@@ -106,6 +106,45 @@ fn ready_is_switched_on_where_the_eeprom_leaves_it_off() {
 }
 
 #[test]
+fn a_foreign_design_is_called_what_it_is() {
+    let foreign = Bitstream::parse(&StandIn::foreign("blinker.ncd")).unwrap();
+    let mut card = card();
+    let error = load(&mut card, &foreign, &Options::default(), |_| {}).unwrap_err();
+    let message = error.to_string();
+    assert!(matches!(error.cause(), LoadError::Foreign { .. }) && !message.contains("gone"), "{message}");
+    for part in ["blinker.ncd", "another design", "tries: 1", "outputs off"] {
+        assert!(message.contains(part), "no {part:?} in {message}");
+    }
+    assert!(!card.configured());
+    // One that was there before is called so as well.
+    let mut card = card_with(&StandIn::foreign("blinker.ncd"));
+    let state = inspect(&mut card).unwrap();
+    assert!(state.done && state.identity.is_none());
+    assert!(state.other.unwrap().contains("another design"));
+    // A card that is gone still is.
+    card.faults = Faults { absent: true, ..Faults::default() };
+    assert!(inspect(&mut card).unwrap_err().to_string().contains("does not answer"));
+    card.faults = Faults::default();
+    try_load(&mut card).unwrap();
+}
+
+/// A card that somebody else has configured.
+fn card_with(file: &[u8]) -> VirtualCard {
+    use driver::plx9030::{Bridge, PROGRAM, WRITE};
+    let mut card = card();
+    Bridge::new(&mut card).set_lines(WRITE, PROGRAM).unwrap();
+    card.sleep(Duration::from_micros(10));
+    Bridge::new(&mut card).set_lines(PROGRAM, 0).unwrap();
+    card.sleep(Duration::from_millis(1));
+    Bridge::new(&mut card).set_lines(0, WRITE).unwrap();
+    for &byte in Bitstream::parse(file).unwrap().lanes() {
+        card.write8(Bar::Memory32, 0, byte).unwrap();
+    }
+    Bridge::new(&mut card).set_lines(WRITE, 0).unwrap();
+    card
+}
+
+#[test]
 fn prom_order_loads_as_well() {
     let prom = Bitstream::parse(&StandIn::committed().prom()).unwrap();
     assert_eq!((prom.order, &prom.header), (Order::Prom, &None));

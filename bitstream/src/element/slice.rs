@@ -8,6 +8,10 @@
 //!              └─ CYSELF ─ C1 ── XB                             C0 = CIN or BX
 //! ```
 //!
+//! With writable tables SR is their write enable and leaves the flip-flops alone; F is written with BX, G with BY.
+//! Shift registers are so in the card maker's files; RAM of 16 bits in both tables is taken to be the same. What the
+//! other modes of RAM do with their inputs is known from no file, so they are read and written, but not simulated.
+//!
 //! An input that is not routed is 1; `invert_*` stands before it. Order of F5 and of the carry: the other order
 //! makes files of the card's maker answer their bus wrongly.
 

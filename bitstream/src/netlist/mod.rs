@@ -69,6 +69,13 @@ pub enum CellKind {
         /// The output.
         output: NetId,
     },
+    /// Another name of a signal: the output of an element that passes it on.
+    Alias {
+        /// The signal.
+        input: Signal,
+        /// Its other name.
+        output: NetId,
+    },
     /// select ? one : zero.
     Mux {
         /// What it is in the slice.
@@ -130,7 +137,8 @@ pub enum CellKind {
         /// The bit read.
         output: NetId,
     },
-    /// A bus of three-state buffers. Undriven it is 1 (DS001, "3-state buffers": weak keepers).
+    /// A bus of three-state buffers. Drivers that disagree give 0, and a bus that nobody drives is 1 here; on silicon
+    /// neither is promised, so no design rests on it.
     Bus {
         /// Buffers: what they drive, and 1 while they are off.
         drivers: Vec<(Signal, Signal)>,

@@ -69,12 +69,9 @@ impl Extractor<'_> {
         Ok(())
     }
 
-    /// A net that is another signal: a table of one input.
-    pub(super) fn alias(&mut self, place: &str, value: Signal, output: NetId) {
-        self.cell(
-            place,
-            CellKind::Lut { table: 0xAAAA, inputs: [value, Signal::One, Signal::One, Signal::One], output },
-        );
+    /// A net that is another signal under the name of an output.
+    pub(super) fn alias(&mut self, place: &str, input: Signal, output: NetId) {
+        self.cell(place, CellKind::Alias { input, output });
     }
 
     /// A net inside a slice, made on first use.

@@ -6,20 +6,20 @@ module xc2s200_dll #(parameter DIVIDE = 2) (
     output reg clk0, output reg clk90, output reg clk180, output reg clk270,
     output reg clk2x, output reg clk2x90, output reg clkdv, output locked
 );
-    realtime before, period;
+    realtime last, period;
     reg [2:0] periods;
     integer count;
     assign locked = periods[2];
     initial begin
         {clk0, clk90, clk180, clk270, clk2x, clk2x90, clkdv} = 7'b0;
-        before = 0;
+        last = 0;
         period = 0;
         periods = 3'd0;
         count = 0;
     end
     always @(posedge clkin) begin
-        if (before > 0) period = $realtime - before;
-        before = $realtime;
+        if (last > 0) period = $realtime - last;
+        last = $realtime;
         if (rst) periods <= 3'd0;
         else if (!periods[2]) periods <= periods + 3'd1;
     end

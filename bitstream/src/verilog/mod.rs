@@ -98,6 +98,7 @@ impl Writer<'_> {
         let assign = |output: NetId, value: String| format!("    assign {} = {value};", self.name(output));
         let line = match &cell.kind {
             CellKind::Lut { table, inputs, output } => assign(*output, self.table(*table, inputs)),
+            CellKind::Alias { input, output } => assign(*output, self.signal(*input)),
             CellKind::Mux { select, one, zero, output, .. } => {
                 assign(*output, format!("{} ? {} : {}", self.signal(*select), self.signal(*one), self.signal(*zero)))
             }
@@ -150,9 +151,6 @@ impl Writer<'_> {
     }
 
     fn table(&self, table: u16, inputs: &[Signal; 4]) -> String {
-        if table == 0xAAAA {
-            return self.signal(inputs[0]);
-        }
         format!("16'h{table:04x} >> {}", self.vector(inputs.iter().copied()))
     }
 

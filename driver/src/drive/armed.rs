@@ -1,6 +1,6 @@
 //! A card whose outputs may be on, for as long as somebody holds this.
 
-use crate::{Board, BoardError, Registers};
+use crate::{Board, BoardError, Registers, Standing};
 use std::ops::{Deref, DerefMut};
 
 /// An armed card. Dropped in any way, by a return, an error or a panic, it is disarmed.
@@ -11,14 +11,14 @@ pub struct Armed<R: Registers>(Option<Board<R>>);
 const HELD: &str = "the board is here until the guard ends";
 
 impl<R: Registers> Armed<R> {
-    /// Arms a configured card.
+    /// Arms a configured card; beside it, what stood in its sticky registers and was cleared.
     ///
     /// # Errors
     /// [`BoardError::Arm`] while a cause stands.
-    pub fn new(board: Board<R>) -> Result<Self, BoardError> {
+    pub fn new(board: Board<R>) -> Result<(Self, Standing), BoardError> {
         let mut armed = Self(Some(board));
-        armed.arm()?;
-        Ok(armed)
+        let stood = armed.arm()?;
+        Ok((armed, stood))
     }
 
     /// Disarms, and says whether the card obeyed.
@@ -74,15 +74,15 @@ mod tests {
     #[test]
     fn the_outputs_are_off_after_a_return_a_drop_and_a_panic() {
         let mut card = Card::new(0);
-        let armed = Armed::new(configured(&mut card)).unwrap();
+        let (armed, _) = Armed::new(configured(&mut card)).unwrap();
         armed.disarm().unwrap();
         assert!(!card.armed());
-        let armed = Armed::new(configured(&mut card)).unwrap();
+        let (armed, _) = Armed::new(configured(&mut card)).unwrap();
         assert!(armed.bus.armed());
         drop(armed);
         assert!(!card.armed());
         let panicked = catch_unwind(AssertUnwindSafe(|| {
-            let armed = Armed::new(configured(&mut card)).unwrap();
+            let (armed, _) = Armed::new(configured(&mut card)).unwrap();
             assert!(!armed.bus.armed(), "on purpose");
         }));
         assert!(panicked.is_err() && !card.armed());

@@ -2,7 +2,7 @@
 
 use super::Armed;
 use crate::realtime::{Clock, Timer};
-use crate::{Board, BoardError, Registers, Scale, Settings};
+use crate::{Board, BoardError, Registers, Scale, Settings, Standing};
 use fixed_kin::kicker::{MAXIMUM_PULSE_US, State};
 use fixed_kin::registers as map;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -57,6 +57,8 @@ pub struct Kicked {
     pub after: Duration,
     /// Charging ran into its time-out.
     pub charge_timed_out: bool,
+    /// What stood in the card's sticky registers before it was armed, and was cleared.
+    pub stood: Standing,
 }
 
 impl Kick {
@@ -84,14 +86,14 @@ impl Kick {
         board.write_checked(&map::KICKER_CONTROL, 0)?;
         board.write_checked(&map::KICKER_CHARGE_TIMEOUT, charge_us)?;
         board.write_checked(&map::KICKER_PULSE, self.pulse_us.into())?;
-        let mut armed = Armed::new(board)?;
+        let (mut armed, stood) = Armed::new(board)?;
         let result = self.charged(&mut armed, clock, scale, stop);
         // Disarming takes the charger down too; this keeps the next arming from starting it.
         let charger_off = armed.write_checked(&map::KICKER_CONTROL, 0);
         armed.disarm()?;
         let kicked = result?;
         charger_off?;
-        Ok(kicked)
+        Ok(Kicked { stood, ..kicked })
     }
 
     fn charged<R: Registers>(
@@ -134,7 +136,7 @@ impl Kick {
                 let after = clock.now().saturating_sub(asked);
                 // The pulse must end before the card is disarmed, else it is cut short.
                 while map::KICKER_STATE.of(pet(armed, clock)?) == u32::from(State::Pulse as u8) {}
-                return Ok(Kicked { after, charge_timed_out });
+                return Ok(Kicked { after, charge_timed_out, stood: Standing::default() });
             }
             if map::KICKER_DROPPED.of(status) == 1 {
                 return Err(KickError::NoPulse("the request came while it was locked out"));

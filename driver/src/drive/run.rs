@@ -4,7 +4,7 @@ use super::watch::Watch;
 use super::{Armed, Control, Controller, DriveError, Fault, PoseSource};
 use crate::realtime::{Clock, Latency, Timer};
 use crate::recording::{Recording, Sample};
-use crate::{Board, Registers, Scale, Settings, Snapshot};
+use crate::{Board, Registers, Scale, Settings, Snapshot, Standing};
 use fixed_kin::AXES;
 use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
@@ -12,6 +12,7 @@ use model::fusion::FusionOptions;
 use model::localisation::Localiser;
 use model::trajectory::{Arrival, SetPoint};
 use runs::frames::{Pose, Twist};
+use runs::geometry::GeometryError;
 use runs::robot::Robot;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -48,7 +49,7 @@ impl Plan {
     /// Set points for a robot that stands at the origin.
     #[must_use]
     pub fn new(robot: &Robot, set_points: &[SetPoint]) -> Self {
-        // Slow control loops pet a slow dog.
+        // A slow control loop commits seldom.
         let defaults = Settings::default();
         let watchdog_s = defaults.watchdog_s.max(5.0 * robot.tick_s());
         Self {
@@ -71,6 +72,20 @@ impl Plan {
         robot.camera_latency_s = (robot.camera_latency_s + latency).max(0.0);
         robot.effects.retain(|effect| effect.name != "camera-latency");
         robot
+    }
+
+    /// What tells the controller where the robot is.
+    ///
+    /// # Errors
+    /// [`GeometryError`] where the wheels do not tell how the robot moves.
+    pub fn localiser(&self) -> Result<Localiser, GeometryError> {
+        let robot = self.believed();
+        let geometry = robot.geometry()?;
+        Ok(if self.fused {
+            Localiser::fused(&robot, &geometry, FusionOptions::of(&robot).uncalibrated(), self.start)
+        } else {
+            Localiser::odometry(&robot, &geometry, self.start)
+        })
     }
 
     /// Conversions for this plan on a card with this clock.
@@ -104,7 +119,8 @@ impl Plan {
         board.configuration_in_force(&scale, || {
             timer.wait(clock);
         })?;
-        let mut armed = Armed::new(board)?;
+        let (mut armed, stood) = Armed::new(board)?;
+        state.driven.stood = stood;
         state.begin(&armed.snapshot()?, clock.now());
         let ending = loop {
             let wake = timer.wait(clock);
@@ -148,6 +164,8 @@ pub struct Driven {
     pub ending: Ending,
     /// Whether the card said that it is off; if not, its watchdog switches it off.
     pub switched_off: Result<(), Fault>,
+    /// What stood in the card's sticky registers before it was armed, and was cleared.
+    pub stood: Standing,
     /// What became of each set point.
     pub arrivals: Vec<Arrival>,
     /// Time of the last tick, s.
@@ -198,16 +216,10 @@ struct State<'a> {
 
 impl<'a> State<'a> {
     fn new(plan: &'a Plan, robot: &Robot, scale: &Scale) -> Result<Self, DriveError> {
-        let geometry = robot.geometry()?;
-        let localiser = if plan.fused {
-            Localiser::fused(robot, &geometry, FusionOptions::of(robot).uncalibrated(), plan.start)
-        } else {
-            Localiser::odometry(robot, &geometry, plan.start)
-        };
         Ok(Self {
             plan,
             controller: Controller::new(plan.control, robot, &plan.set_points, plan.start)?,
-            localiser,
+            localiser: plan.localiser()?,
             watch: Watch::new(robot, scale),
             before: Snapshot::default(),
             first: 0,
@@ -221,6 +233,7 @@ impl<'a> State<'a> {
             driven: Driven {
                 ending: Ending::TimeLimit,
                 switched_off: Ok(()),
+                stood: Standing::default(),
                 arrivals: Vec::new(),
                 t: 0.0,
                 pose: plan.start,

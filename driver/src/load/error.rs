@@ -51,6 +51,14 @@ pub enum LoadError {
     /// Loaded, but the registers do not answer as they should.
     #[error("loaded, but {0}")]
     Verify(#[from] BoardError),
+    /// A design without our registers.
+    #[error(
+        "loaded, DONE is high, but nothing answers at the registers: {file} holds a valid bitstream of another design, not of the gateware in generated/; load one that was made from it"
+    )]
+    Foreign {
+        /// What the file says of its design.
+        file: String,
+    },
     /// Another build.
     #[error(
         "loaded, but the design answers with hash {found:08x}, expected {expected:08x}: the file was made from other Verilog; build it from generated/, or name its hash with --hash"

@@ -23,8 +23,9 @@ pub use error::LoadError;
 pub use state::{CardState, inspect};
 
 use crate::bitstream::Bitstream;
-use crate::board::{Board, Identity};
+use crate::board::{Board, BoardError, Identity};
 use crate::pci::{PciCard, RegisterWindow};
+use fixed_kin::registers::BOARD_4I65;
 use std::time::Duration;
 
 /// How to load.
@@ -120,7 +121,13 @@ fn attempt<C: PciCard>(
     sequence::send(card, bitstream.lanes(), progress)?;
     let transfer = card.now().saturating_sub(begun);
     sequence::finish(card)?;
-    let identity = Board::new(RegisterWindow::new(&mut *card)).identify()?;
+    let identity = match Board::new(RegisterWindow::new(&mut *card)).identify_as(BOARD_4I65) {
+        // A card that is gone reads all ones at its bridge as well.
+        Err(BoardError::Bus(_)) if sequence::configured(card)? => {
+            return Err(LoadError::Foreign { file: described(bitstream) });
+        }
+        other => other?,
+    };
     if let Some(expected) = options.content_hash
         && identity.content_hash != expected
     {
@@ -128,4 +135,12 @@ fn attempt<C: PciCard>(
     }
     let clock_hz = measure_clock(card, options.clock_time)?;
     Ok(Loaded { kept: false, tries: 1, transfer, ready_enabled, identity, clock_hz })
+}
+
+/// What a file says of its design.
+fn described(bitstream: &Bitstream) -> String {
+    match &bitstream.header {
+        Some(header) => format!("the file ({}, {} {})", header.design, header.date, header.time),
+        None => "the file".to_owned(),
+    }
 }

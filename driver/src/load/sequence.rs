@@ -90,6 +90,12 @@ pub(super) fn finish<C: PciCard>(card: &mut C) -> Result<(), LoadError> {
     Ok(Bridge::new(card).set_lines(WRITE | LED, 0)?)
 }
 
+/// Whether the bridge answers and says that the FPGA runs a design.
+pub(super) fn configured<C: PciCard>(card: &mut C) -> Result<bool, LoadError> {
+    let lines = Bridge::new(card).read(GPIO_CONTROL)?;
+    Ok(lines != u32::MAX && lines & DONE != 0)
+}
+
 /// Holds PROGRAM low: the FPGA stays clear and its pins float.
 pub(super) fn clear<C: PciCard>(card: &mut C) -> Result<(), LoadError> {
     lines(card, "while the FPGA is cleared")?;

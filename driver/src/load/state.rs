@@ -5,7 +5,7 @@ use crate::board::{Board, BoardError, Identity, Status};
 use crate::pci::{PciCard, RegisterWindow};
 use crate::plx9030::{Bridge, DONE, GPIO_CONTROL, INIT, LOCAL_SPACE_DESCRIPTORS, PROGRAM, READY_ENABLE};
 use crate::registers::Registers;
-use fixed_kin::registers::FAULTS;
+use fixed_kin::registers::{BOARD_4I65, FAULTS};
 
 /// See the module.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
     // A blank FPGA answers nobody; do not ask it.
     if state.done {
         let mut board = Board::new(RegisterWindow::new(&mut *card));
-        match board.identify() {
+        match board.identify_as(BOARD_4I65) {
             Ok(identity) => {
                 state.identity = Some(identity);
                 state.status = Some(board.status()?);
@@ -66,6 +66,9 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
             }
             Err(error) if Bridge::new(card).read(GPIO_CONTROL)? == u32::MAX => {
                 return Err(LoadError::Gone { error: error.to_string() });
+            }
+            Err(BoardError::Bus(_)) => {
+                state.other = Some("DONE is high, but nothing answers at the registers: another design".to_owned());
             }
             Err(error) => state.other = Some(error.to_string()),
         }

@@ -59,8 +59,8 @@ mod tests {
         let at = begun + Duration::from_millis(3);
         clock.sleep_until(at);
         assert!(clock.now() >= at);
+        // What is past returns at all: a relative sleep would take as long as the machine has run.
         clock.sleep_until(begun);
         clock.sleep_until(Duration::ZERO);
-        assert!(clock.now() < at + Duration::from_secs(5));
     }
 }

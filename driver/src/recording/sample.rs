@@ -79,6 +79,7 @@ impl Sample {
             measured: &self.measured[..wheels],
             supply_v: self.supply_v,
             camera: self.camera,
+            ..Tick::default()
         }
     }
 }

@@ -72,7 +72,7 @@ fn firing_while_charging_waits_for_the_gap_and_charging_for_commutation() {
 }
 
 #[test]
-fn charging_stops_at_its_time_out_until_asked_again() {
+fn charging_stops_at_its_time_out_until_disarmed() {
     for timeout in [1, 2, 5_000, CHARGE_MASK] {
         let inputs = Inputs { charge_timeout: timeout, ..CHARGING };
         let mut kicker = ready();
@@ -81,15 +81,30 @@ fn charging_stops_at_its_time_out_until_asked_again() {
         assert_eq!(clocks_until(&mut kicker, &inputs, 1 << 25, |o| !o.charge), timeout + 1);
         assert!(kicker.outputs.timed_out);
         assert_eq!(clocks_until(&mut kicker, &inputs, 10_000, |o| o.charge), u32::MAX);
-        kicker.clock(&Inputs { charge_request: false, ..inputs });
-        assert!(kicker.clock(&inputs).charge);
-        assert!(kicker.outputs.timed_out, "the flag stays until cleared");
-        clocks_until(&mut kicker, &inputs, 1 << 25, |o| !o.charge);
-        let cleared = kicker.clock(&Inputs { clear: true, ..inputs });
-        assert!(!cleared.timed_out && kicker.clock(&inputs).charge);
+        for again in [Inputs { charge_request: false, ..inputs }, Inputs { clear: true, ..inputs }] {
+            assert!(kicker.clock(&again).timed_out, "the time is still used up");
+            assert_eq!(clocks_until(&mut kicker, &inputs, 10_000, |o| o.charge), u32::MAX);
+        }
+        assert!(!kicker.clock(&Inputs { enable: false, clear: true, ..inputs }).timed_out);
+        assert_eq!(clocks_until(&mut kicker, &inputs, 10, |o| o.charge), 1, "every arming has its time");
     }
     let never = Inputs { charge_timeout: 0, ..CHARGING };
     assert_eq!(clocks_until(&mut ready(), &never, 1_000, |o| o.charge || o.timed_out), u32::MAX);
+}
+
+#[test]
+fn a_host_that_toggles_the_request_gains_no_time() {
+    let off = Inputs { charge_request: false, ..CHARGING };
+    for on_clocks in [1, 7, 1_000] {
+        let mut kicker = ready();
+        let mut charged = 0;
+        for clock in 0..40 * CHARGING.charge_timeout {
+            let inputs = if clock % (on_clocks + 1) == 0 { &off } else { &CHARGING };
+            charged += u32::from(kicker.clock(&Inputs { clear: clock % 17 == 0, ..*inputs }).charge);
+        }
+        assert!(charged <= CHARGING.charge_timeout + 1, "{charged} strobes of charging, {on_clocks} at a time");
+        assert!(charged >= CHARGING.charge_timeout, "{charged}");
+    }
 }
 
 #[test]
@@ -185,7 +200,15 @@ fn an_arming_on_the_ball_does_not_survive_disabling() {
     for _ in 0..50 {
         kicker.clock(&Inputs { enable: false, ..ball });
     }
-    assert_eq!(clocks_until(&mut kicker, &ball, 1_000, |o| o.trigger), u32::MAX);
+    assert_eq!(clocks_until(&mut kicker, &ball, 1_000, |o| o.trigger || o.on_ball), u32::MAX);
+    // It must drop and rise while the card is armed.
+    kicker.clock(&Inputs { arm_on_ball: false, ..ball });
+    assert_eq!(clocks_until(&mut kicker, &ball, 10, |o| o.trigger), 2);
+    assert!(!kicker.outputs.on_ball, "one shot");
+    let mut waiting = ready();
+    assert!(waiting.clock(&Inputs { arm_on_ball: true, ..IDLE }).on_ball);
+    assert!(!waiting.clock(&Inputs { arm_on_ball: true, enable: false, ..IDLE }).on_ball);
+    assert!(!waiting.clock(&Inputs { arm_on_ball: true, ..IDLE }).on_ball);
 }
 
 /// Per segment: clocks, strobe interval, and what holds or comes at random in it.

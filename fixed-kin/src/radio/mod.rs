@@ -21,7 +21,7 @@
 //! for its beginning, nor a frame for whole that goes on. A sequence number must differ from the last one taken, and while armed lie 1 to 127
 //! ahead of it: a frame that is repeated or comes late does nothing.
 //!
-//! A drive frame has five writes and takes 2.9 ms, a configuration of 69 writes 31 ms. The CRC finds every
+//! A drive frame has five writes and takes 2.9 ms, a configuration of 71 writes 32 ms. The CRC finds every
 //! error of up to five bits in a frame of up to 268 bits, a drive frame, and of up to four bits in one of
 //! up to 2974 bits (Koopman, *32-Bit Cyclic Redundancy Codes for Internet Applications*, DSN 2002). It is no
 //! signature: who knows the format can command the robot.

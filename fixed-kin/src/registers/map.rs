@@ -1,17 +1,30 @@
 //! The table itself.
 
-use super::{Access, Field, Kind, Register, VERSION};
+use super::{Access, Field, Group, Kind, Register, Target, VERSION, Value};
 use crate::AXES;
 use crate::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use crate::format::Format;
+use crate::safety::{ARM_FIRST, ARM_SECOND};
 use crate::word::WORD_BITS;
 
 /// First word of every identification: "RAC4".
 pub const COOKIE_VALUE: u32 = u32::from_be_bytes(*b"RAC4");
-/// Board the pins are for: "4I65".
-pub const BOARD_VALUE: u32 = u32::from_be_bytes(*b"4I65");
-/// Nominal frequency of the local bus clock in hertz.
+/// Nominal frequency of the 4I65's local bus clock in hertz.
 pub const NOMINAL_CLOCK_HZ: u32 = 33_333_333;
+/// The card that the design was made for.
+pub const BOARD_4I65: Target = Target {
+    word: u32::from_be_bytes(*b"4I65"),
+    clock_hz: NOMINAL_CLOCK_HZ,
+    text: "Mesa 4I65 (XC2S200), clocked by its PCI bridge",
+};
+/// The same core on an open board.
+pub const BOARD_HX8K: Target = Target {
+    word: u32::from_be_bytes(*b"HX8K"),
+    clock_hz: 33_000_000,
+    text: "Lattice iCE40-HX8K breakout board, clocked by its PLL",
+};
+/// Every board that a top module is written for.
+pub const BOARDS: [Target; 2] = [BOARD_4I65, BOARD_HX8K];
 /// Shortest control period in clocks; a shorter one in [`TICK_PERIOD`] acts as this.
 pub const MIN_TICK_PERIOD: u32 = 1_000;
 /// Reset value of [`TICK_PERIOD`]: 1 kHz at the nominal clock.
@@ -35,7 +48,7 @@ const fn register(
     reset: u32,
     text: &'static str,
 ) -> Register {
-    Register { name, offset, words: 1, access, kind, reset, text }
+    Register { name, offset, words: 1, access, kind, reset, live: 0, values: &[], groups: &[], zero: "", text }
 }
 
 const fn array(
@@ -46,15 +59,29 @@ const fn array(
     kind: Kind,
     text: &'static str,
 ) -> Register {
-    Register { name, offset, words: words as u16, access, kind, reset: 0, text }
+    Register { words: words as u16, ..register(name, offset, access, kind, 0, text) }
 }
 
 const fn bit(name: &'static str, bit: u32, text: &'static str) -> Field {
-    Field { name, bit, width: 1, text }
+    bits(name, bit, 1, text)
 }
 
 const fn bits(name: &'static str, bit: u32, width: u32, text: &'static str) -> Field {
-    Field { name, bit, width, text }
+    Field { name, bit, width, text, block: "" }
+}
+
+/// A fault and the block that raises it.
+const fn fault(name: &'static str, bit: u32, block: &'static str, text: &'static str) -> Field {
+    Field { name, bit, width: 1, text, block }
+}
+
+const fn value(name: &'static str, word: u32, text: &'static str) -> Value {
+    Value { name, word, text }
+}
+
+/// One word per axis of an array.
+const fn per_axis(name: &'static str, group: usize, format: Format, unit: &'static str, text: &'static str) -> Group {
+    Group { name, first: group * AXES, words: AXES, format, unit, text }
 }
 
 const WORD: Kind = Kind::Fixed(Format::new("word", WORD_BITS, 0));
@@ -79,9 +106,10 @@ pub const BOARD: Register = register(
     0x008,
     Access::ReadOnly,
     Kind::Text,
-    BOARD_VALUE,
-    "board whose pins the bitstream drives; a 5I20 has the same FPGA on other pins",
-);
+    BOARD_4I65.word,
+    "board whose pins the bitstream drives; a 5I20 has the same FPGA as a 4I65 on other pins",
+)
+.values(&[value("4I65", BOARD_4I65.word, BOARD_4I65.text), value("HX8K", BOARD_HX8K.word, BOARD_HX8K.text)]);
 /// Nominal clock.
 pub const CLOCK_HZ: Register = register(
     "clock_hz",
@@ -89,7 +117,7 @@ pub const CLOCK_HZ: Register = register(
     Access::ReadOnly,
     Kind::Unsigned(32),
     NOMINAL_CLOCK_HZ,
-    "nominal clock in Hz; the real one is measured with `time`",
+    "nominal clock of that board in Hz, 33000000 on the HX8K; the real one is measured with `time`",
 );
 /// Content hash.
 pub const CONTENT_HASH: Register = register(
@@ -105,7 +133,8 @@ pub const AXIS_COUNT: Register =
     register("axis_count", 0x014, Access::ReadOnly, Kind::Unsigned(8), AXES as u32, "axes of the core");
 /// Free-running time.
 pub const TIME: Register =
-    register("time", 0x018, Access::ReadOnly, Kind::Unsigned(32), 0, "clocks since configuration, wrapping");
+    register("time", 0x018, Access::ReadOnly, Kind::Unsigned(32), 0, "clocks since configuration, wrapping")
+        .starts(0, u32::MAX);
 
 /// Block list.
 pub const BLOCKS: Register = register(
@@ -125,7 +154,8 @@ pub const TICK_PERIOD: Register = register(
     Kind::Unsigned(24),
     DEFAULT_TICK_PERIOD,
     "control period in clocks, at least 1000",
-);
+)
+.zero("acts as 1000, like everything below");
 /// Modes.
 pub const MODE: Register = register(
     "mode",
@@ -155,10 +185,12 @@ pub const ENCODER_FILTER: Register = register(
     Kind::Unsigned(4),
     3,
     "an encoder line must be stable for so many clocks and one more",
-);
+)
+.zero("a line counts from the first clock on");
 /// PWM period.
 pub const PWM_PERIOD: Register =
-    register("pwm_period", 0x02C, Access::LockedWhileArmed, Kind::Unsigned(13), 0, "PWM period in clocks; 0 is off");
+    register("pwm_period", 0x02C, Access::LockedWhileArmed, Kind::Unsigned(13), 0, "PWM period in clocks")
+        .zero("off: no pulse whatever the duty");
 /// Blanking.
 pub const PWM_BLANKING: Register = register(
     "pwm_blanking",
@@ -167,7 +199,8 @@ pub const PWM_BLANKING: Register = register(
     Kind::Unsigned(10),
     33,
     "clocks with PWM low before and after a change of DIR",
-);
+)
+.zero("no blanking");
 /// Watchdog.
 pub const WATCHDOG_TIMEOUT: Register = register(
     "watchdog_timeout",
@@ -175,17 +208,18 @@ pub const WATCHDOG_TIMEOUT: Register = register(
     Access::LockedWhileArmed,
     Kind::Unsigned(24),
     DEFAULT_WATCHDOG_TIMEOUT,
-    "clocks without a valid set-point commit until the outputs go off; 0 never lets them on",
-);
+    "clocks without a valid set-point commit until the outputs go off",
+)
+.zero("always bitten: the card cannot be armed");
 /// Arm.
-pub const ARM: Register = register(
-    "arm",
-    0x038,
-    Access::WriteOnly,
-    Kind::Text,
-    0,
-    "\"ARM1\" then \"ARM2\" arms, unless a fault stands; anything else disarms at once",
-);
+pub const ARM: Register = register("arm", 0x038, Access::WriteOnly, Kind::Text, 0, ARMING).values(&[
+    value("first", ARM_FIRST, "\"ARM1\": disarms and begins the sequence"),
+    value("second", ARM_SECOND, "\"ARM2\": arms, as the next write to this register after the first word"),
+]);
+/// The rule of arming in one sentence.
+pub const ARMING: &str = "the first word and then, as the next write to this register, the second arm the card, if \
+     from the one to the other no cause of watchdog, emergency-stop, encoder, external or stall stands; bits \
+     of `faults` whose cause is gone do not matter, nor do commit and arm-refused; any other word disarms at once";
 /// Faults.
 pub const FAULTS: Register = register(
     "faults",
@@ -193,8 +227,10 @@ pub const FAULTS: Register = register(
     Access::WriteOneToClear,
     Kind::Fields(&FAULT_FIELDS),
     0,
-    "sticky faults; writing anything but 0 clears those whose cause is gone",
-);
+    "sticky faults; a fault whose cause stands comes back at once: encoder until `encoder_error` is cleared, stall \
+     until `stall` is, watchdog until a commit of set points; after configuration those that power-up is",
+)
+.starts(0x13, 0);
 /// First fault.
 pub const FIRST_FAULT: Register = register(
     "first_fault",
@@ -202,10 +238,12 @@ pub const FIRST_FAULT: Register = register(
     Access::ReadOnly,
     Kind::Fields(&FAULT_FIELDS),
     0,
-    "the fault that came first since the last clear",
-);
+    "the fault that came first of those not cleared since; two bits where two came in one clock",
+)
+.starts(0x03, 0);
 /// Status.
-pub const STATUS: Register = register("status", 0x044, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), 0, "live state");
+pub const STATUS: Register =
+    register("status", 0x044, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), 0, "live state").starts(0x0C, 0x0C);
 /// Commit of set points.
 pub const COMMIT_SET_POINTS: Register = register(
     "commit_set_points",
@@ -213,7 +251,7 @@ pub const COMMIT_SET_POINTS: Register = register(
     Access::WriteOnly,
     Kind::Unsigned(32),
     0,
-    "checksum over the staged set points; a right one pets the watchdog",
+    "checksum over the staged set points; a right one restarts the watchdog's time",
 );
 /// Commit of the configuration.
 pub const COMMIT_CONFIGURATION: Register = register(
@@ -254,7 +292,8 @@ pub const ENCODER_LINES: Register = register(
     Kind::Unsigned(3 * AXES as u32),
     0,
     "filtered lines, A of axis i in bit 2i, B in bit 2i + 1, index in bit 8 + i",
-);
+)
+.starts(0xFFF, 0xFFF);
 /// Which encoder errors disarm.
 pub const ENCODER_FAULT_MASK: Register = register(
     "encoder_fault_mask",
@@ -277,7 +316,12 @@ pub const KICKER_CONTROL: Register = register(
 /// Charge request.
 pub const KICKER_CHARGE: Field = bit("charge", 0, "charge the capacitor, until the time-out");
 /// Trigger on the ball sensor.
-pub const KICKER_ARM_ON_BALL: Field = bit("arm-on-ball", 1, "fire when the ball sensor sees the ball");
+pub const KICKER_ARM_ON_BALL: Field = bit(
+    "arm-on-ball",
+    1,
+    "fire once when the ball sensor sees the ball; it must rise while armed: set before, or after its shot, it must be \
+     cleared and set again; `kicker_status` shows whether it will fire",
+);
 /// Keep the charge while disarmed.
 pub const KICKER_HOLD: Field =
     bit("hold", 2, "keep the charge while disarmed; an emergency stop or a dead clock discharges all the same");
@@ -286,7 +330,8 @@ pub const KICKER_BY_TIME: Field =
     bit("by-time", 3, "1: charge until the time-out whatever `kicker_full` says; 0: stop charging while it is high");
 /// Kicker fire.
 pub const KICKER_FIRE: Register =
-    register("kicker_fire", 0x064, Access::WriteOnly, Kind::Text, 0, "\"KICK\" fires, when armed and not locked out");
+    register("kicker_fire", 0x064, Access::WriteOnly, Kind::Text, 0, "fires, when armed and not locked out")
+        .values(&[value("fire", KICKER_FIRE_WORD, "\"KICK\": fires; any other word does nothing")]);
 /// Kicker pulse.
 pub const KICKER_PULSE: Register = register(
     "kicker_pulse",
@@ -295,7 +340,8 @@ pub const KICKER_PULSE: Register = register(
     Kind::Unsigned(14),
     0,
     "trigger pulse in microseconds; longer than 10000 acts as 10000",
-);
+)
+.zero("never fires");
 /// Kicker lock-out.
 pub const KICKER_LOCKOUT: Register = register(
     "kicker_lockout",
@@ -303,8 +349,9 @@ pub const KICKER_LOCKOUT: Register = register(
     Access::LockedWhileArmed,
     Kind::Unsigned(20),
     0,
-    "microseconds after a pulse in which none can follow; a hard minimum is in the gateware",
-);
+    "microseconds after a pulse in which none can follow; less than 100000 acts as 100000",
+)
+.zero("100 ms, the minimum");
 /// Charge time-out.
 pub const KICKER_CHARGE_TIMEOUT: Register = register(
     "kicker_charge_timeout",
@@ -312,23 +359,35 @@ pub const KICKER_CHARGE_TIMEOUT: Register = register(
     Access::LockedWhileArmed,
     Kind::Unsigned(24),
     0,
-    "microseconds after which charging stops; 0 never charges",
-);
+    "microseconds of charging, together, after which it stops until the capacitor is full, a pulse, or the card is \
+     disarmed: a request that is taken back and made again gains no time",
+)
+.zero("never charges");
 /// Kicker status.
 pub const KICKER_STATUS: Register = register(
     "kicker_status",
     0x074,
     Access::ReadOnly,
-    Kind::Fields(&[KICKER_STATE, KICKER_READY, KICKER_TIMED_OUT, KICKER_DROPPED, KICKER_FULL]),
+    Kind::Fields(&[KICKER_STATE, KICKER_ON_BALL, KICKER_READY, KICKER_TIMED_OUT, KICKER_DROPPED, KICKER_FULL]),
     0,
-    "state of the kicker; a write to `faults` clears its flags",
-);
+    "state of the kicker; a write of anything but 0 to `faults` clears charge-timed-out and fire-dropped",
+)
+.starts(0x80, 0x80);
 /// Kicker state machine.
-pub const KICKER_STATE: Field = bits("state", 0, 3, "see the kicker's page");
+pub const KICKER_STATE: Field = bits(
+    "state",
+    0,
+    3,
+    "0 off (disarmed), 1 ready, 2 pending (charging is off, its gap runs), 3 pulse, 4 commutation, 5 lock-out",
+);
+/// The ball trigger has a shot.
+pub const KICKER_ON_BALL: Field =
+    bit("on-ball", 3, "the next ball fires: arm-on-ball rose while armed and has its shot");
 /// Kicker ready.
 pub const KICKER_READY: Field = bit("ready", 4, "a fire request would be taken");
 /// Charging stopped by its time-out.
-pub const KICKER_TIMED_OUT: Field = bit("charge-timed-out", 5, "charging took longer than its time-out");
+pub const KICKER_TIMED_OUT: Field =
+    bit("charge-timed-out", 5, "charging used up its time-out; stays while that stops the charger");
 /// A fire request was dropped.
 pub const KICKER_DROPPED: Field = bit("fire-dropped", 6, "a fire request came while disarmed or locked out");
 /// The capacitor is full.
@@ -353,7 +412,8 @@ pub const SET_POINT_TIMEOUT: Register = register(
     Kind::Unsigned(16),
     DEFAULT_SET_POINT_TIMEOUT,
     "control ticks after which a set point is zero until the next commit; the watchdog disarms later",
-);
+)
+.zero("no set point ever counts: the wheels are held at zero speed");
 /// Stall window.
 pub const STALL_WINDOW: Register = register(
     "stall_window",
@@ -362,7 +422,8 @@ pub const STALL_WINDOW: Register = register(
     Kind::Unsigned(16),
     DEFAULT_STALL_WINDOW,
     "control ticks in which a driven wheel must move 4 counts net",
-);
+)
+.zero("acts as 1: every tick is a window");
 /// Drive from which on a wheel must move.
 pub const STALL_COMPARE: Register = register(
     "stall_compare",
@@ -371,7 +432,8 @@ pub const STALL_COMPARE: Register = register(
     Kind::Unsigned(13),
     0,
     "PWM clocks above which a wheel counts as driven; 8191 switches the stall detection off",
-);
+)
+.zero("any pulse at all counts as driven");
 /// Stalled axes.
 pub const STALL: Register = register(
     "stall",
@@ -427,7 +489,8 @@ pub const INTERRUPT_STATUS: Register = register(
     Kind::Fields(&INTERRUPT_FIELDS),
     0,
     "causes since they were cleared, enabled or not; INT# is low while an enabled one is set",
-);
+)
+.starts(0, 1);
 
 /// Radio link.
 pub const RADIO: Register = register(
@@ -437,7 +500,8 @@ pub const RADIO: Register = register(
     Kind::Fields(&[RADIO_SELECT, RADIO_ACCEPTED, RADIO_DROPPED]),
     0,
     "who commands, and counters of the link, which cannot be written and wrap",
-);
+)
+.starts(0, 0x00FF_FF01);
 /// The radio commands.
 pub const RADIO_SELECT: Field = bit(
     "select",
@@ -462,11 +526,43 @@ pub const CONFIGURATION: Register = array(
     CONFIGURATION_WORDS,
     Access::Staged,
     WORD,
-    "staged configuration bank: ten groups of one word per axis",
-);
+    "staged configuration bank: thirteen groups of one word per axis",
+)
+.groups(&CONFIGURATION_GROUPS);
 /// Configuration in force.
 pub const ACTIVE_CONFIGURATION: Register =
-    array("active_configuration", 0x500, CONFIGURATION_WORDS, Access::ReadOnly, WORD, "configuration in force");
+    array("active_configuration", 0x500, CONFIGURATION_WORDS, Access::ReadOnly, WORD, "configuration in force")
+        .groups(&CONFIGURATION_GROUPS);
+/// The words of a configuration bank; the twin is [`crate::control::Configuration::to_words`].
+pub const CONFIGURATION_GROUPS: [Group; 13] = [
+    per_axis("inverse_x", 0, Format::COEFFICIENT, "speed LSB per LSB of velocity x", INVERSE),
+    per_axis("inverse_y", 1, Format::COEFFICIENT, "speed LSB per LSB of velocity y", INVERSE),
+    per_axis("inverse_omega", 2, Format::COEFFICIENT, "speed LSB per LSB of rotation", INVERSE),
+    per_axis("direct_x", 3, Format::DISPLACEMENT, "2 LSB of pose x per count", DIRECT),
+    per_axis("direct_y", 4, Format::DISPLACEMENT, "2 LSB of pose y per count", DIRECT),
+    per_axis("direct_heading", 5, Format::DISPLACEMENT, "2^-32 turn per count, of half the turn", DIRECT),
+    per_axis("kp", 6, Format::PROPORTIONAL, "duty LSB per speed LSB", "proportional gain of the speed loop"),
+    per_axis("ki", 7, Format::INTEGRAL, "duty LSB per speed LSB and tick", "integral gain times the control period"),
+    per_axis("lower", 8, Format::DUTY, "1 = full drive", "smallest duty, at least -1"),
+    per_axis("upper", 9, Format::DUTY, "1 = full drive", "largest duty, at most 1"),
+    per_axis("kff", 10, Format::FEED_FORWARD, "duty LSB per speed LSB", "feed-forward of the speed set point"),
+    per_axis(
+        "fall",
+        11,
+        Format::SPEED,
+        "counts per clock and tick",
+        "largest step down of the set point, negative or 0",
+    ),
+    per_axis(
+        "rise",
+        12,
+        Format::SPEED,
+        "counts per clock and tick",
+        "largest step up of the set point; both 0 hold it",
+    ),
+];
+const INVERSE: &str = "inverse kinematics: set point of the axis = sum over x, y, rotation";
+const DIRECT: &str = "odometry: displacement of the body in its own frame, sum over the axes";
 /// Staged set points.
 pub const SET_POINTS: Register = array(
     "set_points",
@@ -474,7 +570,8 @@ pub const SET_POINTS: Register = array(
     SET_POINT_WORDS,
     Access::Staged,
     WORD,
-    "staged set points: wheel speeds, or body velocity x, y, rotation and a spare",
+    "staged set points: as `mode` says a wheel speed per axis in counts per clock, LSB 2^-32, or body velocity x, y, \
+     rotation in units of the inverse matrix, and a spare",
 );
 /// Set points in force.
 pub const ACTIVE_SET_POINTS: Register =
@@ -498,8 +595,10 @@ pub const SNAPSHOT_SEQUENCE: Register = array(
     1,
     Access::ReadOnly,
     Kind::Unsigned(32),
-    "number of control ticks; reading it latches the snapshot",
-);
+    "number of the control tick that finished last, at most a period and 1000 clocks old; reading it latches the \
+     snapshot, so that all its words are of this tick until the last one is read",
+)
+.starts(0, u32::MAX);
 /// Snapshot: status.
 pub const SNAPSHOT_STATUS: Register = array(
     "snapshot_status",
@@ -508,13 +607,16 @@ pub const SNAPSHOT_STATUS: Register = array(
     Access::ReadOnly,
     Kind::Fields(&STATUS_FIELDS),
     "`status` at the tick, without what is pending",
-);
+)
+.starts(0, 0x0C);
 /// Snapshot: time.
 pub const SNAPSHOT_TIME: Register =
-    array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick");
+    array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick")
+        .starts(0, 0xFF_FFFF);
 /// Snapshot: faults.
 pub const SNAPSHOT_FAULTS: Register =
-    array("snapshot_faults", 0x80C, 1, Access::ReadOnly, Kind::Fields(&FAULT_FIELDS), "`faults` at the tick");
+    array("snapshot_faults", 0x80C, 1, Access::ReadOnly, Kind::Fields(&FAULT_FIELDS), "`faults` at the tick")
+        .starts(0, 0x7F);
 /// Snapshot: counts.
 pub const SNAPSHOT_COUNT: Register = array(
     "snapshot_count",
@@ -549,17 +651,23 @@ pub const SNAPSHOT_SEQUENCE_END: Register = array(
     Access::ReadOnly,
     Kind::Unsigned(32),
     "equals `snapshot_sequence` in a coherent snapshot; reading it releases the latch",
-);
+)
+.starts(0, u32::MAX);
 
 /// Bits of [`FAULTS`] and [`FIRST_FAULT`]; the order of [`crate::safety::Fault`].
 pub const FAULT_FIELDS: [Field; 7] = [
-    bit("watchdog", 0, "no valid set-point commit for `watchdog_timeout`"),
-    bit("emergency-stop", 1, "emergency stop input high or open"),
-    bit("encoder", 2, "an encoder of `encoder_fault_mask` saw an illegal transition"),
-    bit("commit", 3, "a commit had the wrong checksum or number of words; nothing changed"),
-    bit("external", 4, "another block asked to stop"),
-    bit("arm-refused", 5, "arming was tried while a fault stood, or out of sequence"),
-    bit("stall", 6, "an axis of `encoder_fault_mask` was driven and did not move: see `stall`"),
+    fault("watchdog", 0, "safety", "no valid set-point commit for `watchdog_timeout`; disarms"),
+    fault("emergency-stop", 1, "safety", "emergency stop input high or open; disarms"),
+    fault("encoder", 2, "encoder", "an axis of `encoder_fault_mask` has its bit in `encoder_error`; disarms"),
+    fault("commit", 3, "commit", "a commit had the wrong checksum or number of words; nothing changed, reported only"),
+    fault("external", 4, "clock_monitor", "LCLK stood still, seen by the crystal; disarms"),
+    fault(
+        "arm-refused",
+        5,
+        "safety",
+        "the second word of arming came while a cause stood, or out of order; reported only",
+    ),
+    fault("stall", 6, "stall", "an axis of `encoder_fault_mask` has its bit in `stall`; disarms"),
 ];
 
 /// Bits of [`STATUS`].

@@ -9,13 +9,17 @@
 //!    written with the right checksum ([`checksum`]), and then all at once at the next control tick.
 //! 5. A register marked *locked while armed* ignores writes while the outputs may be on.
 //! 6. A staged word has 30 bits; the upper two are replaced by its sign.
+//! 7. The minor number of [`VERSION`] counts additions and mends that a driver of an older minor number can
+//!    live with; the major number counts all others.
 
 mod map;
+mod rules;
 
 pub use map::*;
+pub use rules::*;
 
 /// Version of this map: major in the high half, minor in the low half. The driver refuses another major.
-pub const VERSION: u32 = 0x0002_0001;
+pub const VERSION: u32 = 0x0002_0002;
 
 /// Who may do what with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +77,8 @@ pub struct Field {
     pub width: u32,
     /// What it says.
     pub text: &'static str,
+    /// Block of the gateware that raises it, for a fault; else empty.
+    pub block: &'static str,
 }
 
 impl Field {
@@ -89,6 +95,45 @@ impl Field {
     }
 }
 
+/// A word that means something of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Value {
+    /// Name, in kebab-case.
+    pub name: &'static str,
+    /// The word.
+    pub word: u32,
+    /// What it does.
+    pub text: &'static str,
+}
+
+/// Words of an array that belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Name, in `snake_case`.
+    pub name: &'static str,
+    /// Its first word in the array.
+    pub first: usize,
+    /// Words, one per axis where there are as many as axes.
+    pub words: usize,
+    /// Format of a word.
+    pub format: crate::format::Format,
+    /// Unit of the value.
+    pub unit: &'static str,
+    /// What it is for.
+    pub text: &'static str,
+}
+
+/// A board that the design drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// What `board` reads: four characters.
+    pub word: u32,
+    /// What `clock_hz` reads.
+    pub clock_hz: u32,
+    /// Which board that is.
+    pub text: &'static str,
+}
+
 /// A register, or an array of them at consecutive words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Register {
@@ -102,13 +147,39 @@ pub struct Register {
     pub access: Access,
     /// Meaning of the bits.
     pub kind: Kind,
-    /// Value after configuration of the FPGA.
+    /// What it reads after configuration of the FPGA while nothing is connected to the pins, which are then
+    /// pulled up.
     pub reset: u32,
+    /// Bits of [`Self::reset`] that follow pins or time.
+    pub live: u32,
+    /// Words that mean something of their own.
+    pub values: &'static [Value],
+    /// Groups of an array.
+    pub groups: &'static [Group],
+    /// What zero means, where it is no plain number; else empty.
+    pub zero: &'static str,
     /// What it is for, and its unit.
     pub text: &'static str,
 }
 
 impl Register {
+    /// Reads `reset` while nothing is connected; the bits of `live` follow pins or time.
+    pub(crate) const fn starts(self, reset: u32, live: u32) -> Self {
+        Self { reset, live, ..self }
+    }
+
+    pub(crate) const fn values(self, values: &'static [Value]) -> Self {
+        Self { values, ..self }
+    }
+
+    pub(crate) const fn groups(self, groups: &'static [Group]) -> Self {
+        Self { groups, ..self }
+    }
+
+    pub(crate) const fn zero(self, zero: &'static str) -> Self {
+        Self { zero, ..self }
+    }
+
     /// Byte offset of word `index` of an array.
     ///
     /// # Panics
@@ -204,6 +275,23 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn groups_fill_their_arrays() {
+        for register in REGISTERS {
+            let mut next = 0;
+            for group in register.groups {
+                assert_eq!(group.first, next, "{}.{}", register.name, group.name);
+                next += group.words;
+            }
+            assert!(next == 0 || next == usize::from(register.words), "{}", register.name);
+        }
+    }
+
+    #[test]
+    fn every_fault_names_its_block() {
+        assert!(FAULT_FIELDS.iter().all(|field| !field.block.is_empty()));
     }
 
     #[test]

@@ -12,7 +12,7 @@ const QUIET: Inputs = Inputs {
     encoder_fault: false,
     commit_fault: false,
     external_fault: false,
-    clear_faults: false,
+    clear_faults: 0,
     stall_fault: false,
     tick: false,
     set_point_timeout: 3,
@@ -36,7 +36,7 @@ fn armed() -> Safety {
     let mut safety = Safety::default();
     run(&mut safety, &QUIET, 40);
     safety.clock(&PET);
-    safety.clock(&Inputs { clear_faults: true, ..QUIET });
+    safety.clock(&Inputs { clear_faults: u8::MAX, ..QUIET });
     safety.clock(&ARM[0]);
     let out = safety.clock(&ARM[1]);
     assert_eq!(out, Outputs { armed: true, ..Outputs::default() });
@@ -125,7 +125,7 @@ fn disarming_faults_act_in_one_clock_and_the_others_only_report() {
         let later = safety.clock(&Inputs { encoder_fault: true, ..PET });
         assert_eq!(later.first_fault, fault.mask());
         assert_eq!(later.faults, fault.mask() | Fault::Encoder.mask());
-        let cleared = safety.clock(&Inputs { clear_faults: true, encoder_fault: true, ..PET });
+        let cleared = safety.clock(&Inputs { clear_faults: u8::MAX, encoder_fault: true, ..PET });
         assert_eq!((cleared.faults, cleared.first_fault), (Fault::Encoder.mask(), Fault::Encoder.mask()));
     }
 }
@@ -207,6 +207,38 @@ fn any_other_write_disarms_and_breaks_the_sequence() {
     }
 }
 
+#[test]
+fn what_is_only_still_shown_keeps_nothing_from_arming() {
+    let causes = [
+        Inputs { encoder_fault: true, ..QUIET },
+        Inputs { stall_fault: true, ..QUIET },
+        Inputs { external_fault: true, ..QUIET },
+        Inputs { commit_fault: true, ..QUIET },
+        ARM[1],
+    ];
+    for cause in causes {
+        let mut safety = armed();
+        let shown = safety.clock(&cause).faults;
+        assert_ne!(shown, 0);
+        safety.clock(&ARM[0]);
+        let out = safety.clock(&ARM[1]);
+        assert_eq!((out.armed, out.faults), (true, shown), "{cause:?}");
+    }
+}
+
+#[test]
+fn a_written_one_clears_its_fault_alone_and_a_standing_one_comes_back() {
+    let mut safety = armed();
+    let both = Inputs { stall_fault: true, external_fault: true, ..QUIET };
+    let (stall, external) = (Fault::Stall.mask(), Fault::External.mask());
+    assert_eq!(safety.clock(&both).first_fault, stall | external);
+    let out = safety.clock(&Inputs { clear_faults: external, ..QUIET });
+    assert_eq!((out.faults, out.first_fault), (stall, stall));
+    let out = safety.clock(&Inputs { clear_faults: u8::MAX, stall_fault: true, ..QUIET });
+    assert_eq!((out.faults, out.first_fault), (stall, stall));
+    assert_eq!(safety.clock(&Inputs { clear_faults: stall, ..QUIET }).faults, 0);
+}
+
 fn any_inputs() -> impl Strategy<Value = Inputs> {
     let word = prop_oneof![4 => Just(ARM_FIRST), 4 => Just(ARM_SECOND), 1 => any::<u32>()];
     let rare = || prop::bool::weighted(0.02);
@@ -219,7 +251,7 @@ fn any_inputs() -> impl Strategy<Value = Inputs> {
             watchdog_timeout: if timeout < 2 { timeout } else { 50 },
             encoder_fault: encoder,
             commit_fault: commit,
-            clear_faults: clear,
+            clear_faults: if clear { u8::MAX } else { 0 },
             external_fault: external,
             ..QUIET
         })

@@ -1,10 +1,12 @@
 //! The gap in figures: per link, over all signals, and how it falls.
 
-use super::{Leftover, Located};
+use super::measure::MeasuredDrive;
+use super::{Located, Named};
 use crate::drive::DriveResiduals;
 use crate::effect::Link;
 use crate::exact::ExactLink;
 use crate::motion::WindowResiduals;
+use crate::pieces::Pieces;
 
 /// Gap figures of one link.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +93,7 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// What matters within a second of motion, m and rad.
 const MATTERS: [f64; 2] = [0.004, 0.02];
-/// Share of the stall torque that matters: twice what rollers and contacts cost every omni drive.
+/// Share of the drive's torque that matters: twice what rollers and contacts cost every omni drive.
 const DRIVE_MATTERS: f64 = 0.06;
 
 /// Gap of the motion link that matters, in noise floors.
@@ -101,45 +103,117 @@ pub(super) fn motion_matters(noise: [f64; 3]) -> f64 {
 }
 
 /// Gap of the drive link that matters, in noise floors (Nm, one a wheel).
-pub(super) fn drive_matters(floor: &[f64], stall_nm: f64) -> f64 {
-    DRIVE_MATTERS * stall_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
+pub(super) fn drive_matters(floor: &[f64], drive_nm: f64) -> f64 {
+    DRIVE_MATTERS * drive_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
 }
 
-/// What to say of a link of motion or drive on which much is left and little was explained.
-pub(super) fn stays_open(link: &LinkGap, located: &[Located], stall_nm: f64) -> Option<Leftover> {
-    /// Noise floors, and the share of the squared gap that may be left.
-    const FAR: [f64; 2] = [3.0, 0.1];
-    let open = |rms: f64| (rms * rms - 1.0).max(0.0);
-    let material = link.rms.iter().zip(&link.units).any(|([_, after], unit)| match *unit {
-        "m" => *after >= MATTERS[0],
-        "rad" => *after >= MATTERS[1],
-        _ => *after >= DRIVE_MATTERS * stall_nm,
-    });
-    let counts = matches!(link.link, Link::Motion | Link::Drive) && material;
-    if !counts || link.after < FAR[0] || open(link.after) < FAR[1] * open(link.before) {
+/// What is left on a link after everything that is named.
+pub(super) enum Remains {
+    /// So much, and so little explained, that the link stays open.
+    Open(String),
+    /// Something, beside what is named.
+    Beside(String),
+}
+
+/// Noise floors that are worth a sentence, and from which a link does not agree.
+const WORTH: f64 = 1.5;
+/// Share of the squared gap that named effects close at least on a link that they explain.
+const EXPLAINED: f64 = 0.5;
+
+/// What to say of a link of motion or drive on which more than noise is left; from `far` floors on it stays open.
+pub(super) fn remains(link: &LinkGap, located: &[Located], far: f64) -> Option<Remains> {
+    if !matches!(link.link, Link::Motion | Link::Drive) || link.after < WORTH {
         return None;
     }
-    let worst = located.iter().filter(|l| l.link == link.link).max_by(|a, b| a.excess.total_cmp(&b.excess));
-    let place = worst.map_or_else(|| "the link disagrees".to_owned(), |l| l.place.clone());
-    let structure =
-        format!("{place}; {:.1} noise floors are left, which nothing in the catalogue explains", link.after);
-    Some(Leftover { link: link.link, structure })
+    let open = |rms: f64| (rms * rms - 1.0).max(0.0);
+    // The signal on which most is left.
+    let worst = (0..link.rms.len()).max_by(|a, b| {
+        let left = |i: &usize| link.rms[*i][1] / link.floor[*i].max(1e-300);
+        left(a).total_cmp(&left(b))
+    })?;
+    let names = |i: usize| {
+        if link.link == Link::Motion { ["cam_x", "cam_y", "cam_theta"][i].to_owned() } else { format!("enc_{}", i + 1) }
+    };
+    let place =
+        located.iter().find(|l| l.link == link.link && l.signal == names(worst)).map_or_else(String::new, |l| {
+            l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
+        });
+    let unit = if link.units[worst] == "m" {
+        ("mm", 1e3)
+    } else if link.units[worst] == "Nm" {
+        ("mNm", 1e3)
+    } else {
+        ("mrad", 1e3)
+    };
+    let sentence = format!(
+        "{:.1} noise floors remain on the {} link ({} {:.2} {} RMS{place}), which no effect of the catalogue explains",
+        link.after,
+        link.link.name(),
+        names(worst),
+        unit.1 * link.rms[worst][1],
+        unit.0,
+    );
+    let explained = open(link.after) < (1.0 - EXPLAINED) * open(link.before);
+    Some(if link.after >= far && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
 }
 
-pub(super) fn waterfall(links: &[LinkGap], parts: &[(String, Link, f64)]) -> Vec<(String, f64)> {
+/// Links without a moment that could show anything, and what would be needed.
+pub(super) fn weightless(pieces: &Pieces, drive: Option<&MeasuredDrive>) -> Vec<(Link, String)> {
+    let mut out = Vec::new();
+    let turned = |s: &crate::segment::Segment| {
+        s.angle.iter().map(|a| a.iter().fold(0.0_f64, |most, x| most.max((x - a[0]).abs()))).fold(0.0, f64::max)
+    };
+    let counted = pieces.iter().any(|s| !s.angle.is_empty());
+    let most = pieces.iter().map(|s| turned(&s)).fold(0.0, f64::max);
+    if counted && most < STILL {
+        let why = format!(
+            "Compared nothing, for no wheel turns by more than {most:.3} rad; drive a metre, and turn once on the spot."
+        );
+        // What stands still follows any command and any law.
+        return [Link::Command, Link::Controller, Link::Drive, Link::Motion].map(|link| (link, why.clone())).to_vec();
+    }
+    if let Some(drive) = drive {
+        let used = drive.plots[1].weights.iter().flatten().any(|w| *w > 0.0);
+        if !used {
+            let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
+            out.push((
+                Link::Drive,
+                format!(
+                    "Drive: compared nothing, for no axis turns steadily (the fastest moment is {fastest:.2} rad/s at the \
+                     wheel); drive each axis for seconds in both directions at several duties."
+                ),
+            ));
+        }
+    }
+    out
+}
+
+/// Turn of a wheel that shows nothing, rad: less than a degree.
+const STILL: f64 = 0.01;
+
+/// The figures of all links as the file's effects are added one by one, in its order; nothing is fitted between.
+pub(super) fn waterfall(
+    links: &[LinkGap],
+    steps: &[(String, Vec<(Link, f64)>)],
+    named: &[Named],
+) -> Vec<(String, f64)> {
     let (before, after) = overall(links);
     let mut out = vec![("nominal model".to_owned(), before)];
-    // The squares of the links fall by each effect's share.
-    let mut now: Vec<(Link, f64, f64)> = links.iter().map(|l| (l.link, l.before, l.signals as f64)).collect();
-    for (name, link, gain) in parts {
-        if let (Some(slot), Some(l)) = (now.iter_mut().find(|n| n.0 == *link), links.iter().find(|l| l.link == *link)) {
-            slot.1 = (slot.1.powi(2) - gain * l.before.powi(2)).max(l.after.powi(2)).sqrt();
+    let mut now: Vec<LinkGap> = links.to_vec();
+    now.iter_mut().for_each(|l| l.after = l.before);
+    for n in named.iter().filter(|n| !matches!(n.link, Link::Motion | Link::Drive)) {
+        for (slot, l) in now.iter_mut().zip(links).filter(|(slot, _)| slot.link == n.link) {
+            slot.after = l.after;
         }
-        let signals: f64 = now.iter().map(|n| n.2).sum();
-        let rms = (now.iter().map(|n| n.2 * n.1 * n.1).sum::<f64>() / signals.max(1.0)).sqrt();
-        out.push((format!("+ {name}"), rms));
+        out.push((format!("+ {}", n.name), overall(&now).1));
     }
-    out.push(("after, what is immaterial adjusted".to_owned(), after));
+    for (name, figures) in steps {
+        for (link, rms) in figures {
+            now.iter_mut().filter(|l| l.link == *link).for_each(|l| l.after = *rms);
+        }
+        out.push((format!("+ {name}"), overall(&now).1));
+    }
+    debug_assert!(now.iter().zip(links).all(|(a, b)| (a.after - b.after).abs() < 1e-6 * b.after.max(1.0)), "{after}");
     out.push(("noise floor".to_owned(), 1.0));
     out
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Named;
 use crate::effect::{Effect, Link, Values};
+use crate::evidence::{Evidence, Interval};
 use crate::motion::MotionLink;
 use crate::problem::Problem;
 use crate::state::{Active, State};
@@ -34,8 +35,15 @@ pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn
             free: Vec::new(),
             fixed: values.0.clone(),
         };
-        let active =
-            Active { effect: effect.clone(), form, values, immaterial: false, link: Link::Motion, given: true };
+        let active = Active {
+            effect: effect.clone(),
+            form,
+            values,
+            immaterial: false,
+            link: Link::Motion,
+            given: true,
+            together: false,
+        };
         let mut state = start.clone();
         state.active.push(active.clone());
         (plain(&state).0, active)
@@ -45,13 +53,18 @@ pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn
 }
 
 pub(super) fn order_named(active: &Active, gain: f64) -> Named {
+    let what = format!(
+        "of all orders and signs of the wheels, this one leaves {:.1} % of the squared residual",
+        100.0 * (1.0 - gain)
+    );
+    let evidence = Evidence::Pattern { what, p: None };
     Named {
         name: ORDER.to_owned(),
         equation: active.effect.equation().to_owned(),
         link: Link::Motion,
         wheels: active.form.wheels.iter().map(|w| w + 1).collect(),
-        parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, [*v, *v])).collect(),
+        parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact)).collect(),
         gain,
-        p_value: 2e-4,
+        evidence,
     }
 }

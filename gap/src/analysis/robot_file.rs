@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use runs::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
-use runs::{Columns, Log, Logs};
+use runs::{Columns, Log, Logs, as_logged};
 
 use super::Named;
 use super::order::ORDER;
 use crate::effect::{Effect, Values};
+use crate::evidence::Interval;
 use crate::options::Options;
 use crate::parts::{Part, parts};
 use crate::state::Active;
@@ -18,6 +19,8 @@ use crate::state::Active;
 pub(super) fn completed(robot: &Robot, logs: &[Log]) -> Robot {
     const USUAL: f64 = 4.0;
     const UNUSUAL: f64 = 20.0;
+    let source = logs.first().map(|log| log.layout().source).unwrap_or_default();
+    let robot = &as_logged(robot, source, logs.iter().find_map(Log::tick_s));
     let columns = Columns { counts: true, ..Columns::NONE };
     let of_part = |part: Part| part.run.counts.iter().map(|c| fastest(&part.run.t, c)).fold(0.0, f64::max);
     let fastest = logs.iter().flat_map(|log| parts(log, columns)).map(of_part);
@@ -64,7 +67,15 @@ pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active>
             let effect = catalogue.iter().find(|c| c.name() == e.name)?.clone();
             let values = Values(e.parameters.iter().map(|(n, p)| (n.clone(), p.value)).collect());
             let link = effect.link();
-            Some(Active { effect, form: crate::effect::Form::default(), values, immaterial: false, link, given: true })
+            Some(Active {
+                effect,
+                form: crate::effect::Form::default(),
+                values,
+                immaterial: false,
+                link,
+                given: true,
+                together: false,
+            })
         })
         .collect()
 }
@@ -79,7 +90,7 @@ pub(super) fn robot_text(set: &Logs, options: &Options, robot: &Robot) -> String
     };
     std::fs::read_to_string(&file)
         .ok()
-        .filter(|text| Robot::parse(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
+        .filter(|text| Robot::parse_partial(text, &file).is_ok_and(|r| nominal(&r) == nominal(robot)))
         .and_then(|text| Robot::edited(&text, &robot.effects, &file).ok())
         .unwrap_or_else(|| robot.to_toml())
 }
@@ -92,7 +103,10 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         let strings = |v: &[String]| toml::Value::Array(v.iter().map(|s| toml::Value::String(s.clone())).collect());
         other.insert("runs".to_owned(), strings(runs));
         other.insert("gain".to_owned(), toml::Value::Float((n.gain * 1e4).round() / 1e4));
-        other.insert("p_value".to_owned(), toml::Value::Float(n.p_value));
+        other.insert("evidence".to_owned(), toml::Value::String(n.evidence.kind().to_owned()));
+        if let Some(p) = n.evidence.p_value() {
+            other.insert("p_value".to_owned(), toml::Value::Float(p));
+        }
         let twins: Vec<String> =
             alternatives.iter().filter(|a| a.contains(&n.name)).flatten().filter(|x| **x != n.name).cloned().collect();
         if !twins.is_empty() {
@@ -101,8 +115,18 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         let parameters: Vec<(String, EffectParameter)> = n
             .parameters
             .iter()
-            .map(|(name, value, ci)| {
-                (name.clone(), EffectParameter { value: *value, ci95: Some(*ci), other: toml::Table::new() })
+            .map(|(name, value, interval)| {
+                let mut parameter = EffectParameter { value: *value, ..EffectParameter::default() };
+                match interval {
+                    Interval::Ci95(ends) => parameter.ci95 = Some(*ends),
+                    known => {
+                        if let (Some(key), Some(ends)) = (known.key(), known.ends()) {
+                            let ends = ends.map(toml::Value::Float).to_vec();
+                            parameter.other.insert(key.to_owned(), toml::Value::Array(ends));
+                        }
+                    }
+                }
+                (name.clone(), parameter)
             })
             .collect();
         let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };

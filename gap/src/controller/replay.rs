@@ -68,12 +68,30 @@ impl Integral {
 struct Wheel {
     integral: Integral,
     square: f64,
-    wrong: f64,
-    all: f64,
+    wrong: u64,
+    all: u64,
 }
 
-/// Of every wheel the RMS of what is beyond rounding, and the share of ticks that are.
-pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec<(f64, f64)> {
+/// What a replay says of one wheel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Replayed {
+    /// RMS of what is beyond rounding, duty.
+    pub(super) rms: f64,
+    /// Ticks that were compared.
+    pub(super) ticks: u64,
+    /// Those that differ by more than rounding.
+    pub(super) wrong: u64,
+}
+
+impl Replayed {
+    /// Share of the ticks that differ.
+    pub(super) fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.ticks.max(1) as f64
+    }
+}
+
+/// Replays every wheel's loop.
+pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec<Replayed> {
     let rate = robot.control_rate_hz;
     let per_count = rate / robot.counts_per_wheel_rad();
     let half = floor.max(0.5 * law.duty_quantum + SLACK);
@@ -81,7 +99,7 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
         let u = u.clamp(-1.0, 1.0);
         if law.duty_quantum > 0.0 { (u / law.duty_quantum).round() * law.duty_quantum } else { u }
     };
-    let wheel = |_| Wheel { integral: Integral::UNKNOWN, square: 0.0, wrong: 0.0, all: 0.0 };
+    let wheel = |_| Wheel { integral: Integral::UNKNOWN, square: 0.0, wrong: 0, all: 0 };
     let mut wheels: Vec<Wheel> = (0..robot.wheel_count()).map(wheel).collect();
     for log in logs {
         wheels.iter_mut().for_each(|w| w.integral = Integral::UNKNOWN);
@@ -123,14 +141,14 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
                     }
                     if known {
                         state.square += e * e;
-                        state.all += 1.0;
-                        state.wrong += f64::from(u8::from(e > 1e-9));
+                        state.all += 1;
+                        state.wrong += u64::from(e > 1e-9);
                     }
                 }
             }
         }
     }
-    let figures = |w: &Wheel| ((w.square / w.all.max(1.0)).sqrt(), w.wrong / w.all.max(1.0));
+    let figures = |w: &Wheel| Replayed { rms: (w.square / w.all.max(1) as f64).sqrt(), ticks: w.all, wrong: w.wrong };
     wheels.iter().map(figures).collect()
 }
 
@@ -175,7 +193,8 @@ mod tests {
         let run = log(&robot, |k| k > 2_345 && k % 331 != 0 && !(4_000..4_017).contains(&k));
         let ticks = Ticks::new(&robot, &run).gaps();
         assert!(ticks.pauses > 10 && ticks.missing > 30, "{ticks:?}");
-        assert_eq!(replay(&robot, &[&Log::from(Cow::Owned(run))], &nominal(&robot), FLOOR), [(0.0, 0.0); 3]);
+        let replayed = replay(&robot, &[&Log::from(Cow::Owned(run))], &nominal(&robot), FLOOR);
+        assert!(replayed.iter().all(|w| (w.rms, w.wrong) == (0.0, 0) && w.ticks > 1000), "{replayed:?}");
     }
 
     #[test]
@@ -187,10 +206,10 @@ mod tests {
         let run = log(&Robot { effects: vec![effect], ..robot.clone() }, |k| k % 331 != 0);
         let law = nominal(&robot);
         let run = Log::from(Cow::Owned(run));
-        let (rms, wrong) = replay(&robot, &[&run], &law, FLOOR)[0];
-        assert!(rms > 0.001 && wrong > 0.1, "{rms} {wrong}");
-        let (rms, wrong) = replay(&robot, &[&run], &Law { kp: 1.05 * law.kp, ..law }, FLOOR)[0];
-        assert_eq!((rms, wrong), (0.0, 0.0));
+        let wheel = replay(&robot, &[&run], &law, FLOOR)[0];
+        assert!(wheel.rms > 0.001 && wheel.wrong_share() > 0.1, "{wheel:?}");
+        let wheel = replay(&robot, &[&run], &Law { kp: 1.05 * law.kp, ..law }, FLOOR)[0];
+        assert_eq!((wheel.rms, wheel.wrong), (0.0, 0));
     }
 
     #[test]

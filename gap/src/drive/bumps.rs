@@ -7,9 +7,11 @@ use rayon::prelude::*;
 
 use super::forces::Base;
 use super::{DriveModel, Mechanics};
+use crate::effect::Sizes;
 use crate::gram::Cluster;
 use crate::pieces::Pieces;
 use crate::segment::Segment;
+use crate::thresholds;
 
 /// Length of a bump, s, and in ticks at least.
 const BUMP_S: f64 = 0.12;
@@ -19,8 +21,6 @@ const CLUSTER_S: f64 = 1.0;
 const FEWEST_BUMPS: f64 = 8.0;
 /// Clusters at most; beyond, they are longer.
 const MOST_CLUSTERS: f64 = 400.0;
-/// Below this speed a wheel may stick, and its friction is anything up to its limit, rad/s.
-const STUCK: f64 = 0.35;
 /// Share of a bump a wheel may be that slow.
 const STUCK_SHARE: f64 = 0.35;
 
@@ -28,10 +28,12 @@ const STUCK_SHARE: f64 = 0.35;
 pub struct DriveLink<'a> {
     /// The pieces of the runs.
     pub pieces: &'a Pieces<'a>,
-    /// Torque per wheel acceleration of the nominal robot: the unit residuals are given in.
-    inertia: DMatrix<f64>,
+    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
+    ln_inertia: f64,
     /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
     pub noise: Vec<f64>,
+    /// What torques and speeds are large beside.
+    pub sizes: Sizes,
     bumps: Vec<Bump>,
 }
 
@@ -80,7 +82,7 @@ impl<'a> DriveLink<'a> {
 
     /// Lays bumps of a length in s over the segments.
     pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
-        let inertia = nominal.mechanics()?.inertia;
+        let ln_inertia = nominal.mechanics()?.ln_inertia;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
@@ -109,14 +111,33 @@ impl<'a> DriveLink<'a> {
                 start += 0.5 * length;
             }
         }
-        (!bumps.is_empty()).then(|| Self { pieces, inertia, noise: vec![1.0; n], bumps })
+        if bumps.is_empty() {
+            return None;
+        }
+        let sizes = Sizes::of(pieces.robot());
+        let mut link = Self { pieces, ln_inertia, noise: vec![1.0; n], sizes, bumps };
+        link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
+        Some(link)
+    }
+
+    /// Torque that the motors of a model gave where wheels turned, RMS, Nm at the wheel shaft.
+    fn motors_gave(&self, model: &DriveModel) -> f64 {
+        let g = model.gear_ratio;
+        let torques = self.means(self.noise.len(), |s, k, out| {
+            for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
+                let volts = s.duty[i][k] * s.supply[k] - a.back_emf * g * s.speed[i][k];
+                *slot = g * a.torque_constant * volts / a.resistance;
+            }
+        });
+        let counted = torques.iter().enumerate().flat_map(|(i, wheel)| {
+            wheel.iter().zip(&self.bumps).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
+        });
+        crate::statistics::rms(counted)
     }
 
     /// Leaves out bumps in which a wheel slips by what the motion link found: Newton's law in wheel
     /// coordinates needs wheels that roll.
     pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel) {
-        /// Slip of a rolling wheel, rad/s: creep and noise stay below.
-        const ROLLING: f64 = 1.5;
         if motion.angles.is_empty() {
             return;
         }
@@ -127,7 +148,8 @@ impl<'a> DriveLink<'a> {
                 let end = bump.first + bump.intervals;
                 let slips = (0..s.angle.len()).any(|i| {
                     let off = |k: usize| changed[i][k] - s.angle[i][k];
-                    (off(end) - off(bump.first)).abs() > ROLLING * 0.5 * (s.t[end] - s.t[bump.first])
+                    (off(end) - off(bump.first)).abs()
+                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
                 });
                 if slips {
                     bump.weights.fill(0.0);
@@ -171,6 +193,11 @@ impl<'a> DriveLink<'a> {
         self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
+    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
+    pub fn ln_inertia(&self) -> f64 {
+        self.ln_inertia
+    }
+
     /// Number of bumps.
     pub fn len(&self) -> usize {
         self.bumps.len()
@@ -198,20 +225,24 @@ impl<'a> DriveLink<'a> {
         self.bumps[range.clone()].par_iter().map(|b| b.shape(s)).collect()
     }
 
-    /// Wheel accelerations a model predicts for some bumps of one segment by the torques and forces at its ticks, in
-    /// units of nominal torque.
-    fn predict_part(
+    /// Unexplained torques of some bumps of one segment, Nm, by the torques and forces of a model at its ticks: what
+    /// the model's own inertia takes for the measured acceleration, less what its own torques give.
+    ///
+    /// In the torque of another model, such as the nominal one, a robot too heavy to move would explain everything: it
+    /// predicts no acceleration, and the nominal inertia makes little of the measured one.
+    fn unexplained_part(
         &self,
         model: &DriveModel,
         s: &Segment,
         range: &Range<usize>,
         shapes: &[Shape],
         forces: &[f64],
+        measured: &[DVector<f64>],
     ) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
         let offsets: Vec<Vec<Vec<f64>>> = model.offsets.iter().map(|o| o(model, s)).collect();
-        let out = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+        let out = self.bumps[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
                 for i in 0..n {
@@ -219,27 +250,28 @@ impl<'a> DriveLink<'a> {
                     a[i] += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
                 }
             }
-            &self.inertia * a
+            &mechanics.inertia * (measured - a)
         });
         Some(out.collect())
     }
 
-    /// What the encoders measured, in units of nominal torque, one a bump.
-    pub fn measured(&self) -> Vec<DVector<f64>> {
+    /// Torques that the measured accelerations take of a model, Nm, one a bump.
+    pub fn done(&self, model: &DriveModel) -> Vec<DVector<f64>> {
+        let Some(Mechanics { inertia, .. }) = model.mechanics() else { return Vec::new() };
         let part = |range: Range<usize>| {
             let s = self.pieces.get(self.bumps[range.start].segment);
             self.measured_part(&s, &range, &self.shapes(&s, &range))
         };
-        self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().concat()
+        let measured = self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().concat();
+        measured.into_iter().map(|a| &inertia * a).collect()
     }
 
     fn measured_part(&self, s: &Segment, range: &Range<usize>, shapes: &[Shape]) -> Vec<DVector<f64>> {
         let measured = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
-            let a = DVector::from_fn(self.noise.len(), |i, _| {
+            DVector::from_fn(self.noise.len(), |i, _| {
                 let own = &s.angle[i][b.first..];
                 shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum()
-            });
-            &self.inertia * a
+            })
         });
         measured.collect()
     }
@@ -274,7 +306,7 @@ impl<'a> DriveLink<'a> {
                 let measured = ((angle[k + 1] - angle[k]) / g - (angle[k] - angle[k - 1]) / h) * 2.0 / (g + h);
                 measured - (before[i] * h + now[i] * g) / (h + g) / model.axes[i].encoder_scale
             });
-            let torque = &self.inertia * &a;
+            let torque = &mechanics.inertia * &a;
             let a = &follow * a;
             for i in 0..n {
                 out[0][i][k] = a[i] / share[i];
@@ -290,9 +322,9 @@ impl<'a> DriveLink<'a> {
         let part = |range: Range<usize>| -> Option<Vec<Vec<f64>>> {
             let s = self.pieces.get(self.bumps[range.start].segment);
             let shapes = self.shapes(&s, &range);
-            let predicted = self.predict_part(model, &s, &range, &shapes, &model.forces(&s))?;
             let measured = self.measured_part(&s, &range, &shapes);
-            Some(measured.iter().zip(&predicted).map(|(m, p)| (m - p).iter().copied().collect()).collect())
+            let left = self.unexplained_part(model, &s, &range, &shapes, &model.forces(&s), &measured)?;
+            Some(left.iter().map(|torque| torque.iter().copied().collect()).collect())
         };
         let torque: Option<Vec<_>> = self.by_segment().into_par_iter().map(part).collect();
         Some(DriveResiduals {
@@ -349,29 +381,48 @@ impl<'a> DriveLink<'a> {
         (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
+    /// By how much a model's inertia exceeds that of the link's own one, as the logarithm of a determinant, and its
+    /// derivatives along the pairs of models.
+    fn heavier(
+        &self,
+        model: &DriveModel,
+        sides: &[(Option<DriveModel>, DriveModel, f64)],
+    ) -> Option<(f64, DVector<f64>)> {
+        let of = |model: &DriveModel| Some(model.mechanics()?.ln_inertia);
+        let base = of(model)?;
+        let slope = |(low, high, step): &(Option<DriveModel>, DriveModel, f64)| {
+            let low = low.as_ref().map_or(Some(base), of);
+            low.zip(of(high)).map_or(0.0, |(low, high)| (high - low) / step)
+        };
+        Some((base - self.ln_inertia, DVector::from_iterator(sides.len(), sides.iter().map(slope))))
+    }
+
     /// Linearises: residuals and derivatives along each pair of models (low or `None` for the model
     /// itself, high, step), per cluster.
     pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
         let n = self.noise.len();
         let mut clusters = Vec::new();
+        let Some(heavier) = self.heavier(model, sides) else { return Vec::new() };
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.bumps[range.start].segment);
             let shapes = self.shapes(s, &range);
             let measured = self.measured_part(s, &range, &shapes);
-            let predict = |model: &DriveModel, forces: &[f64]| self.predict_part(model, s, &range, &shapes, forces);
+            let left = |model: &DriveModel, forces: &[f64]| {
+                self.unexplained_part(model, s, &range, &shapes, forces, &measured)
+            };
             let start = Base::new(model, s);
-            let Some(base) = predict(model, &start.forces) else { return Vec::new() };
+            let Some(base) = left(model, &start.forces) else { return Vec::new() };
             let columns: Vec<Option<Vec<DVector<f64>>>> = sides
                 .par_iter()
                 .map(|(low, high, step)| {
                     let low = match low {
-                        Some(low) => Some(predict(low, &start.forces_of(low))?),
+                        Some(low) => Some(left(low, &start.forces_of(low))?),
                         None => None,
                     };
-                    let high = predict(high, &start.forces_of(high))?;
+                    let high = left(high, &start.forces_of(high))?;
                     let low = low.as_ref().unwrap_or(&base);
-                    Some(low.iter().zip(&high).map(|(a, b)| (b - a) / *step).collect())
+                    Some(low.iter().zip(&high).map(|(a, b)| (a - b) / *step).collect())
                 })
                 .collect();
             let mut first = 0;
@@ -381,14 +432,15 @@ impl<'a> DriveLink<'a> {
                 let at = |r: usize| (first + r / n, r % n);
                 let residual = DVector::from_fn(rows, |r, _| {
                     let (b, i) = at(r);
-                    (measured[b][i] - base[b][i]) * weight(r)
+                    base[b][i] * weight(r)
                 });
                 let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
                     let (b, i) = at(r);
                     columns[c].as_ref().map_or(0.0, |column| column[b][i] * weight(r))
                 });
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
-                clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
+                let cluster = Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian);
+                clusters.push(cluster.heavier(used / n as f64, heavier.0, &heavier.1));
                 first += part.len();
             }
         }
@@ -411,7 +463,7 @@ impl Bump {
             return None;
         }
         for (i, slot) in bump.weights.iter_mut().enumerate() {
-            let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < STUCK);
+            let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < thresholds::STUCK * s.turning);
             let stuck: f64 = slow.map(|(f, _)| f).sum();
             *slot = if stuck > STUCK_SHARE { 0.0 } else { 1.0 };
         }

@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{DriveLink, DriveResiduals, SLIDE_WIDTH, smooth_sign};
+use super::{DriveLink, DriveResiduals, smooth_sign};
 use crate::gram::solve;
+use crate::thresholds;
 
-/// Torque below which no drive is predicted, Nm as a share of the stall torque.
+/// Torque below which no drive is predicted, Nm as a share of what the motors reach in the logs.
 const LEAST: f64 = 0.001;
 
 /// A generic regression of unexplained torques: smooth functions of the wheel's own and the other
@@ -31,12 +32,13 @@ impl Generic {
     /// Its columns.
     pub fn new(link: &DriveLink) -> Self {
         let n = link.noise.len();
+        let slides = thresholds::SLIDES * link.pieces.robot().wheel_radius_m;
         let (common, alone) = (3 * n + 6, 4);
         let mut all = link.means(common + alone * n, |s, k, out| {
             let (common, own) = out.split_at_mut(common);
             for i in 0..n {
                 let (speed, duty) = (s.speed[i][k], s.duty[i][k]);
-                let sign = smooth_sign(speed, 0.4);
+                let sign = smooth_sign(speed, s.turning);
                 common[3 * i..3 * i + 3].copy_from_slice(&[sign, speed, duty]);
                 own[alone * i..][..alone].copy_from_slice(&[
                     speed * speed.abs(),
@@ -49,8 +51,8 @@ impl Generic {
             common[3 * n..].copy_from_slice(&[
                 heading.cos(),
                 heading.sin(),
-                smooth_sign(twist.vx, SLIDE_WIDTH),
-                smooth_sign(twist.vy, SLIDE_WIDTH),
+                smooth_sign(twist.vx, slides * s.turning),
+                smooth_sign(twist.vy, slides * s.turning),
                 twist.vx * twist.omega,
                 twist.vy * twist.omega,
             ]);
@@ -87,9 +89,9 @@ impl Generic {
 
 /// Scatter of the unexplained torque of one bump, Nm, one a wheel, and how many neighbouring bumps
 /// count as one: what a generic regression leaves is noise.
-pub fn floor(link: &DriveLink, residuals: &DriveResiduals, stall_nm: f64) -> (Vec<f64>, f64) {
+pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Vec<f64>, f64) {
     let generic = Generic::new(link);
-    let mut noise = vec![stall_nm * LEAST; link.noise.len()];
+    let mut noise = vec![drive_nm * LEAST; link.noise.len()];
     let (mut lagged, mut power) = (0.0, 0.0);
     for (i, slot) in noise.iter_mut().enumerate() {
         let Some(left) = generic.leaves(link, residuals, i) else {

@@ -8,11 +8,6 @@ use runs::robot::Support;
 use super::DriveModel;
 use crate::segment::Segment;
 
-/// Speed over which friction turns round, rad/s at the wheel: about the noise of a smoothed speed.
-pub const SIGN_WIDTH: f64 = 0.4;
-/// The same for the sideways speed of a contact, m/s.
-pub const SLIDE_WIDTH: f64 = 0.01;
-
 /// The state of the robot at one tick, as the terms of the drive model see it.
 pub struct Instant<'a> {
     /// The piece of log.
@@ -41,9 +36,16 @@ pub struct Instant<'a> {
     pub position: [f64; 2],
     /// What [`super::Prepare`] made, `[preparation][wheel][tick]`.
     pub prepared: &'a [Vec<Vec<f64>>],
+    /// Metres that a contact slides per radian that its wheel turns, where friction turns round.
+    pub(super) sliding_per_turning: f64,
 }
 
 impl Instant<'_> {
+    /// Sideways speed of a contact over which its friction turns round, m/s.
+    pub fn sliding(&self) -> f64 {
+        self.segment.turning * self.sliding_per_turning
+    }
+
     /// Body velocity in world axes, m/s.
     pub fn world_velocity(&self) -> [f64; 2] {
         let (s, c) = self.heading.sin_cos();
@@ -131,6 +133,7 @@ impl<'a> Base<'a> {
                 heading: s.heading[k],
                 position: s.position[k],
                 prepared: &prepared,
+                sliding_per_turning: self.model.sliding_per_turning(),
             };
             loads.wheel.copy_from_slice(&row[..n]);
             loads.body.copy_from_slice(&row[n..]);
@@ -145,6 +148,10 @@ impl<'a> Base<'a> {
 }
 
 impl DriveModel {
+    fn sliding_per_turning(&self) -> f64 {
+        crate::thresholds::SLIDES * self.wheel_radius_m
+    }
+
     /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
     pub fn forces(&self, s: &Segment) -> Vec<f64> {
         let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
@@ -240,6 +247,7 @@ impl DriveModel {
                         heading: s.heading[k],
                         position: s.position[k],
                         prepared,
+                        sliding_per_turning: self.sliding_per_turning(),
                     };
                     self.supply_maps.iter().fold(s.supply[k], |v, map| map(&now, v, &currents))
                 };
@@ -279,6 +287,7 @@ impl DriveModel {
                     heading: s.heading[k],
                     position: s.position[k],
                     prepared,
+                    sliding_per_turning: self.sliding_per_turning(),
                 };
                 for term in &self.loads {
                     term(&now, &mut loads);

@@ -8,6 +8,7 @@
 mod bumps;
 mod floor;
 mod forces;
+mod free_run;
 
 use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
@@ -18,7 +19,8 @@ use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
-pub use forces::{Instant, Loads, SIGN_WIDTH, SLIDE_WIDTH, smooth_sign};
+pub use forces::{Instant, Loads, smooth_sign};
+pub use free_run::{further, misses, runaway};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -141,34 +143,46 @@ impl DriveModel {
         self.mechanics().map_or(f64::NAN, |m| m.inertia.trace() / m.inertia.nrows() as f64)
     }
 
-    /// Wheel speed per body twist, N × 3.
-    fn wheel_speed_per_twist(&self) -> Option<DMatrix<f64>> {
+    /// The kinematics; `None` where the wheels cannot drive the robot.
+    fn geometry(&self) -> Option<Geometry> {
         let alone = self.support == Support::Blocks && self.wheels.len() < 3;
         let geometry = if alone { Geometry::axes } else { Geometry::new };
-        let geometry = geometry(self.wheels.clone(), self.wheel_radius_m).ok()?;
-        Some(DMatrix::from_fn(self.wheels.len(), 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i]))
+        geometry(self.wheels.clone(), self.wheel_radius_m).ok()
+    }
+
+    /// Wheel speed per body twist, N × 3.
+    fn wheel_speed_per_twist(&self, geometry: &Geometry) -> DMatrix<f64> {
+        DMatrix::from_fn(self.wheels.len(), 3, |i, j| geometry.inverse()[(i, j)] / self.radius_scale[i])
     }
 
     /// Body twist per wheel speed, 3 × N, least squares; none where the wheels cannot drive the robot.
     fn twist_per_wheel_speed(&self) -> Option<DMatrix<f64>> {
-        pseudo_inverse(&self.wheel_speed_per_twist()?)
+        let geometry = self.geometry()?;
+        twist_per_wheel_speed(&self.wheel_speed_per_twist(&geometry), &geometry)
     }
 
     /// The matrices that turn mean torques and forces into wheel accelerations; `None` where the
     /// wheels cannot drive the robot.
     pub fn mechanics(&self) -> Option<Mechanics> {
-        let rows = self.wheel_speed_per_twist()?;
+        let geometry = self.geometry()?;
+        let rows = self.wheel_speed_per_twist(&geometry);
         let spin: Vec<f64> =
             self.axes.iter().map(|a| self.gear_ratio.powi(2) * a.rotor_inertia + a.load_inertia).collect();
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;
-            return Some(Mechanics { rows, body: None, response: inverse, inertia });
+            return Some(Mechanics {
+                ln_inertia: spin.iter().map(|j| j.ln()).sum(),
+                rows,
+                body: None,
+                response: inverse,
+                inertia,
+            });
         }
         let [cx, cy] = self.centre_of_mass;
         let (m, i) = (self.mass, self.yaw_inertia);
         let platform = Matrix3::new(m, 0.0, -m * cy, 0.0, m, m * cx, -m * cy, m * cx, i);
-        let mut total = DMatrix::from_fn(3, 3, |a, b| platform[(a, b)]);
+        let mut total = platform;
         for (w, j) in spin.iter().enumerate() {
             for a in 0..3 {
                 for b in 0..3 {
@@ -176,10 +190,14 @@ impl DriveModel {
                 }
             }
         }
-        let inverse = total.clone().try_inverse()?;
-        let twist = pseudo_inverse(&rows)?;
-        let body = &rows * &inverse;
+        // A differential drive cannot be pushed sideways.
+        let inverse = geometry.invert_allowed(&total)?;
+        let twist = twist_per_wheel_speed(&rows, &geometry)?;
+        let inverse = DMatrix::from_fn(3, 3, |a, b| inverse[(a, b)]);
+        let total = DMatrix::from_fn(3, 3, |a, b| total[(a, b)]);
+        let body = &rows * inverse;
         Some(Mechanics {
+            ln_inertia: total.determinant().ln(),
             response: &body * rows.transpose(),
             inertia: twist.transpose() * total * &twist,
             body: Some(body),
@@ -188,8 +206,11 @@ impl DriveModel {
     }
 }
 
-fn pseudo_inverse(rows: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    Some((rows.transpose() * rows).try_inverse()? * rows.transpose())
+/// The twist, of those that the wheels allow, that fits wheel speeds best; 3 × N.
+fn twist_per_wheel_speed(rows: &DMatrix<f64>, geometry: &Geometry) -> Option<DMatrix<f64>> {
+    let allowed = geometry.allowed_twists();
+    let within = rows * &allowed;
+    Some(allowed * (within.transpose() * &within).try_inverse()? * within.transpose())
 }
 
 /// Mean torques to wheel accelerations and back.
@@ -202,4 +223,6 @@ pub struct Mechanics {
     pub response: DMatrix<f64>,
     /// Wheel torque per wheel acceleration, N × N.
     pub inertia: DMatrix<f64>,
+    /// Natural logarithm of the determinant of the inertia of all that can move, SI units.
+    pub ln_inertia: f64,
 }

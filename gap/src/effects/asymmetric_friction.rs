@@ -26,16 +26,24 @@ impl Effect for AsymmetricFriction {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let stall = Sizes::of(robot).stall_nm;
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        let drive = sizes.drive_nm;
         let mut forms = Vec::new();
         for sense in [1.0, -1.0] {
-            let bounds = [-0.02 * stall, stall];
-            let whole = Form::whole(vec![Parameter::new("torque_nm", 0.01 * stall, bounds, 0.045 * stall)]);
+            let bounds = [-0.02 * drive, drive.max(sizes.stall_nm)];
+            let whole = Form::whole(vec![Parameter::new("torque_nm", 0.01 * drive, bounds, 0.045 * drive)]);
             forms.push(whole.fixing("sense", sense));
-            let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * stall, bounds, 0.055 * stall);
+            let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * drive, bounds, 0.055 * drive);
             forms.extend(Form::alone(robot, p).into_iter().map(|f| f.fixing("sense", sense)));
         }
         forms
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

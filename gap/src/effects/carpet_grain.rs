@@ -1,9 +1,8 @@
 //! `carpet-grain`: a carpet that drags along one direction of the field only.
 
-use crate::drive::{SLIDE_WIDTH, smooth_sign};
 use runs::robot::Robot;
 
-use crate::drive::DriveModel;
+use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
 
 /// A carpet that drags along one direction of the field only.
@@ -27,7 +26,11 @@ impl Effect for CarpetGrain {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let w = Sizes::of(robot).weight_n;
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        let w = sizes.weight_n.max(2.2 * robot.wheel_count() as f64 * sizes.drive_nm / robot.wheel_radius_m);
         (0..8)
             .map(|k| {
                 let azimuth = Parameter::new("azimuth_rad", 0.1, [-3.2, 3.2], f64::INFINITY)
@@ -42,7 +45,7 @@ impl Effect for CarpetGrain {
         let g = [azimuth.cos(), azimuth.sin()];
         model.loads.push(Box::new(move |now, loads| {
             let v = now.world_velocity();
-            let f = -force * smooth_sign(v[0] * g[0] + v[1] * g[1], 2.0 * SLIDE_WIDTH);
+            let f = -force * smooth_sign(v[0] * g[0] + v[1] * g[1], 2.0 * now.sliding());
             loads.push_world(now.heading, [f * g[0], f * g[1]]);
         }));
     }

@@ -26,13 +26,22 @@ impl Effect for CoulombFriction {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let stall = Sizes::of(robot).stall_nm;
-        let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * stall, [-0.1 * stall, stall], 0.04 * stall);
-        let mut forms =
-            vec![Form::whole(vec![Parameter::new("torque_nm", 0.01 * stall, [-0.1 * stall, stall], 0.03 * stall)])];
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        let drive = sizes.drive_nm;
+        // No motor turns a wheel against more than its stall torque.
+        let bounds = [-0.1 * drive, drive.max(sizes.stall_nm)];
+        let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * drive, bounds, 0.04 * drive);
+        let mut forms = vec![Form::whole(vec![Parameter::new("torque_nm", 0.01 * drive, bounds, 0.03 * drive)])];
         forms.extend(Form::alone(robot, p));
         forms.push(Form::each(robot, p));
         forms
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

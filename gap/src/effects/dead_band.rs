@@ -5,6 +5,11 @@ use runs::robot::Robot;
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 
+/// Whether duties above the band pass whole.
+const PASSES: &str = "passes";
+/// Share of the band over which such a bridge begins to pass, for derivatives.
+const EDGE: f64 = 0.05;
+
 /// A bridge that does nothing at small duties.
 pub(super) struct DeadBand;
 
@@ -14,11 +19,11 @@ impl Effect for DeadBand {
     }
 
     fn equation(&self) -> &str {
-        "duty u becomes u - duty sign(u), 0 for |u| below duty"
+        "duty u becomes u - duty sign(u), or u whole (passes), and 0 for |u| below duty"
     }
 
     fn reference(&self) -> &str {
-        "dead time of H-bridges"
+        "dead time of H-bridges (less what is swallowed); firmware that ignores small duties (passes whole)"
     }
 
     fn link(&self) -> Link {
@@ -26,11 +31,18 @@ impl Effect for DeadBand {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("duty", 0.01, [-0.02, 0.5], 0.03)])]
+        let duty = |bounds| Parameter::new("duty", 0.01, bounds, 0.03);
+        let whole = |at| Form::whole(vec![duty([0.005, 0.5]).from(at)]).fixing(PASSES, 1.0);
+        std::iter::once(Form::whole(vec![duty([-0.02, 0.5])])).chain([0.04, 0.08, 0.16].map(whole)).collect()
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let band = values.get("duty");
+        if values.get(PASSES) != 0.0 {
+            let edge = EDGE * band.abs().max(1e-6);
+            model.duty_maps.push(Box::new(move |_, u| 0.5 * u * (1.0 + ((u.abs() - band) / edge).tanh())));
+            return;
+        }
         model.duty_maps.push(Box::new(move |_, u| {
             if band >= 0.0 { u.signum() * (u.abs() - band).max(0.0) } else { u - band * (u / 0.02).tanh() }
         }));

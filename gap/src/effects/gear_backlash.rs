@@ -82,13 +82,13 @@ const CROSSING_S: f64 = 0.012;
 fn flank(model: &DriveModel, segment: &Segment, wheel: usize) -> Vec<f64> {
     let (axis, g) = (&model.axes[wheel], model.gear_ratio);
     let n = segment.t.len();
-    let stall = g * axis.torque_constant * segment.supply[0] / axis.resistance;
     let torque: Vec<f64> = (0..n)
         .map(|k| {
             let volts = segment.duty[wheel][k] * segment.supply[k] - axis.back_emf * g * segment.speed[wheel][k];
             g * (axis.torque_constant * volts / axis.resistance - axis.friction * segment.sign[wheel][k])
         })
         .collect();
+    let usual = crate::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
     let tick = (segment.t[n - 1] - segment.t[0]) / (n - 1) as f64;
     let back = (CROSSING_S / tick).round().max(1.0) as usize;
     let mut sum = 0.0;
@@ -98,7 +98,7 @@ fn flank(model: &DriveModel, segment: &Segment, wheel: usize) -> Vec<f64> {
             if k >= back {
                 sum -= torque[k - back];
             }
-            smooth_sign(sum / back.min(k + 1) as f64, 0.02 * stall)
+            smooth_sign(sum / back.min(k + 1) as f64, 0.08 * usual)
         })
         .collect()
 }

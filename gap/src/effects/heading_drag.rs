@@ -26,19 +26,27 @@ impl Effect for HeadingDrag {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let stall = Sizes::of(robot).stall_nm;
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, _robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        let drive = sizes.drive_nm;
         [1.0, 2.0, 3.0]
             .into_iter()
             .map(|n| {
-                let p = |name: &str| Parameter::new(name, 0.01 * stall, [-stall, stall], 0.03 * stall);
+                let p = |name: &str| Parameter::new(name, 0.01 * drive, [-drive, drive], 0.03 * drive);
                 Form::whole(vec![
                     p("cos_nm"),
                     p("sin_nm"),
-                    Parameter::new("mean_nm", 0.01 * stall, [-stall, stall], f64::INFINITY),
+                    Parameter::new("mean_nm", 0.01 * drive, [-drive, drive], f64::INFINITY),
                 ])
                 .fixing("harmonic", n)
             })
             .collect()
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

@@ -6,6 +6,7 @@ mod actuation_latency;
 mod asymmetric_friction;
 mod battery_sag;
 mod body_radius;
+pub(crate) mod camera_clock;
 mod camera_latency;
 mod camera_scale;
 mod camera_timing;
@@ -17,6 +18,7 @@ mod drive_curve;
 mod encoder_lag;
 mod encoder_loss;
 mod encoder_scale;
+mod fits;
 mod floor_tilt;
 mod gear_backlash;
 mod gear_efficiency;
@@ -30,6 +32,7 @@ mod robot_mass;
 mod roller_friction;
 mod roller_ripple;
 mod rotor_inertia;
+mod sideways_creep;
 mod stribeck_friction;
 mod torque_constant;
 mod viscous_friction;
@@ -44,8 +47,15 @@ mod yaw_inertia;
 
 use crate::effect::Effect;
 
+pub(crate) use fits::fits;
+
 /// All effects fitted on the motion and drive links, in the order in which equals are named.
 pub fn catalogue() -> Vec<Box<dyn Effect>> {
+    catalogue_for(0)
+}
+
+/// The same for a data set of this many runs: some effects have parameters of each run.
+pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
     let named: Vec<Box<dyn Effect>> = vec![
         Box::new(wheel_skew::WheelSkew),
         Box::new(wheel_radius::WheelRadius),
@@ -57,10 +67,12 @@ pub fn catalogue() -> Vec<Box<dyn Effect>> {
         Box::new(encoder_lag::EncoderLag),
         Box::new(wheel_creep::WheelCreep),
         Box::new(wheel_slip::WheelSlip),
+        Box::new(sideways_creep::SidewaysCreep),
         Box::new(roller_ripple::RollerRipple),
         Box::new(camera_latency::CameraLatency),
         Box::new(camera_scale::CameraScale),
         Box::new(camera_timing::CameraTiming),
+        Box::new(camera_clock::CameraClock { runs }),
         Box::new(marker_heading::MarkerHeading),
         Box::new(marker_offset::MarkerOffset),
         Box::new(lens_distortion::LensDistortion),
@@ -117,11 +129,12 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 26] = [
+    const NAMES: [(&str, &[&str]); 27] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
         ("body-radius", &["scale"]),
+        ("sideways-creep", &["scale"]),
         ("encoder-scale", &["scale", "scale_#"]),
         ("camera-scale", &["scale"]),
         ("torque-constant", &["scale"]),

@@ -11,7 +11,7 @@ use crate::motion::MotionModel;
 struct Probe {
     name: &'static str,
     link: Link,
-    forms: fn(&Robot) -> Vec<Form>,
+    forms: fn(&Robot, &Sizes) -> Vec<Form>,
     motion: fn(&Values, &mut MotionModel),
     drive: fn(&Values, &mut DriveModel),
     describe: fn(&Values) -> String,
@@ -31,7 +31,11 @@ impl Effect for Probe {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        (self.forms)(robot)
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        (self.forms)(robot, sizes)
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
@@ -44,6 +48,10 @@ impl Effect for Probe {
 
     fn probe(&self) -> bool {
         true
+    }
+
+    fn is_load(&self) -> bool {
+        self.link == Link::Drive
     }
 
     fn describe(&self, values: &Values) -> String {
@@ -63,7 +71,7 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-camera-drift",
             link: Link::Motion,
-            forms: |_| {
+            forms: |_, _| {
                 let p = |n: &str| Parameter::new(n, 0.002, [-0.5, 0.5], 0.002);
                 vec![Form::whole(vec![p("x_m_per_s"), p("y_m_per_s")])]
             },
@@ -80,7 +88,7 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-camera-speed-delay",
             link: Link::Motion,
-            forms: |_| vec![Form::whole(vec![Parameter::new("delay_s2_per_m", 0.005, [-1.0, 1.0], 0.006)])],
+            forms: |_, _| vec![Form::whole(vec![Parameter::new("delay_s2_per_m", 0.005, [-1.0, 1.0], 0.006)])],
             motion: |v, m| m.speed_delay = v.get("delay_s2_per_m"),
             drive: |_, _| {},
             describe: |v| {
@@ -93,12 +101,12 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-late-friction",
             link: Link::Drive,
-            forms: |robot| {
-                let stall = Sizes::of(robot).stall_nm;
+            forms: |robot, sizes| {
+                let drive = sizes.drive_nm;
                 let mut forms = Vec::new();
                 for share in [0.3, 0.5, 0.7] {
                     let p =
-                        |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * stall, [-stall, stall], 0.045 * stall);
+                        |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * drive, [-drive, drive], 0.045 * drive);
                     forms.extend(Form::alone(robot, p).into_iter().map(|f| f.fixing("share", share)));
                 }
                 forms
@@ -128,15 +136,15 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-heading-friction",
             link: Link::Drive,
-            forms: |robot| {
-                let stall = Sizes::of(robot).stall_nm;
+            forms: |robot, sizes| {
+                let drive = sizes.drive_nm;
                 let mut forms = Vec::new();
                 for n in [1.0, 2.0, 3.0, 4.0] {
                     for i in 0..robot.wheel_count() {
                         let p = |stem: &str, m: f64| {
-                            Parameter::new(wheel_name(stem, i, "nm"), 0.01 * stall, [-stall, stall], m)
+                            Parameter::new(wheel_name(stem, i, "nm"), 0.01 * drive, [-drive, drive], m)
                         };
-                        let free = vec![p("cos", 0.03 * stall), p("sin", 0.03 * stall), p("mean", f64::INFINITY)];
+                        let free = vec![p("cos", 0.03 * drive), p("sin", 0.03 * drive), p("mean", f64::INFINITY)];
                         forms.push(Form { wheels: vec![i], free, fixed: vec![("harmonic".to_owned(), n)] });
                     }
                 }
@@ -167,8 +175,8 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-position-force",
             link: Link::Drive,
-            forms: |robot| {
-                let w = Sizes::of(robot).weight_n;
+            forms: |_, sizes| {
+                let w = sizes.weight_n;
                 let p = |n: &str, m: f64| Parameter::new(n, 0.01 * w, [-10.0 * w, 10.0 * w], m);
                 vec![Form::whole(vec![
                     p("stiffness_n_per_m", 0.02 * w),
@@ -196,8 +204,8 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-position-drag",
             link: Link::Drive,
-            forms: |robot| {
-                let w = Sizes::of(robot).weight_n;
+            forms: |_, sizes| {
+                let w = sizes.weight_n;
                 [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]]
                     .into_iter()
                     .map(|[x, y]| {

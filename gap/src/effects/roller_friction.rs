@@ -1,9 +1,8 @@
 //! `roller-friction`: rollers that resist being rolled sideways.
 
-use crate::drive::{SLIDE_WIDTH, smooth_sign};
 use runs::robot::Robot;
 
-use crate::drive::DriveModel;
+use crate::drive::{DriveModel, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
 
 /// Rollers that resist being rolled sideways.
@@ -27,8 +26,18 @@ impl Effect for RollerFriction {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let w = Sizes::of(robot).weight_n / robot.wheel_count() as f64;
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        // Force at a contact, of the weight or of what the drive gives there.
+        let w = sizes.weight_n / robot.wheel_count() as f64;
+        let w = w.max(2.2 * sizes.drive_nm / robot.wheel_radius_m);
         vec![Form::whole(vec![Parameter::new("force_n", 0.01 * w, [-0.05 * w, w], 0.018 * w)])]
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
@@ -43,7 +52,7 @@ impl Effect for RollerFriction {
             .collect();
         model.loads.push(Box::new(move |now, loads| {
             for (row, v) in rows.iter().zip(now.sideways) {
-                let f = -force * smooth_sign(*v, SLIDE_WIDTH);
+                let f = -force * smooth_sign(*v, now.sliding());
                 for (slot, r) in loads.body.iter_mut().zip(row) {
                     *slot += f * r;
                 }

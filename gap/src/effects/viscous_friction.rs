@@ -30,17 +30,25 @@ impl Effect for ViscousFriction {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let s = Sizes::of(robot);
-        let unit = s.stall_nm / s.no_load;
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, s: &Sizes) -> Vec<Form> {
+        // What takes as much at the speed of the log as a Coulomb friction that matters takes at any.
+        let unit = s.drive_nm / s.speed;
         let rollers = match robot.support {
             Support::Floor => HANDED_OVER * s.weight_n * robot.wheel_radius_m.powi(2) / robot.wheel_count() as f64,
             Support::Blocks => 0.0,
         };
-        let bounds = [-0.2 * unit, 20.0 * unit];
-        let p = |name: String| Parameter::new(name, 0.05 * unit, bounds, rollers.max(0.4 * unit));
+        let bounds = [-0.02 * unit, 2.0 * unit.max(s.stall_nm / s.speed)];
+        let p = |name: String| Parameter::new(name, 0.003 * unit, bounds, rollers.max(0.025 * unit));
         let mut forms = vec![Form::whole(vec![p("coefficient_nms".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("coefficient", i, "nms"))));
         forms
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

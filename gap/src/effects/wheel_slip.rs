@@ -16,6 +16,10 @@ const LOAD_S: f64 = 0.01;
 /// Projected Gauss-Seidel sweeps a tick; one or two while no wheel slips.
 const SWEEPS: usize = 12;
 
+/// Speed that a contact creeps by per impulse, beside the speed the impulse gives the robot there: more than three
+/// wheels would otherwise push against each other without end.
+const CREEPS: f64 = 0.05;
+
 /// Wheels that slip when the force exceeds what friction holds.
 pub(super) struct WheelSlip;
 
@@ -49,10 +53,11 @@ impl Effect for WheelSlip {
         // Weight leans on the wheels behind an acceleration: grip per acceleration to the right and forward.
         let lean: Vec<[f64; 2]> =
             model.wheels.iter().map(|w| [w.x_m, w.y_m].map(|x| 2.0 * HEIGHT * x / rim2.sqrt())).collect();
-        let inertia = model.inertia.clone();
-        let regular = inertia.clone() + DMatrix::identity(n, n) * (1e-9 * inertia.trace());
-        let Some(inverse) = regular.try_inverse() else { return };
         let Ok(geometry) = Geometry::new(model.wheels.clone(), model.wheel_radius_m) else { return };
+        let Some(Platform { inertia, response }) = Platform::new(&geometry, model.mass_kg, model.yaw_inertia_kg_m2)
+        else {
+            return;
+        };
         model.angles.push(Box::new(move |segment, angles| {
             let mut ground: Vec<f64> = segment.speed.iter().map(|w| w[0]).collect();
             let mut lost = vec![0.0; n];
@@ -78,12 +83,14 @@ impl Effect for WheelSlip {
                 // Otherwise each wheel takes what it needs, or what friction can give.
                 impulse.fill(0.0);
                 let moved =
-                    |impulse: &[f64], i: usize| free[i] + (0..n).map(|j| inverse[(i, j)] * impulse[j]).sum::<f64>();
+                    |impulse: &[f64], i: usize| free[i] + (0..n).map(|j| response[(i, j)] * impulse[j]).sum::<f64>();
                 for _ in 0..SWEEPS {
                     let mut change = 0.0_f64;
                     for i in 0..n {
-                        let missing = segment.speed[i][k] - moved(&impulse, i);
-                        let next = (impulse[i] + missing / inverse[(i, i)]).clamp(-grip[i] * dt, grip[i] * dt);
+                        let creeps = CREEPS * response[(i, i)];
+                        let missing = segment.speed[i][k] - moved(&impulse, i) - creeps * impulse[i];
+                        let next = impulse[i] + missing / (response[(i, i)] + creeps);
+                        let next = next.clamp(-grip[i] * dt, grip[i] * dt);
                         change = change.max((next - impulse[i]).abs());
                         impulse[i] = next;
                     }
@@ -111,6 +118,34 @@ impl Effect for WheelSlip {
     }
 }
 
+/// The robot without its rotors, at the contacts of its wheels: what a contact's force moves. How the rotors turn is
+/// measured.
+struct Platform {
+    /// Torque impulses at the wheels, kg m²/s, that take a change of wheel speeds: the least ones.
+    inertia: DMatrix<f64>,
+    /// Change of the rolling speeds of the wheels per torque impulse; of rank 3 at most.
+    response: DMatrix<f64>,
+}
+
+impl Platform {
+    fn new(geometry: &Geometry, mass: f64, yaw_inertia: f64) -> Option<Self> {
+        let rows = DMatrix::from_fn(geometry.inverse().nrows(), 3, |i, j| geometry.inverse()[(i, j)]);
+        let body = [mass, mass, yaw_inertia];
+        if body.iter().any(|m| !(*m > 0.0)) {
+            return None;
+        }
+        let twist = (rows.transpose() * &rows).try_inverse()? * rows.transpose();
+        let n = rows.nrows();
+        let sum = |of: &dyn Fn(usize, usize, usize) -> f64| {
+            DMatrix::from_fn(n, n, |i, j| (0..3).map(|a| of(a, i, j)).sum::<f64>())
+        };
+        Some(Self {
+            inertia: sum(&|a, i, j| twist[(a, i)] * body[a] * twist[(a, j)]),
+            response: sum(&|a, i, j| rows[(i, a)] * rows[(j, a)] / body[a]),
+        })
+    }
+}
+
 /// What the wheels can hold once an acceleration from `free` to `ground` (wheel speeds, rad/s) has shifted the weight.
 #[allow(clippy::too_many_arguments)]
 fn lean_back(
@@ -130,5 +165,43 @@ fn lean_back(
     pushed[1] += part * (moved.vy / dt - pushed[1]);
     for (g, l) in grip.iter_mut().zip(lean) {
         *g = share * (GRAVITY - l[0] * pushed[0] - l[1] * pushed[1]).max(0.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use runs::robot::{Layout, Robot};
+
+    use super::*;
+
+    #[test]
+    fn a_push_moves_the_platform_as_newton_says() {
+        let robot = Robot::racbot();
+        let geometry = robot.geometry().unwrap();
+        let platform = Platform::new(&geometry, 2.0, 0.01).unwrap();
+        let n = robot.wheel_count();
+        // What impulses of the inertia give is the change of speed they were asked for.
+        let both = &platform.response * &platform.inertia;
+        assert!((&both - DMatrix::identity(n, n)).abs().max() < 1e-12, "{both}");
+    }
+
+    #[test]
+    fn four_wheels_have_no_stiffness_where_no_body_moves() {
+        let mut robot = Robot::racbot();
+        let wheel = |k: usize| {
+            let at = std::f64::consts::FRAC_PI_4 * (2 * k + 1) as f64;
+            runs::geometry::Wheel {
+                x_m: 0.08 * at.cos(),
+                y_m: 0.08 * at.sin(),
+                drive_rad: at + std::f64::consts::FRAC_PI_2,
+                roller_rad: 0.0,
+            }
+        };
+        robot.layout = Layout::Wheels((0..4).map(wheel).collect());
+        let platform = Platform::new(&robot.geometry().unwrap(), 2.0, 0.01).unwrap();
+        let both = &platform.response * &platform.inertia;
+        // A projection of rank 3, and nothing blown up beside it.
+        assert!((&both * &both - &both).abs().max() < 1e-9 && (both.trace() - 3.0).abs() < 1e-9, "{both}");
+        assert!(platform.response.max() < 1e4);
     }
 }

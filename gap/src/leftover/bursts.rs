@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Series, Structure};
 use crate::statistics::median;
 
-/// Torque of a burst, share of the stall torque, ...
+/// Torque of a burst, share of the drive's, ...
 const MATERIAL: f64 = 0.1;
 /// ... in robust standard deviations, ...
 const OUT: f64 = 9.0;
@@ -55,7 +55,7 @@ fn pushed(series: &Series, e: &Event) -> f64 {
 }
 
 /// Short pushes: collisions, kicks, a foot on the field.
-pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, stall_nm: f64) -> Option<Structure> {
+pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_nm: f64) -> Option<Structure> {
     // Norm over the wheels and largest torque of every moment.
     let mut moments: BTreeMap<(usize, i64), (f64, f64)> = BTreeMap::new();
     for w in &series.wheels {
@@ -76,7 +76,7 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, stall_
     let mut events: Vec<Event> = Vec::new();
     let total: f64 = moments.values().map(|m| m.0).sum();
     for (at, (square, torque)) in &moments {
-        if (square / n).sqrt() < limit || *torque < MATERIAL * stall_nm {
+        if (square / n).sqrt() < limit || *torque < MATERIAL * drive_nm {
             continue;
         }
         match events.last_mut() {
@@ -114,8 +114,12 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, stall_
 }
 
 /// A wheel that is braked or pushed for seconds in one run and not in the others.
-pub(super) fn stretches(series: &Series, stall_nm: f64) -> Option<Structure> {
+pub(super) fn stretches(series: &Series, drive_nm: f64) -> Option<Structure> {
     let length = (STRETCH_S / series.hop) as usize;
+    if length < 2 {
+        // Rows so far apart hold no stretch.
+        return None;
+    }
     let mut worst: Option<(f64, f64, usize, usize, f64)> = None;
     for (i, w) in series.wheels.iter().enumerate() {
         let along: Vec<f64> = w.torque.iter().zip(&w.sign).map(|(x, s)| x * s).collect();
@@ -135,7 +139,7 @@ pub(super) fn stretches(series: &Series, stall_nm: f64) -> Option<Structure> {
         let mut sizes: Vec<f64> = means.iter().map(|m| m.1.abs()).collect();
         let error = (1.4826 * median(&mut sizes)).max(1e-12);
         for (first, mean) in means {
-            if mean.abs() > STRETCH_MATERIAL * stall_nm && mean.abs() > STRETCH_OUT * error {
+            if mean.abs() > STRETCH_MATERIAL * drive_nm && mean.abs() > STRETCH_OUT * error {
                 let size = mean.abs() / error;
                 if worst.is_none_or(|o| size > o.4) {
                     worst = Some((mean, w.t[first], w.run[first], i, size));

@@ -2,7 +2,7 @@
 //! stretches of time. Effects of the catalogue are fitted before; what shows here is none of them.
 //!
 //! Every search is held against the data's own, coloured scatter, pays for the number of places it
-//! looked at, and asks for a size that matters beside the motors' stall torque. The camera has two checks of
+//! looked at, and asks for a size that matters beside what the motors gave. The camera has two checks of
 //! its own, which need no fit.
 
 mod bursts;
@@ -78,17 +78,17 @@ pub(crate) fn drive(
         });
         lefts.push(left);
     }
-    let series = Series::new(&link, &residuals.at, &lefts);
-    out.structures.extend(spectrum::lines(&series, sizes.stall_nm));
-    out.structures.extend(bursts::bursts(&series, rolls, sizes.stall_nm));
-    out.structures.extend(bursts::stretches(&series, sizes.stall_nm));
+    let series = Series::new(&link, model, &residuals.at, &lefts);
+    out.structures.extend(spectrum::lines(&series, sizes.drive_nm));
+    out.structures.extend(bursts::bursts(&series, rolls, sizes.drive_nm));
+    out.structures.extend(bursts::stretches(&series, sizes.drive_nm));
     let slips = |segment: usize, ticks: std::ops::Range<usize>| {
         let s = pieces.get(segment);
         let seen = [ticks.start, (ticks.start + ticks.end) / 2, ticks.end].map(|k| s.t[k.min(s.t.len() - 1)]);
         !seen.into_iter().all(|t| rolls(s.run, t))
             || (ticks.start / near..=ticks.end / near).any(|part| slips.contains(&(segment, part)))
     };
-    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.stall_nm);
+    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.drive_nm);
     out.ripple = ripple;
     out.structures.extend(structures);
     out
@@ -120,8 +120,8 @@ struct Series {
 }
 
 impl Series {
-    fn new(link: &DriveLink, at: &[(usize, usize)], lefts: &[Option<Left>]) -> Self {
-        let done = link.measured();
+    fn new(link: &DriveLink, model: &DriveModel, at: &[(usize, usize)], lefts: &[Option<Left>]) -> Self {
+        let done = link.done(model);
         let places = link.at_middles(|s, k| (s.run, s.t[k], s.sign.iter().map(|sign| sign[k]).collect::<Vec<_>>()));
         let wheels = lefts
             .iter()

@@ -22,7 +22,7 @@ const RANGE_HZ: [f64; 2] = [3.0, 120.0];
 const SLOWEST: f64 = 1.0;
 /// Highest order looked at: rollers of a wheel.
 const HIGHEST: usize = 40;
-/// Relative amplitude of a rolling radius worth naming, and of a torque beside the stall torque: handed
+/// Relative amplitude of a rolling radius worth naming, and of a torque beside the drive's: handed
 /// from roller to roller every omni wheel bobs by some hundredths of a millimetre and is pushed by a few
 /// mNm, which look like a radius that varies by up to 0.0035.
 const MATERIAL: [f64; 2] = [0.006, 0.07];
@@ -77,7 +77,7 @@ pub(super) fn orders(
     link: &DriveLink,
     model: &DriveModel,
     slips: &dyn Fn(usize, std::ops::Range<usize>) -> bool,
-    stall_nm: f64,
+    drive_nm: f64,
 ) -> (Option<Ripple>, Vec<Structure>) {
     let n = link.noise.len();
     let mut candidates: Vec<f64> = (2..=HIGHEST).map(|k| k as f64).collect();
@@ -126,7 +126,7 @@ pub(super) fn orders(
             }
         } else if !(whole && order >= FEWEST_ROLLERS)
             && torque.p * tests < FALSE_ALARM
-            && torque.amplitude >= MATERIAL[1] * stall_nm
+            && torque.amplitude >= MATERIAL[1] * drive_nm
         {
             structures.push(Structure {
                 text: format!(
@@ -143,7 +143,7 @@ pub(super) fn orders(
     let ripple = best.map(|(count, p)| Ripple {
         count,
         wheels: ripples.iter().filter(|r| r.1 == count).map(|r| (r.0, r.2.amplitude, r.2.sd)).collect(),
-        p_value: (p * tests).max(1e-12),
+        p_value: (p * tests).max(f64::MIN_POSITIVE),
     });
     (ripple, structures)
 }

@@ -14,7 +14,7 @@ const SIDE: usize = 16;
 /// Longest piece that one phase is asked of, s, and number of pieces at most.
 const PIECE_S: f64 = 20.0;
 const MOST_PIECES: usize = 16;
-/// Amplitude worth mentioning, share of the stall torque.
+/// Amplitude worth mentioning, share of the drive's.
 const MATERIAL: f64 = 0.03;
 /// Share of the squared torque left that a line has to make up.
 const SHARE: f64 = 0.1;
@@ -24,11 +24,11 @@ const UNSURE: f64 = 1.3;
 const OF_DRIVE: f64 = 0.15;
 
 /// The strongest line of each wheel that stands out of the coloured noise round it.
-pub(super) fn lines(series: &Series, stall_nm: f64) -> Vec<Structure> {
-    series.wheels.iter().enumerate().filter_map(|(i, w)| line(w, i, series, stall_nm)).collect()
+pub(super) fn lines(series: &Series, drive_nm: f64) -> Vec<Structure> {
+    series.wheels.iter().enumerate().filter_map(|(i, w)| line(w, i, series, drive_nm)).collect()
 }
 
-fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Structure> {
+fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64) -> Option<Structure> {
     let pieces = pieces(w);
     let longest = pieces.iter().map(|p| w.t[p[p.len() - 1]] - w.t[p[0]]).fold(0.0, f64::max);
     let highest = 0.4 / series.hop;
@@ -84,7 +84,7 @@ fn line(w: &Wheel, index: usize, series: &Series, stall_nm: f64) -> Option<Struc
     }
     let share = square / total.max(1e-300);
     let amplitude = (2.0 * square / n.max(1.0)).sqrt() / passed(f, 2.0 * series.hop);
-    if amplitude < MATERIAL * stall_nm || share < SHARE || square < OF_DRIVE.powi(2) * done {
+    if amplitude < MATERIAL * drive_nm || share < SHARE || square < OF_DRIVE.powi(2) * done {
         return None;
     }
     Some(Structure {

@@ -14,7 +14,7 @@ use runs::robot::Robot;
 
 use crate::segment::{Frame, Segment};
 
-pub use windows::{MotionLink, WindowResiduals};
+pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
 pub type AngleChange = Box<dyn Fn(&Segment, &mut [Vec<f64>]) + Send + Sync>;
@@ -41,6 +41,10 @@ pub struct MotionModel {
     pub drift: [f64; 2],
     /// Seconds by which the camera's clock runs ahead per second of a run.
     pub clock_drift: f64,
+    /// Age of a frame beyond `latency_s`, s, of each run; 0 of runs beyond.
+    pub clock_offset_s: Vec<f64>,
+    /// Sideways (body x) motion per that by the wheels.
+    pub sideways_scale: f64,
     /// Age of a frame beyond `latency_s` per speed of the robot, s²/m.
     pub speed_delay: f64,
     /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
@@ -67,6 +71,8 @@ impl MotionModel {
             observe: Vec::new(),
             drift: [0.0; 2],
             clock_drift: 0.0,
+            clock_offset_s: Vec::new(),
+            sideways_scale: 1.0,
             speed_delay: 0.0,
             inertia: crate::drive::DriveModel::new(robot)
                 .mechanics()
@@ -82,7 +88,7 @@ impl MotionModel {
     pub fn columns(&self) -> Option<Vec<[f64; 3]>> {
         let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
         let columns = geometry.direct().column_iter().zip(&self.distance_scale);
-        Some(columns.map(|(c, s)| [c[0] * s, c[1] * s, c[2] * s]).collect())
+        Some(columns.map(|(c, s)| [c[0] * s * self.sideways_scale, c[1] * s, c[2] * s]).collect())
     }
 
     /// The wheel angles of a segment with all changes; borrowed if there are none.
@@ -103,7 +109,8 @@ impl MotionModel {
         let mut out = Vec::with_capacity(frames.len());
         let Some(first) = frames.first() else { return out };
         let last_tick = segment.t.len() - 1;
-        let age = |stamp: f64| self.latency_s + self.clock_drift * (stamp - segment.t[0]);
+        let offset = self.clock_offset_s.get(segment.run).copied().unwrap_or(0.0);
+        let age = |stamp: f64| self.latency_s + offset + self.clock_drift * (stamp - segment.stretch[0]);
         let early = if self.speed_delay == 0.0 { 0.0 } else { 0.1 };
         let origin = segment.tick_at(first.t - age(first.t) - early);
         let mut tick = origin;

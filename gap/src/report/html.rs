@@ -96,22 +96,24 @@ fn effects(out: &mut String, a: &Analysis) {
     if a.effects.is_empty() {
         return;
     }
-    out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>95 % interval</th><th>in other units</th><th>gap closed on its link</th><th>p</th></tr>");
+    out.push_str("<h2>What is missing</h2><div class=\"w\"><table><tr><th>effect</th><th>wheels</th><th>parameter</th><th>value</th><th>interval</th><th>in other units</th><th>gap closed on its link</th><th>evidence</th></tr>");
     for e in &a.effects {
-        for (k, (name, v, [lo, hi])) in e.parameters.iter().enumerate() {
+        for (k, (name, v, known)) in e.parameters.iter().enumerate() {
+            let interval = known
+                .ends()
+                .map_or_else(String::new, |[lo, hi]| format!("{} {} to {}", known.label(), short(lo), short(hi)));
             let first = |s: String| if k == 0 { s } else { String::new() };
             let _ = write!(
                 out,
-                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
                 first(escape(&e.name)),
                 first(terminal::list(&e.wheels)),
                 escape(name),
                 short(*v),
-                short(*lo),
-                short(*hi),
+                interval,
                 escape(&units::value(name, *v)),
                 first(format!("{:.1} %", 100.0 * e.gain)),
-                first(short(e.p_value))
+                first(escape(&e.evidence.words()))
             );
         }
     }
@@ -125,7 +127,7 @@ fn waterfall(out: &mut String, a: &Analysis) {
     let (before, after) = overall(&a.links);
     let _ = write!(
         out,
-        "<h2>How the gap shrinks</h2><p>Held-out RMS over all compared signals, in units of the noise floor: {before:.2} before, {after:.2} after.</p>"
+        "<h2>How the gap shrinks</h2><p>RMS over all compared signals, in units of the noise floor: {before:.2} before, {after:.2} with robot.toml as it is written, read again; nothing else is adjusted.</p>"
     );
     let top = a.waterfall.iter().map(|w| w.1).fold(1.0, f64::max);
     let (row, left, width) = (30.0, 250.0, 300.0);
@@ -218,7 +220,7 @@ fn trajectories(out: &mut String, a: &Analysis) {
 
 fn residuals(out: &mut String, a: &Analysis) {
     if let Some([before, after]) = &a.motion {
-        out.push_str("<h2>Residuals</h2><p class=\"s\">Camera minus prediction within windows of 1 s, frame after frame, in units of the camera's noise.</p><div class=\"g\">");
+        out.push_str("<h2>Residuals</h2><p class=\"s\">Camera minus prediction within a window, frame after frame, in units of the camera's noise.</p><div class=\"g\">");
         for (i, name) in ["x", "y", "heading"].iter().enumerate() {
             let points = |w: &[WindowResiduals]| {
                 let all: Vec<[f64; 2]> = w
@@ -283,7 +285,8 @@ fn statement(out: &mut String, a: &Analysis) {
     let t = &a.thresholds;
     let _ = write!(
         out,
-        "<h2>How it was decided</h2><p>Fixed before fitting: motion is compared in windows of 1 s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.</p>",
+        "<h2>How it was decided</h2><p>Fixed before fitting: motion is compared in windows of {:.0} s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.</p>",
+        a.window_s,
         100.0 * t.held_share,
         t.gain,
         100.0 * t.shares[0],

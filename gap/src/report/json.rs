@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::analysis::{Analysis, Named, overall};
+use crate::evidence::Interval;
 
 /// Effects whose parameter the contract knows without a wheel's number: of one wheel alone it stands under both names.
 const NUMBERLESS: [&str; 2] = ["gear-backlash", "viscous-friction"];
@@ -20,7 +21,7 @@ pub(super) fn json(a: &Analysis) -> Value {
     let named = !a.effects.is_empty();
     let closed = if named && before > 1.0 { json!(((before - after) / (before - 1.0)).min(1.0)) } else { Value::Null };
     let parameters = |e: &Named| {
-        let entry = |name: String, v: &f64, ci: &[f64; 2]| (name, json!({"value": v, "ci95": ci}));
+        let entry = |name: String, v: &f64, known: &Interval| (name, known.to_json(*v));
         let own = e.parameters.iter().map(|(n, v, ci)| entry(n.clone(), v, ci));
         let plain = e.parameters.iter().filter_map(|(n, v, ci)| Some(entry(plain_name(e, n)?, v, ci)));
         Value::Object(own.chain(plain).collect::<Map<String, Value>>())
@@ -46,7 +47,7 @@ pub(super) fn json(a: &Analysis) -> Value {
         })).collect::<Vec<_>>(),
         "effects": a.effects.iter().map(|e| json!({
             "name": e.name, "wheels": e.wheels, "parameters": parameters(e),
-            "gain": e.gain, "p_value": e.p_value, "link": e.link.name(), "equation": e.equation,
+            "gain": e.gain, "p_value": e.evidence.p_value(), "evidence": e.evidence.to_json(), "link": e.link.name(), "equation": e.equation,
         })).collect::<Vec<_>>(),
         "alternatives": a.alternatives,
         "unexplained": a.unexplained.iter().map(|u| json!({"link": u.link.name(), "structure": u.structure})).collect::<Vec<_>>(),
@@ -55,7 +56,12 @@ pub(super) fn json(a: &Analysis) -> Value {
             "sigmas": e.sigmas, "why": e.why,
             "others": e.others.iter().map(|(what, seconds)| json!({"what": what, "seconds": seconds})).collect::<Vec<_>>(),
         })),
-        "gap": {"before": before, "after": after, "floor": 1.0, "closed": closed, "links": links},
+        "gap": {
+            "before": before, "after": after, "floor": 1.0, "closed": closed, "links": links,
+            "of": "the written robot.toml, read again, on every run; nothing is fitted but what it declares the recording's own",
+            "held_out": a.held_out.iter().map(|(link, rms)| (link.name().to_owned(), json!(rms))).collect::<Map<String, Value>>(),
+        },
+        "remains": a.remains,
         "nearest": a.nearest,
         "detection_limits": a.limits.iter().map(|l| json!({
             "name": l.name, "parameter": l.parameter, "limit": l.limit, "material": l.material,
@@ -87,6 +93,7 @@ pub(super) fn json(a: &Analysis) -> Value {
 mod tests {
     use super::*;
     use crate::effect::Link;
+    use crate::evidence::Evidence;
 
     #[test]
     fn a_wheel_alone_has_the_plain_name_too() {
@@ -97,7 +104,7 @@ mod tests {
             wheels: wheels.to_vec(),
             parameters: Vec::new(),
             gain: 0.0,
-            p_value: 1.0,
+            evidence: Evidence::Test { method: "", p: 1.0 },
         };
         assert_eq!(plain_name(&named("gear-backlash", &[2]), "play_2_rad").as_deref(), Some("play_rad"));
         assert_eq!(plain_name(&named("gear-backlash", &[1, 2]), "play_2_rad"), None);

@@ -7,10 +7,14 @@ mod terminal;
 mod units;
 mod words;
 
+use runs::output::{Existing, check_free, write_whole};
 use std::path::Path;
 
 use crate::GapError;
 use crate::analysis::Analysis;
+
+/// Names of the files of a report.
+pub(crate) const FILES: [&str; 3] = ["gap.json", "report.html", "robot.toml"];
 
 impl Analysis {
     /// `gap.json`.
@@ -28,21 +32,29 @@ impl Analysis {
         html::page(self)
     }
 
-    /// Writes `gap.json`, `report.html` and `robot.toml` into a folder.
+    /// Writes [`FILES`] into a folder; those that are there are replaced.
     ///
     /// # Errors
     /// [`GapError::Write`] naming the file.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), GapError> {
+        self.save(folder, Existing::Replace)
+    }
+
+    /// The same, where files that are there may have to stay; then nothing is written.
+    ///
+    /// # Errors
+    /// [`GapError::Write`] naming the file.
+    pub fn save(&self, folder: impl AsRef<Path>, existing: Existing) -> Result<(), GapError> {
         let folder = folder.as_ref();
-        let fault = |path: &Path, e: &dyn std::fmt::Display| GapError::Write(format!("{}: {e}", path.display()));
-        std::fs::create_dir_all(folder).map_err(|e| fault(folder, &e))?;
-        let json = serde_json::to_string_pretty(&self.to_json()).map_err(|e| fault(folder, &e))? + "\n";
-        for (name, text) in [("gap.json", json), ("report.html", self.html())] {
-            let path = folder.join(name);
-            std::fs::write(&path, text).map_err(|e| fault(&path, &e))?;
+        let fault = |e: &dyn std::fmt::Display| GapError::Write(e.to_string());
+        let json = serde_json::to_string_pretty(&self.to_json()).map_err(|e| fault(&e))? + "\n";
+        for name in FILES {
+            check_free(&folder.join(name), existing).map_err(|e| fault(&e))?;
         }
-        let path = folder.join("robot.toml");
-        std::fs::write(&path, &self.robot_text).map_err(|e| fault(&path, &e))
+        for (name, text) in FILES.into_iter().zip([json, self.html(), self.robot_text.clone()]) {
+            write_whole(&folder.join(name), text.as_bytes(), existing).map_err(|e| fault(&e))?;
+        }
+        Ok(())
     }
 }
 

@@ -26,15 +26,18 @@ pub(super) fn summary(a: &Analysis) -> String {
                 &mut out,
                 "  ",
                 &format!(
-                    "{}{on}: closes {:.0} % of the link's squared gap, p = {}",
+                    "{}{on}: closes {:.0} % of the link's squared gap, {}",
                     e.name,
                     100.0 * e.gain,
-                    short(e.p_value)
+                    e.evidence.words()
                 ),
             );
-            for (name, v, [lo, hi]) in &e.parameters {
+            for (name, v, known) in &e.parameters {
                 let people = units::value(name, *v);
-                let line = format!("    {name:<22} {:>9}  95 % {} to {}  {people}", short(*v), short(*lo), short(*hi));
+                let known = known
+                    .ends()
+                    .map_or_else(String::new, |[lo, hi]| format!("{} {} to {}", known.label(), short(lo), short(hi)));
+                let line = format!("    {name:<22} {:>9}  {known}  {people}", short(*v));
                 let _ = writeln!(out, "{}", line.chars().take(WIDTH).collect::<String>().trim_end());
             }
         }
@@ -50,7 +53,7 @@ pub(super) fn summary(a: &Analysis) -> String {
         wrap(&mut out, "  ", &format!("next: {} ({}{times}, {:.0} s): {}", e.what, e.kind, e.seconds, e.why));
     }
     let (before, after) = overall(&a.links);
-    let _ = writeln!(out, "\nGap (held-out RMS in noise floors)   before {before:8.2}   after {after:8.2}");
+    let _ = writeln!(out, "\nGap (RMS in noise floors, as written)  before {before:8.2}   after {after:8.2}");
     for l in &a.links {
         let _ = writeln!(
             out,
@@ -60,7 +63,7 @@ pub(super) fn summary(a: &Analysis) -> String {
             l.after
         );
     }
-    for r in &a.remarks {
+    for r in a.remains.iter().map(|r| format!("{r}.")).collect::<Vec<_>>().iter().chain(&a.remarks) {
         wrap(&mut out, "  ", r);
     }
     if a.verdict == Verdict::Agrees {
@@ -82,6 +85,7 @@ pub(super) fn sentence(a: &Analysis) -> String {
     let (before, after) = overall(&a.links);
     match a.verdict {
         Verdict::Agrees => "Model and data agree: nothing material is missing.".to_owned(),
+        Verdict::NotCompared => "Nothing could be compared: nothing in these logs has any weight.".to_owned(),
         Verdict::MissingEffect => {
             format!(
                 "Missing in the model: {}. The gap falls from {before:.2} to {after:.2} noise floors.",

@@ -37,11 +37,9 @@ pub(super) fn value(name: &str, x: f64) -> String {
 }
 
 /// A value with its interval, such as `3.98° (3.79 to 4.16)`; the interval only if it has a width.
-pub(super) fn interval(name: &str, x: f64, [low, high]: [f64; 2]) -> String {
+pub(super) fn interval(name: &str, x: f64, ends: Option<[f64; 2]>) -> String {
     let (factor, _) = unit(name);
-    if low == high {
-        return value(name, x);
-    }
+    let Some([low, high]) = ends.filter(|[low, high]| low < high) else { return value(name, x) };
     format!("{} ({} to {})", value(name, x), short(factor * low), short(factor * high))
 }
 

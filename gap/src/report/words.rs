@@ -19,10 +19,10 @@ pub(super) fn effect(e: &Named) -> String {
     let values: Vec<String> = e
         .parameters
         .iter()
-        .map(|(name, x, ci)| format!("{} {}", units::label(name), units::interval(name, *x, *ci)))
+        .map(|(name, x, ci)| format!("{} {}", units::label(name), units::interval(name, *x, ci.ends())))
         .collect();
     format!(
-        "{}{place}: {}. It closes {:.0} % of the {} link's squared gap on runs it was not fitted to.",
+        "{}{place}: {}. Without it {:.0} % of the {} link's squared gap come back.",
         e.name,
         values.join(", "),
         100.0 * e.gain,

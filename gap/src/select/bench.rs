@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::ALIKE;
-use crate::effect::{Effect, Link};
+use crate::effect::{Effect, Link, Sizes};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::{Ridge, RidgeFit, Role};
@@ -15,6 +15,9 @@ use crate::state::{Active, State};
 
 /// Standard deviations of the named effects' laws that another effect must explain more than.
 const LAW_SIGMAS: f64 = 2.0;
+/// Share of what an unnamed effect does that the named ones could do in its place, from which it is frozen while they
+/// are estimated: they would share the signal (issue: -2.3 % where -3.6 % is true).
+const TWIN: f64 = 0.3;
 
 /// A linearised link with all candidates, ready for any question about subsets.
 pub struct Bench {
@@ -49,13 +52,19 @@ pub struct Trial {
 
 /// The link's candidates: every form of every effect fitted there.
 pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
+    candidates_in(state, catalogue, link, &Sizes::of(&state.robot))
+}
+
+/// The same for logs of these sizes.
+pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, sizes: &Sizes) -> Vec<Active> {
     let wanted = catalogue.iter().filter(|e| {
         (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
+            && crate::effects::fits(e.name(), &state.robot)
     });
     wanted
-        .flat_map(|e| e.forms(&state.robot).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
+        .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
         .collect()
 }
 
@@ -112,6 +121,7 @@ impl Bench {
         bench.merge_twins();
         bench.share_margins();
         bench.narrow.clone_from(&bench.held);
+        bench.freeze_twins();
         bench.widen(thresholds);
         let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
         let n = bench.linear.gram.n();
@@ -160,6 +170,26 @@ impl Bench {
         for (c, many) in held.iter().zip(many) {
             if let Role::Held(sd, _) = &mut self.held[*c] {
                 *sd /= many.max(1.0).sqrt();
+            }
+        }
+    }
+
+    /// What does the same as the named effects together is frozen while their sizes are estimated: these are the sizes of
+    /// "this is the cause".
+    fn freeze_twins(&mut self) {
+        let jj = self.linear.gram.information();
+        let named = self.linear.active();
+        if named.is_empty() {
+            return;
+        }
+        let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
+        for c in 0..self.linear.owners.len() {
+            if !matches!(self.narrow[c], Role::Held(..)) {
+                continue;
+            }
+            let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
+            if b.dot(&crate::gram::solve(&a, &b)) > ALIKE * jj[(c, c)] {
+                self.narrow[c] = Role::Out;
             }
         }
     }
@@ -269,6 +299,28 @@ impl Bench {
     /// Roles for the estimates of what is named.
     pub fn estimating(&self) -> Vec<Role> {
         self.narrow.clone()
+    }
+
+    /// Roles for the estimates of what is named if it is the cause: what looks like it, alone or together with what
+    /// else is not named, is frozen. With `bare` everything is.
+    pub fn judged(&self, bare: bool) -> Vec<Role> {
+        let named = self.linear.active();
+        let jj = self.linear.gram.information();
+        let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
+        let alike = |c: usize| {
+            let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
+            b.dot(&crate::gram::solve(&a, &b)) > TWIN * jj[(c, c)]
+        };
+        let role = |(c, r): (usize, &Role)| match r {
+            Role::Held(..) if bare || alike(c) => Role::Out,
+            r => *r,
+        };
+        self.narrow.iter().enumerate().map(role).collect()
+    }
+
+    /// The estimates of the roles with one run (or block) left out at a time, steps along all columns.
+    pub fn left_out(&self, roles: &[Role]) -> Vec<nalgebra::DVector<f64>> {
+        self.ridge().left_out(roles)
     }
 
     /// The fit with given roles.

@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle};
+use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle, stopped};
 use crate::options::Thresholds;
-use crate::problem::Problem;
+use crate::problem::{Linear, Problem};
 use crate::state::Active;
 
 /// Held-out RMS of a link in units of its noise, and the same with what is immaterial adjusted.
@@ -18,10 +18,10 @@ pub fn figures(bench: &Bench) -> (f64, f64) {
     (raw, (adjusted / n.max(1.0)).sqrt().min(raw))
 }
 
-/// Two-sided p-value of an effect by flipping the signs of whole clusters, from a bench without it.
-pub fn sign_flip(bench: &Bench, candidate: usize) -> f64 {
-    let columns = bench.linear.of_candidate(candidate);
-    let clusters = &bench.linear.gram.clusters;
+/// Two-sided p-value of an effect by flipping the signs of whole clusters, from a linearisation without it.
+pub fn sign_flip(linear: &Linear, candidate: usize) -> f64 {
+    let columns = linear.of_candidate(candidate);
+    let clusters = &linear.gram.clusters;
     let m = columns.len();
     let mut spread = DMatrix::<f64>::zeros(m, m);
     let scores: Vec<nalgebra::DVector<f64>> = clusters
@@ -63,8 +63,13 @@ pub struct Rivals {
     pub ambiguous: bool,
 }
 
-/// Pairs between which the drawing decides: wheels are mounted where they are drawn.
-const CONVENTIONS: [(&str, &str); 2] = [("wheel-skew", "wheel-angle"), ("wheel-skew", "marker-heading")];
+/// Pairs between which the drawing decides: wheels are mounted where they are drawn, and a camera was calibrated.
+const CONVENTIONS: [(&str, &str); 4] = [
+    ("wheel-skew", "wheel-angle"),
+    ("wheel-skew", "marker-heading"),
+    ("wheel-radius", "camera-scale"),
+    ("wheel-radius-common", "camera-scale"),
+];
 
 /// Finds what an effect cannot be told from.
 pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active], thresholds: &Thresholds) -> Rivals {
@@ -104,6 +109,9 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
         let values = state.active[index].parameters();
+        if stopped(&state.active[index]) || problem.runs_away(&state, &found.state) {
+            continue;
+        }
         let rival = finish(state, settled, index, thresholds);
         let own_cost = thresholds.cost(own.form.free.len());
         let rival_cost = thresholds.cost(candidate.form.free.len());

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Ports carry the names and levels of the pins, but for `lad`, which the emitted top file joins
-//! from `lad_in`, `lad_out` and `lad_drive`. Whatever can move a motor or fire the kicker passes
+//! from `lad_in`, `lad_out` and `lad_drive`, and for `board` and `clock_hz`, two constants by which each
+//! board's top says whose pins are driven. Whatever can move a motor or fire the kicker passes
 //! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal. The kicker's
 //! capacitor is discharged, active high as an unconfigured pin is, whenever that gate is shut, unless
 //! the host asked to hold the charge and neither the emergency stop nor a dead clock overrules it.
@@ -46,6 +47,10 @@ pub struct Core {
     pub lclk: Signal<In, Clock>,
     /// 50 MHz crystal.
     pub synclk: Signal<In, Clock>,
+    /// What `board` reads, a constant of the top module.
+    pub board: Signal<In, Bits<32>>,
+    /// What `clock_hz` reads, likewise.
+    pub clock_hz: Signal<In, Bits<32>>,
     /// Address strobe.
     pub ads_n: Signal<In, Bit>,
     /// Burst last.
@@ -592,7 +597,7 @@ impl Logic for Core {
         self.kicker.ball.next = self.ball_sensor.val();
         self.kicker.full.next = self.kicker_full.val();
         self.kicker.by_time.next = self.registers.kicker_control.val().get_bit(3);
-        self.kicker.clear.next = self.registers.clear_faults.val();
+        self.kicker.clear.next = self.registers.clear_kicker.val();
         self.kicker_charge_n.next = !(self.kicker.charge.val() & self.safety.armed.val() & self.alive.val());
         self.kicker_trigger_n.next = !(self.kicker.trigger.val() & self.safety.armed.val() & self.alive.val());
 
@@ -605,6 +610,8 @@ impl Logic for Core {
         self.registers.stall.next = self.stalled.val();
         self.registers.index_status.next = self.index_status.val();
         self.registers.interrupt_status.next = self.interrupt.status.val();
+        self.registers.board.next = self.board.val();
+        self.registers.clock_hz.next = self.clock_hz.val();
         self.registers.radio.next = bit_cast::<24, 1>(self.radio.selected.val().into())
             | (bit_cast::<24, 8>(self.radio.accepted.val()) << 8)
             | (bit_cast::<24, 8>(self.radio.dropped.val()) << 16);
@@ -618,6 +625,7 @@ impl Logic for Core {
             bit_cast::<32, 16>(self.commit.accepted.val()) | (bit_cast::<32, 16>(self.commit.rejected.val()) << 16);
         self.registers.status.next = self.status.val();
         self.kicker_status.next = bit_cast::<8, 3>(self.kicker.state.val())
+            | (bit_cast::<8, 1>(self.kicker.on_ball.val().into()) << 3)
             | (bit_cast::<8, 1>(self.kicker.ready.val().into()) << 4)
             | (bit_cast::<8, 1>(self.kicker.timed_out.val().into()) << 5)
             | (bit_cast::<8, 1>(self.kicker.dropped.val().into()) << 6)

@@ -10,6 +10,7 @@
 //!
 //! Anything else is reserved: reads zero, writes nothing.
 
+use crate::blocks::snapshot_address::SnapshotAddress;
 use crate::primitives::Literal;
 use fixed_kin::AXES;
 use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
@@ -39,7 +40,7 @@ pub struct Decoder {
     /// Bank of the set points in force.
     pub set_point_bank: Signal<In, Bit>,
     /// Bank of the snapshot to read.
-    pub snapshot_bank: Signal<In, Bit>,
+    pub snapshot_bank: Signal<In, Bits<2>>,
     /// In the register file.
     pub in_registers: Signal<Out, Bit>,
     /// In the memory, at `memory_address`.
@@ -62,12 +63,12 @@ pub struct Decoder {
     base: Signal<Local, Bits<8>>,
     bank: Signal<Local, Bits<8>>,
 
+    place: SnapshotAddress,
+
     no_bank: Literal<8, 0>,
     configuration_1: Literal<8, 0x40>,
     at_set_points: Literal<8, 0x80>,
     set_points_1: Literal<8, 0x08>,
-    at_snapshot: Literal<8, 0xC0>,
-    snapshot_1: Literal<8, 0x20>,
     page_registers: Literal<8, 0>,
     page_configuration: Literal<8, { page(&CONFIGURATION) }>,
     page_active: Literal<8, { page(&ACTIVE_CONFIGURATION) }>,
@@ -93,6 +94,8 @@ impl Logic for Decoder {
         self.page.next = self.address.val().get_bits::<8>(6);
         self.index.next = self.address.val().get_bits::<6>(0);
         self.wide.next = bit_cast::<8, 6>(self.index.val());
+        self.place.word.next = self.index.val().get_bits::<5>(0);
+        self.place.bank.next = self.snapshot_bank.val();
         self.set_point.next = bit_cast::<8, 2>(self.index.val().get_bits::<2>(0)) | self.at_set_points.val();
 
         self.in_registers.next = self.page.val() == self.page_registers.val();
@@ -142,10 +145,7 @@ impl Logic for Decoder {
             self.in_memory.next = self.index.val() < self.snapshot_end.val();
             self.snapshot_first.next = self.index.val() == self.first.val();
             self.snapshot_last.next = self.index.val() == self.last.val();
-            self.base.next = self.wide.val() | self.at_snapshot.val();
-            if self.snapshot_bank.val() {
-                self.bank.next = self.snapshot_1.val();
-            }
+            self.base.next = self.place.address.val();
         }
         self.memory_address.next = self.base.val() | self.bank.val();
     }

@@ -17,7 +17,9 @@
 //! and lock-out run on. Trigger edges come with the microsecond strobe, so a pulse is exact; it
 //! starts two clocks and up to one strobe after `fire`, and 1 ms more if the charger was on. The
 //! ball pin adds two clocks and eight strobes. Charging pauses while `full` is high, filtered alike,
-//! unless `by_time`; the time-out counts the charging since it was last full. Limits, in gateware: pulse ≤ 10 ms
+//! unless `by_time`; the time-out counts all charging since it was last full, the last pulse or the last clock
+//! disarmed: a new request or a cleared flag gives no more. The ball fires once for every rise of `arm_on_ball`
+//! while enabled; one that stood before has no shot. Limits, in gateware: pulse ≤ 10 ms
 //! (340 000 clocks at the most, because the time base bounds a microsecond to 25 … 34 clocks), lock-out
 //! ≥ 100 ms, charging ≥ 20 ms after a pulse. Charge and trigger are active high here; the
 //! connector inverts them, because an unconfigured FPGA pulls its pins high. A triac conducts on
@@ -51,9 +53,9 @@ pub struct Kicker {
     pub lockout: Signal<In, Bits<20>>,
     /// Raw ball sensor, true = ball; invert at the pin where an open wire reads high.
     pub ball: Signal<In, Bit>,
-    /// Level: fire when the ball is seen, once until this drops or the kicker is disabled.
+    /// Level: fire when the ball is seen, once for every rise of this while enabled.
     pub arm_on_ball: Signal<In, Bit>,
-    /// Strobe: clears the sticky flags and a charging time-out.
+    /// Strobe: clears the sticky flags; a charging time-out that still stops the charger stays.
     pub clear: Signal<In, Bit>,
     /// Raw pin, high or open: the capacitor is full.
     pub full: Signal<In, Bit>,
@@ -73,6 +75,8 @@ pub struct Kicker {
     pub dropped: Signal<Out, Bit>,
     /// The capacitor is full, filtered.
     pub is_full: Signal<Out, Bit>,
+    /// The next ball fires.
+    pub on_ball: Signal<Out, Bit>,
     ball_filter: GlitchFilter,
     hungry_filter: GlitchFilter,
     stuffed: Signal<Local, Bit>,
@@ -103,6 +107,7 @@ pub struct Kicker {
     gap_over: Signal<Local, Bit>,
     expired: Signal<Local, Bit>,
     may_charge: Signal<Local, Bit>,
+    clears_time_out: Signal<Local, Bit>,
     off_state: Literal<3, { State::Off as u64 }>,
     ready_state: Literal<3, { State::Ready as u64 }>,
     pending_state: Literal<3, { State::Pending as u64 }>,
@@ -207,11 +212,7 @@ impl Logic for Kicker {
         if self.microsecond.val() & self.charge_pin.q.val() & !self.expired.val() {
             self.charged.d.next = self.charged.q.val() + self.charged_one.val();
         }
-        if !self.charge_request.val()
-            | self.stuffed.val()
-            | self.in_pulse.val()
-            | (self.clear.val() & self.expired.val())
-        {
+        if !self.enable.val() | self.stuffed.val() | self.in_pulse.val() {
             self.charged.d.next = self.charged_zero.val();
         }
         if self.charge_pin.q.val() {
@@ -229,8 +230,9 @@ impl Logic for Kicker {
             & self.may_charge.val();
         self.trigger_pin.d.next = self.next_state.val() == self.pulse_state.val();
         self.is_ready.d.next = (self.next_state.val() == self.ready_state.val()) & self.has_pulse.val();
-        self.timed_out_flag.d.next =
-            (self.timed_out_flag.q.val() & !self.clear.val()) | (self.charge_pin.q.val() & self.expired.val());
+        self.clears_time_out.next = self.clear.val() & (!self.expired.val() | !self.enable.val());
+        self.timed_out_flag.d.next = (self.timed_out_flag.q.val() & !self.clears_time_out.val())
+            | (self.charge_pin.q.val() & self.expired.val());
         self.dropped_flag.d.next = (self.dropped_flag.q.val() & !self.clear.val())
             | (self.fire.val() & !self.takes.val())
             | self.cancels.val();
@@ -241,5 +243,6 @@ impl Logic for Kicker {
         self.state.next = self.now.q.val();
         self.timed_out.next = self.timed_out_flag.q.val();
         self.dropped.next = self.dropped_flag.q.val();
+        self.on_ball.next = self.arm_on_ball.val() & !self.spent.q.val();
     }
 }

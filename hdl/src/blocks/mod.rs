@@ -19,6 +19,7 @@ pub mod sequencer;
 pub mod serial_host;
 pub mod serial_receiver;
 pub mod snapshot;
+pub mod snapshot_address;
 pub mod stall;
 pub mod timebase;
 pub mod trigonometry;

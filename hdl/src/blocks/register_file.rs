@@ -11,8 +11,8 @@
 use crate::primitives::{Literal, Preset, Setting};
 use fixed_kin::AXES;
 use fixed_kin::registers::{
-    BLOCKS_VALUE, BOARD_VALUE, COOKIE_VALUE, DEFAULT_SET_POINT_TIMEOUT, DEFAULT_STALL_WINDOW, DEFAULT_TICK_PERIOD,
-    DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, NOMINAL_CLOCK_HZ, VERSION,
+    BLOCKS_VALUE, COOKIE_VALUE, DEFAULT_SET_POINT_TIMEOUT, DEFAULT_STALL_WINDOW, DEFAULT_TICK_PERIOD,
+    DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, VERSION,
 };
 use rust_hdl::prelude::*;
 
@@ -32,6 +32,10 @@ pub struct RegisterFile {
     /// Outputs may be on.
     pub armed: Signal<In, Bit>,
 
+    /// `board`, a constant of the top module.
+    pub board: Signal<In, Bits<32>>,
+    /// `clock_hz`, likewise.
+    pub clock_hz: Signal<In, Bits<32>>,
     /// Live `time`.
     pub clock_count: Signal<In, Bits<32>>,
     /// Live `faults`.
@@ -105,8 +109,10 @@ pub struct RegisterFile {
     pub select_radio: Signal<Out, Bit>,
     /// `arm` is written.
     pub arm_write: Signal<Out, Bit>,
-    /// `faults` is written.
-    pub clear_faults: Signal<Out, Bit>,
+    /// `faults` is written: the bits to clear.
+    pub clear_faults: Signal<Out, Bits<8>>,
+    /// `faults` is written with anything but 0.
+    pub clear_kicker: Signal<Out, Bit>,
     /// `encoder_error` is written: the bits to clear.
     pub clear_encoder_error: Signal<Out, Bits<4>>,
     /// `commit_set_points` is written.
@@ -140,13 +146,12 @@ pub struct RegisterFile {
 
     cookie: Literal<32, { COOKIE_VALUE as u64 }>,
     version: Literal<32, { VERSION as u64 }>,
-    board: Literal<32, { BOARD_VALUE as u64 }>,
-    clock_hz: Literal<32, { NOMINAL_CLOCK_HZ as u64 }>,
     blocks: Literal<32, { BLOCKS_VALUE as u64 }>,
     axes: Literal<32, { AXES as u64 }>,
     fire_word: Literal<32, { KICKER_FIRE_WORD as u64 }>,
     zero: Literal<32, 0>,
     no_axes: Literal<4, 0>,
+    no_faults: Literal<8, 0>,
     no_causes: Literal<2, 0>,
     /// Set by the emitter; the hash is taken with this constant zero.
     content_hash: Setting<32>,
@@ -191,7 +196,8 @@ impl Logic for RegisterFile {
         self.tick_period_written.next = false;
         self.arm_write.next = false;
         self.select_radio.next = false;
-        self.clear_faults.next = false;
+        self.clear_faults.next = self.no_faults.val();
+        self.clear_kicker.next = false;
         self.commit_set_points.next = false;
         self.commit_configuration.next = false;
         self.fire.next = false;
@@ -236,7 +242,8 @@ impl Logic for RegisterFile {
                     self.arm_write.next = true;
                 } // ARM
                 15 => {
-                    self.clear_faults.next = self.data.val() != self.zero.val();
+                    self.clear_faults.next = self.data.val().get_bits::<8>(0);
+                    self.clear_kicker.next = self.data.val() != self.zero.val();
                 } // FAULTS
                 18 => {
                     self.commit_set_points.next = true;

@@ -12,6 +12,10 @@
 //! anything else             │ off
 //! ```
 //!
+//! A fault stands as long as its cause does: the watchdog bitten, the stop pressed or open, a level of
+//! `encoder_`, `stall_` or `external_fault`. What `faults` still shows of a cause that is gone keeps nothing
+//! from arming, nor do the faults that only report, `commit` and `arm-refused`.
+//!
 //! Timing, edge of the cause included, until `armed` is low: arm register and fault levels 1,
 //! watchdog `watchdog_timeout` + 1 after the last pet, emergency stop pin 19
 //! (`fixed_kin::safety::EMERGENCY_STOP_CLOCKS`). Power-up is stopped, bitten and disarmed.
@@ -50,8 +54,8 @@ pub struct Safety {
     pub commit_fault: Signal<In, Bit>,
     /// Level: link loss or another block's fault.
     pub external_fault: Signal<In, Bit>,
-    /// Strobe: clears both fault registers; what still stands appears again at the same clock.
-    pub clear_faults: Signal<In, Bit>,
+    /// Strobe: bits to clear in both fault registers; what still stands appears again at the same clock.
+    pub clear_faults: Signal<In, Bits<8>>,
     /// Strobe: a control tick.
     pub tick: Signal<In, Bit>,
     /// Control ticks a set point lasts; 0 = none at all.
@@ -62,7 +66,7 @@ pub struct Safety {
     pub setpoints_valid: Signal<Out, Bit>,
     /// Sticky faults.
     pub faults: Signal<Out, Bits<8>>,
-    /// Those that came first since the last clearing.
+    /// Those that came first and have not been cleared since.
     pub first_fault: Signal<Out, Bits<8>>,
     /// The emergency stop stands, synchronised and filtered.
     pub stopped: Signal<Out, Bit>,
@@ -90,6 +94,7 @@ pub struct Safety {
     event_refused: Signal<Local, Bits<8>>,
     event_stall: Signal<Local, Bits<8>>,
     events: Signal<Local, Bits<8>>,
+    first_kept: Signal<Local, Bits<8>>,
     none: FaultBit<0>,
     watchdog_bit: FaultBit<{ Fault::Watchdog.mask() as u64 }>,
     stop_bit: FaultBit<{ Fault::EmergencyStop.mask() as u64 }>,
@@ -191,11 +196,10 @@ impl Logic for Safety {
             | self.event_external.val()
             | self.event_refused.val()
             | self.event_stall.val();
-        self.sticky.d.next = self.sticky.q.val() | self.events.val();
-        if self.clear_faults.val() {
-            self.sticky.d.next = self.events.val();
-        }
-        if self.clear_faults.val() | !self.first.q.val().any() {
+        self.sticky.d.next = (self.sticky.q.val() & !self.clear_faults.val()) | self.events.val();
+        self.first_kept.next = self.first.q.val() & !self.clear_faults.val();
+        self.first.d.next = self.first_kept.val();
+        if !self.first_kept.val().any() {
             self.first.d.next = self.events.val();
         }
 

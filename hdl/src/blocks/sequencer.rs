@@ -11,13 +11,15 @@
 //! One instruction a clock; a taken branch kills the instruction behind it. Multiplication and division
 //! run beside the program, until their result is asked for; the program takes every product before it
 //! starts the next. A second copy of the memory, written together with the first, serves the bus,
-//! which may also write where the program does not write in the same clock.
+//! which may also write where the program does not write in the same clock. A bus that reads a word in the
+//! clock in which it is written gets the new one; the program never does that, which its assembler checks.
 //!
 //! `tick` starts the program and is ignored while it runs; `done` is high in the clock of its last
 //! instruction.
 
 use crate::blocks::divider::Divider;
 use crate::blocks::multiplier::Multiplier;
+use crate::blocks::snapshot_address::SnapshotAddress;
 use crate::primitives::{Literal, Memory, Rom};
 use crate::program;
 use fixed_kin::AXES;
@@ -39,8 +41,8 @@ pub struct Sequencer {
     pub configuration_bank: Signal<In, Bit>,
     /// Bank of the set points in force.
     pub set_point_bank: Signal<In, Bit>,
-    /// Bank the snapshot is written to.
-    pub snapshot_bank: Signal<In, Bit>,
+    /// Bank the snapshot is written to, 0 to 2.
+    pub snapshot_bank: Signal<In, Bits<2>>,
 
     /// Input port that the program asks for, an `InputPort`.
     pub input_port: Signal<Out, Bits<5>>,
@@ -57,7 +59,7 @@ pub struct Sequencer {
 
     /// Memory address of the bus, banks included.
     pub bus_address: Signal<In, Bits<8>>,
-    /// What stood there at the last clock.
+    /// What stands there after the last clock.
     pub bus_read_data: Signal<Out, Bits<32>>,
     /// The bus wants to write.
     pub bus_write: Signal<In, Bit>,
@@ -73,6 +75,7 @@ pub struct Sequencer {
     mirror: Memory<32, 8>,
     multiplier: Multiplier,
     divider: Divider,
+    place: SnapshotAddress,
 
     active: DFF<Bit>,
     pc: DFF<Bits<9>>,
@@ -92,7 +95,9 @@ pub struct Sequencer {
     read_address: Signal<Local, Bits<8>>,
     read_bank: Signal<Local, Bits<8>>,
     write_address: Signal<Local, Bits<8>>,
-    write_bank: Signal<Local, Bits<8>>,
+    store_address: Signal<Local, Bits<8>>,
+    bus_hits: DFF<Bit>,
+    bus_written: DFF<Bits<32>>,
     op: Signal<Local, Bits<5>>,
     word: Signal<Local, Bits<32>>,
     subtracting: Signal<Local, Bit>,
@@ -120,7 +125,6 @@ pub struct Sequencer {
     sign_of_8: Literal<32, 0xFFFF_FF00>,
     configuration_region: Literal<8, 0x40>,
     set_point_region: Literal<8, 0x08>,
-    snapshot_region: Literal<8, 0x20>,
     region_0: Literal<2, 0>,
     region_set_points: Literal<5, 0x10>,
     region_3: Literal<2, 3>,
@@ -140,6 +144,7 @@ impl Logic for Sequencer {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, active, pc, instruction, subtracts, valid, accumulator, axis_number);
+        dff_setup!(self, clock, bus_hits, bus_written);
         clock!(self, clock, rom, memory, mirror, multiplier, divider);
 
         // Read stage: the instruction at pc, its word is there one clock later.
@@ -347,14 +352,16 @@ impl Logic for Sequencer {
             self.write_address.next =
                 self.instruction.q.val().get_bits::<8>(0) | bit_cast::<8, 2>(self.axis_number.q.val());
         }
-        self.write_bank.next = self.no_bank.val();
-        if self.snapshot_bank.val() & (self.write_address.val().get_bits::<2>(6) == self.region_3.val()) {
-            self.write_bank.next = self.snapshot_region.val();
+        self.place.word.next = self.write_address.val().get_bits::<5>(0);
+        self.place.bank.next = self.snapshot_bank.val();
+        self.store_address.next = self.write_address.val();
+        if self.write_address.val().get_bits::<2>(6) == self.region_3.val() {
+            self.store_address.next = self.place.address.val();
         }
         self.memory.write_address.next = self.bus_address.val();
         self.memory.write_data.next = self.bus_write_data.val();
         if self.storing.val() {
-            self.memory.write_address.next = self.write_address.val() | self.write_bank.val();
+            self.memory.write_address.next = self.store_address.val();
             self.memory.write_data.next = self.accumulator.q.val();
         }
         self.memory.write_enable.next = self.storing.val() | self.bus_write.val();
@@ -362,7 +369,14 @@ impl Logic for Sequencer {
         self.mirror.write_data.next = self.memory.write_data.val();
         self.mirror.write_enable.next = self.memory.write_enable.val();
         self.mirror.read_address.next = self.bus_address.val();
+        // A block memory shows nothing certain where one port reads what the other writes.
+        self.bus_hits.d.next =
+            self.memory.write_enable.val() & (self.memory.write_address.val() == self.bus_address.val());
+        self.bus_written.d.next = self.memory.write_data.val();
         self.bus_read_data.next = self.mirror.read_data.val();
+        if self.bus_hits.q.val() {
+            self.bus_read_data.next = self.bus_written.q.val();
+        }
         self.bus_blocked.next = self.storing.val();
         self.bus_write_taken.next = self.bus_write.val() & !self.storing.val();
 

@@ -10,6 +10,7 @@
 //! emergency stop stops, and so does a PLL without lock.
 
 use super::ports::{Direction, PortError, Ports};
+use fixed_kin::registers::BOARD_HX8K;
 use std::fmt::Write as _;
 
 /// Name of the top and of the files.
@@ -30,7 +31,9 @@ const HEADER: [&str; 44] = [
 ];
 
 /// Ports of the core that the serial host and the board take.
-const TAKEN: [&str; 11] = [
+const TAKEN: [&str; 13] = [
+    "board",
+    "clock_hz",
     "lclk",
     "synclk",
     "ads_n",
@@ -85,6 +88,9 @@ fn lines(core: &str, name: &str) -> Result<Vec<Line>, OpenBoardError> {
 pub fn top(core: &str, core_name: &str, host: &str) -> Result<String, OpenBoardError> {
     let lines = lines(core, core_name)?;
     let (mut header, mut pins) = (String::new(), String::new());
+    for (port, word) in super::top::identity(&BOARD_HX8K) {
+        let _ = write!(pins, ",\n        .{port}({word})");
+    }
     let mut through = String::new();
     for line in &lines {
         let direction = if line.output { "output" } else { "input" };

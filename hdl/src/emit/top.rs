@@ -13,6 +13,7 @@
 use super::ports::{Direction, PortError, Ports};
 use super::verilog;
 use crate::board::{Board, BoardError, Buffer};
+use fixed_kin::registers::Target;
 use rust_hdl::prelude::Block;
 use std::collections::BTreeSet;
 
@@ -99,15 +100,43 @@ pub fn wrapper(board: &Board, top: &str, core: &str, ports: &Ports) -> Result<St
             used.insert(core_port);
         }
     }
+    for (name, word) in identity(&board.target) {
+        if ports.get(name).is_some() {
+            pins.push(format!(".{name}({word})"));
+            used.insert(name.to_owned());
+        }
+    }
     if let Some(port) = ports.list.iter().find(|p| !used.contains(&p.name)) {
         return Err(TopError::NotOnBoard { port: port.name.clone() });
     }
+    body += &pull_ups(board)?;
     let separator = ",\n    ";
     Ok(format!(
         "module {top} (\n    {}\n);\n\n{body}    {core} core (\n        {}\n    );\nendmodule\n",
         header.join(separator),
         pins.join(",\n        ")
     ))
+}
+
+/// What the constraints do on the card, for simulators: a pin that nobody drives is high, not unknown.
+fn pull_ups(board: &Board) -> Result<String, TopError> {
+    let mut lines = String::new();
+    for (port, width) in board.check()? {
+        if board.port(&port)[0].buffer == Buffer::PulledUp {
+            let nets =
+                width.map_or_else(|| vec![port.clone()], |w| (0..w).map(|bit| format!("{port}[{bit}]")).collect());
+            lines.extend(nets.iter().map(|net| format!("    pullup ({net});\n")));
+        }
+    }
+    if lines.is_empty() {
+        return Ok(lines);
+    }
+    Ok(format!("`ifndef SYNTHESIS\n    // synthesis translate_off\n{lines}    // synthesis translate_on\n`endif\n\n"))
+}
+
+/// The constants by which a core says what board it is on: port and value.
+pub(super) fn identity(target: &Target) -> [(&'static str, String); 2] {
+    [("board", format!("32'h{:08x}", target.word)), ("clock_hz", format!("32'd{}", target.clock_hz))]
 }
 
 /// Core ports for a net: one of the same width, or one bit each.

@@ -5,9 +5,9 @@
 //! | 00–3F | configuration, second bank at 40–7F | commit of the configuration |
 //! | 80–83 | set points, second bank at 88–8B | commit of set points |
 //! | 8C–BF | state, temporaries, constants | |
-//! | C0–DF | snapshot, second bank at E0–FF | end of a control tick |
+//! | C0–D7 | snapshot, second bank at E0–F7, third in D8–DF, F8–FF, 78–7F | start of a control tick |
 //!
-//! The program names the first bank; the sequencer adds the bank bit.
+//! The program names the first bank; the sequencer puts in the others.
 
 use fixed_kin::AXES;
 use fixed_kin::pose;
@@ -45,8 +45,33 @@ impl Cell {
     }
 }
 
+/// Whether two operands may mean the same word, for some axis each.
+pub(super) fn overlap(first: u16, second: u16) -> bool {
+    let words = |operand: u16| {
+        let address = operand & 0xFF;
+        address..address + if operand & 1 << 10 == 0 { 1 } else { AXES as u16 }
+    };
+    let (first, second) = (words(first), words(second));
+    first.start < second.end && second.start < first.end
+}
+
+/// First word of the first bank of the snapshot.
+const SNAPSHOT: usize = 0xC0;
+/// Where the third bank's words stand, eight by eight.
+const THIRD_BANK: [usize; 3] = [0xD8, 0xF8, 0x78];
+
+/// Where a word of a snapshot stands, for each of the three banks.
+#[must_use]
+pub const fn snapshot_address(bank: usize, word: usize) -> usize {
+    match bank {
+        0 => SNAPSHOT + word,
+        1 => SNAPSHOT + 0x20 + word,
+        _ => THIRD_BANK[word / 8] + word % 8,
+    }
+}
+
 const fn snapshot(register: &registers::Register) -> usize {
-    0xC0 + (register.offset - registers::SNAPSHOT_SEQUENCE.offset) as usize / 4
+    SNAPSHOT + (register.offset - registers::SNAPSHOT_SEQUENCE.offset) as usize / 4
 }
 
 /// Column `k` of the inverse matrix.

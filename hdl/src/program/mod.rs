@@ -229,7 +229,7 @@ impl Assembler {
         }
         for (at, pair) in self.words.windows(2).enumerate() {
             let [(first, written), (second, read)] = [pair[0], pair[1]];
-            let clash = first == Op::Store && written == read && second.reads_memory();
+            let clash = first == Op::Store && second.reads_memory() && layout::overlap(written, read);
             assert!(!clash, "instruction {} reads the word that {at} is writing", at + 1);
         }
         self.words.iter().map(|(op, operand)| (*op as u16) << 11 | operand).collect()
@@ -313,6 +313,14 @@ mod tests {
     fn a_hazard_is_refused() {
         let mut program = Assembler::default();
         program.store(layout::SEQUENCE).load(layout::SEQUENCE).halt();
+        let _ = program.finish();
+    }
+
+    #[test]
+    #[should_panic(expected = "reads the word")]
+    fn a_hazard_behind_an_axis_number_is_refused() {
+        let mut program = Assembler::default();
+        program.store(layout::SPEED).load(layout::SPEED.word(3)).halt();
         let _ = program.finish();
     }
 }

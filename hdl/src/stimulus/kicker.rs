@@ -21,7 +21,7 @@ columns!(Inputs {
     full,
     by_time,
 });
-columns!(Outputs { charge, trigger, ready, state, timed_out, dropped, is_full });
+columns!(Outputs { charge, trigger, ready, state, timed_out, dropped, is_full, on_ball });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -49,6 +49,7 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
             timed_out: block.timed_out.val(),
             dropped: block.dropped.val(),
             is_full: block.is_full.val(),
+            on_ball: block.on_ball.val(),
         }
     }
 }

@@ -39,7 +39,7 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         block.set_point_timeout.next = inputs.set_point_timeout.to_bits();
         block.commit_fault.next = inputs.commit_fault;
         block.external_fault.next = inputs.external_fault;
-        block.clear_faults.next = inputs.clear_faults;
+        block.clear_faults.next = inputs.clear_faults.to_bits();
         cycle(&mut block, |b, level| b.clock.next = level.into());
         Outputs {
             armed: block.armed.val(),
@@ -106,7 +106,11 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 stall_fault: fault(),
                 commit_fault: fault(),
                 external_fault: fault(),
-                clear_faults: random.random_range(0..100) == 0,
+                clear_faults: match random.random_range(0..200) {
+                    0 => u8::MAX,
+                    1 => random.random(),
+                    _ => 0,
+                },
                 tick: clock % ticking == 0,
                 set_point_timeout,
             });

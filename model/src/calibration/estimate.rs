@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 use serde_json::json;
 
 use super::excitation::{Excitation, best_direction};
+use super::size::{self, Sizes};
 use super::{KinematicModel, KinematicParameter};
 use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals};
 use runs::Run;
@@ -21,6 +22,10 @@ const COMMON_FOUND: f64 = 0.5;
 /// χ² per degree of freedom from which skew alone does not explain the data. Camera noise that is
 /// not quite white reaches 1.2.
 const UNEXPLAINED: f64 = 1.5;
+/// A wheel turned by more drives another way: the estimate is refused.
+const MOST_SKEW: f64 = std::f64::consts::FRAC_PI_4;
+/// χ² per degree of freedom from which the estimate is refused: residuals of thirty times the camera's noise.
+const ABSURD: f64 = 1000.0;
 
 /// The skews of a robot's wheels, and what the data cannot tell about them.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +46,8 @@ pub struct SkewEstimate {
     pub identifiable: bool,
     /// Whether the mean skew is known to 0.5° without trusting the marker plate.
     pub common_identifiable: bool,
+    /// Radii and marker, where skews alone leave far more than noise.
+    pub sizes: Option<Sizes>,
     /// How well the camera is predicted.
     pub residual: Residual,
     /// What the data cannot tell, and which drive would help; empty if all is well.
@@ -82,14 +89,18 @@ impl SkewEstimate {
                 "reduced_chi2": r.reduced_chi2, "frames": r.frames, "outliers": r.outliers,
             },
             "latency_s": { "value": self.latency_s.0, "ci95": self.latency_s.1 },
+            "sizes": self.sizes.map(Sizes::to_json),
             "remarks": self.remarks,
         })
     }
 
-    /// The robot with these skews as its nominal geometry.
+    /// The robot with these skews, and sizes if any were found, as its nominal geometry.
     #[must_use]
     pub fn apply(&self, robot: &Robot) -> Robot {
         let mut robot = robot.clone();
+        if let Some(sizes) = self.sizes {
+            sizes.apply(&mut robot);
+        }
         match &mut robot.layout {
             Layout::Rac { skew_rad, .. } => {
                 for (slot, skew) in skew_rad.iter_mut().zip(&self.skew_rad) {
@@ -121,17 +132,24 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
     let model = KinematicModel::new(robot, free.clone());
     let options = FitOptions { window_s: WINDOW_S, noise: robot.camera_noise, ..FitOptions::default() };
     let start = vec![0.0; n + 1];
-    let fitted = match fit(&model, runs, &start, &options) {
+    let mut fitted = match fit(&model, runs, &start, &options) {
         Ok(fitted) => fitted,
         Err(FitError::NoWindows) => return Ok(nothing(robot, runs)),
         Err(e) => return Err(e),
     };
     let before = residuals(&model, runs, &start, &options)?;
+    let mut sizes = None;
+    if fitted.residuals.reduced_chi2 > UNEXPLAINED
+        && let Some((with, found)) = size::beside(robot, runs, &free, &fitted, &options)?
+    {
+        fitted = with;
+        sizes = Some(found);
+    }
     let nominal = nominal_skew(robot);
     let widths: Vec<(usize, usize, f64)> = (0..n)
         .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
         .map(|(i, j)| {
-            let mut weights = vec![0.0; n + 1];
+            let mut weights = vec![0.0; fitted.parameters.len()];
             (weights[i], weights[j]) = (1.0, -1.0);
             (i, j, fitted.half_width(&weights))
         })
@@ -140,13 +158,18 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
     let identifiable = widths.iter().all(|(_, _, half)| half.to_degrees() <= FOUND);
     let ci95: Vec<[f64; 2]> = (0..n).map(|i| fitted.ci95(i).map(|end| end + nominal[i])).collect();
     let mut estimate = SkewEstimate {
-        skew_rad: nominal.iter().zip(&fitted.parameters).map(|(s, d)| s + d).collect(),
+        skew_rad: nominal
+            .iter()
+            .zip(&fitted.parameters)
+            .map(|(s, d)| if sizes.is_some_and(|s| s.instead_of_skew) { *s } else { wrap_angle(s + d) })
+            .collect(),
         ci95,
         differences: widths,
         latency_s: (fitted.parameters[n], fitted.ci95(n)),
         common_half_width,
         identifiable,
         common_identifiable: identifiable && common_half_width.to_degrees() <= COMMON_FOUND,
+        sizes,
         residual: Residual {
             before: before.rms,
             after: fitted.residuals.rms,
@@ -157,7 +180,12 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
         },
         remarks: Vec::new(),
     };
+    let far = fitted.parameters[..n].iter().any(|d| d.abs() > MOST_SKEW);
+    if far || fitted.residuals.reduced_chi2 > ABSURD {
+        return Ok(refused(robot, estimate, far));
+    }
     estimate.remarks = remarks(robot, runs, &fitted, &estimate);
+    estimate.remarks.extend(sizes.map(Sizes::remark));
     Ok(estimate)
 }
 
@@ -179,11 +207,26 @@ fn common_with_free_marker(
     let n = robot.wheel_count();
     let mut free = free.to_vec();
     free.push(KinematicParameter::MarkerHeading);
-    let mut at = fitted.parameters.clone();
+    let mut at = fitted.parameters[..=n].to_vec();
     at.push(0.0);
     let (covariance, _) = covariance_at(&KinematicModel::new(robot, free), runs, &at, options)?;
     let variance = covariance.view((0, 0), (n, n)).sum() / (n * n) as f64;
     Ok(fitted.quantile * variance.max(0.0).sqrt())
+}
+
+/// An estimate that is none: the nominal skews, known to nothing.
+fn refused(robot: &Robot, estimate: SkewEstimate, far: bool) -> SkewEstimate {
+    let why = if far {
+        format!("a wheel would have to be turned by more than {:.0} degrees", MOST_SKEW.to_degrees())
+    } else {
+        format!("the camera is predicted {:.0} times worse than its noise", estimate.residual.reduced_chi2.sqrt())
+    };
+    let remark = format!(
+        "No estimate: {why}. Wheels, encoders and camera do not belong together as robot.toml says; look at the order and \
+         signs of the encoders, counts per turn, wheel radius, and the camera's axes and units."
+    );
+    let none = nothing(robot, &[]);
+    SkewEstimate { residual: estimate.residual, remarks: vec![remark], ..none }
 }
 
 /// Logs without a single window of camera and encoders.
@@ -208,6 +251,7 @@ fn nothing(robot: &Robot, runs: &[Run]) -> SkewEstimate {
         common_half_width: anything,
         identifiable: false,
         common_identifiable: false,
+        sizes: None,
         residual: Residual::default(),
         remarks: vec![remark.to_owned()],
     }

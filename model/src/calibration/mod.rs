@@ -5,8 +5,10 @@ mod estimate;
 mod excitation;
 mod kinematic;
 mod paper;
+mod size;
 
 pub use drives::{DriveError, Drives, Straightness};
 pub use estimate::{Residual, SkewEstimate, estimate_skew};
+pub use size::Sizes;
 pub use kinematic::{KinematicModel, KinematicParameter};
 pub use paper::{Iteration, PaperCalibration, PaperError, PaperOptions, Stage, calibrate_like_the_paper};

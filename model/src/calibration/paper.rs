@@ -306,7 +306,7 @@ mod tests {
         let options = PaperOptions::default();
         assert_eq!(calibrate_like_the_paper(&robot, &mut v, &options).unwrap_err(), PaperError::NotThreeWheels);
         // A speed quantum of 26 rad/s: the loops bang from stop to stop and the robot goes where it likes.
-        let coarse = Robot { encoder_counts_per_motor_rev: 64, ..Robot::racbot() };
+        let coarse = Robot { encoder_counts_per_motor_rev: 64.0, ..Robot::racbot() };
         let layout = Layout::Rac { body_radius_m: 0.085, skew_rad: [0.07, -0.05, 0.03] };
         let actual = Robot { layout, ..coarse.clone() };
         let camera = CameraModel::of(&coarse);

@@ -62,7 +62,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
             (d.heading_drag.cos_nm, d.heading_drag.sin_nm) = (value("cos_nm"), value("sin_nm"));
         }
         "stribeck-friction" => d.stribeck = [value("torque_nm"), effect.value("speed_rad_s").unwrap_or(3.0)],
-        "dead-band" => d.dead_band = value("duty"),
+        "dead-band" => (d.dead_band, d.dead_band_passes) = (value("duty"), value("passes") != 0.0),
         "drive-curve" => d.curvature = value("curvature"),
         "actuation-latency" => d.duty_delay_s = value("latency_s"),
         "battery-sag" => d.battery = [value("drop_v"), value("resistance_ohm")],

@@ -17,7 +17,8 @@ impl Plant {
         if let Some(d) = self.deviations.as_deref() {
             delay(&mut self.delayed, &mut acting, d.duty_delay_s / dt);
             for u in &mut acting {
-                *u = u.signum() * (u.abs() - d.dead_band).max(0.0);
+                let lost = if d.dead_band_passes && u.abs() > d.dead_band { 0.0 } else { d.dead_band };
+                *u = u.signum() * (u.abs() - lost).max(0.0);
                 *u *= 1.0 + d.curvature * (u.abs() - 1.0);
             }
             let [rise, time] = d.heating;

@@ -23,6 +23,8 @@ pub struct Deviations {
     pub stribeck: [f64; 2],
     /// Duty below which the bridge does nothing.
     pub dead_band: f64,
+    /// Whether duties above that pass whole instead of less what is swallowed.
+    pub dead_band_passes: bool,
     /// Duty u acts as u (1 + curvature (|u| − 1)).
     pub curvature: f64,
     /// Age of the duty that acts, s.

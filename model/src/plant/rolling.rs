@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{Plant, friction, turn};
 use crate::motor::Axis;
+use runs::geometry::Geometry;
 
 /// What depends on the step length only.
 ///
@@ -17,7 +18,7 @@ pub(super) struct Tables {
     spin: Matrix3<f64>,
     /// (M + AᵀIA + h·AᵀBA)⁻¹.
     inverse: Matrix3<f64>,
-    /// (M + AᵀIA)⁻¹·M: what of a turn of the platform's momentum the wheels let through.
+    /// (M + AᵀIA)⁻¹·M, both inverses among the twists that the wheels allow: what of a turn of the platform's momentum the wheels let through.
     turning: Matrix3<f64>,
     /// inverse · rowᵢ: change of twist per impulse at a wheel.
     response: Vec<Vector3<f64>>,
@@ -26,16 +27,16 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    fn new(rows: Vec<Vector3<f64>>, axes: &[Axis], mass: Matrix3<f64>, h: f64) -> Self {
+    fn new(geometry: &Geometry, rows: Vec<Vector3<f64>>, axes: &[Axis], mass: Matrix3<f64>, h: f64) -> Self {
         let weighted = |of: &dyn Fn(&Axis) -> f64| -> Matrix3<f64> {
             rows.iter().zip(axes).map(|(r, a)| r * r.transpose() * of(a)).sum()
         };
         let spin = weighted(&Axis::inertia);
         let inertia = mass + spin;
         // Masses are positive, so both matrices are positive definite.
-        let turning = inertia.try_inverse().unwrap_or_else(Matrix3::zeros) * mass;
+        let turning = geometry.invert_allowed(&inertia).unwrap_or_else(Matrix3::zeros) * mass;
         let damped = inertia + weighted(&|a| h * a.damping);
-        let inverse = damped.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let inverse = geometry.invert_allowed(&damped).unwrap_or_else(Matrix3::zeros);
         let response: Vec<Vector3<f64>> = rows.iter().map(|r| inverse * r).collect();
         let coupling = rows.iter().flat_map(|a| response.iter().map(move |b| a.dot(b))).collect();
         Self { h, rows, spin, inverse, turning, response, coupling }
@@ -51,7 +52,10 @@ impl Plant {
         let mass = self.platform();
         let tables = match self.rolling.take() {
             Some(tables) if tables.h == h => tables,
-            _ => Tables::new(self.contacts.iter().map(|c| c.row / c.lever).collect(), &self.axes, mass, h),
+            _ => {
+                let rows = self.contacts.iter().map(|c| c.row / c.lever).collect();
+                Tables::new(&self.geometry, rows, &self.axes, mass, h)
+            }
         };
         let start = self.twist_vector();
         let start = start + tables.turning * turn(&start, 0.5 * h);

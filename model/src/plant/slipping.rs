@@ -73,7 +73,9 @@ impl Plant {
         let start = start + turn(&start, 0.5 * h);
         let axes = std::mem::take(&mut self.axes);
         let floor = Floor { h, creep, grip };
-        let mut twist = start;
+        // Wheels without rollers hold sideways whatever they slip along.
+        let within = |slope: &Matrix3<f64>| self.geometry.invert_allowed(slope);
+        let mut twist = within(&mass).map_or(start, |inverse| inverse * mass * start);
         for _ in 0..friction::GEAR_ROUNDS {
             for step in 0..NEWTON_STEPS {
                 let mut residual = mass * (twist - start) - self.push;
@@ -83,7 +85,7 @@ impl Plant {
                     residual -= contact.row * t.force;
                     slope -= contact.row * contact.row.transpose() * t.slope;
                 }
-                let Some(change) = slope.try_inverse().map(|s| s * residual) else { break };
+                let Some(change) = within(&slope).map(|s| s * residual) else { break };
                 // Full steps can cycle between two kinks; half steps then cannot.
                 twist -= if step < 10 { change } else { change * 0.5 };
                 if change.amax() < 1e-13 {
@@ -106,6 +108,9 @@ impl Plant {
             wheel.speed = wheel.next_speed;
         }
         twist += turn(&twist, 0.5 * h);
+        if self.geometry.is_differential() {
+            twist = self.geometry.invert_allowed(&mass).map_or(twist, |inverse| inverse * mass * twist);
+        }
         self.move_body(twist, h);
     }
 }

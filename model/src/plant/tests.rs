@@ -246,3 +246,21 @@ fn four_wheels_roll_and_odometry_closes() {
     assert!(plant.pose().distance(Pose::default()) > 0.1);
     assert!(plant.pose().distance(odometry) < 1e-5, "{:?} {odometry:?}", plant.pose());
 }
+
+#[test]
+fn a_differential_drive_never_slides_sideways() {
+    use runs::geometry::Wheel;
+    let wheel = |x_m: f64| Wheel { x_m, y_m: 0.0, drive_rad: std::f64::consts::FRAC_PI_2, roller_rad: 0.0 };
+    let robot = Robot { layout: Layout::Wheels(vec![wheel(0.08), wheel(-0.08)]), ..Robot::racbot() };
+    for mut plant in plants(&robot) {
+        for _ in 0..1500 {
+            plant.step(&[0.5, 0.35], 7.2, 0.001);
+            assert!(plant.twist().vx.abs() < 1e-9, "{:?}", plant.twist());
+        }
+        // The wheels turn by the textbook: the body drives a circle to the left.
+        let speeds: Vec<f64> = plant.wheel_speeds().collect();
+        let twist = plant.geometry().twist(&speeds);
+        assert!(twist.omega > 0.5 && twist.vy > 0.2, "{twist:?}");
+        assert!((twist.omega - plant.twist().omega).abs() < 0.02 * twist.omega, "{twist:?} {:?}", plant.twist());
+    }
+}

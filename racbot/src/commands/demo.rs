@@ -1,7 +1,7 @@
 //! `racbot demo`
 
 use crate::demo::{Part, Report};
-use crate::terminal::{Answer, Failure, Table, save};
+use crate::terminal::{Answer, Failure, Table, Target};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -10,9 +10,12 @@ use std::time::Instant;
 /// Options of `demo`.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Options {
-    /// Folder for the report
-    #[arg(long, value_name = "DIR", default_value = OUT)]
-    out: PathBuf,
+    /// Folder for the report [default: out/demo, or the first free of out/demo-2 ...]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 
     /// Folder of the committed gateware, to check where it exists
     #[arg(long, value_name = "DIR", default_value = GENERATED)]
@@ -29,22 +32,24 @@ const GENERATED: &str = "generated";
 
 impl Default for Options {
     fn default() -> Self {
-        Self { out: OUT.into(), generated: GENERATED.into(), ticks: TICKS }
+        Self { out: None, target: Target::default(), generated: GENERATED.into(), ticks: TICKS }
     }
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let begun = Instant::now();
+        let (target, out) = (self.target, self.target.place(self.out.as_deref(), OUT));
+        target.check_free([out.join("index.html"), out.join("board/runs/run_01.csv")])?;
         let mut report = Report::default();
         report.check_generated(&self.generated)?;
-        report.board(&self.out.join("board"))?;
+        report.board(&out.join("board"), target.existing())?;
         report.drive()?;
         report.cross_check(self.ticks)?;
         report.replay()?;
-        let index = self.out.join("index.html");
+        let index = out.join("index.html");
         for (name, content) in report.files() {
-            save(&self.out.join(name), &content)?;
+            target.save(&out.join(name), &content)?;
         }
         let seconds = begun.elapsed().as_secs_f64();
         let parts = &report.parts;

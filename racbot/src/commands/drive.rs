@@ -2,7 +2,7 @@
 
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
-use crate::terminal::{Answer, Failure, Table, entry, save};
+use crate::terminal::{Answer, Failure, Table, Target, entry};
 use clap::{Args, ValueEnum};
 use driver::Board;
 use driver::drive::{Control, Driven, Ending, Plan};
@@ -34,6 +34,9 @@ pub(crate) struct Options {
     /// Record the run: .csv, or .mcap for Foxglove and Rerun; robot.toml is put beside it
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 
     /// Let poses from a camera correct the controller's, where there is one
     #[arg(long)]
@@ -108,6 +111,7 @@ impl Options {
         if !(self.limit_s > 0.0 && self.limit_s <= 3_600.0) {
             return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
         }
+        self.target.check_free(&self.record)?;
         let plan = self.plan(&robot, &set_points);
         let (actual, pace) = self.built_in(&robot)?;
         let ready = self.card.ready(Use::Drive, &actual, pace)?;
@@ -188,7 +192,9 @@ impl Options {
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
         }
-        Recording::start(file, Layout::of_robot(wheels, camera)).map(Some).map_err(Failure::data)
+        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing())
+            .map(Some)
+            .map_err(Failure::data)
     }
 
     /// Makes a data set of the recording's folder, unless it is one already.
@@ -198,7 +204,7 @@ impl Options {
         if path.exists() {
             return Ok(Some(format!("{}, as it was", path.display())));
         }
-        save(&path, &robot.to_toml())?;
+        self.target.save(&path, &robot.to_toml())?;
         Ok(Some(path.display().to_string()))
     }
 }
@@ -260,7 +266,9 @@ impl Report<'_> {
         });
         let refused = (self.driven.refused > 0)
             .then(|| format!("the card refused {} commits by their checksum; each was sent anew", self.driven.refused));
-        gone.into_iter().chain(refused).collect()
+        let stood = self.driven.stood;
+        let stood = stood.is_notable().then(|| format!("cleared before arming: {stood}"));
+        stood.into_iter().chain(gone).chain(refused).collect()
     }
 
     fn json(&self) -> Value {
@@ -285,6 +293,8 @@ impl Report<'_> {
             "card": self.name, "clock_hz": self.clock_hz, "set_points": arrivals.collect::<Vec<_>>(),
             "ended": ended,
             "fault": match &driven.ending { Ending::Fault(fault) => Some(fault.to_string()), _ => None },
+            "cleared_faults": driven.stood.faults, "cleared_encoder_errors": driven.stood.encoder_errors,
+            "cleared_stalls": driven.stood.stalls,
             "outputs_off": driven.switched_off.is_ok(), "t_s": driven.t,
             "pose": [driven.pose.x, driven.pose.y, driven.pose.theta],
             "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,

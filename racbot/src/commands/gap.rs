@@ -1,12 +1,12 @@
 //! `racbot gap`
 
 use crate::terminal::progress::Progress;
-use crate::terminal::{Answer, Failure, save, wrapped};
+use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
 use gap::effect::Effect;
 use gap::user::UserEffect;
-use runs::Logs;
 use runs::error::InputError;
+use runs::output::{Existing, write_whole};
 use runs::robot::Robot;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -28,9 +28,13 @@ pub(crate) struct Options {
     #[arg(long, value_name = "FILE")]
     effect: Vec<PathBuf>,
 
-    /// Folder for report.html, gap.json and the robot.toml with the named effects
-    #[arg(long, value_name = "DIR", default_value = "out/gap")]
-    out: PathBuf,
+    /// Folder for report.html, gap.json and the robot.toml with the named effects [default: out/gap, or the first
+    /// free of out/gap-2 ...]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 
     /// Take an effect out of a robot.toml (--robot, or that of the data set) again; analyse nothing
     #[arg(long, value_name = "NAME")]
@@ -43,10 +47,10 @@ impl Options {
             return self.undo(name);
         }
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
-        let set = match &self.robot {
-            None => Logs::open(folder)?,
-            Some(file) => Logs::open_as(folder, Robot::load(file)?)?,
-        };
+        let set = super::check::open(folder, self.robot.as_deref())?;
+        let hints = super::check::first_stage(folder, &set, self.target.forced())?;
+        let out = self.target.place(self.out.as_deref(), "out/gap");
+        self.target.check_free(["gap.json", "report.html", "robot.toml"].map(|name| out.join(name)))?;
         let progress = Progress::new("looking for the missing effect", 1);
         let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
         for file in &self.effect {
@@ -59,8 +63,8 @@ impl Options {
         let analysis = gap::analyse_logs(&set, &options).map_err(|error| Failure::about(folder, error))?;
         progress.at(1);
         drop(progress);
-        analysis.write(&self.out).map_err(Failure::data)?;
-        let text = format!("{}\nreport in {}\n", analysis.terminal_summary().trim_end(), self.out.display());
+        analysis.save(&out, self.target.existing()).map_err(Failure::data)?;
+        let text = format!("{hints}{}\nreport in {}\n", analysis.terminal_summary().trim_end(), out.display());
         Ok(Answer { text, json: analysis.to_json(), wrong: None })
     }
 
@@ -69,12 +73,13 @@ impl Options {
         let Some(file) = self.robot.clone().or(of_set) else {
             return Err(Failure::usage("--undo: say which robot.toml, with --robot or a data set"));
         };
-        let robot = Robot::load(&file)?;
+        let robot = Robot::load_partial(&file)?;
         let Some(without) = gap::undo(&robot, name) else {
             return Err(unknown_effect(&file, &robot, name).into());
         };
         let text = std::fs::read_to_string(&file).map_err(|error| InputError::io(&file, &error))?;
-        save(&file, &Robot::edited(&text, &without.effects, &file)?)?;
+        // An edit of this very file, which was asked for.
+        write_whole(&file, Robot::edited(&text, &without.effects, &file)?.as_bytes(), Existing::Replace)?;
         let text = wrapped(&format!("{name} is taken out of {}", file.display()), 2);
         Ok(Answer { text, json: json!({ "removed": name, "robot": file }), wrong: None })
     }

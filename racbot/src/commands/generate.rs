@@ -1,6 +1,6 @@
 //! `racbot generate`
 
-use crate::terminal::{Answer, Failure, Table, save};
+use crate::terminal::{Answer, Failure, Table, Target};
 use clap::Args;
 use hdl::design::{File, files};
 use runs::error::InputError;
@@ -22,13 +22,16 @@ pub(crate) struct Options {
     /// Write a stand-in bitstream for the virtual card to FILE instead; it configures nothing on a real one
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
     stand_in: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         if let Some(file) = &self.stand_in {
             let bytes = StandIn::committed().bit();
-            save(file, &bytes)?;
+            self.target.save(file, &bytes)?;
             let text = format!("{}: {} bytes, for the virtual card only\n", file.display(), bytes.len());
             return Ok(Answer { text, json: json!({ "stand_in": file, "bytes": bytes.len() }), wrong: None });
         }
@@ -40,7 +43,7 @@ impl Options {
         let mut written = Vec::new();
         for file in &files {
             let path = self.out.join(&file.name);
-            save(&path, &file.text)?;
+            self.target.save(&path, &file.text)?;
             table.row([path.display().to_string(), file.text.len().to_string()]);
             written.push(json!({ "file": path, "bytes": file.text.len() }));
         }
@@ -61,7 +64,7 @@ fn check(folder: &Path, files: &[File]) -> Result<Answer, Failure> {
         if let (None, Some(line)) = (&wrong, difference) {
             let path = path.display();
             wrong = Some(format!(
-                "{path}:{line}: is not what the gateware emits; run racbot generate --out {}",
+                "{path}:{line}: is not what the gateware emits; run racbot generate --force --out {}",
                 folder.display()
             ));
         }

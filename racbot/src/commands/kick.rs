@@ -1,7 +1,7 @@
 //! `racbot kick`
 
-use crate::card::{CardOptions, Pace, ReadyCard};
-use crate::terminal::{Answer, Failure};
+use crate::card::{CardOptions, ReadyCard};
+use crate::terminal::{Answer, Failure, entry};
 use clap::Args;
 use driver::drive::{Kick, Plan};
 use driver::pci::Use;
@@ -36,7 +36,8 @@ impl Options {
             return Err(Failure::usage(format!("--charge-s: {} is not between 0 and 16 seconds", self.charge_s)));
         }
         let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
-        let ReadyCard { name, registers, clock_hz, mut clock, .. } = self.card.ready(Use::Drive, &robot, Pace::Real)?;
+        let ReadyCard { name, registers, clock_hz, mut clock, .. } =
+            self.card.ready(Use::Drive, &robot, self.card.pace())?;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = Plan::new(&robot, &[]).scale(clock_hz).map_err(|error| about(&error))?;
         let stop = stop_on_signals().map_err(Failure::data)?;
@@ -45,8 +46,13 @@ impl Options {
             .kick(Board::new(registers), &mut clock, &scale, &Settings::default(), &stop)
             .map_err(|error| about(&error))?;
         let limit = if kicked.charge_timed_out { ", which ran into its time-out" } else { "" };
+        let stood = if kicked.stood.is_notable() {
+            entry("note", &format!("cleared before arming: {}", kicked.stood))
+        } else {
+            String::new()
+        };
         let text = format!(
-            "card     {name}\ncharged  {} s{limit}\nkicked   {} us, seen {:.1} ms after the request; outputs off\n",
+            "card     {name}\ncharged  {} s{limit}\nkicked   {} us, seen {:.1} ms after the request; outputs off\n{stood}",
             self.charge_s,
             self.pulse_us,
             kicked.after.as_secs_f64() * 1e3
@@ -54,6 +60,8 @@ impl Options {
         let json = json!({
             "card": name, "charge_s": self.charge_s, "pulse_us": self.pulse_us,
             "seen_after_s": kicked.after.as_secs_f64(), "charge_timed_out": kicked.charge_timed_out,
+            "cleared_faults": kicked.stood.faults, "cleared_stalls": kicked.stood.stalls,
+            "cleared_encoder_errors": kicked.stood.encoder_errors,
         });
         Ok(Answer { text, json, wrong: None })
     }

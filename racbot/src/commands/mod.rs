@@ -3,6 +3,9 @@
 #[cfg(feature = "simulation")]
 mod bitstream;
 mod calibrate;
+mod check;
+#[cfg(feature = "simulation")]
+mod convert;
 #[cfg(feature = "simulation")]
 mod demo;
 mod drive;
@@ -13,6 +16,7 @@ mod gap;
 #[cfg(feature = "simulation")]
 mod generate;
 mod info;
+mod init;
 mod kick;
 mod latency;
 mod load;
@@ -49,6 +53,13 @@ pub(crate) enum Command {
     /// Feed a measured log through the FPGA and compare its duties with the logged ones
     #[cfg(feature = "simulation")]
     Replay(replay::Options),
+    /// Find mistakes in how a data set is set up: units, axes, signs, orders, the wrong robot.toml
+    Check(check::Options),
+    /// Write a commented robot.toml from the angles of the wheels
+    Init(Box<init::Options>),
+    /// Bring other tools' logs into ours: any CSV, ROS 2 bags, SSL game logs, WPILib logs
+    #[cfg(feature = "simulation")]
+    Convert(convert::Options),
     /// Find the skew of the wheels
     Calibrate(calibrate::Options),
     /// Find where simulation and measured logs disagree, and name the missing effect
@@ -95,6 +106,10 @@ impl Command {
             Self::Simulate(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Replay(options) => options.run(),
+            Self::Check(options) => options.run(),
+            Self::Init(options) => options.run(),
+            #[cfg(feature = "simulation")]
+            Self::Convert(options) => options.run(),
             Self::Calibrate(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Gap(options) => options.run(),

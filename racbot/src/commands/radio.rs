@@ -1,6 +1,6 @@
 //! `racbot radio`
 
-use crate::terminal::{Answer, Failure};
+use crate::terminal::{Answer, Failure, Target};
 use clap::Args;
 use driver::radio::{BaseStation, HexLine, Line, RadioError, Sent, SerialLine};
 use driver::realtime::{Clock, MonotonicClock, stop_on_signals};
@@ -9,8 +9,6 @@ use runs::Run;
 use runs::frames::Twist;
 use runs::robot::Robot;
 use serde_json::json;
-use std::fs::File;
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::atomic::AtomicBool;
@@ -30,6 +28,9 @@ pub(crate) struct Options {
     /// File for the frames as text, instead: time in seconds, bytes in hexadecimal
     #[arg(long, value_name = "FILE", conflicts_with = "line")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 
     /// Body velocity in m/s, m/s and rad/s: right, forward, anticlockwise
     #[arg(long, value_name = "X,Y,OMEGA", allow_hyphen_values = true, requires = "seconds")]
@@ -96,10 +97,9 @@ impl Options {
                 (device, self.send(device, line, &mut MonotonicClock, scale, velocity, &stop)?)
             }
             (None, Some(file)) => {
-                let created = File::create(file).map_err(|error| Failure::about(file, error))?;
-                let mut text = BufWriter::new(created);
+                let mut text = Vec::new();
                 let sent = self.send(file, HexLine(&mut text), &mut NoTime::default(), scale, velocity, &stop)?;
-                text.flush().map_err(|error| Failure::about(file, error))?;
+                self.target.save(file, &text)?;
                 (file, sent)
             }
             (None, None) => unreachable!("the command line asks for one of them"),

@@ -2,7 +2,7 @@
 
 use super::fpga_options::FpgaChoice;
 use crate::terminal::progress::Progress;
-use crate::terminal::{Answer, Failure, Table, save};
+use crate::terminal::{Answer, Failure, Table, Target};
 use clap::Args;
 use runs::robot::Robot;
 use runs::{DataSet, Run};
@@ -40,6 +40,9 @@ pub(crate) struct Options {
     /// Folder for a picture of every run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 impl Options {
@@ -60,7 +63,7 @@ impl Options {
             for (run, replayed) in set.runs.iter().zip(&results).filter(|(_, r)| r.skipped.is_none()) {
                 for wheel in 0..replayed.wheels.len() {
                     let path = out.join(format!("{}-wheel-{}.svg", run.name, wheel + 1));
-                    save(&path, &duties(run, replayed, wheel))?;
+                    self.target.save(&path, &duties(run, replayed, wheel))?;
                 }
             }
             let _ = writeln!(text, "\nwritten: a picture of every run and wheel in {}", out.display());

@@ -1,6 +1,6 @@
 //! `racbot wave`
 
-use crate::terminal::{Answer, Failure, save};
+use crate::terminal::{Answer, Failure, Target};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use simulator::wave::{Scene, record};
@@ -13,9 +13,12 @@ pub(crate) struct Options {
     #[arg(value_enum)]
     scene: SceneChoice,
 
-    /// File to write [default: out/SCENE.vcd]
+    /// File to write [default: out/SCENE.vcd, or the first free of out/SCENE-2.vcd ...]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -44,9 +47,10 @@ impl Options {
             SceneChoice::Stop => (Scene::Stop, "stop"),
             SceneChoice::Radio => (Scene::Radio, "radio"),
         };
-        let path = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("out/{name}.vcd")));
+        let path = self.target.place(self.out.as_deref(), &format!("out/{name}.vcd"));
+        self.target.check_free([&path])?;
         let (text, clocks) = record(scene).map_err(Failure::data)?;
-        save(&path, &text)?;
+        self.target.save(&path, &text)?;
         let shown = path.display();
         let text = format!("{shown}: {clocks} clocks of the chip's pins; open it with gtkwave or surfer\n");
         Ok(Answer { text, json: json!({ "file": path, "clocks": clocks }), wrong: None })

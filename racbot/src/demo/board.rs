@@ -13,6 +13,7 @@ use model::calibration::estimate_skew;
 use model::camera::CameraModel;
 use model::trajectory::{FIG_6, FIG_7_SKEW_DEG, SetPoint};
 use plot::{Axis, Color, Figure, Panel, Series};
+use runs::output::{Existing, write_whole};
 use runs::robot::{Layout, Robot};
 use runs::{DataSet, Layout as Columns, Run};
 use serde_json::json;
@@ -43,13 +44,19 @@ impl Bench {
     }
 
     /// Drives from where the robot stands and records; returns also the robot.toml for the recording.
-    fn drive(&self, believed: &Robot, points: &[SetPoint], file: &Path) -> Result<(Driven, Robot), Failure> {
+    fn drive(
+        &self,
+        believed: &Robot,
+        points: &[SetPoint],
+        file: &Path,
+        existing: Existing,
+    ) -> Result<(Driven, Robot), Failure> {
         // Shorted motors brake slowly.
         self.card.clone().sleep(REST);
         let plan = Plan { start: self.card.pose(), ..Plan::new(believed, points) };
         let scale = plan.scale(self.loaded.clock_hz).map_err(Failure::data)?;
         let columns = Columns::of_robot(believed.wheel_count(), true);
-        let mut recording = Recording::start(file, columns).map_err(Failure::data)?;
+        let mut recording = Recording::start(file, columns, existing).map_err(Failure::data)?;
         recording.wait_where_full();
         let board = Board::new(RegisterWindow::new(self.card.clone()));
         let mut camera = self.card.camera(self.camera, SEED);
@@ -71,7 +78,7 @@ fn others() -> [Vec<SetPoint>; 2] {
 
 impl Report {
     /// Load, drive, record, calibrate, gap, drive again.
-    pub(crate) fn board(&mut self, folder: &Path) -> Result<(), Failure> {
+    pub(crate) fn board(&mut self, folder: &Path, existing: Existing) -> Result<(), Failure> {
         let progress = Progress::new("over the built-in card", 6);
         let believed = Robot::racbot();
         let skew_rad = FIG_7_SKEW_DEG.map(f64::to_radians);
@@ -80,23 +87,23 @@ impl Report {
         let runs = folder.join("runs");
         std::fs::create_dir_all(&runs).map_err(|error| Failure::about(&runs, error))?;
         let file = |number: usize| runs.join(format!("run_{number:02}.csv"));
-        let (first, logged) = bench.drive(&believed, &FIG_6, &file(1))?;
+        let (first, logged) = bench.drive(&believed, &FIG_6, &file(1), existing)?;
         let mut seconds = first.t;
-        logged.save(runs.join("robot.toml"))?;
+        write_whole(&runs.join("robot.toml"), logged.to_toml().as_bytes(), existing)?;
         for (number, points) in others().into_iter().enumerate() {
             progress.at(number as u64 + 1);
-            seconds += bench.drive(&believed, &points, &file(number + 2))?.0.t;
+            seconds += bench.drive(&believed, &points, &file(number + 2), existing)?.0.t;
         }
         let set = DataSet::open(&runs)?;
         progress.at(3);
         let estimate = estimate_skew(&set.robot, &set.runs).map_err(Failure::data)?;
         progress.at(4);
         let analysis = gap::analyse(&set, &gap::Options::default()).map_err(Failure::data)?;
-        analysis.write(folder.join("gap")).map_err(Failure::data)?;
+        analysis.save(folder.join("gap"), existing).map_err(Failure::data)?;
         progress.at(5);
         let again = Bench::new(&actual)?;
         let last = folder.join("again.csv");
-        again.drive(&analysis.robot, &FIG_6, &last)?;
+        again.drive(&analysis.robot, &FIG_6, &last, existing)?;
         let again = Run::read(&last)?;
         let (before, after) = (farthest(&set.runs[0]), farthest(&again));
 

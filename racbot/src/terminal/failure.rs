@@ -52,11 +52,3 @@ impl From<InputError> for Failure {
         Self::data(error)
     }
 }
-
-/// Writes a file and the folders above it.
-pub(crate) fn save<C: AsRef<[u8]> + ?Sized>(path: &Path, content: &C) -> Result<(), Failure> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
-    }
-    Ok(std::fs::write(path, content).map_err(|error| InputError::io(path, &error))?)
-}

@@ -5,10 +5,12 @@ mod failure;
 #[cfg(feature = "simulation")]
 pub(crate) mod progress;
 mod table;
+mod target;
 
 pub(crate) use answer::{Answer, print};
-pub(crate) use failure::{Failure, save};
+pub(crate) use failure::Failure;
 pub(crate) use table::{Table, entry, wrapped};
+pub(crate) use target::Target;
 
 use std::process::ExitCode;
 

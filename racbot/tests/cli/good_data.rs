@@ -224,3 +224,63 @@ fn manoeuvres_make_a_data_set_in_which_a_hidden_effect_is_found() {
     let drive = ["simulate", "--robot", "truth.toml", "--limit-s", "1", "--out", "fpga"];
     assert!(!racbot(folder.path(), &drive).done().fits_80_columns().stdout.contains("not simulated"));
 }
+
+#[test]
+fn what_is_there_stays_unless_it_is_to_be_replaced() {
+    let folder = tempdir().unwrap();
+    let run = |arguments: &[&str]| racbot(folder.path(), arguments);
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let points = data("set-points/square.toml");
+    let points = points.to_str().unwrap();
+    let wheel_skew = data("runs/wheel-skew");
+    let wheel_skew = wheel_skew.to_str().unwrap();
+    fs::create_dir(folder.path().join("d")).unwrap();
+    let targets: [(&[&str], &str); 9] = [
+        (&["drive", "--card", "virtual", "--setpoints", points, "--record", "d/a.csv"], "d/a.csv"),
+        (&["drive", "--card", "virtual", "--setpoints", points, "--record", "d/a.mcap"], "d/a.mcap"),
+        (&["simulate", "--limit-s", "0.1", "--out", "s"], "s/run.csv"),
+        (&["simulate", "--manoeuvre", "spin", "--out", "m"], "m/run.csv"),
+        (&["calibrate", wheel_skew, "--out", "c"], "c/robot.toml"),
+        (&["generate", "--out", "g"], "g/rac4i65.v"),
+        (&["generate", "--stand-in", "a.bit"], "a.bit"),
+        (&["wave", "bus", "--out", "bus.vcd"], "bus.vcd"),
+        (&["radio", "--number", "3", "--velocity", "0,0.5,0", "--seconds", "0.1", "--out", "f.txt"], "f.txt"),
+    ];
+    for (arguments, target) in targets {
+        run(arguments).done();
+        let good = read(target);
+        fs::write(folder.path().join(target), "precious").unwrap();
+        run(arguments).refused(1, &[target, "exists already", "--force"]);
+        assert_eq!(read(target), b"precious", "{arguments:?}");
+        run(&[arguments, &["--force"]].concat()).done();
+        assert_eq!(read(target).len(), good.len(), "{arguments:?}");
+        // No temporary file is left behind.
+        let parent = folder.path().join(target);
+        let hidden = fs::read_dir(parent.parent().unwrap()).unwrap();
+        assert!(hidden.map(|e| e.unwrap().file_name()).all(|name| !name.to_string_lossy().starts_with(".racbot")));
+    }
+    // A place that nobody asked for is a free one.
+    for expected in ["out/bus.vcd", "out/bus-2.vcd"] {
+        assert!(run(&["wave", "bus"]).done().stdout.starts_with(expected));
+    }
+    // Another run joins the folder of the first, pictures and all.
+    run(&["simulate", "--limit-s", "0.1", "--out", "s", "--name", "b"]).done();
+    for name in ["s/run.csv", "s/trajectory.svg", "s/b.csv", "s/b-trajectory.svg"] {
+        assert!(folder.path().join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn a_report_is_refused_before_the_analysis_where_one_is() {
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("g")).unwrap();
+    fs::write(folder.path().join("g/gap.json"), "precious").unwrap();
+    fs::create_dir_all(folder.path().join("demo/board/runs")).unwrap();
+    fs::write(folder.path().join("demo/board/runs/run_01.csv"), "precious").unwrap();
+    let set = data("runs/wheel-skew");
+    racbot(folder.path(), &["gap", set.to_str().unwrap(), "--out", "g"])
+        .refused(1, &["g/gap.json", "exists already", "--force"]);
+    racbot(folder.path(), &["demo", "--out", "demo"]).refused(1, &["run_01.csv", "exists already", "--force"]);
+    assert_eq!(fs::read(folder.path().join("g/gap.json")).unwrap(), b"precious");
+    assert!(!folder.path().join("g/report.html").exists());
+}

@@ -13,6 +13,7 @@ mod write;
 pub use write::McapStream;
 
 pub(super) use read::read;
+pub(crate) use records::messages;
 
 #[cfg(test)]
 mod tests;

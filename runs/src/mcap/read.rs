@@ -8,7 +8,7 @@ use mcap::MAGIC;
 
 use super::fields::{Topic, Value};
 use super::records::messages;
-use crate::columns::{Column, missing_member};
+use crate::columns::{Column, GROUPS, WHEEL_GROUPS, missing_member};
 use crate::frames::Pose;
 use crate::{CameraSample, Run, RunError};
 
@@ -173,38 +173,27 @@ impl<'a> Builder<'a> {
         }
         let ticks = self.t.len();
         let columns: Vec<Column> = self.reals.keys().chain(self.counts.keys()).copied().collect();
-        type Group = (fn(usize) -> Column, usize);
-        let groups: [Group; 5] = [
-            (Column::Reference, 0),
-            (Column::Counts, 0),
-            (Column::Duty, 0),
-            (Column::Measured, 0),
-            (Column::Command, 3),
-        ];
-        for (group, at_least) in groups {
+        for (group, at_least) in GROUPS {
+            // Poses of the camera are whole, see `see`.
             if let Some(column) = missing_member(&columns, group, at_least) {
                 let hint = "log the whole group of fields, or none of it";
                 return Err(RunError::new(self.path, "no such field", hint).field(column.name()));
             }
         }
         let width = |group: fn(usize) -> Column| (0..100).take_while(|i| columns.contains(&group(*i))).count();
-        let by_wheel = [Column::Reference as fn(usize) -> Column, Column::Counts, Column::Duty, Column::Measured];
-        let widths = by_wheel.map(|g| (width(g), g));
-        let wheels = widths.iter().map(|(n, _)| *n).max().unwrap_or(0);
-        if let Some((n, group)) = widths.iter().find(|(n, _)| (1..wheels).contains(n)) {
+        let widths = GROUPS[..WHEEL_GROUPS].iter().map(|(group, _)| (width(*group), *group));
+        let wheels = widths.clone().map(|(n, _)| n).max().unwrap_or(0);
+        if let Some((n, group)) = widths.clone().find(|(n, _)| (1..wheels).contains(n)) {
             let hint = format!("other fields speak of {wheels} wheels; log this one for all of them");
-            return Err(RunError::new(self.path, "no such field", hint).field(group(*n).name()));
+            return Err(RunError::new(self.path, "no such field", hint).field(group(n).name()));
         }
-        let mut real = |column: Column| {
-            let mut numbers = self.reals.remove(&column).unwrap_or_default();
-            numbers.resize(ticks, f64::NAN);
-            numbers
-        };
-        let command = columns.contains(&Column::Command(0)).then(|| [0, 1, 2].map(|i| real(Column::Command(i))));
-        let reference = (0..widths[0].0).map(|i| real(Column::Reference(i))).collect();
-        let duty = (0..widths[2].0).map(|i| real(Column::Duty(i))).collect();
-        let measured = (0..widths[3].0).map(|i| real(Column::Measured(i))).collect();
-        let supply_v = columns.contains(&Column::Supply).then(|| real(Column::Supply));
+        let mut run = Run::with_columns(&columns);
+        for column in Column::all(wheels) {
+            if let Some(slot) = run.real_mut(column).filter(|_| column != Column::Time) {
+                *slot = self.reals.remove(&column).unwrap_or_default();
+                slot.resize(ticks, f64::NAN);
+            }
+        }
         let (mut counts, mut count_gaps) = (Vec::new(), Vec::new());
         for (mut numbers, mut gaps) in self.counts.into_values() {
             gaps.extend(numbers.len()..ticks);
@@ -212,18 +201,6 @@ impl<'a> Builder<'a> {
             counts.push(numbers);
             count_gaps.push(gaps);
         }
-        Ok(Run {
-            t: self.t,
-            command,
-            reference,
-            counts,
-            count_gaps,
-            duty,
-            measured,
-            supply_v,
-            camera: self.camera,
-            has_camera,
-            ..Run::default()
-        })
+        Ok(Run { t: self.t, counts, count_gaps, camera: self.camera, has_camera, ..run })
     }
 }

@@ -3,33 +3,38 @@
 //! A walk of our own: the crate's reader has arithmetic that damaged lengths overflow (mcap 0.26.0), takes as
 //! much memory as a damaged length says, and does not say whether a chunk that was cut off is the last one.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::io::Read;
 
 use mcap::MAGIC;
 use mcap::records::op;
 
+/// Largest chunk that is unpacked, bytes: writers make chunks of megabytes.
+const MOST_UNPACKED: u64 = 1 << 30;
+
 /// A schema, as far as it matters.
 #[derive(Debug)]
-pub(super) struct Schema {
-    pub(super) name: String,
-    pub(super) data: Vec<u8>,
+pub(crate) struct Schema {
+    pub(crate) name: String,
+    pub(crate) data: Vec<u8>,
 }
 
 /// A topic, as far as it matters.
 #[derive(Debug)]
-pub(super) struct Channel {
-    pub(super) id: u16,
-    pub(super) topic: String,
-    pub(super) message_encoding: String,
+pub(crate) struct Channel {
+    pub(crate) id: u16,
+    pub(crate) topic: String,
+    pub(crate) message_encoding: String,
     schema_id: u16,
 }
 
 /// What goes by.
-pub(super) struct Message<'a> {
-    pub(super) log_time: u64,
-    pub(super) channel: &'a Channel,
-    pub(super) schema: Option<&'a Schema>,
-    pub(super) data: &'a [u8],
+pub(crate) struct Message<'a> {
+    pub(crate) log_time: u64,
+    pub(crate) channel: &'a Channel,
+    pub(crate) schema: Option<&'a Schema>,
+    pub(crate) data: &'a [u8],
 }
 
 /// Schemas and channels so far.
@@ -41,7 +46,7 @@ struct Known {
 
 /// Gives every message to `take`; whole chunks only. A file without its end, as a kill leaves it, ends with
 /// its last whole record.
-pub(super) fn messages<E>(
+pub(crate) fn messages<E>(
     bytes: &[u8],
     damaged: impl Fn(String) -> E,
     mut take: impl FnMut(&Message<'_>) -> Result<(), E>,
@@ -62,7 +67,7 @@ pub(super) fn messages<E>(
             record(opcode, body, &mut known, &fail, &mut take)?;
             continue;
         };
-        let mut inner = chunk;
+        let mut inner = &chunk[..];
         while !inner.is_empty() {
             let Some((opcode, body)) = next(&mut inner) else {
                 return Err(fail("a record is longer than its chunk".to_owned()));
@@ -110,26 +115,49 @@ impl<'a> Fields<'a> {
 }
 
 /// The content of a chunk; nothing for another record.
-fn chunk(opcode: u8, body: &[u8]) -> Result<Option<&[u8]>, String> {
+fn chunk(opcode: u8, body: &[u8]) -> Result<Option<Cow<'_, [u8]>>, String> {
     if opcode != op::CHUNK {
         return Ok(None);
     }
     let mut fields = Fields(body);
-    // Times of the first and last message, and the size without compression.
-    fields.bytes(24)?;
+    // Times of the first and last message.
+    fields.bytes(16)?;
+    let size = fields.number(8)?;
     let crc = fields.number(4)?;
     let compression = fields.text()?;
-    if !compression.is_empty() {
-        return Err(format!("a chunk is compressed with {compression}: run `mcap decompress` on the file"));
-    }
     let length = fields.number(8)?;
-    let data = fields.bytes(length)?;
+    let data = unpacked(&compression, fields.bytes(length)?, size)?;
     // Zero says that there is none.
-    let found = crc32fast::hash(data);
+    let found = crc32fast::hash(&data);
     if crc != 0 && crc != u64::from(found) {
         return Err(format!("a chunk's CRC is {found:08x}, not {crc:08x}"));
     }
     Ok(Some(data))
+}
+
+/// A chunk's records; of a compressed one as many bytes as it says, and no more than [`MOST_UNPACKED`].
+fn unpacked<'a>(compression: &str, data: &'a [u8], size: u64) -> Result<Cow<'a, [u8]>, String> {
+    let all = |packed: &mut dyn Read| {
+        let mut out = Vec::new();
+        packed
+            .take(size.min(MOST_UNPACKED))
+            .read_to_end(&mut out)
+            .map_err(|e| format!("a chunk cannot be unpacked: {e}"))?;
+        if out.len() as u64 == size {
+            Ok(Cow::Owned(out))
+        } else {
+            Err(format!("a chunk unpacks to {} bytes, not {size}", out.len()))
+        }
+    };
+    match compression {
+        "" => Ok(Cow::Borrowed(data)),
+        "zstd" => {
+            let decoder = ruzstd::decoding::StreamingDecoder::new(data);
+            all(&mut decoder.map_err(|e| format!("a chunk cannot be unpacked: {e}"))?)
+        }
+        "lz4" => all(&mut lz4_flex::frame::FrameDecoder::new(data)),
+        other => Err(format!("a chunk is compressed with {other}: run `mcap decompress` on the file")),
+    }
 }
 
 fn record<E>(

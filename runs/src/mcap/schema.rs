@@ -25,6 +25,12 @@ pub(super) fn number(column: Column) -> u32 {
         Column::Counts(i) => wheel(201, i),
         Column::Duty(i) => wheel(301, i),
         Column::Measured(i) => wheel(401, i),
+        Column::Speed(i) => wheel(501, i),
+        Column::Current(i) => wheel(601, i),
+        Column::Odometry(i) => wheel(6, i),
+        Column::Gyro(i) => wheel(9, i),
+        Column::Acceleration(i) => wheel(12, i),
+        Column::ImuTemperature => 15,
         Column::Other => 0,
     }
 }

@@ -23,7 +23,7 @@ fn example() -> Run {
         supply_v: Some(vec![7.2; ticks as usize]),
         camera: camera.collect(),
         has_camera: true,
-        other: Vec::new(),
+        ..Run::default()
     }
 }
 
@@ -45,6 +45,7 @@ fn bytes_of(run: &Run, flush_every: usize, finish: bool) -> Vec<u8> {
             measured: &of(&run.measured),
             supply_v: 7.2,
             camera: camera.next_if(|s| s.tick == k).map(|s| s.pose),
+            ..Tick::default()
         };
         stream.tick(&tick).unwrap();
         if (k + 1) % flush_every == 0 {
@@ -152,7 +153,7 @@ fn errors_say_where_what_and_what_to_do() {
                 duty: &[*duty],
                 measured: &[],
                 supply_v: f64::NAN,
-                camera: None,
+                ..Tick::default()
             };
             stream.tick(&tick).unwrap();
         }
@@ -160,8 +161,7 @@ fn errors_say_where_what_and_what_to_do() {
         drop(stream);
         cursor.into_inner()
     };
-    let duty =
-        Layout { command: false, references: 0, counts: 0, duties: 1, measured: 0, supply: false, camera: false };
+    let duty = Layout { duties: 1, ..Layout::default() };
     let good = write(duty, &[(0.0, 0.0), (1.0, 0.5)]);
     let mut crc = good.clone();
     let at = crc.windows(8).position(|w| w == 0.5_f64.to_le_bytes()).unwrap();

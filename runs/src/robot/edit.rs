@@ -11,7 +11,7 @@ use crate::error::InputError;
 pub(super) fn effects(text: &str, effects: &[Effect], path: &Path) -> Result<String, InputError> {
     let fault = |e: &dyn std::fmt::Display| InputError::new(path, e.to_string(), "correct the file");
     // What the file says now, and how it was written.
-    let before = Robot::parse(text, path)?.effects;
+    let before = Robot::parse_partial(text, path)?.effects;
     let mut document: DocumentMut = text.parse().map_err(|e: toml_edit::TomlError| fault(&e))?;
     let empty = ArrayOfTables::new();
     let written = document.get("effect").and_then(Item::as_array_of_tables).unwrap_or(&empty);
@@ -37,7 +37,7 @@ pub(super) fn effects(text: &str, effects: &[Effect], path: &Path) -> Result<Str
         write::effect(&mut out, effect);
     }
     // Whoever reads it must find what was meant.
-    let again = Robot::parse(&out, path)?;
+    let again = Robot::parse_partial(&out, path)?;
     let same = again.effects.len() == effects.len() && effects.iter().all(|e| again.effects.contains(e));
     if same { Ok(out) } else { Err(fault(&"its effects cannot be changed in place")) }
 }

@@ -20,6 +20,41 @@ pub(super) struct Field {
     pub(super) set: fn(&mut Robot, f64),
 }
 
+impl Field {
+    /// How messages and [`Robot::missing`] call it.
+    pub(super) fn path(&self) -> String {
+        if self.table.is_empty() { self.name.to_owned() } else { format!("{}.{}", self.table, self.name) }
+    }
+}
+
+/// Another way to write a number of the file.
+pub(super) struct Synonym {
+    /// Key, at the top of the file.
+    pub(super) name: &'static str,
+    /// The number it stands for.
+    pub(super) of: &'static str,
+    /// What it means.
+    pub(super) meaning: &'static str,
+    /// Its value from that of the key.
+    pub(super) value: fn(&Robot, f64) -> f64,
+}
+
+/// All of them; the gear ratio is known when they are read.
+pub(super) const SYNONYMS: &[Synonym] = &[
+    Synonym {
+        name: "encoder_counts_per_wheel_rev",
+        of: "encoder_counts_per_motor_rev",
+        meaning: "counts per turn of the output shaft",
+        value: |robot, x| x / robot.gear_ratio,
+    },
+    Synonym {
+        name: "travel_per_rev_m",
+        of: "wheel_radius_m",
+        meaning: "metres that one turn of the output shaft moves",
+        value: |_, x| x / std::f64::consts::TAU,
+    },
+];
+
 /// Which numbers make physical sense.
 #[derive(Clone, Copy)]
 pub(super) enum Range {
@@ -27,8 +62,6 @@ pub(super) enum Range {
     Positive(f64),
     /// 0 ≤ x ≤ limit.
     NotNegative(f64),
-    /// Whole numbers, 1 ≤ x ≤ limit.
-    Whole(f64),
     /// |x| ≤ limit.
     Within(f64),
 }
@@ -42,15 +75,13 @@ impl Range {
         let (low, high, limit) = match self {
             Self::Positive(limit) => (x <= 0.0, x > limit, limit),
             Self::NotNegative(limit) => (x < 0.0, x > limit, limit),
-            Self::Whole(limit) => (x < 1.0, x > limit, limit),
             Self::Within(limit) => (false, x.abs() > limit, limit),
         };
         match self {
-            Self::Positive(_) | Self::Whole(_) if low => Some(format!("{x} is not positive")),
+            Self::Positive(_) if low => Some(format!("{x} is not positive")),
             Self::NotNegative(_) if low => Some(format!("{x} is negative")),
             Self::Within(_) if high => Some(format!("{x} is not within ±{limit}")),
             _ if high => Some(format!("{x} is more than {limit}")),
-            Self::Whole(_) if x.fract() != 0.0 => Some(format!("{x} is not a whole number")),
             _ => None,
         }
     }
@@ -92,27 +123,25 @@ macro_rules! field {
     };
 }
 
-use Range::{NotNegative, Positive, Whole};
+use Range::{NotNegative, Positive};
 
 /// What nobody needs to know of a robot whose wheels are off the floor.
 pub(super) const BODY: [&str; 2] = ["mass_kg", "yaw_inertia_kg_m2"];
 
 /// All numbers, in the order of the file.
 pub(super) const FIELDS: &[Field] = &[
-    field!("", wheel_radius_m, Positive(1.0), "wheel radius in metres", wheel_radius_m),
+    field!("", wheel_radius_m, Positive(10.0), "wheel radius in metres", wheel_radius_m),
     field!("", mass_kg, Positive(1e3), "mass of the whole robot in kilograms", mass_kg),
     field!("", yaw_inertia_kg_m2, Positive(1e3), "moment of inertia about the vertical in kg m2", yaw_inertia_kg_m2),
     field!("", gear_ratio, Positive(1e4), "motor turns per wheel turn", gear_ratio),
     field!("", gear_efficiency = 1.0, Positive(1.0), "share of torque the gear passes on"),
-    Field {
-        table: "",
-        name: "encoder_counts_per_motor_rev",
-        meaning: "counts per turn of the motor shaft, four per encoder line",
-        range: Whole(1e8),
-        optional: false,
-        get: |r| Some(f64::from(r.encoder_counts_per_motor_rev)),
-        set: |r, x| r.encoder_counts_per_motor_rev = x as u32,
-    },
+    field!(
+        "",
+        encoder_counts_per_motor_rev,
+        Positive(1e15),
+        "counts per turn of the motor shaft, four per encoder line (or encoder_counts_per_wheel_rev)",
+        encoder_counts_per_motor_rev
+    ),
     field!("", supply_v, Positive(1e3), "motor supply in volts", supply_v),
     field!("", top_speed_rad_s?, Positive(1e5), "fastest turn of a wheel in rad/s", top_speed_rad_s),
     field!("", control_rate_hz, Positive(1e6), "control ticks a second", control_rate_hz),

@@ -3,6 +3,7 @@
 mod edit;
 mod effect;
 mod fields;
+mod layout;
 mod parse;
 mod write;
 
@@ -31,8 +32,8 @@ pub struct Robot {
     pub gear_ratio: f64,
     /// Share of the transmitted torque that is not lost in the gear, in (0, 1].
     pub gear_efficiency: f64,
-    /// Counts per turn of the motor shaft, after ×4 decoding.
-    pub encoder_counts_per_motor_rev: u32,
+    /// Counts per turn of the motor shaft, after ×4 decoding; any positive number.
+    pub encoder_counts_per_motor_rev: f64,
     /// Nominal supply of the motors, V.
     pub supply_v: f64,
     /// Fastest turn of a wheel, rad/s, where it is not the supply that limits it.
@@ -62,7 +63,13 @@ pub struct Robot {
     /// What the file says beside: (table, key, value), kept and ignored. A key that resembles one of ours
     /// is refused as a slip instead.
     pub other: Vec<(String, String, toml::Value)>,
+    /// Keys that the file leaves out and only some answers need, such as `motor.resistance_ohm` or [`WHEELS`]; what
+    /// stands here in their place is no statement about the robot. Empty for [`Robot::load`].
+    pub missing: Vec<String>,
 }
+
+/// What [`Robot::missing`] says where the file has neither `[[wheel]]` nor `body_radius_m`.
+pub const WHEELS: &str = "[[wheel]]";
 
 /// Where the wheels are.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,7 +150,7 @@ impl Robot {
             yaw_inertia_kg_m2: 0.0095,
             gear_ratio: 3.71,
             gear_efficiency: 0.88,
-            encoder_counts_per_motor_rev: 2048,
+            encoder_counts_per_motor_rev: 2048.0,
             supply_v: 7.2,
             top_speed_rad_s: None,
             control_rate_hz: 1000.0,
@@ -164,6 +171,7 @@ impl Robot {
             pi: PiParameters { kp: 0.15, ki: 0.8, arithmetic: None, registers: Vec::new() },
             effects: Vec::new(),
             other: Vec::new(),
+            missing: Vec::new(),
         }
     }
 
@@ -171,8 +179,8 @@ impl Robot {
     ///
     /// # Errors
     /// [`InputError`] with line, column and field for text that is no TOML, missing, unknown or
-    /// contradictory fields (`[[wheel]]` beside `body_radius_m` or `skew_rad`), numbers that are
-    /// not finite or out of physical range, and wheels that cannot drive the robot.
+    /// contradictory fields (`[[wheel]]` beside another `body_radius_m` or `skew_rad`), numbers that are
+    /// not finite or out of physical range, and wheels that cannot drive the robot. All missing fields are named at once.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = std::fs::read_to_string(path).map_err(|e| InputError::io(path, &e))?;
@@ -184,7 +192,30 @@ impl Robot {
     /// # Errors
     /// As [`Robot::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        parse::robot(text, path)
+        parse::robot(text, path, true)
+    }
+
+    /// Reads a `robot.toml` that need not say everything: [`Robot::missing`] has what it leaves out.
+    ///
+    /// # Errors
+    /// As [`Robot::load`], but for missing fields.
+    pub fn load_partial(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|e| InputError::io(path, &e))?;
+        Self::parse_partial(&text, path)
+    }
+
+    /// Reads the text of such a file; `path` is for the error messages.
+    ///
+    /// # Errors
+    /// As [`Robot::load_partial`].
+    pub fn parse_partial(text: &str, path: &Path) -> Result<Self, InputError> {
+        parse::robot(text, path, false)
+    }
+
+    /// Those of some keys (such as `mass_kg` or `motor.resistance_ohm`) that the file leaves out.
+    pub fn lacks<'a>(&self, keys: &[&'a str]) -> Vec<&'a str> {
+        keys.iter().copied().filter(|key| self.missing.iter().any(|m| m == key)).collect()
     }
 
     /// Writes a `robot.toml` that [`Robot::load`] reads back as an equal robot. Comments of a file
@@ -195,7 +226,7 @@ impl Robot {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), InputError> {
         let path = path.as_ref();
         self.validate(path)?;
-        std::fs::write(path, self.to_toml()).map_err(|e| InputError::io(path, &e))
+        crate::output::write_whole(path, self.to_toml().as_bytes(), crate::output::Existing::Replace)
     }
 
     /// The text of the robot's `robot.toml`.
@@ -217,7 +248,7 @@ impl Robot {
     /// # Errors
     /// [`InputError`] about `path`, without line numbers.
     pub fn validate(&self, path: &Path) -> Result<(), InputError> {
-        parse::robot(&self.to_toml(), path).map(|_| ()).map_err(|e| InputError { line: None, column: None, ..e })
+        parse::robot(&self.to_toml(), path, true).map(|_| ()).map_err(|e| InputError { line: None, column: None, ..e })
     }
 
     /// The kinematics of the nominal robot.
@@ -251,7 +282,7 @@ impl Robot {
 
     /// Encoder counts per radian of the motor shaft.
     pub fn counts_per_motor_rad(&self) -> f64 {
-        f64::from(self.encoder_counts_per_motor_rev) / TAU
+        self.encoder_counts_per_motor_rev / TAU
     }
 
     /// Encoder counts per radian of the wheel.
@@ -265,9 +296,14 @@ impl Robot {
     }
 
     /// The speed (rad/s at the wheel) at which back-EMF eats up a supply, or the top speed if that is less;
-    /// infinite for a motor whose drive makes up for the back-EMF and whose top speed nobody gave.
+    /// infinite for a motor whose drive makes up for the back-EMF, or of which nothing is known, and whose top speed
+    /// nobody gave.
     pub fn no_load_wheel_speed(&self, supply_v: f64) -> f64 {
-        let by_supply = supply_v / (self.motor.back_emf() * self.gear_ratio);
+        let by_supply = if self.lacks(&["supply_v", "motor.torque_constant", "gear_ratio"]).is_empty() {
+            supply_v / (self.motor.back_emf() * self.gear_ratio)
+        } else {
+            f64::INFINITY
+        };
         self.top_speed_rad_s.map_or(by_supply, |top| top.min(by_supply))
     }
 

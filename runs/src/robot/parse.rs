@@ -4,15 +4,16 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::fields::{BODY, FIELDS, Range};
-use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support};
+use super::fields::{BODY, FIELDS, Range, SYNONYMS};
+use super::layout::layout;
+use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support, WHEELS};
 use crate::error::{InputError, line_and_column, nearest};
-use crate::geometry::Wheel;
 
 /// Keys beside [`FIELDS`].
 const OTHER_KEYS: &[(&str, &str)] = &[
     ("", "body_radius_m"),
     ("", "skew_rad"),
+    ("", "skew_deg"),
     ("", "camera_noise"),
     ("", "support"),
     ("", "motor"),
@@ -22,56 +23,89 @@ const OTHER_KEYS: &[(&str, &str)] = &[
     ("pi", "arithmetic"),
     ("pi", "registers"),
 ];
-const WHEEL_KEYS: &[&str] = &["x_m", "y_m", "drive_rad", "roller_rad"];
-/// The league's fields are 12 m long; a body radius beyond this is a slip of units.
-const LENGTH: Range = Range::Positive(10.0);
-const COORDINATE: Range = Range::Within(10.0);
-const ANGLE: Range = Range::Within(std::f64::consts::TAU);
 
-type Value<'a> = Spanned<DeValue<'a>>;
+pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 
-pub(super) fn robot(text: &str, path: &Path) -> Result<Robot, InputError> {
+/// A robot of which everything is said if that is asked for.
+pub(super) fn robot(text: &str, path: &Path, whole: bool) -> Result<Robot, InputError> {
     // Editors on Windows put a byte order mark in front.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { text, path };
     let root = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
     let top = Section { source, name: "", start: 0, table: root.get_ref() };
-    let motor = top.section("motor")?;
+    let motor = if top.table.contains_key("motor") { Some(top.section("motor")?) } else { None };
     // A robot whose speed loop nobody knows has none to compare.
     let pi = if top.table.contains_key("pi") { Some(top.section("pi")?) } else { None };
-    // Every field is set below but for the optional ones, which are given their defaults here.
+    // What the file leaves out has its default here, or stands in `missing`.
     let no_loop = PiParameters { kp: 0.0, ki: 0.0, arithmetic: None, registers: Vec::new() };
-    let mut robot = Robot { gear_efficiency: 1.0, camera_rate_hz: 0.0, pi: no_loop, ..Robot::racbot() };
-    for section in [Some(&top), Some(&motor), pi.as_ref()].into_iter().flatten() {
+    let mut robot =
+        Robot { gear_ratio: 1.0, gear_efficiency: 1.0, camera_rate_hz: 0.0, pi: no_loop, ..Robot::racbot() };
+    for section in [Some(&top), motor.as_ref(), pi.as_ref()].into_iter().flatten() {
         section.known(&keys_of(section.name), &mut robot.other)?;
     }
     robot.support = support(&top)?;
+    let mut missing: Vec<(String, usize, &str)> = Vec::new();
     for field in FIELDS {
         let section = match field.table {
-            "motor" => &motor,
+            "motor" => motor.as_ref(),
             "pi" => match &pi {
-                Some(pi) => pi,
+                Some(pi) => Some(pi),
                 None => continue,
             },
-            _ => &top,
+            _ => Some(&top),
         };
-        match section.number(field.name, field.range, field.meaning)? {
+        let read = section.map_or(Ok(None), |section| section.number(field.name, field.range, field.meaning))?;
+        match read {
             Some(x) => (field.set)(&mut robot, x),
             None if field.optional => {}
             None if robot.support == Support::Blocks && BODY.contains(&field.name) => {}
-            None => return Err(section.missing(field.name, field.meaning)),
+            None => missing.push((field.path(), section.map_or(0, |s| s.start), field.meaning)),
         }
     }
-    if robot.support == Support::Blocks && robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2 == 0.0 {
-        let hint = "on blocks nothing else turns: give rotor_inertia or wheel_inertia_kg_m2";
-        return Err(InputError { hint: hint.to_owned(), ..motor.missing("rotor_inertia", "") });
+    for synonym in SYNONYMS {
+        let Some(field) = FIELDS.iter().find(|f| f.name == synonym.of) else { continue };
+        let Some(x) = top.number(synonym.name, field.range, synonym.meaning)? else { continue };
+        let x = (synonym.value)(&robot, x);
+        let said = missing.iter().all(|(name, ..)| name != synonym.of);
+        if let (Some(value), Some(given)) = (top.table.get(synonym.name), (field.get)(&robot))
+            && said
+            && (given / x - 1.0).abs() > 1e-6
+        {
+            let what = format!("contradicts {}: it would be {x}", synonym.of);
+            return Err(top.fault(synonym.name, value, what, "keep one of the two"));
+        }
+        (field.set)(&mut robot, x);
+        // An encoder on the output shaft needs no gear ratio: it is then 1, unless the file says it.
+        let counts = synonym.of == "encoder_counts_per_motor_rev";
+        missing.retain(|(name, ..)| name != synonym.of && !(counts && name == "gear_ratio"));
     }
-    robot.layout = layout(&top)?;
+    let turns = robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2 > 0.0;
+    if robot.support == Support::Blocks && !turns && missing.iter().all(|(name, ..)| name != "motor.rotor_inertia") {
+        let hint = "on blocks nothing else turns: give rotor_inertia or wheel_inertia_kg_m2";
+        return Err(InputError {
+            hint: hint.to_owned(),
+            ..motor.as_ref().unwrap_or(&top).missing("rotor_inertia", "")
+        });
+    }
+    match layout(&top)? {
+        Some(layout) => robot.layout = layout,
+        None => {
+            missing.push((WHEELS.to_owned(), 0, "one a wheel, which `racbot init --wheels` writes, or body_radius_m"));
+            robot.layout = Layout::Wheels(Vec::new());
+        }
+    }
+    if whole && !missing.is_empty() {
+        return Err(top.all_missing(&missing));
+    }
+    robot.missing = missing.into_iter().map(|(name, ..)| name).collect();
     robot.camera_noise = top.numbers("camera_noise", Range::NotNegative(1e2))?;
     if let Some(pi) = &pi {
         read_pi_extras(pi, &mut robot)?;
     }
     robot.effects = effects(&top)?;
+    if robot.missing.iter().any(|m| m == WHEELS) {
+        return Ok(robot);
+    }
     let wheel_at = top.table.get("wheel").or_else(|| top.table.get("body_radius_m"));
     robot.geometry().map_err(|e| match wheel_at {
         Some(value) => top.fault("wheel", value, e.to_string(), ""),
@@ -94,47 +128,8 @@ fn support(top: &Section) -> Result<Support, InputError> {
 
 fn keys_of(table: &str) -> Vec<&'static str> {
     let others = OTHER_KEYS.iter().filter(|(t, _)| *t == table).map(|(_, name)| *name);
-    FIELDS.iter().filter(|f| f.table == table).map(|f| f.name).chain(others).collect()
-}
-
-fn layout(top: &Section) -> Result<Layout, InputError> {
-    let body_radius = top.number("body_radius_m", LENGTH, "chassis centre to wheel contact")?;
-    let Some(wheels) = top.table.get("wheel") else {
-        let Some(body_radius_m) = body_radius else {
-            return Err(top.missing("body_radius_m", "chassis centre to wheel contact in metres"));
-        };
-        let skew = top.numbers("skew_rad", Range::Within(std::f64::consts::FRAC_PI_2))?;
-        let Some(skew_rad) = skew else {
-            return Err(top.missing("skew_rad", "one angle a wheel, [0.0, 0.0, 0.0] if none"));
-        };
-        return Ok(Layout::Rac { body_radius_m, skew_rad });
-    };
-    for key in ["body_radius_m", "skew_rad"] {
-        if let Some(value) = top.table.get(key) {
-            let hint = "keep one of the two; [[wheel]] describes any robot";
-            return Err(top.fault(key, value, "contradicts the [[wheel]] tables", hint));
-        }
-    }
-    let Some(list) = wheels.get_ref().as_array() else {
-        return Err(top.fault("wheel", wheels, "is no array of tables", "write [[wheel]]"));
-    };
-    let mut read = Vec::new();
-    for value in list {
-        let section = top.inner("wheel", value)?;
-        section.known(WHEEL_KEYS, &mut Vec::new())?;
-        let mut numbers = [0.0; 4];
-        for (i, (slot, key)) in numbers.iter_mut().zip(WHEEL_KEYS).enumerate() {
-            let range = if i < 2 { COORDINATE } else { ANGLE };
-            *slot = match section.number(key, range, "")? {
-                Some(x) => x,
-                None if *key == "roller_rad" => 0.0,
-                None => return Err(section.missing(key, "one per wheel")),
-            };
-        }
-        let [x_m, y_m, drive_rad, roller_rad] = numbers;
-        read.push(Wheel { x_m, y_m, drive_rad, roller_rad });
-    }
-    Ok(Layout::Wheels(read))
+    let synonyms = SYNONYMS.iter().filter(|_| table.is_empty()).map(|s| s.name);
+    FIELDS.iter().filter(|f| f.table == table).map(|f| f.name).chain(synonyms).chain(others).collect()
 }
 
 fn read_pi_extras(pi: &Section, robot: &mut Robot) -> Result<(), InputError> {
@@ -231,11 +226,11 @@ impl Source<'_> {
 }
 
 /// One table of the file.
-struct Section<'a> {
+pub(super) struct Section<'a> {
     source: Source<'a>,
     name: &'a str,
     start: usize,
-    table: &'a DeTable<'a>,
+    pub(super) table: &'a DeTable<'a>,
 }
 
 impl<'a> Section<'a> {
@@ -248,16 +243,31 @@ impl<'a> Section<'a> {
         InputError::new(self.source.path, what, hint).at(line, column).field(self.path_of(key))
     }
 
-    fn fault(&self, key: &str, at: &Value, what: impl Into<String>, hint: &str) -> InputError {
+    pub(super) fn fault(&self, key: &str, at: &Value, what: impl Into<String>, hint: &str) -> InputError {
         self.error_at(key, at.span().start, what.into(), hint)
     }
 
-    fn missing(&self, key: &str, meaning: &str) -> InputError {
+    /// Everything that is missing, at once: key, where its table begins, what it means.
+    fn all_missing(&self, missing: &[(String, usize, &str)]) -> InputError {
+        let keys: Vec<&str> = missing.iter().map(|(key, ..)| key.as_str()).collect();
+        let start = missing.first().map_or(0, |(_, start, _)| *start);
+        if let [(key, _, meaning)] = missing {
+            return self.error_at(key, start, "is missing".to_owned(), &format!("add it: {meaning}"));
+        }
+        let meanings: Vec<String> = missing.iter().map(|(key, _, meaning)| format!("{key} ({meaning})")).collect();
+        self.error_at(&keys.join(", "), start, "are missing".to_owned(), &format!("add {}", meanings.join(", ")))
+    }
+
+    pub(super) fn missing(&self, key: &str, meaning: &str) -> InputError {
         self.error_at(key, self.start, "is missing".to_owned(), &format!("add it: {meaning}"))
     }
 
     /// Refuses a key that looks like a slip of one of these, keeps others.
-    fn known(&self, keys: &[&str], other: &mut Vec<(String, String, toml::Value)>) -> Result<(), InputError> {
+    pub(super) fn known(
+        &self,
+        keys: &[&str],
+        other: &mut Vec<(String, String, toml::Value)>,
+    ) -> Result<(), InputError> {
         for (name, _) in self.in_file_order() {
             let key: &str = name.get_ref();
             if keys.contains(&key) {
@@ -290,14 +300,14 @@ impl<'a> Section<'a> {
         self.inner(key, value)
     }
 
-    fn inner(&self, key: &'a str, value: &'a Value<'a>) -> Result<Section<'a>, InputError> {
+    pub(super) fn inner(&self, key: &'a str, value: &'a Value<'a>) -> Result<Section<'a>, InputError> {
         let Some(table) = value.get_ref().as_table() else {
             return Err(self.fault(key, value, "is no table", "see the example robot.toml"));
         };
         Ok(Section { source: self.source, name: key, start: value.span().start, table })
     }
 
-    fn number(&self, key: &str, range: Range, meaning: &str) -> Result<Option<f64>, InputError> {
+    pub(super) fn number(&self, key: &str, range: Range, meaning: &str) -> Result<Option<f64>, InputError> {
         let Some(value) = self.table.get(key) else { return Ok(None) };
         let hint = if meaning.is_empty() { String::new() } else { format!("give the {meaning}") };
         let hint = hint.replace("the the ", "the ");
@@ -312,7 +322,7 @@ impl<'a> Section<'a> {
     }
 
     /// An array of exactly `N` numbers.
-    fn numbers<const N: usize>(&self, key: &str, range: Range) -> Result<Option<[f64; N]>, InputError> {
+    pub(super) fn numbers<const N: usize>(&self, key: &str, range: Range) -> Result<Option<[f64; N]>, InputError> {
         let Some(value) = self.table.get(key) else { return Ok(None) };
         let hint = format!("give {N} numbers");
         let Some(list) = value.get_ref().as_array() else {
@@ -335,7 +345,7 @@ impl<'a> Section<'a> {
     }
 }
 
-fn number(value: &DeValue) -> Option<f64> {
+pub(super) fn number(value: &DeValue) -> Option<f64> {
     match value {
         DeValue::Float(x) => x.as_str().parse().ok(),
         DeValue::Integer(_) => whole(value).map(|i| i as f64),

@@ -63,6 +63,63 @@ gain = 12.5
 motion = [1, 2]
 ";
 
+/// A wheel in front, driving to the right.
+fn wheel(y_m: f64) -> String {
+    format!("[[wheel]]\nx_m = 0\ny_m = {y_m}\ndrive_rad = 0\n")
+}
+
+#[test]
+fn files_are_read_as_their_owners_write_them() {
+    let read = |text: &str| Robot::parse(text, Path::new("r")).unwrap();
+    let of = |line: &str, with_this: &str| read(&with(line, with_this));
+    let plain = read(EXAMPLE);
+    // Any counts: on the output shaft, not whole, and more than 32 bits.
+    let fine = of("encoder_counts_per_motor_rev = 2048", "encoder_counts_per_wheel_rev = 1e9");
+    assert!((fine.counts_per_wheel_rad() / (1e9 / TAU) - 1.0).abs() < 1e-12);
+    let odd = of("= 2048", "= 43.7");
+    assert_eq!(odd.encoder_counts_per_motor_rev, 43.7);
+    assert_eq!(Robot::parse(&fine.to_toml(), Path::new("again")).unwrap(), fine);
+    let axis = of("wheel_radius_m = 0.0275", "travel_per_rev_m = 0.02");
+    assert!((axis.wheel_radius_m * TAU - 0.02).abs() < 1e-15);
+    // Degrees, turns, and skews that nobody wrote.
+    assert_eq!(of("skew_rad = [0.0, 0.1, 0.0]", "skew_deg = [0, 365, -720]").layout, {
+        let skew_rad = [0.0, 5.0_f64.to_radians(), 0.0];
+        let Layout::Rac { skew_rad: read, .. } = of("skew_rad = [0.0, 0.1, 0.0]", "skew_deg = [0, 365, -720]").layout
+        else {
+            panic!("is the paper's robot")
+        };
+        assert!(read.iter().zip(skew_rad).all(|(a, b)| (a - b).abs() < 1e-12), "{read:?}");
+        Layout::Rac { body_radius_m: 0.085, skew_rad: read }
+    });
+    assert_eq!(read(&without("skew_rad")).layout, Layout::Rac { body_radius_m: 0.085, skew_rad: [0.0; 3] });
+    let turned = without("skew_rad")
+        + "\n[[wheel]]\nx_m = 0\ny_m = 0.085\ndrive_deg = 725\n[[wheel]]\nx_m = 0.085\ny_m = 0\ndrive_deg = -90\n\
+           [[wheel]]\nx_m = -0.085\ny_m = 0\ndrive_rad = 1.5707963\nroller_deg = 45\n";
+    let wheels = read(&turned).layout.wheels();
+    assert!((wheels[0].drive_rad - 5.0_f64.to_radians()).abs() < 1e-12);
+    assert!((wheels[2].roller_rad - std::f64::consts::FRAC_PI_4).abs() < 1e-12);
+    // Both descriptions, where they agree.
+    let mut both = Robot { layout: Layout::Wheels(plain.layout.wheels()), ..plain.clone() }.to_toml();
+    both = format!("body_radius_m = 0.0851\nskew_deg = [0, 5.73, 0]\n{both}");
+    assert_eq!(read(&both).layout.wheels(), plain.layout.wheels());
+    assert_eq!(read(&both.replace("5.73", "0")).layout.wheels(), plain.layout.wheels(), "no skew is said");
+}
+
+#[test]
+fn what_only_some_answers_need_may_be_missing() {
+    let little = "wheel_radius_m = 0.03\nencoder_counts_per_wheel_rev = 4096\nbody_radius_m = 0.08\n";
+    let robot = Robot::parse_partial(little, Path::new("r")).unwrap();
+    assert!(robot.missing.iter().any(|m| m == "motor.resistance_ohm") && robot.missing.iter().any(|m| m == "mass_kg"));
+    assert_eq!(robot.lacks(&["encoder_counts_per_motor_rev", "wheel_radius_m", "supply_v"]), ["supply_v"]);
+    assert!(robot.no_load_wheel_speed(7.2).is_infinite(), "nothing is known of the motor");
+    assert_eq!(Robot::parse_partial(&robot.to_toml(), Path::new("again")).unwrap(), robot, "{}", robot.to_toml());
+    let e = error(little);
+    assert!(e.field.contains("mass_kg") && e.field.contains("motor.torque_constant"), "all at once: {e}");
+    let none = Robot::parse_partial("", Path::new("r")).unwrap();
+    assert_eq!(none.lacks(&[WHEELS]), [WHEELS]);
+    assert!(error("").what.contains("missing"));
+}
+
 #[test]
 fn the_shipped_file_is_the_built_in_robot() {
     assert_eq!(Robot::load(shipped_path()).unwrap(), Robot::racbot());
@@ -118,11 +175,21 @@ fn errors_say_where_what_and_what_to_do() {
         (with("kp = 0.15", "kp = 0.15\nkd = 1"), "pi.kd", 23, "not a known field"),
         (with("[0.0, 0.1, 0.0]", "[0.0, 0.1]"), "skew_rad", 3, "has 2 entries"),
         (with("[0.0, 0.1, 0.0]", "[0.0, inf, 0.0]"), "skew_rad", 3, "not a finite"),
-        (with("= 2048", "= 2048.5"), "encoder_counts_per_motor_rev", 7, "whole number"),
+        (with("= 2048", "= -2048"), "encoder_counts_per_motor_rev", 7, "not positive"),
+        (
+            with("= 2048", "= 2048\nencoder_counts_per_wheel_rev = 9000"),
+            "encoder_counts_per_wheel_rev",
+            8,
+            "contradicts",
+        ),
+        (without("mass_kg").replace("blocks", "floor").replace("\nki = 0.8", ""), "mass_kg, pi.ki", 1, "are missing"),
         (with("\"blocks\"", "\"bricks\""), "support", 14, "neither"),
         (with("value = 0.0698", "value = \"x\""), "skew_1_rad.value", 33, "no number"),
         (with("name = \"wheel-skew\"", "nam = 1"), "effect.name", 27, "is missing"),
-        (format!("{EXAMPLE}[[wheel]]\nx_m = 0"), "body_radius_m", 2, "contradicts"),
+        (format!("{EXAMPLE}{}", wheel(0.1)), "body_radius_m", 2, "wheel 1 stands 0.1000 m from the centre"),
+        (format!("{EXAMPLE}{}", wheel(0.085).repeat(3)), "skew_rad", 3, "wheel 2 drives another way"),
+        (format!("{EXAMPLE}{}", wheel(0.085)), "skew_rad", 3, "has 3 entries, but there are 1"),
+        (format!("{EXAMPLE}[[wheel]]\nx_m = 0"), "wheel.y_m", 38, "is missing"),
         (with("mass_kg = 2.4", "mass_kg = = 2"), "", 4, ""),
         (with("mass_kg = 2.4", "mass_kg = 2.4\nmass_kg = 2.4"), "", 5, "duplicate"),
     ];
@@ -143,7 +210,7 @@ fn wheels_that_cannot_drive_are_refused() {
     assert!(error(&text).what.contains("singular"), "{}", error(&text));
     let mut robot = Robot::racbot();
     robot.layout = Layout::Wheels(rac_wheels(0.085, [0.0; 3])[..2].to_vec());
-    assert!(robot.validate(Path::new("r")).unwrap_err().what.contains("at least 3"));
+    assert!(robot.validate(Path::new("r")).unwrap_err().what.contains("one axle"));
     robot = Robot { mass_kg: f64::INFINITY, ..Robot::racbot() };
     assert_eq!(robot.validate(Path::new("r")).unwrap_err().field, "mass_kg");
 }
@@ -160,7 +227,7 @@ fn one_axis_alone_is_a_robot_on_blocks() {
     assert!(robot.no_load_wheel_speed(10.0).is_infinite());
     assert_eq!(robot.camera_rate_hz, 0.0, "unknown");
     assert_eq!(Robot::parse(&robot.to_toml(), Path::new("again")).unwrap(), robot, "{}", robot.to_toml());
-    assert!(error(&text.replace("blocks", "floor")).what.contains("is missing"), "the body counts on the floor");
+    assert!(error(&text.replace("blocks", "floor")).what.contains("missing"), "the body counts on the floor");
 
     let three = Robot { support: Support::Blocks, ..Robot::racbot() };
     assert_eq!(three.first_axes(1).layout.wheels(), three.layout.wheels()[..1]);

@@ -2,12 +2,13 @@
 
 use std::fmt::{Display, Write as _};
 
-use super::fields::FIELDS;
+use super::fields::{FIELDS, Field};
 use super::{Effect, Layout, Robot, Support};
 
 pub(super) fn robot(robot: &Robot) -> String {
     let mut out = String::from("# Robot parameters, SI units.\n");
-    for field in FIELDS.iter().filter(|f| f.table.is_empty()) {
+    let said = |f: &&Field| !robot.missing.contains(&f.path());
+    for field in FIELDS.iter().filter(|f| f.table.is_empty()).filter(said) {
         if let Some(x) = (field.get)(robot) {
             line(&mut out, field.name, number(x));
         }
@@ -25,10 +26,14 @@ pub(super) fn robot(robot: &Robot) -> String {
         out.push_str("support = \"blocks\"\n");
     }
     others(&mut out, robot, "");
+    let silent = |table: &str| FIELDS.iter().filter(|f| f.table == table && !f.optional).all(|f| !said(&f));
     let has_loop = robot.pi.kp != 0.0 || robot.pi.ki != 0.0 || robot.pi.arithmetic.is_some();
     for table in ["motor", "pi"].into_iter().filter(|table| *table != "pi" || has_loop) {
+        if silent(table) {
+            continue;
+        }
         let _ = writeln!(out, "\n[{table}]");
-        for field in FIELDS.iter().filter(|f| f.table == table) {
+        for field in FIELDS.iter().filter(|f| f.table == table).filter(said) {
             if let Some(x) = (field.get)(robot) {
                 let _ = writeln!(out, "{} = {}  # {}", field.name, number(x), field.meaning);
             }

@@ -1,28 +1,26 @@
 //! A whole drive along set points, from arming to rest.
 
-use super::recording::Recording;
-use super::{ClosedLoop, Control, LoopError};
+use super::memory::MemoryStream;
+use super::{Control, LoopError, VirtualRobot, whole_tick_clock_hz};
 use crate::fpga::Fpga;
-use driver::Settings;
-use driver::drive::Controller;
-use driver::recording::logged_robot;
-use fixed_kin::registers::FAULT_FIELDS;
+use driver::Board;
+use driver::drive::{Ending, Plan};
+use driver::realtime::Clock;
+use driver::recording::{Recording, logged_robot};
 use fixed_kin::speed::SpeedMode;
-use model::camera::{Camera, CameraModel};
-use model::fusion::FusionOptions;
+use model::camera::CameraModel;
 use model::localisation::Localiser;
 use model::plant::{Contact, Deviations, Plant};
 use model::trajectory::{FIG_6, SetPoint, TrajectoryReport};
-use runs::Run;
 use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
+use runs::{Layout, Run};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// A set point counts as reached if the robot really was this near, m: about its own radius.
 const REACHED_M: f64 = 0.1;
-/// Time for the robot to come to rest after the last command, s.
-const SETTLING_S: f64 = 0.25;
-/// What the filter is told of wheels whose skew nobody knows, rad²/rad.
-const UNCALIBRATED_WHEEL_VARIANCE: f64 = 1e-2;
 
 /// What to drive, with which robot.
 #[derive(Clone, Debug)]
@@ -83,19 +81,8 @@ impl Drive {
     }
 }
 
-/// Why a drive ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The controller had nothing left to do: all reached, or given up.
-    Finished,
-    /// The time was over.
-    TimeLimit,
-    /// The card switched off; the names of its faults.
-    Disarmed(String),
-}
-
 /// A drive that was driven.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Driven {
     /// The log, as a real robot would have written it.
     pub run: Run,
@@ -114,88 +101,96 @@ pub struct Driven {
 }
 
 impl Drive {
-    /// Drives; `progress` hears the time reached (s) every now and then.
+    /// Drives, by the loop that drives a real robot ([`Plan::drive`]); `progress` hears the time reached (s) every now
+    /// and then.
     ///
     /// # Errors
     /// [`LoopError`] where the robot does not fit the card, or the FPGA fails.
-    pub fn run<F: Fpga>(&self, fpga: F, mut progress: impl FnMut(f64)) -> Result<Driven, LoopError> {
-        let settings = self.settings();
+    pub fn run<F: Fpga>(&self, fpga: F, progress: impl FnMut(f64)) -> Result<Driven, LoopError> {
+        let plan = self.plan();
+        let clock_hz = whole_tick_clock_hz(self.believed.control_rate_hz);
+        let scale = plan.scale(clock_hz)?;
         let plant = Plant::new(&self.actual)?
             .with_contact(self.contact)
             .with_deviations(&self.deviations)
             .at(self.start)
             .moving(self.moving);
-        let mut robot = ClosedLoop::start(fpga, &self.believed, plant, &settings)?.with_supply(self.actual.supply_v);
-        let mut controller = Controller::new(self.control, &self.believed, &self.set_points, self.start)?;
-        let mut localiser = self.localiser()?;
-        let mut camera = self.camera.map(|model| Camera::new(model, self.seed));
-
-        let dt = robot.scale().tick_s();
-        let wheels = self.believed.wheel_count();
-        let mut recording = Recording::new(wheels, camera.is_some());
-        let (mut track, mut believed, mut wheel_speeds) = (Vec::new(), Vec::new(), vec![Vec::new(); wheels]);
-        let mut pose = self.start;
-        let mut counts = vec![0; wheels];
-        let mut settling = 0.0;
-        let mut tick = 0_u64;
-        let ending = loop {
-            let t = tick as f64 * dt;
-            if t >= self.limit_s {
-                break Ending::TimeLimit;
-            }
-            let command = controller.command(pose, dt);
-            if command.is_none() {
-                settling += dt;
-                if settling > SETTLING_S {
-                    break Ending::Finished;
-                }
-            }
-            let command = command.unwrap_or_default();
-            let seen = camera.as_mut().and_then(|camera| camera.observe(t, robot.plant().pose()));
-            track.push((t, robot.plant().pose()));
-            for (speeds, speed) in wheel_speeds.iter_mut().zip(robot.plant().wheel_speeds()) {
-                speeds.push(speed);
-            }
-            let snapshot = robot.tick(command)?;
-            recording.row(t, command, &snapshot, robot.scale(), self.actual.supply_v, seen);
-            for (count, word) in counts.iter_mut().zip(snapshot.counts) {
-                *count = i64::from(word);
-            }
-            pose = localiser.tick(t, &counts, seen);
-            believed.push(pose);
-            if !snapshot.status.armed {
-                break Ending::Disarmed(fault_names(snapshot.faults));
-            }
-            if tick.is_multiple_of(64) {
-                progress(t);
-            }
-            tick += 1;
-        };
-        let report = TrajectoryReport::new(self.start, &self.set_points, controller.arrivals(), &track, REACHED_M);
-        let robot = logged_robot(&self.believed, robot.scale(), &settings);
-        Ok(Driven { run: recording.finish(), robot, report, track, believed, wheel_speeds, ending })
-    }
-
-    fn settings(&self) -> Settings {
-        // Slow control loops pet a slow dog.
-        let watchdog_s = Settings::default().watchdog_s.max(5.0 * self.believed.tick_s());
-        Settings { speed_mode: self.speed_mode, watchdog_s, ..Settings::default() }
-    }
-
-    fn localiser(&self) -> Result<Localiser, LoopError> {
-        let geometry = self.believed.geometry()?;
-        if !self.fused {
-            return Ok(Localiser::odometry(&self.believed, &geometry, self.start));
+        let period = Duration::from_secs_f64(scale.tick_s());
+        let mut robot = VirtualRobot::new(fpga, plant, self.actual.supply_v, period);
+        if let Some(camera) = self.camera {
+            robot = robot.watched_by(camera, self.seed);
         }
-        let options =
-            FusionOptions { wheel_variance: UNCALIBRATED_WHEEL_VARIANCE, ..FusionOptions::of(&self.believed) };
-        Ok(Localiser::fused(&self.believed, &geometry, options, self.start))
+        let wheels = self.believed.wheel_count();
+        let memory = MemoryStream::new(Layout::of_robot(wheels, self.camera.is_some()));
+        let mut recording = Recording::onto(Box::new(memory.clone()), Path::new("run"), wheels)?;
+        recording.wait_where_full();
+
+        let mut clock = Reported { robot: robot.clone(), progress };
+        let mut source = robot.clone();
+        let never = AtomicBool::new(false);
+        let driven =
+            plan.drive(Board::new(robot.clone()), &mut clock, clock_hz, &mut source, Some(&mut recording), &never);
+        if let Some(failure) = robot.take_failure() {
+            return Err(failure.into());
+        }
+        let driven = driven?;
+        recording.finish()?;
+        let run = memory.take();
+        // The last row is that of the last tick.
+        let mut history = robot.take_history();
+        history.drain(..history.len() - run.len());
+        let track: Vec<_> = run.t.iter().zip(&history).map(|(t, moment)| (*t, moment.pose)).collect();
+        let speeds = |wheel: usize| history.iter().map(|moment| moment.wheel_speeds[wheel]).collect();
+        Ok(Driven {
+            robot: logged_robot(&plan.believed(), &scale, &plan.settings),
+            report: TrajectoryReport::new(self.start, &self.set_points, &driven.arrivals, &track, REACHED_M),
+            wheel_speeds: (0..wheels).map(speeds).collect(),
+            believed: believed(plan.localiser()?, &run),
+            track,
+            ending: driven.ending,
+            run,
+        })
+    }
+
+    fn plan(&self) -> Plan {
+        let mut plan = Plan {
+            control: self.control,
+            start: self.start,
+            fused: self.fused,
+            limit_s: self.limit_s,
+            ..Plan::new(&self.believed, &self.set_points)
+        };
+        plan.settings.speed_mode = self.speed_mode;
+        plan
     }
 }
 
-fn fault_names(faults: u32) -> String {
-    let names: Vec<&str> = FAULT_FIELDS.iter().filter(|f| f.of(faults) == 1).map(|f| f.name).collect();
-    if names.is_empty() { "no fault shown".to_owned() } else { names.join(", ") }
+/// Where the controller believed the robot to be, from what it logged.
+fn believed(mut localiser: Localiser, run: &Run) -> Vec<Pose> {
+    let mut camera = run.camera.iter().peekable();
+    let pose = |(tick, t): (usize, &f64)| {
+        let counts: Vec<i64> = run.counts.iter().map(|counts| counts[tick]).collect();
+        let seen = camera.next_if(|sample| sample.tick == tick).map(|sample| sample.pose);
+        localiser.tick(*t, &counts, seen)
+    };
+    run.t.iter().enumerate().map(pose).collect()
+}
+
+/// A robot's clock that tells how far the drive is.
+struct Reported<F, P> {
+    robot: VirtualRobot<F>,
+    progress: P,
+}
+
+impl<F: Fpga, P: FnMut(f64)> Clock for Reported<F, P> {
+    fn now(&mut self) -> Duration {
+        self.robot.now()
+    }
+
+    fn sleep_until(&mut self, at: Duration) {
+        self.robot.sleep_until(at);
+        (self.progress)(at.as_secs_f64());
+    }
 }
 
 #[cfg(test)]
@@ -203,11 +198,11 @@ mod tests {
     use super::*;
     use crate::fpga::BitTrue;
     use model::trajectory::FIG_7_SKEW_DEG;
-    use runs::robot::Layout;
+    use runs::robot::Layout as Wheels;
 
     fn fig_7() -> Drive {
         let mut drive = Drive::fig_6();
-        drive.actual.layout = Layout::Rac { body_radius_m: 0.085, skew_rad: FIG_7_SKEW_DEG.map(f64::to_radians) };
+        drive.actual.layout = Wheels::Rac { body_radius_m: 0.085, skew_rad: FIG_7_SKEW_DEG.map(f64::to_radians) };
         drive
     }
 
@@ -221,7 +216,7 @@ mod tests {
             let drive = Drive { control, speed_mode, ..Drive::fig_6() };
             let driven = drive.run(BitTrue::new(), |_| {}).unwrap();
             let r = &driven.report;
-            assert_eq!(driven.ending, Ending::Finished);
+            assert!(matches!(driven.ending, Ending::Finished), "{:?}", driven.ending);
             assert!(r.set_points.iter().all(|p| p.why_not.is_none()), "{control:?}: {r:#?}");
             assert!(r.time_s.is_some_and(|t| t > 13.2 && t < 20.0), "{r:#?}");
             driven.run.check(&driven.robot, std::path::Path::new("log")).unwrap();
@@ -245,7 +240,7 @@ mod tests {
         let camera = Some(CameraModel::of(&Robot::racbot()));
         let drive = |seed| Drive { camera, limit_s: 0.5, seed, ..Drive::fig_6() }.run(BitTrue::new(), |_| {}).unwrap();
         let (first, again, other) = (drive(1), drive(1), drive(2));
-        assert_eq!(first.ending, Ending::TimeLimit);
+        assert!(matches!(first.ending, Ending::TimeLimit));
         assert_eq!(first.run.len(), 500);
         assert_eq!(first.run, again.run);
         assert_ne!(first.run, other.run);

@@ -6,6 +6,7 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::control::TickOutputs;
+use fixed_kin::registers::{PWM_PERIOD, STATUS, STATUS_FIELDS};
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -46,14 +47,6 @@ impl BitTrue {
     }
 }
 
-impl BitTrue {
-    /// What the last control tick computed.
-    #[must_use]
-    pub fn outputs(&self) -> &TickOutputs {
-        &self.outputs
-    }
-}
-
 impl Registers for BitTrue {
     fn read(&mut self, offset: u16) -> Result<u32, BusError> {
         Ok(self.card.read(offset))
@@ -83,5 +76,13 @@ impl Fpga for BitTrue {
 
     fn quiet_clocks(&self) -> u32 {
         self.quiet
+    }
+
+    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+        if STATUS_FIELDS[0].of(self.card.read(STATUS.offset)) == 0 {
+            return Ok([0.0; AXES]);
+        }
+        let period = self.card.read(PWM_PERIOD.offset) as u16;
+        Ok(self.outputs.duties.map(|duty| super::share(duty, period)))
     }
 }

@@ -11,6 +11,7 @@
 
 mod bit_true;
 pub mod edges;
+mod forward;
 mod pin_level;
 mod rust_hdl;
 mod verilog;
@@ -21,6 +22,11 @@ pub use verilog::Verilog;
 
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
+use fixed_kin::format::Duty;
+use fixed_kin::modulation::modulate;
+use fixed_kin::registers::{
+    PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_FIELDS,
+};
 use std::fmt;
 use std::str::FromStr;
 
@@ -76,6 +82,28 @@ pub trait Fpga: Registers {
 
     /// Clocks at the start of a period in which encoders stand still.
     fn quiet_clocks(&self) -> u32;
+
+    /// Duties in [−1, 1] that the last control tick computed; all zero while the outputs are off.
+    ///
+    /// # Errors
+    /// [`FpgaError`] where the simulation fails.
+    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+        let mut words = [0; SNAPSHOT_WORDS];
+        self.read_block(SNAPSHOT_SEQUENCE.offset, &mut words)?;
+        let word = |register: &Register, index| words[usize::from(register.at(index) - SNAPSHOT_SEQUENCE.offset) / 4];
+        if STATUS_FIELDS[0].of(word(&SNAPSHOT_STATUS, 0)) == 0 {
+            return Ok([0.0; AXES]);
+        }
+        let period = self.read(PWM_PERIOD.offset)? as u16;
+        Ok(std::array::from_fn(|axis| share(Duty::from_bits(word(&SNAPSHOT_DUTY, axis) as i32), period)))
+    }
+}
+
+/// The share of the PWM period in which an H-bridge drives, with its direction.
+fn share(duty: Duty, period: u16) -> f64 {
+    let pwm = modulate(duty, period);
+    let share = if period == 0 { 0.0 } else { f64::from(pwm.compare) / f64::from(period) };
+    if pwm.reverse { -share } else { share }
 }
 
 /// Which FPGA.

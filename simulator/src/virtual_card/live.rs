@@ -4,13 +4,9 @@ use super::Machine;
 use super::stand_in::StandIn;
 use crate::fpga::{BitTrue, Fpga, FpgaError};
 use driver::Registers;
-use fixed_kin::AXES;
+use fixed_kin::card::Pins;
 use fixed_kin::kicker::State;
-use fixed_kin::modulation::modulate;
-use fixed_kin::registers::{
-    BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, PWM_PERIOD, STATUS, STATUS_FIELDS, TICK_PERIOD,
-    TIME,
-};
+use fixed_kin::registers::{BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, TICK_PERIOD, TIME};
 
 /// An FPGA with a clock that runs, and a robot on its pins.
 pub trait Live: Send {
@@ -58,6 +54,11 @@ impl BitTrueLive {
         Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None, kicks: 0, kicking: false }
     }
 
+    /// Its pins other than the encoders.
+    pub fn pins(&mut self) -> &mut Pins {
+        &mut self.fpga.pins
+    }
+
     /// A pulse may be shorter than a tick, but the lock-out after it is not.
     fn count_kicks(&mut self) -> Result<(), FpgaError> {
         let state = KICKER_STATE.of(self.fpga.read(KICKER_STATUS.offset)?);
@@ -65,18 +66,6 @@ impl BitTrueLive {
         self.kicks += u32::from(kicking && !self.kicking);
         self.kicking = kicking;
         Ok(())
-    }
-
-    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        if STATUS_FIELDS[0].of(self.fpga.read(STATUS.offset)?) == 0 {
-            return Ok([0.0; AXES]);
-        }
-        let period = self.fpga.read(PWM_PERIOD.offset)? as u16;
-        Ok(self.fpga.outputs().duties.map(|duty| {
-            let pwm = modulate(duty, period);
-            let share = if period == 0 { 0.0 } else { f64::from(pwm.compare) / f64::from(period) };
-            if pwm.reverse { -share } else { share }
-        }))
     }
 }
 
@@ -92,7 +81,7 @@ impl Live for BitTrueLive {
                 return Ok(());
             }
             self.tick += u64::from(period);
-            let duties = self.duties()?;
+            let duties = self.fpga.duties()?;
             machine.step(&duties, f64::from(period) / clock_hz);
             self.fpga.pins.encoder_errors = machine.illegal_steps();
             if let Err(error) = self.fpga.advance(&machine.positions()) {

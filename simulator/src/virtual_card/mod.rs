@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Two fronts: in process it is a [`PciCard`]; `qemu` puts it on the PCI bus of a virtual machine. Its time is
-//! simulated (every access takes some) or the host's.
+//! simulated (every access takes some), told by the virtual machine, or the host's.
 
 mod bridge;
 mod compiled;
@@ -77,6 +77,11 @@ pub struct Faults {
 #[derive(Clone, Copy, Debug)]
 enum Time {
     Simulated(Duration),
+    /// Accesses take some too, but never reach the time that will be told next.
+    Told {
+        now: Duration,
+        limit: Duration,
+    },
     Host(Instant),
 }
 
@@ -171,6 +176,24 @@ impl VirtualCard {
         })))
     }
 
+    /// In the time that [`VirtualCard::tell`] tells.
+    #[must_use]
+    pub fn in_told_time(mut self) -> Self {
+        self.time = Time::Told { now: Duration::ZERO, limit: Duration::ZERO };
+        self
+    }
+
+    /// Tells a card [in told time](Self::in_told_time) that it is `at`, and that it will be told again `within`
+    /// this time. A time that is past is left out: a clock does not go back.
+    pub fn tell(&mut self, at: Duration, within: Duration) {
+        if let Time::Told { now, limit } = &mut self.time
+            && at >= *now
+        {
+            (*now, *limit) = (at, at + within);
+            self.settle();
+        }
+    }
+
     /// In the host's time from now on.
     #[must_use]
     pub fn in_host_time(mut self) -> Self {
@@ -222,7 +245,7 @@ impl VirtualCard {
 
     fn elapsed(&self) -> Duration {
         match self.time {
-            Time::Simulated(now) => now,
+            Time::Simulated(now) | Time::Told { now, .. } => now,
             Time::Host(begun) => begun.elapsed(),
         }
     }
@@ -233,8 +256,10 @@ impl VirtualCard {
     }
 
     fn spend(&mut self, time: Duration) {
-        if let Time::Simulated(now) = &mut self.time {
-            *now += time;
+        match &mut self.time {
+            Time::Simulated(now) => *now += time,
+            Time::Told { now, limit } => *now = (*now + time).min(*limit).max(*now),
+            Time::Host(_) => {}
         }
     }
 
@@ -406,7 +431,7 @@ impl PciCard for VirtualCard {
 
     fn sleep(&mut self, time: Duration) {
         match self.time {
-            Time::Simulated(_) => self.spend(time),
+            Time::Simulated(_) | Time::Told { .. } => self.spend(time),
             Time::Host(_) => std::thread::sleep(time),
         }
         self.settle();

@@ -6,7 +6,7 @@
 //! the meaning of the frames.
 
 use super::select_map::{DeviceCrc, FRAME_WORDS, FRAMES};
-use fixed_kin::registers::BOARD_VALUE;
+use fixed_kin::registers::BOARD_4I65;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -28,7 +28,7 @@ impl StandIn {
     /// For the committed design.
     #[must_use]
     pub fn committed() -> Self {
-        Self { content_hash: hdl::design::content_hash(), board: BOARD_VALUE }
+        Self { content_hash: hdl::design::content_hash(), board: BOARD_4I65.word }
     }
 
     /// What the frames of a configured device hold, if a stand-in configured it.
@@ -41,9 +41,18 @@ impl StandIn {
     /// A `.bit` file of exactly the real size.
     #[must_use]
     pub fn bit(&self) -> Vec<u8> {
-        let stream = self.stream();
+        Self::file("rac4i65-stand-in.ncd", &self.stream())
+    }
+
+    /// A `.bit` file that is as right as any, of a design by this name that is none of ours.
+    #[must_use]
+    pub fn foreign(design: &str) -> Vec<u8> {
+        Self::file(design, &Self::stream_of(&Self::noise(0)))
+    }
+
+    fn file(design: &str, stream: &[u8]) -> Vec<u8> {
         let mut file = vec![0, 9, 0x0F, 0xF0, 0x0F, 0xF0, 0x0F, 0xF0, 0x0F, 0xF0, 0, 0, 1];
-        let fields = [(b'a', "rac4i65-stand-in.ncd"), (b'b', "2s200pq208"), (b'c', "2005/01/01"), (b'd', "00:00:00")];
+        let fields = [(b'a', design), (b'b', "2s200pq208"), (b'c', "2005/01/01"), (b'd', "00:00:00")];
         for (tag, text) in fields {
             file.push(tag);
             file.extend(((text.len() + 1) as u16).to_be_bytes());
@@ -52,7 +61,7 @@ impl StandIn {
         }
         file.push(b'e');
         file.extend((stream.len() as u32).to_be_bytes());
-        file.extend(stream);
+        file.extend_from_slice(stream);
         file
     }
 
@@ -65,12 +74,21 @@ impl StandIn {
     /// The bitstream alone.
     #[must_use]
     pub fn stream(&self) -> Vec<u8> {
-        let mut frames = vec![0; FRAMES * FRAME_WORDS];
-        let mut noise = ChaCha8Rng::seed_from_u64(self.content_hash.into());
-        frames[FRAME_WORDS..].fill_with(|| noise.next_u32());
+        let mut frames = Self::noise(self.content_hash.into());
         frames[..3].copy_from_slice(&MARKER);
         (frames[3], frames[4]) = (self.content_hash, self.board);
+        Self::stream_of(&frames)
+    }
 
+    /// Frames, the first of them blank.
+    fn noise(seed: u64) -> Vec<u32> {
+        let mut frames = vec![0; FRAMES * FRAME_WORDS];
+        let mut noise = ChaCha8Rng::seed_from_u64(seed);
+        frames[FRAME_WORDS..].fill_with(|| noise.next_u32());
+        frames
+    }
+
+    fn stream_of(frames: &[u32]) -> Vec<u8> {
         let mut out = Packets::default();
         out.words.extend([u32::MAX, 0xAA99_5566]);
         out.command(7);
@@ -78,7 +96,7 @@ impl StandIn {
         out.register(9, &[0x0080_5F1D]);
         out.register(6, &[0]);
         out.command(9);
-        let mut rest = frames.as_slice();
+        let mut rest = frames;
         for (index, (address, words)) in SECTIONS.into_iter().enumerate() {
             let (section, behind) = rest.split_at(words);
             rest = behind;

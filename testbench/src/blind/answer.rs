@@ -10,14 +10,14 @@ pub struct NamedEffect {
     pub name: String,
     /// Wheels from 1; empty = the whole robot.
     pub wheels: Vec<usize>,
-    /// Parameters: name, value, 95 % interval.
+    /// Parameters: name, value, 95 % interval (of no width where there is none).
     pub parameters: Vec<(String, f64, [f64; 2])>,
 }
 
 /// The workflow's answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
-    /// `agrees`, `missing-effect`, `ambiguous` or `unexplained`.
+    /// `agrees`, `missing-effect`, `ambiguous`, `unexplained` or `not-compared`.
     pub verdict: String,
     /// Named effects.
     pub effects: Vec<NamedEffect>,
@@ -72,8 +72,13 @@ fn texts(json: &Value) -> Option<Vec<String>> {
 fn named(json: &Value) -> Option<NamedEffect> {
     let wheels = json["wheels"].as_array()?.iter().map(|w| usize::try_from(w.as_u64()?).ok());
     let parameters = json["parameters"].as_object()?.iter().map(|(name, p)| {
-        let ci = p["ci95"].as_array()?;
-        Some((name.clone(), p["value"].as_f64()?, [ci.first()?.as_f64()?, ci.get(1)?.as_f64()?]))
+        let value = p["value"].as_f64()?;
+        // Resolutions and bounds claim no confidence: no interval.
+        let ci = match p.get("ci95") {
+            Some(ci) => [ci.get(0)?.as_f64()?, ci.get(1)?.as_f64()?],
+            None => [value; 2],
+        };
+        Some((name.clone(), value, ci))
     });
     Some(NamedEffect {
         name: json["name"].as_str()?.to_owned(),

@@ -4,7 +4,6 @@ use super::judge::{Course, Injected};
 use super::{BusFault, Cable, Outcome, RigFault, Trouble, Verdict};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -24,6 +23,12 @@ impl Line {
         self.cases.iter().filter(|verdict| verdict.outcome == Ok(outcome)).count()
     }
 
+    /// Cases after which the card could be armed again.
+    #[must_use]
+    pub fn armed_again(&self) -> usize {
+        self.cases.iter().filter(|verdict| verdict.armed_again).count()
+    }
+
     /// What should not have been.
     pub fn violations(&self) -> impl Iterator<Item = &str> {
         self.cases.iter().filter_map(|verdict| verdict.outcome.as_ref().err().map(String::as_str))
@@ -39,7 +44,7 @@ impl Line {
 type Draw = fn(&Course, &mut ChaCha8Rng, u64) -> Injected;
 
 /// Name, cases at size 1, and how the case of a number is drawn.
-const FAULTS: [(&str, u64, Draw); 17] = [
+const FAULTS: [(&str, u64, Draw); 18] = [
     ("read: a bit flipped", 600, |c, r, i| read(c, r, i, |r| Trouble::Flip(r.random_range(0..32)))),
     ("read: lost, answered with zero", 300, |c, r, i| read(c, r, i, |_| Trouble::Drop)),
     ("read: made twice", 300, |c, r, i| read(c, r, i, |_| Trouble::Repeat)),
@@ -70,6 +75,7 @@ const FAULTS: [(&str, u64, Draw); 17] = [
         let cable = [Cable::Cut, Cable::Swapped, Cable::Shorted, Cable::Crossed][(i % 4) as usize];
         Injected::Rig(c.moment(r), RigFault::Cable((i / 4 % 3) as usize, cable))
     }),
+    ("emergency stop pressed", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::EmergencyStop)),
     ("camera gone", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::CameraGone)),
     ("card's clock off by 25 %", 60, |c, r, i| {
         Injected::Rig(c.moment(r), RigFault::Clock(if i.is_multiple_of(2) { 0.75 } else { 1.25 }))
@@ -144,38 +150,34 @@ pub fn run(seed: u64, size: f64) -> Result<Vec<Line>, String> {
     Ok(lines)
 }
 
-/// The table, as the README has it.
+/// Headings of [`rows`].
+pub const COLUMNS: [&str; 9] = [
+    "fault",
+    "cases",
+    "drove as commanded",
+    "refused or ended, off, cause named",
+    "off by watchdog",
+    "over before noticed",
+    "off after, at most, ms",
+    "armed again once the cause is gone",
+    "violations",
+];
+
+/// The campaign as a table, a row a fault and one for all.
 #[must_use]
-pub fn table(lines: &[Line]) -> String {
-    let mut text = String::from(
-        "| fault | cases | drove as commanded | refused or ended, off, cause named | off by watchdog | over before noticed | off after, at most | violations |\n\
-         |---|---|---|---|---|---|---|---|\n",
-    );
-    for line in lines {
-        let slowest = line.slowest().map_or_else(String::new, |time| format!("{} ms", time.as_millis()));
-        let count = |outcome| line.count(outcome);
-        let _ = writeln!(
-            text,
-            "| {} | {} | {} | {} | {} | {} | {slowest} | {} |",
-            line.fault,
-            line.cases.len(),
-            count(Outcome::Drove),
-            count(Outcome::Ended),
-            count(Outcome::Watchdog),
-            count(Outcome::Unnoticed),
-            line.violations().count()
-        );
-    }
-    let total = |f: fn(&Line) -> usize| lines.iter().map(f).sum::<usize>();
-    let _ = writeln!(
-        text,
-        "| all | {} | {} | {} | {} | {} | | {} |",
-        total(|l| l.cases.len()),
-        total(|l| l.count(Outcome::Drove)),
-        total(|l| l.count(Outcome::Ended)),
-        total(|l| l.count(Outcome::Watchdog)),
-        total(|l| l.count(Outcome::Unnoticed)),
-        total(|l| l.violations().count())
-    );
-    text
+pub fn rows(lines: &[Line]) -> Vec<Vec<String>> {
+    let outcomes = [Outcome::Drove, Outcome::Ended, Outcome::Watchdog, Outcome::Unnoticed];
+    let row = |name: &str, lines: &[Line], slowest: Option<Duration>| {
+        let total = |count: &dyn Fn(&Line) -> usize| lines.iter().map(count).sum::<usize>().to_string();
+        let mut row = vec![name.to_owned(), total(&|line| line.cases.len())];
+        row.extend(outcomes.map(|outcome| total(&|line| line.count(outcome))));
+        row.push(slowest.map_or_else(String::new, |time| time.as_millis().to_string()));
+        row.push(total(&Line::armed_again));
+        row.push(total(&|line| line.violations().count()));
+        row
+    };
+    let mut rows: Vec<_> =
+        lines.iter().map(|line| row(line.fault, std::slice::from_ref(line), line.slowest())).collect();
+    rows.push(row("all", lines, None));
+    rows
 }

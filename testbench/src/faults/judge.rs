@@ -50,6 +50,8 @@ pub struct Verdict {
     pub off_after: Option<Duration>,
     /// The error, if there was one.
     pub message: Option<String>,
+    /// Once the cause was gone the card could be armed again, without a reload.
+    pub armed_again: bool,
 }
 
 /// The drive that all cases make.
@@ -116,7 +118,28 @@ impl Course {
             outcome: Err(why),
             off_after: None,
             message: None,
+            armed_again: false,
         })
+    }
+
+    /// Takes the cause away and arms the card as any command does.
+    fn arm_again(&self, rig: &Rig) -> Result<(), String> {
+        rig.mend();
+        // A wheel that was driven still turns.
+        rig.pass(Duration::from_millis(20));
+        let scale = self.plan.scale(Rig::nominal_clock_hz()).map_err(|error| error.to_string())?;
+        let mut board = Board::new(rig.clone());
+        let armed = board.configure(&scale, &self.plan.settings).and_then(|()| {
+            rig.pass(Duration::from_millis(2));
+            board.arm()
+        });
+        armed.map_err(|error| format!("cannot be armed again once the cause is gone: {error}"))?;
+        rig.pass(Duration::from_millis(5));
+        if !rig.armed() {
+            let first = board.first_fault().map_err(|error| error.to_string())?;
+            return Err(format!("switches off again once the cause is gone: {}", driver::fault_names(first)));
+        }
+        board.disarm().map_err(|error| error.to_string())
     }
 
     fn judged(&self, fault: Injected, share: f64, mcap: bool) -> Result<Verdict, String> {
@@ -162,7 +185,8 @@ impl Course {
             if !cable || off_after.is_none_or(|after| after > SLOW) {
                 return Err(astray);
             }
-            return Ok(Verdict { outcome: Ok(Outcome::Unnoticed), off_after: None, message: None });
+            self.arm_again(&run.rig)?;
+            return Ok(Verdict { outcome: Ok(Outcome::Unnoticed), off_after: None, message: None, armed_again: true });
         }
         let off_after = off_after.filter(|_| !finished);
         if let Some(after) = off_after.filter(|after| *after > SLOW) {
@@ -174,7 +198,8 @@ impl Course {
             (false, true) => Outcome::Ended,
             (false, false) => Outcome::Watchdog,
         };
-        Ok(Verdict { outcome: Ok(outcome), off_after, message })
+        self.arm_again(&run.rig)?;
+        Ok(Verdict { outcome: Ok(outcome), off_after, message, armed_again: true })
     }
 
     /// Whether the robot kept to the path it takes without a fault and came to its end; a host that slept may
@@ -214,6 +239,7 @@ fn names_the_cause(fault: Injected, message: &str) -> Result<(), String> {
         Injected::Rig(_, RigFault::Cable(..)) => &["encoder", "stall"],
         Injected::Rig(_, RigFault::Clock(_)) => &["clock"],
         Injected::Rig(_, RigFault::Stall(_)) => &["watchdog"],
+        Injected::Rig(_, RigFault::EmergencyStop) => &["emergency-stop"],
         Injected::Rig(_, RigFault::CameraGone) => &[],
     };
     if expected.iter().any(|word| message.contains(word)) {

@@ -30,6 +30,8 @@ pub enum RigFault {
     Clock(f64),
     /// The host sleeps for so long.
     Stall(Duration),
+    /// Somebody presses the emergency stop.
+    EmergencyStop,
 }
 
 /// What breaks of a cable; positions are those of the moment.
@@ -51,6 +53,8 @@ struct Inside {
     machine: Machine,
     camera: Option<Camera>,
     clock_hz: f64,
+    /// The clock before anything broke.
+    right_hz: f64,
     /// Clocks of the card, and the time up to which they were counted.
     clocks: f64,
     counted: Duration,
@@ -76,6 +80,7 @@ impl Rig {
             machine: Machine::new(robot)?,
             camera: Some(Camera::new(CameraModel::of(robot), 1)),
             clock_hz,
+            right_hz: clock_hz,
             clocks: 0.0,
             counted: Duration::ZERO,
             now: Duration::ZERO,
@@ -90,6 +95,15 @@ impl Rig {
     #[must_use]
     pub fn nominal_clock_hz() -> f64 {
         f64::from(NOMINAL_CLOCK_HZ)
+    }
+
+    /// Takes away the cause of whatever broke, or would have; what the card keeps of it stays.
+    pub fn mend(&self) {
+        let mut inside = self.0.borrow_mut();
+        inside.fault = None;
+        inside.clock_hz = inside.right_hz;
+        inside.machine.mend();
+        inside.live.pins().emergency_stop = false;
     }
 
     /// Lets time pass without a host.
@@ -183,6 +197,7 @@ impl Inside {
             RigFault::CameraGone => self.camera = None,
             RigFault::Clock(ratio) => self.clock_hz *= ratio,
             RigFault::Stall(time) => self.run_to(self.now + time),
+            RigFault::EmergencyStop => self.live.pins().emergency_stop = true,
         }
     }
 }

@@ -36,12 +36,23 @@ pub const PROOFS: &[Proof] = &[
             mutant("no watchdog", "standing = bitten | is_stopped", "standing = is_stopped"),
             mutant("a stall does not count", " | stall_fault | external_fault", " | external_fault"),
             mutant("set points last for ever", "has_setpoint_q & ~stale", "has_setpoint_q"),
+            mutant(
+                "what is only still shown keeps from arming",
+                "is_second_word & first_word_q & ~standing",
+                "is_second_word & first_word_q & ~standing & ~(|sticky_q)",
+            ),
+            mutant(
+                "any write clears every fault",
+                "(sticky_q & ~clear_faults) | events",
+                "(sticky_q & ~{8{|clear_faults}}) | events",
+            ),
         ],
         ..proof(
             "safety",
             "rac4i65_core_safety",
-            "disarmed 19 clocks after the emergency stop, 1 after a fault, time-out + 1 after the last commit; armed \
-             only by both words in order with no fault standing",
+            "disarmed 19 clocks after the emergency stop, 1 after a fault, time-out + 1 after the last commit; armed by \
+             both words in order if and only if no cause stands from the one to the other; a fault bit falls only by its \
+             own one",
             include_str!("../../proofs/safety.v"),
         )
     },
@@ -118,24 +129,37 @@ pub const PROOFS: &[Proof] = &[
                 "if (~enable | (microsecond & pulse_over)) begin",
                 "if (microsecond & pulse_over) begin",
             ),
+            mutant(
+                "asked again, the charger has its time again",
+                "if (~enable | stuffed | in_pulse) begin",
+                "if (~charge_request | stuffed | in_pulse) begin",
+            ),
+            mutant(
+                "the ball fires for what was set before",
+                "arm_on_ball & (spent_q | ~enable | accepts)",
+                "arm_on_ball & (spent_q | accepts)",
+            ),
         ],
         ..proof(
             "kicker",
             "rac4i65_core_kicker",
             "pulse at most 10,000 strobes and 340,000 clocks, 100,000 strobes between pulses, charger off from before \
-             the pulse to 20,000 strobes after it, nothing while disabled",
+             the pulse to 20,000 strobes after it, nothing while disabled; all charging since full, a pulse or disarming \
+             within the time-out; the ball fires once for a rise of arm-on-ball while armed",
             include_str!("../../proofs/kicker.v"),
         )
     },
     Proof {
         mutants: &[
-            mutant("a reader that starts again is forgotten", "if (held_q & ~read_first) begin", "if (held_q) begin"),
-            mutant("the held bank is written", "target = ~held_bank_q", "target = ~latest_q"),
+            mutant("the held bank is written", "kept = held_bank_q", "kept = latest_q"),
+            mutant("there are four banks", "if (latest_q == kept) begin", "if (1'b0) begin"),
+            mutant("the latest is not finished", "if (done) begin", "if (tick) begin"),
+            mutant("word 0 is of the bank held before", "held_bank_d = latest_q", "held_bank_d = held_bank_q"),
         ],
         ..proof(
             "snapshot",
             "rac4i65_core_snapshot",
-            "from word 0 to the last word all reads see one finished bank that nobody writes",
+            "word 0 is of the tick that finished last; from it to the last word all reads see its bank, which nobody writes",
             include_str!("../../proofs/snapshot.v"),
         )
     },
@@ -182,7 +206,8 @@ pub const PROOFS: &[Proof] = &[
         ..proof(
             "registers",
             "rac4i65_core_registers",
-            "no locked setting changes while armed; strobes only from writes; a kick only by its word",
+            "no locked setting changes while armed; strobes only from writes; a kick only by its word, a fault only by its \
+             one",
             include_str!("../../proofs/registers.v"),
         )
     },
@@ -243,11 +268,13 @@ pub const PROOFS: &[Proof] = &[
         mutants: &[
             mutant("clamps one way", "(sum_top != three_clear) & (sum_top != three_set)", "sum_top == 3'b001"),
             mutant("loses a write of the bus", "bus_write_taken = bus_write & ~storing", "bus_write_taken = bus_write"),
+            mutant("a read that meets a write", "if (bus_hits_q) begin", "if (1'b0) begin"),
         ],
         ..proof(
             "sequencer",
             "rac4i65_core_sequencer",
-            "sums and differences of any 31-bit values clamp to a word; no write of bus or program is lost",
+            "sums and differences of any 31-bit values clamp to a word; no write of bus or program is lost, and a read that \
+             meets one gives the new word",
             include_str!("../../proofs/sequencer.v"),
         )
     },

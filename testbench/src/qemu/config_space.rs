@@ -1,4 +1,4 @@
-//! The card's PCI configuration space, as its EEPROM and the bridge show it.
+//! PCI configuration space of a device without capabilities.
 
 use driver::pci::{Bar, Ids};
 
@@ -13,33 +13,49 @@ const COMMAND_BITS: u16 = 0x0147;
 /// Bridge device, other; revision 1.
 const CLASS: u32 = 0x0680_0001;
 
+/// What a base address register decodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Bytes, a power of two from 4.
+    pub bytes: u32,
+    /// Memory, not I/O ports.
+    pub memory: bool,
+}
+
+impl Window {
+    /// The windows of a Mesa 4I65.
+    #[must_use]
+    pub fn mesa_4i65() -> [Option<Self>; 6] {
+        Bar::ALL.map(|bar| Some(Self { bytes: bar.size(), memory: bar.is_memory() }))
+    }
+}
+
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct ConfigSpace {
     bytes: [u8; SIZE],
+    windows: [Option<Window>; 6],
 }
 
 impl ConfigSpace {
-    /// After power-up, with these numbers.
+    /// After power-up, with these numbers and windows.
     #[must_use]
-    pub fn new(ids: Ids) -> Self {
-        let mut space = Self { bytes: [0; SIZE] };
+    pub fn new(ids: Ids, windows: [Option<Window>; 6]) -> Self {
+        let mut space = Self { bytes: [0; SIZE], windows };
         space.store(0, u32::from(ids.vendor) | u32::from(ids.device) << 16);
         space.store(0x08, CLASS);
         space.store(SUBSYSTEM, u32::from(ids.subsystem_vendor) | u32::from(ids.subsystem_device) << 16);
         // Interrupt pin A.
         space.store(INTERRUPT, 0x0100);
-        for bar in Bar::ALL {
-            space.store(BARS + 4 * bar.index(), u32::from(!bar.is_memory()));
-        }
+        space.reset();
         space
     }
 
     /// A PCI reset: addresses and command are forgotten.
     pub fn reset(&mut self) {
         self.store(COMMAND, 0);
-        for bar in Bar::ALL {
-            self.store(BARS + 4 * bar.index(), u32::from(!bar.is_memory()));
+        for (index, window) in self.windows.into_iter().enumerate() {
+            self.store(BARS + 4 * index, window.is_some_and(|window| !window.memory).into());
         }
     }
 
@@ -66,8 +82,8 @@ impl ConfigSpace {
                 p if p == COMMAND + 1 => (COMMAND_BITS >> 8) as u8,
                 p if p == INTERRUPT => 0xFF,
                 p if (BARS..BARS + 24).contains(&p) => {
-                    let bar = Bar::ALL[(p - BARS) / 4];
-                    (!(bar.size() - 1) >> (8 * ((p - BARS) % 4))) as u8
+                    let decoded = self.windows[(p - BARS) / 4].map_or(0, |window| !(window.bytes - 1));
+                    (decoded >> (8 * ((p - BARS) % 4))) as u8
                 }
                 _ => 0,
             };
@@ -77,14 +93,15 @@ impl ConfigSpace {
         }
     }
 
-    /// The window that decodes an address, and the offset in it.
+    /// Number of the window that decodes an address, and the offset in it.
     #[must_use]
-    pub fn decode(&self, address: u64, memory: bool) -> Option<(Bar, u32)> {
+    pub fn decode(&self, address: u64, memory: bool) -> Option<(usize, u32)> {
         let enabled = self.load(COMMAND) & if memory { 2 } else { 1 } != 0;
-        Bar::ALL.into_iter().filter(|bar| enabled && bar.is_memory() == memory).find_map(|bar| {
-            let base = self.load(BARS + 4 * bar.index()) & !(bar.size() - 1);
+        self.windows.iter().enumerate().find_map(|(index, window)| {
+            let window = window.filter(|window| enabled && window.memory == memory)?;
+            let base = self.load(BARS + 4 * index) & !(window.bytes - 1);
             let offset = address.checked_sub(base.into())?;
-            (base != 0 && offset < u64::from(bar.size())).then_some((bar, offset as u32))
+            (base != 0 && offset < u64::from(window.bytes)).then_some((index, offset as u32))
         })
     }
 }
@@ -95,7 +112,7 @@ mod tests {
 
     #[test]
     fn sizes_are_found_as_firmware_finds_them() {
-        let mut space = ConfigSpace::new(Ids::MESA_4I65);
+        let mut space = ConfigSpace::new(Ids::MESA_4I65, Window::mesa_4i65());
         assert_eq!((space.read(0, 2), space.read(2, 2)), (0x10B5, 0x9030));
         assert_eq!((space.read(0x2C, 2), space.read(0x2E, 2)), (0x10B5, 0x3132));
         for bar in Bar::ALL {
@@ -113,13 +130,13 @@ mod tests {
 
     #[test]
     fn addresses_are_decoded_once_enabled() {
-        let mut space = ConfigSpace::new(Ids::MESA_4I65);
+        let mut space = ConfigSpace::new(Ids::MESA_4I65, Window::mesa_4i65());
         space.write(0x24, 4, 0xFEBD_0000);
         space.write(0x14, 4, 0xC100);
         assert_eq!(space.decode(0xFEBD_0804, true), None);
         space.write(4, 2, 3);
-        assert_eq!(space.decode(0xFEBD_0804, true), Some((Bar::Memory32, 0x804)));
-        assert_eq!(space.decode(0xC154, false), Some((Bar::BridgePorts, 0x54)));
+        assert_eq!(space.decode(0xFEBD_0804, true), Some((Bar::Memory32.index(), 0x804)));
+        assert_eq!(space.decode(0xC154, false), Some((Bar::BridgePorts.index(), 0x54)));
         assert_eq!(space.decode(0xC154, true), None);
         space.reset();
         assert_eq!(space.decode(0xC154, false), None);

@@ -1,16 +1,27 @@
 //! A virtual machine with the card on its bus, watched from outside.
+//!
+//! All its time is one virtual clock: QEMU counts instructions (`-icount`), an idle processor skips to its next
+//! timer, and while a device of ours works the clock stands. The card has its time from the guest, by the
+//! test port. So nothing in the machine depends on how fast the host is, or whether it pauses.
 
-use super::remote::{LockedCard, serve};
+use super::config_space::Window;
+use super::port::{Message, Port};
+use super::remote::{CardDevice, LockedCard, serve};
 use super::tools::Tools;
 use driver::pci::Ids;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::os::fd::OwnedFd;
-use std::os::unix::net::{UnixListener, UnixStream};
+use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
-use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
+
+/// Nanoseconds of the guest an instruction takes, as a power of two: 125 million a second.
+const INSTRUCTION_SHIFT: u32 = 3;
+/// Without any sign of life for so long, the machine is taken for dead. Its clock tells the time thousands of
+/// times in a second of a quick host; a host would have to be slower by a factor of a million.
+const DEAD: Duration = Duration::from_secs(900);
 
 /// What the machine has.
 #[derive(Debug)]
@@ -19,13 +30,13 @@ pub struct Options<'a> {
     pub tools: &'a Tools,
     /// The initial RAM file system.
     pub initramfs: &'a [u8],
-    /// The card and the numbers it shows; none for an empty slot.
-    pub card: Option<(LockedCard, Ids)>,
-    /// Bytes of an NVMe disk, through which files leave the guest.
-    pub disk_bytes: u64,
+    /// The card, in told time.
+    pub card: LockedCard,
+    /// The numbers that it shows.
+    pub ids: Ids,
     /// Scratch folder.
     pub folder: &'a Path,
-    /// The machine is stopped after this time.
+    /// The machine is stopped after this time of its own, over all its boots.
     pub limit: Duration,
 }
 
@@ -34,18 +45,18 @@ pub struct Options<'a> {
 pub struct Outcome {
     /// Everything on the first serial line.
     pub console: String,
-    /// What QEMU itself had to say.
+    /// What QEMU itself and the devices' side had to say.
     pub qemu: String,
-    /// The disk's image.
-    pub disk: PathBuf,
-    /// Whether it ended by itself in time.
-    pub in_time: bool,
-    /// Time it took.
+    /// It was not stopped by us.
+    pub ended: bool,
+    /// Time that it took in the guest.
+    pub guest_time: Duration,
+    /// Time that it took here.
     pub elapsed: Duration,
 }
 
 /// What can be done to a running machine.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Running {
     monitor: PathBuf,
 }
@@ -83,70 +94,62 @@ impl Drop for Qemu {
     }
 }
 
-/// Runs a machine until it powers off. `control` answers the lines that the guest writes to its second
-/// serial line, one reply each.
+/// Runs a machine until it powers off. `control` answers what the guest says; the guest waits for it.
 ///
 /// # Errors
 /// QEMU that does not start, or files that cannot be written.
-pub fn run(options: &Options<'_>, mut control: impl FnMut(&str, &Running) -> String) -> io::Result<Outcome> {
+pub fn run<'a>(
+    options: &'a Options<'_>,
+    mut control: impl FnMut(Message<'_>, &Running) -> String + 'a,
+) -> io::Result<Outcome> {
     let begun = Instant::now();
     let file = |name: &str| options.folder.join(name);
-    let (initramfs, disk, socket) = (file("initramfs"), file("disk"), file("control"));
+    let (initramfs, console) = (file("initramfs"), file("console"));
     let running = Running { monitor: file("monitor") };
     fs::write(&initramfs, options.initramfs)?;
-    fs::File::create(&disk)?.set_len(options.disk_bytes)?;
-    let listener = UnixListener::bind(&socket)?;
 
     let mut command = options.tools.qemu();
     command.args("-nodefaults -no-user-config -display none -accel tcg -smp 1 -m 192M -monitor none".split(' '));
+    command.args(["-icount", &format!("shift={INSTRUCTION_SHIFT},sleep=off")]);
+    command.args(["-rtc", "base=2005-07-13,clock=vm"]);
     command.args(["-object", "memory-backend-memfd,id=ram,size=192M,share=on", "-machine", "pc,memory-backend=ram"]);
     command.arg("-kernel").arg(&options.tools.kernel).arg("-initrd").arg(&initramfs);
-    command.args(["-append", "console=ttyS0 panic=-1 quiet cryptomgr.notests tsc=unstable"]);
-    command.args(["-serial", "file:/dev/stdout"]);
-    command.args(["-chardev", &format!("socket,id=control,path={}", socket.display()), "-serial", "chardev:control"]);
-    command.args(["-drive", &format!("if=none,id=disk,format=raw,file={}", disk.display())]);
-    command.args(["-device", "nvme,drive=disk,serial=run"]);
+    command.args(["-append", "console=ttyS0 panic=-1 quiet cryptomgr.notests tsc=reliable"]);
+    command.args(["-serial", &format!("file:{}", console.display())]);
     command.args(["-qmp", &format!("unix:{},server=on,wait=off", running.monitor.display())]);
-    let mut server = None;
-    if let Some((card, ids)) = &options.card {
-        let (ours, theirs) = UnixStream::pair()?;
-        command.stdin(Stdio::from(OwnedFd::from(theirs)));
-        command.args(["-device", "x-pci-proxy-dev,id=mesa,addr=05.0,fd=0"]);
-        let (card, ids) = (card.clone(), *ids);
-        server = Some(std::thread::spawn(move || serve(ours, &card, ids)));
-    } else {
-        command.stdin(Stdio::null());
-    }
-    let mut qemu = Qemu(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?);
-    // The command holds the device's end of the socket; only QEMU may.
-    drop(command);
-    let (console, messages) = (collect(qemu.0.stdout.take()), collect(qemu.0.stderr.take()));
-    let (lines, mut replies) = control_line(listener);
+    // Two ends of sockets that only QEMU shall hold: they go where its standard input and output would be.
+    let ((card, cards_end), (port, ports_end)) = (UnixStream::pair()?, UnixStream::pair()?);
+    command.stdin(Stdio::from(OwnedFd::from(cards_end))).stdout(Stdio::from(OwnedFd::from(ports_end)));
+    command.args(["-device", "x-pci-proxy-dev,id=mesa,addr=05.0,fd=0"]);
+    command.args(["-device", "x-pci-proxy-dev,id=port,addr=06.0,fd=1"]);
+    port.set_read_timeout(Some(DEAD))?;
 
-    let mut in_time = true;
-    loop {
-        if let Ok(line) = lines.recv_timeout(Duration::from_millis(20)) {
-            let reply = control(line.trim(), &running);
-            if let Some(stream) = replies.get() {
-                let _ = stream.write_all(format!("{reply}\n").as_bytes());
-            }
-        } else if qemu.0.try_wait()?.is_some() {
-            break;
-        }
-        if begun.elapsed() > options.limit {
-            in_time = false;
-            break;
-        }
+    let mut device = CardDevice(options.card.clone());
+    let ids = options.ids;
+    let server = std::thread::spawn(move || serve(card, &mut device, ids, Window::mesa_4i65()));
+    let mut qemu = Qemu(command.stderr(Stdio::piped()).spawn()?);
+    // The command holds the devices' ends of the sockets; only QEMU may.
+    drop(command);
+    let messages = collect(qemu.0.stderr.take());
+    let mut test_port = Port::new(options.card.clone(), &running, options.limit, &mut control);
+    let served = serve(port, &mut test_port, Port::IDS, Port::WINDOWS);
+    let guest_time = test_port.now();
+    if served.is_ok() {
+        // The socket closes while QEMU ends.
+        qemu.0.wait()?;
     }
     drop(qemu);
-    let text = |thread: std::thread::JoinHandle<Vec<u8>>| {
-        String::from_utf8_lossy(&thread.join().unwrap_or_default()).replace('\r', "")
-    };
-    let (console, mut qemu) = (text(console), text(messages));
-    if let Some(Ok(Err(error))) = server.map(std::thread::JoinHandle::join) {
-        qemu += &format!("the card's side: {error}\n");
+    let console = String::from_utf8_lossy(&fs::read(&console)?).replace('\r', "");
+    let mut qemu = String::from_utf8_lossy(&messages.join().unwrap_or_default()).into_owned();
+    let ended = served.is_ok();
+    for (name, served) in [("the test port", Some(served)), ("the card", server.join().ok())] {
+        match served {
+            Some(Ok(())) => {}
+            Some(Err(error)) => qemu += &format!("{name}: {error}\n"),
+            None => qemu += &format!("{name}: panicked\n"),
+        }
     }
-    Ok(Outcome { console, qemu, disk, in_time, elapsed: begun.elapsed() })
+    Ok(Outcome { console, qemu, ended, guest_time, elapsed: begun.elapsed() })
 }
 
 fn collect(stream: Option<impl Read + Send + 'static>) -> std::thread::JoinHandle<Vec<u8>> {
@@ -157,35 +160,4 @@ fn collect(stream: Option<impl Read + Send + 'static>) -> std::thread::JoinHandl
         }
         bytes
     })
-}
-
-/// The stream to reply on, once QEMU has connected.
-struct Replies(Receiver<UnixStream>, Option<UnixStream>);
-
-impl Replies {
-    fn get(&mut self) -> Option<&mut UnixStream> {
-        if self.1.is_none() {
-            self.1 = self.0.try_recv().ok();
-        }
-        self.1.as_mut()
-    }
-}
-
-fn control_line(listener: UnixListener) -> (Receiver<String>, Replies) {
-    let (lines, received) = channel();
-    let (streams, stream) = channel();
-    std::thread::spawn(move || {
-        let Ok((socket, _)) = listener.accept() else { return };
-        let Ok(writer) = socket.try_clone() else { return };
-        if streams.send(writer).is_err() {
-            return;
-        }
-        for line in BufReader::new(socket).lines() {
-            let Ok(line) = line else { return };
-            if lines.send(line).is_err() {
-                return;
-            }
-        }
-    });
-    (received, Replies(stream, None))
 }

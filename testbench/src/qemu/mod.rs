@@ -6,11 +6,13 @@
 mod config_space;
 mod guest;
 mod initramfs;
+mod port;
 mod remote;
 mod tools;
 
-pub use config_space::ConfigSpace;
+pub use config_space::{ConfigSpace, Window};
 pub use guest::{Options, Outcome, Running, run};
 pub use initramfs::Initramfs;
-pub use remote::{LockedCard, serve};
+pub use port::Message;
+pub use remote::{Device, LockedCard, serve};
 pub use tools::{MissingTool, Tools};

@@ -4,8 +4,8 @@
 //! size, body. Accesses carry absolute addresses, so the device decodes them with its own base addresses.
 //! As in QEMU 7.2, `include/hw/remote/mpqemu-link.h`; file descriptors that ride along are dropped.
 
-use super::config_space::ConfigSpace;
-use driver::pci::Ids;
+use super::config_space::{ConfigSpace, Window};
+use driver::pci::{Bar, Ids};
 use simulator::virtual_card::VirtualCard;
 use std::io::{self, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
@@ -25,12 +25,54 @@ const LONGEST: u64 = 4_096;
 /// A card that several parts of a test can touch.
 pub type LockedCard = Arc<Mutex<VirtualCard>>;
 
-/// Serves the card until QEMU closes the socket.
+/// What a PCI device does beside its configuration space.
+pub trait Device {
+    /// A read of 1, 2 or 4 bytes in a window.
+    fn read(&mut self, window: usize, offset: u32, size: u32) -> u32;
+
+    /// A write of 1, 2 or 4 bytes in a window.
+    ///
+    /// # Errors
+    /// Why the machine is to be stopped.
+    fn write(&mut self, window: usize, offset: u32, size: u32, data: u32) -> io::Result<()>;
+
+    /// A PCI reset.
+    ///
+    /// # Errors
+    /// Why the machine is to be stopped.
+    fn reset(&mut self) -> io::Result<()>;
+}
+
+/// The card on the bus.
+#[derive(Debug)]
+pub(super) struct CardDevice(pub(super) LockedCard);
+
+impl CardDevice {
+    fn card(&self) -> std::sync::MutexGuard<'_, VirtualCard> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Device for CardDevice {
+    fn read(&mut self, window: usize, offset: u32, size: u32) -> u32 {
+        self.card().bus_read(Bar::ALL[window], offset, size)
+    }
+    fn write(&mut self, window: usize, offset: u32, size: u32, data: u32) -> io::Result<()> {
+        self.card().bus_write(Bar::ALL[window], offset, size, data);
+        Ok(())
+    }
+    fn reset(&mut self) -> io::Result<()> {
+        self.card().reset();
+        Ok(())
+    }
+}
+
+/// Serves a device until QEMU closes the socket.
 ///
 /// # Errors
-/// A socket that fails, or a message nobody knows.
-pub fn serve(socket: UnixStream, card: &LockedCard, ids: Ids) -> io::Result<()> {
-    let mut device = Device { card, config: ConfigSpace::new(ids) };
+/// A socket that fails, a message nobody knows, or what the device wants the machine stopped for.
+pub fn serve(socket: UnixStream, device: &mut dyn Device, ids: Ids, windows: [Option<Window>; 6]) -> io::Result<()> {
+    let mut remote = Remote { device, config: ConfigSpace::new(ids, windows) };
     let mut socket = BufReader::new(socket);
     let mut header = [0; 16];
     loop {
@@ -45,7 +87,7 @@ pub fn serve(socket: UnixStream, card: &LockedCard, ids: Ids) -> io::Result<()> 
         }
         let mut body = vec![0; size as usize];
         socket.read_exact(&mut body)?;
-        if let Some(value) = device.answer(command, &body)? {
+        if let Some(value) = remote.answer(command, &body)? {
             let mut reply = [0; 24];
             reply[..4].copy_from_slice(&RETURN.to_ne_bytes());
             reply[8..16].copy_from_slice(&8u64.to_ne_bytes());
@@ -59,15 +101,14 @@ fn field<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
     std::array::from_fn(|n| bytes.get(at + n).copied().unwrap_or(0))
 }
 
-struct Device<'a> {
-    card: &'a LockedCard,
+struct Remote<'a> {
+    device: &'a mut dyn Device,
     config: ConfigSpace,
 }
 
-impl Device<'_> {
+impl Remote<'_> {
     /// What to reply, where a reply is waited for.
     fn answer(&mut self, command: i32, body: &[u8]) -> io::Result<Option<u64>> {
-        let mut card = self.card.lock().unwrap_or_else(PoisonError::into_inner);
         Ok(Some(match command {
             SYNC_SYSTEM_MEMORY | SET_INTERRUPT => return Ok(None),
             CONFIG_READ | CONFIG_WRITE => {
@@ -86,22 +127,24 @@ impl Device<'_> {
                 let value = u64::from_ne_bytes(field(body, 8));
                 let size = u32::from_ne_bytes(field(body, 16));
                 let memory = body.get(20).is_some_and(|flag| *flag != 0);
-                let Some((bar, offset)) = self.config.decode(address, memory) else { return Ok(Some(u64::MAX >> 1)) };
+                let Some((window, offset)) = self.config.decode(address, memory) else {
+                    return Ok(Some(u64::MAX >> 1));
+                };
                 // The local bus has 32 bits: longer accesses come as several.
                 let parts = (0..size.div_ceil(4)).map(|n| (n * 4, (size - n * 4).min(4)));
                 let mut out = 0;
                 for (at, width) in parts {
                     if command == BAR_WRITE {
-                        card.bus_write(bar, offset + at, width, (value >> (8 * at)) as u32);
+                        self.device.write(window, offset + at, width, (value >> (8 * at)) as u32)?;
                     } else {
-                        out |= u64::from(card.bus_read(bar, offset + at, width)) << (8 * at);
+                        out |= u64::from(self.device.read(window, offset + at, width)) << (8 * at);
                     }
                 }
                 out
             }
             DEVICE_RESET => {
                 self.config.reset();
-                card.reset();
+                self.device.reset()?;
                 0
             }
             other => return Err(io::Error::other(format!("command {other} of QEMU is unknown"))),

@@ -174,7 +174,14 @@ impl<'a> Gate<'a> {
     /// Whether something drives the net that is no logic.
     pub(super) fn is_element(&self, id: NetId) -> bool {
         !self.cells.get(&id).is_some_and(|kind| {
-            matches!(kind, CellKind::Lut { .. } | CellKind::Mux { .. } | CellKind::Xor { .. } | CellKind::And { .. })
+            matches!(
+                kind,
+                CellKind::Alias { .. }
+                    | CellKind::Lut { .. }
+                    | CellKind::Mux { .. }
+                    | CellKind::Xor { .. }
+                    | CellKind::And { .. }
+            )
         })
     }
 
@@ -190,6 +197,7 @@ impl<'a> Gate<'a> {
     fn alias(&self, signal: netlist::Signal) -> Option<Net> {
         let netlist::Signal::Net(id) = signal else { return None };
         match self.cells.get(&id) {
+            Some(CellKind::Alias { input, .. }) => self.alias(*input),
             Some(CellKind::Lut { table: 0xAAAA, inputs, .. }) => self.alias(inputs[0]),
             _ => self.names.get(&id).copied(),
         }
@@ -240,6 +248,7 @@ impl<'a> Gate<'a> {
                     inputs.iter().enumerate().fold(0, |word, (at, input)| word | usize::from(value(*input)) << at);
                 table >> word & 1 == 1
             }
+            Some(CellKind::Alias { input, .. }) => value(*input),
             Some(CellKind::Mux { select, one, zero, .. }) => value(if value(*select) { *one } else { *zero }),
             Some(CellKind::Xor { inputs: [one, other], .. }) => value(*one) != value(*other),
             Some(CellKind::And { inputs: [one, other], .. }) => value(*one) && value(*other),
@@ -251,6 +260,7 @@ impl<'a> Gate<'a> {
 
 fn inputs(kind: &CellKind) -> Vec<netlist::Signal> {
     match kind {
+        CellKind::Alias { input, .. } => vec![*input],
         CellKind::Lut { inputs, .. } => inputs.to_vec(),
         CellKind::Mux { select, one, zero, .. } => vec![*select, *one, *zero],
         CellKind::Xor { inputs, .. } | CellKind::And { inputs, .. } => inputs.to_vec(),
@@ -260,7 +270,8 @@ fn inputs(kind: &CellKind) -> Vec<netlist::Signal> {
 
 fn outputs(kind: &CellKind) -> Vec<NetId> {
     match kind {
-        CellKind::Lut { output, .. }
+        CellKind::Alias { output, .. }
+        | CellKind::Lut { output, .. }
         | CellKind::Mux { output, .. }
         | CellKind::Xor { output, .. }
         | CellKind::And { output, .. }

@@ -149,6 +149,31 @@ fn what_logs_cannot_tell_is_said_in_words() {
 }
 
 #[test]
+fn a_wrong_radius_is_called_a_radius() {
+    // Wheels 7.5 % smaller than the file says.
+    let truth = Robot { wheel_radius_m: 0.925 * Robot::racbot().wheel_radius_m, ..Robot::racbot() };
+    let mut robot = virtual_robot(&truth, 5);
+    calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    let e = estimate_skew(&Robot::racbot(), &[robot.into_log()]).unwrap();
+    let sizes = e.sizes.expect("radii explain it");
+    assert!(sizes.instead_of_skew, "{sizes:?}");
+    assert!((sizes.wheel_radius.0 + 0.075).abs() < 0.004, "{sizes:?}");
+    assert!(e.skew_rad.iter().all(|s| *s == 0.0), "{:?}", e.skew_rad);
+    assert!(e.remarks.iter().any(|r| r.contains("a radius, not a skew")), "{:?}", e.remarks);
+    assert!((e.apply(&Robot::racbot()).wheel_radius_m / truth.wheel_radius_m - 1.0).abs() < 0.004);
+}
+
+#[test]
+fn what_no_robot_does_is_refused() {
+    // The encoders of two wheels crossed.
+    let mut crossed = log([0.0; 3], 6);
+    crossed.counts.swap(0, 1);
+    let e = estimate_skew(&Robot::racbot(), &[crossed]).unwrap();
+    assert!(e.remarks[0].starts_with("No estimate"), "{:?} {:?}", e.remarks, degrees(&e));
+    assert!(degrees(&e).iter().all(|s| s.abs() < 45.0));
+}
+
+#[test]
 fn the_estimate_applied_is_the_robot_that_drove() {
     let truth = [4.0, -3.0, 2.0];
     let e = estimate_skew(&Robot::racbot(), &[log(truth, 2)]).unwrap();

@@ -1,7 +1,7 @@
 //! `racbot bitstream build`
 
 use crate::terminal::progress::Progress as Bar;
-use crate::terminal::{Answer, Failure, Table, save};
+use crate::terminal::{Answer, Failure, Table, Target};
 use bitstream::configuration::StartUp;
 use bitstream::container::{Header, PART};
 use bitstream::device::Device;
@@ -46,10 +46,16 @@ pub(crate) struct Options {
     /// Also write the netlist that it was made from, as yosys has it (JSON)
     #[arg(long, value_name = "FILE")]
     netlist: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let pictures = [&self.floor_plan, &self.drivers, &self.netlist];
+        let written = (!self.check).then_some(&self.out).into_iter();
+        self.target.check_free(written.chain(pictures.into_iter().flatten()))?;
         let board = Board::mesa_4i65_7i30();
         let constraints = Constraints::parse(&ucf(&board, NAME).map_err(Failure::data)?).map_err(Failure::data)?;
         let bar = Bar::new("synthesis", 100);
@@ -81,16 +87,16 @@ impl Options {
             let found = std::fs::read(&self.out).map_err(|error| Failure::about(&self.out, error))?;
             if found != file {
                 wrong = Some(format!(
-                    "{}: is not what the gateware makes; run racbot bitstream build --out {}",
+                    "{}: is not what the gateware makes; run racbot bitstream build --force --out {}",
                     self.out.display(),
                     self.out.display()
                 ));
             }
         } else {
-            save(&self.out, &file)?;
+            self.target.save(&self.out, &file)?;
         }
         if let Some(path) = &self.floor_plan {
-            save(path, &floorplan::svg(&built))?;
+            self.target.save(path, &floorplan::svg(&built))?;
         }
         if let Some(path) = &self.drivers {
             let lines = built.drivers.iter().map(|driver| {
@@ -98,10 +104,10 @@ impl Options {
                 let cell = driver.flip_flop.as_deref().unwrap_or("");
                 format!("{}\tX{x}Y{y}\t{}\t{}\t{cell}\n", driver.net, driver.element, driver.pin)
             });
-            save(path, &lines.collect::<String>())?;
+            self.target.save(path, &lines.collect::<String>())?;
         }
         if let Some(path) = &self.netlist {
-            save(path, &json)?;
+            self.target.save(path, &json)?;
         }
         Ok(Answer { text: text(&built, file.len()), json: report(&built, file.len(), self.seed), wrong })
     }

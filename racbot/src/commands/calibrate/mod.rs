@@ -7,7 +7,7 @@ mod result;
 
 #[cfg(feature = "simulation")]
 use super::options::{Hidden, load_robot};
-use crate::terminal::{Answer, Failure, wrapped};
+use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
 use result::Calibrated;
@@ -42,6 +42,9 @@ pub(crate) struct Options {
     /// Folder for the calibrated robot.toml, the FPGA's coefficient words and pictures
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 }
 
 /// How to calibrate.
@@ -55,6 +58,9 @@ enum Procedure {
     Paper,
 }
 
+/// Largest skew that is one: a wheel turned further drives another way altogether.
+const LARGEST_DEG: f64 = 45.0;
+
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let (mut answer, calibrated) = match self.procedure {
@@ -64,7 +70,7 @@ impl Options {
         };
         answer.json["configuration"] = calibrated.words();
         if let Some(folder) = &self.out {
-            let files = calibrated.save(folder)?;
+            let files = calibrated.save(folder, self.target)?;
             answer.text += &wrapped(&format!("written to {}: {}", folder.display(), files.join(", ")), 2);
         }
         Ok(answer)
@@ -80,13 +86,38 @@ impl Options {
         };
         let set = match &self.robot {
             None => DataSet::open(folder)?,
-            Some(file) => DataSet::open_as(folder, Robot::load(file)?)?,
+            Some(file) => DataSet::open_as(folder, Robot::load_partial(file)?)?,
         };
-        let estimate = estimate_skew(&set.robot, &set.runs).map_err(|error| Failure::about(folder, error))?;
+        if runs::is_dead_reckoning(&set.as_logged()) {
+            let what =
+                "the logs have the robot's odometry and no wheels: log enc_1..N or speed_1..N to find their skews";
+            return Err(Failure::about(folder, what));
+        }
+        if set.robot.geometry().is_ok_and(|g| g.is_differential()) {
+            let what = "the wheels of a differential drive have no skew that a camera shows; `racbot gap` finds radius, track \
+                        and camera";
+            return Err(Failure::about(folder, what));
+        }
+        let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.target.forced())?;
+        let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
+        let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
+        if !self.target.forced() && largest > LARGEST_DEG {
+            let what = format!(
+                "the best fit turns a wheel by {largest:.0}°: no skew does that; see `racbot check`, or --force"
+            );
+            return Err(Failure::about(folder, what));
+        }
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
-        let calibrated = Calibrated::new(&set.robot, &found, &found)?;
-        Ok((Answer { text: estimate::text(&estimate), json: estimate.to_json(), wrong: None }, calibrated))
+        let mut text = hints + &estimate::text(&estimate);
+        // Logs come from robots of any kind; words and drives are for those that the card can drive.
+        let whole = set.robot.missing.is_empty();
+        let card = if whole { Calibrated::new(&set.robot, &found, &found).ok() } else { None };
+        let calibrated = card.unwrap_or_else(|| {
+            text += "\nNo words for the FPGA and no drive: this robot is none that the card drives.\n";
+            Calibrated::without_card(&found)
+        });
+        Ok((Answer { text, json: estimate.to_json(), wrong: None }, calibrated))
     }
 
     #[cfg(feature = "simulation")]

@@ -1,6 +1,6 @@
 //! What a calibration leaves behind: robot.toml, words for the FPGA, pictures.
 
-use crate::terminal::{Failure, save};
+use crate::terminal::{Failure, Target};
 use driver::Scale;
 use fixed_kin::registers::{CONFIGURATION, NOMINAL_CLOCK_HZ};
 use runs::robot::Robot;
@@ -24,6 +24,17 @@ impl Calibrated {
         let words = scale.configuration().to_words().into_iter().enumerate();
         let words = words.map(|(index, word)| (CONFIGURATION.at(index), word)).collect();
         Self::drive(nominal, actual, calibrated, words)
+    }
+
+    /// A robot that no card of ours drives: its file alone.
+    pub(super) fn without_card(calibrated: &Robot) -> Self {
+        Self {
+            robot: calibrated.clone(),
+            words: Vec::new(),
+            pictures: Vec::new(),
+            #[cfg(feature = "simulation")]
+            path_errors_m: [f64::NAN; 3],
+        }
     }
 
     /// Fig. 6 with ideal geometry, before and after, on odometry alone.
@@ -75,13 +86,15 @@ impl Calibrated {
     }
 
     /// Writes the files; gives their names.
-    pub(super) fn save(&self, folder: &Path) -> Result<Vec<&'static str>, Failure> {
+    pub(super) fn save(&self, folder: &Path, target: Target) -> Result<Vec<&'static str>, Failure> {
         let rows = self.words.iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
         let words = format!("offset,word\n{}", rows.collect::<String>());
-        let mut files = vec![("robot.toml", self.robot.to_toml()), ("configuration.csv", words)];
+        let mut files = vec![("robot.toml", self.robot.to_toml())];
+        files.extend((!self.words.is_empty()).then_some(("configuration.csv", words)));
         files.extend(self.pictures.iter().cloned());
+        target.check_free(files.iter().map(|(name, _)| folder.join(name)))?;
         for (name, content) in &files {
-            save(&folder.join(name), content)?;
+            target.save(&folder.join(name), content)?;
         }
         Ok(files.into_iter().map(|(name, _)| name).collect())
     }

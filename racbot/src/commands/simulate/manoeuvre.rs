@@ -1,7 +1,7 @@
 //! `racbot simulate --manoeuvre`: runs that show particular effects, for a data set.
 
 use crate::terminal::progress::Progress;
-use crate::terminal::{Answer, Failure, Table, save, wrapped};
+use crate::terminal::{Answer, Failure, Table, Target, wrapped};
 use model::effects::Applied;
 use model::manoeuvre::{Manoeuvre, simulate};
 use runs::error::InputError;
@@ -38,6 +38,7 @@ pub(super) struct Runs<'a> {
     pub(super) times: u32,
     pub(super) out: &'a Path,
     pub(super) name: &'a str,
+    pub(super) target: Target,
 }
 
 impl Runs<'_> {
@@ -45,7 +46,10 @@ impl Runs<'_> {
         let believed = Robot { support: self.manoeuvre.support(), ..self.believed.clone() };
         let applied = Applied::of(&Robot { support: self.manoeuvre.support(), ..self.actual.clone() });
         let file = self.out.join("robot.toml");
-        let written = write_robot(&file, &believed)?;
+        let name = |k: u32| if self.times == 1 { self.name.to_owned() } else { format!("{}_{}", self.name, k + 1) };
+        let path = |k: u32| self.out.join(format!("{}.csv", name(k)));
+        self.target.check_free((0..self.times).map(path))?;
+        let written = write_robot(&file, &believed, self.target)?;
         let progress = Progress::new(format!("driving {}", self.manoeuvre.name()), u64::from(self.times));
         let mut table = Table::new(1, &["run", "seconds", "ticks", "frames"]);
         let mut files: Vec<PathBuf> = Vec::new();
@@ -58,11 +62,10 @@ impl Runs<'_> {
                 run.camera.clear();
                 run.has_camera = false;
             }
-            let name = if self.times == 1 { self.name.to_owned() } else { format!("{}_{}", self.name, k + 1) };
-            let path = self.out.join(format!("{name}.csv"));
-            run.write(&path)?;
+            let path = path(k);
+            run.save(&path, self.target.existing())?;
             let figures = [format!("{:.1}", run.duration_s()), run.len().to_string(), run.camera.len().to_string()];
-            table.row([name].into_iter().chain(figures));
+            table.row([name(k)].into_iter().chain(figures));
             files.push(path);
             progress.at(u64::from(k + 1));
         }
@@ -84,9 +87,9 @@ impl Runs<'_> {
 }
 
 /// Writes the robot's file, unless it is there already; another robot's is not touched.
-fn write_robot(file: &Path, believed: &Robot) -> Result<bool, Failure> {
+fn write_robot(file: &Path, believed: &Robot, target: Target) -> Result<bool, Failure> {
     if !file.exists() {
-        save(file, &believed.to_toml())?;
+        target.save(file, &believed.to_toml())?;
         return Ok(true);
     }
     if Robot::load(file)? == *believed {

@@ -6,7 +6,7 @@ use super::fpga_options::{FpgaChoice, SpeedChoice};
 use super::options::{Hidden, load_robot};
 use super::start::Start;
 use crate::terminal::progress::Progress;
-use crate::terminal::{Answer, Failure, Table, save, wrapped};
+use crate::terminal::{Answer, Failure, Table, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::effects::{Applied, ControlDeviations};
 use model::plant::{Contact, Deviations};
@@ -18,8 +18,12 @@ use simulator::closed_loop::picture::{Curve, speeds, trajectory};
 use simulator::closed_loop::{Control, Drive, Driven, Ending};
 use simulator::fpga::{BitTrue, Kind};
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Where runs go, and what they are called, where nothing is said.
+const OUT: &str = "out/simulate";
+const NAME: &str = "run";
 
 /// Options of `simulate`.
 #[derive(Args, Debug)]
@@ -72,12 +76,16 @@ pub(crate) struct Options {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     limit_s: Option<f64>,
 
-    /// Folder for the run, robot.toml and pictures: a data set for the other commands
-    #[arg(long, value_name = "DIR", default_value = "out/simulate")]
-    out: PathBuf,
+    /// Folder for the run, robot.toml and pictures: a data set for the other commands, which another run joins
+    /// under another --name [default: out/simulate, or the first free of out/simulate-2 ...]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
 
     /// Name of the run in the folder
-    #[arg(long, value_name = "NAME", default_value = "run")]
+    #[arg(long, value_name = "NAME", default_value = NAME)]
     name: String,
 }
 
@@ -132,6 +140,7 @@ impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let believed = load_robot(self.robot.as_deref())?;
         let actual = self.hidden.robot(&believed)?;
+        let out = self.target.place(self.out.as_deref(), OUT);
         if let Some(manoeuvre::Name(manoeuvre)) = self.manoeuvre {
             let runs = manoeuvre::Runs {
                 manoeuvre,
@@ -141,7 +150,8 @@ impl Options {
                 start: self.start.0,
                 seed: self.seed,
                 times: self.times,
-                out: &self.out,
+                out: &out,
+                target: self.target,
                 name: &self.name,
             };
             return runs.drive();
@@ -165,6 +175,8 @@ impl Options {
             ..Drive::new(&believed, &set_points)
         };
         let hidden = actual != believed;
+        let files = self.files(&out);
+        self.target.check_free([&files[0], &files[2], &files[3]])?;
         let timed = self.timed(&drive)?;
         let ideal = (hidden || !actual.effects.is_empty()).then(|| {
             let ideal = Drive {
@@ -175,7 +187,7 @@ impl Options {
             };
             ideal.run(BitTrue::new(), |_| {}).map_err(|error| self.about_robot(error))
         });
-        let files = self.save(&drive, &timed.driven, ideal.transpose()?.as_ref())?;
+        self.save(&files, &drive, &timed.driven, ideal.transpose()?.as_ref())?;
         Ok(self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) }))
     }
 
@@ -208,15 +220,27 @@ impl Options {
         }
     }
 
-    fn save(&self, drive: &Drive, driven: &Driven, ideal: Option<&Driven>) -> Result<Vec<PathBuf>, Failure> {
-        let path = |name: &str| self.out.join(name);
-        let files =
-            [path(&format!("{}.csv", self.name)), path("robot.toml"), path("trajectory.svg"), path("speeds.svg")];
-        save(&files[1], &driven.robot.to_toml())?;
-        driven.run.write(&files[0])?;
-        save(&files[2], &picture(drive, driven, ideal))?;
-        save(&files[3], &speeds("Wheel speeds, heading and duties", driven))?;
-        Ok(files.to_vec())
+    /// The run, its robot, and the pictures, which a run with a name of its own has for itself.
+    fn files(&self, out: &Path) -> [PathBuf; 4] {
+        let picture = |what: &str| match self.name.as_str() {
+            NAME => out.join(what),
+            name => out.join(format!("{name}-{what}")),
+        };
+        let run = out.join(format!("{}.csv", self.name));
+        [run, out.join("robot.toml"), picture("trajectory.svg"), picture("speeds.svg")]
+    }
+
+    fn save(
+        &self,
+        files: &[PathBuf; 4],
+        drive: &Drive,
+        driven: &Driven,
+        ideal: Option<&Driven>,
+    ) -> Result<(), Failure> {
+        self.target.save(&files[1], &driven.robot.to_toml())?;
+        driven.run.save(&files[0], self.target.existing())?;
+        self.target.save(&files[2], &picture(drive, driven, ideal))?;
+        self.target.save(&files[3], &speeds("Wheel speeds, heading and duties", driven))
     }
 
     fn answer(&self, drive: &Drive, timed: &Timed, files: &[PathBuf], truth: &Truth) -> Answer {
@@ -226,7 +250,8 @@ impl Options {
             text += &wrapped(remark, 2);
         }
         let names: Vec<_> = files.iter().filter_map(|f| f.file_name()).map(|f| f.to_string_lossy()).collect();
-        let _ = writeln!(text, "written      {}: {}", self.out.display(), names.join(", "));
+        let folder = files[0].parent().unwrap_or(Path::new(""));
+        let _ = writeln!(text, "written      {}: {}", folder.display(), names.join(", "));
         let mut json = to_json(drive, timed);
         json["fpga"] = json!(self.fpga.kind().to_string());
         json["files"] = json!(files);
@@ -283,9 +308,10 @@ fn figures(drive: &Drive, timed: &Timed) -> String {
     let ending = match &timed.driven.ending {
         Ending::Finished => "at rest".to_owned(),
         Ending::TimeLimit => format!("after {} s, the time limit", drive.limit_s),
-        Ending::Disarmed(faults) => format!("card disarmed: {faults}"),
+        Ending::Stopped => "stopped".to_owned(),
+        Ending::Fault(fault) => fault.to_string(),
     };
-    let _ = writeln!(text, "ended        {ending}");
+    let _ = write!(text, "ended        {}", wrapped(&ending, 13));
     let _ = writeln!(text, "simulated    {} times real time", ratio(timed.times_real_time));
     text
 }
@@ -309,7 +335,8 @@ fn to_json(drive: &Drive, timed: &Timed) -> Value {
         "ended": match &timed.driven.ending {
             Ending::Finished => "finished".to_owned(),
             Ending::TimeLimit => "time-limit".to_owned(),
-            Ending::Disarmed(faults) => format!("disarmed: {faults}"),
+            Ending::Stopped => "stopped".to_owned(),
+            Ending::Fault(fault) => fault.to_string(),
         },
         "times_real_time": timed.times_real_time,
     })

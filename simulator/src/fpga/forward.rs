@@ -1,6 +1,6 @@
 //! A boxed or borrowed FPGA is an FPGA.
 
-use crate::fpga::{Fpga, FpgaError, Kind};
+use super::{Fpga, FpgaError, Kind};
 use fixed_kin::AXES;
 
 impl<F: Fpga + ?Sized> Fpga for &mut F {
@@ -13,6 +13,9 @@ impl<F: Fpga + ?Sized> Fpga for &mut F {
     fn quiet_clocks(&self) -> u32 {
         (**self).quiet_clocks()
     }
+    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+        (**self).duties()
+    }
 }
 
 impl<F: Fpga + ?Sized> Fpga for Box<F> {
@@ -24,5 +27,8 @@ impl<F: Fpga + ?Sized> Fpga for Box<F> {
     }
     fn quiet_clocks(&self) -> u32 {
         (**self).quiet_clocks()
+    }
+    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+        (**self).duties()
     }
 }

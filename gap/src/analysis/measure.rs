@@ -1,0 +1,168 @@
+//! What a `robot.toml` gives on the logs as it is written: nothing is fitted but what the file declares a recording's
+//! own, such as the clocks of its runs.
+
+use std::sync::Arc;
+
+use runs::Log;
+use runs::robot::Robot;
+
+use super::robot_file::{completed, given};
+use super::study::rms;
+use super::{Driven, LinkGap, Misses, gaps};
+use crate::drive::{DriveLink, DriveResiduals};
+use crate::effect::{Effect, Link};
+use crate::motion::{MotionLink, WindowResiduals};
+use crate::pieces::Pieces;
+use crate::problem::Problem;
+use crate::state::{Active, State};
+
+/// RMS residual of a window far from what a second of noise reaches, where wheels slip, whose law is not exact.
+const FAR_AMISS: f64 = 2.0;
+
+/// The data that every model is measured on.
+pub(super) struct Data<'a> {
+    pub(super) pieces: &'a Pieces<'a>,
+    pub(super) motion: &'a MotionLink<'a>,
+    /// Whether the motion link is compared at all.
+    pub(super) has_motion: bool,
+    pub(super) logs: &'a [Log<'a>],
+    pub(super) catalogue: &'a [Arc<dyn Effect>],
+}
+
+/// The drive link under one model of the motion, its floor and the correlation of its residuals.
+pub(super) struct Drive<'a> {
+    pub(super) link: DriveLink<'a>,
+    pub(super) correlation: f64,
+    pub(super) residuals: DriveResiduals,
+}
+
+/// The drive link as measured.
+pub(super) struct MeasuredDrive {
+    /// Residuals, nominal and written.
+    pub(super) plots: [DriveResiduals; 2],
+    /// Nm, one a wheel.
+    pub(super) floor: Vec<f64>,
+    /// Torque that the motors reach in the logs, Nm.
+    reached_nm: f64,
+}
+
+impl MeasuredDrive {
+    /// Noise floors from which the link does not agree: those of a torque that matters beside what is driven.
+    pub(super) fn far(&self) -> f64 {
+        super::study::FAR.max(gaps::drive_matters(&self.floor, self.reached_nm))
+    }
+}
+
+/// Figures of a written model beside the nominal one's.
+pub(super) struct Measured {
+    pub(super) links: Vec<LinkGap>,
+    /// Motion residuals, nominal and written.
+    pub(super) motion: Option<[Vec<WindowResiduals>; 2]>,
+    pub(super) drive: Option<MeasuredDrive>,
+    /// Share of the link's squared gap that goes with each effect of the file, by name.
+    pub(super) gains: Vec<(String, f64)>,
+    /// RMS of motion and drive in floors after each effect of the file, in its order.
+    pub(super) steps: Vec<(String, Vec<(Link, f64)>)>,
+    pub(super) driven: Driven,
+}
+
+impl<'a> Data<'a> {
+    /// The state that a robot's file describes, with what it declares the recording's own fitted.
+    pub(super) fn state(&self, robot: &Robot) -> State {
+        let state = State { robot: completed(robot, self.logs), active: given(robot, self.catalogue) };
+        self.declared(state)
+    }
+
+    fn declared(&self, mut state: State) -> State {
+        let robot = state.robot.clone();
+        let mut any = false;
+        for a in state.active.iter_mut().filter(|a| a.effect.nuisance()) {
+            let Some(form) = a.effect.forms(&robot).into_iter().next() else {
+                a.values.0.clear();
+                continue;
+            };
+            a.values.0.retain(|(name, _)| form.free.iter().any(|p| p.name == *name));
+            a.form = form;
+            a.given = false;
+            any = true;
+        }
+        if any && self.has_motion {
+            Problem::Motion(self.motion).fit(&mut state);
+        }
+        state.active.iter_mut().for_each(|a| a.given = true);
+        state
+    }
+
+    /// The drive link under a model, above the floor that this model leaves.
+    pub(super) fn drive(&self, state: &State, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'a>> {
+        let mut link = DriveLink::new(self.pieces, &state.drive(None))?;
+        link.mask_slip(&state.motion(None));
+        if state.active.iter().any(|a| a.effect.name() == "wheel-slip") {
+            // Where the law of slip did not catch what slipped, Newton's law has no body to push.
+            let misses = Misses::new(seen, FAR_AMISS);
+            link.mask_times(|run, t| misses.are_near(run, t));
+        }
+        let residuals = link.residuals(&state.drive(None))?;
+        let (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
+        link.noise = floor;
+        Some(Drive { link, correlation, residuals })
+    }
+
+    /// Measures a written robot beside the nominal one, both as files; `new` are the names of the effects that only the
+    /// written one has.
+    pub(super) fn measure(&self, nominal: &Robot, written: &Robot, new: &[&str]) -> Measured {
+        let before = self.state(nominal);
+        let after = self.state(written);
+        let is_new = |a: &Active| new.contains(&a.effect.name());
+        let without = |name: &str| -> State {
+            let mut state = after.clone();
+            state.active.retain(|a| a.effect.name() != name || !is_new(a));
+            state
+        };
+        let mut out = Measured {
+            links: Vec::new(),
+            motion: None,
+            drive: None,
+            gains: Vec::new(),
+            steps: Vec::new(),
+            driven: Driven::default(),
+        };
+        let motion = Problem::Motion(self.motion);
+        if self.has_motion {
+            let plots = [self.motion.residuals(&before.motion(None)), self.motion.residuals(&after.motion(None))];
+            let figures = [rms(&motion, &before), rms(&motion, &after)];
+            out.links.push(gaps::motion_gap(figures, self.motion.noise, &plots));
+            out.driven.frames = Driven::at_frames(self.pieces, &plots[0]);
+            out.motion = Some(plots);
+        }
+        let drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        if let Some(drive) = &drive {
+            let problem = Problem::Drive(&drive.link);
+            let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
+            let plots = [nominally, drive.residuals.clone()];
+            out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
+            out.driven.bumps = Driven::at_bumps(&drive.link);
+            let (floor, reached_nm) = (drive.link.noise.clone(), drive.link.sizes.drive_nm);
+            out.drive = Some(MeasuredDrive { plots, floor, reached_nm });
+        }
+        let on_links = |state: &State| -> Vec<(Link, f64)> {
+            let motion = self.has_motion.then(|| (Link::Motion, rms(&motion, state)));
+            let drive = drive.as_ref().map(|d| (Link::Drive, rms(&Problem::Drive(&d.link), state)));
+            motion.into_iter().chain(drive).collect()
+        };
+        let mut sofar = after.clone();
+        sofar.active.retain(|a| !is_new(a));
+        for a in after.active.iter().filter(|a| is_new(a)) {
+            let name = a.effect.name().to_owned();
+            sofar.active.push(a.clone());
+            out.steps.push((name.clone(), on_links(&sofar)));
+            let alone = on_links(&without(&name));
+            let gain = out.links.iter().filter_map(|l| {
+                let without = alone.iter().find(|x| x.0 == l.link)?.1;
+                Some((without.powi(2) - l.after.powi(2)) / l.before.max(without).powi(2))
+            });
+            out.gains.push((name, gain.fold(0.0, f64::max).clamp(0.0, 1.0)));
+        }
+        out
+    }
+}

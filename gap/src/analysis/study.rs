@@ -1,0 +1,395 @@
+//! One link: what is selected, what of it may be named, and how well it is known.
+
+use std::sync::Arc;
+
+use super::{Limit, Named};
+use crate::effect::{Effect, Parameter};
+use crate::evidence::{Evidence, Interval};
+use crate::options::Thresholds;
+use crate::problem::{Owner, Problem};
+use crate::select::{self, Selection};
+use crate::state::{Active, State};
+use crate::thresholds;
+
+/// Noise floors that may be left before a link is looked at again with nothing adjusted.
+const OPEN: f64 = 1.5;
+/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
+pub(super) const FAR: f64 = 3.0;
+/// Share of the squared residual that the estimates may leave more than the best ones of what is named.
+const WORSE: f64 = 0.1;
+/// Share of a held-out sum of squares by which a selection with more parameters must be better.
+const BETTER: f64 = 0.03;
+/// Chance of runs that differ as much by what clusters scatter, below which the runs' own spread counts.
+const RUNS_DIFFER: f64 = 0.05;
+
+/// A link's selection with everything that is said about it.
+pub(super) struct Outcome {
+    pub(super) selection: Selection,
+    /// What it starts from and what is named, with the estimates that are reported.
+    pub(super) written: State,
+    pub(super) named: Vec<Named>,
+    pub(super) sets: Vec<Vec<String>>,
+    pub(super) ambiguous: bool,
+    pub(super) limits: Vec<Limit>,
+    pub(super) leftovers: Vec<String>,
+    /// Held-out RMS of what is named, fitted without the run that is predicted, in floors.
+    pub(super) held_out: f64,
+    /// What was fitted and is not named, and why.
+    pub(super) refused: Vec<String>,
+}
+
+impl Outcome {
+    /// Takes back every name; `start` is where the study started.
+    pub(super) fn forget(&mut self, start: &State) {
+        self.written = start.clone();
+        self.ambiguous = false;
+        self.named.clear();
+        self.sets.clear();
+    }
+}
+
+/// Selects on one link, beginning with effects `known` from an earlier look; a gap of more than `matters` noise floors
+/// is not left to adjustments.
+pub(super) fn chosen(
+    problem: &Problem,
+    start: &State,
+    known: &[Active],
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+    matters: f64,
+) -> Selection {
+    let selection = select::select(problem, start, known, catalogue, thresholds);
+    let from = start.active.len();
+    let open = rms(problem, start);
+    let adjusted = select::figures(&selection.bench).1;
+    let worth = selection.state.active[from..].iter().any(Active::worth);
+    let selection = if worth || open <= matters || adjusted >= 0.7 * open {
+        selection
+    } else {
+        select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
+    };
+    // With everything adjusted and named, the prediction is still far from the noise: noise does not decide then.
+    if select::figures(&selection.bench).1 <= OPEN {
+        return selection;
+    }
+    let all = problem.candidates(start, catalogue);
+    let Some(plain) = select::plain(problem, start, &all, thresholds, false) else { return selection };
+    let named = |s: &Selection| {
+        let mut state = start.clone();
+        state.active.extend(s.state.active[from..].iter().filter(|a| a.is_named()).cloned());
+        let parameters: usize = state.active[from..].iter().map(|a| a.form.free.len()).sum();
+        problem.fit(&mut state);
+        (select::held_out(problem, &state).0, parameters)
+    };
+    let ((loss, parameters), (other, others)) = (named(&selection), named(&plain));
+    let needed = if others < parameters { 1.0 + BETTER } else { 1.0 - BETTER };
+    if other < needed * loss { plain } else { selection }
+}
+
+/// Root mean square of the residuals of a state in floors.
+pub(super) fn rms(problem: &Problem, state: &State) -> f64 {
+    let (square, n) = problem.linearise_nothing(state).plain();
+    (square / n.max(1.0)).sqrt()
+}
+
+/// Judges what was selected on one link from where the study starts; from `far` noise floors on it does not agree.
+pub(super) fn study(
+    problem: &Problem,
+    start: &State,
+    selection: Selection,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+    far: f64,
+) -> Outcome {
+    let all = problem.candidates(start, catalogue);
+    let from = start.active.len();
+    let (selection, mut refused) = admitted(problem, selection, from, &all, thresholds);
+    let mut judged = judge(problem, start, selection);
+    if judged.rms > far
+        && let Some(several) = several(problem, start, &judged, &all, thresholds)
+    {
+        let (selection, more) = admitted(problem, several, from, &all, thresholds);
+        let again = judge(problem, start, selection);
+        if again.rms < judged.rms {
+            judged = again;
+            refused.extend(more);
+        }
+    }
+    let Judged { selection, written, estimates, .. } = judged;
+    let (mut named, mut sets, mut leftovers, mut ambiguous) = (Vec::new(), Vec::new(), Vec::new(), false);
+    for (index, active) in selection.state.active.iter().enumerate().skip(from) {
+        if active.effect.probe() {
+            if active.worth() {
+                leftovers.push(active.effect.describe(&active.values));
+            }
+            continue;
+        }
+        let Some(estimate) = estimates.iter().find(|e| e.index == index) else { continue };
+        let rivals = select::rivals(problem, &selection, index, &all, thresholds);
+        let bench = &selection.bench;
+        let twin = |name: &str| {
+            (0..bench.candidates.len()).any(|c| bench.candidates[c].effect.name() == name && bench.is_twin(c, index))
+        };
+        // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
+        let counts = |s: &Vec<String>| !selection.bare || matches!(&s[..], [_, other] if twin(other));
+        let own: Vec<Vec<String>> =
+            rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
+        ambiguous |= rivals.ambiguous && !own.is_empty();
+        sets.extend(own);
+        let fixed = active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact));
+        named.push(Named {
+            name: active.effect.name().to_owned(),
+            equation: active.effect.equation().to_owned(),
+            link: problem.link(),
+            wheels: material_wheels(active),
+            parameters: estimate.parameters.iter().cloned().chain(fixed).collect(),
+            // Known when the file is written and read again.
+            gain: 0.0,
+            evidence: Evidence::Test { method: "signs of whole clusters flipped", p: estimate.p },
+        });
+    }
+    let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
+    Outcome {
+        held_out: (square / n.max(1.0)).sqrt(),
+        limits: crate::limits::limits(problem.link(), &selection.bench, from, thresholds),
+        selection,
+        written,
+        named,
+        sets,
+        ambiguous,
+        leftovers,
+        refused,
+    }
+}
+
+/// The same state, to be fitted again where it was fitted.
+fn written_to_fit(written: &State, from: usize) -> State {
+    let mut state = written.clone();
+    state.active[..from].iter_mut().for_each(|a| a.given = true);
+    state
+}
+
+/// Effects each too small to matter, where together they close what matters.
+fn several(
+    problem: &Problem,
+    start: &State,
+    judged: &Judged,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let from = start.active.len();
+    let mut begun = start.clone();
+    begun.active.extend(judged.written.active[from..].iter().map(|a| Active { given: true, ..a.clone() }));
+    let left: Vec<Active> =
+        all.iter().filter(|c| !begun.active.iter().any(|a| a.effect.name() == c.effect.name())).cloned().collect();
+    let mut found = select::plain(problem, &begun, &left, thresholds, true)?;
+    for (index, a) in found.state.active.iter_mut().enumerate().skip(from) {
+        a.given = false;
+        // Named for what they do together.
+        a.together = index >= begun.active.len();
+    }
+    problem.fit(&mut found.state);
+    let keep = |_: &Active| true;
+    Some(select::without(problem, &found, from, keep, all, thresholds))
+}
+
+/// One named effect's estimates.
+struct Estimate {
+    index: usize,
+    parameters: Vec<(String, f64, Interval)>,
+    p: f64,
+}
+
+/// A selection with the estimates of what may be named.
+struct Judged {
+    selection: Selection,
+    written: State,
+    estimates: Vec<Estimate>,
+    rms: f64,
+}
+
+/// Takes out of a selection what may not be named, one effect after the other, and says why.
+fn admitted(
+    problem: &Problem,
+    mut selection: Selection,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> (Selection, Vec<String>) {
+    let mut refused = Vec::new();
+    loop {
+        let estimates = estimates(problem, &selection, from, selection.bare);
+        let faults = estimates.iter().filter_map(|e| Some((e, fault(&selection.state.active[e.index], e)?)));
+        let Some((estimate, why)) = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p)) else { return (selection, refused) };
+        let name = selection.state.active[estimate.index].effect.name().to_owned();
+        refused.push(format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()));
+        selection = select::without(problem, &selection, from, |a| a.effect.name() != name, all, thresholds);
+    }
+}
+
+/// What forbids to name an effect.
+fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
+    let known = |(p, (name, value, interval)): (&Parameter, &(String, f64, Interval))| {
+        let no_angle = active.effect.period(name).is_none();
+        thresholds::Estimate {
+            name: name.clone(),
+            value: *value,
+            interval: interval.ends().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
+            bounds: p.bounds,
+            sized: p.material.is_finite() && no_angle,
+            // What is switched on is not absent at 0.
+            absent_at_zero: p.below.is_none() && p.start.is_none(),
+        }
+    };
+    let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
+    let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
+    Some(format!("{}; p = {}", refusal.reason(), crate::report::short(estimate.p)))
+}
+
+/// Estimates of all effects that are worth a name, with their intervals and p-values.
+fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) -> Vec<Estimate> {
+    let bench = &selection.bench;
+    let roles = bench.judged(bare);
+    let fit = bench.fit_roles(&roles);
+    let covariance = bench.covariance(&roles, &fit);
+    let clusters = bench.linear.gram.clusters.len();
+    let left_out = bench.left_out(&roles);
+    let mut out = Vec::new();
+    for index in from..selection.state.active.len() {
+        let active = &selection.state.active[index];
+        if !active.is_named() {
+            continue;
+        }
+        let parameters = active.form.free.iter().enumerate().map(|(j, p)| {
+            let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
+            let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
+            let v =
+                active.effect.period(&p.name).map_or(v.clamp(p.bounds[0], p.bounds[1]), |period| v.rem_euclid(period));
+            let df = clusters.saturating_sub(active.form.free.len());
+            let half = column.map_or(0.0, |c| {
+                let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
+                let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
+                half_width(covariance[(c, c)].max(0.0), df, runs)
+            });
+            // The effect's own law is not known to better than that.
+            let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);
+            (p.name.clone(), v, Interval::Ci95([v - half, v + half]))
+        });
+        out.push(Estimate { index, parameters: parameters.collect(), p: p_value(problem, &selection.state, index) });
+    }
+    out
+}
+
+/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain.
+/// `left_out` are the estimates without one run each.
+fn half_width(variance: f64, df: usize, left_out: &[f64]) -> f64 {
+    let by_clusters = model::fit::t_quantile_975(df) * variance.sqrt();
+    let runs = left_out.len();
+    if runs < 3 {
+        return by_clusters;
+    }
+    let mean = left_out.iter().sum::<f64>() / runs as f64;
+    let free = (runs - 1) as f64;
+    // The jackknife's variance.
+    let by_runs = free / runs as f64 * left_out.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+    let chi2 = by_runs / variance.max(1e-300) * free;
+    if crate::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
+        by_clusters.max(model::fit::t_quantile_975(runs - 1) * by_runs.sqrt())
+    } else {
+        by_clusters
+    }
+}
+
+/// Two-sided p-value of one effect of a state, by flipping the signs of clusters without it.
+fn p_value(problem: &Problem, state: &State, index: usize) -> f64 {
+    let mut without = state.clone();
+    let own = without.active.remove(index);
+    let mut absent = own.clone();
+    for p in &own.form.free {
+        if p.start.is_none() {
+            absent.values.set(&p.name, 0.0);
+        }
+    }
+    select::sign_flip(&problem.linearise(&without, &[absent]), 0)
+}
+
+/// The written state of a selection, by whichever estimates leave less where they differ much.
+fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
+    let from = start.active.len();
+    let written = |estimates: &[Estimate]| {
+        let mut state = start.clone();
+        for e in estimates {
+            let mut active = selection.state.active[e.index].clone();
+            e.parameters.iter().for_each(|(n, v, _)| active.values.set(n, *v));
+            state.active.push(active);
+        }
+        state
+    };
+    let careful = estimates(problem, &selection, from, selection.bare);
+    let state = written(&careful);
+    let now = rms(problem, &state);
+    if selection.bare || careful.is_empty() {
+        return Judged { rms: now, written: state, estimates: careful, selection };
+    }
+    // Adjustments that were stretched beyond their margins are no nuisance: what is named does without them.
+    let mut bare_state = state.clone();
+    problem.fit(&mut bare_state);
+    let bare = rms(problem, &bare_state);
+    let excess = |r: f64| (r * r - 1.0).max(0.0);
+    if excess(bare) < (1.0 - WORSE) * excess(now) && bare > OPEN {
+        let mut fitted = Selection { state: selection.state.clone(), bare: true, ..selection };
+        for (k, e) in careful.iter().enumerate() {
+            fitted.state.active[e.index].values = bare_state.active[from + k].values.clone();
+        }
+        let mut estimates = estimates(problem, &fitted, from, true);
+        for e in &mut estimates {
+            // The bench stands at the careful estimates; the fit has gone on from there.
+            let active = &fitted.state.active[e.index];
+            for (name, v, interval) in &mut e.parameters {
+                let new = active.values.get(name);
+                if let Interval::Ci95([low, high]) = interval {
+                    let half = 0.5 * (*high - *low);
+                    *interval = Interval::Ci95([new - half, new + half]);
+                }
+                *v = new;
+            }
+        }
+        return Judged { rms: bare, written: bare_state, estimates, selection: fitted };
+    }
+    Judged { rms: now, written: state, estimates: careful, selection }
+}
+
+pub(super) fn material_wheels(active: &Active) -> Vec<usize> {
+    let per_wheel = active.form.wheels.len() > 1 && active.form.free.len() >= active.form.wheels.len();
+    if !per_wheel {
+        return active.form.wheels.iter().map(|w| w + 1).collect();
+    }
+    let each = active.form.free.len() / active.form.wheels.len();
+    active
+        .form
+        .wheels
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| {
+            (k * each..(k + 1) * each)
+                .any(|j| active.form.free[j].is_material(active.values.get(&active.form.free[j].name)))
+        })
+        .map(|(_, w)| w + 1)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_are_as_wide_as_runs_differ() {
+        // Runs that agree as clusters have it.
+        let t = model::fit::t_quantile_975(100);
+        assert!((half_width(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
+        // Leave-one-out estimates three cluster deviations apart.
+        let wide = half_width(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
+        assert!(wide > 3.0 * t, "{wide}");
+        assert!((half_width(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+    }
+}

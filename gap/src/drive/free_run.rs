@@ -1,0 +1,127 @@
+//! Free simulation: how far the speeds of a model run away from those of the log.
+//!
+//! Unexplained torques say how much would have to be added to a model at every moment, and a model whose motors give
+//! nothing and whose wheels have nothing to move needs little. Left to itself such a model goes nowhere: its speeds stay
+//! what they were. So what is named must not make the speeds of a free simulation worse.
+//!
+//! With e = simulated − measured speed, M the inertia, D the damping by the motors' back-EMF and r the unexplained
+//! torque, M ė = −r − D e. Loads keep the direction of the measured motion, so that a wheel that stands does not decide.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{DriveLink, DriveModel, DriveResiduals};
+
+/// Sum of squares of speeds run away, (rad/s)², one for each free run of the simulation; each begins at the speeds of
+/// the log and lasts for a cluster, or until a wheel may have been stuck or slipped.
+pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
+    let mechanics = model.mechanics()?;
+    let residuals = link.residuals(model)?;
+    let damping = model.axes.iter().map(|a| {
+        let per_speed = model.gear_ratio.powi(2) * a.torque_constant * a.back_emf / a.resistance;
+        per_speed * a.encoder_scale
+    });
+    let damping = DVector::from_iterator(model.axes.len(), damping);
+    // Bumps overlap by half: each stands for that much of the log.
+    Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
+}
+
+/// Sum of squares of what a model leaves, half-way between its own torque and that of the link's robot, in units of the
+/// noise, one for each cluster.
+///
+/// An inertia too small explains accelerations that are noisy (it makes little of them in its own torque), one too large
+/// those that are predicted badly (it predicts none): what it really is does better half-way.
+pub fn misses(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
+    let mechanics = model.mechanics()?;
+    let moving = if mechanics.body.is_some() { 3.0 } else { mechanics.inertia.nrows() as f64 };
+    let lighter = ((link.ln_inertia() - mechanics.ln_inertia) / moving).exp();
+    let residuals = link.residuals(model)?;
+    let mut out: Vec<f64> = Vec::new();
+    let mut before = None;
+    for b in 0..link.len() {
+        if before != Some(link.cluster(b)) {
+            out.push(0.0);
+            before = Some(link.cluster(b));
+        }
+        let weighted = residuals.torque[b].iter().zip(&residuals.weights[b]).zip(&link.noise);
+        let weighted = weighted.map(|((t, w), s)| lighter * (w * t / s).powi(2));
+        if let Some(last) = out.last_mut() {
+            *last += weighted.sum::<f64>();
+        }
+    }
+    Some(out)
+}
+
+fn squares(
+    link: &DriveLink,
+    residuals: &DriveResiduals,
+    response: &DMatrix<f64>,
+    damping: &DVector<f64>,
+    hop: f64,
+) -> Vec<f64> {
+    let n = damping.len();
+    let Some(step) = implicit(response, damping, hop) else { return Vec::new() };
+    let mut out: Vec<f64> = Vec::new();
+    let mut e = DVector::zeros(n);
+    let mut before: Option<(usize, usize)> = None;
+    for b in 0..link.len() {
+        let at = (link.place(b).0, link.cluster(b));
+        if before != Some(at) {
+            out.push(0.0);
+            e.fill(0.0);
+            before = Some(at);
+        }
+        if residuals.weights[b].iter().any(|w| *w == 0.0) {
+            e.fill(0.0);
+            continue;
+        }
+        let torque = DVector::from_column_slice(&residuals.torque[b]);
+        e = &step * (e - response * torque * hop);
+        if let Some(last) = out.last_mut() {
+            *last += e.norm_squared();
+        }
+    }
+    out
+}
+
+/// (1 + h·M⁻¹·D)⁻¹: a step of implicit Euler, stable however slow the log.
+fn implicit(response: &DMatrix<f64>, damping: &DVector<f64>, h: f64) -> Option<DMatrix<f64>> {
+    let n = damping.len();
+    (DMatrix::identity(n, n) + response * DMatrix::from_diagonal(damping) * h).try_inverse()
+}
+
+/// Whether free simulations of one model run away further than those of another: their difference over all runs, in
+/// units of its own spread, beyond `sigmas`.
+pub fn further(one: &[f64], other: &[f64], sigmas: f64) -> bool {
+    let differences = || one.iter().zip(other).map(|(a, b)| a - b);
+    let sum: f64 = differences().sum();
+    sum.is_nan() || sum > sigmas * differences().map(|d| d * d).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_that_of_a_motor_that_settles() {
+        // 2 kg m², 4 Nm s/rad: a time constant of half a second; a constant torque missing of 8 Nm is 2 rad/s.
+        let (response, damping) = (DMatrix::from_element(1, 1, 0.5), DVector::from_element(1, 4.0));
+        for h in [1e-3, 0.1, 10.0] {
+            let step = implicit(&response, &damping, h).unwrap();
+            let mut e = DVector::zeros(1);
+            for _ in 0..(20.0 / h) as usize + 20 {
+                e = &step * (e - &response * DVector::from_element(1, 8.0) * h);
+            }
+            assert!((e[0] + 2.0).abs() < 1e-6, "{h}: {}", e[0]);
+        }
+    }
+
+    #[test]
+    fn only_what_is_worse_in_many_runs_is_worse() {
+        assert!(further(&[2.0; 20], &[1.0; 20], 2.0));
+        assert!(!further(&[1.0; 20], &[1.0; 20], 2.0) && !further(&[1.0; 20], &[2.0; 20], 2.0));
+        let mut once = [1.0; 20];
+        once[3] = 50.0;
+        assert!(!further(&once, &[1.0; 20], 2.0));
+        assert!(further(&[f64::NAN], &[1.0], 2.0));
+    }
+}

@@ -1,0 +1,58 @@
+//! Which effects a robot can have at all.
+
+use runs::robot::Robot;
+
+/// What a differential drive has no wheels for: they have no rollers, and a wheel that is turned scrubs; both turned alike
+/// are a turned marker plate.
+const NOT_ON_ONE_AXLE: [&str; 5] = ["wheel-skew", "wheel-angle", "roller-friction", "roller-ripple", "sideways-creep"];
+/// What is said of single wheels or their contact, which dead reckoning does not show. A common radius (the scale of the
+/// way and of the turn) and a body radius (the scale of the turn alone) remain.
+const NOT_BY_DEAD_RECKONING: [&str; 12] = [
+    "wheel-skew",
+    "wheel-radius",
+    "wheel-angle",
+    "encoder-scale",
+    "encoder-loss",
+    "encoder-lag",
+    "wheel-creep",
+    "wheel-slip",
+    "wheel-order",
+    "roller-ripple",
+    "roller-friction",
+    "sideways-creep",
+];
+
+/// Whether a robot can have an effect.
+pub(crate) fn fits(name: &str, robot: &Robot) -> bool {
+    if runs::is_dead_reckoning(robot) {
+        return !NOT_BY_DEAD_RECKONING.contains(&name);
+    }
+    let differential = robot.geometry().is_ok_and(|g| g.is_differential());
+    !(differential && NOT_ON_ONE_AXLE.contains(&name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_wheels_have_no_rollers_and_dead_reckoning_no_wheels() {
+        let robot = Robot::racbot();
+        let source = runs::Source { counts: runs::CountSource::Odometry, ..Default::default() };
+        let reckoned = runs::as_logged(&robot, source, None);
+        let mut axle = robot.layout.wheels()[..2].to_vec();
+        for (wheel, x) in axle.iter_mut().zip([0.1, -0.1]) {
+            (wheel.x_m, wheel.y_m, wheel.drive_rad) = (x, 0.0, std::f64::consts::FRAC_PI_2);
+        }
+        let two = Robot { layout: runs::robot::Layout::Wheels(axle), ..robot.clone() };
+        for (name, on) in [
+            ("wheel-skew", [true, false, false]),
+            ("wheel-radius", [true, true, false]),
+            ("body-radius", [true, true, true]),
+            ("camera-latency", [true, true, true]),
+        ] {
+            assert_eq!([&robot, &two, &reckoned].map(|r| fits(name, r)), on, "{name}");
+            assert!(crate::effects::find(name).is_some(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! The camera and the wheels: a free similarity between what both say of the same stretches.
+//!
+//! With a displacement by the counts as a complex number p and that of the camera, turned into the body by its heading, as
+//! b, the best b = c·p has a scale |c| and a turn arg c; turns compare by a factor of their own. The heading is read in
+//! radians and degrees, counter-clockwise and clockwise, y up and down, the wheels in every signed order: what fits tells
+//! how the log is to be read.
+
+use std::f64::consts::{PI, TAU};
+
+use runs::Log;
+use runs::geometry::Geometry;
+use runs::robot::{Robot, Support};
+
+use super::orders::{moved, orders, words};
+use super::samples::{Sample, of_camera};
+use super::{Mistake, common_ratio, is_true, short};
+
+/// Fewest stretches with motion that tell anything.
+const FEWEST: usize = 20;
+/// Most stretches of all logs together: with four wheels each is looked at in 3072 ways.
+const MOST: usize = 3000;
+/// Share of the camera's motion that a way to read the log may leave more than the best one and still count as equal:
+/// skews, slip and lags of the worst robots leave a few hundredths.
+const EQUAL: (f64, f64) = (1.6, 0.04);
+/// Share of the motion that is left at most where the log is read as it was meant.
+const FITS: f64 = 0.35;
+/// Turn of the body frame that marker plates and skews may have, rad.
+const TRUE_TURN: f64 = 0.6;
+
+/// How the columns of the camera are read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Reading {
+    degrees: bool,
+    clockwise: bool,
+    down: bool,
+}
+
+/// A way to read a data set, and how well camera and wheels then agree.
+struct Fit {
+    reading: Reading,
+    order: Vec<(usize, f64)>,
+    /// Camera's displacement per displacement by the counts: scale and turn, rad.
+    scale: f64,
+    turn: f64,
+    /// Camera's turn per turn by the counts; none where the robot hardly turns.
+    spin: Option<f64>,
+    /// Share of the motion that is left.
+    left: f64,
+    /// How many things would have to be wrong.
+    wrong: f64,
+}
+
+pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
+    let Some(geometry) = robot.geometry().ok().filter(|_| robot.support == Support::Floor) else { return Vec::new() };
+    let samples: Vec<Sample> = logs.iter().flat_map(|log| of_camera(robot, log)).collect();
+    let rim = geometry.wheels().iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max).max(1e-6);
+    let mut ways: Vec<f64> = samples.iter().map(|s| s.turned.iter().map(|a| a.abs()).fold(0.0, f64::max)).collect();
+    ways.sort_by(f64::total_cmp);
+    let usual = ways.get(ways.len() * 9 / 10).copied().unwrap_or(0.0);
+    let moving: Vec<Sample> = samples
+        .into_iter()
+        .filter(|s| s.turned.iter().map(|a| a.abs()).fold(0.0, f64::max) > 0.2 * usual.max(1e-9))
+        .collect();
+    if moving.len() < FEWEST {
+        return Vec::new();
+    }
+    let every = moving.len().div_ceil(MOST);
+    let moving: Vec<Sample> = moving.into_iter().step_by(every).collect();
+    let mut fits = Vec::new();
+    for degrees in [false, true] {
+        for (clockwise, down) in [(false, false), (true, false), (false, true), (true, true)] {
+            let reading = Reading { degrees, clockwise, down };
+            let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
+            for order in orders(robot.wheel_count()) {
+                fits.push(fit(&geometry, rim, &moving, &seen, reading, order));
+            }
+        }
+    }
+    let best = fits.iter().map(|f| f.left).fold(f64::INFINITY, f64::min);
+    let equal = |f: &&Fit| f.left <= EQUAL.0 * best + EQUAL.1;
+    let found = fits.iter().filter(equal).min_by(|a, b| (a.wrong + a.left).total_cmp(&(b.wrong + b.left)));
+    found.map_or_else(Vec::new, |fit| named(robot, fit, before))
+}
+
+/// Displacement in the body, and turn, by the camera.
+fn body(s: &Sample, reading: Reading) -> ([f64; 2], f64) {
+    let unit = if reading.degrees { PI / 180.0 } else { 1.0 };
+    let sign = if reading.clockwise { -1.0 } else { 1.0 };
+    let (from, to) = (sign * unit * s.from.theta, sign * unit * s.to.theta);
+    let turn = (to - from + PI).rem_euclid(TAU) - PI;
+    let (dx, dy) = (s.to.x - s.from.x, if reading.down { s.from.y - s.to.y } else { s.to.y - s.from.y });
+    let (sin, cos) = (from + 0.5 * turn).sin_cos();
+    ([cos * dx + sin * dy, cos * dy - sin * dx], turn)
+}
+
+fn fit(
+    geometry: &Geometry,
+    rim: f64,
+    samples: &[Sample],
+    seen: &[([f64; 2], f64)],
+    reading: Reading,
+    order: Vec<(usize, f64)>,
+) -> Fit {
+    let (mut pp, mut re, mut im, mut bb) = (0.0, 0.0, 0.0, 0.0);
+    let (mut ww, mut wt, mut tt) = (0.0, 0.0, 0.0);
+    let mut turned = vec![0.0; order.len()];
+    for (s, ([bx, by], turn)) in samples.iter().zip(seen) {
+        for (i, (wheel, sign)) in order.iter().enumerate() {
+            turned[*wheel] = sign * s.turned[i];
+        }
+        let p = geometry.twist(&turned);
+        pp += p.vx * p.vx + p.vy * p.vy;
+        re += bx * p.vx + by * p.vy;
+        im += by * p.vx - bx * p.vy;
+        bb += bx * bx + by * by;
+        ww += p.omega * p.omega;
+        wt += p.omega * turn;
+        tt += turn * turn;
+    }
+    let left_t = if bb > 0.0 { 1.0 - (re * re + im * im) / (pp * bb).max(1e-300) } else { 1.0 };
+    let (scale, spin) = (re.hypot(im) / pp.max(1e-300), wt / ww.max(1e-300));
+    // A turn must be positive: a negative one is another reading.
+    let left_r = if tt > 0.0 { 1.0 - wt.max(0.0).powi(2) / (ww * tt).max(1e-300) } else { 1.0 };
+    // Lengths by the counts say how much of the motion is a turn.
+    let share = rim * rim * ww / (rim * rim * ww + pp).max(1e-300);
+    let turns = share > 0.02;
+    let left = if turns { 0.5 * (left_t + left_r) } else { left_t };
+    let image = reading.clockwise && reading.down;
+    let camera = if image { 1.0 } else { f64::from(u8::from(reading.clockwise)) + f64::from(u8::from(reading.down)) };
+    let turn = im.atan2(re);
+    let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
+    let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
+    let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
+    let wrong = camera + f64::from(u8::from(reading.degrees)) + quarter + 0.6 * swapped + 1.2 * reversed;
+    Fit { reading, order, scale, turn, spin: turns.then_some(spin), left, wrong }
+}
+
+fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
+    let mut found = Vec::new();
+    let new = |kind, column: &str, what: String, remedy: &str| Mistake::new(kind, column, what, remedy.to_owned());
+    if fit.left > FITS {
+        let what = format!(
+            "however it is read, {:.0} % of what the camera saw does not follow from the counts: the robot.toml of another \
+             robot, or wheels and camera of different drives",
+            100.0 * fit.left
+        );
+        return vec![new(
+            "robot-file",
+            "robot.toml",
+            what,
+            "take the file of the robot that drove; check [[wheel]] against it",
+        )];
+    }
+    if fit.reading.degrees {
+        let what = "headings follow the wheels only as degrees".to_owned();
+        found.push(new(
+            "heading-degrees",
+            "cam_theta",
+            what,
+            "write radians (times 0.0174533), or name the unit to `racbot convert`",
+        ));
+    }
+    match (fit.reading.clockwise, fit.reading.down) {
+        (true, false) => {
+            let what = "headings grow clockwise".to_owned();
+            found.push(new("heading-clockwise", "cam_theta", what, "write them counter-clockwise: change their sign"));
+        }
+        (down_too, true) => {
+            let what = if down_too {
+                "the camera sees the drive mirrored: y grows downwards, as in an image, and headings clockwise"
+            } else {
+                "y grows downwards, as in an image"
+            };
+            let remedy = if down_too { "change the signs of cam_y and cam_theta" } else { "change the sign of cam_y" };
+            found.push(new("camera-y-down", "cam_y", what.to_owned(), remedy));
+        }
+        _ => {}
+    }
+    let changed = moved(&fit.order);
+    if !changed.is_empty() {
+        let what = format!("camera and counts agree only if {}", words(&fit.order));
+        let column = format!("enc_{}", changed[0] + 1);
+        let remedy = "mend the wiring, the columns of the log or the order of [[wheel]]";
+        found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, remedy) });
+    }
+    if fit.turn.abs() > TRUE_TURN {
+        let what = format!(
+            "the camera's heading is {:.0} degrees from that of the body's x axis, which points to the right",
+            -fit.turn.to_degrees()
+        );
+        let remedy = "write the heading of the x axis (that of the forward axis less 90 degrees), or, where [[wheel]] has x \
+                      forward, write x_m = -y, y_m = x and drive_rad + pi/2";
+        found.push(new("heading-axis", "cam_theta", what, remedy));
+    }
+    let spin = fit.spin.unwrap_or(fit.scale);
+    let told = |kinds: &[&str]| before.iter().any(|m| kinds.contains(&m.kind));
+    let distances = ["wheel-diameter", "encoder-counts", "gear-ratio"];
+    // Where distances by the counts are wrong, too, turns tell how far.
+    let own = if is_true(spin) { 1.0 } else { spin.clamp(0.05, 20.0) };
+    let unit = [(1000.0, "millimetres"), (100.0, "centimetres")];
+    if let Some((unit, name)) = unit.iter().find(|(u, _)| is_true(fit.scale / (own * u))) {
+        let what = format!("the camera's distances are {} times those of the counts: {name}", short(fit.scale));
+        let remedy = format!("write metres (divide cam_x and cam_y by {unit}), or name the unit to `racbot convert`");
+        found.push(Mistake::new("camera-unit", "cam_x", what, remedy));
+    } else if !is_true(fit.scale) || !is_true(spin) {
+        let common = (fit.scale / spin).ln().abs() < 0.25;
+        match common_ratio(robot, fit.scale).filter(|_| common) {
+            Some(_) if told(&distances) => {}
+            Some(mistake) => found.push(mistake),
+            None if is_true(fit.scale) => {
+                let what = format!("the robot turns {} times as far as the counts say, but drives as far", short(spin));
+                found.push(new(
+                    "robot-file",
+                    "[[wheel]]",
+                    what,
+                    "check the distances of the wheels from the centre (a diameter?)",
+                ));
+            }
+            None => {
+                let what = format!(
+                    "the camera sees {} times the distance and {} times the turn that the counts say: the robot.toml of \
+                     another robot?",
+                    short(fit.scale),
+                    short(spin)
+                );
+                let remedy = "check wheel_radius_m, gear_ratio and encoder_counts_per_motor_rev";
+                found.push(new("robot-file", "robot.toml", what, remedy));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,216 @@
+//! Set points, commands, duties and supply against the counts.
+
+use nalgebra::{Matrix3, Vector3};
+use runs::robot::Robot;
+use runs::{Columns, DRIVE_KEYS, Log, Run};
+
+use super::samples::{Wheels, correlation};
+use super::{Mistake, common_ratio, is_true, near, short};
+
+/// Length over which a speed is taken, s.
+const SPAN_S: f64 = 0.05;
+/// Correlation from which a signal follows the wheels at all.
+const FOLLOWS: f64 = 0.8;
+/// Spans by which commands may run ahead.
+const LAGS: usize = 6;
+/// Samples from which anything is said.
+const FEWEST: usize = 50;
+/// Ratio of supplies from which they are not one robot's: a battery between full and empty has 1.5.
+const SUPPLY: f64 = 1.75;
+/// The same by what the duties achieve, which loads falsify.
+const BY_DUTIES: [f64; 2] = [0.45, 2.2];
+
+/// Speeds and what was asked for at the same time.
+struct Signals {
+    /// Wheel speeds, rad/s by robot.toml, `[wheel][sample]`.
+    speed: Vec<Vec<f64>>,
+    /// Accelerations, rad/s².
+    acceleration: Vec<Vec<f64>>,
+    reference: Vec<Vec<f64>>,
+    duty: Vec<Vec<f64>>,
+    command: Vec<[f64; 3]>,
+    supply: Vec<f64>,
+}
+
+pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
+    let mut found = Vec::new();
+    let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();
+    found.extend(references(robot, &signals));
+    found.extend(commands(robot, &signals));
+    found.extend(supply(robot, &signals));
+    found
+}
+
+fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
+    let wheels = Wheels::of(robot, log)?;
+    let columns = Columns { command: true, reference: true, duty: true, supply: true, ..Columns::NONE };
+    let run: Run = log.part(0..log.len().min(200_000), columns);
+    let n = robot.wheel_count();
+    let mut out = Signals {
+        speed: vec![Vec::new(); n],
+        acceleration: vec![Vec::new(); n],
+        reference: vec![Vec::new(); if run.reference.len() == n { n } else { 0 }],
+        duty: vec![Vec::new(); if run.duty.len() == n { n } else { 0 }],
+        command: Vec::new(),
+        supply: run.supply_v.iter().flatten().copied().filter(|v| v.is_finite()).collect(),
+    };
+    let (first, last) = (*wheels.t.first()?, *wheels.t.last()?);
+    let span = SPAN_S.max(2.0 * log.tick_s()?);
+    let held = |column: &[f64], from: usize, to: usize| {
+        let values: Vec<f64> = column[from..=to].iter().copied().filter(|v| v.is_finite()).collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    let number = ((last - first) / span).floor().min(4000.0) as usize;
+    for k in 1..number.saturating_sub(1) {
+        let t = first + k as f64 * span;
+        let row = |t: f64| run.t.partition_point(|x| *x <= t).saturating_sub(1).min(run.len() - 1);
+        let (a, b) = (row(t - 0.5 * span), row(t + 0.5 * span));
+        let (Some(back), Some(here), Some(ahead)) = (
+            wheels.turned(t - 1.0 * span, t),
+            wheels.turned(t - 0.5 * span, t + 0.5 * span),
+            wheels.turned(t, t + span),
+        ) else {
+            continue;
+        };
+        for i in 0..n {
+            out.speed[i].push(here[i] / span);
+            out.acceleration[i].push((ahead[i] - back[i]) / (span * span));
+        }
+        for (slot, column) in out.reference.iter_mut().zip(&run.reference) {
+            slot.push(held(column, a, b));
+        }
+        for (slot, column) in out.duty.iter_mut().zip(&run.duty) {
+            slot.push(held(column, a, b));
+        }
+        if let Some(command) = &run.command {
+            out.command.push([0, 1, 2].map(|j| held(&command[j], a, b)));
+        }
+    }
+    Some(out)
+}
+
+/// Slope of y over x through the origin.
+fn slope(pairs: &[(f64, f64)]) -> f64 {
+    let (xx, xy) = pairs.iter().fold((0.0, 0.0), |(xx, xy), (x, y)| (xx + x * x, xy + x * y));
+    xy / xx
+}
+
+/// Set points in another unit, or speeds that are wrong beside them.
+fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
+    let pairs: Vec<(f64, f64)> = signals
+        .iter()
+        .flat_map(|s| s.speed.iter().zip(&s.reference).flat_map(|(w, r)| w.iter().copied().zip(r.iter().copied())))
+        .filter(|(w, r)| w.is_finite() && r.is_finite())
+        .collect();
+    if pairs.len() < FEWEST || correlation(pairs.iter().copied()) < FOLLOWS {
+        return None;
+    }
+    let ratio = slope(&pairs);
+    if is_true(ratio) {
+        return None;
+    }
+    let rpm = 60.0 / std::f64::consts::TAU;
+    if near(ratio, rpm) {
+        let what = format!("set points are {} times the speeds of the wheels: turns per minute", short(ratio));
+        let remedy = "write rad/s at the wheel (divide by 9.5493), or name the unit to `racbot convert`".to_owned();
+        return Some(Mistake::new("reference-unit", "ref_1", what, remedy));
+    }
+    if let Some(mistake) = common_ratio(robot, ratio).filter(|m| m.kind != "wheel-diameter") {
+        return Some(mistake);
+    }
+    let what = format!("set points are {} times the speeds of the wheels", short(ratio));
+    let shaft = if near(ratio, robot.gear_ratio) { " (these look like speeds of the motor shaft)" } else { "" };
+    let remedy = format!("write rad/s at the wheel{shaft}, or check gear_ratio and encoder_counts_per_motor_rev");
+    Some(Mistake::new("reference-unit", "ref_1", what, remedy))
+}
+
+/// Commands in another frame.
+fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
+    let geometry = robot.geometry().ok()?;
+    // Commands run ahead of the wheels: the lag at which they follow best.
+    let of = |lag: usize| {
+        let (mut pp, mut re, mut im, mut cc, mut n) = (0.0, 0.0, 0.0, 0.0, 0);
+        for s in signals {
+            for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
+                let w: Vec<f64> = s.speed.iter().filter_map(|w| w.get(k + lag).copied()).collect();
+                if w.len() == s.speed.len() {
+                    let p = geometry.twist(&w);
+                    pp += p.vx * p.vx + p.vy * p.vy;
+                    re += c[0] * p.vx + c[1] * p.vy;
+                    im += c[1] * p.vx - c[0] * p.vy;
+                    cc += c[0] * c[0] + c[1] * c[1];
+                    n += 1;
+                }
+            }
+        }
+        (f64::hypot(re, im) / f64::sqrt(pp * cc).max(1e-300), f64::atan2(im, re), n)
+    };
+    let (follows, turn, n) = (0..=LAGS).map(of).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // What wheels that are wired in another order make of a command is no frame: frames are quarter turns.
+    let quarter = (turn / std::f64::consts::FRAC_PI_2).round() * std::f64::consts::FRAC_PI_2;
+    if n < FEWEST || follows < FOLLOWS || quarter == 0.0 || (turn - quarter).abs() > 0.4 {
+        return None;
+    }
+    let what = format!("commands point {:.0} degrees from where the wheels drive", turn.to_degrees());
+    let remedy = if (turn.to_degrees() + 90.0).abs() < 30.0 {
+        "they look like x forward, y left (ROS REP-103): here x is to the right and y forward, so write cmd_vx = -y and \
+         cmd_vy = x"
+    } else {
+        "write cmd_vx to the right and cmd_vy forward"
+    };
+    Some(Mistake::new("command-frame", "cmd_vx", what, remedy.to_owned()))
+}
+
+/// A supply in another unit, or of another battery.
+fn supply(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
+    if !robot.lacks(&DRIVE_KEYS).is_empty() {
+        return None;
+    }
+    let mut logged: Vec<f64> = signals.iter().flat_map(|s| s.supply.iter().copied()).collect();
+    logged.sort_by(f64::total_cmp);
+    if let Some(median) = logged.get(logged.len() / 2) {
+        let ratio = median / robot.supply_v;
+        if near(ratio, 1000.0) {
+            let what = format!("the supply is logged as {}: millivolts", short(*median));
+            return Some(Mistake::new("supply", "supply_v", what, "write volts (divide by 1000)".to_owned()));
+        }
+        if !(1.0 / SUPPLY..=SUPPLY).contains(&ratio) {
+            let what = format!("the logs have {} V and robot.toml {} V", short(*median), short(robot.supply_v));
+            let remedy = format!("write supply_v = {} in robot.toml if the log is right", short(*median));
+            return Some(Mistake::new("supply", "supply_v", what, remedy));
+        }
+    }
+    if robot.motor.back_emf() <= 0.0 {
+        return None;
+    }
+    // duty = a·speed + b·direction + c·acceleration: a is back-EMF over supply.
+    let (mut normal, mut right, mut n, mut square) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros(), 0, 0.0);
+    for s in signals {
+        for i in 0..s.duty.len() {
+            for k in 0..s.duty[i].len() {
+                let (duty, w, a) = (s.duty[i][k], s.speed[i][k], s.acceleration[i][k]);
+                if duty.is_finite() && duty.abs() < 0.97 && w.abs() > 1e-6 {
+                    let row = Vector3::new(w, w.signum(), a);
+                    normal += row * row.transpose();
+                    right += row * duty;
+                    square += duty * duty;
+                    n += 1;
+                }
+            }
+        }
+    }
+    let solved = normal.try_inverse().map(|inverse| inverse * right)?;
+    let explained = solved.dot(&right) / square;
+    let by_duties = robot.gear_ratio * robot.motor.back_emf() / solved.x;
+    let ratio = by_duties / robot.supply_v;
+    if n < FEWEST || explained < 0.9 || solved.x <= 0.0 || (BY_DUTIES[0]..=BY_DUTIES[1]).contains(&ratio) {
+        return None;
+    }
+    let what = format!(
+        "duties and speeds speak of a supply of about {} V, not of {} V",
+        short(by_duties),
+        short(robot.supply_v)
+    );
+    let remedy = "check supply_v, back_emf_constant (or torque_constant) and gear_ratio".to_owned();
+    Some(Mistake::new("supply", "supply_v", what, remedy))
+}

@@ -1,0 +1,112 @@
+//! Mistakes in setting a data set up, found before anything is fitted: units, axes, signs, orders, the wrong file.
+//!
+//! Poses of the camera, commands and set points are compared with what the counts say by `robot.toml`. Every comparison
+//! is a ratio or a turn, fitted over all logs; a mistake is a ratio of 1000, 57.3, 9.55, 4, 2 or a quarter turn, far from
+//! what a robot that differs from its drawing can show.
+
+mod camera;
+mod drive;
+mod orders;
+mod samples;
+mod time;
+
+use runs::Logs;
+use runs::robot::Robot;
+
+pub use orders::orders;
+
+/// One mistake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mistake {
+    /// What kind, kebab-case, stable.
+    pub kind: &'static str,
+    /// Column of the logs, or key of `robot.toml`, that it is seen in.
+    pub column: String,
+    /// What is wrong, with the figure that tells.
+    pub what: String,
+    /// What to write instead.
+    pub remedy: String,
+    /// Whether an analysis may go on: it has an effect of this name and says more.
+    pub nameable: bool,
+}
+
+impl Mistake {
+    fn new(kind: &'static str, column: &str, what: String, remedy: String) -> Self {
+        Self { kind, column: column.to_owned(), what, remedy, nameable: false }
+    }
+
+    /// In one sentence.
+    pub fn sentence(&self) -> String {
+        format!("{}: {}; {}", self.column, self.what, self.remedy)
+    }
+}
+
+/// Ratio to nominal that a robot may truly have: a radius, a lever or a camera's scale wrong by two fifths is no drawing
+/// error any more, and the nearest mistake (a diameter for a radius) is a factor of 2.
+pub(crate) const TRUE_RATIO: f64 = 1.45;
+/// Relative width about a ratio by which a mistake is recognised.
+pub(crate) const NEAR: f64 = 0.22;
+
+/// Whether a ratio is that of a mistake.
+pub(crate) fn near(ratio: f64, of: f64) -> bool {
+    (ratio / of - 1.0).abs() < NEAR
+}
+
+/// Whether a ratio may be the robot's own.
+pub(crate) fn is_true(ratio: f64) -> bool {
+    (1.0 / TRUE_RATIO..=TRUE_RATIO).contains(&ratio)
+}
+
+/// All mistakes of a data set, those first that others follow from.
+pub fn mistakes(set: &Logs) -> Vec<Mistake> {
+    let robot = set.as_logged();
+    let found = time::mistakes(&set.robot, &robot, &set.logs);
+    if !found.is_empty() {
+        // Every speed would be wrong.
+        return found;
+    }
+    let mut found = drive::mistakes(&robot, &set.logs);
+    found.extend(camera::mistakes(&robot, &set.logs, &found));
+    found
+}
+
+/// What stands in the file under the name of a common ratio of all distances, if it explains it.
+pub(crate) fn common_ratio(robot: &Robot, ratio: f64) -> Option<Mistake> {
+    let gear = robot.gear_ratio;
+    let mut kinds: Vec<(f64, Mistake)> = vec![
+        (0.5, {
+            let what =
+                format!("all distances by the counts are {:.2} times too long: it looks like a diameter", 1.0 / ratio);
+            let remedy = format!("write wheel_radius_m = {}", short(robot.wheel_radius_m / 2.0));
+            Mistake::new("wheel-diameter", "wheel_radius_m", what, remedy)
+        }),
+        (0.25, {
+            let what = format!(
+                "all distances by the counts are {:.2} times too long: counts without their x4 decoding",
+                1.0 / ratio
+            );
+            let remedy = format!(
+                "write encoder_counts_per_motor_rev = {}, four for every line of the encoder",
+                short(4.0 * robot.encoder_counts_per_motor_rev)
+            );
+            Mistake::new("encoder-counts", "encoder_counts_per_motor_rev", what, remedy)
+        }),
+    ];
+    if (gear * gear).ln().abs() > 0.5 {
+        let what = format!(
+            "all distances by the counts are {:.2} times too long, the square of the gear ratio: it is upside down",
+            1.0 / ratio
+        );
+        let remedy = format!("write gear_ratio = {}, motor turns per wheel turn", short(1.0 / gear));
+        kinds.push((gear * gear, Mistake::new("gear-ratio", "gear_ratio", what, remedy)));
+    }
+    let off = |of: f64| (ratio / of).ln().abs();
+    kinds.into_iter().filter(|(of, _)| near(ratio, *of)).min_by(|a, b| off(a.0).total_cmp(&off(b.0))).map(|(_, m)| m)
+}
+
+/// Four digits.
+pub(crate) fn short(x: f64) -> String {
+    let digits = (3 - x.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{x:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

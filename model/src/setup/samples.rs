@@ -1,0 +1,114 @@
+//! What wheels, camera and commands say of the same stretches of time.
+
+use runs::frames::Pose;
+use runs::robot::Robot;
+use runs::{Columns, Log};
+
+/// Ticks of a log that are looked at.
+const MOST_TICKS: usize = 200_000;
+/// Stretches of a log that are compared.
+const MOST: usize = 1500;
+/// Length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.
+const STRETCH_S: f64 = 0.15;
+/// Lags at which camera and wheels are compared, s: clocks set by hand differ by a fifth of a second.
+const LAGS_S: (f64, f64) = (0.3, 0.02);
+
+/// A log's wheel angles, rad by robot.toml, at increasing times.
+pub(super) struct Wheels {
+    pub(super) t: Vec<f64>,
+    pub(super) angle: Vec<Vec<f64>>,
+}
+
+impl Wheels {
+    /// Of a log with counts.
+    pub(super) fn of(robot: &Robot, log: &Log) -> Option<Self> {
+        let part = log.part(0..log.len().min(MOST_TICKS), Columns { counts: true, ..Columns::NONE });
+        if part.counts.len() != robot.wheel_count() || part.len() < 16 {
+            return None;
+        }
+        // Ticks at which every wheel was read; counters that wrap do not jump.
+        let sampled: Vec<usize> =
+            (0..part.len()).filter(|k| part.count_gaps.iter().all(|gaps| gaps.binary_search(k).is_err())).collect();
+        let sampled = if sampled.len() < 16 { (0..part.len()).collect() } else { sampled };
+        let angle = part.counts.iter().map(|counts| {
+            let first = counts.first().copied().unwrap_or(0);
+            sampled.iter().map(|k| counts[*k].wrapping_sub(first) as f64 / robot.counts_per_wheel_rad()).collect()
+        });
+        Some(Self { angle: angle.collect(), t: sampled.iter().map(|k| part.t[*k]).collect() })
+    }
+
+    /// Angles at a time between first and last.
+    pub(super) fn at(&self, t: f64) -> Vec<f64> {
+        let k = self.t.partition_point(|x| *x <= t).clamp(1, self.t.len() - 1);
+        let share = ((t - self.t[k - 1]) / (self.t[k] - self.t[k - 1])).clamp(0.0, 1.0);
+        self.angle.iter().map(|a| a[k - 1] + share * (a[k] - a[k - 1])).collect()
+    }
+
+    fn covers(&self, from: f64, to: f64) -> bool {
+        self.t.first().is_some_and(|t| *t <= from) && self.t.last().is_some_and(|t| *t >= to)
+    }
+
+    /// How far each wheel turned in a stretch of time.
+    pub(super) fn turned(&self, from: f64, to: f64) -> Option<Vec<f64>> {
+        self.covers(from, to).then(|| self.at(to).iter().zip(self.at(from)).map(|(b, a)| b - a).collect())
+    }
+}
+
+/// Two poses of the camera and the turn of the wheels between them.
+#[derive(Debug, Clone)]
+pub(super) struct Sample {
+    pub(super) from: Pose,
+    pub(super) to: Pose,
+    pub(super) turned: Vec<f64>,
+}
+
+/// Stretches of a log between camera frames, at the lag of the camera at which the wheels tell its speed best.
+pub(super) fn of_camera(robot: &Robot, log: &Log) -> Vec<Sample> {
+    let Some(wheels) = Wheels::of(robot, log) else { return Vec::new() };
+    let frames = log.camera();
+    let mut pairs = Vec::new();
+    let mut j = 0;
+    for i in 0..frames.len() {
+        j = j.max(i + 1);
+        while j < frames.len() && frames[j].t - frames[i].t < STRETCH_S {
+            j += 1;
+        }
+        // A camera that lost the robot in between, or stood still, tells nothing.
+        if j < frames.len() && frames[j].t - frames[i].t < 3.0 * STRETCH_S.max(frames[i + 1].t - frames[i].t) {
+            pairs.push((i, j));
+        }
+    }
+    let every = pairs.len().div_ceil(MOST).max(1);
+    let pairs: Vec<(usize, usize)> = pairs.into_iter().step_by(every).collect();
+    let way = |(i, j): &(usize, usize)| frames[*i].pose.distance(frames[*j].pose);
+    let ways: Vec<f64> = pairs.iter().map(way).collect();
+    let steps = (LAGS_S.0 / LAGS_S.1).round() as i32;
+    // The wheels' mean turn follows the way whatever their order, signs and sizes.
+    let fit = |lag: f64| -> f64 {
+        let turns = pairs.iter().map(|(i, j)| {
+            let turned = wheels.turned(frames[*i].t - lag, frames[*j].t - lag)?;
+            Some(turned.iter().map(|a| a * a).sum::<f64>().sqrt())
+        });
+        correlation(ways.iter().copied().zip(turns).filter_map(|(w, t)| Some((w, t?))))
+    };
+    let best = (-steps..=steps).map(|k| f64::from(k) * LAGS_S.1).map(|lag| (fit(lag), lag));
+    let lag = best.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1);
+    let sample = |(i, j): &(usize, usize)| {
+        let turned = wheels.turned(frames[*i].t - lag, frames[*j].t - lag)?;
+        Some(Sample { from: frames[*i].pose, to: frames[*j].pose, turned })
+    };
+    pairs.iter().filter_map(sample).collect()
+}
+
+/// Pearson's correlation; 0 for what does not change.
+pub(super) fn correlation(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut s = [0.0_f64; 6];
+    for (x, y) in pairs {
+        for (slot, v) in s.iter_mut().zip([1.0, x, y, x * x, y * y, x * y]) {
+            *slot += v;
+        }
+    }
+    let [n, x, y, xx, yy, xy] = s;
+    let spread = (n * xx - x * x).max(0.0) * (n * yy - y * y).max(0.0);
+    if spread > 0.0 { (n * xy - x * y) / spread.sqrt() } else { 0.0 }
+}

@@ -1,0 +1,53 @@
+//! The unit of time, and the control rate.
+
+use super::{Mistake, short};
+use runs::Log;
+use runs::robot::Robot;
+
+/// Longest and shortest tick that a log has, s: 2 Hz and 100 kHz.
+const TICKS: [f64; 2] = [1e-5, 0.5];
+/// Units that are mistaken for seconds.
+const UNITS: [(f64, &str, &str); 3] =
+    [(1e3, "milliseconds", "1000"), (1e6, "microseconds", "1e6"), (1e9, "nanoseconds", "1e9")];
+/// A log slower than the control loop by less is one that lost a few rows.
+const SLOWER: f64 = 1.6;
+
+pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
+    let Some(tick) = logs.iter().find_map(Log::tick_s) else { return Vec::new() };
+    let known = file.lacks(&["control_rate_hz"]).is_empty();
+    let ratio = if known { tick * robot.control_rate_hz } else { 1.0 };
+    let unit = UNITS
+        .iter()
+        .find(|(unit, ..)| (ratio / unit).ln().abs() < 0.3 || !known && tick > TICKS[1] && in_range(tick / unit));
+    if let Some((unit, name, divide)) = unit {
+        let what =
+            format!("ticks are {} apart where robot.toml has {} s: it is in {name}", short(tick), short(tick / unit));
+        let remedy = format!("divide t by {divide}, or name its unit to `racbot convert`");
+        return vec![Mistake::new("time-unit", "t", what, remedy)];
+    }
+    // A log of a part of the ticks is honest; one of more ticks than there were is not.
+    if known && (ratio > 1.0 / SLOWER) && (ratio < SLOWER) {
+        return Vec::new();
+    }
+    if known && (ratio < 1.0 / SLOWER || (ratio - ratio.round()).abs() > 0.02 * ratio || logs.iter().any(drives)) {
+        let what = format!(
+            "ticks are {} s apart, which is {} a second, not {}",
+            short(tick),
+            short(1.0 / tick),
+            short(robot.control_rate_hz)
+        );
+        let remedy = format!("write control_rate_hz = {}", short(1.0 / tick));
+        return vec![Mistake::new("control-rate", "control_rate_hz", what, remedy)];
+    }
+    Vec::new()
+}
+
+/// Whether a log replays a controller, tick by tick.
+fn drives(log: &Log) -> bool {
+    let layout = log.layout();
+    !layout.duty.is_empty() && !layout.reference.is_empty()
+}
+
+fn in_range(tick: f64) -> bool {
+    (TICKS[0]..=TICKS[1]).contains(&tick)
+}

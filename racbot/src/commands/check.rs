@@ -1,0 +1,77 @@
+//! `racbot check`, and the first stage of what fits logs
+
+use crate::terminal::{Answer, Failure, wrapped};
+use clap::Args;
+use model::setup::{Mistake, mistakes};
+use runs::Logs;
+use runs::robot::Robot;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Options of `check`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Folder with robot.toml and runs (*.csv, *.mcap)
+    #[arg(value_name = "DATASET")]
+    data_set: PathBuf,
+
+    /// Another robot.toml than the data set's own
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+}
+
+/// Opens a data set.
+pub(super) fn open(folder: &Path, robot: Option<&Path>) -> Result<Logs<'static>, Failure> {
+    Ok(match robot {
+        None => Logs::open(folder)?,
+        Some(file) => Logs::open_as(folder, Robot::load_partial(file)?)?,
+    })
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        let set = open(&self.data_set, self.robot.as_deref())?;
+        let found = mistakes(&set);
+        let mut text = String::new();
+        for note in set.notes() {
+            text += &wrapped(&format!("note: {note}"), 6);
+        }
+        for mistake in &found {
+            text += &wrapped(&mistake.sentence(), 2);
+        }
+        if found.is_empty() {
+            let ticks: usize = set.logs.iter().map(runs::Log::len).sum();
+            text += &wrapped(&format!("no set-up mistake in {} logs of {ticks} ticks", set.logs.len()), 2);
+        }
+        let json = json!({
+            "mistakes": found.iter().map(to_json).collect::<Vec<_>>(),
+            "notes": set.notes(),
+            "runs": set.logs.iter().map(|log| log.name.clone()).collect::<Vec<_>>(),
+        });
+        let wrong = (!found.is_empty()).then(|| match found.len() {
+            1 => format!("{}: 1 set-up mistake", self.data_set.display()),
+            n => format!("{}: {n} set-up mistakes", self.data_set.display()),
+        });
+        Ok(Answer { text, json, wrong })
+    }
+}
+
+fn to_json(mistake: &Mistake) -> serde_json::Value {
+    json!({
+        "kind": mistake.kind,
+        "column": mistake.column,
+        "what": mistake.what,
+        "write": mistake.remedy,
+    })
+}
+
+/// Refuses a data set that is set up wrong; hints at what an analysis may name by itself.
+pub(super) fn first_stage(folder: &Path, set: &Logs, force: bool) -> Result<String, Failure> {
+    let (hints, wrong): (Vec<Mistake>, Vec<Mistake>) = mistakes(set).into_iter().partition(|m| m.nameable);
+    if !wrong.is_empty() && !force {
+        let said: Vec<String> = wrong.iter().map(Mistake::sentence).collect();
+        let what = format!("set up wrong: {} (--force goes on nevertheless)", said.join("; also "));
+        return Err(Failure::about(folder, what));
+    }
+    Ok(hints.iter().chain(&wrong).map(|m| wrapped(&format!("hint: {}", m.sentence()), 6)).collect())
+}

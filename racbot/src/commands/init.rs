@@ -1,0 +1,292 @@
+//! `racbot init`
+
+use crate::terminal::{Answer, Failure, Target};
+use clap::{Args, ValueEnum};
+use runs::Run;
+use runs::error::InputError;
+use runs::frames::wrap_angle;
+use runs::robot::Robot;
+use serde_json::json;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Options of `init`.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// File to write
+    #[arg(value_name = "FILE", default_value = "robot.toml")]
+    file: PathBuf,
+
+    /// Angles in degrees from the --x axis, counter-clockwise, at which the wheels stand, in the order of the motors,
+    /// such as 60,135,225,300
+    #[arg(long, value_name = "DEG,..", allow_hyphen_values = true, value_delimiter = ',')]
+    wheels: Vec<f64>,
+
+    /// Where your x axis points: forward (ROS, the SSL) or right (racbot's own)
+    #[arg(long, value_enum, default_value_t)]
+    x: Axis,
+
+    /// Which way positive speed of the wheels turns the robot
+    #[arg(long, value_enum, default_value_t)]
+    turns: Turns,
+
+    /// Two wheels on one axle, right and left, so many millimetres apart (differential drive)
+    #[arg(long, value_name = "MM", conflicts_with_all = ["wheels", "mecanum_mm"])]
+    track_mm: Option<f64>,
+
+    /// Four mecanum wheels, front left, front right, rear left, rear right: wheel base and track
+    #[arg(long, value_name = "BASE,TRACK", conflicts_with = "wheels", value_delimiter = ',', num_args = 1)]
+    mecanum_mm: Vec<f64>,
+
+    /// Radius of the wheels
+    #[arg(long, value_name = "MM")]
+    radius_mm: Option<f64>,
+
+    /// Distance of the wheels from the centre
+    #[arg(long, value_name = "MM")]
+    body_radius_mm: Option<f64>,
+
+    /// Motor turns per wheel turn
+    #[arg(long, value_name = "N")]
+    gear: Option<f64>,
+
+    /// Encoder counts per turn of the motor, four per line
+    #[arg(long, value_name = "N", conflicts_with = "counts_per_wheel_rev")]
+    counts_per_motor_rev: Option<f64>,
+
+    /// Encoder counts per turn of the wheel
+    #[arg(long, value_name = "N")]
+    counts_per_wheel_rev: Option<f64>,
+
+    /// Control ticks a second
+    #[arg(long, value_name = "HZ")]
+    rate_hz: Option<f64>,
+
+    /// Camera frames a second
+    #[arg(long, value_name = "HZ")]
+    camera_hz: Option<f64>,
+
+    /// Mass of the whole robot
+    #[arg(long, value_name = "KG")]
+    mass_kg: Option<f64>,
+
+    /// Moment of inertia about the vertical [default: that of a disc of the body radius]
+    #[arg(long, value_name = "KGM2")]
+    yaw_inertia: Option<f64>,
+
+    /// Supply of the motors
+    #[arg(long, value_name = "V")]
+    supply_v: Option<f64>,
+
+    /// Terminal resistance of a motor
+    #[arg(long, value_name = "OHM")]
+    resistance_ohm: Option<f64>,
+
+    /// Torque constant of a motor, Nm/A (60 / (2 pi kv))
+    #[arg(long, value_name = "NM/A")]
+    torque_constant: Option<f64>,
+
+    /// Inertia of a rotor
+    #[arg(long, value_name = "KGM2")]
+    rotor_inertia: Option<f64>,
+
+    /// Ask only for what this log needs: a run, or a folder of them
+    #[arg(long, value_name = "LOG")]
+    log: Option<PathBuf>,
+
+    #[command(flatten)]
+    target: Target,
+}
+
+/// Where x points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Axis {
+    Forward,
+    #[default]
+    Right,
+}
+
+/// Sense of rotation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Turns {
+    #[default]
+    Clockwise,
+    Counterclockwise,
+}
+
+/// A key of the file: its value, and what it means.
+struct Key {
+    name: &'static str,
+    flag: &'static str,
+    value: Option<f64>,
+    meaning: &'static str,
+    needed: bool,
+}
+
+impl Options {
+    pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        self.target.check_free([&self.file])?;
+        let wheels = self.layout()?;
+        let log = self.log.as_deref().map(signals).transpose()?;
+        let of = |signal: fn(&Run) -> bool| log.as_ref().is_some_and(signal);
+        let counts = of(|run| !run.counts.is_empty());
+        let speeds = counts || of(|run| !run.speed.is_empty() || !run.measured.is_empty());
+        let drives = of(|run| !run.duty.is_empty() || !run.current.is_empty());
+        let duties = of(|run| !run.duty.is_empty());
+        let disc = self.mass_kg.zip(self.body_radius_mm).map(|(m, r)| 0.5 * m * (1e-3 * r).powi(2));
+        let key = |name, flag, value, needed, meaning| Key { name, flag, value, meaning, needed };
+        let mut keys = vec![
+            key(
+                "wheel_radius_m",
+                "--radius-mm",
+                self.radius_mm.map(|r| 1e-3 * r),
+                speeds || log.is_none(),
+                "wheel radius",
+            ),
+            key(
+                "gear_ratio",
+                "--gear",
+                self.gear,
+                counts && self.counts_per_wheel_rev.is_none() || drives,
+                "motor turns per wheel turn",
+            ),
+        ];
+        match self.counts_per_wheel_rev {
+            Some(n) => {
+                keys.push(key("encoder_counts_per_wheel_rev", "", Some(n), false, "counts per turn of the wheel"))
+            }
+            None => keys.push(key(
+                "encoder_counts_per_motor_rev",
+                "--counts-per-motor-rev (or --counts-per-wheel-rev)",
+                self.counts_per_motor_rev,
+                counts,
+                "counts per turn of the motor, four per line",
+            )),
+        }
+        keys.extend([
+            key("control_rate_hz", "--rate-hz", self.rate_hz, false, "control ticks a second; else taken from the log"),
+            key(
+                "camera_rate_hz",
+                "--camera-hz",
+                self.camera_hz,
+                false,
+                "camera frames a second; else taken from the log",
+            ),
+            key("mass_kg", "--mass-kg", self.mass_kg, drives, "mass of the whole robot"),
+            key(
+                "yaw_inertia_kg_m2",
+                "--yaw-inertia",
+                self.yaw_inertia.or(disc),
+                drives,
+                "moment of inertia about the vertical",
+            ),
+            key("supply_v", "--supply-v", self.supply_v, duties, "motor supply"),
+        ]);
+        let motor = [
+            key("resistance_ohm", "--resistance-ohm", self.resistance_ohm, duties, "terminal resistance"),
+            key("torque_constant", "--torque-constant", self.torque_constant, drives, "Nm/A"),
+            key("rotor_inertia", "--rotor-inertia", self.rotor_inertia, drives, "kg m2, at the motor shaft"),
+            key("friction_torque", "", Some(0.0), false, "Nm, at the motor shaft; `racbot gap` finds more"),
+        ];
+        let mut missing: Vec<String> = Vec::new();
+        if wheels.is_empty() && (speeds || log.is_none()) {
+            missing.push("--wheels DEG,.. with --body-radius-mm (or --track-mm, or --mecanum-mm)".to_owned());
+        }
+        let asked = keys.iter().chain(&motor).filter(|k| k.needed && k.value.is_none());
+        missing.extend(asked.map(|k| format!("{} ({})", k.flag, k.meaning)));
+        if !missing.is_empty() {
+            let whose = self.log.as_ref().map_or(String::new(), |log| format!("for {}: ", log.display()));
+            return Err(Failure::usage(format!("{whose}say {}", missing.join(", "))));
+        }
+        let text = self.text(&keys, &motor, &wheels);
+        // What was written must be read.
+        Robot::parse_partial(&text, &self.file)?;
+        self.target.save(&self.file, &text)?;
+        let said = format!("{} with {} wheels\n", self.file.display(), wheels.len());
+        Ok(Answer { text: said, json: json!({ "robot": self.file, "wheels": wheels.len() }), wrong: None })
+    }
+
+    /// Place (m), drive direction and roller angle (rad) of every wheel, x to the right.
+    fn layout(&self) -> Result<Vec<[f64; 4]>, Failure> {
+        let lengths = [self.track_mm, self.radius_mm, self.body_radius_mm];
+        let numbers = lengths.into_iter().flatten().chain(self.mecanum_mm.iter().copied());
+        if numbers.chain(self.gear).any(|x| !(x.is_finite() && x > 0.0)) || self.wheels.iter().any(|x| !x.is_finite()) {
+            return Err(Failure::usage("lengths and ratios are positive numbers, angles numbers"));
+        }
+        if let Some(track) = self.track_mm {
+            let half = 0.5e-3 * track;
+            return Ok([half, -half].map(|x| [x, 0.0, FRAC_PI_2, 0.0]).to_vec());
+        }
+        if !self.mecanum_mm.is_empty() {
+            let [base, track] = self.mecanum_mm[..] else {
+                return Err(Failure::usage("--mecanum-mm: give wheel base and track, such as 200,180"));
+            };
+            let (y, x) = (0.5e-3 * base, 0.5e-3 * track);
+            let corners = [(-x, y, -1.0), (x, y, 1.0), (-x, -y, 1.0), (x, -y, -1.0)];
+            return Ok(corners.map(|(x, y, side)| [x, y, FRAC_PI_2, side * FRAC_PI_4]).to_vec());
+        }
+        if self.wheels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let Some(radius) = self.body_radius_mm.map(|r| 1e-3 * r) else {
+            return Err(Failure::usage("--wheels: say how far they are from the centre, too: --body-radius-mm"));
+        };
+        let forward = if self.x == Axis::Forward { FRAC_PI_2 } else { 0.0 };
+        let sense = if self.turns == Turns::Clockwise { -FRAC_PI_2 } else { FRAC_PI_2 };
+        let wheel = |deg: &f64| {
+            let mount = wrap_angle(deg.to_radians() + forward);
+            [radius * mount.cos(), radius * mount.sin(), wrap_angle(mount + sense), 0.0]
+        };
+        Ok(self.wheels.iter().map(wheel).collect())
+    }
+
+    fn text(&self, keys: &[Key], motor: &[Key], wheels: &[[f64; 4]]) -> String {
+        let mut out = String::from(
+            "# Robot parameters, SI units. Body frame: x to the right, y forward, angles counter-clockwise from x.\n\
+             # What is commented out is not known; what needs it says so. Written by `racbot init`.\n",
+        );
+        let line = |out: &mut String, k: &Key| {
+            let _ = match k.value {
+                Some(x) => writeln!(out, "{} = {}  # {}", k.name, number(x), k.meaning),
+                None => writeln!(out, "# {} =   # {}", k.name, k.meaning),
+            };
+        };
+        keys.iter().for_each(|k| line(&mut out, k));
+        let known = motor.iter().any(|k| k.value.is_some_and(|x| x != 0.0));
+        let _ = writeln!(out, "\n{}", if known { "[motor]" } else { "# [motor]" });
+        motor.iter().filter(|k| known || k.value.is_none()).for_each(|k| line(&mut out, k));
+        for (i, [x, y, drive, roller]) in wheels.iter().enumerate() {
+            let _ = writeln!(out, "\n[[wheel]]  # {}", i + 1);
+            let _ = writeln!(out, "x_m = {}  # to the right\ny_m = {}  # forward", number(*x), number(*y));
+            let _ = writeln!(out, "drive_deg = {}  # where positive speed drives it", number(drive.to_degrees()));
+            let _ = writeln!(
+                out,
+                "roller_deg = {}  # 0: omni wheel or tyre; 45 or -45: mecanum",
+                number(roller.to_degrees())
+            );
+        }
+        out
+    }
+}
+
+/// To a micrometre and a microdegree, without the noise of sines.
+fn number(x: f64) -> String {
+    let rounded = (x * 1e6).round() / 1e6;
+    if rounded == 0.0 && x != 0.0 && x.abs() > 1e-12 { format!("{x:e}") } else { format!("{}", rounded + 0.0) }
+}
+
+/// The columns of a log, or of all logs of a folder.
+fn signals(path: &Path) -> Result<Run, Failure> {
+    if !path.is_dir() {
+        return Ok(Run::read(path)?);
+    }
+    let entries = std::fs::read_dir(path).map_err(|error| InputError::io(path, &error))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("mcap")));
+    files.sort();
+    let Some(first) = files.first() else {
+        return Err(Failure::about(path, "holds no *.csv or *.mcap; name a log"));
+    };
+    Ok(Run::read(first)?)
+}

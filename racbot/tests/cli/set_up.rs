@@ -1,0 +1,143 @@
+//! The way in: `check`, `init`, `convert`, and data sets as their owners have them.
+
+use super::{data, racbot};
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+/// A copy of a data set with its robot.toml changed.
+fn set(folder: &Path, of: &str, change: impl Fn(String) -> String) {
+    let from = data(of);
+    for entry in fs::read_dir(&from).unwrap() {
+        let path = entry.unwrap().path();
+        fs::copy(&path, folder.join(path.file_name().unwrap())).unwrap();
+    }
+    let robot = folder.join("robot.toml");
+    let text = change(fs::read_to_string(&robot).unwrap());
+    fs::write(robot, text).unwrap();
+}
+
+#[test]
+fn check_passes_good_sets_and_names_mistakes_with_what_to_write() {
+    let folder = tempdir().unwrap();
+    for name in ["runs/wheel-skew", "real/differential-squares"] {
+        let outcome = racbot(folder.path(), &["check", data(name).to_str().unwrap()]).done().fits_80_columns();
+        assert!(outcome.stdout.contains("no set-up mistake"), "{}", outcome.stdout);
+    }
+    set(folder.path(), "runs/wheel-skew", |text| text.replace("wheel_radius_m = 0.0275", "wheel_radius_m = 0.055"));
+    let outcome = racbot(folder.path(), &["check", "."]);
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("wheel_radius_m: ") && outcome.stdout.contains("diameter"), "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("write wheel_radius_m = 0.0275"), "{}", outcome.stdout);
+    assert!(outcome.stderr.contains("1 set-up mistake"), "{}", outcome.stderr);
+    let json = racbot(folder.path(), &["--json", "check", "."]).json();
+    assert_eq!(json["mistakes"][0]["kind"], "wheel-diameter");
+    for command in ["gap", "calibrate"] {
+        racbot(folder.path(), &[command, "."]).refused(1, &["set up wrong", "diameter", "--force"]);
+    }
+}
+
+#[test]
+fn init_writes_a_robot_that_reads_and_asks_once_for_what_a_log_needs() {
+    let folder = tempdir().unwrap();
+    let run = |arguments: &[&str]| racbot(folder.path(), &[&["init"], arguments].concat());
+    run(&["four.toml", "--wheels", "60,135,225,300", "--x", "forward", "--radius-mm", "27", "--body-radius-mm", "80"])
+        .done();
+    let text = fs::read_to_string(folder.path().join("four.toml")).unwrap();
+    let robot = runs::robot::Robot::parse_partial(&text, Path::new("four.toml")).unwrap();
+    let wheels = robot.layout.wheels();
+    // The first wheel is in front, to the left.
+    assert!(wheels[0].x_m < -0.06 && wheels[0].y_m > 0.03, "{:?}", wheels[0]);
+    assert!((robot.wheel_radius_m - 0.027).abs() < 1e-12 && robot.geometry().is_ok());
+    run(&["four.toml", "--wheels", "0,90"]).refused(1, &["four.toml", "there already", "--force"]);
+    let log = data("runs/wheel-skew");
+    let missing = run(&["--wheels", "90,210,330", "--body-radius-mm", "85", "--log", log.to_str().unwrap()]);
+    missing.refused(
+        2,
+        &["--radius-mm", "--gear", "--counts-per-motor-rev", "--mass-kg", "--supply-v", "--torque-constant"],
+    );
+    let camera = data("real/differential-squares");
+    run(&["two.toml", "--track-mm", "200", "--log", camera.to_str().unwrap()])
+        .refused(2, &["--radius-mm", "--counts-per-motor-rev"]);
+    let two = ["two.toml", "--track-mm", "200", "--radius-mm", "42", "--counts-per-wheel-rev", "2796.8"];
+    run(&[&two[..], &["--log", camera.to_str().unwrap()]].concat()).done();
+    let check = racbot(folder.path(), &["check", camera.to_str().unwrap(), "--robot", "two.toml"]).done();
+    assert!(check.stdout.contains("no set-up mistake"), "{}", check.stdout);
+}
+
+#[test]
+fn a_log_with_x_forward_millimetres_and_degrees_is_converted_and_calibrates_as_the_original() {
+    let folder = tempdir().unwrap();
+    let original = runs::Run::read(data("runs/wheel-skew/run_01.csv")).unwrap();
+    let mut text = "time_ms;motor a;motor b;motor c;px;py;heading\n".to_owned();
+    let mut camera = original.camera.iter().peekable();
+    for k in 0..original.len() {
+        let [a, b, c] = [0, 1, 2].map(|i| original.counts[i][k]);
+        let pose = camera.next_if(|s| s.tick == k).map_or(";;".to_owned(), |s| {
+            let heading = (s.pose.theta + std::f64::consts::FRAC_PI_2).to_degrees();
+            format!("{:.2};{:.2};{heading:.3}", 1e3 * s.pose.x, 1e3 * s.pose.y).replace('.', ",")
+        });
+        text += &format!("{};{a};{b};{c};{pose}\n", (1e3 * original.t[k]).round());
+    }
+    fs::write(folder.path().join("theirs.csv"), text).unwrap();
+    fs::create_dir(folder.path().join("set")).unwrap();
+    let map = "[time]\ncolumn = \"time_ms\"\nunit = \"ms\"\n[frame]\nx = \"forward\"\n[columns]\nenc_1 = \"motor a\"\n\
+               enc_2 = \"motor b\"\nenc_3 = \"motor c\"\ncam_x = { from = \"px\", unit = \"mm\" }\n\
+               cam_y = { from = \"py\", unit = \"mm\" }\ncam_theta = { from = \"heading\", unit = \"deg\" }\n";
+    fs::write(folder.path().join("map.toml"), map).unwrap();
+    let list = racbot(folder.path(), &["convert", "--list", "theirs.csv"]);
+    list.refused(1, &["theirs.csv:1:1", "no column of time", "time_ms"]);
+    racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.csv"]).done();
+    racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.csv"]).refused(1, &["there already"]);
+    racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.txt"])
+        .refused(1, &["neither *.csv nor *.mcap"]);
+    fs::write(folder.path().join("bad.toml"), map.replace("motor a", "motor x")).unwrap();
+    racbot(folder.path(), &["convert", "bad.toml", "theirs.csv", "set/b.csv"])
+        .refused(1, &["motor x", "did you mean motor"]);
+    fs::write(folder.path().join("bad.toml"), map.replace("enc_1", "ecn_1")).unwrap();
+    racbot(folder.path(), &["convert", "bad.toml", "theirs.csv", "set/b.csv"]).refused(1, &["columns.ecn_1", "enc_1?"]);
+    let run = runs::Run::read(folder.path().join("set/run.csv")).unwrap();
+    assert_eq!((run.counts.clone(), run.camera.len()), (original.counts.clone(), original.camera.len()));
+    for (a, b) in run.camera.iter().zip(&original.camera) {
+        assert!(a.pose.distance(b.pose) < 2e-5 && runs::frames::wrap_angle(a.pose.theta - b.pose.theta).abs() < 2e-5);
+    }
+}
+
+#[test]
+fn two_wheels_and_dead_reckoning_are_compared_with_the_camera() {
+    let folder = tempdir().unwrap();
+    let squares = data("real/differential-squares");
+    let outcome = racbot(folder.path(), &["--json", "gap", squares.to_str().unwrap()]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert!(outcome.json()["gap"].to_string().contains("motion"), "{}", outcome.json()["gap"]);
+    racbot(folder.path(), &["calibrate", squares.to_str().unwrap()]).refused(1, &["differential drive", "racbot gap"]);
+    // The same drive as the robot's own odometry, with nothing said of the wheels.
+    let set = runs::DataSet::open(&squares).unwrap();
+    let geometry = set.robot.geometry().unwrap();
+    fs::create_dir(folder.path().join("odom")).unwrap();
+    for run in &set.runs {
+        let mut pose = runs::frames::Pose::default();
+        let mut text = "t,odom_x,odom_y,odom_theta,cam_x,cam_y,cam_theta\n".to_owned();
+        let mut camera = run.camera.iter().peekable();
+        for k in 0..run.len() {
+            if k > 0 {
+                let turned: Vec<f64> =
+                    run.counts.iter().map(|c| (c[k] - c[k - 1]) as f64 / set.robot.counts_per_wheel_rad()).collect();
+                pose = pose.compose(runs::frames::displacement(geometry.twist(&turned)));
+            }
+            let seen = camera
+                .next_if(|s| s.tick == k)
+                .map_or(",,".to_owned(), |s| format!("{},{},{}", s.pose.x, s.pose.y, s.pose.theta));
+            text += &format!("{},{},{},{},{seen}\n", run.t[k], pose.x, pose.y, pose.theta);
+        }
+        fs::write(folder.path().join("odom").join(format!("{}.csv", run.name)), text).unwrap();
+    }
+    fs::write(folder.path().join("odom/robot.toml"), "camera_rate_hz = 20\n").unwrap();
+    racbot(folder.path(), &["check", "odom"]).done();
+    let outcome = racbot(folder.path(), &["--json", "gap", "odom"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    let json = outcome.json();
+    let named: Vec<&str> = json["effects"].as_array().unwrap().iter().map(|e| e["name"].as_str().unwrap()).collect();
+    assert!(named.iter().all(|n| !n.starts_with("wheel-") || *n == "wheel-radius-common"), "{named:?}");
+    racbot(folder.path(), &["calibrate", "odom"]).refused(1, &["odometry and no wheels"]);
+}

@@ -1,0 +1,303 @@
+//! The map: which series is which column, in which unit, sign and frame.
+
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::{Format, Table, units};
+use crate::columns::{Column, GROUPS, missing_member};
+use crate::error::{InputError, line_and_column, nearest};
+use crate::frames::{Pose, wrap_angle};
+use crate::{CameraSample, Run};
+
+/// A map as its TOML has it; see `docs/book/src/log-format.md`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Map {
+    format: Option<String>,
+    #[serde(default)]
+    time: Time,
+    #[serde(default)]
+    frame: Frame,
+    #[serde(default)]
+    columns: BTreeMap<String, Source>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Time {
+    column: Option<String>,
+    unit: Option<String>,
+    /// Keep the file's time instead of beginning at 0.
+    #[serde(default)]
+    keep: bool,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Frame {
+    #[serde(default)]
+    x: Axis,
+    #[serde(default)]
+    y: Up,
+    #[serde(default)]
+    headings: Sense,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Axis {
+    #[default]
+    Right,
+    Forward,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Up {
+    #[default]
+    Up,
+    Down,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Sense {
+    #[default]
+    CounterClockwise,
+    Clockwise,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Source {
+    Name(String),
+    Scaled(Scaled),
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Scaled {
+    from: String,
+    #[serde(default)]
+    unit: String,
+    scale: Option<f64>,
+    #[serde(default)]
+    offset: f64,
+}
+
+/// One column of the run to be.
+struct Wanted<'a> {
+    column: Column,
+    from: &'a str,
+    factor: f64,
+    offset: f64,
+}
+
+impl Map {
+    /// Reads a map.
+    ///
+    /// # Errors
+    /// [`InputError`] with line and column for text that is no TOML or has keys that no map has, and for formats, columns
+    /// and units that nobody knows.
+    pub fn load(path: &Path) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(path).map_err(|e| InputError::io(path, &e))?;
+        Self::parse(&text, path)
+    }
+
+    /// Reads the text of a map; `path` is for the error messages.
+    ///
+    /// # Errors
+    /// As [`Map::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        let map: Self = toml::from_str(text).map_err(|e| {
+            let (line, column) = line_and_column(text, e.span().map_or(0, |s| s.start));
+            let hint = "see docs/book/src/log-format.md for what a map may say";
+            InputError::new(path, e.message().replace('\n', " "), hint).at(line, column)
+        })?;
+        if let Some(name) = map.format.as_deref().filter(|name| Format::from_name(name).is_none()) {
+            let hint = "give csv, plotjuggler, ros2, ssl-log or wpilog, or leave it out";
+            return Err(InputError::new(path, format!("{name:?} is no format"), hint).field("format"));
+        }
+        map.time_unit().map_err(|e| InputError { file: path.to_owned(), ..e })?;
+        map.wanted().map_err(|e| InputError { file: path.to_owned(), ..e })?;
+        Ok(map)
+    }
+
+    /// The kind of file that it is for, if it says so.
+    pub fn format(&self) -> Option<Format> {
+        self.format.as_deref().and_then(Format::from_name)
+    }
+
+    /// The time column of a CSV, if it names one, and the length of its unit, s.
+    ///
+    /// # Errors
+    /// [`InputError`] for a unit that is none of time.
+    pub fn time(&self) -> Result<(Option<&str>, f64), InputError> {
+        Ok((self.time.column.as_deref(), self.time_unit()?))
+    }
+
+    fn time_unit(&self) -> Result<f64, InputError> {
+        let unit = self.time.unit.as_deref().unwrap_or("s");
+        let known = ["s", "ms", "us", "ns"].contains(&unit);
+        units::factor(unit).filter(|_| known).ok_or_else(|| {
+            InputError::new(Path::new(""), format!("{unit:?} is no unit of time"), "give s, ms, us or ns")
+                .field("time.unit")
+        })
+    }
+
+    fn wanted(&self) -> Result<Vec<Wanted<'_>>, InputError> {
+        let mut wanted = Vec::new();
+        for (name, source) in &self.columns {
+            let field = format!("columns.{name}");
+            let fail = |what: String, hint: String| InputError::new(Path::new(""), what, hint).field(field.clone());
+            let column = Column::from_name(name);
+            if matches!(column, Column::Other | Column::Time) {
+                let known: Vec<String> = Column::all(4).into_iter().map(Column::name).collect();
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                let hint = nearest(name, &known).map_or_else(
+                    || "the columns are those of docs/book/src/log-format.md; time has a table [time]".to_owned(),
+                    |near| format!("did you mean {near}?"),
+                );
+                return Err(fail("is no column of a run".to_owned(), hint));
+            }
+            let (from, unit, scale, offset) = match source {
+                Source::Name(from) => (from, "", 1.0, 0.0),
+                Source::Scaled(s) => (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset),
+            };
+            let Some(unit) = units::factor(unit) else {
+                return Err(fail(
+                    format!("{unit:?} is no unit that is known"),
+                    format!("give one of {}, or a scale", units::names()),
+                ));
+            };
+            if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
+                return Err(fail("its scale or offset is no number".to_owned(), "such as scale = -1".to_owned()));
+            }
+            wanted.push(Wanted { column, from, factor: unit * scale, offset });
+        }
+        Ok(wanted)
+    }
+
+    /// Makes a run of what a file holds; without columns in the map, of the series that have our names.
+    ///
+    /// # Errors
+    /// [`InputError`] about `path` for series that are not there, groups of columns that are not whole, and values that no
+    /// column takes.
+    pub fn run(&self, table: &Table, path: &Path) -> Result<Run, InputError> {
+        let fail = |e: InputError| InputError { file: path.to_owned(), ..e };
+        let mut wanted = self.wanted().map_err(fail)?;
+        if wanted.is_empty() {
+            let ours = table.series.iter().map(|s| (Column::from_name(&s.name), s.name.as_str()));
+            let ours = ours.filter(|(column, _)| !matches!(column, Column::Other | Column::Time));
+            wanted.extend(ours.map(|(column, from)| Wanted { column, from, factor: 1.0, offset: 0.0 }));
+        }
+        let columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
+        if columns.is_empty() {
+            let hint = table.suggestion("enc_1");
+            return Err(InputError::new(path, "none of its series is a column of ours: name them in [columns]", hint));
+        }
+        for (group, at_least) in GROUPS {
+            if let Some(column) = missing_member(&columns, group, at_least) {
+                let hint = "map the whole group of columns, or none of it";
+                return Err(InputError::new(path, "no such column in the map", hint).field(column.name()));
+            }
+        }
+        let mut series = Vec::new();
+        for w in &wanted {
+            let Some(found) = table.find(w.from) else {
+                let what = format!("has no series {:?}", w.from);
+                return Err(InputError::new(path, what, table.suggestion(w.from)).field(w.column.name()));
+            };
+            series.push(found);
+        }
+        // Times to the nanosecond: what is stamped alike is one tick.
+        let key = |t: f64| (t * 1e9).round() as i64;
+        let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| key(*t))).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
+        let mut run = Run::with_columns(&columns);
+        run.t = keys.iter().map(|k| (k - first) as f64 * 1e-9).collect();
+        let ticks = keys.len();
+        run.reals_mut().into_iter().skip(1).for_each(|c| c.resize(ticks, f64::NAN));
+        let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
+        for (w, s) in wanted.iter().zip(&series) {
+            let mut column = vec![f64::NAN; ticks];
+            for (t, value) in s.t.iter().zip(&s.values) {
+                if let Ok(tick) = keys.binary_search(&key(*t)) {
+                    column[tick] = w.factor * value + w.offset;
+                }
+            }
+            match w.column {
+                Column::Counts(wheel) => counts(&mut run, wheel, &column),
+                Column::Camera(i) => camera.iter_mut().zip(&column).for_each(|(pose, x)| pose[i] = *x),
+                Column::Duty(_) => {
+                    if let Some(x) = column.iter().find(|x| x.abs() > 1.001) {
+                        let hint = "scale it to a share of the supply, such as unit = \"percent\"";
+                        let what = format!("duty {x} is not within ±1");
+                        return Err(InputError::new(path, what, hint).field(w.column.name()));
+                    }
+                    run.duty.iter_mut().enumerate().filter(|(i, _)| w.column == Column::Duty(*i)).for_each(
+                        |(_, slot)| {
+                            slot.clone_from(&column);
+                        },
+                    );
+                }
+                other => {
+                    if let Some(slot) = run.real_mut(other) {
+                        *slot = column;
+                    }
+                }
+            }
+        }
+        self.turn(&mut run, &mut camera);
+        let whole = |(tick, p): (usize, &[f64; 3])| {
+            p.iter().all(|x| x.is_finite()).then(|| CameraSample { tick, pose: Pose::new(p[0], p[1], p[2]) })
+        };
+        run.camera = camera.iter().enumerate().filter_map(whole).collect();
+        Ok(run)
+    }
+
+    /// Into our frame: x to the right, y forward, headings of x, counter-clockwise.
+    fn turn(&self, run: &mut Run, camera: &mut [[f64; 3]]) {
+        let f = &self.frame;
+        let sign = if f.headings == Sense::Clockwise { -1.0 } else { 1.0 };
+        let quarter = if f.x == Axis::Forward { FRAC_PI_2 } else { 0.0 };
+        let heading = |theta: f64| wrap_angle(sign * theta - quarter);
+        for pose in camera {
+            pose[1] *= if f.y == Up::Down { -1.0 } else { 1.0 };
+            pose[2] = heading(pose[2]);
+        }
+        if let Some([_, _, theta]) = &mut run.odometry {
+            theta.iter_mut().for_each(|t| *t = heading(*t));
+        }
+        for rates in
+            [run.command.as_mut().map(|c| &mut c[2]), run.gyro.as_mut().map(|g| &mut g[2])].into_iter().flatten()
+        {
+            rates.iter_mut().for_each(|w| *w *= sign);
+        }
+        if f.x == Axis::Forward {
+            for [x, y, _] in [&mut run.command, &mut run.gyro, &mut run.acceleration].into_iter().flatten() {
+                for (x, y) in x.iter_mut().zip(y) {
+                    (*x, *y) = (-*y, *x);
+                }
+            }
+        }
+    }
+}
+
+/// Counts of a wheel; ticks without one hold the last.
+fn counts(run: &mut Run, wheel: usize, column: &[f64]) {
+    let mut held = column.iter().copied().find(|x| x.is_finite()).unwrap_or(0.0).round() as i64;
+    for (tick, x) in column.iter().enumerate() {
+        if x.is_finite() {
+            held = x.round() as i64;
+        } else {
+            run.count_gaps[wheel].push(tick);
+        }
+        run.counts[wheel].push(held);
+    }
+}

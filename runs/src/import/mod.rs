@@ -1,0 +1,154 @@
+//! Other tools' logs: whatever they hold becomes named series of numbers, of which a map (a TOML file) makes a run.
+//!
+//! One file a format: any CSV (PlotJuggler's among them), ROS 2 bags (MCAP with CDR messages), game logs of the RoboCup
+//! small-size league, WPILib data logs.
+
+mod cdr;
+mod csv;
+mod map;
+mod ros2;
+mod ssl;
+mod units;
+mod wire;
+mod wpilog;
+
+use std::path::Path;
+
+use crate::error::{InputError, nearest};
+
+pub use map::Map;
+
+/// Samples of one quantity.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Series {
+    /// Name, with the topic or entry it comes from.
+    pub name: String,
+    /// Times, s, in the order of the file.
+    pub t: Vec<f64>,
+    /// Values in the file's unit; as many as times.
+    pub values: Vec<f64>,
+}
+
+/// Everything numeric that a file holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// The series, in the order in which they appear.
+    pub series: Vec<Series>,
+    index: std::collections::HashMap<String, usize>,
+}
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Text with a header row; one time column.
+    Csv,
+    /// ROS 2 bag in an MCAP.
+    Ros2,
+    /// Game log of the small-size league, `.log` or `.log.gz`.
+    Ssl,
+    /// WPILib data log.
+    Wpilog,
+}
+
+impl Format {
+    /// By the name that a map gives it.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "csv" | "plotjuggler" => Self::Csv,
+            "ros2" | "mcap" => Self::Ros2,
+            "ssl" | "ssl-log" => Self::Ssl,
+            "wpilog" | "wpilib" => Self::Wpilog,
+            _ => return None,
+        })
+    }
+
+    /// By a file's first bytes, else its name.
+    fn of(path: &Path, bytes: &[u8]) -> Self {
+        let name = path.to_string_lossy().to_lowercase();
+        match () {
+            () if bytes.starts_with(mcap::MAGIC) => Self::Ros2,
+            () if bytes.starts_with(wpilog::MAGIC) => Self::Wpilog,
+            () if bytes.starts_with(ssl::MAGIC) || name.ends_with(".log.gz") => Self::Ssl,
+            () => Self::Csv,
+        }
+    }
+}
+
+impl Table {
+    /// Reads a file. `time` names the time column of a CSV and how many of its units make a second.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place (line and column of a CSV, byte of the others) of what cannot be read.
+    pub fn read(path: &Path, format: Option<Format>, time: (Option<&str>, f64)) -> Result<Self, InputError> {
+        let bytes = std::fs::read(path).map_err(|e| InputError::io(path, &e))?;
+        Self::of_bytes(&bytes, path, format, time)
+    }
+
+    /// The same of a file in memory.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn of_bytes(
+        bytes: &[u8],
+        path: &Path,
+        format: Option<Format>,
+        time: (Option<&str>, f64),
+    ) -> Result<Self, InputError> {
+        let table = match format.unwrap_or_else(|| Format::of(path, bytes)) {
+            Format::Csv => csv::read(bytes, path, time),
+            Format::Ros2 => ros2::read(bytes, path),
+            Format::Ssl => ssl::read(bytes, path),
+            Format::Wpilog => wpilog::read(bytes, path),
+        }?;
+        if table.series.is_empty() {
+            return Err(InputError::new(
+                path,
+                "holds no numbers that can be read",
+                "see `racbot convert --help` for formats",
+            ));
+        }
+        Ok(table)
+    }
+
+    /// Adds a sample; one that is not finite is none.
+    fn push(&mut self, name: &str, t: f64, value: f64) {
+        if !(t.is_finite() && value.is_finite()) {
+            return;
+        }
+        let at = match self.index.get(name) {
+            Some(at) => *at,
+            None => {
+                self.series.push(Series { name: name.to_owned(), ..Series::default() });
+                self.index.insert(name.to_owned(), self.series.len() - 1);
+                self.series.len() - 1
+            }
+        };
+        self.series[at].t.push(t);
+        self.series[at].values.push(value);
+    }
+
+    /// A series by its name.
+    pub fn find(&self, name: &str) -> Option<&Series> {
+        self.index.get(name).map(|i| &self.series[*i])
+    }
+
+    /// What to say where there is no series of a name.
+    fn suggestion(&self, name: &str) -> String {
+        let names: Vec<&str> = self.series.iter().map(|s| s.name.as_str()).collect();
+        match nearest(name, &names) {
+            Some(near) => format!("did you mean {near}?"),
+            None => {
+                let some: Vec<&str> = names.iter().copied().take(8).collect();
+                format!("it has {} (`racbot convert --list` shows all {})", some.join(", "), names.len())
+            }
+        }
+    }
+}
+
+/// A damaged file.
+fn damaged(path: &Path, byte: usize, what: impl std::fmt::Display) -> InputError {
+    InputError::new(path, format!("byte {byte}: {what}"), "copy the file again")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,138 @@
+//! ROS 2 bags in MCAP files. Series are named by topic and field: `/odom.x`, `.y`, `.theta` (heading of the forward axis),
+//! `.vx`, `.vy`, `.w`; `/cmd_vel.vx`; `/joint_states.position.NAME`, `.velocity.NAME`, `.effort.NAME`; `/tf.PARENT.CHILD.x`;
+//! `/imu.gyro_x`, `.acc_x`. Times are the headers' stamps, or where there are none those of the recording.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use super::Table;
+use super::cdr::Cdr;
+use crate::error::InputError;
+use crate::mcap::messages;
+
+pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
+    let broken = |what: String| InputError::new(path, what, "copy the file again, or recover it with `mcap recover`");
+    if !bytes.starts_with(mcap::MAGIC) {
+        let hint = "give the *.mcap of a bag (`ros2 bag convert` makes one of a *.db3)";
+        return Err(InputError::new(path, "does not start as an MCAP file does", hint));
+    }
+    let mut table = Table::default();
+    let mut others: HashSet<String> = HashSet::new();
+    messages(bytes, broken, |message| {
+        let kind = message.schema.map_or("", |s| s.name.as_str());
+        let t = message.log_time as f64 * 1e-9;
+        if message.channel.message_encoding != "cdr" || !is_known(kind) {
+            others.insert(format!("{} ({kind})", message.channel.topic));
+            return Ok(());
+        }
+        decode(kind, &message.channel.topic, t, message.data, &mut table)
+            .ok_or_else(|| broken(format!("topic {}: a message is shorter than a {kind}", message.channel.topic)))
+    })?;
+    if table.series.is_empty() {
+        let mut others: Vec<String> = others.into_iter().collect();
+        others.sort();
+        let what = format!("holds none of the messages that are read; it has {}", others.join(", "));
+        let hint =
+            "record Twist, TwistStamped, JointState, Odometry, PoseStamped, PoseWithCovarianceStamped, TF or Imu";
+        return Err(InputError::new(path, what, hint));
+    }
+    Ok(table)
+}
+
+const KNOWN: [&str; 10] = [
+    "geometry_msgs/msg/Twist",
+    "geometry_msgs/msg/TwistStamped",
+    "sensor_msgs/msg/JointState",
+    "nav_msgs/msg/Odometry",
+    "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "tf2_msgs/msg/TFMessage",
+    "sensor_msgs/msg/Imu",
+    "std_msgs/msg/Float64",
+    "std_msgs/msg/Float32",
+];
+
+fn is_known(kind: &str) -> bool {
+    KNOWN.contains(&kind)
+}
+
+fn decode(kind: &str, topic: &str, recorded: f64, data: &[u8], table: &mut Table) -> Option<()> {
+    let mut cdr = Cdr::new(data)?;
+    let mut put = |name: &str, field: &str, t: f64, value: f64| table.push(&format!("{name}.{field}"), t, value);
+    // A stamp of zero was never set.
+    let time = |stamp: f64| if stamp > 0.0 { stamp } else { recorded };
+    match kind {
+        "geometry_msgs/msg/Twist" => {
+            let twist = cdr.doubles::<6>()?;
+            twist_of(twist, |field, value| put(topic, field, recorded, value));
+        }
+        "geometry_msgs/msg/TwistStamped" => {
+            let t = time(cdr.header()?.0);
+            let twist = cdr.doubles::<6>()?;
+            twist_of(twist, |field, value| put(topic, field, t, value));
+        }
+        "nav_msgs/msg/Odometry" => {
+            let t = time(cdr.header()?.0);
+            cdr.text()?;
+            let pose = cdr.doubles::<7>()?;
+            cdr.skip_doubles(36)?;
+            let twist = cdr.doubles::<6>()?;
+            pose_of(pose, |field, value| put(topic, field, t, value));
+            twist_of(twist, |field, value| put(topic, field, t, value));
+        }
+        "geometry_msgs/msg/PoseStamped" | "geometry_msgs/msg/PoseWithCovarianceStamped" => {
+            let t = time(cdr.header()?.0);
+            pose_of(cdr.doubles::<7>()?, |field, value| put(topic, field, t, value));
+        }
+        "sensor_msgs/msg/JointState" => {
+            let t = time(cdr.header()?.0);
+            let names: Vec<String> = (0..cdr.length()?).map(|_| cdr.text()).collect::<Option<_>>()?;
+            for quantity in ["position", "velocity", "effort"] {
+                let number = cdr.length()? as usize;
+                for i in 0..number {
+                    let value = cdr.double()?;
+                    if let Some(name) = names.get(i) {
+                        put(topic, &format!("{quantity}.{name}"), t, value);
+                    }
+                }
+            }
+        }
+        "tf2_msgs/msg/TFMessage" => {
+            for _ in 0..cdr.length()? {
+                let (stamp, parent) = cdr.header()?;
+                let child = cdr.text()?;
+                let pose = cdr.doubles::<7>()?;
+                pose_of(pose, |field, value| put(topic, &format!("{parent}.{child}.{field}"), time(stamp), value));
+            }
+        }
+        "sensor_msgs/msg/Imu" => {
+            let t = time(cdr.header()?.0);
+            cdr.skip_doubles(4 + 9)?;
+            let gyro = cdr.doubles::<3>()?;
+            cdr.skip_doubles(9)?;
+            let acceleration = cdr.doubles::<3>()?;
+            for (i, axis) in ["x", "y", "z"].iter().enumerate() {
+                put(topic, &format!("gyro_{axis}"), t, gyro[i]);
+                put(topic, &format!("acc_{axis}"), t, acceleration[i]);
+            }
+        }
+        "std_msgs/msg/Float64" => put(topic, "data", recorded, cdr.double()?),
+        "std_msgs/msg/Float32" => put(topic, "data", recorded, cdr.float()?),
+        _ => {}
+    }
+    Some(())
+}
+
+/// Linear x, y, z, angular x, y, z.
+fn twist_of(twist: [f64; 6], mut put: impl FnMut(&str, f64)) {
+    put("vx", twist[0]);
+    put("vy", twist[1]);
+    put("w", twist[5]);
+}
+
+/// Position x, y, z, quaternion x, y, z, w.
+fn pose_of([x, y, _, qx, qy, qz, qw]: [f64; 7], mut put: impl FnMut(&str, f64)) {
+    put("x", x);
+    put("y", y);
+    put("theta", f64::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz)));
+}

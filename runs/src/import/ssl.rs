@@ -1,0 +1,74 @@
+//! Game logs of the RoboCup small-size league: 16 bytes of head, then records of a time stamp (ns), a type, a length
+//! (all big-endian) and a message. Vision (type 4, `SSL_WrapperPacket`) is read: robots become `yellow.3.x`, `.y` (m) and
+//! `.theta` (rad, heading of the **forward** axis), at the time of capture.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::wire::{Wire, fields};
+use super::{Table, damaged};
+use crate::error::InputError;
+
+pub(super) const MAGIC: &[u8] = b"SSL_LOG_FILE";
+/// Type of a record of vision.
+const VISION: u32 = 4;
+/// Most that a compressed log is unpacked to, bytes: two hours of a game are 2 GB.
+const MOST: u64 = 4 << 30;
+
+pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
+    let unpacked;
+    let bytes = if bytes.starts_with(&[0x1f, 0x8b]) {
+        let mut out = Vec::new();
+        let packed = flate2::read::MultiGzDecoder::new(bytes).take(MOST).read_to_end(&mut out);
+        packed.map_err(|e| damaged(path, 0, format!("cannot be unpacked: {e}")))?;
+        unpacked = out;
+        &unpacked[..]
+    } else {
+        bytes
+    };
+    if !bytes.starts_with(MAGIC) {
+        return Err(InputError::new(
+            path,
+            "does not start as a game log does",
+            "give a log of ssl-logtools, .log or .log.gz",
+        ));
+    }
+    let mut table = Table::default();
+    let mut rest = bytes.get(16..).unwrap_or_default();
+    while let Some((head, after)) = rest.split_first_chunk::<16>() {
+        let place = bytes.len() - rest.len();
+        let word = |at: usize| u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
+        // A log that was cut off ends with its last whole record.
+        let Some((message, after)) = after.split_at_checked(word(12) as usize) else { break };
+        rest = after;
+        if word(8) == VISION {
+            packet(message, &mut table).map_err(|what| damaged(path, place, what))?;
+        }
+    }
+    Ok(table)
+}
+
+fn packet(message: &[u8], table: &mut Table) -> Result<(), String> {
+    for (number, value) in fields(message)? {
+        let (1, Wire::Bytes(detection)) = (number, value) else { continue };
+        let detection = fields(detection)?;
+        let Some(t) = detection.iter().find(|(n, _)| *n == 2).map(|(_, v)| v.real()) else { continue };
+        for (number, value) in detection {
+            let team = match number {
+                6 => "yellow",
+                7 => "blue",
+                _ => continue,
+            };
+            let Wire::Bytes(robot) = value else { continue };
+            let robot = fields(robot)?;
+            let of = |number: u32| robot.iter().find(|(n, _)| *n == number).map(|(_, v)| v.real());
+            let (Some(id), Some(x), Some(y)) = (of(2), of(3), of(4)) else { continue };
+            table.push(&format!("{team}.{id}.x"), t, 1e-3 * x);
+            table.push(&format!("{team}.{id}.y"), t, 1e-3 * y);
+            if let Some(theta) = of(5) {
+                table.push(&format!("{team}.{id}.theta"), t, theta);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,246 @@
+use super::*;
+use crate::Run;
+use std::f64::consts::FRAC_PI_2;
+
+fn table(bytes: &[u8], name: &str) -> Table {
+    Table::of_bytes(bytes, Path::new(name), None, (None, 1.0)).unwrap()
+}
+
+fn error(bytes: &[u8], name: &str) -> String {
+    Table::of_bytes(bytes, Path::new(name), None, (None, 1.0)).unwrap_err().to_string()
+}
+
+fn run(map: &str, table: &Table) -> Result<Run, String> {
+    Map::parse(map, Path::new("map.toml")).and_then(|m| m.run(table, Path::new("in"))).map_err(|e| e.to_string())
+}
+
+/// A little-endian CDR message; strings and numbers aligned as the standard has it.
+struct Message(Vec<u8>);
+
+impl Message {
+    fn new() -> Self {
+        Self(vec![0, 1, 0, 0])
+    }
+
+    fn align(&mut self, size: usize) {
+        while (self.0.len() - 4) % size != 0 {
+            self.0.push(0);
+        }
+    }
+
+    fn word(mut self, x: u32) -> Self {
+        self.align(4);
+        self.0.extend(x.to_le_bytes());
+        self
+    }
+
+    fn text(mut self, text: &str) -> Self {
+        self = self.word(text.len() as u32 + 1);
+        self.0.extend(text.as_bytes());
+        self.0.push(0);
+        self
+    }
+
+    fn doubles(mut self, xs: &[f64]) -> Self {
+        self.align(8);
+        xs.iter().for_each(|x| self.0.extend(x.to_le_bytes()));
+        self
+    }
+
+    fn header(self, stamp: (u32, u32), frame: &str) -> Self {
+        self.word(stamp.0).word(stamp.1).text(frame)
+    }
+}
+
+/// A bag of these messages (topic, type, message), a chunk compressed as `compression` says.
+fn bag(messages: &[(&str, &str, Vec<u8>)], compression: &str) -> Vec<u8> {
+    let field = |text: &str| [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
+    let record = |op: u8, body: Vec<u8>| [&[op][..], &(body.len() as u64).to_le_bytes(), &body].concat();
+    let mut inner = Vec::new();
+    for (i, (topic, kind, data)) in messages.iter().enumerate() {
+        let id = (i as u16 + 1).to_le_bytes();
+        inner.extend(record(3, [&id[..], &field(kind), &field("ros2msg"), &0_u32.to_le_bytes()].concat()));
+        inner.extend(record(4, [&id[..], &id, &field(topic), &field("cdr"), &0_u32.to_le_bytes()].concat()));
+        let stamp = (2_000_000_000_u64 + i as u64).to_le_bytes();
+        inner.extend(record(5, [&id[..], &0_u32.to_le_bytes(), &stamp, &stamp, data].concat()));
+    }
+    let packed = match compression {
+        "lz4" => {
+            let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
+            std::io::Write::write_all(&mut encoder, &inner).unwrap();
+            encoder.finish().unwrap()
+        }
+        "zstd" => ruzstd::encoding::compress_to_vec(&inner[..], ruzstd::encoding::CompressionLevel::Fastest),
+        _ => inner.clone(),
+    };
+    let mut chunk = [0_u64.to_le_bytes(), 0_u64.to_le_bytes(), (inner.len() as u64).to_le_bytes()].concat();
+    chunk.extend(crc32fast::hash(&inner).to_le_bytes());
+    chunk.extend(field(compression));
+    chunk.extend((packed.len() as u64).to_le_bytes());
+    chunk.extend(packed);
+    [mcap::MAGIC, &record(1, [field("ros2"), field("test")].concat())[..], &record(6, chunk), &record(15, vec![0; 4])]
+        .concat()
+}
+
+fn messages() -> Vec<(&'static str, &'static str, Vec<u8>)> {
+    let (s, c) = (0.5_f64.sin(), 0.5_f64.cos());
+    let pose = [1.0, 2.0, 0.0, 0.0, 0.0, s, c];
+    let odometry = Message::new().header((5, 500_000_000), "odom").text("base").doubles(&pose).doubles(&[0.0; 36]);
+    let odometry = odometry.doubles(&[0.3, 0.4, 0.0, 0.0, 0.0, 0.6]).doubles(&[0.0; 36]);
+    let joints = Message::new().header((5, 0), "").word(2).text("left").text("right wheel");
+    let joints = joints.word(2).doubles(&[1.5, -2.5]).word(1).doubles(&[7.0]).word(0);
+    let tf = Message::new().word(1).header((6, 0), "map").text("base").doubles(&pose);
+    let twist = Message::new().doubles(&[0.1, 0.2, 0.0, 0.0, 0.0, 0.3]);
+    let seen = Message::new().header((5, 0), "map").doubles(&pose);
+    vec![
+        ("/odom", "nav_msgs/msg/Odometry", odometry.0),
+        ("/joint_states", "sensor_msgs/msg/JointState", joints.0),
+        ("/tf", "tf2_msgs/msg/TFMessage", tf.0),
+        ("/cmd_vel", "geometry_msgs/msg/Twist", twist.0),
+        ("/pose", "geometry_msgs/msg/PoseStamped", seen.0),
+        ("/chatter", "std_msgs/msg/String", Message::new().text("hello").0),
+    ]
+}
+
+#[test]
+fn bags_are_read_whatever_their_compression() {
+    for compression in ["", "lz4", "zstd"] {
+        let table = table(&bag(&messages(), compression), "bag.mcap");
+        let value = |name: &str| {
+            let s = table.find(name).unwrap_or_else(|| panic!("no {name}"));
+            (s.t[0], s.values[0])
+        };
+        assert_eq!(value("/odom.x"), (5.5, 1.0));
+        assert!((value("/odom.theta").1 - 1.0).abs() < 1e-12);
+        assert_eq!((value("/odom.vx").1, value("/odom.w").1), (0.3, 0.6));
+        assert_eq!(value("/joint_states.position.right wheel"), (5.0, -2.5));
+        assert_eq!(value("/joint_states.velocity.left").1, 7.0);
+        assert_eq!(value("/tf.map.base.y"), (6.0, 2.0));
+        assert!((value("/cmd_vel.vy").0 - 2.0).abs() < 1e-6, "the recording's time");
+        assert_eq!(value("/pose.x"), (5.0, 1.0));
+        assert!(table.find("/chatter.data").is_none());
+    }
+    let cut = |mut m: Vec<(&'static str, &'static str, Vec<u8>)>| {
+        m[0].2.truncate(60);
+        bag(&m, "lz4")
+    };
+    assert!(
+        error(&cut(messages()), "bag.mcap").contains("topic /odom: a message is shorter than a nav_msgs/msg/Odometry")
+    );
+    let foreign = bag(&messages()[5..], "");
+    assert!(error(&foreign, "bag.mcap").contains("it has /chatter (std_msgs/msg/String)"));
+    let mut broken = bag(&messages(), "zstd");
+    let middle = broken.len() / 2;
+    broken[middle] ^= 0xff;
+    assert!(error(&broken, "bag.mcap").starts_with("bag.mcap: byte "));
+}
+
+#[test]
+fn game_logs_are_the_camera() {
+    let float = |n: u8, x: f32| [&[n << 3 | 5][..], &x.to_le_bytes()].concat();
+    let robot =
+        |id: u8, x: f32| [float(1, 0.9), vec![2 << 3, id], float(3, x), float(4, -500.0), float(5, 1.0)].concat();
+    let nested = |n: u8, data: Vec<u8>| [vec![n << 3 | 2, data.len() as u8], data].concat();
+    let frame = |t: f64, x: f32| {
+        let head = [vec![1 << 3, 7, 2 << 3 | 1], t.to_le_bytes().to_vec(), vec![4 << 3, 0]].concat();
+        nested(1, [head, nested(6, robot(3, x)), nested(7, robot(4, 0.0))].concat())
+    };
+    let record = |kind: u32, data: Vec<u8>| {
+        [&5_i64.to_be_bytes()[..], &kind.to_be_bytes(), &(data.len() as u32).to_be_bytes(), &data].concat()
+    };
+    let head = [&b"SSL_LOG_FILE"[..], &1_u32.to_be_bytes()].concat();
+    let log =
+        [head, record(3, vec![1, 2]), record(4, frame(100.0, 1000.0)), record(4, frame(100.5, 1500.0)), vec![0; 9]]
+            .concat();
+    let map = "[frame]\nx = \"forward\"\n[columns]\ncam_x = \"yellow.3.x\"\ncam_y = \"yellow.3.y\"\ncam_theta = \"yellow.3.theta\"\n";
+    let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    std::io::Write::write_all(&mut packed, &log).unwrap();
+    for (bytes, name) in [(log, "game.log"), (packed.finish().unwrap(), "game.log.gz")] {
+        let table = table(&bytes, name);
+        assert_eq!(table.find("blue.4.x").unwrap().values, [0.0, 0.0]);
+        let run = run(map, &table).unwrap();
+        assert_eq!(run.t, [0.0, 0.5]);
+        let pose = run.camera[1].pose;
+        assert!((pose.x - 1.5).abs() < 1e-6 && (pose.y + 0.5).abs() < 1e-6);
+        assert!((pose.theta - (1.0 - FRAC_PI_2)).abs() < 1e-6, "the league's heading points forward");
+    }
+}
+
+#[test]
+fn wpilib_logs_are_read() {
+    let text = |s: &str| [&(s.len() as u32).to_le_bytes()[..], s.as_bytes()].concat();
+    let record = |entry: u8, stamp: u32, data: Vec<u8>| {
+        // Widths: entry 1, size 2, stamp 4 bytes.
+        [&[0b0011_0100, entry][..], &(data.len() as u16).to_le_bytes(), &stamp.to_le_bytes(), &data].concat()
+    };
+    let start = |id: u32, name: &str, kind: &str| {
+        [vec![0], id.to_le_bytes().to_vec(), text(name), text(kind), text("")].concat()
+    };
+    let mut log = [&b"WPILOG"[..], &[0, 1], &2_u32.to_le_bytes(), b"{}"].concat();
+    for (id, name, kind) in
+        [(1, "left/position", "double"), (2, "pose", "struct:Pose2d"), (3, "volts", "double[]"), (4, "n", "int64")]
+    {
+        log.extend(record(0, 0, start(id, name, kind)));
+    }
+    log.extend(record(1, 1_500_000, 2.5_f64.to_le_bytes().to_vec()));
+    log.extend(record(2, 1_500_000, [1.0_f64, 2.0, 3.0].iter().flat_map(|x| x.to_le_bytes()).collect()));
+    log.extend(record(3, 1_600_000, [12.0_f64, 11.0].iter().flat_map(|x| x.to_le_bytes()).collect()));
+    log.extend(record(4, 1_600_000, (-7_i64).to_le_bytes().to_vec()));
+    log.extend([0x34, 1, 8]);
+    let table = table(&log, "robot.wpilog");
+    let value = |name: &str| table.find(name).map(|s| (s.t[0], s.values[0]));
+    assert_eq!(value("left/position"), Some((1.5, 2.5)));
+    assert_eq!(value("pose.theta"), Some((1.5, 3.0)));
+    assert_eq!((value("volts.1"), value("n")), (Some((1.6, 11.0)), Some((1.6, -7.0))));
+}
+
+#[test]
+fn any_csv_by_names_units_signs_and_frame() {
+    let text = "__time,/a/left,/a/x,/a/y,yaw,vel.x,vel.y,mode\n10.0,1,1000,50,90,,,auto\n10.5,,,,,0.5,0.1,\n11,3,2000,60,180,,,x\n";
+    let table = table(text.as_bytes(), "plotjuggler.csv");
+    let map = "[frame]\nx = \"forward\"\ny = \"down\"\nheadings = \"clockwise\"\n[columns]\n\
+               enc_1 = { from = \"/a/left\", scale = -2 }\ncam_x = { from = \"/a/x\", unit = \"mm\" }\n\
+               cam_y = { from = \"/a/y\", unit = \"cm\", offset = 1 }\ncam_theta = { from = \"yaw\", unit = \"deg\" }\n\
+               cmd_vx = \"vel.x\"\ncmd_vy = \"vel.y\"\ncmd_w = \"vel.y\"\n";
+    let made = run(map, &table).unwrap();
+    assert_eq!(made.t, [0.0, 0.5, 1.0]);
+    assert_eq!((made.counts[0].clone(), made.count_gaps[0].clone()), (vec![-2, -2, -6], vec![1]));
+    let pose = made.camera[1].pose;
+    assert!((pose.x - 2.0).abs() < 1e-12 && (pose.y + 1.6).abs() < 1e-12, "{pose:?}");
+    assert!((crate::frames::wrap_angle(pose.theta - FRAC_PI_2)).abs() < 1e-12, "{pose:?}");
+    let command = made.command.as_ref().unwrap();
+    assert_eq!((command[0][1], command[1][1], command[2][1]), (-0.1, 0.5, -0.1));
+    for (map, message) in [
+        ("[columns]\nenc_1 = \"/a/lefd\"\n", "in: enc_1: has no series \"/a/lefd\"; did you mean /a/left?"),
+        ("[columns]\necn_1 = \"x\"\n", "map.toml: columns.ecn_1: is no column of a run; did you mean enc_1?"),
+        ("[columns]\nenc_1 = { from = \"x\", unit = \"furlong\" }\n", "\"furlong\" is no unit that is known"),
+        ("[columns]\nenc_1 = { from = \"x\", scale = 0 }\n", "its scale or offset is no number"),
+        ("[columns]\ncam_x = \"/a/x\"\n", "cam_y: no such column in the map"),
+        ("[columns]\nduty_1 = \"/a/x\"\n", "duty 1000 is not within"),
+        ("[time]\nunit = \"h\"\n", "\"h\" is no unit of time"),
+        ("format = \"xls\"\n", "\"xls\" is no format"),
+        ("[frames]\n", "map.toml:1:2: unknown field"),
+        ("", "none of its series is a column of ours"),
+    ] {
+        let e = run(map, &table).unwrap_err();
+        assert!(e.contains(message), "{map:?}: {e}");
+    }
+    assert!(error(b"a,b\n1,2\n", "x.csv").contains("no column of time; name it in the map"));
+    assert!(error(b"t,b\nx,2\n", "x.csv").starts_with("x.csv:2:1: t: \"x\" is no time"));
+}
+
+#[test]
+fn no_soup_of_bytes_panics_an_importer() {
+    use rand::{Rng, SeedableRng};
+    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
+    let heads: [&[u8]; 5] = [b"", mcap::MAGIC, b"WPILOG", b"SSL_LOG_FILE", b"t,a\n"];
+    for k in 0..400 {
+        let mut bytes = vec![0; k % 97];
+        rng.fill_bytes(&mut bytes);
+        let _ = Table::of_bytes(&[heads[k % 5], &bytes].concat(), Path::new("soup"), None, (None, 1.0));
+        let mut bag = bag(&messages(), ["", "lz4", "zstd"][k % 3]);
+        let at = rng.next_u32() as usize % bag.len();
+        bag[at] ^= 1 << (k % 8);
+        let _ = Table::of_bytes(&bag, Path::new("soup"), None, (None, 1.0));
+    }
+}

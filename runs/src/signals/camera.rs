@@ -1,0 +1,53 @@
+//! Cameras whose last pose is logged again until the next one comes.
+
+use crate::Run;
+use crate::frames::Pose;
+
+/// Poses from which the habit is told.
+const FEWEST: usize = 60;
+/// Share of poses that repeat the one before to the last digit, from which the log holds poses: a camera of half the
+/// log's rate repeats every second one. A tracker that loses the robot now and then stays below.
+const HABIT: f64 = 0.4;
+
+/// Whether poses are held, and the last of them.
+pub(super) struct Repeats {
+    held: bool,
+    last: Option<Pose>,
+    said: bool,
+}
+
+impl Repeats {
+    /// By the first part of a log. Frozen poses of a robot that is not tracked come in one long row; held ones in many.
+    pub(super) fn of(run: &Run) -> Self {
+        let repeats = run.camera.windows(2).map(|w| w[0].pose == w[1].pose && w[1].tick == w[0].tick + 1);
+        let repeats: Vec<bool> = repeats.collect();
+        let number = repeats.iter().filter(|r| **r).count();
+        let rows = repeats.windows(2).filter(|w| w[1] && !w[0]).count();
+        let changes = repeats.len() - number;
+        let held = run.camera.len() >= FEWEST
+            && number as f64 >= HABIT * repeats.len() as f64
+            && 2 * rows >= changes
+            && rows > FEWEST / 10;
+        Self { held, last: None, said: false }
+    }
+
+    /// Drops what repeats.
+    pub(super) fn apply(&mut self, run: &mut Run) {
+        if !self.held {
+            return;
+        }
+        let last = &mut self.last;
+        run.camera.retain(|sample| last.replace(sample.pose) != Some(sample.pose));
+    }
+
+    /// What was found, said once.
+    pub(super) fn note(&mut self, run: &Run) -> Option<String> {
+        if std::mem::replace(&mut self.said, true) || !self.held {
+            return None;
+        }
+        let rate = run.camera.len() as f64 / run.duration_s().max(f64::MIN_POSITIVE);
+        Some(format!(
+            "the camera's last pose is logged again until the next one: repeats are no sample ({rate:.0} new poses a second)"
+        ))
+    }
+}

@@ -1,0 +1,126 @@
+use super::*;
+use crate::frames::{Pose, displacement, wrap_angle};
+use crate::{CameraSample, DataSet, Logs};
+
+fn read(run: Run) -> Run {
+    let mut reading = Reading::new(&Robot::racbot(), &run, Path::new("run.csv")).unwrap();
+    reading.apply(run)
+}
+
+fn times(ticks: usize) -> Vec<f64> {
+    (0..ticks).map(|k| k as f64 * 1e-3).collect()
+}
+
+/// A wheel that swings, rad.
+fn angle(t: f64) -> f64 {
+    4.0 * (3.0 * t).sin()
+}
+
+#[test]
+fn counts_that_repeat_are_no_samples_and_slow_wheels_are() {
+    let robot = Robot::racbot();
+    let counts = |every: usize, size: f64| -> Vec<i64> {
+        (0..4000)
+            .map(|k| (size * angle((k / every * every) as f64 * 1e-3) * robot.counts_per_wheel_rad()) as i64)
+            .collect()
+    };
+    let run = |every: usize, size: f64| {
+        let counts = vec![counts(every, size)];
+        read(Run { t: times(4000), counts, count_gaps: vec![Vec::new()], ..Run::default() })
+    };
+    let slow = run(10, 1.0);
+    let gaps = &slow.count_gaps[0];
+    assert!((3500..=3610).contains(&gaps.len()), "nine of ten: {}", gaps.len());
+    // Late only where the wheel turns round and a reading is the same as the one before.
+    assert!(gaps.iter().filter(|g| **g % 10 == 0).count() < 20);
+    assert!(slow.notes[0].contains("every 10.0 ticks (100 Hz)"), "{:?}", slow.notes);
+    for (every, size) in [(1, 1.0), (1, 0.001), (1, 1e-5)] {
+        let run = run(every, size);
+        assert!(run.count_gaps[0].is_empty() && run.notes.is_empty(), "{every} {size}: {:?}", run.notes);
+    }
+}
+
+#[test]
+fn speeds_become_counts() {
+    let speed = |k: usize| 12.0 * (3.0 * k as f64 * 1e-3).cos();
+    let mut column: Vec<f64> = (0..2000).map(speed).collect();
+    column[700] = f64::NAN;
+    let run = read(Run { t: times(2000), speed: vec![column], ..Run::default() });
+    let robot = as_logged(&Robot::racbot(), run.source, None);
+    for k in [1, 699, 701, 1999] {
+        let turned = run.counts[0][k] as f64 / robot.counts_per_wheel_rad();
+        assert!((turned - angle(k as f64 * 1e-3)).abs() < 1e-5, "{k}: {turned}");
+    }
+    assert_eq!(run.count_gaps[0], [700]);
+    assert_eq!(run.source.counts, CountSource::Speeds);
+}
+
+#[test]
+fn dead_reckoning_becomes_wheels_that_retrace_it() {
+    let pose = |k: usize| {
+        let t = k as f64 * 1e-2;
+        Pose::new(t.sin(), 0.3 * t, wrap_angle(2.0 * t))
+    };
+    let column = |f: fn(Pose) -> f64| (0..500).map(|k| f(pose(k))).collect::<Vec<f64>>();
+    let run = read(Run {
+        t: (0..500).map(|k| f64::from(k) * 1e-2).collect(),
+        odometry: Some([column(|p| p.x), column(|p| p.y), column(|p| p.theta)]),
+        duty: vec![vec![0.1; 500]; 2],
+        ..Run::default()
+    });
+    let robot = as_logged(&Robot::racbot(), run.source, None);
+    let geometry = robot.geometry().unwrap();
+    let mut at = pose(0);
+    for k in 1..500 {
+        let turned: Vec<f64> =
+            run.counts.iter().map(|c| (c[k] - c[k - 1]) as f64 / robot.counts_per_wheel_rad()).collect();
+        at = at.compose(displacement(geometry.twist(&turned)));
+        assert!(at.distance(pose(k)) < 1e-3 && wrap_angle(at.theta - pose(k).theta).abs() < 1e-3, "{k}: {at:?}");
+    }
+    assert!(run.duty.is_empty() && run.notes[0].contains("duty not used"), "{:?}", run.notes);
+}
+
+#[test]
+fn currents_become_duties_of_a_motor_without_back_emf() {
+    let run = read(Run { t: times(3), current: vec![vec![1.0, -0.5, 0.0]; 3], ..Run::default() });
+    let robot = as_logged(&Robot::racbot(), run.source, None);
+    assert_eq!(robot.motor.back_emf(), 0.0);
+    let ampere = run.duty[0][0] * robot.supply_v / robot.motor.resistance_ohm;
+    assert!((ampere - 1.0).abs() < 1e-12);
+    let little = Robot::parse_partial("[motor]\ntorque_constant = 0.02", Path::new("r")).unwrap();
+    let robot = as_logged(&little, run.source, Some(0.01));
+    assert!(robot.lacks(&["supply_v", "motor.resistance_ohm", "control_rate_hz"]).is_empty());
+    assert!((robot.control_rate_hz - 100.0).abs() < 1e-9);
+    let again = Run { duty: Vec::new(), ..run };
+    let mut reading = Reading::new(&little, &again, Path::new("r")).unwrap();
+    assert_eq!(reading.apply(again).duty[0][0], 1.0);
+}
+
+#[test]
+fn held_poses_are_dropped_and_frozen_ones_left_to_the_links() {
+    let camera = |every: usize, frozen: std::ops::Range<usize>| -> Vec<CameraSample> {
+        let at = |k: usize| if frozen.contains(&k) { frozen.start } else { k / every * every };
+        (0..3000).map(|k| CameraSample { tick: k, pose: Pose::new(at(k) as f64, 0.0, 0.0) }).collect()
+    };
+    let run = |camera| read(Run { t: times(3000), camera, has_camera: true, ..Run::default() });
+    let held = run(camera(16, 0..0));
+    assert_eq!(held.camera.len(), 3000_usize.div_ceil(16));
+    assert!(held.notes[0].contains("63 new poses a second") || held.notes[0].contains("62 new"), "{:?}", held.notes);
+    assert_eq!(run(camera(1, 0..0)).camera.len(), 3000);
+    assert_eq!(run(camera(1, 1000..2500)).camera.len(), 3000, "one long freeze is a lost track, which is reported");
+}
+
+#[test]
+fn a_robot_that_says_too_little_for_its_log_is_told_all_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("run.csv"), "t,enc_1,enc_2\n0,0,0\n1,1,1\n").unwrap();
+    std::fs::write(folder.path().join("robot.toml"), "control_rate_hz = 1\n").unwrap();
+    let e = DataSet::open(folder.path()).unwrap_err().to_string();
+    for part in ["run.csv", "[[wheel]]", "wheel_radius_m", "gear_ratio", "encoder_counts_per_motor_rev", "racbot init"]
+    {
+        assert!(e.contains(part), "{e}");
+    }
+    assert_eq!(Logs::open(folder.path()).unwrap_err().to_string(), e);
+    std::fs::write(folder.path().join("run.csv"), "t,odom_x,odom_y,odom_theta\n0,0,0,0\n1,1,1,0\n").unwrap();
+    assert_eq!(DataSet::open(folder.path()).unwrap().runs[0].counts.len(), 3);
+}
