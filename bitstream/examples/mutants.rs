@@ -42,7 +42,8 @@ fn main() {
         }
     }
     let mut random = ChaCha8Rng::seed_from_u64(number(1, 1));
-    let (mut counts, mut kinds): (BTreeMap<&str, usize>, BTreeMap<(&str, String), usize>) = Default::default();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut kinds: BTreeMap<(&str, String), usize> = BTreeMap::new();
     let count = number(0, 2_000);
     for _ in 0..count {
         let (bit, attribute) = &bits[(random.next_u64() % bits.len() as u64) as usize];
