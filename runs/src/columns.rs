@@ -26,8 +26,11 @@ const ODOMETRY: [&str; 3] = ["odom_x", "odom_y", "odom_theta"];
 const GYRO: [&str; 3] = ["gyro_x", "gyro_y", "gyro_z"];
 const ACCELERATION: [&str; 3] = ["acc_x", "acc_y", "acc_z"];
 
+/// A column of a group, by its number from 0.
+type Member = fn(usize) -> Column;
+
 /// Groups of three columns.
-const TRIPLES: [([&str; 3], fn(usize) -> Column); 5] = [
+const TRIPLES: [([&str; 3], Member); 5] = [
     (COMMAND, Column::Command),
     (CAMERA, Column::Camera),
     (ODOMETRY, Column::Odometry),
@@ -35,7 +38,7 @@ const TRIPLES: [([&str; 3], fn(usize) -> Column); 5] = [
     (ACCELERATION, Column::Acceleration),
 ];
 /// Groups of one column a wheel.
-const BY_WHEEL: [(&str, fn(usize) -> Column); 6] = [
+const BY_WHEEL: [(&str, Member); 6] = [
     ("ref_", Column::Reference),
     ("enc_", Column::Counts),
     ("duty_", Column::Duty),
@@ -120,7 +123,7 @@ impl Column {
 }
 
 /// Groups that are logged whole or not at all, with the fewest members they may have.
-pub(super) const GROUPS: [(fn(usize) -> Column, usize); 9] = [
+pub(super) const GROUPS: [(Member, usize); 9] = [
     (Column::Reference, 0),
     (Column::Counts, 0),
     (Column::Duty, 0),

@@ -102,8 +102,11 @@ fn wheels(top: &Section, list: &Value) -> Result<Vec<Wheel>, InputError> {
     Ok(wheels)
 }
 
-/// The list of skews under either of its names, in rad.
-fn skews<'a>(top: &Section<'a>) -> Result<Option<(&'static str, &'a Value<'a>, Vec<f64>)>, InputError> {
+/// The name of a list, the list as it stands in the file, and its angles, rad.
+type Angles<'a> = (&'static str, &'a Value<'a>, Vec<f64>);
+
+/// The list of skews under either of its names.
+fn skews<'a>(top: &Section<'a>) -> Result<Option<Angles<'a>>, InputError> {
     for (key, unit) in [("skew_rad", 1.0), ("skew_deg", PI / 180.0)] {
         let Some(value) = top.table.get(key) else { continue };
         let hint = "give one angle a wheel, such as [0.0, 0.0, 0.0]";

@@ -73,7 +73,7 @@ impl Derive {
 
     fn reckon(&mut self, run: &mut Run) {
         let Some([x, y, theta]) = &run.odometry else { return };
-        run.counts = vec![Vec::with_capacity(run.t.len()); 3];
+        run.counts = vec![Vec::new(); 3];
         run.count_gaps = vec![Vec::new(); 3];
         for tick in 0..run.t.len() {
             let pose = Pose::new(x[tick], y[tick], theta[tick]);
