@@ -95,7 +95,7 @@ impl Refusal {
 /// # Errors
 /// Why it must not be named.
 pub fn gate(estimates: &[Estimate], p_value: Option<f64>) -> Result<(), Refusal> {
-    if p_value.is_some_and(|p| !(p <= SIGNIFICANT)) {
+    if p_value.is_some_and(|p| p.is_nan() || p > SIGNIFICANT) {
         return Err(Refusal::Chance);
     }
     let sized = || estimates.iter().filter(|e| e.sized);
@@ -111,7 +111,10 @@ pub fn gate(estimates: &[Estimate], p_value: Option<f64>) -> Result<(), Refusal>
     if sized().any(|e| at_bound(e) && !(e.absent_at_zero && e.value.abs() < 0.05 * (e.bounds[1] - e.bounds[0]))) {
         return Err(Refusal::AtBound);
     }
-    let says_nothing = |e: &Estimate| !(e.interval[1] - e.interval[0] <= e.bounds[1] - e.bounds[0]);
+    let says_nothing = |e: &Estimate| {
+        let width = e.interval[1] - e.interval[0];
+        width.is_nan() || width > e.bounds[1] - e.bounds[0]
+    };
     if sized().any(says_nothing) {
         return Err(Refusal::SaysNothing);
     }

@@ -55,7 +55,7 @@ fn main() {
             let mistakes = spoil.found(set);
             let right = mistakes.iter().any(|m| spoil.kinds.contains(&m.kind));
             if !right {
-                let kinds: Vec<String> = mistakes.iter().map(|m| m.sentence()).collect();
+                let kinds: Vec<String> = mistakes.iter().map(model::setup::Mistake::sentence).collect();
                 said.push(format!("{} on set {i}: {kinds:?}", spoil.name));
             }
             right

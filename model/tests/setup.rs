@@ -24,7 +24,11 @@ fn good_data_have_none() {
     for name in SETS {
         let set = open(name);
         let mistakes = found(set.robot, &set.runs);
-        assert!(mistakes.is_empty(), "{name}: {:?}", mistakes.iter().map(|m| m.sentence()).collect::<Vec<_>>());
+        assert!(
+            mistakes.is_empty(),
+            "{name}: {:?}",
+            mistakes.iter().map(model::setup::Mistake::sentence).collect::<Vec<_>>()
+        );
     }
 }
 

@@ -70,7 +70,7 @@ fn squares(
             e.fill(0.0);
             before = Some(at);
         }
-        if residuals.weights[b].iter().any(|w| *w == 0.0) {
+        if residuals.weights[b].contains(&0.0) {
             e.fill(0.0);
             continue;
         }

@@ -131,7 +131,7 @@ impl Platform {
     fn new(geometry: &Geometry, mass: f64, yaw_inertia: f64) -> Option<Self> {
         let rows = DMatrix::from_fn(geometry.inverse().nrows(), 3, |i, j| geometry.inverse()[(i, j)]);
         let body = [mass, mass, yaw_inertia];
-        if body.iter().any(|m| !(*m > 0.0)) {
+        if body.iter().any(|m| m.is_nan() || *m <= 0.0) {
             return None;
         }
         let twist = (rows.transpose() * &rows).try_inverse()? * rows.transpose();

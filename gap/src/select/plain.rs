@@ -121,7 +121,7 @@ fn best(
         .filter_map(|c| {
             let a = &candidates[c];
             let columns = linear.of_candidate(c);
-            if columns.iter().any(|j| !(ridge.information(*j) > 0.0)) {
+            if columns.iter().map(|j| ridge.information(*j)).any(|known| known.is_nan() || known <= 0.0) {
                 return None;
             }
             let roles = roles_with(&columns);

@@ -68,8 +68,8 @@ fn no_effect_buys_the_metric_by_predicting_nothing() {
     let open = left(&link, &base);
     let away = runaway(&link, &base).unwrap();
     let mut tried = 0;
-    let other = |e: &&Box<dyn Effect>| e.link() == Link::Drive && !TAKE_TORQUE.contains(&e.name());
-    for effect in gap::effects::catalogue().iter().filter(other) {
+    let other = |e: &dyn Effect| e.link() == Link::Drive && !TAKE_TORQUE.contains(&e.name());
+    for effect in gap::effects::catalogue().iter().filter(|effect| other(effect.as_ref())) {
         for form in effect.forms(&set.robot) {
             for share in [0.0, 0.02, 0.1, 0.3, 0.6, 0.9, 1.0] {
                 let mut values = Values(form.fixed.clone());

@@ -182,7 +182,7 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
     };
     let far = fitted.parameters[..n].iter().any(|d| d.abs() > MOST_SKEW);
     if far || fitted.residuals.reduced_chi2 > ABSURD {
-        return Ok(refused(robot, estimate, far));
+        return Ok(refused(robot, &estimate, far));
     }
     estimate.remarks = remarks(robot, runs, &fitted, &estimate);
     estimate.remarks.extend(sizes.map(Sizes::remark));
@@ -215,7 +215,7 @@ fn common_with_free_marker(
 }
 
 /// An estimate that is none: the nominal skews, known to nothing.
-fn refused(robot: &Robot, estimate: SkewEstimate, far: bool) -> SkewEstimate {
+fn refused(robot: &Robot, estimate: &SkewEstimate, far: bool) -> SkewEstimate {
     let why = if far {
         format!("a wheel would have to be turned by more than {:.0} degrees", MOST_SKEW.to_degrees())
     } else {

@@ -154,7 +154,7 @@ impl Options {
         ];
         match self.counts_per_wheel_rev {
             Some(n) => {
-                keys.push(key("encoder_counts_per_wheel_rev", "", Some(n), false, "counts per turn of the wheel"))
+                keys.push(key("encoder_counts_per_wheel_rev", "", Some(n), false, "counts per turn of the wheel"));
             }
             None => keys.push(key(
                 "encoder_counts_per_motor_rev",
