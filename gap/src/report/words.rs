@@ -1,7 +1,7 @@
 //! The findings in sentences.
 
 use super::{terminal, units};
-use crate::analysis::{Analysis, Named};
+use crate::analysis::{Analysis, Named, Verdict};
 use crate::effect::Link;
 
 /// Links in the order of the signals.
@@ -42,7 +42,8 @@ pub(super) fn links(a: &Analysis) -> String {
         (good, []) => format!("Every link that could be compared agrees: {}.", join(good)),
         ([], bad) => format!("No link agrees as it is: {}.", join(bad)),
         (good, bad) => format!(
-            "The disagreement is in {}; {} {} within its noise.",
+            "{} in {}; {} {} within its noise.",
+            if matches!(a.verdict, Verdict::Agrees) { "More than noise, but too little to matter, is" } else { "The disagreement is" },
             join(bad),
             join(good),
             if good.len() == 1 { "agrees" } else { "agree, each" }

@@ -58,7 +58,7 @@ fn the_papers_procedure_ends_where_its_mathematics_says() {
     let outcome = racbot(folder.path(), &arguments).done().fits_80_columns();
     assert!(outcome.stdout.contains("straighten, round 2"), "{}", outcome.stdout);
     assert!(folder.path().join("paper/trajectory.svg").exists());
-    let json = racbot(folder.path(), &[&arguments[..], &["--json"]].concat()).done().json();
+    let json = racbot(folder.path(), &[&arguments[..], &["--json", "--force"]].concat()).done().json();
     for (i, truth) in [4.0, -3.0, 2.0].into_iter().enumerate() {
         let found = json["skew_rad"][i].as_f64().unwrap().to_degrees();
         assert!((found - truth).abs() < 0.4, "wheel {}: {found}", i + 1);

@@ -49,7 +49,7 @@ fn init_writes_a_robot_that_reads_and_asks_once_for_what_a_log_needs() {
     // The first wheel is in front, to the left.
     assert!(wheels[0].x_m < -0.06 && wheels[0].y_m > 0.03, "{:?}", wheels[0]);
     assert!((robot.wheel_radius_m - 0.027).abs() < 1e-12 && robot.geometry().is_ok());
-    run(&["four.toml", "--wheels", "0,90"]).refused(1, &["four.toml", "there already", "--force"]);
+    run(&["four.toml", "--wheels", "0,90"]).refused(1, &["four.toml", "exists already", "--force"]);
     let log = data("runs/wheel-skew");
     let missing = run(&["--wheels", "90,210,330", "--body-radius-mm", "85", "--log", log.to_str().unwrap()]);
     missing.refused(
@@ -88,7 +88,7 @@ fn a_log_with_x_forward_millimetres_and_degrees_is_converted_and_calibrates_as_t
     let list = racbot(folder.path(), &["convert", "--list", "theirs.csv"]);
     list.refused(1, &["theirs.csv:1:1", "no column of time", "time_ms"]);
     racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.csv"]).done();
-    racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.csv"]).refused(1, &["there already"]);
+    racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.csv"]).refused(1, &["exists already"]);
     racbot(folder.path(), &["convert", "map.toml", "theirs.csv", "set/run.txt"])
         .refused(1, &["neither *.csv nor *.mcap"]);
     fs::write(folder.path().join("bad.toml"), map.replace("motor a", "motor x")).unwrap();
