@@ -406,6 +406,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let text = robot_text(set, options, &robot_with);
         let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
         let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
+        // On blocks a log may speak of some of the axes only.
+        let reread = reread.first_axes(robot.wheel_count());
         let new: Vec<&str> = named.iter().map(|n| n.name.as_str()).collect();
         let measured = data.measure(&set.robot, &reread, &new);
         let idle = |n: &Named| {

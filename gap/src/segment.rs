@@ -149,7 +149,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
     }
     // Duties of motors that nobody described predict nothing.
-    if part.duty.len() == n && robot.lacks(&runs::DRIVE_KEYS).is_empty() {
+    if part.duty.len() == n && runs::drive_lacks(robot).is_empty() {
         s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
         if between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));

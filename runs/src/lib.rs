@@ -30,7 +30,7 @@ pub use log::{Log, Seen};
 pub use logs::Logs;
 pub use mcap::McapStream;
 pub use part::Columns;
-pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, is_dead_reckoning};
+pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning};
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// What is wrong in a log, where, and what to do about it.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::data_set::{robot_of, run_files};
-use super::signals::{DRIVE_KEYS, as_logged};
+use super::signals::{as_logged, drive_lacks};
 use super::{DataSet, Log, RunError};
 use crate::robot::{Robot, Support};
 
@@ -49,7 +49,7 @@ impl Logs<'_> {
         }
         let all = self.logs.len();
         let drives = self.logs.iter().any(|log| !log.layout().duty.is_empty());
-        let lacking = self.as_logged().lacks(&DRIVE_KEYS).join(", ");
+        let lacking = drive_lacks(&self.as_logged()).join(", ");
         let narrowed = (drives && !lacking.is_empty()).then(|| {
             format!("duties are not compared, for robot.toml does not say {lacking}: add it to have them compared")
         });

@@ -46,6 +46,8 @@ impl Bus {
         let outputs = ["ready_n", "lad_drive", "lad_out"].map(|name| layout.output(name).unwrap());
         let mut row = vec![0; layout.inputs.len()];
         row[layout.input("host_select").unwrap()] = 1;
+        row[layout.input("board").unwrap()] = map::BOARD_4I65.word;
+        row[layout.input("clock_hz").unwrap()] = map::BOARD_4I65.clock_hz;
         let random = ChaCha8Rng::seed_from_u64(21);
         let session = built.start().unwrap();
         Self { session, random, inputs, outputs, row, shown: Shown::default(), clocks: 0 }

@@ -43,7 +43,11 @@ pub(super) fn links(a: &Analysis) -> String {
         ([], bad) => format!("No link agrees as it is: {}.", join(bad)),
         (good, bad) => format!(
             "{} in {}; {} {} within its noise.",
-            if matches!(a.verdict, Verdict::Agrees) { "More than noise, but too little to matter, is" } else { "The disagreement is" },
+            if matches!(a.verdict, Verdict::Agrees) {
+                "More than noise, but too little to matter, is"
+            } else {
+                "The disagreement is"
+            },
             join(bad),
             join(good),
             if good.len() == 1 { "agrees" } else { "agree, each" }

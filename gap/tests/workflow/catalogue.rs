@@ -122,9 +122,12 @@ fn every_effect_simulated_in_is_found() {
     assert!(faults.is_empty(), "{} of {}:\n{}", faults.len(), CASES.len(), faults.join("\n"));
 }
 
+/// The simulator has no camera with a clock of its own, and no rollers that give way: `tests/real.rs` has both.
+const NOT_SIMULATED: [&str; 2] = ["camera-clock", "sideways-creep"];
+
 #[test]
 fn the_table_holds_the_whole_catalogue() {
-    for effect in gap::effects::catalogue().iter().filter(|e| !e.probe()) {
+    for effect in gap::effects::catalogue().iter().filter(|e| !e.probe() && !NOT_SIMULATED.contains(&e.name())) {
         assert!(CASES.iter().any(|c| c.name == effect.name()), "{} has no case", effect.name());
     }
 }
@@ -139,7 +142,9 @@ fn crossed_cables_and_crossed_set_points_are_kept_apart() {
     set.runs.iter_mut().for_each(|r| cut(r, 5.0));
     let a = analyse(&set, &Options::default()).unwrap();
     assert_eq!(names(&a), ["wheel-order", "wheel-order"], "{}", a.terminal_summary());
-    assert_eq!([a.effects[0].link, a.effects[1].link].map(gap::effect::Link::name), ["motion", "command"]);
+    let mut links = [a.effects[0].link, a.effects[1].link].map(gap::effect::Link::name);
+    links.sort_unstable();
+    assert_eq!(links, ["command", "motion"]);
     let told = a.robot.effect("wheel-order").unwrap();
     assert!(a.robot.effects.len() == 1 && both.iter().all(|(name, v)| told.value(name) == Some(*v)), "{told:?}");
     let again = analyse(&runs::DataSet { robot: a.robot.clone(), ..set }, &Options::default()).unwrap();

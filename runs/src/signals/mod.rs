@@ -98,6 +98,15 @@ pub const DRIVE_KEYS: [&str; 8] = [
     "motor.friction_torque",
 ];
 
+/// What of [`DRIVE_KEYS`] a robot lacks; on blocks its body moves nothing.
+pub fn drive_lacks(robot: &Robot) -> Vec<&'static str> {
+    let mut lacks = robot.lacks(&DRIVE_KEYS);
+    if robot.support == Support::Blocks {
+        lacks.retain(|key| !["mass_kg", "yaw_inertia_kg_m2"].contains(key));
+    }
+    lacks
+}
+
 /// Whether a robot's wheels are those that stand for dead reckoning, see [`as_logged`].
 pub fn is_dead_reckoning(robot: &Robot) -> bool {
     matches!(&robot.layout, Layout::Wheels(wheels) if wheels[..] == virtual_wheels())

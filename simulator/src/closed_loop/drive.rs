@@ -197,6 +197,7 @@ impl<F: Fpga, P: FnMut(f64)> Clock for Reported<F, P> {
 mod tests {
     use super::*;
     use crate::fpga::BitTrue;
+    use driver::drive::Fault;
     use model::trajectory::FIG_7_SKEW_DEG;
     use runs::robot::Layout as Wheels;
 
@@ -208,11 +209,9 @@ mod tests {
 
     #[test]
     fn fig_6_is_driven_and_its_log_is_a_data_set() {
-        for (control, speed_mode) in [
-            (Control::Follower, SpeedMode::Difference),
-            (Control::Follower, SpeedMode::CountAndTime),
-            (Control::Paper, SpeedMode::CountAndTime),
-        ] {
+        for (control, speed_mode) in
+            [(Control::Follower, SpeedMode::Difference), (Control::Follower, SpeedMode::CountAndTime)]
+        {
             let drive = Drive { control, speed_mode, ..Drive::fig_6() };
             let driven = drive.run(BitTrue::new(), |_| {}).unwrap();
             let r = &driven.report;
@@ -223,6 +222,16 @@ mod tests {
             driven.robot.validate(std::path::Path::new("robot.toml")).unwrap();
             assert_eq!(driven.robot.pi.arithmetic.as_deref(), Some("fixed-kin"));
         }
+    }
+
+    /// The paper's controller asks for steps of speed. A wheel that is driven fully against its motion for longer than
+    /// it takes to stop ends a drive, on the robot and here.
+    #[test]
+    fn steps_of_speed_that_no_wheel_follows_end_the_drive() {
+        let drive = Drive { control: Control::Paper, speed_mode: SpeedMode::CountAndTime, ..Drive::fig_6() };
+        let driven = drive.run(BitTrue::new(), |_| {}).unwrap();
+        assert!(matches!(driven.ending, Ending::Fault(Fault::Backwards { .. })), "{:?}", driven.ending);
+        assert!(driven.run.duration_s() > 1.0);
     }
 
     #[test]
