@@ -152,15 +152,19 @@ impl Problem<'_> {
         Linear { gram: Gram::new(clusters), owners }
     }
 
-    /// Whether a free simulation with one state leaves the log further behind than with another.
+    /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
+    /// changes what is to be moved, half-way to the inertia of the robot it is said of.
     pub fn runs_away(&self, state: &State, other: &State) -> bool {
         let Self::Drive(link) = self else { return false };
-        let of = |state: &State| crate::drive::runaway(link, &state.drive(None));
-        match (of(state), of(other)) {
-            (Some(one), Some(other)) => crate::drive::further(&one, &other, crate::thresholds::RUNAWAY),
+        let (one, other) = (state.drive(None), other.drive(None));
+        let worse = |of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64| match (of(&one), of(&other)) {
+            (Some(one), Some(other)) => crate::drive::further(&one, &other, sigmas),
             (None, _) => true,
             (_, None) => false,
-        }
+        };
+        let heavier = |m: &DriveModel| m.mechanics().map(|m| m.ln_inertia);
+        heavier(&one) != heavier(&other) && worse(&|m| crate::drive::misses(link, m), 0.0)
+            || worse(&|m| crate::drive::runaway(link, m), crate::thresholds::RUNAWAY)
     }
 
     /// Sum of squares of the residuals of a state.

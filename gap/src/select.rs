@@ -17,6 +17,7 @@ use crate::gram::Gram;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::{AS_WELL, FAR_LEFT, UNDECIDED};
 
 use gates::Gates;
 use join::join;
@@ -73,17 +74,37 @@ pub fn select(
     thresholds: &Thresholds,
 ) -> Selection {
     let all = problem.candidates(start, catalogue);
+    let best = searched(problem, start, known, &all, thresholds);
+    // What is left far above the noise is not a little of everything: another search in which next to nothing is
+    // adjusted without a name.
+    let left = raw(&best);
+    if problem.link() != Link::Drive || left < FAR_LEFT {
+        return best;
+    }
+    let other = searched(problem, start, &[], &all, &thresholds.narrow());
+    let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
+    if named(&other) && raw(&other) < AS_WELL * left { other } else { best }
+}
+
+/// RMS of the residuals in units of the noise.
+fn raw(found: &Selection) -> f64 {
+    let (square, n) = found.bench.linear.gram.plain();
+    (square / n.max(1.0)).sqrt()
+}
+
+fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
+    let from = start.active.len();
     let best = if known.is_empty() {
-        first(problem, start, &all, thresholds)
+        first(problem, start, all, thresholds)
     } else {
-        let bench = beginning(problem, start, known, &all, thresholds);
-        forward(problem, bench, start.active.len(), &all, thresholds)
+        let bench = beginning(problem, start, known, all, thresholds);
+        forward(problem, bench, from, all, thresholds)
     };
-    let best = backward(problem, best, start.active.len(), &all, thresholds);
-    let (best, swapped) = swap(problem, best, start.active.len(), &all, thresholds);
-    let (best, joined) = join(problem, best, start.active.len(), &all, thresholds);
-    let best = if swapped || joined { backward(problem, best, start.active.len(), &all, thresholds) } else { best };
-    sure::sure(problem, best, start.active.len(), &all, thresholds)
+    let best = backward(problem, best, from, all, thresholds);
+    let (best, swapped) = swap(problem, best, from, all, thresholds);
+    let (best, joined) = join(problem, best, from, all, thresholds);
+    let best = if swapped || joined { backward(problem, best, from, all, thresholds) } else { best };
+    sure::sure(problem, best, from, all, thresholds)
 }
 
 /// The best of a greedy search and of one that begins with a pair or triple.
@@ -108,7 +129,7 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
     // What is larger must also stand on the held-out runs, every part of it beside the others.
     let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
-    if better && stands() { other } else { best }
+    if better && stands() && !problem.runs_away(&other.state, &best.state) { other } else { best }
 }
 
 /// The bench from which effects that are given go on.
@@ -148,7 +169,7 @@ pub fn single(
     let settled = settle(problem, &mut state, &all, thresholds);
     let found = finish(state, settled, start.active.len(), thresholds);
     let found = sure::sure(problem, found, start.active.len(), &all, thresholds);
-    let sound = found.state.active.last().is_some_and(Active::worth);
+    let sound = found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start);
     sound.then_some(found)
 }
 
@@ -173,11 +194,17 @@ fn swap(
             .filter(|t| bench.candidates[t.candidate].effect.name() == own.effect.name())
             .map(|t| t.gain)
             .fold(0.0, f64::max);
+        // Laws that leave much above the noise are not exact enough to decide by little.
+        let (square, n) = best.bench.linear.gram.plain();
+        let open = UNDECIDED * (square - n).max(0.0) / best.bench.variance;
+        let far = raw(&best) > FAR_LEFT && problem.link() == Link::Drive;
+        let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
+        let most = if far { 8 } else { 3 };
         let mut tried: Vec<&str> = vec![own.effect.name()];
         for t in &trials {
             let candidate = &bench.candidates[t.candidate];
             let name = candidate.effect.name();
-            if t.gain < gain_of_own - 12.0 - 0.1 * gain_of_own.abs() || tried.len() > 3 {
+            if t.gain < gain_of_own - tie.max(12.0 + 0.1 * gain_of_own.abs()) || tried.len() > most {
                 break;
             }
             if tried.contains(&name) || !t.material || best.state.active.iter().any(|a| a.effect.name() == name) {
@@ -189,9 +216,8 @@ fn swap(
             let settled = settle(problem, &mut state, all, thresholds);
             let rival = finish(state, settled, from, thresholds);
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
-            let tie = thresholds.tie(gain_of_own);
             let needed = if simpler { tie } else { -tie };
-            if rival.against(&best) < needed {
+            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &best.state) {
                 best = rival;
                 changed = true;
                 break;
@@ -258,7 +284,7 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
             larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
             larger.active.push(active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &bench, from, thresholds) {
+            if !improves(&settled, &bench, from, thresholds) || problem.runs_away(&larger, &state) {
                 refused.push(next.candidate);
                 continue;
             }

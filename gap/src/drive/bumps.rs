@@ -193,6 +193,11 @@ impl<'a> DriveLink<'a> {
         self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
+    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
+    pub fn ln_inertia(&self) -> f64 {
+        self.ln_inertia
+    }
+
     /// Number of bumps.
     pub fn len(&self) -> usize {
         self.bumps.len()

@@ -25,6 +25,32 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
 }
 
+/// Sum of squares of what a model leaves, half-way between its own torque and that of the link's robot, in units of the
+/// noise, one for each cluster.
+///
+/// An inertia too small explains accelerations that are noisy (it makes little of them in its own torque), one too large
+/// those that are predicted badly (it predicts none): what it really is does better half-way.
+pub fn misses(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
+    let mechanics = model.mechanics()?;
+    let moving = if mechanics.body.is_some() { 3.0 } else { mechanics.inertia.nrows() as f64 };
+    let lighter = ((link.ln_inertia() - mechanics.ln_inertia) / moving).exp();
+    let residuals = link.residuals(model)?;
+    let mut out: Vec<f64> = Vec::new();
+    let mut before = None;
+    for b in 0..link.len() {
+        if before != Some(link.cluster(b)) {
+            out.push(0.0);
+            before = Some(link.cluster(b));
+        }
+        let weighted = residuals.torque[b].iter().zip(&residuals.weights[b]).zip(&link.noise);
+        let weighted = weighted.map(|((t, w), s)| lighter * (w * t / s).powi(2));
+        if let Some(last) = out.last_mut() {
+            *last += weighted.sum::<f64>();
+        }
+    }
+    Some(out)
+}
+
 fn squares(
     link: &DriveLink,
     residuals: &DriveResiduals,
@@ -44,7 +70,7 @@ fn squares(
             e.fill(0.0);
             before = Some(at);
         }
-        if residuals.weights[b].iter().any(|w| *w == 0.0) {
+        if residuals.weights[b].contains(&0.0) {
             e.fill(0.0);
             continue;
         }

@@ -20,7 +20,7 @@ use crate::segment::Segment;
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads, smooth_sign};
-pub use free_run::{further, runaway};
+pub use free_run::{further, misses, runaway};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;

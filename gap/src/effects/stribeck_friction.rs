@@ -33,15 +33,15 @@ impl Effect for StribeckFriction {
     }
 
     fn forms_in(&self, _robot: &Robot, s: &Sizes) -> Vec<Form> {
-        // Near rest beside the speed of the log: 1.5, 3 and 6 rad/s where wheels turn at 33.
-        [0.045, 0.09, 0.18]
+        // Near rest beside the speed of the log: 1.5, 3 and 6 rad/s where wheels turn at 17.
+        [0.09, 0.18, 0.36]
             .into_iter()
             .map(|w| {
                 let drive = s.drive_nm;
                 let bounds = [-0.1 * drive, drive.max(s.stall_nm)];
                 let torque = Parameter::new("torque_nm", 0.01 * drive, bounds, 0.05 * drive);
                 let speed =
-                    Parameter::new("speed_rad_s", 0.01 * s.speed, [0.02 * s.speed, 0.36 * s.speed], f64::INFINITY);
+                    Parameter::new("speed_rad_s", 0.018 * s.speed, [0.04 * s.speed, 0.7 * s.speed], f64::INFINITY);
                 Form::whole(vec![torque.from(0.1 * drive), speed.from(w * s.speed)])
             })
             .collect()

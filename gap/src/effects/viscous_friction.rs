@@ -41,7 +41,7 @@ impl Effect for ViscousFriction {
             Support::Blocks => 0.0,
         };
         let bounds = [-0.02 * unit, 2.0 * unit.max(s.stall_nm / s.speed)];
-        let p = |name: String| Parameter::new(name, 0.006 * unit, bounds, rollers.max(0.045 * unit));
+        let p = |name: String| Parameter::new(name, 0.003 * unit, bounds, rollers.max(0.025 * unit));
         let mut forms = vec![Form::whole(vec![p("coefficient_nms".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("coefficient", i, "nms"))));
         forms

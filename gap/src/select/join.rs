@@ -58,7 +58,7 @@ fn joined(
             let settled = settle(problem, &mut state, all, thresholds);
             let rival = finish(state, settled, from, thresholds);
             let sound = rival.state.active[a].worth() && !stopped(&rival.state.active[a]);
-            if sound && rival.against(best) < DOUBTFUL {
+            if sound && rival.against(best) < DOUBTFUL && !problem.runs_away(&rival.state, &best.state) {
                 return Some(rival);
             }
         }

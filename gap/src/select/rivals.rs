@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle};
+use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle, stopped};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Problem};
 use crate::state::Active;
@@ -109,6 +109,9 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
         let values = state.active[index].parameters();
+        if stopped(&state.active[index]) || problem.runs_away(&state, &found.state) {
+            continue;
+        }
         let rival = finish(state, settled, index, thresholds);
         let own_cost = thresholds.cost(own.form.free.len());
         let rival_cost = thresholds.cost(candidate.form.free.len());
