@@ -126,6 +126,8 @@ async def armed_by_the_sequence_only_and_stopped_at_once(dut):
     await bus.write("arm", ARM_SECOND)
     assert all_off(dut), "armed although no commit ever petted the watchdog"
     await bus.commit_set_points([0, 0, 0, 0])
+    # Lines that were open until the clock ran changed both at once.
+    await bus.write("encoder_error", 0xF)
     await bus.write("arm", ARM_SECOND)
     assert all_off(dut), "one word armed it"
     await bus.write("arm", ARM_FIRST)
