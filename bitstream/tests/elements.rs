@@ -180,6 +180,12 @@ fn carry_takes_zero_one_or_a_product() {
 /// Flip-flops in every mode against a few lines that say what each mode means.
 #[test]
 fn flip_flops_follow_their_modes() {
+    let mut design = Design::new();
+    feed(&mut design, (8, 20), 0, &["BX", "CE", "SR", "BY"]);
+    let clock = design.input(CLOCK);
+    let to = design.slice_pin(design.clb(8, 20), 0, "CLK");
+    design.route(clock, to);
+    out(&mut design, (8, 20), 0, "XQ", OUT[0]);
     for mode in 0..256u32 {
         let flag = |n: u32| mode >> n & 1 == 1;
         let setting = Slice {
@@ -194,13 +200,7 @@ fn flip_flops_follow_their_modes() {
             invert_sr: flag(7),
             ..Slice::default()
         };
-        let mut design = Design::new();
         slice(&mut design, (8, 20), 0, setting);
-        feed(&mut design, (8, 20), 0, &["BX", "CE", "SR", "BY"]);
-        let clock = design.input(CLOCK);
-        let to = design.slice_pin(design.clb(8, 20), 0, "CLK");
-        design.route(clock, to);
-        out(&mut design, (8, 20), 0, "XQ", OUT[0]);
         let mut run = design.simulate();
         // Quiet inputs: nothing forces the register.
         run.edge(CLOCK, setting.invert_clk);
