@@ -2,6 +2,8 @@
 //! co-simulation with compiled Verilog, and the replay of measured logs.
 
 pub mod calibration;
+pub mod chip;
+pub mod circuit;
 pub mod closed_loop;
 pub mod cosim;
 pub mod cross_check;

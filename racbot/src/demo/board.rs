@@ -3,7 +3,6 @@
 use super::{Part, Picture, Report};
 use crate::terminal::Failure;
 use crate::terminal::progress::Progress;
-use driver::bitstream::Bitstream;
 use driver::drive::{Driven, Plan};
 use driver::load::{Loaded, Options, load};
 use driver::recording::{Recording, logged_robot};
@@ -17,7 +16,7 @@ use runs::output::{Existing, write_whole};
 use runs::robot::{Layout, Robot};
 use runs::{DataSet, Layout as Columns, Run};
 use serde_json::json;
-use simulator::virtual_card::{SharedCard, StandIn, VirtualCard};
+use simulator::virtual_card::{SharedCard, VirtualCard};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -38,8 +37,8 @@ struct Bench {
 impl Bench {
     fn new(actual: &Robot) -> Result<Self, Failure> {
         let mut card = SharedCard::new(VirtualCard::new(actual).map_err(Failure::data)?);
-        let bitstream = Bitstream::parse(&StandIn::committed().bit()).map_err(Failure::data)?;
-        let loaded = load(&mut card, &bitstream, &Options::default(), |_| {}).map_err(Failure::data)?;
+        let loaded =
+            load(&mut card, &simulator::circuit::committed(), &Options::default(), |_| {}).map_err(Failure::data)?;
         Ok(Self { card, camera: CameraModel::of(actual), loaded })
     }
 
