@@ -8,6 +8,7 @@ pub mod closed_loop;
 pub mod cosim;
 pub mod cross_check;
 pub mod fpga;
+pub mod gateware;
 pub mod replay;
 pub mod virtual_card;
 pub mod wave;

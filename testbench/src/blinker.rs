@@ -3,12 +3,9 @@
 use bitstream::configuration::StartUp;
 use bitstream::container::{Header, PART};
 use bitstream::device::Device;
-use bitstream::flow::constraints::Constraints;
 use bitstream::flow::synthesis::synthesise;
 use bitstream::flow::{Progress, build};
-use hdl::board::Board;
-use hdl::design::NAME;
-use hdl::emit::ucf::ucf;
+use simulator::gateware::constraints;
 
 /// What it answers on the bus: `BLNK`.
 pub const WORD: u32 = 0x424C_4E4B;
@@ -22,7 +19,7 @@ pub fn blinker() -> Vec<u8> {
     const TOP: &str = "blinker";
     let folder = tempfile::tempdir().expect("a folder");
     let quiet = &mut Progress::silent();
-    let constraints = Constraints::parse(&ucf(&Board::mesa_4i65_7i30(), NAME).expect("pins")).expect("constraints");
+    let constraints = constraints().expect("constraints");
     let json = synthesise(include_str!("../designs/blinker.v"), TOP, folder.path(), quiet)
         .unwrap_or_else(|error| panic!("{error}"));
     let built = build(&json, TOP, &constraints, 1, quiet).unwrap_or_else(|error| panic!("{error}"));
