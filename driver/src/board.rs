@@ -146,8 +146,12 @@ pub struct Status {
 
 impl Status {
     fn of(word: u32) -> Self {
-        let bit = |n: usize| map::STATUS_FIELDS[n].of(word) == 1;
-        Self { armed: bit(0), set_points_valid: bit(1), emergency_stop: bit(2), ball: bit(3) }
+        Self {
+            armed: map::STATUS_ARMED.is_set(word),
+            set_points_valid: map::STATUS_SET_POINTS_VALID.is_set(word),
+            emergency_stop: map::STATUS_EMERGENCY_STOP.is_set(word),
+            ball: map::STATUS_BALL.is_set(word),
+        }
     }
 }
 
@@ -438,7 +442,7 @@ impl<R: Registers> Board<R> {
     /// [`BoardError::NoTick`], or [`BoardError::InForce`].
     pub fn configuration_in_force(&mut self, scale: &Scale, mut wait: impl FnMut()) -> Result<(), BoardError> {
         let mut looks = 0;
-        while map::STATUS_FIELDS[5].of(self.bus.read(map::STATUS.offset)?) == 1 {
+        while map::STATUS_CONFIGURATION_PENDING.is_set(self.bus.read(map::STATUS.offset)?) {
             looks += 1;
             if looks > LOOKS {
                 return Err(BoardError::NoTick(LOOKS));

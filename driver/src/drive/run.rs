@@ -6,6 +6,7 @@ use crate::realtime::{Clock, Latency, Timer};
 use crate::recording::{Recording, Sample};
 use crate::{Board, Registers, Scale, Settings, Snapshot, Standing};
 use fixed_kin::AXES;
+use fixed_kin::registers::FAULT_COMMIT;
 use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
 use model::fusion::FusionOptions;
@@ -362,7 +363,7 @@ impl<'a> State<'a> {
         host: Duration,
         faults: u32,
     ) -> Result<(), Fault> {
-        if fixed_kin::registers::FAULT_FIELDS[3].of(faults) == 1 {
+        if FAULT_COMMIT.is_set(faults) {
             self.driven.refused += 1;
             armed.clear_faults()?;
         }
