@@ -9,7 +9,7 @@ use tempfile::tempdir;
 /// Printed commands that are not ours: how they begin, and what runs them.
 const ELSEWHERE: [(&str, &str); 7] = [
     ("cargo run --release -p testbench --bin blind", "testbench/tests/blind.rs runs the series, shorter"),
-    ("cargo run --release", "the demo: the stage of that name in test.sh"),
+    ("cargo run --release", "the demo: racbot/tests/cli/good_data.rs"),
     ("cargo build --release", "made the command that this test runs"),
     ("./test.sh", "runs this test"),
     ("fusesoc", "testbench/tests/hardware_tools.rs"),
