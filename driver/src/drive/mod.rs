@@ -15,14 +15,16 @@ mod controller;
 mod fault;
 mod kick;
 mod run;
+mod session;
 mod source;
 mod watch;
 
 pub use armed::Armed;
-pub use controller::{Control, Controller};
+pub use controller::{Control, Controller, Steer};
 pub use fault::Fault;
 pub use kick::{Kick, KickError, Kicked};
 pub use run::{Driven, Ending, Plan};
+pub use session::Session;
 pub use source::{NoSource, PoseSource};
 
 use crate::{BoardError, ScaleError};
