@@ -113,6 +113,8 @@ pub struct Settings {
     pub stall_duty: f64,
     /// Time in which it must, s.
     pub stall_s: f64,
+    /// Time for which the kicker may charge without getting full, s, up to 16; 0 leaves the kicker's setting alone.
+    pub kicker_charge_s: f64,
 }
 
 impl Default for Settings {
@@ -127,6 +129,7 @@ impl Default for Settings {
             up_down: false,
             stall_duty: 0.5,
             stall_s: 0.2,
+            kicker_charge_s: 0.0,
         }
     }
 }
@@ -330,6 +333,10 @@ impl<R: Registers> Board<R> {
             (&map::STALL_COMPARE, stall_compare),
         ] {
             self.write_checked(register, value)?;
+        }
+        if settings.kicker_charge_s > 0.0 {
+            let charge_us = (settings.kicker_charge_s.min(16.0) * 1e6) as u32;
+            self.write_checked(&map::KICKER_CHARGE_TIMEOUT, charge_us)?;
         }
         let words = scale.configuration().to_words().map(|word| word as u32);
         self.commit("the configuration", &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words)

@@ -26,6 +26,7 @@ mod options;
 mod radio;
 #[cfg(feature = "simulation")]
 mod replay;
+mod serve;
 #[cfg(feature = "simulation")]
 mod simulate;
 mod start;
@@ -71,6 +72,8 @@ pub(crate) enum Command {
     Info(info::Options),
     /// Drive a robot along set points, over a card
     Drive(Box<drive::Options>),
+    /// Let software of the small-size league drive simulated robots, or the real one
+    Serve(Box<serve::Options>),
     /// Charge and fire the kicker
     Kick(kick::Options),
     /// Drive a robot without a PC over a radio module
@@ -116,6 +119,7 @@ impl Command {
             Self::Load(options) => options.run(),
             Self::Info(options) => options.run(),
             Self::Drive(options) => options.run(),
+            Self::Serve(options) => options.run(),
             Self::Kick(options) => options.run(),
             Self::Radio(options) => options.run(),
             Self::Monitor(options) => options.run(json),
