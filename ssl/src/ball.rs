@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn it_slides_to_five_sevenths_and_then_rolls_out() {
         let mut ball = kicked([6.0, 0.0, 0.0]);
-        let mut t = 0.0;
+        let mut t = 0.0_f64;
         while (ball.velocity[0] - ball.roll[0]).abs() > 1e-9 {
             ball.step(1e-3, WIDE);
             t += 1e-3;

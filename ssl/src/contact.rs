@@ -22,9 +22,9 @@ const HALF_MOUTH: f64 = 0.035;
 const SEEN: f64 = 0.003;
 /// How far before the front the dribbler reaches, m.
 const REACH: f64 = 0.01;
-/// Acceleration with which a dribbler at full speed holds the ball, m/s², and that speed, rpm: half the weight of the
-/// ball, for rubber on a ball that its backspin presses on.
-const HOLD: f64 = 5.0;
+/// Acceleration with which a dribbler at full speed holds the ball, m/s², and that speed, rpm. An assumption: the floor
+/// takes 3 m/s² of it, for a ball that is held slides, and 4 m/s² are more than a team's robot brakes with.
+const HOLD: f64 = 7.0;
 const FULL_RPM: f64 = 1000.0;
 /// How fast a dribbler draws the ball in, 1/s.
 const DRAW: f64 = 10.0;
@@ -128,7 +128,7 @@ mod tests {
                 assert!(right.hypot(forward) > hull.front + Ball::RADIUS - 1e-9, "{ball:?}");
             }
             let back = ball.velocity[0] * velocity[0] + ball.velocity[1] * velocity[1];
-            assert!(back < 0.0, "{ball:?}");
+            assert!(back <= 0.0, "{ball:?}");
         }
     }
 

@@ -45,7 +45,7 @@ fn a_local_velocity_moves_the_robot_along_its_nose_and_silence_stops_it() {
     assert!((0.5..0.75).contains(&pose.x) && pose.y.abs() < 0.01, "{pose:?}");
     pass(&mut world, 90);
     assert!(world.robot_of(Team::Blue, 0).unwrap().twist().vy > 0.45, "it still drives");
-    pass(&mut world, 800);
+    pass(&mut world, 1_500);
     let twist = world.robot_of(Team::Blue, 0).unwrap().twist();
     assert!(twist.speed() < 0.01, "{twist:?}");
     drive(&mut world, local(0, 0.0, 0.4, 0.0), 800);
@@ -187,7 +187,7 @@ fn specs_change_mass_limits_and_wheels() {
     assert_eq!(ask(&mut world, &config(specs(1))), [""; 0]);
     let believed = &world.robot_of(Team::Blue, 1).unwrap().kind().believed;
     assert!((believed.mass_kg - 3.0).abs() < 1e-9);
-    let wheels = believed.wheels();
+    let wheels = believed.layout.wheels();
     let clockwise = wheels[0].x_m.atan2(wheels[0].y_m);
     assert!((clockwise - 0.6).abs() < 1e-6, "{wheels:?}");
     let slow = RobotLimits { vel_absolute_max: Some(0.1), ..Default::default() };
@@ -226,7 +226,7 @@ fn a_skew_in_the_file_leads_the_robot_astray() {
         let to =
             TeleportRobot { id: blue(0), x: Some(0.0), y: Some(0.0), orientation: Some(0.0), ..Default::default() };
         assert!(teleport(&mut world, to).is_empty());
-        drive(&mut world, local(0, 0.0, 0.4, 0.0), 1_600);
+        drive(&mut world, local(0, 0.4, 0.0, 0.0), 1_600);
         world.robot_of(Team::Blue, 0).unwrap().pose()
     });
     assert!(ends[0].distance(ends[1]) > 0.01 || (ends[0].theta - ends[1].theta).abs() > 0.05, "{ends:?}");

@@ -209,11 +209,8 @@ impl Options {
         let Who(team, id) = self.as_robot;
         let robot = self.robot(team, id)?;
         self.target.check_free(&self.record)?;
-        let plan = Plan {
-            start: self.start.0,
-            limit_s: self.seconds.unwrap_or(f64::INFINITY),
-            ..Plan::new(&robot, &[])
-        };
+        let plan =
+            Plan { start: self.start.0, limit_s: self.seconds.unwrap_or(f64::INFINITY), ..Plan::new(&robot, &[]) };
         let ready = self.card.ready(Use::Drive, &robot, Pace::Real)?;
         let ReadyCard { name, registers, clock_hz, clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
@@ -227,8 +224,7 @@ impl Options {
         }
         let source: Box<dyn PoseSource> = source.unwrap_or_else(|| Box::new(NoSource));
         let link = Link { board: Board::new(registers), clock_hz, clock, source, recording: recording.as_mut() };
-        let driven =
-            ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
+        let driven = ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish).transpose().map_err(Failure::data)?;
         if let Some(file) = &self.record {
             let beside = file.parent().unwrap_or(Path::new("")).join("robot.toml");
@@ -261,7 +257,9 @@ impl Options {
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
         }
-        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing()).map(Some).map_err(Failure::data)
+        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing())
+            .map(Some)
+            .map_err(Failure::data)
     }
 }
 
@@ -270,7 +268,8 @@ fn load(which: Option<&Which>) -> Result<Robot, Failure> {
 }
 
 fn heard(traffic: &Traffic) -> String {
-    let refused = if traffic.refused > 0 { format!(", {} beyond their senders' rate", traffic.refused) } else { String::new() };
+    let refused =
+        if traffic.refused > 0 { format!(", {} beyond their senders' rate", traffic.refused) } else { String::new() };
     entry("messages", &format!("{} heard{refused}", traffic.heard))
 }
 
@@ -297,7 +296,11 @@ impl Options {
         let progress = |served: &Served| {
             // Lost time is said when it happens.
             if served.lost > told {
-                eprintln!("at {:.1} s: {} ms left out, this machine is too slow", served.simulated_s, served.lost - told);
+                eprintln!(
+                    "at {:.1} s: {} ms left out, this machine is too slow",
+                    served.simulated_s,
+                    served.lost - told
+                );
                 told = served.lost;
             }
         };

@@ -6,6 +6,7 @@ mod card;
 mod drive;
 mod good_data;
 mod radio;
+mod serve;
 mod set_up;
 mod usage;
 
