@@ -214,3 +214,19 @@ fn the_same_messages_drive_a_card_and_silence_stops_it() {
         assert!(answers.iter().any(|answer| String::from_utf8_lossy(answer).contains(code)), "{code}");
     }
 }
+
+#[test]
+fn a_client_that_joins_by_the_loopback_interface_sees_multicast() {
+    let eyes = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).unwrap();
+    eyes.set_nonblocking(true).unwrap();
+    let group = Ipv4Addr::new(224, 5, 23, 2);
+    if let Err(error) = eyes.join_multicast_v4(&group, &Ipv4Addr::LOCALHOST) {
+        assert_ne!(std::env::var("CI").as_deref(), Ok("true"), "multicast on loopback: {error}");
+        eprintln!("NOT RUN: this machine has no multicast on loopback: {error}");
+        return;
+    }
+    let mut sockets = sockets(vec![SocketAddr::from((group, eyes.local_addr().unwrap().port()))]);
+    sockets.publish(b"frame");
+    assert_eq!(sockets.traffic().unsent, 0);
+    assert_eq!(waiting(&eyes), [b"frame".to_vec()]);
+}

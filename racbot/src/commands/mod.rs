@@ -4,6 +4,7 @@
 mod bitstream;
 mod calibrate;
 mod check;
+mod completions;
 #[cfg(feature = "simulation")]
 mod convert;
 #[cfg(feature = "simulation")]
@@ -20,6 +21,7 @@ mod init;
 mod kick;
 mod latency;
 mod load;
+mod man;
 mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
@@ -85,6 +87,10 @@ pub(crate) enum Command {
     Wave(wave::Options),
     /// Measure how late the timer wakes the control loop on this machine
     Latency(latency::Options),
+    /// Print what a shell needs to complete racbot's words
+    Completions(completions::Options),
+    /// Write the manual pages
+    Man(man::Options),
 }
 
 impl Command {
@@ -126,6 +132,8 @@ impl Command {
             #[cfg(feature = "simulation")]
             Self::Wave(options) => options.run(),
             Self::Latency(options) => options.run(),
+            Self::Completions(options) => options.run(),
+            Self::Man(options) => options.run(),
         }
     }
 }
