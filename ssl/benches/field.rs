@@ -96,12 +96,7 @@ fn main() {
         .map(|robots| {
             let (cost, lost) = measure(robots);
             let each = 1e6 * cost / 1e3 / f64::from(2 * robots);
-            vec![
-                format!("{robots} + {robots}"),
-                format!("{:.1}", 100.0 * cost),
-                format!("{each:.1}"),
-                lost.to_string(),
-            ]
+            vec![format!("{robots} + {robots}"), format!("{:.1}", 100.0 * cost), format!("{each:.1}"), lost.to_string()]
         })
         .collect();
     Table {

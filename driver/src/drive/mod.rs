@@ -14,6 +14,8 @@ mod armed;
 mod controller;
 mod fault;
 mod kick;
+mod outcome;
+mod plan;
 mod run;
 mod session;
 mod source;
@@ -23,7 +25,8 @@ pub use armed::Armed;
 pub use controller::{Control, Controller, Steer};
 pub use fault::Fault;
 pub use kick::{Kick, KickError, Kicked};
-pub use run::{Driven, Ending, Plan};
+pub use outcome::{Driven, Ending};
+pub use plan::Plan;
 pub use session::Session;
 pub use source::{NoSource, PoseSource};
 

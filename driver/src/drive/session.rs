@@ -6,6 +6,7 @@ use crate::realtime::{Clock, Latency, Timer};
 use crate::recording::{Recording, Sample};
 use crate::{Board, Registers, Scale, Snapshot, Standing};
 use fixed_kin::AXES;
+use fixed_kin::registers::FAULT_COMMIT;
 use model::localisation::Localiser;
 use model::trajectory::Arrival;
 use runs::frames::{Pose, Twist};
@@ -281,7 +282,7 @@ impl<S: Steer> State<S> {
         host: Duration,
         faults: u32,
     ) -> Result<(), Fault> {
-        if fixed_kin::registers::FAULT_FIELDS[3].of(faults) == 1 {
+        if FAULT_COMMIT.is_set(faults) {
             self.driven.refused += 1;
             armed.clear_faults()?;
         }
