@@ -121,6 +121,10 @@ impl<R: Registers> Board<R> {
         ] {
             self.write_checked(register, value)?;
         }
+        if settings.kicker_charge_s > 0.0 {
+            let charge_us = (settings.kicker_charge_s.min(16.0) * 1e6) as u32;
+            self.write_checked(&map::KICKER_CHARGE_TIMEOUT, charge_us)?;
+        }
         let words = scale.configuration().to_words().map(|word| word as u32);
         self.commit("the configuration", &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words)
     }

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Crates whose files are looked at, by folder.
-const CRATES: [&str; 10] =
-    ["fixed-kin", "runs", "plot", "bitstream", "model", "hdl", "driver", "gap", "simulator", "racbot"];
+const CRATES: [&str; 11] =
+    ["fixed-kin", "runs", "plot", "bitstream", "model", "hdl", "driver", "gap", "simulator", "ssl", "racbot"];
 /// Lines after which a file is more than one idea.
 const LONGEST: usize = 800;
 /// Half of all files are at most so long.

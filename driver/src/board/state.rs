@@ -45,6 +45,8 @@ pub struct Settings {
     pub stall_duty: f64,
     /// Time in which it must, s.
     pub stall_s: f64,
+    /// Time for which the kicker may charge without getting full, s, up to 16; 0 leaves the kicker's setting alone.
+    pub kicker_charge_s: f64,
 }
 
 impl Default for Settings {
@@ -59,6 +61,7 @@ impl Default for Settings {
             up_down: false,
             stall_duty: 0.5,
             stall_s: 0.2,
+            kicker_charge_s: 0.0,
         }
     }
 }

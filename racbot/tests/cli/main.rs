@@ -7,6 +7,7 @@ mod drive;
 mod good_data;
 mod printed;
 mod radio;
+mod serve;
 mod set_up;
 mod usage;
 
