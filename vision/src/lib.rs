@@ -23,6 +23,7 @@ mod carpet;
 pub mod field;
 mod goal;
 mod lines;
+pub mod localise;
 pub mod picture;
 pub mod render;
 

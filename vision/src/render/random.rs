@@ -159,7 +159,7 @@ fn populate(world: &mut World, camera: &Camera, pose: [f64; 3], rng: &mut ChaCha
         let at = place(camera, pose, 0.35, 5.0, rng);
         robot(world, at, rng);
     }
-    goals(world, rng);
+    world.goals(plain([rng.random_range(0.5..0.8); 3]));
     for _ in 0..rng.random_range(0..5) {
         let at = place(camera, pose, 1.0, 8.0, rng);
         if !world.field.on_carpet(at[0], at[1]) || rng.random_bool(0.2) {
@@ -229,25 +229,6 @@ fn robot(world: &mut World, at: [f64; 2], rng: &mut ChaCha8Rng) {
             Point::new(rng.random_range(0.002..0.015), rng.random_range(0.004..0.03), rng.random_range(0.003..0.02));
         let shape = Shape::Box { centre: part, half, heading: angle };
         world.bodies.push(Body::new(shape, Surface::Plain(plain(thing(rng)))));
-    }
-}
-
-fn goals(world: &mut World, rng: &mut ChaCha8Rng) {
-    let field = world.field;
-    let white = plain([rng.random_range(0.5..0.8); 3]);
-    let (half, height) = (field.goal_width / 2.0, field.goal_height / 2.0);
-    for end in [-1.0, 1.0] {
-        let line = end * field.length / 2.0;
-        let middle = line + end * field.goal_depth / 2.0;
-        let walls = [
-            (Point::new(middle, half, height), Point::new(field.goal_depth / 2.0, 0.01, height)),
-            (Point::new(middle, -half, height), Point::new(field.goal_depth / 2.0, 0.01, height)),
-            (Point::new(line + end * field.goal_depth, 0.0, height), Point::new(0.01, half, height)),
-        ];
-        for (centre, half) in walls {
-            let shape = Shape::Box { centre, half, heading: 0.0 };
-            world.bodies.push(Body::new(shape, Surface::Plain(white)));
-        }
     }
 }
 

@@ -73,6 +73,64 @@ pub struct World {
 type Met = (f64, Point, Finish, Option<usize>);
 
 impl World {
+    /// A field in a plain grey hall under four lamps, nothing on it but its goals.
+    #[must_use]
+    pub fn plain(field: Field, seed: u32) -> Self {
+        let lamp = |x: f64, y: f64| Lamp {
+            at: Point::new(x * field.length / 4.0, y * field.width / 4.0, 4.0),
+            size: 0.3,
+            strength: 0.16,
+            tint: [1.0; 3],
+            reference: Point::zeros(),
+        };
+        let mut world = Self {
+            field,
+            lines: field.lines(),
+            carpet: [0.03, 0.2, 0.05],
+            paint: [0.75; 3],
+            floor: [0.3; 3],
+            wall: [0.35, 0.35, 0.4],
+            ground: Ground::Rough,
+            wear: 0.25,
+            uneven: 0.2,
+            sun: 0.0,
+            clutter: 0.25,
+            room: 2.0,
+            lamps: vec![lamp(-1.0, -1.0), lamp(-1.0, 1.0), lamp(1.0, -1.0), lamp(1.0, 1.0)],
+            ambient: 0.4,
+            bodies: Vec::new(),
+            seed,
+        };
+        world.goals(plain([0.7; 3]));
+        world
+    }
+
+    /// With one more ball on the floor.
+    #[must_use]
+    pub fn with_ball(mut self, x: f64, y: f64) -> Self {
+        let finish = Finish { albedo: [0.85, 0.2, 0.03], gloss: 0.05, sharpness: 40.0 };
+        self.bodies.push(ball(self.balls(), x, y, 0.0, finish, self.seed));
+        self
+    }
+
+    /// Walls of both goals.
+    pub(super) fn goals(&mut self, white: Finish) {
+        let field = self.field;
+        let (half, height) = (field.goal_width / 2.0, field.goal_height / 2.0);
+        for end in [-1.0, 1.0] {
+            let line = end * field.length / 2.0;
+            let middle = line + end * field.goal_depth / 2.0;
+            let walls = [
+                (Point::new(middle, half, height), Point::new(field.goal_depth / 2.0, 0.01, height)),
+                (Point::new(middle, -half, height), Point::new(field.goal_depth / 2.0, 0.01, height)),
+                (Point::new(line + end * field.goal_depth, 0.0, height), Point::new(0.01, half, height)),
+            ];
+            for (centre, half) in walls {
+                self.bodies.push(Body::new(Shape::Box { centre, half, heading: 0.0 }, Surface::Plain(white)));
+            }
+        }
+    }
+
     /// How many balls there are.
     #[must_use]
     pub fn balls(&self) -> usize {
