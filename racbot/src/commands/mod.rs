@@ -32,6 +32,8 @@ mod serve;
 #[cfg(feature = "simulation")]
 mod simulate;
 mod start;
+#[cfg(feature = "vision")]
+mod vision;
 #[cfg(feature = "simulation")]
 mod wave;
 
@@ -82,6 +84,9 @@ pub(crate) enum Command {
     Radio(radio::Options),
     /// Watch a card in the terminal
     Monitor(monitor::Options),
+    /// Find the ball, lines and goals in pictures of an on-board camera
+    #[cfg(feature = "vision")]
+    Vision(vision::Options),
     /// Write a scene of the chip's life as a waveform (VCD)
     #[cfg(feature = "simulation")]
     Wave(wave::Options),
@@ -129,6 +134,8 @@ impl Command {
             Self::Kick(options) => options.run(),
             Self::Radio(options) => options.run(),
             Self::Monitor(options) => options.run(json),
+            #[cfg(feature = "vision")]
+            Self::Vision(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Wave(options) => options.run(),
             Self::Latency(options) => options.run(),
