@@ -8,7 +8,7 @@ use model::camera::{Camera, CameraModel};
 use runs::frames::Pose;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
-use simulator::virtual_card::{BitTrueLive, Live, Machine, StandIn, Wiring};
+use simulator::virtual_card::{BitTrueLive, Live, Machine, Wiring};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
@@ -78,7 +78,7 @@ impl Rig {
     /// A robot whose wheels cannot drive it.
     pub fn new(robot: &Robot, clock_hz: f64, fault: Option<(Duration, RigFault)>) -> Result<Self, GeometryError> {
         Ok(Self(Rc::new(RefCell::new(Inside {
-            live: BitTrueLive::new(StandIn::committed()),
+            live: BitTrueLive::new(),
             machine: Machine::new(robot)?,
             camera: Some(Camera::new(CameraModel::of(robot), 1)),
             clock_hz,
