@@ -29,7 +29,7 @@ use fixed_kin::AXES;
 use fixed_kin::format::Duty;
 use fixed_kin::modulation::modulate;
 use fixed_kin::registers::{
-    PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_FIELDS,
+    PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_ARMED,
 };
 use std::fmt;
 use std::str::FromStr;
@@ -101,7 +101,7 @@ pub trait Fpga: Registers {
         let mut words = [0; SNAPSHOT_WORDS];
         self.read_block(SNAPSHOT_SEQUENCE.offset, &mut words)?;
         let word = |register: &Register, index| words[usize::from(register.at(index) - SNAPSHOT_SEQUENCE.offset) / 4];
-        if STATUS_FIELDS[0].of(word(&SNAPSHOT_STATUS, 0)) == 0 {
+        if !STATUS_ARMED.is_set(word(&SNAPSHOT_STATUS, 0)) {
             return Ok([0.0; AXES]);
         }
         let period = self.read(PWM_PERIOD.offset)? as u16;
