@@ -5,7 +5,6 @@
 //! while slows all of them alike.
 
 use driver::{Board, Registers, Scale, Settings};
-use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
@@ -15,7 +14,7 @@ use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
 use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::cosim::{Verilated, icarus};
-use simulator::fpga::{BitTrue, Fpga};
+use simulator::fpga::BitTrue;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

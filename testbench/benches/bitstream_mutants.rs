@@ -78,7 +78,7 @@ fn main() {
     Table {
         name: "bitstream-mutants",
         title: &format!("{count} single bits of the {} in used tiles, flipped one at a time", bits.len()),
-        command: "cargo bench -p testbench --bench bitstream_mutants",
+        command: &format!("cargo bench -p testbench --bench bitstream_mutants -- {count} {seed}"),
         columns: &[
             "kind of attribute",
             "flipped",
