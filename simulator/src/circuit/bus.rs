@@ -3,7 +3,6 @@
 use super::Circuit;
 use crate::cosim::Layout;
 use crate::fpga::FpgaError;
-use bitstream::simulation::Simulator;
 
 /// Clocks that a word may wait for READY#; then the bridge gives up, and reads what the pull-ups say.
 const MAX_WAIT: u32 = 256;
@@ -23,7 +22,7 @@ pub(super) struct Pins {
 }
 
 impl Pins {
-    pub(super) fn of(layout: &Layout, _: &Simulator) -> Result<Self, FpgaError> {
+    pub(super) fn of(layout: &Layout, period: u64) -> Result<Self, FpgaError> {
         Ok(Self {
             ads: layout.input("ads_n")?,
             blast: layout.input("blast_n")?,
@@ -32,7 +31,7 @@ impl Pins {
             drive: layout.input("lad.drive")?,
             ready: layout.output("ready_n")?,
             lad_out: layout.output("lad")?,
-            period: 0,
+            period,
         })
     }
 }

@@ -129,7 +129,7 @@ impl Circuit {
         });
         let shared = shared.collect();
         let values = layout.outputs.iter().map(|column| u32::MAX >> (32 - column.width)).collect();
-        let bus = bus::Pins::of(&layout, &simulator)?;
+        let bus = bus::Pins::of(&layout, periods[0])?;
         let (recorded, last) = (vec![false; layout.outputs.len()], vec![0; layout.outputs.len()]);
         let (scheduled, changes) = (VecDeque::new(), Vec::new());
         let mut circuit = Self {
@@ -148,8 +148,6 @@ impl Circuit {
             clock: 0,
             bus,
         };
-        let period = periods[0];
-        circuit.bus.period = period;
         circuit.idle();
         circuit.settle()?;
         Ok(circuit)
@@ -180,8 +178,8 @@ impl Circuit {
         }
     }
 
-    /// A column as it stands at the pins: on a tri-state bus whatever one of both sides drives, else 1; with
-    /// `floating` 0 instead.
+    /// A column as it stands at the pins: on a tri-state bus what the chip drives, else what the outside drives, else 0,
+    /// as compiled Verilog has a bus that floats.
     fn output(&self, column: usize) -> u32 {
         let Some((level, drive)) = self.shared[column] else { return self.values[column] };
         let driving = self.outputs[column].iter().any(|wire| self.simulator.driven(wire.pad).is_some());
