@@ -100,9 +100,8 @@ fn a_script_drives_squares_and_the_gap_names_the_skew_from_vision_and_commands_a
     assert!(served["frames"].as_u64().unwrap() > 1_000, "{served}");
 
     // What the team knows of its robot, and a map that takes the commands for wheel speeds.
-    fs::create_dir(folder.path().join("set")).unwrap();
-    let robot = "wheel_radius_m = 0.0275\nbody_radius_m = 0.085\nskew_rad = [0.0, 0.0, 0.0]\ncamera_rate_hz = 60\n";
-    fs::write(folder.path().join("set/robot.toml"), robot).unwrap();
+    let robot = ["--wheels", "90,210,330", "--x", "right", "--radius-mm", "27.5", "--body-radius-mm", "85"];
+    racbot(folder.path(), &[&["init", "set/robot.toml"], &robot[..]].concat()).done();
     fs::write(folder.path().join("map.toml"), "[derive]\nspeeds = \"set/robot.toml\"\n").unwrap();
     for run in 1..=4 {
         let (from, to) = (format!("recorded/run_{run}.csv"), format!("set/run_{run}.csv"));
