@@ -69,15 +69,26 @@ pub trait Chip: Send {
     fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError>;
 }
 
-/// Lines that a robot ready to drive has at its card: no emergency stop, the host in command, no radio.
+/// Lines of a robot at rest and ready to drive: no emergency stop, the host in command, radio idle, no ball, the
+/// capacitor empty, encoders at the beginning of a line.
+const READY: [(&str, u32); 9] = [
+    ("emergency_stop", 0),
+    ("host_select", 1),
+    ("radio_rx", 1),
+    ("ball_sensor", 0),
+    ("kicker_full", 0),
+    ("robot_number", 0),
+    ("encoder_a", 0),
+    ("encoder_b", 0),
+    ("encoder_index", 0),
+];
+
+/// Puts a chip into a robot at rest, ready to drive.
 ///
 /// # Errors
 /// A simulation that fails.
 pub fn release(chip: &mut dyn Chip) -> Result<(), FpgaError> {
-    for (name, level) in [("emergency_stop", 0), ("host_select", 1), ("radio_rx", 1)] {
-        chip.set_port(name, level)?;
-    }
-    Ok(())
+    READY.into_iter().try_for_each(|(name, level)| chip.set_port(name, level))
 }
 
 impl Chip for Session {

@@ -1,6 +1,7 @@
-//! A bitstream of a design that is none of ours, for the same card: made by the flow from `designs/blinker.v`.
+//! Bitstreams of designs that are none of ours, for the same card: one made by the flow from `designs/blinker.v`, and
+//! one that does nothing.
 
-use bitstream::configuration::StartUp;
+use bitstream::configuration::{Configuration, StartUp};
 use bitstream::container::{Header, PART};
 use bitstream::device::Device;
 use bitstream::flow::synthesis::synthesise;
@@ -24,6 +25,17 @@ pub fn blinker() -> Vec<u8> {
         .unwrap_or_else(|error| panic!("{error}"));
     let built = build(&json, TOP, &constraints, 1, quiet).unwrap_or_else(|error| panic!("{error}"));
     assert!(built.proof.holds(), "{:?}", built.proof.differences);
-    let header = Header { design: TOP.into(), part: PART.into(), ..Header::default() };
-    built.configuration.file(Device::xc2s200(), &header, StartUp::default())
+    file(TOP, &built.configuration)
+}
+
+/// The file of a design by this name that has no logic and drives no pin.
+#[must_use]
+pub fn silent(design: &str) -> Vec<u8> {
+    file(design, &Configuration::blank(Device::xc2s200()))
+}
+
+fn file(design: &str, configuration: &Configuration) -> Vec<u8> {
+    let header =
+        Header { design: design.into(), part: PART.into(), date: "2000/01/01".into(), time: "00:00:00".into() };
+    configuration.file(Device::xc2s200(), &header, StartUp::default())
 }

@@ -5,7 +5,7 @@ use bitstream::configuration::Configuration;
 use bitstream::container::Bitstream;
 use bitstream::device::Device;
 use bitstream::element::Io;
-use driver::load::{LoadError, Options, inspect, load};
+use driver::load::{Options, inspect, load};
 use driver::{Board, PciCard, RegisterWindow, Scale, Settings};
 use fixed_kin::registers::COOKIE;
 use fixed_kin::speed::SpeedMode;
@@ -74,6 +74,11 @@ fn card() -> VirtualCard {
     VirtualCard::new(&robot).unwrap().with_clock(CLOCK_HZ)
 }
 
+/// Whether the robot moves as [`drive`] tells it.
+fn as_told(twist: Twist) -> bool {
+    (twist.vx - 0.2).abs() < 0.05 && (twist.vy - 0.4).abs() < 0.05 && twist.omega.abs() < 0.3
+}
+
 /// Drives ahead with what is loaded; how fast the robot then is.
 fn drive(card: VirtualCard, clock_hz: f64) -> (Twist, Board<RegisterWindow<VirtualCard>>) {
     let robot = Robot { control_rate_hz: 200.0, ..Robot::racbot() };
@@ -96,7 +101,7 @@ fn loaded_bits_drive_the_robot_and_their_watchdog_stops_it() {
     let loaded = load(&mut card, &committed(), &Options::default(), |_| {}).unwrap();
     assert!((loaded.clock_hz / CLOCK_HZ - 1.0).abs() < 2e-3, "{}", loaded.clock_hz);
     let (twist, mut board) = drive(card, loaded.clock_hz);
-    assert!((twist.vx - 0.2).abs() < 0.05 && (twist.vy - 0.4).abs() < 0.05 && twist.omega.abs() < 0.3, "{twist:?}");
+    assert!(as_told(twist), "{twist:?}");
     board.bus.card.sleep(Duration::from_millis(60));
     assert!(!board.status().unwrap().armed, "the watchdog sleeps");
     assert_eq!(board.bus.card.failure(), None);
@@ -107,8 +112,7 @@ fn another_design_behaves_as_that_design() {
     let bitstream = Bitstream::parse(&blinker()).unwrap();
     let mut card = card();
     let error = load(&mut card, &bitstream, &Options::default(), |_| {}).unwrap_err();
-    assert!(matches!(error.cause(), LoadError::Foreign { .. }), "{error}");
-    assert!(error.to_string().contains("blinker"), "{error}");
+    assert!(error.to_string().contains("cookie reads 0x424c4e4b"), "{error}");
     // Refused, it was cleared; as a chip of its own it blinks and answers.
     let mut circuit = Circuit::new(&decode(&bitstream.packets).unwrap()).unwrap();
     let mut words = [0; 3];
@@ -147,13 +151,13 @@ fn a_flipped_frame_bit_with_right_crc_shows_as_wrong_behaviour() {
     // On the bus: the design answers, wrongly.
     let mut card = card();
     let error = load(&mut card, &inverted("lad", 0), &Options::default(), |_| {}).unwrap_err();
-    assert!(matches!(error.cause(), LoadError::Foreign { .. }), "{error}");
+    assert!(error.to_string().contains("cookie reads 0x52414335"), "{error}");
     assert!(inspect(&mut card).unwrap().identity.is_none());
     // On a motor: nothing on the bus tells, the robot does.
     let mut card = self::card();
     let loaded = load(&mut card, &inverted("pwm", 0), &Options::default(), |_| {}).unwrap();
     let (twist, _) = drive(card, loaded.clock_hz);
-    assert!((twist.vx - 0.2).abs() > 0.1 || (twist.vy - 0.4).abs() > 0.1, "{twist:?}");
+    assert!(!as_told(twist), "{twist:?}");
 }
 
 #[test]

@@ -51,8 +51,8 @@ fn every_pin_of_the_netlist_equals_the_verilog_at_every_clock() {
         !netlist.verilog.contains("INIT(1'hx)") && !netlist.verilog.contains("INIT(1'bx)"),
         "undefined start values"
     );
-    let expected = verilog.run(&stimulus.rows()).unwrap();
-    let got = build("rac4i65-netlist", &netlist.verilog).run(&stimulus.rows()).unwrap();
+    let expected = verilog.run(stimulus.rows()).unwrap();
+    let got = build("rac4i65-netlist", &netlist.verilog).run(stimulus.rows()).unwrap();
     let outputs = verilog.layout().outputs.len();
     for (clock, (got, expected)) in got.chunks(outputs).zip(expected.chunks(outputs)).enumerate() {
         let pairs = verilog.layout().outputs.iter().zip(got.iter().zip(expected));

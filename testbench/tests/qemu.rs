@@ -198,7 +198,7 @@ fn virtual_machine_from_power_up_to_reset() {
     says(scene("kill"), &["exit 137"]);
     says(scene("reload"), &["try 1", "exit 0"]);
     says(scene("corrupt"), &["corrupt.bit: the CRC word at byte", "exit 1"]);
-    says(scene("other"), &["another design", "outputs off", "exit 1"]);
+    says(scene("other"), &["cookie reads 0x424c4e4b", "outputs off", "exit 1"]);
     says(scene("done-low"), &["DONE stayed low", "outputs off", "exit 1"]);
     says(scene("init-low"), &["INIT stayed low", "exit 1"]);
     says(scene("lost-byte"), &["outputs off", "exit 1"]);

@@ -12,7 +12,7 @@ use simulator::circuit::committed;
 use simulator::fpga::FpgaError;
 use simulator::virtual_card::{BitTrueLive, Eeprom, Faults, Live, Machine, VirtualCard};
 use std::time::Duration;
-use testbench::blinker::blinker;
+use testbench::blinker::silent;
 
 fn card() -> VirtualCard {
     VirtualCard::new(&Robot::racbot()).unwrap()
@@ -117,13 +117,13 @@ fn ready_is_switched_on_where_the_eeprom_leaves_it_off() {
 
 #[test]
 fn a_foreign_design_is_called_what_it_is() {
-    let file = blinker();
+    let file = silent("blinker.ncd");
     let foreign = Bitstream::parse(&file).unwrap();
     let mut card = card();
     let error = load(&mut card, &foreign, &Options::default(), |_| {}).unwrap_err();
     let message = error.to_string();
     assert!(matches!(error.cause(), LoadError::Foreign { .. }) && !message.contains("gone"), "{message}");
-    for part in ["blinker", "another design", "tries: 1", "outputs off"] {
+    for part in ["blinker.ncd", "another design", "tries: 1", "outputs off"] {
         assert!(message.contains(part), "no {part:?} in {message}");
     }
     assert!(!card.configured());

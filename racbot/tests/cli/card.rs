@@ -32,7 +32,7 @@ fn a_file_is_checked_without_a_card() {
     fs::write(folder.path().join("b.bit"), &bytes).unwrap();
     for more in [&["--check"][..], &["--card", "virtual"]] {
         let arguments = [&["load", "b.bit"], more].concat();
-        racbot(folder.path(), &arguments).refused(1, &["b.bit: the CRC word at byte 0x28c16 does not match"]);
+        racbot(folder.path(), &arguments).refused(1, &["b.bit: the CRC word at byte 0x28c17 does not match"]);
     }
     racbot(folder.path(), &["load", "c.bit", "--check"]).refused(1, &["c.bit: No such file"]);
 }
