@@ -7,18 +7,20 @@ use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 
 /// Printed commands that are not ours: how they begin, and what runs them.
-const ELSEWHERE: [(&str, &str); 6] = [
+const ELSEWHERE: [(&str, &str); 8] = [
     ("cargo run --release -p testbench --bin blind", "testbench/tests/blind.rs runs the series, shorter"),
     ("cargo run --release", "the demo: the stage of that name in test.sh"),
     ("cargo build --release", "made the command that this test runs"),
     ("./test.sh", "runs this test"),
+    ("cargo install", "the build of the command that this test runs, to another folder"),
+    ("pip install", "Python's own tests: the stage of that name in test.sh"),
     ("fusesoc", "testbench/tests/hardware_tools.rs"),
     ("export PATH", "the command's path is the test's matter"),
 ];
 const PHYSICS_ENGINE: [&str; 2] = ["pip install mujoco", "python3 testbench/engine/score.py"];
 
 /// Commands that need a device which is not here: what they say without it, and what is run instead.
-const WITHOUT_DEVICE: [(&str, &str, &str); 7] = [
+const WITHOUT_DEVICE: [(&str, &str, &str); 9] = [
     ("load rac4i65.bit", "rac4i65.bit: No such file", "load --card virtual"),
     ("info", "no Mesa 4I65", "info --card virtual"),
     ("drive --setpoints points.csv", "no Mesa 4I65", "--card virtual"),
@@ -26,6 +28,8 @@ const WITHOUT_DEVICE: [(&str, &str, &str); 7] = [
     ("kick", "no Mesa 4I65", "--card virtual"),
     ("radio --number 3 --velocity", "/dev/ttyUSB0: ", ""),
     ("latency --seconds 60", "", "latency --seconds 1"),
+    ("serve --vision-to", "", "serve --ports 0,0,0 --vision none --seconds 0.2"),
+    ("serve --card", "0000:02:00.0", ""),
 ];
 
 fn repository() -> PathBuf {
