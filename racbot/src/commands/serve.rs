@@ -311,7 +311,7 @@ impl Options {
             None => run(&mut world, &mut sockets, &mut clock, stop, limit, progress),
         };
         let took = (clock.now() - begun).as_secs_f64();
-        let mut text = entry("simulated", &format!("{:.1} s in {took:.1} s", served.simulated_s));
+        let mut text = entry("time", &format!("{:.1} s simulated in {took:.1} s", served.simulated_s));
         text += &entry("ticks", &format!("{} of a millisecond, {} lost", served.steps, served.lost));
         text += &heard(&served.traffic);
         text += &entry("vision", &format!("{} frames", served.traffic.frames));
