@@ -319,11 +319,17 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             if !selection.state.active[from..].iter().any(Active::is_named) {
                 break;
             }
+            let sticks = link.mask_sticking(&selection.state.drive(None)) > crate::thresholds::STICKS_OFTEN;
             let noise = (&floor[..], thresholds.drive_correlation);
-            let Some((lower, correlation)) = lowered(&link, &selection.state, noise, reached) else { break };
-            link.noise.clone_from(&lower);
-            floor = lower;
-            thresholds.drive_correlation = correlation;
+            match lowered(&link, &selection.state, noise, reached) {
+                Some((lower, correlation)) => {
+                    link.noise.clone_from(&lower);
+                    floor = lower;
+                    thresholds.drive_correlation = correlation;
+                }
+                None if sticks => {}
+                None => break,
+            }
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
         let far = FAR_OFF.max(matters(&floor));

@@ -27,8 +27,6 @@ pub struct Cluster {
     pub weight: f64,
     /// Huber loss minus rr: constant under a linear step.
     pub offset: f64,
-    /// Twice the logarithm of what turns a density of residuals into one of measurements, subtracted from the loss.
-    pub density: f64,
 }
 
 /// Mean square from which a cluster counts less, in units of the noise: a burst of slip in one
@@ -47,7 +45,6 @@ impl Cluster {
             jj: Symmetric::of(&(jacobian.transpose() * jacobian)),
             weight: 1.0,
             offset: 0.0,
-            density: 0.0,
         }
     }
 
@@ -57,25 +54,11 @@ impl Cluster {
         Self { jr: DVector::from_fn(of.len(), |i, _| self.jr[of[i]]), jj: self.jj.spread(of), ..self }
     }
 
-    /// Accounts for residuals M·a − τ whose inertia M multiplies what was measured: the likelihood of the
-    /// accelerations a is that of the residuals times |M|. Without it noise alone would make every robot lighter than
-    /// it is. `n` measurements, ln|M| beyond that of a fixed model, and its derivatives along the columns.
-    #[must_use]
-    pub fn heavier(mut self, n: f64, ln: f64, slopes: &DVector<f64>) -> Self {
-        self.density = 2.0 * n * ln;
-        if slopes.iter().any(|s| *s != 0.0) {
-            self.jr.axpy(n, slopes, 1.0);
-            // ln(1 + x) = x − x²/2 keeps the loss convex.
-            self.jj.add(&Symmetric::of(&(slopes * slopes.transpose() * n)));
-        }
-        self
-    }
-
     /// Huber loss after a step along the columns.
     pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
         let moved = self.rr - 2.0 * step.dot(&self.jr) + self.jj.square(step);
         let (square, n) = (moved.max(0.0) / self.weight, self.n / self.weight);
-        huber(square, BURST * n) - self.density
+        huber(square, BURST * n)
     }
 
     /// Joins the residuals of a neighbour.
@@ -84,7 +67,6 @@ impl Cluster {
         self.rr += other.rr;
         self.jr += &other.jr;
         self.jj.add(&other.jj);
-        self.density += other.density;
     }
 
     /// Weighs a cluster down whose residuals are far beyond the noise (Huber on its norm).
@@ -97,7 +79,6 @@ impl Cluster {
             self.rr *= self.weight;
             self.jr *= self.weight;
             self.jj.scale(self.weight);
-            self.density *= self.weight;
             self.offset = huber - self.rr;
         }
         self
@@ -149,7 +130,7 @@ impl Gram {
 
     /// Huber loss of the residuals.
     pub fn loss(&self) -> f64 {
-        self.clusters.iter().map(|c| c.rr + c.offset - c.density).sum()
+        self.clusters.iter().map(|c| c.rr + c.offset).sum()
     }
 
     /// Sum of squares of the residuals without weights, and their number.

@@ -153,7 +153,7 @@ impl Problem<'_> {
     }
 
     /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
-    /// changes what is to be moved, half-way to the inertia of the robot it is said of.
+    /// changes what is to be moved, in the torque of its own inertia.
     pub fn runs_away(&self, state: &State, other: &State) -> bool {
         let Self::Drive(link) = self else { return false };
         let (one, other) = (state.drive(None), other.drive(None));
@@ -162,9 +162,22 @@ impl Problem<'_> {
             (None, _) => true,
             (_, None) => false,
         };
-        let heavier = |m: &DriveModel| m.mechanics().map(|m| m.ln_inertia);
-        heavier(&one) != heavier(&other) && worse(&|m| crate::drive::misses(link, m), 0.0)
+        let moves = |m: &DriveModel| m.mechanics().map(|m| m.inertia);
+        moves(&one) != moves(&other) && worse(&|m| crate::drive::in_own_torque(link, m), 0.0)
             || worse(&|m| crate::drive::runaway(link, m), crate::thresholds::RUNAWAY)
+    }
+
+    /// Whether an effect of a state opens the gap far beyond that of `start` if it alone is taken out: then the others
+    /// undo most of what it does, and neither they nor it are the cause.
+    pub fn is_cancelled(&self, state: &State, index: usize, start: &State) -> bool {
+        let open = |state: &State| {
+            let (square, n) = self.linearise_nothing(state).plain();
+            (square - n, n)
+        };
+        let mut without = state.clone();
+        without.active.remove(index);
+        let (before, n) = open(start);
+        open(&without).0 > crate::thresholds::CANCELS * before.max(n)
     }
 
     /// Sum of squares of the residuals of a state.

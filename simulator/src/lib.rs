@@ -2,10 +2,13 @@
 //! co-simulation with compiled Verilog, and the replay of measured logs.
 
 pub mod calibration;
+pub mod chip;
+pub mod circuit;
 pub mod closed_loop;
 pub mod cosim;
 pub mod cross_check;
 pub mod fpga;
+pub mod gateware;
 pub mod replay;
 pub mod virtual_card;
 pub mod wave;

@@ -102,9 +102,15 @@ impl<'a> Data<'a> {
             let misses = Misses::new(seen, FAR_AMISS);
             link.mask_times(|run, t| misses.are_near(run, t));
         }
-        let residuals = link.residuals(&state.drive(None))?;
-        let (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
+        let model = state.drive(None);
+        let mut residuals = link.residuals(&model)?;
+        let (mut floor, mut correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
         link.noise = floor;
+        if link.mask_sticking(&model) > 0.0 {
+            residuals = link.residuals(&model)?;
+            (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
+            link.noise = floor;
+        }
         Some(Drive { link, correlation, residuals })
     }
 

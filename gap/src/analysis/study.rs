@@ -103,12 +103,12 @@ pub(super) fn study(
 ) -> Outcome {
     let all = problem.candidates(start, catalogue);
     let from = start.active.len();
-    let (selection, mut refused) = admitted(problem, selection, from, &all, thresholds);
+    let (selection, mut refused) = admitted(problem, selection, start, &all, thresholds);
     let mut judged = judge(problem, start, selection);
     if judged.rms > far
         && let Some(several) = several(problem, start, &judged, &all, thresholds)
     {
-        let (selection, more) = admitted(problem, several, from, &all, thresholds);
+        let (selection, more) = admitted(problem, several, start, &all, thresholds);
         let again = judge(problem, start, selection);
         if again.rms < judged.rms {
             judged = again;
@@ -212,15 +212,27 @@ struct Judged {
 fn admitted(
     problem: &Problem,
     mut selection: Selection,
-    from: usize,
+    start: &State,
     all: &[Active],
     thresholds: &Thresholds,
 ) -> (Selection, Vec<String>) {
+    let from = start.active.len();
     let mut refused = Vec::new();
     loop {
         let estimates = estimates(problem, &selection, from, selection.bare);
-        let faults = estimates.iter().filter_map(|e| Some((e, fault(&selection.state.active[e.index], e)?)));
-        let Some((estimate, why)) = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p)) else { return (selection, refused) };
+        let cancelled = |e: &Estimate| problem.is_cancelled(&selection.state, e.index, start);
+        let why = |e: &Estimate| {
+            fault(&selection.state.active[e.index], e)
+                .or_else(|| cancelled(e).then(|| thresholds::Refusal::Cancelled.reason().to_owned()))
+        };
+        let faults = estimates.iter().filter_map(|e| Some((e, why(e)?)));
+        // Of two that undo each other the one later in the catalogue goes.
+        let rank = |e: &Estimate| {
+            let name = selection.state.active[e.index].effect.name();
+            all.iter().position(|c| c.effect.name() == name)
+        };
+        let worst = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p).then(rank(a.0).cmp(&rank(b.0))));
+        let Some((estimate, why)) = worst else { return (selection, refused) };
         let name = selection.state.active[estimate.index].effect.name().to_owned();
         refused.push(format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()));
         selection = select::without(problem, &selection, from, |a| a.effect.name() != name, all, thresholds);

@@ -28,8 +28,8 @@ const STUCK_SHARE: f64 = 0.35;
 pub struct DriveLink<'a> {
     /// The pieces of the runs.
     pub pieces: &'a Pieces<'a>,
-    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
-    ln_inertia: f64,
+    /// Torque per wheel acceleration of the robot that the link was made with: the unit of residuals.
+    inertia: DMatrix<f64>,
     /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
     pub noise: Vec<f64>,
     /// What torques and speeds are large beside.
@@ -49,6 +49,8 @@ struct Bump {
     intervals: usize,
     /// 1 where the wheel turned, 0 where it may have been stuck.
     weights: Vec<f64>,
+    /// Share of the bump in which it may have been stuck, one a wheel.
+    stuck: Vec<f64>,
     /// Cluster, unique over all segments.
     cluster: usize,
 }
@@ -82,7 +84,7 @@ impl<'a> DriveLink<'a> {
 
     /// Lays bumps of a length in s over the segments.
     pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
-        let ln_inertia = nominal.mechanics()?.ln_inertia;
+        let inertia = nominal.mechanics()?.inertia;
         let n = nominal.wheels.len();
         let mut bumps = Vec::new();
         let mut cluster = 0;
@@ -115,7 +117,7 @@ impl<'a> DriveLink<'a> {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link = Self { pieces, ln_inertia, noise: vec![1.0; n], sizes, bumps };
+        let mut link = Self { pieces, inertia, noise: vec![1.0; n], sizes, bumps };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         Some(link)
     }
@@ -158,6 +160,31 @@ impl<'a> DriveLink<'a> {
         }
     }
 
+    /// Leaves out what a wheel did while it may have stuck to a friction of this model that is not small beside the
+    /// noise: then it is anything up to its size, in either direction. Returns the share of the bumps that went. Where most
+    /// would go, for wheels that hardly ever turn freely, all stay.
+    pub fn mask_sticking(&mut self, model: &DriveModel) -> f64 {
+        let Some(first) = self.bumps.first() else { return 0.0 };
+        let friction = model.standing_friction(&self.pieces.get(first.segment));
+        let sticks = |b: &Bump, i: usize| b.stuck[i] * friction[i] > thresholds::STICKS * self.noise[i];
+        let turned = |b: &Bump, i: usize| b.weights[i] > 0.0;
+        let each = || self.bumps.iter().flat_map(|b| (0..b.weights.len()).map(move |i| (b, i)));
+        let all = each().filter(|(b, i)| turned(b, *i)).count();
+        let gone = each().filter(|(b, i)| turned(b, *i) && sticks(b, *i)).count();
+        if gone == 0 || 2 * gone > all {
+            return 0.0;
+        }
+        let noise = &self.noise;
+        for b in &mut self.bumps {
+            for i in 0..b.weights.len() {
+                if b.stuck[i] * friction[i] > thresholds::STICKS * noise[i] {
+                    b.weights[i] = 0.0;
+                }
+            }
+        }
+        gone as f64 / all as f64
+    }
+
     /// Leaves out bumps at these times (index of the run, s).
     pub fn mask_times(&mut self, out: impl Fn(usize, f64) -> bool) {
         for range in self.by_segment() {
@@ -193,11 +220,6 @@ impl<'a> DriveLink<'a> {
         self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
-    /// [`Mechanics::ln_inertia`] of the robot that the link was made with.
-    pub fn ln_inertia(&self) -> f64 {
-        self.ln_inertia
-    }
-
     /// Number of bumps.
     pub fn len(&self) -> usize {
         self.bumps.len()
@@ -225,18 +247,19 @@ impl<'a> DriveLink<'a> {
         self.bumps[range.clone()].par_iter().map(|b| b.shape(s)).collect()
     }
 
-    /// Unexplained torques of some bumps of one segment, Nm, by the torques and forces of a model at its ticks: what
-    /// the model's own inertia takes for the measured acceleration, less what its own torques give.
+    /// Unexplained accelerations of some bumps of one segment by the torques and forces of a model at its ticks, in the
+    /// torque of an inertia, Nm.
     ///
-    /// In the torque of another model, such as the nominal one, a robot too heavy to move would explain everything: it
-    /// predicts no acceleration, and the nominal inertia makes little of the measured one.
+    /// The equation of motion is solved for the acceleration, which carries the noise; the torques that motors give are
+    /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
+    /// none of them lighter or heavier. [`super::in_own_torque`] has what that unit cannot tell.
     fn unexplained_part(
         &self,
         model: &DriveModel,
         s: &Segment,
         range: &Range<usize>,
         shapes: &[Shape],
-        forces: &[f64],
+        (forces, inertia): (&[f64], Option<&DMatrix<f64>>),
         measured: &[DVector<f64>],
     ) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
@@ -250,7 +273,7 @@ impl<'a> DriveLink<'a> {
                     a[i] += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
                 }
             }
-            &mechanics.inertia * (measured - a)
+            inertia.unwrap_or(&mechanics.inertia) * (measured - a)
         });
         Some(out.collect())
     }
@@ -317,13 +340,23 @@ impl<'a> DriveLink<'a> {
         Some(out)
     }
 
-    /// Unexplained torques under a model.
+    /// Unexplained torques under a model, Nm: what the inertia of the link's own robot takes for the accelerations that
+    /// the model does not predict.
     pub fn residuals(&self, model: &DriveModel) -> Option<DriveResiduals> {
+        self.residuals_in(model, Some(&self.inertia))
+    }
+
+    /// The same in the torque of the model's own inertia: what would have to be added to it.
+    pub fn residuals_in_own_torque(&self, model: &DriveModel) -> Option<DriveResiduals> {
+        self.residuals_in(model, None)
+    }
+
+    fn residuals_in(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<DriveResiduals> {
         let part = |range: Range<usize>| -> Option<Vec<Vec<f64>>> {
             let s = self.pieces.get(self.bumps[range.start].segment);
             let shapes = self.shapes(&s, &range);
             let measured = self.measured_part(&s, &range, &shapes);
-            let left = self.unexplained_part(model, &s, &range, &shapes, &model.forces(&s), &measured)?;
+            let left = self.unexplained_part(model, &s, &range, &shapes, (&model.forces(&s), inertia), &measured)?;
             Some(left.iter().map(|torque| torque.iter().copied().collect()).collect())
         };
         let torque: Option<Vec<_>> = self.by_segment().into_par_iter().map(part).collect();
@@ -381,35 +414,18 @@ impl<'a> DriveLink<'a> {
         (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
-    /// By how much a model's inertia exceeds that of the link's own one, as the logarithm of a determinant, and its
-    /// derivatives along the pairs of models.
-    fn heavier(
-        &self,
-        model: &DriveModel,
-        sides: &[(Option<DriveModel>, DriveModel, f64)],
-    ) -> Option<(f64, DVector<f64>)> {
-        let of = |model: &DriveModel| Some(model.mechanics()?.ln_inertia);
-        let base = of(model)?;
-        let slope = |(low, high, step): &(Option<DriveModel>, DriveModel, f64)| {
-            let low = low.as_ref().map_or(Some(base), of);
-            low.zip(of(high)).map_or(0.0, |(low, high)| (high - low) / step)
-        };
-        Some((base - self.ln_inertia, DVector::from_iterator(sides.len(), sides.iter().map(slope))))
-    }
-
     /// Linearises: residuals and derivatives along each pair of models (low or `None` for the model
     /// itself, high, step), per cluster.
     pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
         let n = self.noise.len();
         let mut clusters = Vec::new();
-        let Some(heavier) = self.heavier(model, sides) else { return Vec::new() };
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.bumps[range.start].segment);
             let shapes = self.shapes(s, &range);
             let measured = self.measured_part(s, &range, &shapes);
             let left = |model: &DriveModel, forces: &[f64]| {
-                self.unexplained_part(model, s, &range, &shapes, forces, &measured)
+                self.unexplained_part(model, s, &range, &shapes, (forces, Some(&self.inertia)), &measured)
             };
             let start = Base::new(model, s);
             let Some(base) = left(model, &start.forces) else { return Vec::new() };
@@ -439,8 +455,7 @@ impl<'a> DriveLink<'a> {
                     columns[c].as_ref().map_or(0.0, |column| column[b][i] * weight(r))
                 });
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
-                let cluster = Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian);
-                clusters.push(cluster.heavier(used / n as f64, heavier.0, &heavier.1));
+                clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
                 first += part.len();
             }
         }
@@ -456,16 +471,17 @@ impl Bump {
         if end >= s.t.len() || end - first < 4 {
             return None;
         }
-        let mut bump =
-            Self { segment, start, length, first, intervals: end - first, weights: vec![0.0; wheels], cluster };
+        let (weights, stuck) = (vec![0.0; wheels], vec![0.0; wheels]);
+        let mut bump = Self { segment, start, length, first, intervals: end - first, weights, stuck, cluster };
         let force = bump.shape(s).force;
         if !force.iter().all(|w| w.is_finite()) {
             return None;
         }
-        for (i, slot) in bump.weights.iter_mut().enumerate() {
+        for (i, (slot, share)) in bump.weights.iter_mut().zip(&mut bump.stuck).enumerate() {
             let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < thresholds::STUCK * s.turning);
             let stuck: f64 = slow.map(|(f, _)| f).sum();
             *slot = if stuck > STUCK_SHARE { 0.0 } else { 1.0 };
+            *share = stuck;
         }
         Some(bump)
     }

@@ -152,6 +152,37 @@ impl DriveModel {
         crate::thresholds::SLIDES * self.wheel_radius_m
     }
 
+    /// Largest torque with which each wheel may stick, Nm, at the start of a segment.
+    pub(super) fn standing_friction(&self, s: &Segment) -> Vec<f64> {
+        let n = self.wheels.len();
+        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
+        let still = vec![0.0; n];
+        let turning = |sense: f64| {
+            let now = Instant {
+                segment: s,
+                tick: 0,
+                time_s: 0.0,
+                duty: &still,
+                supply: s.supply[0],
+                speed: &still,
+                sign: &vec![sense; n],
+                winding: &still,
+                sideways: &still,
+                twist: Twist::default(),
+                heading: s.heading[0],
+                position: s.position[0],
+                prepared: &prepared,
+                sliding_per_turning: self.sliding_per_turning(),
+            };
+            let mut loads = Loads { wheel: still.clone(), body: [0.0; 3] };
+            self.loads.iter().for_each(|term| term(&now, &mut loads));
+            loads.wheel
+        };
+        let (forwards, backwards) = (turning(1.0), turning(-1.0));
+        let loads = forwards.iter().zip(&backwards).map(|(a, b)| 0.5 * (b - a).max(0.0));
+        loads.zip(&self.axes).map(|(load, axis)| load + self.gear_ratio * axis.friction).collect()
+    }
+
     /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
     pub fn forces(&self, s: &Segment) -> Vec<f64> {
         let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();

@@ -25,16 +25,14 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
 }
 
-/// Sum of squares of what a model leaves, half-way between its own torque and that of the link's robot, in units of the
-/// noise, one for each cluster.
+/// Sum of squares of what a model leaves in the torque of its own inertia, in units of the noise, one for each cluster.
 ///
-/// An inertia too small explains accelerations that are noisy (it makes little of them in its own torque), one too large
-/// those that are predicted badly (it predicts none): what it really is does better half-way.
-pub fn misses(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
-    let mechanics = model.mechanics()?;
-    let moving = if mechanics.body.is_some() { 3.0 } else { mechanics.inertia.nrows() as f64 };
-    let lighter = ((link.ln_inertia() - mechanics.ln_inertia) / moving).exp();
-    let residuals = link.residuals(model)?;
+/// In the torque of a fixed inertia a robot too heavy to move leaves what was measured and no more, which is less than a
+/// model leaves whose friction nobody told. In its own torque it leaves more the heavier it is, and friction, whatever
+/// its law, does not pass for inertia: over a drive that ends as it begins no function of the speed correlates with the
+/// acceleration. A robot too light is the other way round: what is named must be better in both.
+pub fn in_own_torque(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
+    let residuals = link.residuals_in_own_torque(model)?;
     let mut out: Vec<f64> = Vec::new();
     let mut before = None;
     for b in 0..link.len() {
@@ -43,7 +41,7 @@ pub fn misses(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
             before = Some(link.cluster(b));
         }
         let weighted = residuals.torque[b].iter().zip(&residuals.weights[b]).zip(&link.noise);
-        let weighted = weighted.map(|((t, w), s)| lighter * (w * t / s).powi(2));
+        let weighted = weighted.map(|((t, w), s)| (w * t / s).powi(2));
         if let Some(last) = out.last_mut() {
             *last += weighted.sum::<f64>();
         }

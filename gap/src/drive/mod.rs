@@ -20,7 +20,7 @@ use crate::segment::Segment;
 pub use bumps::{DriveLink, DriveResiduals};
 pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads, smooth_sign};
-pub use free_run::{further, misses, runaway};
+pub use free_run::{further, in_own_torque, runaway};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -172,7 +172,6 @@ impl DriveModel {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;
             return Some(Mechanics {
-                ln_inertia: spin.iter().map(|j| j.ln()).sum(),
                 rows,
                 body: None,
                 response: inverse,
@@ -197,7 +196,6 @@ impl DriveModel {
         let total = DMatrix::from_fn(3, 3, |a, b| total[(a, b)]);
         let body = &rows * inverse;
         Some(Mechanics {
-            ln_inertia: total.determinant().ln(),
             response: &body * rows.transpose(),
             inertia: twist.transpose() * total * &twist,
             body: Some(body),
@@ -223,6 +221,4 @@ pub struct Mechanics {
     pub response: DMatrix<f64>,
     /// Wheel torque per wheel acceleration, N × N.
     pub inertia: DMatrix<f64>,
-    /// Natural logarithm of the determinant of the inertia of all that can move, SI units.
-    pub ln_inertia: f64,
 }

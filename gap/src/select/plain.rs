@@ -56,7 +56,8 @@ pub(crate) fn plain(
         larger.active.push(active);
         problem.fit(&mut larger);
         let sound = larger.active[from..].iter().all(|a| !stopped(a));
-        let sound = sound && !problem.runs_away(&larger, &state);
+        let cancelled = |i: usize| problem.is_cancelled(&larger, i, start);
+        let sound = sound && !problem.runs_away(&larger, &state) && !(from..larger.active.len()).any(cancelled);
         if sound && held_out(problem, &larger).0 < (1.0 - 0.5 * SHARE) * now {
             state = larger;
         } else {

@@ -109,7 +109,7 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
         let values = state.active[index].parameters();
-        if stopped(&state.active[index]) || problem.runs_away(&state, &found.state) {
+        if stopped(&state.active[index]) || problem.runs_away(&state, &without) {
             continue;
         }
         let rival = finish(state, settled, index, thresholds);

@@ -4,6 +4,7 @@
 mod bitstream;
 mod calibrate;
 mod check;
+mod completions;
 #[cfg(feature = "simulation")]
 mod convert;
 #[cfg(feature = "simulation")]
@@ -20,12 +21,14 @@ mod init;
 mod kick;
 mod latency;
 mod load;
+mod man;
 mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
 mod radio;
 #[cfg(feature = "simulation")]
 mod replay;
+mod serve;
 #[cfg(feature = "simulation")]
 mod simulate;
 mod start;
@@ -73,6 +76,8 @@ pub(crate) enum Command {
     Info(info::Options),
     /// Drive a robot along set points, over a card
     Drive(Box<drive::Options>),
+    /// Let software of the small-size league drive simulated robots, or the real one
+    Serve(Box<serve::Options>),
     /// Charge and fire the kicker
     Kick(kick::Options),
     /// Drive a robot without a PC over a radio module
@@ -87,6 +92,10 @@ pub(crate) enum Command {
     Wave(wave::Options),
     /// Measure how late the timer wakes the control loop on this machine
     Latency(latency::Options),
+    /// Print what a shell needs to complete racbot's words
+    Completions(completions::Options),
+    /// Write the manual pages
+    Man(man::Options),
 }
 
 impl Command {
@@ -121,6 +130,7 @@ impl Command {
             Self::Load(options) => options.run(),
             Self::Info(options) => options.run(),
             Self::Drive(options) => options.run(),
+            Self::Serve(options) => options.run(),
             Self::Kick(options) => options.run(),
             Self::Radio(options) => options.run(),
             Self::Monitor(options) => options.run(json),
@@ -129,6 +139,8 @@ impl Command {
             #[cfg(feature = "simulation")]
             Self::Wave(options) => options.run(),
             Self::Latency(options) => options.run(),
+            Self::Completions(options) => options.run(),
+            Self::Man(options) => options.run(),
         }
     }
 }

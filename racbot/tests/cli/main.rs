@@ -5,7 +5,9 @@ mod bad_data;
 mod card;
 mod drive;
 mod good_data;
+mod printed;
 mod radio;
+mod serve;
 mod set_up;
 mod usage;
 
