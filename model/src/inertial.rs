@@ -264,6 +264,26 @@ impl Inertial {
         verdict
     }
 
+    /// Takes over a pose and covariance that this filter's own prediction is part of, of now: the match of an on-board
+    /// camera. The gyroscope's bias is corrected by what it has to do with the heading.
+    pub fn adopt(&mut self, pose: Pose, covariance: Matrix3<f64>) {
+        let before = self.now.covariance;
+        let heading = before[(2, 2)];
+        let turned = wrap_angle(pose.theta - self.now.pose.theta);
+        let slope = if heading > 0.0 { before[(3, 2)] / heading } else { 0.0 };
+        self.now.pose = Pose { theta: self.now.pose.theta + turned, ..pose };
+        self.now.bias += slope * turned;
+        let tied = slope * covariance[(2, 2)];
+        self.now.covariance = Matrix4::zeros();
+        self.now.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&covariance);
+        self.now.covariance[(3, 3)] = before[(3, 3)] - slope * slope * (heading - covariance[(2, 2)]).max(0.0);
+        self.now.covariance[(3, 2)] = tied;
+        self.now.covariance[(2, 3)] = tied;
+        if let Some((_, state, _)) = self.history.back_mut() {
+            *state = self.now;
+        }
+    }
+
     /// Where the robot is.
     pub fn pose(&self) -> Pose {
         self.now.pose
