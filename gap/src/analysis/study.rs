@@ -136,6 +136,15 @@ pub(super) fn study(
             rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
         ambiguous |= rivals.ambiguous && !own.is_empty();
         sets.extend(own);
+        let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
+        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all)) {
+            let name = at.map_or("", |at| other.active[at].effect.name());
+            let pair = vec![active.effect.name().to_owned(), name.to_owned()];
+            if !sets.contains(&pair) {
+                sets.push(pair);
+            }
+            ambiguous = true;
+        }
         let fixed = active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact));
         named.push(Named {
             name: active.effect.name().to_owned(),
