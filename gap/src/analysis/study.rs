@@ -273,6 +273,10 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let roles = bench.judged(bare);
     let fit = bench.fit_roles(&roles);
     let covariance = bench.covariance(&roles, &fit);
+    // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of this
+    // cause alone, but it is not known to better than what those would make of it.
+    let beside = bench.estimating();
+    let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
     let clusters = bench.linear.gram.clusters.len();
     let left_out = bench.left_out(&roles);
     let mut out = Vec::new();
@@ -290,7 +294,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             let half = column.map_or(0.0, |c| {
                 let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
                 let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-                half_width(covariance[(c, c)].max(0.0), df, runs)
+                half_width(covariance[(c, c)].max(beside[(c, c)]).max(0.0), df, runs)
             });
             // The effect's own law is not known to better than that.
             let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);

@@ -171,12 +171,7 @@ impl DriveModel {
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;
-            return Some(Mechanics {
-                rows,
-                body: None,
-                response: inverse,
-                inertia,
-            });
+            return Some(Mechanics { rows, body: None, response: inverse, inertia });
         }
         let [cx, cy] = self.centre_of_mass;
         let (m, i) = (self.mass, self.yaw_inertia);

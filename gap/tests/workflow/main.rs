@@ -68,7 +68,7 @@ fn a_command_that_comes_late_is_proved() {
 
 #[test]
 fn a_users_effect_stands_beside_the_built_in_ones() {
-    let text = "name = \"my-rub\"\ntorque = \"-c * tanh(w / 0.4)\"\n[parameters]\nc = { scale = 1e-3, low = 0.0, high = 0.1, material = 4e-3 }\n";
+    let text = "name = \"my-rub\"\ntorque = \"-c * sign_w\"\n[parameters]\nc = { scale = 1e-3, low = 0.0, high = 0.1, material = 4e-3 }\n";
     let effect = gap::user::UserEffect::parse(text).unwrap();
     let options = Options { effects: vec![std::sync::Arc::new(effect)], ..Options::default() };
     let a =
@@ -76,7 +76,7 @@ fn a_users_effect_stands_beside_the_built_in_ones() {
             .unwrap();
     assert_eq!(names(&a), ["coulomb-friction"]);
     assert!(a.alternatives.iter().any(|s| s.contains(&"my-rub".to_owned())), "{:?}", a.alternatives);
-    let bad = gap::user::UserEffect::parse(&text.replace("tanh(w", "tanh(ww")).unwrap_err().to_string();
+    let bad = gap::user::UserEffect::parse(&text.replace("sign_w", "tanh(ww)")).unwrap_err().to_string();
     assert!(bad.contains("`ww` is no signal") && bad.contains("         ^"), "{bad}");
 }
 
