@@ -81,7 +81,11 @@ fn a_ball_is_found_and_bad_files_are_named_without_stopping_the_rest() {
     assert!(ball["score"].as_f64().unwrap() > 0.3 && list[0]["file"].as_str().unwrap().ends_with("a.png"));
     assert!(list[1]["error"].as_str().unwrap().contains("black"), "{list}");
     assert!(list[2]["error"].as_str().unwrap().contains("cut off"), "{list}");
-    assert!(outcome.stderr.contains("b.png: ") && outcome.stderr.contains("1 more of 3 pictures"), "{}", outcome.stderr);
+    assert!(
+        outcome.stderr.contains("b.png: ") && outcome.stderr.contains("1 more of 3 pictures"),
+        "{}",
+        outcome.stderr
+    );
 
     let one = racbot(folder.path(), &["vision", "detect", "a.png", "--json"]).done();
     assert_eq!(one.json()[0]["file"], "a.png");
