@@ -6,6 +6,7 @@ mod join;
 mod plain;
 mod rivals;
 mod sure;
+mod undecided;
 
 use std::sync::Arc;
 
@@ -26,6 +27,7 @@ pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
 pub(crate) use plain::{held_out, plain};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
 pub use sure::estimates;
+pub(crate) use undecided::undecided;
 
 /// Largest number of effects named on one link.
 const MOST: usize = 5;
@@ -217,7 +219,7 @@ fn swap(
             let rival = finish(state, settled, from, thresholds);
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
             let needed = if simpler { tie } else { -tie };
-            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &best.state) {
+            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &without) {
                 best = rival;
                 changed = true;
                 break;

@@ -24,14 +24,17 @@ NEAR = (0.02, 0.1)
 
 class Reach(gymnasium.Env):
     """Observation: target in the robot's frame (right, forward, sine and cosine of the turn left), then the body velocity
-    (right, forward, turn). Action: body velocity, as shares of `LARGEST`; it is slewed by `SLEW`. Reward: metres (and radians, a tenth each) come nearer; 1 for being there."""
+    (right, forward, turn). Action: body velocity, as shares of `LARGEST`; it is slewed by `SLEW`. Reward:
+    metres (and radians, a tenth each) come nearer; 1 for being there."""
 
     metadata = {"render_modes": []}
 
     def __init__(self, robot=None, limit=600):
         self._file, self._limit = robot, limit
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (3,), np.float32)
-        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (7,), np.float32)
+        # A robot that drives off for the whole of an episode stays within these.
+        far = np.array([20.0, 20.0, 1.0, 1.0, 10.0, 10.0, 100.0], dtype=np.float32)
+        self.observation_space = gymnasium.spaces.Box(-far, far, dtype=np.float32)
 
     def reset(self, *, seed=None, options=None):
         super().reset(seed=seed)

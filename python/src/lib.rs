@@ -140,13 +140,13 @@ fn simulate(
     Ok((columns(py, &driven.run), driven.robot.to_toml(), bytes(py, track)))
 }
 
-#[pyfunction]
+#[pyfunction(name = "gap")]
 #[pyo3(signature = (folder, robot, out))]
-fn gap(py: Python<'_>, folder: &str, robot: Option<&str>, out: Option<&str>) -> PyResult<String> {
+fn find_gap(py: Python<'_>, folder: &str, robot: Option<&str>, out: Option<&str>) -> PyResult<String> {
     py.detach(|| {
         let set = logs(folder, robot)?;
-        let options = ::gap::Options { robot_file: robot.map(Into::into), ..::gap::Options::default() };
-        let analysis = ::gap::analyse_logs(&set, &options).map_err(failed)?;
+        let options = gap::Options { robot_file: robot.map(Into::into), ..gap::Options::default() };
+        let analysis = gap::analyse_logs(&set, &options).map_err(failed)?;
         if let Some(out) = out {
             analysis.save(Path::new(out), runs::output::Existing::Refuse).map_err(failed)?;
         }
@@ -278,7 +278,7 @@ fn _racbot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<BitTrueRobot>()?;
     module.add_function(wrap_pyfunction!(read_run, module)?)?;
     module.add_function(wrap_pyfunction!(simulate, module)?)?;
-    module.add_function(wrap_pyfunction!(gap, module)?)?;
+    module.add_function(wrap_pyfunction!(find_gap, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(check, module)?)?;
     module.add_function(wrap_pyfunction!(wheel_words, module)?)

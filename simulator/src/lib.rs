@@ -1,6 +1,7 @@
 //! The virtual robot: FPGAs behind one seam, the virtual card on its bus, the closed loop around them,
 //! co-simulation with compiled Verilog, and the replay of measured logs.
 
+pub mod blackout;
 pub mod calibration;
 pub mod chip;
 pub mod circuit;

@@ -16,6 +16,7 @@ import math
 import os
 import socket
 import struct
+import time
 
 # --- protobuf, as much of it as is needed -----------------------------------------------------------------------------
 
@@ -118,6 +119,18 @@ def square(side, speed, acceleration, turn):
         t += step
 
 
+def ask(commands, datagram, server):
+    """Sends until there is an answer: the server may not have begun yet."""
+    commands.settimeout(1)
+    for _ in range(30):
+        try:
+            commands.sendto(datagram, server)
+            return commands.recv(65535)
+        except (ConnectionRefusedError, TimeoutError, socket.timeout):
+            time.sleep(0.1)
+    raise SystemExit(f"no answer from {server}: is racbot serve running?")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folder", help="folder for the runs")
@@ -135,12 +148,10 @@ def main():
     vision.bind(("127.0.0.1", options.vision))
     vision.settimeout(10)
     commands = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    commands.settimeout(10)
     os.makedirs(options.folder, exist_ok=True)
     for run in range(1, options.runs + 1):
         heading = (run - 1) * 2 * math.pi / options.runs
-        commands.sendto(teleport(options.robot, options.team, 0, 0, heading), (options.server, control))
-        commands.recv(65535)
+        ask(commands, teleport(options.robot, options.team, 0, 0, heading), (options.server, control))
         turn = 2.0 if run % 2 else -2.0
         rest = [(0.0, 0.0, 0.0)] * 20
         rows, pose = [], None
@@ -150,8 +161,7 @@ def main():
                 stamp, x, y, orientation = pose
                 theta = math.remainder(orientation - math.pi / 2, 2 * math.pi)
                 rows.append((stamp, -left, forward, angular, x, y, theta))
-            commands.sendto(local_velocity(options.robot, forward, left, angular), team)
-            commands.recv(65535)
+            ask(commands, local_velocity(options.robot, forward, left, angular), team)
             pose = seen(vision.recv(65535), options.team, options.robot)
         with open(os.path.join(options.folder, f"run_{run}.csv"), "w", newline="") as file:
             table = csv.writer(file)

@@ -125,14 +125,17 @@ impl Sockets {
     /// Hears and answers what waits, up to a turn of every socket. Whether a message of `leader` was among it.
     pub fn serve(&mut self, robots: &mut impl Robots, now: Duration, leader: Option<Team>) -> bool {
         let Self { control, teams, buffer, gate, traffic, .. } = self;
-        turn(control, buffer, gate, traffic, now, TURN, |datagram| front::simulator(robots, datagram));
+        let mut admits = |sender| gate.admits(sender, now);
+        turn(control, buffer, traffic, TURN, &mut admits, |datagram| front::simulator(robots, datagram));
         let mut led = false;
         for (team, socket) in teams {
-            // The leader's next message is for the next frame.
-            let most = if leader == Some(*team) { 1 } else { TURN };
-            let heard =
-                turn(socket, buffer, gate, traffic, now, most, |datagram| front::control(robots, *team, datagram));
-            led |= leader == Some(*team) && heard > 0;
+            let answer = |datagram: &[u8]| front::control(robots, *team, datagram);
+            if leader == Some(*team) {
+                // Its next message is for the next frame, and as many a second as there are frames computed.
+                led = turn(socket, buffer, traffic, 1, |_| true, answer) > 0;
+            } else {
+                turn(socket, buffer, traffic, TURN, &mut admits, answer);
+            }
         }
         led
     }
@@ -158,10 +161,9 @@ impl Sockets {
 fn turn(
     socket: &UdpSocket,
     buffer: &mut [u8],
-    gate: &mut Gate,
     traffic: &mut Traffic,
-    now: Duration,
     most: usize,
+    mut admits: impl FnMut(SocketAddr) -> bool,
     mut answer: impl FnMut(&[u8]) -> Vec<u8>,
 ) -> usize {
     let mut heard = 0;
@@ -175,7 +177,7 @@ fn turn(
             // A receiver of an answer that is gone shows as an error of the next call.
             Err(_) => continue,
         };
-        if !gate.admits(sender, now) {
+        if !admits(sender) {
             continue;
         }
         heard += 1;

@@ -209,7 +209,7 @@ fn the_same_messages_drive_a_card_and_silence_stops_it() {
     assert!(driven.switched_off.is_ok());
     let at = |time: u128| speeds.iter().find(|(ms, _)| *ms >= time).unwrap().1;
     assert!((at(950) - 0.3).abs() < 0.03 && (at(1_080) - 0.3).abs() < 0.03, "{} {}", at(950), at(1_080));
-    assert!(at(1_800).abs() < 0.01, "{}", at(1_800));
+    assert!(at(2_800).abs() < 0.01, "{}", at(2_800));
     for code in ["UNKNOWN_ROBOT", "NOT_SIMULATED"] {
         assert!(answers.iter().any(|answer| String::from_utf8_lossy(answer).contains(code)), "{code}");
     }

@@ -12,6 +12,7 @@ mod redness;
 mod regions;
 mod weights;
 
+use crate::camera::Camera;
 use crate::carpet::Carpet;
 use crate::picture::{Picture, Raster};
 use features::Features;
@@ -61,6 +62,14 @@ pub struct Ball {
     pub region: Region,
     /// Odds that it is one, as a probability from 0 to 1.
     pub score: f64,
+}
+
+impl Ball {
+    /// Where it lies on the floor in the camera's robot frame: forward and to the left, m; `None` above the horizon.
+    #[must_use]
+    pub fn place(&self, camera: &Camera, radius: f64) -> Option<[f64; 2]> {
+        camera.onto([self.region.x, self.region.y], radius)
+    }
 }
 
 /// A candidate with what is known of it.

@@ -130,8 +130,9 @@ fn upper_hull(raw: &[f32], bottom: f32) -> Vec<f32> {
     let mut rows = vec![bottom; raw.len()];
     for pair in hull.windows(2) {
         let [a, b] = [pair[0], pair[1]];
-        for x in a.0 as usize..=b.0 as usize {
-            rows[x] = a.1 + (b.1 - a.1) * (x as f32 - a.0) / (b.0 - a.0);
+        let from = a.0 as usize;
+        for (step, row) in rows[from..=b.0 as usize].iter_mut().enumerate() {
+            *row = a.1 + (b.1 - a.1) * step as f32 / (b.0 - a.0);
         }
     }
     if let [(x, y)] = hull[..] {

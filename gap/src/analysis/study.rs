@@ -136,6 +136,15 @@ pub(super) fn study(
             rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
         ambiguous |= rivals.ambiguous && !own.is_empty();
         sets.extend(own);
+        let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
+        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all)) {
+            let name = at.map_or("", |at| other.active[at].effect.name());
+            let pair = vec![active.effect.name().to_owned(), name.to_owned()];
+            if !sets.contains(&pair) {
+                sets.push(pair);
+            }
+            ambiguous = true;
+        }
         let fixed = active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact));
         named.push(Named {
             name: active.effect.name().to_owned(),
@@ -264,6 +273,10 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let roles = bench.judged(bare);
     let fit = bench.fit_roles(&roles);
     let covariance = bench.covariance(&roles, &fit);
+    // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of this
+    // cause alone, but it is not known to better than what those would make of it.
+    let beside = bench.estimating();
+    let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
     let clusters = bench.linear.gram.clusters.len();
     let left_out = bench.left_out(&roles);
     let mut out = Vec::new();
@@ -281,7 +294,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             let half = column.map_or(0.0, |c| {
                 let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
                 let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-                half_width(covariance[(c, c)].max(0.0), df, runs)
+                half_width(covariance[(c, c)].max(beside[(c, c)]).max(0.0), df, runs)
             });
             // The effect's own law is not known to better than that.
             let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use super::{Selection, finish_bare, in_parts, is_material, placed, stopped};
+use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::ridge::{Ridge, Role};
@@ -65,6 +65,16 @@ pub(crate) fn plain(
         }
     }
     drop_idle(problem, &mut state, from, small);
+    // Of laws between which the data do not decide the first of the catalogue: friction before a bridge.
+    let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
+    for index in from..state.active.len() {
+        let others = undecided(problem, &state, index, all).into_iter();
+        if let Some(first) = others.min_by_key(|s| rank(&s.active[index]))
+            && rank(&first.active[index]) < rank(&state.active[index])
+        {
+            state = first;
+        }
+    }
     let (after, _) = held_out(problem, &state);
     let enough = before - after >= CLOSES * (before - n).max(0.0);
     (state.active.len() > from && enough).then(|| finish_bare(problem, state, from, all, thresholds))

@@ -9,7 +9,8 @@
 //! c = { scale = 1e-6, low = 0.0, high = 1.0, material = 2e-6 }
 //! ```
 //!
-//! Signals: `t` (s), `w` (rad/s), `angle` (rad), `duty`, `supply` (V), `vx`, `vy` (m/s, body),
+//! Signals: `t` (s), `w` (rad/s), `sign_w` (−1 to 1, its direction, smooth about 0 over as much speed as the log leaves
+//! unknown: friction is `-c * sign_w` on any machine), `angle` (rad), `duty`, `supply` (V), `vx`, `vy` (m/s, body),
 //! `omega` (rad/s), `heading` (rad), `x`, `y` (m, field).
 
 mod expression;
@@ -26,7 +27,7 @@ use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
 
-const SIGNALS: [&str; 11] = ["t", "w", "angle", "duty", "supply", "vx", "vy", "omega", "heading", "x", "y"];
+const SIGNALS: [&str; 12] = ["t", "w", "sign_w", "angle", "duty", "supply", "vx", "vy", "omega", "heading", "x", "y"];
 
 /// An effect from a file.
 #[derive(Debug, Clone)]
@@ -118,7 +119,7 @@ impl UserEffect {
         out.clear();
         let duty = s.duty.get(wheel).map_or(0.0, |d| d[k]);
         let twist = s.twist[k];
-        out.extend([s.t[k] - s.stretch[0], s.speed[wheel][k], s.angle[wheel][k], duty, s.supply[k]]);
+        out.extend([s.t[k] - s.stretch[0], s.speed[wheel][k], s.sign[wheel][k], s.angle[wheel][k], duty, s.supply[k]]);
         out.extend([twist.vx, twist.vy, twist.omega, s.heading[k], s.position[k][0], s.position[k][1]]);
         out.extend_from_slice(parameters);
     }

@@ -37,6 +37,11 @@ fn a_body_radius_is_settled_by_a_drive_that_does_not() {
 }
 
 #[test]
+fn an_inertia_is_settled_by_a_drive_that_does_not() {
+    settled("yaw-inertia", &[("scale", 0.8)], &[Manoeuvre::Spin; 2], "rotor-inertia");
+}
+
+#[test]
 fn what_no_drive_separates_is_to_be_measured() {
     let truth = with(&Robot::racbot(), "wheel-radius", &[("scale_2", 0.03)]);
     let set = simulate(&truth, &[Manoeuvre::Spin, Manoeuvre::Square], 8);

@@ -19,6 +19,16 @@ fn listed(a: &Analysis, names: &[&str]) -> bool {
     a.alternatives.iter().any(|set| names.iter().all(|n| set.iter().any(|s| s == n)))
 }
 
+/// A straight line from the nominal inertia leads below nothing; the mass alone would take half of it on.
+#[test]
+fn an_effect_too_large_for_a_straight_line_is_found_beside_another() {
+    let a = looked(&[("robot-mass", &[("scale", 0.2)]), ("yaw-inertia", &[("scale", -0.65)])], &RICH, 81);
+    assert!(names(&a).contains(&"yaw-inertia"), "{}", a.terminal_summary());
+    let yaw = a.effects.iter().find(|e| e.name == "yaw-inertia").unwrap().parameters[0].1;
+    assert!((yaw / -0.65 - 1.0).abs() < 0.15, "{yaw}");
+    assert!(names(&a).contains(&"robot-mass") || listed(&a, &["robot-mass"]), "{}", a.terminal_summary());
+}
+
 /// What the first effect leaves in the generic regression is no noise that may hide the second.
 #[test]
 fn a_large_effect_does_not_hide_a_small_one_in_the_floor() {

@@ -311,7 +311,7 @@ impl Options {
             None => run(&mut world, &mut sockets, &mut clock, stop, limit, progress),
         };
         let took = (clock.now() - begun).as_secs_f64();
-        let mut text = entry("simulated", &format!("{:.1} s in {took:.1} s", served.simulated_s));
+        let mut text = entry("time", &format!("{:.1} s simulated in {took:.1} s", served.simulated_s));
         text += &entry("ticks", &format!("{} of a millisecond, {} lost", served.steps, served.lost));
         text += &heard(&served.traffic);
         text += &entry("vision", &format!("{} frames", served.traffic.frames));
@@ -334,13 +334,11 @@ impl Options {
         if !(simulated.vision_hz > 0.0 && simulated.vision_hz <= 1_000.0) {
             return Err(Failure::usage(format!("--vision-hz: {} is not between 0 and 1000", simulated.vision_hz)));
         }
-        let kind = |robot: &Robot| -> Result<Kind, Failure> {
+        let mut remarks = std::collections::BTreeSet::new();
+        let mut kind = |robot: &Robot| -> Result<Kind, Failure> {
             let believed = Kind::of(robot);
             let actual = simulated.hidden.robot(robot)?;
-            let unseen = Applied::of(&actual).unsupported;
-            if !unseen.is_empty() {
-                eprintln!("not simulated: the effects {}", unseen.join(", "));
-            }
+            remarks.extend(super::simulate::not_shown(&Applied::of(&actual)));
             Ok(Kind { actual, ..believed })
         };
         let mut robots = Vec::new();
@@ -351,6 +349,7 @@ impl Options {
         }
         let everybody = self.robot.iter().find(|which| which.team.is_none());
         let newcomer = kind(&load(everybody)?)?;
+        remarks.iter().for_each(|remark| eprintln!("{remark}"));
         // In lock-step nothing depends on when it is.
         let epoch = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64());
         let epoch_s = if simulated.lock_step.is_some() { 0.0 } else { epoch };

@@ -10,6 +10,8 @@ mod radio;
 mod serve;
 mod set_up;
 mod usage;
+#[cfg(feature = "vision")]
+mod vision;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 
 /// Printed commands that are not ours: how they begin, and what runs them.
-const ELSEWHERE: [(&str, &str); 7] = [
+const ELSEWHERE: [(&str, &str); 9] = [
     ("cargo run --release -p testbench --bin blind", "testbench/tests/blind.rs runs the series, shorter"),
     ("cargo run --release", "the demo: racbot/tests/cli/good_data.rs"),
+    ("cargo install --path racbot", "builds what this test runs; `the robot's binary` of test.sh without features"),
+    ("pip install", "the Python stage of test.sh"),
     ("cargo build --release", "made the command that this test runs"),
     ("./test.sh", "runs this test"),
     ("fusesoc", "testbench/tests/hardware_tools.rs"),
@@ -19,7 +21,7 @@ const ELSEWHERE: [(&str, &str); 7] = [
 const PHYSICS_ENGINE: [&str; 2] = ["pip install mujoco", "python3 testbench/engine/score.py"];
 
 /// Commands that need a device which is not here: what they say without it, and what is run instead.
-const WITHOUT_DEVICE: [(&str, &str, &str); 8] = [
+const WITHOUT_DEVICE: [(&str, &str, &str); 11] = [
     ("load rac4i65.bit", "rac4i65.bit: No such file", "load --card virtual"),
     ("info --list", "", "info --list"),
     ("info", "no Mesa 4I65", "info --card virtual"),
@@ -28,6 +30,9 @@ const WITHOUT_DEVICE: [(&str, &str, &str); 8] = [
     ("kick", "no Mesa 4I65", "--card virtual"),
     ("radio --number 3 --velocity", "/dev/ttyUSB0: ", ""),
     ("latency --seconds 60", "", "latency --seconds 1"),
+    ("serve --vision-to", "", "serve --ports 0,0,0 --vision none --seconds 0.2"),
+    ("serve --card", "0000:02:00.0", ""),
+    ("vision detect frames/", "frames", ""),
 ];
 
 fn repository() -> PathBuf {
@@ -102,8 +107,10 @@ fn belongings(folder: &Path, log: &str) {
     fs::copy(repository().join("data/robot.toml"), folder.join("robot.toml")).unwrap();
 }
 
-/// Runs what is printed after `racbot`; where it needs a device, sees that this is said, and runs the rest without.
+/// Runs what is printed after `racbot`, its output not redirected and home a folder here; where it needs a device, sees that this is said, and runs the rest without.
 fn as_printed(folder: &Path, command: &str) -> String {
+    let command = command.split(" > ").next().unwrap().replace("~/", "home/");
+    let command = command.as_str();
     let Some((_, said, instead)) = WITHOUT_DEVICE.iter().find(|(begin, ..)| command.starts_with(begin)) else {
         return run(folder, command);
     };

@@ -73,49 +73,47 @@ fn ask(socket: &UdpSocket, port: u16, datagram: &[u8]) -> Vec<u8> {
 const AHEAD: &[u8] =
     &[0x0a, 0x15, 0x08, 0x00, 0x12, 0x11, 0x12, 0x0f, 0x0d, 0x9a, 0x99, 0x99, 0x3e, 0x15, 0, 0, 0, 0, 0x1d, 0, 0, 0, 0];
 
+/// The `bash` blocks of the manual's page, one after the other.
+fn printed() -> String {
+    let page = include_str!("../../../docs/book/src/serve.md");
+    page.split("```bash\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect()
+}
+
 #[test]
-fn a_script_drives_squares_and_the_gap_names_the_skew_from_vision_and_commands_alone() {
+fn the_printed_script_drives_squares_and_finds_the_skew_from_vision_and_commands_alone() {
     if !Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success()) {
         assert_ne!(std::env::var("CI").as_deref(), Ok("true"), "apt install python3");
         eprintln!("NOT RUN: apt install python3");
         return;
     }
     let folder = tempdir().unwrap();
-    let free = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
-    let skew = [4.0_f64, -3.0, 2.0];
-    let vision_to = format!("127.0.0.1:{free}");
-    let lock_step = ["--blue", "1", "--yellow", "0", "--lock-step", "blue", "--vision", "none", "--skew-deg", "4,-3,2"];
-    let server = Server::start(folder.path(), &[&lock_step[..], &["--vision-to", &vision_to]].concat());
-    let ports = server.ports.map(|port| port.to_string()).join(",");
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ssl/examples/square.py");
-    let driven = Command::new("python3")
-        .arg(script)
-        .args(["recorded", "--ports", &ports, "--vision", &free.to_string()])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    assert!(driven.status.success(), "{}", String::from_utf8_lossy(&driven.stderr));
-    let served = server.end();
-    assert_eq!(served["lost"], 0);
-    assert!(served["frames"].as_u64().unwrap() > 1_000, "{served}");
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap();
+    std::os::unix::fs::symlink(repository.join("ssl"), folder.path().join("ssl")).unwrap();
+    // The same on ports that nobody else has.
+    let sockets = [(); 4].map(|()| UdpSocket::bind("127.0.0.1:0").unwrap());
+    let ports = sockets.map(|socket| socket.local_addr().unwrap().port().to_string());
+    let (three, vision) = (ports[..3].join(","), &ports[3]);
+    let script = printed()
+        .replace("racbot serve", &format!("racbot serve --ports {three}"))
+        .replace("square.py recorded", &format!("square.py recorded --ports {three} --vision {vision}"))
+        .replace(":10020", &format!(":{vision}"));
+    assert!(script.contains("--skew-deg 4,-3,2") && script.matches("racbot").count() >= 4, "{script}");
+    let command = Path::new(env!("CARGO_BIN_EXE_racbot")).parent().unwrap();
+    let path = format!("{}:{}", command.display(), std::env::var("PATH").unwrap());
+    let output = Command::new("bash").args(["-e", "-c", &script]).env("PATH", path).current_dir(folder.path()).output();
+    let output = output.unwrap();
+    let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
 
-    // What the team knows of its robot, and a map that takes the commands for wheel speeds.
-    fs::create_dir(folder.path().join("set")).unwrap();
-    let robot = "wheel_radius_m = 0.0275\nbody_radius_m = 0.085\nskew_rad = [0.0, 0.0, 0.0]\ncamera_rate_hz = 60\n";
-    fs::write(folder.path().join("set/robot.toml"), robot).unwrap();
-    fs::write(folder.path().join("map.toml"), "[derive]\nspeeds = \"set/robot.toml\"\n").unwrap();
-    for run in 1..=4 {
-        let (from, to) = (format!("recorded/run_{run}.csv"), format!("set/run_{run}.csv"));
-        racbot(folder.path(), &["convert", "map.toml", &from, &to]).done();
-    }
-    let found = racbot(folder.path(), &["--json", "gap", "set"]).done().json();
-    assert_eq!(found["verdict"], "missing-effect", "{found:#}");
+    let found = fs::read_to_string(folder.path().join("out/gap/gap.json")).unwrap();
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_eq!(found["verdict"], "missing-effect", "{said}");
     let effects = found["effects"].as_array().unwrap();
     let named = effects.iter().find(|effect| effect["name"] == "wheel-skew").expect("wheel-skew");
-    for (wheel, degrees) in skew.iter().enumerate() {
+    for (wheel, degrees) in [4.0_f64, -3.0, 2.0].into_iter().enumerate() {
         let parameter = &named["parameters"][format!("skew_{}_rad", wheel + 1)];
         let found = parameter["value"].as_f64().unwrap().to_degrees();
-        assert!((found - degrees).abs() < 1.0, "wheel {}: {found} for {degrees}, {named:#}", wheel + 1);
+        assert!((found - degrees).abs() < 1.0, "wheel {}: {found} for {degrees}\n{said}", wheel + 1);
     }
 }
 

@@ -101,6 +101,12 @@ impl<F: Fpga> VirtualRobot<F> {
         look(&mut self.0.borrow_mut().fpga)
     }
 
+    /// Motors and body as they are now.
+    #[must_use]
+    pub fn with_plant<T>(&self, look: impl FnOnce(&Plant) -> T) -> T {
+        look(&self.0.borrow().plant)
+    }
+
     /// What happened at every tick so far; forgotten here.
     #[must_use]
     pub fn take_history(&self) -> Vec<Moment> {

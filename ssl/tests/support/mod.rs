@@ -14,7 +14,7 @@ use ssl::robot::Kind;
 use ssl::world::{Options, World};
 
 /// The example robot with four wheels.
-pub fn four_wheels() -> Robot {
+pub(crate) fn four_wheels() -> Robot {
     use runs::robot::Layout;
     let angle = |degrees: f64| degrees.to_radians();
     let wheel = |at: f64| runs::geometry::Wheel {
@@ -27,7 +27,7 @@ pub fn four_wheels() -> Robot {
 }
 
 /// A field with these blue robots.
-pub fn field_of(robots: &[Robot]) -> World {
+pub(crate) fn field_of(robots: &[Robot]) -> World {
     let kinds = robots.iter().enumerate();
     World::new(Options {
         field: Field::B,
@@ -41,41 +41,41 @@ pub fn field_of(robots: &[Robot]) -> World {
 }
 
 /// A robot's command by local velocity.
-pub fn local(id: u32, forward: f32, left: f32, angular: f32) -> RobotCommand {
+pub(crate) fn local(id: u32, forward: f32, left: f32, angular: f32) -> RobotCommand {
     moves(id, MoveCommand::LocalVelocity(MoveLocalVelocity { forward, left, angular }))
 }
 
 /// A robot's command.
-pub fn moves(id: u32, command: MoveCommand) -> RobotCommand {
+pub(crate) fn moves(id: u32, command: MoveCommand) -> RobotCommand {
     RobotCommand { id, move_command: Some(RobotMoveCommand { command: Some(command) }), ..RobotCommand::default() }
 }
 
 /// Sends commands of the blue team and reads the answer.
-pub fn tell(world: &mut World, commands: &[RobotCommand]) -> RobotControlResponse {
+pub(crate) fn tell(world: &mut World, commands: &[RobotCommand]) -> RobotControlResponse {
     let message = RobotControl { robot_commands: commands.to_vec() };
     RobotControlResponse::decode(&front::control(world, Team::Blue, &message.encode_to_vec())[..]).unwrap()
 }
 
 /// Sends a command to the control port and reads the codes of the answer.
-pub fn ask(world: &mut World, command: &SimulatorCommand) -> Vec<String> {
+pub(crate) fn ask(world: &mut World, command: &SimulatorCommand) -> Vec<String> {
     let answer = front::simulator(world, &command.encode_to_vec());
     SimulatorResponse::decode(&answer[..]).unwrap().errors.into_iter().filter_map(|error| error.code).collect()
 }
 
 /// Puts the ball somewhere.
-pub fn ball(world: &mut World, to: TeleportBall) -> Vec<String> {
+pub(crate) fn ball(world: &mut World, to: TeleportBall) -> Vec<String> {
     let control = SimulatorControl { teleport_ball: Some(to), ..SimulatorControl::default() };
     ask(world, &SimulatorCommand { control: Some(control), config: None })
 }
 
 /// Puts a robot somewhere.
-pub fn teleport(world: &mut World, to: TeleportRobot) -> Vec<String> {
+pub(crate) fn teleport(world: &mut World, to: TeleportRobot) -> Vec<String> {
     let control = SimulatorControl { teleport_robot: vec![to], ..SimulatorControl::default() };
     ask(world, &SimulatorCommand { control: Some(control), config: None })
 }
 
 /// Lets milliseconds pass.
-pub fn pass(world: &mut World, milliseconds: u32) {
+pub(crate) fn pass(world: &mut World, milliseconds: u32) {
     for _ in 0..milliseconds {
         world.step();
     }

@@ -161,7 +161,16 @@ fn outside(answer: &Answer) -> Grade {
 
 fn intervals(hidden: &[Hidden], answer: &Answer) -> [usize; 2] {
     let mut out = [0, 0];
-    for h in hidden {
+    // Two hidden effects that the answer says cannot be told apart have one size between them, that of neither.
+    let merged = |h: &Hidden| {
+        let with = |set: &Vec<String>| {
+            set.len() == 2
+                && set.contains(&h.name)
+                && hidden.iter().any(|other| other.name != h.name && set.contains(&other.name))
+        };
+        answer.alternatives.iter().any(with)
+    };
+    for h in hidden.iter().filter(|h| !merged(h)) {
         for e in answer.effects.iter().filter(|e| e.name == h.name) {
             for (name, _, [low, high]) in &e.parameters {
                 // A parameter that is known exactly has no interval to judge.
@@ -248,6 +257,10 @@ mod tests {
         let answer = say(&[("wheel-radius", &[1])], &[]);
         assert_eq!(intervals(&[hide("wheel-radius", &[1])], &answer), [1, 1]);
         assert_eq!(intervals(&[hide("body-radius", &[])], &answer), [0, 0]);
+        let mut tied = answer.clone();
+        tied.alternatives = vec![vec!["wheel-radius".to_owned(), "encoder-scale".to_owned()]];
+        let both = [hide("wheel-radius", &[1]), hide("encoder-scale", &[1])];
+        assert_eq!((intervals(&both, &tied), intervals(&both[..1], &tied)), ([0, 0], [1, 1]));
         let azimuth = |x: f64| {
             let parameters = BTreeMap::from([("azimuth_rad".to_owned(), x)]);
             let mut answer = answer.clone();

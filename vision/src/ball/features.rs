@@ -36,6 +36,11 @@ pub const NAMES: [&str; COUNT] = [
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features(pub [f32; COUNT]);
 
+/// Share of a half of a candidate that must be in the picture to tell of shading, and the shading of what is cut off:
+/// the median of balls.
+const HALF_SHOWN: f32 = 0.5;
+const USUAL_SHADING: f32 = 0.1;
+
 /// Samples around an outline.
 const AROUND: usize = 24;
 
@@ -153,13 +158,15 @@ impl Inner {
             }
         }
         let inside = f32::max(red, 1.0);
+        let whole = 0.4 * std::f32::consts::PI * outline.a * outline.b;
+        let shown = halves.iter().all(|[_, count]| *count > HALF_SHOWN * whole);
         let [upper, lower] = halves.map(|[sum, count]| sum / f32::max(count, 1.0));
         let mean = reds / inside;
         Self {
             colour: sum.map(|c| c / inside),
             middle,
             filled: red / f32::max(count, 1.0),
-            shading: (upper - lower) / (upper + lower + 30.0),
+            shading: if shown { (upper - lower) / (upper + lower + 30.0) } else { USUAL_SHADING },
             uneven: (spread / inside - mean * mean).max(0.0).sqrt() / outline.inside.abs().max(0.05),
         }
     }

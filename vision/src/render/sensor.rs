@@ -61,7 +61,7 @@ impl Sensor {
             let shade = 1.0 - self.vignette * r2 / 2.0;
             for (c, gain) in pixel.iter_mut().zip(self.white_balance) {
                 let signal = (*c * shade + self.haze) * self.exposure;
-                let noise = self.noise[0] * signal.max(0.0).min(1.0).sqrt() * normal(rng) + self.noise[1] * normal(rng);
+                let noise = self.noise[0] * signal.clamp(0.0, 1.0).sqrt() * normal(rng) + self.noise[1] * normal(rng);
                 *c = (signal + noise).min(1.0) * gain;
             }
         }
