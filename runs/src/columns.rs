@@ -100,6 +100,24 @@ impl Column {
         SINGLE.iter().map(|(_, column)| *column).chain(by_wheel).chain(triples).collect()
     }
 
+    /// Unit, as the book's table of columns has it; empty where there is none.
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::Time => "s",
+            Self::Command(0 | 1) => "m/s",
+            Self::Command(_) | Self::Gyro(_) | Self::Reference(_) | Self::Measured(_) | Self::Speed(_) => "rad/s",
+            Self::Counts(_) => "counts",
+            Self::Duty(_) => "share of the supply, -1 to 1",
+            Self::Supply => "V",
+            Self::Camera(0 | 1) | Self::Odometry(0 | 1) => "m",
+            Self::Camera(_) | Self::Odometry(_) => "rad",
+            Self::Current(_) => "A",
+            Self::Acceleration(_) => "m/s2",
+            Self::ImuTemperature => "degC",
+            Self::Other => "",
+        }
+    }
+
     /// The name in the header; [`Column::Other`] has none of its own.
     pub(super) fn name(self) -> String {
         match self {

@@ -9,9 +9,17 @@ const SCRIPT: &str = r#"
 import sys
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
+from google.protobuf.descriptor_pb2 import FileDescriptorSet
+units = {}
 ticks, poses, counts, duty, topics = 0, 0, 0, 0.0, set()
 with open(sys.argv[1], "rb") as file:
     reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
+    for schema in reader.get_summary().schemas.values():
+        for file in FileDescriptorSet.FromString(schema.data).file:
+            for place in file.source_code_info.location:
+                field = file.message_type[place.path[1]].field[place.path[3]]
+                units[field.name] = place.leading_comments.strip()
+    assert [units[name] for name in ("t", "cmd_vx", "ref_1", "enc_3", "cam_theta")] == ["s", "m/s", "rad/s", "counts", "rad"]
     for schema, channel, message, decoded in reader.iter_decoded_messages():
         topics.add(schema.name)
         if channel.topic == "/racbot/tick":

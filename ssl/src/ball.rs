@@ -59,12 +59,12 @@ impl Ball {
     /// Lets `dt` seconds pass; `half` is half the length and width of the floor between its boards, m.
     pub fn step(&mut self, dt: f64, half: [f64; 2]) {
         if self.flies() {
-            self.fly(dt)
+            self.fly(dt);
         } else {
-            self.run(dt)
+            self.run(dt);
         }
-        for axis in 0..2 {
-            let limit = half[axis] - Self::RADIUS;
+        for (axis, half) in half.into_iter().enumerate() {
+            let limit = half - Self::RADIUS;
             if self.position[axis].abs() > limit {
                 self.position[axis] = limit.copysign(self.position[axis]);
                 if self.velocity[axis] * self.position[axis] > 0.0 {
@@ -103,8 +103,8 @@ impl Ball {
         // The slip falls by 7/2 of the deceleration, because the spin grows by 5/2 of it.
         let change = Self::SLIDING * dt;
         if slipping > 3.5 * change {
-            for axis in 0..2 {
-                let part = change * slip[axis] / slipping;
+            for (axis, slip) in slip.into_iter().enumerate() {
+                let part = change * slip / slipping;
                 self.velocity[axis] -= part;
                 self.roll[axis] += 2.5 * part;
             }
@@ -115,8 +115,8 @@ impl Ball {
             self.roll = rolling.map(|v| v * left);
             self.velocity = [self.roll[0], self.roll[1], 0.0];
         }
-        for axis in 0..2 {
-            self.position[axis] += 0.5 * dt * (before[axis] + self.velocity[axis]);
+        for (axis, before) in before.into_iter().enumerate() {
+            self.position[axis] += 0.5 * dt * (before + self.velocity[axis]);
         }
     }
 }

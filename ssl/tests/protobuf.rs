@@ -15,12 +15,15 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+/// Whether bytes are read to the message of a case.
+type Reads = Box<dyn Fn(&[u8]) -> bool>;
+
 /// A message by its name in the protocol, its values, our bytes, and whether ours reads those of the other to the same.
 struct Case {
     name: &'static str,
     values: Value,
     bytes: Vec<u8>,
-    same: Box<dyn Fn(&[u8]) -> bool>,
+    same: Reads,
 }
 
 fn case<M: Message + Default + PartialEq + Debug + 'static>(name: &'static str, message: M, values: Value) -> Case {

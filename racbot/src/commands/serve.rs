@@ -17,7 +17,6 @@ use ssl::front::Team;
 use ssl::server::{Addresses, Sockets, Traffic};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 /// Options of `serve`.
 #[derive(Args, Debug)]
@@ -184,9 +183,9 @@ impl Options {
         self.drive()
     }
 
-    fn open(&self, vision: Vec<SocketAddr>) -> Result<Sockets, Failure> {
+    fn open(&self, vision: &[SocketAddr]) -> Result<Sockets, Failure> {
         let Ports([control, blue, yellow]) = self.ports;
-        let addresses = Addresses { interface: self.interface, control, blue, yellow, vision: vision.clone() };
+        let addresses = Addresses { interface: self.interface, control, blue, yellow, vision: vision.to_vec() };
         let about = |error: std::io::Error| Failure::data(format!("{error}; another simulator? see --ports"));
         let sockets = Sockets::open(&addresses).map_err(about)?;
         let [control, blue, yellow] = sockets.local().map_err(about)?;
@@ -217,7 +216,7 @@ impl Options {
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
         let mut recording = self.record(robot.wheel_count(), source.is_some())?;
         let stop = stop_on_signals().map_err(Failure::data)?;
-        let mut sockets = self.open(Vec::new())?;
+        let mut sockets = self.open(&[])?;
         let rights = Rights::acquire(self.priority);
         for remark in rights.remarks() {
             eprintln!("{remark}");
@@ -289,8 +288,8 @@ impl Options {
             })?);
         }
         let stop = stop_on_signals().map_err(Failure::data)?;
-        let mut sockets = self.open(vision)?;
-        let stop: &AtomicBool = &stop;
+        let mut sockets = self.open(&vision)?;
+        let stop: &std::sync::atomic::AtomicBool = &stop;
         let limit = self.seconds.map(Duration::from_secs_f64);
         let mut told = 0;
         let progress = |served: &Served| {

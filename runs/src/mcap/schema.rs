@@ -4,7 +4,8 @@
 
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
-use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
+use prost_types::source_code_info::Location;
+use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet, SourceCodeInfo};
 
 use crate::columns::Column;
 
@@ -35,7 +36,17 @@ pub(super) fn number(column: Column) -> u32 {
     }
 }
 
-/// A file descriptor set with one message of these columns.
+/// Where a field stands in its file, by the numbers of `message_type`, `field` and its place, and the comment before it.
+fn unit((place, column): (usize, &Column)) -> Location {
+    Location {
+        path: vec![4, 0, 2, place as i32],
+        span: vec![place as i32, 0, 0],
+        leading_comments: Some(format!(" {}\n", column.unit())),
+        ..Location::default()
+    }
+}
+
+/// A file descriptor set with one message of these columns, the unit of each in the comment before its field.
 pub(super) fn descriptor(message: &str, columns: &[Column]) -> Vec<u8> {
     let field = |column: &Column| FieldDescriptorProto {
         name: Some(column.name()),
@@ -53,6 +64,7 @@ pub(super) fn descriptor(message: &str, columns: &[Column]) -> Vec<u8> {
             field: columns.iter().map(field).collect(),
             ..DescriptorProto::default()
         }],
+        source_code_info: Some(SourceCodeInfo { location: columns.iter().enumerate().map(unit).collect() }),
         // Of all syntaxes the one whose optional fields tell "no sample" from zero without more ado.
         syntax: Some("proto2".to_owned()),
         ..FileDescriptorProto::default()

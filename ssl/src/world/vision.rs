@@ -45,7 +45,7 @@ impl World {
             let seed = self.seed;
             let camera = self.cameras.entry(Some((team, *id))).or_insert_with(|| {
                 let model = CameraModel { rate_hz: EVERY_HZ, ..robot.camera() };
-                Camera::new(model, seed ^ (u64::from(*id) << 8 | team as u64 + 1))
+                Camera::new(model, seed ^ ((u64::from(*id) << 8) | (team as u64 + 1)))
             });
             let Some(pose) = camera.observe(now, robot.pose()) else { continue };
             let [pixel_x, pixel_y] = pixels([pose.x, pose.y]);
