@@ -29,6 +29,10 @@ const BENDING: f32 = 5e-4;
 const ROUNDS: usize = 1500;
 const RATE: f32 = 0.03;
 
+/// Features whose weight may only rise (1) or only fall (−1) with their value, by what a ball is: pictures of other halls
+/// have other coincidences, but not another geometry.
+const DIRECTION: [i8; COUNT] = [0, 0, 1, 1, -1, 1, -1, 1, 1, 0, 1, 0, 0, 0, -1, 1, 0, 0, 0, 0];
+
 struct Case {
     features: [f32; COUNT],
     ball: bool,
@@ -162,10 +166,31 @@ fn train(cases: &[Case]) {
             let v = square[k] / (1.0 - 0.999_f32.powi(round as i32));
             weights[k] -= RATE * m / (v.sqrt() + 1e-8);
         }
+        for (part, direction) in weights.chunks_mut(KNOTS).zip(DIRECTION) {
+            monotone(part, f32::from(direction));
+        }
     }
     let balls = cases.iter().filter(|case| case.ball).count();
     eprintln!("{balls} balls among {} candidates, loss {loss:.4}", cases.len());
     print(&knots, &weights);
+}
+
+/// The nearest weights that only rise (or fall): neighbours that violate that are pooled.
+fn monotone(weights: &mut [f32], direction: f32) {
+    if direction == 0.0 {
+        return;
+    }
+    let mut pools: Vec<(f32, usize)> = Vec::with_capacity(weights.len());
+    for &weight in weights.iter() {
+        let mut pool = (weight, 1);
+        while let Some(&(mean, count)) = pools.last().filter(|(mean, _)| (pool.0 - mean) * direction < 0.0) {
+            pools.pop();
+            pool = ((mean * count as f32 + pool.0 * pool.1 as f32) / (count + pool.1) as f32, count + pool.1);
+        }
+        pools.push(pool);
+    }
+    let pooled = pools.into_iter().flat_map(|(mean, count)| std::iter::repeat_n(mean, count));
+    weights.iter_mut().zip(pooled).for_each(|(weight, mean)| *weight = mean);
 }
 
 fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {

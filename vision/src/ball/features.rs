@@ -215,8 +215,8 @@ impl Outer {
         let typical = if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(median, f32::total_cmp).1 };
         let mean = lights.iter().sum::<f32>() / all;
         let spread = (lights.iter().map(|l| (l - mean).powi(2)).sum::<f32>() / all).sqrt();
-        // Where the picture ends below, nothing speaks against carpet there.
-        let below = if low > 0.0 { low_green / low } else { 1.0 };
+        // Where the picture ends below, there is what is around.
+        let below = if low > 0.0 { low_green / low } else { green / all };
         Self { redness: typical, leaking: red / all, below, carpet: green / all, uneven: spread / (mean + 20.0) }
     }
 }

@@ -3,7 +3,7 @@
 use super::features::COUNT;
 
 /// Odds of a candidate whose weights are all zero, logarithm.
-pub(super) const OFFSET: f32 = -0.597;
+pub(super) const OFFSET: f32 = -0.591;
 
 /// Values of a feature at which its weight is given.
 #[rustfmt::skip]
@@ -33,24 +33,24 @@ pub(super) const KNOTS: [[f32; 9]; COUNT] = [
 /// Logarithm of odds at each knot.
 #[rustfmt::skip]
 pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
-    [-1.158, -0.677, -0.211, 0.117, 0.264, 0.223, 0.059, -0.154, -0.405], // redness inside
-    [-2.121, -1.203, -0.327, 0.344, 0.762, 0.969, 0.849, 0.293, -0.482], // hue, degrees from red to yellow
-    [-1.477, -1.172, -0.801, -0.333, 0.159, 0.605, 0.953, 1.220, 1.461], // redness inside less outside
-    [-1.282, -0.818, -0.345, 0.075, 0.265, 0.320, 0.278, 0.195, 0.102], // outline: share of rays that agree
-    [1.212, 0.935, 0.580, 0.109, -0.458, -0.880, -0.932, -0.717, -0.492], // outline: roughness, radii
-    [-1.045, -0.633, -0.304, -0.126, -0.116, -0.111, -0.084, -0.050, -0.013], // share of the inside that is red
-    [0.819, 0.786, 0.764, 0.625, 0.337, -0.089, -0.627, -1.193, -1.674], // share of the surroundings that is red
-    [-0.080, 0.019, 0.067, 0.014, -0.201, -0.512, -0.749, -0.912, -0.977], // share of carpet below
-    [-1.175, -1.117, -0.887, -0.342, 0.334, 0.786, 1.037, 1.042, 0.959], // share of carpet around
-    [-1.285, -0.605, 0.022, 0.461, 0.650, 0.614, 0.263, -0.621, -1.802], // width over height, logarithm
-    [-0.336, -0.372, -0.392, -0.412, -0.396, -0.258, -0.056, 0.092, 0.219], // bottom below the field's boundary, heights of the picture
-    [-1.500, -0.742, -0.135, 0.100, 0.110, 0.128, 0.135, 0.050, -0.132], // size, logarithm of pixels
-    [-2.951, -2.231, -1.146, 0.407, 1.551, 2.066, 2.263, 2.221, 2.045], // upper less lower brightness
-    [-0.573, -0.451, -0.346, -0.226, -0.118, -0.020, -0.090, -0.160, -0.245], // unevenness of colour inside
-    [0.438, 0.405, 0.329, 0.160, -0.087, -0.364, -0.619, -0.927, -1.217], // redness of the reddest candidate less its own
-    [-0.998, -0.599, -0.244, -0.221, -0.165, -0.104, -0.050, -0.003, 0.040], // share of the outline in the picture
-    [-1.710, -1.013, -0.394, 0.065, 0.272, 0.378, 0.350, 0.286, 0.201], // brightness over the carpet's, logarithm
-    [-0.989, -0.639, -0.298, -0.010, 0.059, -0.076, -0.160, -0.150, -0.155], // red over green against the carpet, logarithm
-    [-1.216, -0.974, -0.562, -0.047, 0.290, 0.430, 0.282, 0.036, -0.233], // green over blue against the carpet, logarithm
-    [0.080, 0.225, 0.307, 0.277, 0.090, -0.235, -0.632, -1.008, -1.320], // brightness outside against inside, unevenness
+    [-1.155, -0.667, -0.198, 0.133, 0.280, 0.226, 0.049, -0.177, -0.443], // redness inside
+    [-2.128, -1.204, -0.318, 0.358, 0.771, 0.975, 0.848, 0.285, -0.492], // hue, degrees from red to yellow
+    [-1.514, -1.208, -0.833, -0.351, 0.162, 0.631, 1.000, 1.287, 1.553], // redness inside less outside
+    [-1.320, -0.911, -0.487, -0.125, -0.005, 0.003, 0.003, 0.003, 0.003], // outline: share of rays that agree
+    [1.202, 0.970, 0.658, 0.220, -0.327, -0.722, -0.775, -0.775, -0.775], // outline: roughness, radii
+    [-1.040, -0.583, -0.218, -0.021, 0.004, 0.010, 0.011, 0.011, 0.011], // share of the inside that is red
+    [0.810, 0.810, 0.810, 0.677, 0.383, -0.059, -0.626, -1.224, -1.734], // share of the surroundings that is red
+    [-0.074, -0.071, -0.071, -0.071, -0.071, -0.071, -0.071, -0.071, -0.065], // share of carpet below
+    [-1.240, -1.191, -1.009, -0.576, -0.037, 0.277, 0.397, 0.397, 0.397], // share of carpet around
+    [-1.356, -0.660, -0.022, 0.433, 0.641, 0.629, 0.301, -0.560, -1.725], // width over height, logarithm
+    [-0.366, -0.366, -0.366, -0.366, -0.337, -0.176, 0.047, 0.190, 0.303], // bottom below the field's boundary, heights of the picture
+    [-1.492, -0.740, -0.132, 0.108, 0.121, 0.138, 0.136, 0.033, -0.187], // size, logarithm of pixels
+    [-2.946, -2.234, -1.154, 0.407, 1.554, 2.067, 2.257, 2.216, 2.049], // upper less lower brightness
+    [-0.553, -0.443, -0.347, -0.237, -0.137, -0.031, -0.089, -0.158, -0.242], // unevenness of colour inside
+    [0.456, 0.425, 0.348, 0.176, -0.073, -0.352, -0.605, -0.910, -1.198], // redness of the reddest candidate less its own
+    [-0.992, -0.585, -0.216, -0.210, -0.164, -0.108, -0.055, -0.008, 0.035], // share of the outline in the picture
+    [-1.710, -1.019, -0.397, 0.058, 0.259, 0.376, 0.364, 0.306, 0.221], // brightness over the carpet's, logarithm
+    [-1.074, -0.686, -0.313, 0.000, 0.082, -0.048, -0.131, -0.124, -0.135], // red over green against the carpet, logarithm
+    [-1.196, -0.959, -0.552, -0.044, 0.288, 0.427, 0.273, 0.016, -0.266], // green over blue against the carpet, logarithm
+    [0.099, 0.251, 0.337, 0.300, 0.093, -0.248, -0.653, -1.031, -1.337], // brightness outside against inside, unevenness
 ];
