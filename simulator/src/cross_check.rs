@@ -9,12 +9,11 @@ use crate::fpga::{Fpga, FpgaError, Kind};
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::registers::{
-    self as map, Field, SNAPSHOT_FAULTS, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_STATUS, SNAPSHOT_TIME,
-    SNAPSHOT_WORDS, STATUS_FIELDS, TICK_PERIOD,
+    self as map, SNAPSHOT_FAULTS, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_STATUS, SNAPSHOT_TIME,
+    SNAPSHOT_WORDS, STATUS_ARMED, TICK_PERIOD,
 };
 use std::fmt;
 
-const ARMED: Field = STATUS_FIELDS[0];
 const STATUS_WORD: usize = (SNAPSHOT_STATUS.offset - SNAPSHOT_SEQUENCE.offset) as usize / 4;
 
 /// What one control period saw.
@@ -160,7 +159,7 @@ pub fn play<F: Fpga>(trace: &Trace, mut other: F, mut progress: impl FnMut(usize
         }
         other.advance(&period.positions)?;
         let found = snapshot(&mut other)?;
-        let armed = ARMED.of(period.snapshot[STATUS_WORD]) == 1;
+        let armed = STATUS_ARMED.is_set(period.snapshot[STATUS_WORD]);
         check.ticks += 1;
         check.clocks += u64::from(period.clocks);
         for (word, (&expected, &found)) in period.snapshot.iter().zip(&found).enumerate() {

@@ -61,6 +61,12 @@ impl Netlist {
         Ok(Self { verilog, cells, graph, top: top.into() })
     }
 
+    /// The netlist as yosys has it, JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        self.graph.to_string()
+    }
+
     /// The longest paths between flip-flops, memories and pins.
     #[must_use]
     pub fn paths(&self) -> Paths {

@@ -2,10 +2,12 @@
 //! words; and what it accepts is what the device accepts. Seeded; `RACBOT_FUZZ_SECONDS=600` goes on for as long
 //! from another seed each round, and adds what is new to the corpus that is replayed here.
 
-use driver::bitstream::{Bitstream, Fault};
+use driver::bitstream::{BYTES, Bitstream, Fault};
+use hdl::design::COMMITTED_BITSTREAM;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use simulator::virtual_card::{SelectMap, StandIn};
+use simulator::circuit::committed;
+use simulator::virtual_card::SelectMap;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -88,10 +90,10 @@ fn mutant(good: &[&[u8]], random: &mut ChaCha8Rng) -> Vec<u8> {
 }
 
 fn round(seed: u64, cases: u32, mut seen: impl FnMut(&str, &[u8])) {
-    let committed = StandIn::committed();
-    let (bit, prom, raw) = (committed.bit(), committed.prom(), committed.stream());
-    let header = &bit[..bit.len() - 166_980 + 200];
-    let good = [&bit[..], header, &prom, &raw];
+    let (bit, prom) = (COMMITTED_BITSTREAM, committed().lanes().to_vec());
+    let raw = &bit[bit.len() - BYTES..];
+    let header = &bit[..bit.len() - BYTES + 200];
+    let good = [bit, header, &prom, raw];
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     for _ in 0..cases {
         let file = mutant(&good, &mut random);

@@ -6,14 +6,16 @@
 //! slow, 2 MHz, which the driver measures as it would any other: at 33 MHz a simulated second would take ten.
 
 use driver::pci::Ids;
+use hdl::design::COMMITTED_BITSTREAM;
 use runs::robot::Robot;
-use simulator::virtual_card::{Faults, StandIn, VirtualCard};
+use simulator::virtual_card::{Faults, VirtualCard};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use testbench::blinker::blinker;
 use testbench::qemu::{Initramfs, LockedCard, Options, Tools, run};
 
 /// One machine at a time: two take as long together as one after the other.
@@ -66,8 +68,7 @@ fn robot() -> Robot {
 }
 
 fn initramfs(tools: &Tools, robot: &Robot) -> Vec<u8> {
-    let good = StandIn::committed();
-    let mut corrupt = good.bit();
+    let mut corrupt = COMMITTED_BITSTREAM.to_vec();
     corrupt[90_000] ^= 0x10;
     let mut root = Initramfs::default();
     for folder in ["bin", "dev", "proc", "sys", "tmp"] {
@@ -77,9 +78,9 @@ fn initramfs(tools: &Tools, robot: &Robot) -> Vec<u8> {
         .file("bin/busybox", &fs::read(&tools.busybox).unwrap())
         .file("bin/racbot", &binary())
         .file("bin/testport", &static_binary("testport", &[]))
-        .file("rac4i65.bit", &good.bit())
+        .file("rac4i65.bit", COMMITTED_BITSTREAM)
         .file("corrupt.bit", &corrupt)
-        .file("other.bit", &StandIn { content_hash: 0xDEAD_BEEF, ..good }.bit())
+        .file("other.bit", &blinker())
         .file("robot.toml", robot.to_toml().as_bytes())
         .file("two.csv", TWO_POINTS.as_bytes())
         .file("far.csv", FAR.as_bytes())
@@ -197,7 +198,7 @@ fn virtual_machine_from_power_up_to_reset() {
     says(scene("kill"), &["exit 137"]);
     says(scene("reload"), &["try 1", "exit 0"]);
     says(scene("corrupt"), &["corrupt.bit: the CRC word at byte", "exit 1"]);
-    says(scene("other"), &["answers with hash deadbeef", "outputs off", "exit 1"]);
+    says(scene("other"), &["cookie reads 0x424c4e4b", "outputs off", "exit 1"]);
     says(scene("done-low"), &["DONE stayed low", "outputs off", "exit 1"]);
     says(scene("init-low"), &["INIT stayed low", "exit 1"]);
     says(scene("lost-byte"), &["outputs off", "exit 1"]);

@@ -1,20 +1,30 @@
 //! Loading over the virtual card: what goes well, what goes wrong, and what is said then.
 
-use driver::bitstream::{Bitstream, Fault, Order};
+use driver::bitstream::{BYTES, Bitstream, Fault, Order};
 use driver::load::{LoadError, Loaded, Options, inspect, load};
 use driver::pci::Bar;
 use driver::{Board, PciCard, PciError, RegisterWindow, Scale, Settings};
+use fixed_kin::registers::{BOARD, CONTENT_HASH};
+use hdl::design::COMMITTED_BITSTREAM;
 use runs::frames::Twist;
 use runs::robot::Robot;
-use simulator::virtual_card::{Eeprom, Faults, StandIn, VirtualCard};
+use simulator::circuit::committed;
+use simulator::fpga::FpgaError;
+use simulator::virtual_card::{BitTrueLive, Eeprom, Faults, Live, Machine, VirtualCard};
 use std::time::Duration;
+use testbench::blinker::silent;
 
 fn card() -> VirtualCard {
     VirtualCard::new(&Robot::racbot()).unwrap()
 }
 
 fn bitstream() -> Bitstream {
-    Bitstream::parse(&StandIn::committed().bit()).unwrap()
+    committed()
+}
+
+/// The committed file without its header.
+fn stream() -> &'static [u8] {
+    &COMMITTED_BITSTREAM[COMMITTED_BITSTREAM.len() - BYTES..]
 }
 
 fn try_load(card: &mut VirtualCard) -> Result<Loaded, LoadError> {
@@ -107,7 +117,8 @@ fn ready_is_switched_on_where_the_eeprom_leaves_it_off() {
 
 #[test]
 fn a_foreign_design_is_called_what_it_is() {
-    let foreign = Bitstream::parse(&StandIn::foreign("blinker.ncd")).unwrap();
+    let file = silent("blinker.ncd");
+    let foreign = Bitstream::parse(&file).unwrap();
     let mut card = card();
     let error = load(&mut card, &foreign, &Options::default(), |_| {}).unwrap_err();
     let message = error.to_string();
@@ -117,7 +128,7 @@ fn a_foreign_design_is_called_what_it_is() {
     }
     assert!(!card.configured());
     // One that was there before is called so as well.
-    let mut card = card_with(&StandIn::foreign("blinker.ncd"));
+    let mut card = card_with(&file);
     let state = inspect(&mut card).unwrap();
     assert!(state.done && state.identity.is_none());
     assert!(state.other.unwrap().contains("another design"));
@@ -146,10 +157,10 @@ fn card_with(file: &[u8]) -> VirtualCard {
 
 #[test]
 fn prom_order_loads_as_well() {
-    let prom = Bitstream::parse(&StandIn::committed().prom()).unwrap();
+    let prom = Bitstream::parse(committed().lanes()).unwrap();
     assert_eq!((prom.order, &prom.header), (Order::Prom, &None));
     assert_eq!(prom.lanes(), bitstream().lanes());
-    let raw = Bitstream::parse(&StandIn::committed().stream()).unwrap();
+    let raw = Bitstream::parse(stream()).unwrap();
     assert_eq!((raw.order, raw.lanes()), (Order::Bit, prom.lanes()));
     load(&mut card(), &prom, &Options::default(), |_| {}).unwrap();
 }
@@ -192,20 +203,41 @@ fn an_absent_card_is_said_to_be_absent() {
     }
 }
 
+/// Our design but for one register, which says something else.
+struct Answers(BitTrueLive, (u16, u32));
+
+impl Live for Answers {
+    fn run_to(&mut self, clock: u64, clock_hz: f64, machine: &mut Machine) -> Result<(), FpgaError> {
+        self.0.run_to(clock, clock_hz, machine)
+    }
+    fn read(&mut self, offset: u16) -> Result<u32, FpgaError> {
+        let (register, word) = self.1;
+        if offset == register { Ok(word) } else { self.0.read(offset) }
+    }
+    fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
+        self.0.write(offset, data)
+    }
+    fn kicks(&self) -> u32 {
+        self.0.kicks()
+    }
+}
+
+fn card_that_answers(register: (u16, u32)) -> VirtualCard {
+    card().with_fabric(Box::new(move |_| Ok(Box::new(Answers(BitTrueLive::new(), register)))))
+}
+
 #[test]
 fn another_design_or_board_is_refused_after_loading() {
-    let committed = StandIn::committed();
-    let other = StandIn { content_hash: 0xDEAD_BEEF, ..committed };
-    let five_i20 = StandIn { board: u32::from_be_bytes(*b"5I20"), ..committed };
-    for (design, says) in [(other, "answers with hash deadbeef"), (five_i20, "pins of another board")] {
-        let mut card = card();
-        let bitstream = Bitstream::parse(&design.bit()).unwrap();
-        let error = load(&mut card, &bitstream, &Options::default(), |_| {}).unwrap_err();
+    let other = (CONTENT_HASH.offset, 0xDEAD_BEEF);
+    let five_i20 = (BOARD.offset, u32::from_be_bytes(*b"5I20"));
+    for (register, says) in [(other, "answers with hash deadbeef"), (five_i20, "pins of another board")] {
+        let mut card = card_that_answers(register);
+        let error = try_load(&mut card).unwrap_err();
         assert!(error.to_string().contains(says), "{error}");
         assert!(!card.configured());
     }
     let any = Options { content_hash: None, ..Options::default() };
-    let loaded = load(&mut card(), &Bitstream::parse(&other.bit()).unwrap(), &any, |_| {}).unwrap();
+    let loaded = load(&mut card_that_answers(other), &bitstream(), &any, |_| {}).unwrap();
     assert_eq!(loaded.identity.content_hash, 0xDEAD_BEEF);
 }
 
@@ -249,7 +281,7 @@ fn fault(file: &[u8]) -> Fault {
 
 #[test]
 fn damaged_files_are_refused_with_place_and_cause() {
-    let bit = StandIn::committed().bit();
+    let bit = COMMITTED_BITSTREAM.to_vec();
     let start = bit.len() - 166_980;
     let with = |at: usize, bytes: &[u8]| {
         let mut file = bit.clone();
@@ -281,5 +313,5 @@ fn damaged_files_are_refused_with_place_and_cause() {
     says(b":100000", "Intel hexadecimal");
     says(&[0x1F, 0x8B, 8], "compressed");
     says(&vec![0; 166_980], "no sync word");
-    says(&StandIn::committed().stream()[..100_000], "100000 bytes");
+    says(&stream()[..100_000], "100000 bytes");
 }

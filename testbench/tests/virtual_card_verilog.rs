@@ -1,12 +1,12 @@
 //! The emitted Verilog behind the virtual card: from the driver's register writes to turning wheels, all through
 //! pins.
 
-use driver::bitstream::Bitstream;
 use driver::load::{Options, load};
 use driver::{Board, PciCard, RegisterWindow, Scale, Settings};
 use runs::frames::Twist;
 use runs::robot::Robot;
-use simulator::virtual_card::{StandIn, VirtualCard};
+use simulator::circuit::committed;
+use simulator::virtual_card::VirtualCard;
 use std::time::Duration;
 
 /// A slow bus clock: 5,000 clocks a control tick.
@@ -16,8 +16,7 @@ const CLOCK_HZ: f64 = 1e6;
 fn compiled_verilog_turns_the_wheels_and_its_watchdog_stops_them() {
     let robot = Robot { control_rate_hz: 200.0, ..Robot::racbot() };
     let mut card = VirtualCard::new(&robot).unwrap().with_clock(CLOCK_HZ).with_verilog().unwrap();
-    let bitstream = Bitstream::parse(&StandIn::committed().bit()).unwrap();
-    let loaded = load(&mut card, &bitstream, &Options::default(), |_| {}).unwrap();
+    let loaded = load(&mut card, &committed(), &Options::default(), |_| {}).unwrap();
     assert!((loaded.clock_hz / CLOCK_HZ - 1.0).abs() < 2e-3, "{}", loaded.clock_hz);
 
     let scale = Scale::new(&robot, loaded.clock_hz).unwrap();

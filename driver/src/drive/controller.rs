@@ -56,9 +56,22 @@ impl Controller {
             },
         })
     }
+}
 
-    /// The body velocity for the coming `dt` seconds, or `None` once there is nothing left to do.
-    pub fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist> {
+/// Who steers: makes the body velocity of every tick.
+pub trait Steer {
+    /// The body velocity for the coming `dt` seconds, or `None` once there is nothing left to do. Must neither wait nor
+    /// allocate.
+    fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist>;
+
+    /// What became of each set point so far, where there are any.
+    fn arrivals(&self) -> &[Arrival] {
+        &[]
+    }
+}
+
+impl Steer for Controller {
+    fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist> {
         match self {
             Self::Follower(follower) => follower.command(pose, dt),
             Self::Paper { motion, points, arrivals, t } => {
@@ -73,9 +86,7 @@ impl Controller {
         }
     }
 
-    /// What became of each set point so far.
-    #[must_use]
-    pub fn arrivals(&self) -> &[Arrival] {
+    fn arrivals(&self) -> &[Arrival] {
         match self {
             Self::Follower(follower) => follower.arrivals(),
             Self::Paper { arrivals, .. } => arrivals,

@@ -14,15 +14,20 @@ mod armed;
 mod controller;
 mod fault;
 mod kick;
+mod outcome;
+mod plan;
 mod run;
+mod session;
 mod source;
 mod watch;
 
 pub use armed::Armed;
-pub use controller::{Control, Controller};
+pub use controller::{Control, Controller, Steer};
 pub use fault::Fault;
 pub use kick::{Kick, KickError, Kicked};
-pub use run::{Driven, Ending, Plan};
+pub use outcome::{Driven, Ending};
+pub use plan::Plan;
+pub use session::Session;
 pub use source::{NoSource, PoseSource};
 
 use crate::{BoardError, ScaleError};

@@ -5,7 +5,7 @@
 use super::Fault;
 use crate::{Scale, Snapshot};
 use fixed_kin::AXES;
-use fixed_kin::registers::FAULT_FIELDS;
+use fixed_kin::registers::FAULT_COMMIT;
 use runs::robot::Robot;
 use std::time::Duration;
 
@@ -106,7 +106,7 @@ impl Watch {
         host: Duration,
     ) -> Result<(), Fault> {
         self.clocks(now.sequence, host)?;
-        let refused = FAULT_FIELDS[3].of(now.faults) == 1;
+        let refused = FAULT_COMMIT.is_set(now.faults);
         self.refused = if refused { self.refused + 1 } else { 0 };
         if self.refused >= REFUSED {
             return Err(Fault::Refused { commits: self.refused });

@@ -1,5 +1,6 @@
 //! The table itself.
 
+use super::fields::{BLOCK_FIELDS, BLOCKS_VALUE, FAULT_FIELDS, INTERRUPT_FIELDS, STATUS_FIELDS, bit, bits};
 use super::{Access, Field, Group, Kind, Register, Target, VERSION, Value};
 use crate::AXES;
 use crate::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
@@ -60,19 +61,6 @@ const fn array(
     text: &'static str,
 ) -> Register {
     Register { words: words as u16, ..register(name, offset, access, kind, 0, text) }
-}
-
-const fn bit(name: &'static str, bit: u32, text: &'static str) -> Field {
-    bits(name, bit, 1, text)
-}
-
-const fn bits(name: &'static str, bit: u32, width: u32, text: &'static str) -> Field {
-    Field { name, bit, width, text, block: "" }
-}
-
-/// A fault and the block that raises it.
-const fn fault(name: &'static str, bit: u32, block: &'static str, text: &'static str) -> Field {
-    Field { name, bit, width: 1, text, block }
 }
 
 const fn value(name: &'static str, word: u32, text: &'static str) -> Value {
@@ -653,64 +641,6 @@ pub const SNAPSHOT_SEQUENCE_END: Register = array(
     "equals `snapshot_sequence` in a coherent snapshot; reading it releases the latch",
 )
 .starts(0, u32::MAX);
-
-/// Bits of [`FAULTS`] and [`FIRST_FAULT`]; the order of [`crate::safety::Fault`].
-pub const FAULT_FIELDS: [Field; 7] = [
-    fault("watchdog", 0, "safety", "no valid set-point commit for `watchdog_timeout`; disarms"),
-    fault("emergency-stop", 1, "safety", "emergency stop input high or open; disarms"),
-    fault("encoder", 2, "encoder", "an axis of `encoder_fault_mask` has its bit in `encoder_error`; disarms"),
-    fault("commit", 3, "commit", "a commit had the wrong checksum or number of words; nothing changed, reported only"),
-    fault("external", 4, "clock_monitor", "LCLK stood still, seen by the crystal; disarms"),
-    fault(
-        "arm-refused",
-        5,
-        "safety",
-        "the second word of arming came while a cause stood, or out of order; reported only",
-    ),
-    fault("stall", 6, "stall", "an axis of `encoder_fault_mask` has its bit in `stall`; disarms"),
-];
-
-/// Bits of [`STATUS`].
-pub const STATUS_FIELDS: [Field; 6] = [
-    bit("armed", 0, "outputs may be on"),
-    bit("set-points-valid", 1, "a set point was committed since arming and has not timed out"),
-    bit("emergency-stop", 2, "emergency stop input, live"),
-    bit("ball", 3, "ball sensor, live"),
-    bit("set-points-pending", 4, "a commit of set points waits for the next tick"),
-    bit("configuration-pending", 5, "a commit of the configuration waits for the next tick"),
-];
-
-/// Bits of [`INTERRUPT_ENABLE`] and [`INTERRUPT_STATUS`].
-pub const INTERRUPT_FIELDS: [Field; 2] = [
-    bit("tick", 0, "a control tick has ended: its snapshot is there"),
-    bit("disarmed", 1, "the outputs went off, by a fault or by the host"),
-];
-
-/// Fields of [`BLOCKS`].
-pub const BLOCK_FIELDS: [Field; 11] = [
-    bits("encoders", 0, 4, "quadrature counters with index capture and stall detection"),
-    bits("drives", 4, 4, "PWM generators"),
-    bits("loops", 8, 4, "PI speed loops with feed-forward"),
-    bit("count-and-time", 12, "speed by count and time"),
-    bit("inverse-kinematics", 13, "body velocity to wheel speeds"),
-    bit("odometry", 14, "pose"),
-    bit("kicker", 15, "kicker"),
-    bit("snapshot", 16, "coherent snapshots"),
-    bit("clock-monitor", 17, "monitor on the 50 MHz crystal"),
-    bit("interrupt", 18, "control-tick interrupt"),
-    bit("radio", 19, "radio input"),
-];
-/// Value of [`BLOCKS`].
-pub const BLOCKS_VALUE: u32 = {
-    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1, 1];
-    let mut value = 0;
-    let mut field = 0;
-    while field < BLOCK_FIELDS.len() {
-        value |= BLOCK_FIELDS[field].place(counts[field]);
-        field += 1;
-    }
-    value
-};
 
 /// All registers, by offset.
 pub const REGISTERS: &[&Register] = &[

@@ -12,9 +12,11 @@
 //! 7. The minor number of [`VERSION`] counts additions and mends that a driver of an older minor number can
 //!    live with; the major number counts all others.
 
+mod fields;
 mod map;
 mod rules;
 
+pub use fields::*;
 pub use map::*;
 pub use rules::*;
 
@@ -86,6 +88,12 @@ impl Field {
     #[must_use]
     pub const fn of(&self, word: u32) -> u32 {
         (word >> self.bit) & (u32::MAX >> (32 - self.width))
+    }
+
+    /// Whether any bit of the field is set in `word`.
+    #[must_use]
+    pub const fn is_set(&self, word: u32) -> bool {
+        self.of(word) != 0
     }
 
     /// `value` at the field's place; excess bits are dropped.

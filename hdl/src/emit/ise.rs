@@ -6,8 +6,8 @@
 //!                                                        └─► bitgen .ut ─► .bit
 //! ```
 //!
-//! It was written after the tools' manuals and **has not been run**: no open tool makes a bitstream
-//! for this family, and ISE is not among what this repository may install.
+//! It was written after the tools' manuals and **has not been run**: ISE is not among what this repository may
+//! install. The committed bitstream is made without it, by the crate `bitstream`.
 
 use std::fmt::Write as _;
 
@@ -38,7 +38,7 @@ const BITSTREAM: [(&str, &str, &str); 13] = [
     ("CRC", "Enable", "the device refuses a damaged stream"),
     ("StartUpClk", "CCLK", "the card clocks configuration with LCLK"),
     ("Persist", "No", "configuration pins become bus pins"),
-    ("UnusedPin", "PullUp", "as before configuration: charger and trigger read high, which is off"),
+    ("UnusedPin", "PullDown", "as in the files of the card's maker; charger and trigger are used pins"),
     ("ProgPin", "PullUp", ""),
     ("DonePin", "PullUp", ""),
     ("DonePipe", "No", ""),
@@ -87,7 +87,7 @@ pub fn makefile(name: &str) -> String {
     }
     format!(
         "# {name}.bit for the Mesa 4I65 with Xilinx ISE 10.1 or older: source its settings32.sh, then `make`.\n\
-         # NOT RUN where this file was made: no open tool makes a bitstream for the XC2S200. Look at these first:\n\
+         # NOT RUN where this file was made; `racbot bitstream build` needs none of it. Look at these first:\n\
          # warnings of xst about ignored `initial` values (registers must start as the Verilog says), and\n\
          # build/{name}.twr (all constraints met).\n\
          #\n\

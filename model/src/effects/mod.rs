@@ -68,6 +68,29 @@ impl Applied {
         applied
     }
 
+    /// Parameters, as (effect, parameter), that effects of the simulator carry and none of their equations reads:
+    /// names written wrong.
+    #[must_use]
+    pub fn unread(robot: &Robot) -> Vec<(String, String)> {
+        let alone = |effect: &Effect| Self::of(&Robot { effects: vec![effect.clone()], ..robot.clone() });
+        let mut found = Vec::new();
+        for effect in &robot.effects {
+            let applied = alone(effect);
+            for (i, (name, parameter)) in effect.parameters.iter().enumerate() {
+                // Several other values, for a value may be out of its equation's range.
+                let acts = [0.3, -0.3, 1e-3, 2.0, -parameter.value].iter().any(|value| {
+                    let mut other = effect.clone();
+                    other.parameters[i].1.value = *value;
+                    alone(&other) != applied
+                });
+                if !acts && applied.unsupported.is_empty() {
+                    found.push((effect.name.clone(), name.clone()));
+                }
+            }
+        }
+        found
+    }
+
     /// The robot with its effects on geometry in its layout and its wheel radius, and all others as they were.
     #[must_use]
     pub fn geometry_of(robot: &Robot) -> Robot {

@@ -15,6 +15,8 @@ pub(crate) enum FpgaChoice {
     RustHdl,
     /// The emitted Verilog, compiled: needs Verilator
     Verilog,
+    /// The circuit decoded from the committed bitstream: slow, needs nothing
+    Bitstream,
 }
 
 impl FpgaChoice {
@@ -23,6 +25,7 @@ impl FpgaChoice {
             Self::BitTrue => Kind::BitTrue,
             Self::RustHdl => Kind::RustHdl,
             Self::Verilog => Kind::Verilog,
+            Self::Bitstream => Kind::Bitstream,
         }
     }
 

@@ -5,7 +5,6 @@ use clap::Args;
 use hdl::design::{File, files};
 use runs::error::InputError;
 use serde_json::json;
-use simulator::virtual_card::StandIn;
 use std::path::{Path, PathBuf};
 
 /// Options of `generate`.
@@ -19,22 +18,12 @@ pub(crate) struct Options {
     #[arg(long)]
     check: bool,
 
-    /// Write a stand-in bitstream for the virtual card to FILE instead; it configures nothing on a real one
-    #[arg(long, value_name = "FILE", conflicts_with = "check")]
-    stand_in: Option<PathBuf>,
-
     #[command(flatten)]
     target: Target,
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        if let Some(file) = &self.stand_in {
-            let bytes = StandIn::committed().bit();
-            self.target.save(file, &bytes)?;
-            let text = format!("{}: {} bytes, for the virtual card only\n", file.display(), bytes.len());
-            return Ok(Answer { text, json: json!({ "stand_in": file, "bytes": bytes.len() }), wrong: None });
-        }
         let files = files().map_err(Failure::data)?;
         if self.check {
             return check(&self.out, &files);

@@ -270,9 +270,9 @@ impl Options {
     }
 }
 
-/// To a micrometre and a microdegree, without the noise of sines.
+/// To a nanometre and a nanodegree, without the noise of sines; coarser, `gap` would see it in the set points.
 fn number(x: f64) -> String {
-    let rounded = (x * 1e6).round() / 1e6;
+    let rounded = (x * 1e9).round() / 1e9;
     if rounded == 0.0 && x != 0.0 && x.abs() > 1e-12 { format!("{x:e}") } else { format!("{}", rounded + 0.0) }
 }
 

@@ -79,13 +79,14 @@ impl Options {
     fn built_in(&self) -> Result<Bitstream, Failure> {
         #[cfg(feature = "simulation")]
         if self.card.is_built_in() {
-            return Bitstream::parse(&simulator::virtual_card::StandIn::committed().bit()).map_err(Failure::data);
+            return Ok(simulator::circuit::committed());
         }
         Err(Failure::usage("which FILE is to be loaded?"))
     }
 
     fn describe(&self, bitstream: &Bitstream) -> String {
-        let name = self.bitstream.as_ref().map_or("the built-in stand-in".to_owned(), |p| p.display().to_string());
+        let name =
+            self.bitstream.as_ref().map_or("generated/rac4i65.bit, built in".to_owned(), |p| p.display().to_string());
         let what = match (&bitstream.header, bitstream.order) {
             (Some(header), _) => format!("{} for {}, {} {}", header.design, header.part, header.date, header.time),
             (None, Order::Prom) => "PROM order, no header".to_owned(),

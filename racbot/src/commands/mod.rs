@@ -4,6 +4,7 @@
 mod bitstream;
 mod calibrate;
 mod check;
+mod completions;
 #[cfg(feature = "simulation")]
 mod convert;
 #[cfg(feature = "simulation")]
@@ -20,15 +21,19 @@ mod init;
 mod kick;
 mod latency;
 mod load;
+mod man;
 mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
 mod radio;
 #[cfg(feature = "simulation")]
 mod replay;
+mod serve;
 #[cfg(feature = "simulation")]
 mod simulate;
 mod start;
+#[cfg(feature = "vision")]
+mod vision;
 #[cfg(feature = "simulation")]
 mod wave;
 
@@ -71,17 +76,26 @@ pub(crate) enum Command {
     Info(info::Options),
     /// Drive a robot along set points, over a card
     Drive(Box<drive::Options>),
+    /// Let software of the small-size league drive simulated robots, or the real one
+    Serve(Box<serve::Options>),
     /// Charge and fire the kicker
     Kick(kick::Options),
     /// Drive a robot without a PC over a radio module
     Radio(radio::Options),
     /// Watch a card in the terminal
     Monitor(monitor::Options),
+    /// Find the ball, lines and goals in pictures of an on-board camera
+    #[cfg(feature = "vision")]
+    Vision(vision::Options),
     /// Write a scene of the chip's life as a waveform (VCD)
     #[cfg(feature = "simulation")]
     Wave(wave::Options),
     /// Measure how late the timer wakes the control loop on this machine
     Latency(latency::Options),
+    /// Print what a shell needs to complete racbot's words
+    Completions(completions::Options),
+    /// Write the manual pages
+    Man(man::Options),
 }
 
 impl Command {
@@ -116,12 +130,17 @@ impl Command {
             Self::Load(options) => options.run(),
             Self::Info(options) => options.run(),
             Self::Drive(options) => options.run(),
+            Self::Serve(options) => options.run(),
             Self::Kick(options) => options.run(),
             Self::Radio(options) => options.run(),
             Self::Monitor(options) => options.run(json),
+            #[cfg(feature = "vision")]
+            Self::Vision(options) => options.run(),
             #[cfg(feature = "simulation")]
             Self::Wave(options) => options.run(),
             Self::Latency(options) => options.run(),
+            Self::Completions(options) => options.run(),
+            Self::Man(options) => options.run(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::terminal::Failure;
 use clap::Args;
+use model::effects::Applied;
 use runs::error::InputError;
 use runs::robot::{Layout, Robot};
 use std::path::{Path, PathBuf};
@@ -52,6 +53,13 @@ impl Hidden {
         if actual.wheel_count() != believed.wheel_count() {
             let what = format!("has {} wheels, but the robot {}", actual.wheel_count(), believed.wheel_count());
             return Err(InputError::new(file, what, "hide a robot with as many wheels").into());
+        }
+        let unread = Applied::unread(&actual);
+        if let Some((effect, parameter)) = unread.first() {
+            let what = format!("effect {effect}: nothing reads its parameter {parameter}");
+            return Err(
+                InputError::new(file, what, "correct its name; `racbot gap` writes them as they are read").into()
+            );
         }
         Ok(actual)
     }

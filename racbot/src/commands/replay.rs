@@ -82,6 +82,7 @@ impl Options {
         self.ticks.map(|ticks| ticks as usize).or(match self.fpga.kind() {
             Kind::BitTrue => None,
             Kind::Verilog => Some(2_000),
+            Kind::Bitstream => Some(200),
             Kind::RustHdl => Some(20),
         })
     }

@@ -3,7 +3,8 @@
 use super::{Part, Picture, Report};
 use crate::terminal::Failure;
 use crate::terminal::progress::Progress;
-use driver::bitstream::Bitstream;
+use bitstream::device::Device;
+use bitstream::report::Decoded;
 use driver::drive::{Driven, Plan};
 use driver::load::{Loaded, Options, load};
 use driver::recording::{Recording, logged_robot};
@@ -17,7 +18,8 @@ use runs::output::{Existing, write_whole};
 use runs::robot::{Layout, Robot};
 use runs::{DataSet, Layout as Columns, Run};
 use serde_json::json;
-use simulator::virtual_card::{SharedCard, StandIn, VirtualCard};
+use simulator::circuit::committed;
+use simulator::virtual_card::{SharedCard, VirtualCard};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -38,8 +40,7 @@ struct Bench {
 impl Bench {
     fn new(actual: &Robot) -> Result<Self, Failure> {
         let mut card = SharedCard::new(VirtualCard::new(actual).map_err(Failure::data)?);
-        let bitstream = Bitstream::parse(&StandIn::committed().bit()).map_err(Failure::data)?;
-        let loaded = load(&mut card, &bitstream, &Options::default(), |_| {}).map_err(Failure::data)?;
+        let loaded = load(&mut card, &committed(), &Options::default(), |_| {}).map_err(Failure::data)?;
         Ok(Self { card, camera: CameraModel::of(actual), loaded })
     }
 
@@ -111,7 +112,15 @@ impl Report {
         let good = named == ["wheel-skew"] && after < 0.1 * before;
         let outcome = if named.is_empty() { "nothing named".to_owned() } else { format!("{} named", named.join(", ")) };
         let clock_mhz = bench.loaded.clock_hz / 1e6;
+        let file = Decoded::new(Device::xc2s200(), &committed()).map_err(Failure::data)?.report;
+        let share = |part: &str| {
+            let used = file.used.iter().find(|(name, ..)| *name == part);
+            used.map_or(0, |(_, used, of)| (100 * used + of / 2) / (*of).max(1))
+        };
+        let (slices, registers, memories) = (share("slices"), share("flip-flops"), share("block RAMs"));
         let details = vec![
+            format!("bitstream  {} bytes, {} CRC words right", file.bytes, file.crc_checks),
+            format!("           slices {slices} %, flip-flops {registers} %, RAM {memories} %"),
             format!("loaded, {clock_mhz:.4} MHz; 3 drives, {seconds:.1} s recorded"),
             format!("calibrate  skew {}", degrees(&estimate.skew_rad)),
             format!("gap        {outcome}"),
@@ -119,6 +128,10 @@ impl Report {
             format!("Fig. 6     {:.0} mm off, with that {:.0} mm", 1e3 * before, 1e3 * after),
         ];
         let figures = json!({
+            "bitstream": {
+                "bytes": file.bytes, "crc_checks": file.crc_checks, "slices_percent": slices,
+                "flip_flops_percent": registers, "block_rams_percent": memories,
+            },
             "clock_hz": bench.loaded.clock_hz, "recorded_s": seconds, "calibrated_skew_rad": estimate.skew_rad,
             "named": named, "named_skew_rad": parameters(&analysis), "off_m": before, "off_m_with_effect": after,
         });

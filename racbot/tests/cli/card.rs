@@ -4,10 +4,12 @@ use super::racbot;
 use std::fs;
 use tempfile::tempdir;
 
+const COMMITTED: &[u8] = include_bytes!("../../../generated/rac4i65.bit");
+
 #[test]
-fn the_built_in_card_loads_a_stand_in_file() {
+fn the_built_in_card_loads_the_committed_file() {
     let folder = tempdir().unwrap();
-    racbot(folder.path(), &["generate", "--stand-in", "a.bit"]).done();
+    fs::write(folder.path().join("a.bit"), COMMITTED).unwrap();
     let loaded = racbot(folder.path(), &["load", "a.bit", "--card", "virtual"]).done().fits_80_columns();
     for part in ["a.bit", "2 CRC words right", "try 1", "the committed gateware", "MHz measured"] {
         assert!(loaded.stdout.contains(part), "no {part} in {}", loaded.stdout);
@@ -23,14 +25,14 @@ fn the_built_in_card_loads_a_stand_in_file() {
 #[test]
 fn a_file_is_checked_without_a_card() {
     let folder = tempdir().unwrap();
-    racbot(folder.path(), &["generate", "--stand-in", "a.bit"]).done();
+    fs::write(folder.path().join("a.bit"), COMMITTED).unwrap();
     racbot(folder.path(), &["load", "a.bit", "--check"]).done().fits_80_columns();
     let mut bytes = fs::read(folder.path().join("a.bit")).unwrap();
     bytes[90_000] ^= 1;
     fs::write(folder.path().join("b.bit"), &bytes).unwrap();
     for more in [&["--check"][..], &["--card", "virtual"]] {
         let arguments = [&["load", "b.bit"], more].concat();
-        racbot(folder.path(), &arguments).refused(1, &["b.bit: the CRC word at byte 0x28c16 does not match"]);
+        racbot(folder.path(), &arguments).refused(1, &["b.bit: the CRC word at byte 0x28c17 does not match"]);
     }
     racbot(folder.path(), &["load", "c.bit", "--check"]).refused(1, &["c.bit: No such file"]);
 }

@@ -5,9 +5,13 @@ mod bad_data;
 mod card;
 mod drive;
 mod good_data;
+mod printed;
 mod radio;
+mod serve;
 mod set_up;
 mod usage;
+#[cfg(feature = "vision")]
+mod vision;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -46,3 +46,21 @@ fn help_and_version_are_no_errors() {
         assert!(outcome.stdout.contains("racbot"));
     }
 }
+
+#[test]
+fn shells_complete_and_every_subcommand_has_a_manual_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = racbot(folder.path(), &["completions", "bash"]).done().stdout;
+    assert!(script.contains("_racbot()") && script.contains("--lock-step"));
+    racbot(folder.path(), &["man", "pages"]).done();
+    let help = racbot(folder.path(), &["--help"]).done().stdout;
+    let commands = help.split("Commands:").nth(1).unwrap().split("\n\n").next().unwrap();
+    let names = commands.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names: Vec<&str> = names.filter_map(|line| line.split_whitespace().next()).filter(|n| *n != "help").collect();
+    assert!(names.len() > 15, "{names:?}");
+    for name in names {
+        let page = std::fs::read_to_string(folder.path().join(format!("pages/racbot-{name}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{name}");
+    }
+    racbot(folder.path(), &["man", "pages"]).done();
+}

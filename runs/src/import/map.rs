@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
 use super::{Format, Table, units};
 use crate::columns::{Column, GROUPS, missing_member};
 use crate::error::{InputError, line_and_column, nearest};
-use crate::frames::{Pose, wrap_angle};
+use crate::frames::{Pose, Twist, wrap_angle};
+use crate::geometry::Geometry;
+use crate::robot::Robot;
 use crate::{CameraSample, Run};
 
 /// A map as its TOML has it; see `docs/book/src/log-format.md`.
@@ -23,6 +25,19 @@ pub struct Map {
     frame: Frame,
     #[serde(default)]
     columns: BTreeMap<String, Source>,
+    #[serde(default)]
+    derive: Derive,
+    /// What [`Derive::speeds`] names.
+    #[serde(skip)]
+    geometry: Option<Geometry>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Derive {
+    /// A `robot.toml`, from the map's folder: wheel speeds are those that its geometry makes of the commands, for a
+    /// robot whose wheels nobody logged.
+    speeds: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -112,7 +127,7 @@ impl Map {
     /// # Errors
     /// As [`Map::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        let map: Self = toml::from_str(text).map_err(|e| {
+        let mut map: Self = toml::from_str(text).map_err(|e| {
             let (line, column) = line_and_column(text, e.span().map_or(0, |s| s.start));
             let hint = "see docs/book/src/log-format.md for what a map may say";
             InputError::new(path, e.message().replace('\n', " "), hint).at(line, column)
@@ -123,6 +138,12 @@ impl Map {
         }
         map.time_unit().map_err(|e| InputError { file: path.to_owned(), ..e })?;
         map.wanted().map_err(|e| InputError { file: path.to_owned(), ..e })?;
+        if let Some(robot) = &map.derive.speeds {
+            let file = path.parent().unwrap_or(Path::new("")).join(robot);
+            let geometry = Robot::load_partial(&file)?.geometry();
+            map.geometry =
+                Some(geometry.map_err(|e| InputError::new(&file, e.to_string(), "give the places of its wheels"))?);
+        }
         Ok(map)
     }
 
@@ -254,6 +275,9 @@ impl Map {
             }
         }
         self.turn(&mut run, &mut camera);
+        if let Some(geometry) = &self.geometry {
+            speeds_of_commands(&mut run, geometry, path)?;
+        }
         let whole = |(tick, p): (usize, &[f64; 3])| {
             p.iter().all(|x| x.is_finite()).then(|| CameraSample { tick, pose: Pose::new(p[0], p[1], p[2]) })
         };
@@ -300,4 +324,19 @@ fn counts(run: &mut Run, wheel: usize, column: &[f64]) {
         }
         run.counts[wheel].push(held);
     }
+}
+
+/// Wheel speeds as commanded, where none were logged.
+fn speeds_of_commands(run: &mut Run, geometry: &Geometry, path: &Path) -> Result<(), InputError> {
+    let refuse = |what: &str, hint: &str| Err(InputError::new(path, what, hint).field("derive.speeds"));
+    if !run.speed.is_empty() || !run.counts.is_empty() {
+        return refuse("the wheels are logged", "leave [derive] speeds out of the map");
+    }
+    let Some([vx, vy, w]) = &run.command else {
+        return refuse("speeds are derived from commands, and none are mapped", "map cmd_vx, cmd_vy and cmd_w");
+    };
+    let twists = vx.iter().zip(vy).zip(w).map(|((vx, vy), w)| Twist::new(*vx, *vy, *w));
+    let speeds: Vec<Vec<f64>> = twists.map(|twist| geometry.wheel_speeds(twist)).collect();
+    run.speed = (0..geometry.wheel_count()).map(|wheel| speeds.iter().map(|tick| tick[wheel]).collect()).collect();
+    Ok(())
 }

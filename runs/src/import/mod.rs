@@ -9,7 +9,6 @@ mod map;
 mod ros2;
 mod ssl;
 mod units;
-mod wire;
 mod wpilog;
 
 use std::path::Path;

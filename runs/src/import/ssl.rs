@@ -5,9 +5,10 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::wire::{Wire, fields};
 use super::{Table, damaged};
 use crate::error::InputError;
+use crate::vision::WrapperPacket;
+use prost::Message;
 
 pub(super) const MAGIC: &[u8] = b"SSL_LOG_FILE";
 /// Type of a record of vision.
@@ -49,24 +50,16 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
 }
 
 fn packet(message: &[u8], table: &mut Table) -> Result<(), String> {
-    for (number, value) in fields(message)? {
-        let (1, Wire::Bytes(detection)) = (number, value) else { continue };
-        let detection = fields(detection)?;
-        let Some(t) = detection.iter().find(|(n, _)| *n == 2).map(|(_, v)| v.real()) else { continue };
-        for (number, value) in detection {
-            let team = match number {
-                6 => "yellow",
-                7 => "blue",
-                _ => continue,
-            };
-            let Wire::Bytes(robot) = value else { continue };
-            let robot = fields(robot)?;
-            let of = |number: u32| robot.iter().find(|(n, _)| *n == number).map(|(_, v)| v.real());
-            let (Some(id), Some(x), Some(y)) = (of(2), of(3), of(4)) else { continue };
-            table.push(&format!("{team}.{id}.x"), t, 1e-3 * x);
-            table.push(&format!("{team}.{id}.y"), t, 1e-3 * y);
-            if let Some(theta) = of(5) {
-                table.push(&format!("{team}.{id}.theta"), t, theta);
+    let packet = WrapperPacket::decode(message).map_err(|e| e.to_string())?;
+    let Some(detection) = packet.detection else { return Ok(()) };
+    let t = detection.t_capture;
+    for (team, robots) in [("yellow", &detection.robots_yellow), ("blue", &detection.robots_blue)] {
+        for robot in robots {
+            let Some(id) = robot.robot_id else { continue };
+            table.push(&format!("{team}.{id}.x"), t, 1e-3 * f64::from(robot.x));
+            table.push(&format!("{team}.{id}.y"), t, 1e-3 * f64::from(robot.y));
+            if let Some(theta) = robot.orientation {
+                table.push(&format!("{team}.{id}.theta"), t, f64::from(theta));
             }
         }
     }

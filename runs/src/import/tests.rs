@@ -244,3 +244,19 @@ fn no_soup_of_bytes_panics_an_importer() {
         let _ = Table::of_bytes(&bag, Path::new("soup"), None, (None, 1.0));
     }
 }
+
+#[test]
+fn commands_stand_for_wheels_that_nobody_logged() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("robot.toml"), crate::robot::Robot::racbot().to_toml()).unwrap();
+    let table = table(b"t,cmd_vx,cmd_vy,cmd_w\n0,0,0,1\n1,0.5,0,0\n", "in.csv");
+    let parse = |text: &str| Map::parse(text, &folder.path().join("map.toml")).map_err(|e| e.to_string());
+    let map = parse("[derive]\nspeeds = \"robot.toml\"\n").unwrap();
+    let run = map.run(&table, Path::new("in")).unwrap();
+    // Positive wheels turn the robot clockwise: R/r for a rad/s, and wheel 1 drives to the right.
+    assert_eq!(run.speed.len(), 3);
+    assert!((run.speed[2][0] + 0.085 / 0.0275).abs() < 1e-9 && (run.speed[0][1] - 0.5 / 0.0275).abs() < 1e-9);
+    assert!(parse("[derive]\nspeeds = \"none.toml\"\n").unwrap_err().contains("none.toml"));
+    let bare = Table::of_bytes(b"t,enc_1\n0,1\n1,2\n", Path::new("in.csv"), None, (None, 1.0)).unwrap();
+    assert!(map.run(&bare, Path::new("in")).unwrap_err().to_string().contains("the wheels are logged"));
+}

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::Layout;
 use super::fields::Range;
-use super::parse::{Section, Value, number};
+use super::section::{Section, Value, number};
 use crate::error::InputError;
 use crate::frames::wrap_angle;
 use crate::geometry::Wheel;

@@ -5,6 +5,7 @@ mod effect;
 mod fields;
 mod layout;
 mod parse;
+mod section;
 mod write;
 
 use std::f64::consts::TAU;

@@ -121,6 +121,15 @@ fn what_only_some_answers_need_may_be_missing() {
 }
 
 #[test]
+fn parameters_of_an_effect_are_numbers_or_tables_and_nowhere_else() {
+    let with = |effect: &str| Robot::racbot().to_toml() + "\n[[effect]]\nname = \"wheel-radius\"\n" + effect;
+    let robot = Robot::parse(&with("[effect.parameters]\nscale_2 = -0.03\n"), Path::new("r")).unwrap();
+    assert_eq!(robot.effects[0].value("scale_2"), Some(-0.03));
+    let e = error(&with("scale_2 = -0.03\n"));
+    assert!(e.field.contains("scale_2") && e.line.is_some() && e.hint.contains("[effect.parameters]"), "{e}");
+}
+
+#[test]
 fn the_shipped_file_is_the_built_in_robot() {
     assert_eq!(Robot::load(shipped_path()).unwrap(), Robot::racbot());
     let g = Robot::racbot().geometry().unwrap();

@@ -4,7 +4,7 @@ use super::memory::MemoryStream;
 use super::{Control, LoopError, VirtualRobot, whole_tick_clock_hz};
 use crate::fpga::Fpga;
 use driver::Board;
-use driver::drive::{Ending, Plan};
+use driver::drive::{Ending, Plan, PoseSource};
 use driver::realtime::Clock;
 use driver::recording::{Recording, logged_robot};
 use fixed_kin::speed::SpeedMode;
@@ -43,6 +43,8 @@ pub struct Drive {
     pub fused: bool,
     /// Where the robot starts; controller and camera agree on it.
     pub start: Pose,
+    /// Where it really stands at the start, if not there.
+    pub stands: Option<Pose>,
     /// How it moves when the card is armed.
     pub moving: Twist,
     /// How the FPGA measures speeds.
@@ -67,6 +69,7 @@ impl Drive {
             camera: None,
             fused: false,
             start: Pose::default(),
+            stands: None,
             moving: Twist::default(),
             speed_mode: SpeedMode::Difference,
             limit_s: 60.0,
@@ -107,13 +110,26 @@ impl Drive {
     /// # Errors
     /// [`LoopError`] where the robot does not fit the card, or the FPGA fails.
     pub fn run<F: Fpga>(&self, fpga: F, progress: impl FnMut(f64)) -> Result<Driven, LoopError> {
+        self.run_seen_by(fpga, |robot| robot, progress)
+    }
+
+    /// The same with another source of poses, made of the robot it watches or rides on.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn run_seen_by<F: Fpga, S: PoseSource>(
+        &self,
+        fpga: F,
+        source: impl FnOnce(VirtualRobot<F>) -> S,
+        progress: impl FnMut(f64),
+    ) -> Result<Driven, LoopError> {
         let plan = self.plan();
         let clock_hz = whole_tick_clock_hz(self.believed.control_rate_hz);
         let scale = plan.scale(clock_hz)?;
         let plant = Plant::new(&self.actual)?
             .with_contact(self.contact)
             .with_deviations(&self.deviations)
-            .at(self.start)
+            .at(self.stands.unwrap_or(self.start))
             .moving(self.moving);
         let period = Duration::from_secs_f64(scale.tick_s());
         let mut robot = VirtualRobot::new(fpga, plant, self.actual.supply_v, period);
@@ -126,7 +142,7 @@ impl Drive {
         recording.wait_where_full();
 
         let mut clock = Reported { robot: robot.clone(), progress };
-        let mut source = robot.clone();
+        let mut source = source(robot.clone());
         let never = AtomicBool::new(false);
         let driven =
             plan.drive(Board::new(robot.clone()), &mut clock, clock_hz, &mut source, Some(&mut recording), &never);

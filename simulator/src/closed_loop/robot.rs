@@ -7,7 +7,7 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use model::camera::{Camera, CameraModel};
 use model::plant::Plant;
-use runs::frames::Pose;
+use runs::frames::{Pose, Twist};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
@@ -82,6 +82,29 @@ impl<F: Fpga> VirtualRobot<F> {
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.0.borrow().plant.pose()
+    }
+
+    /// How it moves.
+    #[must_use]
+    pub fn twist(&self) -> Twist {
+        self.0.borrow().plant.twist()
+    }
+
+    /// Puts the robot somewhere else, in motion, its wheels rolling; the counters stay.
+    pub fn place(&self, pose: Pose, twist: Twist) {
+        let mut inside = self.0.borrow_mut();
+        inside.plant = inside.plant.clone().at(pose).moving(twist);
+    }
+
+    /// Looks at the FPGA from outside, such as at its pins.
+    pub fn fpga<T>(&self, look: impl FnOnce(&mut F) -> T) -> T {
+        look(&mut self.0.borrow_mut().fpga)
+    }
+
+    /// Motors and body as they are now.
+    #[must_use]
+    pub fn with_plant<T>(&self, look: impl FnOnce(&Plant) -> T) -> T {
+        look(&self.0.borrow().plant)
     }
 
     /// What happened at every tick so far; forgotten here.

@@ -16,6 +16,7 @@
 //! unchanged. A tool that is not installed is an error that names its Debian package.
 
 mod bus;
+mod bus_config;
 mod error;
 pub mod folder;
 pub mod icarus;
@@ -24,7 +25,8 @@ pub mod lint;
 mod session;
 mod verilated;
 
-pub use bus::{BusConfig, BusOperation};
+pub use bus::BusOperation;
+pub use bus_config::BusConfig;
 pub use error::CosimError;
 pub use hdl::emit::ports;
 pub use hdl::emit::ports::{Direction, Port, Ports};

@@ -3,7 +3,7 @@
 //! One process a session, state from power-up on. Nothing crosses the pipe per clock: commands say
 //! how far to run, pin changes are scheduled ahead, and the bus master runs beside the design.
 
-use super::bus::BusConfig;
+use super::bus_config::BusConfig;
 use super::layout::{Clocks, Layout};
 use super::{CosimError, folder};
 use std::io::{BufReader, BufWriter, Read, Write};

@@ -6,7 +6,7 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::control::TickOutputs;
-use fixed_kin::registers::{PWM_PERIOD, STATUS, STATUS_FIELDS};
+use fixed_kin::registers::{PWM_PERIOD, STATUS, STATUS_ARMED};
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -79,7 +79,7 @@ impl Fpga for BitTrue {
     }
 
     fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        if STATUS_FIELDS[0].of(self.card.read(STATUS.offset)) == 0 {
+        if !STATUS_ARMED.is_set(self.card.read(STATUS.offset)) {
             return Ok([0.0; AXES]);
         }
         let period = self.card.read(PWM_PERIOD.offset) as u16;

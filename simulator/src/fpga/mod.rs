@@ -1,22 +1,26 @@
-//! One seam, three FPGAs behind it: the same registers, encoders that turn, control ticks that pass.
+//! One seam, four FPGAs behind it: the same registers, encoders that turn, control ticks that pass.
 //!
 //! | backend | what it is | needs |
 //! |---|---|---|
 //! | [`BitTrue`] | `fixed_kin::card::Card`, tick by tick | nothing |
 //! | [`RustHdl`] | the rust-hdl core, clock by clock, through its bus pins | nothing |
 //! | [`Verilog`] | the emitted Verilog, compiled, through its bus pins | Verilator |
+//! | [`Decoded`] | the circuit decoded from the committed bitstream, through its bus pins | nothing |
 //!
 //! Encoders move linearly within a control period; the first [`Fpga::quiet_clocks`] of it they stand
 //! still, because a host that talks over real bus pins takes clocks after each tick.
 
 mod bit_true;
+mod decoded;
 pub mod edges;
 mod forward;
 mod pin_level;
+mod ports;
 mod rust_hdl;
 mod verilog;
 
 pub use bit_true::BitTrue;
+pub use decoded::Decoded;
 pub use rust_hdl::RustHdl;
 pub use verilog::Verilog;
 
@@ -25,7 +29,7 @@ use fixed_kin::AXES;
 use fixed_kin::format::Duty;
 use fixed_kin::modulation::modulate;
 use fixed_kin::registers::{
-    PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_FIELDS,
+    PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_ARMED,
 };
 use std::fmt;
 use std::str::FromStr;
@@ -43,6 +47,12 @@ pub enum FpgaError {
     /// The co-simulation.
     #[error(transparent)]
     Cosim(#[from] crate::cosim::CosimError),
+    /// The circuit of a bitstream.
+    #[error(transparent)]
+    Circuit(#[from] bitstream::simulation::Unsettled),
+    /// Frames that make no circuit.
+    #[error("the frames make no circuit: {0}")]
+    NoCircuit(String),
     /// The core cannot be emitted.
     #[error("the core cannot be emitted: {0}")]
     Emit(String),
@@ -91,7 +101,7 @@ pub trait Fpga: Registers {
         let mut words = [0; SNAPSHOT_WORDS];
         self.read_block(SNAPSHOT_SEQUENCE.offset, &mut words)?;
         let word = |register: &Register, index| words[usize::from(register.at(index) - SNAPSHOT_SEQUENCE.offset) / 4];
-        if STATUS_FIELDS[0].of(word(&SNAPSHOT_STATUS, 0)) == 0 {
+        if !STATUS_ARMED.is_set(word(&SNAPSHOT_STATUS, 0)) {
             return Ok([0.0; AXES]);
         }
         let period = self.read(PWM_PERIOD.offset)? as u16;
@@ -116,11 +126,13 @@ pub enum Kind {
     RustHdl,
     /// Compiled Verilog.
     Verilog,
+    /// The circuit of the committed bitstream.
+    Bitstream,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::BitTrue, Self::RustHdl, Self::Verilog];
+    pub const ALL: [Self; 4] = [Self::BitTrue, Self::RustHdl, Self::Verilog, Self::Bitstream];
 
     /// A new FPGA of this kind, just configured.
     ///
@@ -131,6 +143,7 @@ impl Kind {
             Self::BitTrue => Box::new(BitTrue::new()),
             Self::RustHdl => Box::new(RustHdl::new()),
             Self::Verilog => Box::new(Verilog::new()?),
+            Self::Bitstream => Box::new(Decoded::new()?),
         })
     }
 }
@@ -141,6 +154,7 @@ impl fmt::Display for Kind {
             Self::BitTrue => "bit-true",
             Self::RustHdl => "rust-hdl",
             Self::Verilog => "verilog",
+            Self::Bitstream => "bitstream",
         })
     }
 }
@@ -152,7 +166,7 @@ impl FromStr for Kind {
         Self::ALL
             .into_iter()
             .find(|kind| kind.to_string() == text)
-            .ok_or_else(|| format!("no FPGA is called '{text}'; choose bit-true, rust-hdl or verilog"))
+            .ok_or_else(|| format!("no FPGA is called '{text}'; choose bit-true, rust-hdl, verilog or bitstream"))
     }
 }
 

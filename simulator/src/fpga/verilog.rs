@@ -1,21 +1,15 @@
 //! The emitted Verilog, compiled by Verilator, as an FPGA.
 
-use super::pin_level::{Chip, Lines, PinLevel, forward_to_pin_level};
+use super::pin_level::{PinLevel, forward_to_pin_level};
 use super::{FpgaError, Kind};
-use crate::cosim::{Change, Session, Verilated};
+use crate::chip::release;
+use crate::cosim::{Session, Verilated};
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
 
 /// The committed `generated/rac4i65.v` behind its pins.
 #[derive(Debug)]
-pub struct Verilog(PinLevel<Compiled>);
-
-#[derive(Debug)]
-struct Compiled {
-    session: Session,
-    a: usize,
-    b: usize,
-}
+pub struct Verilog(PinLevel<super::ports::Ports<Session>>);
 
 impl Verilog {
     /// Compiles the chip, once per content, and powers it up.
@@ -34,39 +28,8 @@ impl Verilog {
         let ports = Ports::parse(COMMITTED_VERILOG, NAME, &["lclk", "synclk"])
             .map_err(|error| FpgaError::Emit(error.to_string()))?;
         let mut session = Verilated::build(name, verilog, NAME, &ports)?.start()?;
-        let (a, b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
-        session.set_port("emergency_stop", 0)?;
-        session.set_port("host_select", 1)?;
-        session.set_port("radio_rx", 1)?;
-        Ok(Self(PinLevel::new(Kind::Verilog, Compiled { session, a, b })))
-    }
-}
-
-impl Chip for Compiled {
-    fn clock(&self) -> u64 {
-        self.session.clock()
-    }
-
-    fn schedule(&mut self, lines: &[Lines]) -> Result<(), FpgaError> {
-        let changes: Vec<_> = lines
-            .iter()
-            .flat_map(|lines| [(self.a, lines.a), (self.b, lines.b)].map(|(port, value)| (lines.clock, port, value)))
-            .map(|(clock, port, value)| Change { clock, port, value })
-            .collect();
-        Ok(self.session.schedule(&changes)?)
-    }
-
-    fn run(&mut self, clocks: u64) -> Result<(), FpgaError> {
-        Ok(self.session.run(clocks)?)
-    }
-
-    fn read(&mut self, offset: u16, words: &mut [u32]) -> Result<(), FpgaError> {
-        words.copy_from_slice(&self.session.bus_burst_read(offset.into(), words.len() as u32)?);
-        Ok(())
-    }
-
-    fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
-        Ok(self.session.bus_write(offset.into(), data)?)
+        release(&mut session)?;
+        Ok(Self(PinLevel::new(Kind::Verilog, super::ports::Ports::new(session)?)))
     }
 }
 

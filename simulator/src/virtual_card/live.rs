@@ -1,12 +1,11 @@
 //! A configured FPGA in time: clocks pass, encoders turn, duties drive.
 
 use super::Machine;
-use super::stand_in::StandIn;
 use crate::fpga::{BitTrue, Fpga, FpgaError};
 use driver::Registers;
 use fixed_kin::card::Pins;
 use fixed_kin::kicker::State;
-use fixed_kin::registers::{BOARD, CONTENT_HASH, KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, TICK_PERIOD, TIME};
+use fixed_kin::registers::{KICKER_STATE, KICKER_STATUS, MIN_TICK_PERIOD, TICK_PERIOD, TIME};
 
 /// An FPGA with a clock that runs, and a robot on its pins.
 pub trait Live: Send {
@@ -38,7 +37,6 @@ pub trait Live: Send {
 #[derive(Debug)]
 pub struct BitTrueLive {
     fpga: BitTrue,
-    design: StandIn,
     /// Clock of the last control tick, and now.
     tick: u64,
     now: u64,
@@ -47,11 +45,17 @@ pub struct BitTrueLive {
     kicking: bool,
 }
 
+impl Default for BitTrueLive {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl BitTrueLive {
-    /// Just configured with a design.
+    /// Just configured.
     #[must_use]
-    pub fn new(design: StandIn) -> Self {
-        Self { fpga: BitTrue::new(), design, tick: 0, now: 0, failed: None, kicks: 0, kicking: false }
+    pub fn new() -> Self {
+        Self { fpga: BitTrue::new(), tick: 0, now: 0, failed: None, kicks: 0, kicking: false }
     }
 
     /// Its pins other than the encoders.
@@ -95,8 +99,6 @@ impl Live for BitTrueLive {
     fn read(&mut self, offset: u16) -> Result<u32, FpgaError> {
         Ok(match offset {
             o if o == TIME.offset => self.now as u32,
-            o if o == CONTENT_HASH.offset => self.design.content_hash,
-            o if o == BOARD.offset => self.design.board,
             _ => self.fpga.read(offset)?,
         })
     }

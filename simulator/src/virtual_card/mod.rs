@@ -1,7 +1,7 @@
 //! The virtual 4I65: bridge, configuration port, local bus, FPGA, robot.
 //!
 //! ```text
-//!            BAR 0, 1 ──► bridge ──GPIO──► configuration port ──┐ frames name the design
+//!            BAR 0, 1 ──► bridge ──GPIO──► configuration port ──┐ frames, decoded
 //!  host ─────┤                                                  ▼
 //!            BAR 2..5 ──► local bus ──bytes──┘   registers ──► FPGA ──duty──► motors, wheels, body
 //!                                                               ▲──encoders──┘
@@ -11,29 +11,30 @@
 //! simulated (every access takes some), told by the virtual machine, or the host's.
 
 mod bridge;
-mod compiled;
 mod live;
 mod machine;
+mod pins;
 mod select_map;
 mod shared;
-mod stand_in;
 mod wiring;
 
 pub use bridge::{Bridge, Eeprom};
-pub use compiled::CompiledLive;
 pub use live::{BitTrueLive, Live};
 pub use machine::Machine;
+pub use pins::PinsLive;
 pub use select_map::{DeviceCrc, SelectMap};
 pub use shared::{CameraAbove, SharedCard};
-pub use stand_in::StandIn;
 pub use wiring::Wiring;
 
+use crate::circuit::{committed, decode};
 use crate::fpga::FpgaError;
+use bitstream::container::packets::Packets;
 use driver::pci::{Bar, PciCard, PciError};
 use fixed_kin::registers::NOMINAL_CLOCK_HZ;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
 use std::fmt;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// What an access takes in simulated time: a read waits for its answer, a write is posted.
@@ -44,8 +45,29 @@ const BUS_CLOCKS: f64 = 10.0;
 /// Longest step of a robot whose FPGA is not configured.
 const IDLE_STEP_S: f64 = 1e-3;
 
-/// Puts the design that a bitstream names in place, or nothing where it cannot.
-pub type Fabric = Box<dyn FnMut(Option<StandIn>) -> Option<Box<dyn Live>> + Send>;
+/// Puts the design in place that was written to the configuration port.
+pub type Fabric = Box<dyn FnMut(&SelectMap) -> Result<Box<dyn Live>, FpgaError> + Send>;
+
+/// The circuit that was written, decoded from its bits.
+///
+/// # Errors
+/// Frames that make no circuit.
+pub fn decoded(device: &SelectMap) -> Result<Box<dyn Live>, FpgaError> {
+    Ok(Box::new(PinsLive::decoded(&decode(&device.packets())?)?))
+}
+
+/// The committed bitstream as the bit-true model, which keeps up with real time and is proven to be the same; every
+/// other as [`decoded`].
+///
+/// # Errors
+/// As [`decoded`].
+pub fn fast(device: &SelectMap) -> Result<Box<dyn Live>, FpgaError> {
+    static COMMITTED: OnceLock<Packets> = OnceLock::new();
+    if device.has(COMMITTED.get_or_init(|| committed().packets)) {
+        return Ok(Box::new(BitTrueLive::new()));
+    }
+    decoded(device)
+}
 
 /// What is broken on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,6 +126,8 @@ pub struct VirtualCard {
     loads: u32,
     /// Kicks of the designs before this one.
     kicks: u32,
+    /// Why what was loaded is no design: nothing answers, as on silicon.
+    misfit: Option<String>,
     /// Why the simulation behind the card failed.
     failure: Option<String>,
 }
@@ -115,18 +139,16 @@ impl fmt::Debug for VirtualCard {
 }
 
 impl VirtualCard {
-    /// An unconfigured card with the bit-true FPGA and this robot, in simulated time.
+    /// An unconfigured card with this robot, in simulated time; what is loaded runs as [`fast`] says.
     ///
     /// # Errors
     /// A robot whose wheels cannot drive it.
     pub fn new(robot: &Robot) -> Result<Self, GeometryError> {
-        let fabric: Fabric =
-            Box::new(|design| design.map(|design| Box::new(BitTrueLive::new(design)) as Box<dyn Live>));
         Ok(Self {
             faults: Faults::default(),
             bridge: Bridge::new(Eeprom::default()),
             device: SelectMap::new(Duration::ZERO),
-            fabric,
+            fabric: Box::new(fast),
             fpga: None,
             configured_at: Duration::ZERO,
             machine: Machine::new(robot)?,
@@ -137,6 +159,7 @@ impl VirtualCard {
             bytes: 0,
             loads: 0,
             kicks: 0,
+            misfit: None,
             failure: None,
         })
     }
@@ -162,17 +185,25 @@ impl VirtualCard {
         self
     }
 
-    /// The compiled Verilog as FPGA; it takes only the design that it is.
+    /// Whatever is loaded runs as its own bits, decoded, the committed design too.
+    #[must_use]
+    pub fn with_decoded_bits(self) -> Self {
+        self.with_fabric(Box::new(decoded))
+    }
+
+    /// The compiled Verilog as FPGA; it takes only the bitstream that is made of it.
     ///
     /// # Errors
     /// A missing Verilator, by the name of its package, or a compilation that fails.
     pub fn with_verilog(self) -> Result<Self, FpgaError> {
         // The first to be configured; it also proves that there will be more.
-        let mut first = Some(CompiledLive::new()?);
-        Ok(self.with_fabric(Box::new(move |design| {
-            design.filter(|design| *design == StandIn::committed())?;
-            let chip = first.take().map_or_else(CompiledLive::new, Ok).ok()?;
-            Some(Box::new(chip) as Box<dyn Live>)
+        let mut first = Some(PinsLive::compiled()?);
+        let made_of_it = committed().packets;
+        Ok(self.with_fabric(Box::new(move |device| {
+            if !device.has(&made_of_it) {
+                return Err(FpgaError::NoCircuit("another bitstream than that of the compiled Verilog".into()));
+            }
+            Ok(Box::new(first.take().map_or_else(PinsLive::compiled, Ok)?))
         })))
     }
 
@@ -229,6 +260,12 @@ impl VirtualCard {
     #[must_use]
     pub fn failure(&self) -> Option<&str> {
         self.failure.as_deref()
+    }
+
+    /// Why what was loaded is no design, if it is none: its bits make no circuit.
+    #[must_use]
+    pub fn misfit(&self) -> Option<&str> {
+        self.misfit.as_deref()
     }
 
     /// A register as it is, without an access over the bus and without side effects on the host's time.
@@ -295,15 +332,19 @@ impl VirtualCard {
         }
         if !program {
             self.bytes = 0;
+            self.misfit = None;
         }
     }
 
     fn start_design(&mut self) {
         let now = self.elapsed();
-        if self.fpga.is_none() && self.device.done(now) && !self.faults.done_low {
+        if self.fpga.is_none() && self.misfit.is_none() && self.device.done(now) && !self.faults.done_low {
             self.machine.restart_encoders();
             self.configured_at = now;
-            self.fpga = (self.fabric)(StandIn::of_frames(self.device.frames()));
+            match (self.fabric)(&self.device) {
+                Ok(design) => self.fpga = Some(design),
+                Err(error) => self.misfit = Some(error.to_string()),
+            }
         }
     }
 

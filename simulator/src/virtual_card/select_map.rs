@@ -6,12 +6,9 @@
 //! of another length, or too few of them, DONE stays low and INIT high; DONE rises 16 clocks after the last
 //! right CRC word that follows the start command.
 
+use bitstream::container::packets::{Packet, Packets};
+use bitstream::container::{FRAME_WORDS, FRAMES};
 use std::time::Duration;
-
-/// Words of a frame.
-pub(super) const FRAME_WORDS: usize = 18;
-/// Frames.
-pub(super) const FRAMES: usize = 2_317;
 
 /// PROGRAM must be low so long.
 const PROGRAM_LOW: Duration = Duration::from_nanos(300);
@@ -68,9 +65,12 @@ pub struct SelectMap {
     bytes_of_word: u32,
     /// Register and words still to come.
     packet: (u32, u32),
+    /// The next word is the first of its packet.
+    fresh: bool,
     crc: DeviceCrc,
     frame_length: Option<u32>,
-    frames: Vec<u32>,
+    writes: Vec<(u32, Vec<u32>)>,
+    frame_words: usize,
     start: bool,
 }
 
@@ -85,9 +85,11 @@ impl SelectMap {
             synced: false,
             bytes_of_word: 0,
             packet: (0, 0),
+            fresh: true,
             crc: DeviceCrc::default(),
             frame_length: None,
-            frames: Vec::new(),
+            writes: Vec::new(),
+            frame_words: 0,
             start: false,
         }
     }
@@ -124,10 +126,26 @@ impl SelectMap {
         }
     }
 
-    /// The frames of a configured device.
+    /// What was written to the registers since the sync word.
     #[must_use]
-    pub fn frames(&self) -> &[u32] {
-        &self.frames
+    pub fn packets(&self) -> Packets {
+        let write = |(register, words): &(u32, Vec<u32>)| Packet::Write {
+            header: 0,
+            register: *register,
+            words: words.clone(),
+            offset: 0,
+        };
+        Packets { lead: 0, packets: self.writes.iter().map(write).collect(), rest: Vec::new() }
+    }
+
+    /// Whether the same was written as by these packets.
+    #[must_use]
+    pub fn has(&self, packets: &Packets) -> bool {
+        let theirs = packets.packets.iter().filter_map(|packet| match packet {
+            Packet::Write { register, words, .. } if !words.is_empty() => Some((*register, words)),
+            _ => None,
+        });
+        self.writes.iter().map(|(register, words)| (*register, words)).eq(theirs)
     }
 
     /// A byte on the data lines with chip select; WRITE low is the caller's business.
@@ -155,9 +173,15 @@ impl SelectMap {
         let (register, left) = self.packet;
         if left > 0 {
             self.packet.1 -= 1;
+            match self.writes.last_mut() {
+                Some((_, words)) if !self.fresh => words.push(word),
+                _ => self.writes.push((register, vec![word])),
+            }
+            self.fresh = false;
             self.write(register, word, now);
             return;
         }
+        self.fresh = true;
         match (word >> 29, word >> 27 & 3) {
             (1, 2) => self.packet = (word >> 13 & 0xF, word & 0x7FF),
             (2, 2) => self.packet = (register, word & 0x07FF_FFFF),
@@ -177,7 +201,7 @@ impl SelectMap {
                 }
                 return;
             }
-            2 => self.frames.push(word),
+            2 => self.frame_words += 1,
             4 if word == 5 => self.start = true,
             11 => self.frame_length = Some(word + 1),
             _ => {}
@@ -189,14 +213,14 @@ impl SelectMap {
     }
 
     fn whole(&self) -> bool {
-        self.frame_length == Some(FRAME_WORDS as u32) && self.frames.len() == FRAMES * FRAME_WORDS
+        self.frame_length == Some(FRAME_WORDS as u32) && self.frame_words == FRAMES * FRAME_WORDS
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::StandIn;
     use super::*;
+    use crate::circuit::committed;
 
     const LATER: Duration = Duration::from_millis(1);
 
@@ -209,7 +233,7 @@ mod tests {
     }
 
     fn lanes() -> Vec<u8> {
-        StandIn::committed().prom()
+        committed().lanes().to_vec()
     }
 
     #[test]
@@ -226,12 +250,16 @@ mod tests {
     fn a_right_stream_configures() {
         let device = after(lanes());
         assert!(device.init(LATER) && !device.done(LATER) && device.done(2 * LATER));
-        assert_eq!(StandIn::of_frames(device.frames()), Some(StandIn::committed()));
+        assert!(device.has(&committed().packets));
+        let decode = |packets: &Packets| {
+            bitstream::configuration::Configuration::from_packets(bitstream::device::Device::xc2s200(), packets)
+        };
+        assert_eq!(decode(&device.packets()).unwrap(), decode(&committed().packets).unwrap());
     }
 
     #[test]
     fn wrong_order_of_bits_and_short_streams_do_nothing() {
-        let device = after(StandIn::committed().stream());
+        let device = after(lanes().into_iter().map(u8::reverse_bits));
         assert!(device.init(LATER) && !device.done(2 * LATER));
         let device = after(lanes().into_iter().take(166_980 - 20));
         assert!(device.init(LATER) && !device.done(2 * LATER));

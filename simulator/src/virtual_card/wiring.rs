@@ -12,6 +12,8 @@ pub enum Wiring {
     Swapped(f64),
     /// Both together: every edge changes both at once, which no encoder does. The count stays.
     Shorted(f64),
+    /// Neither line changes: both are cut, or the wheel is blocked. The count stays.
+    Silent(f64),
     /// Mended: as they should, counting on from a position that is so much smaller.
     Mended(f64),
     /// The lines of another axis, from 0, whose position is so much greater.
@@ -27,7 +29,7 @@ impl Wiring {
             // A is high at counts 1 and 2 of every four.
             Self::Cut(at) => at.floor() + if (1..=2).contains(&(own.floor() as i64).rem_euclid(4)) { 1.5 } else { 0.5 },
             Self::Swapped(at) => 2.0 * at - own,
-            Self::Shorted(at) => at,
+            Self::Shorted(at) | Self::Silent(at) => at,
             Self::Mended(offset) => own - offset,
             Self::Crossed(other, offset) => real.get(other).map_or(own, |position| position - offset),
         }
@@ -47,6 +49,7 @@ mod tests {
         assert_eq!(counts(Wiring::Cut(0.3)), [0, 1, 1, 0, 0, 1]);
         assert_eq!(counts(Wiring::Swapped(0.0)), [-1, -2, -3, -4, -5, -6]);
         assert_eq!(counts(Wiring::Shorted(2.5)), [2; 6]);
+        assert_eq!(counts(Wiring::Silent(2.5)), [2; 6]);
         assert_eq!(counts(Wiring::Mended(4.0)), [-4, -3, -2, -1, 0, 1]);
         assert_eq!(counts(Wiring::Crossed(1, 8.0)), [42; 6]);
     }

@@ -26,6 +26,8 @@ pub enum BusFault {
     ReadsFrom(u64, Trouble),
     /// At every write from this number on.
     WritesFrom(u64, Trouble),
+    /// So many transfers from this one on fail, and the host is told so; then the bus works again.
+    ErrorsFrom(u64, u64),
     /// From this transfer on nothing reaches the card, and the host is told so.
     GoneFrom(u64),
     /// From this transfer on there is no host: the process was killed.
@@ -42,12 +44,13 @@ pub struct FaultyBus<R> {
     writes: u64,
     last: u32,
     late: Option<(u16, u32)>,
+    failed: u64,
 }
 
 impl<R: Registers> FaultyBus<R> {
     /// Wraps a bus; `None` is a good one.
     pub fn new(inner: R, fault: Option<BusFault>) -> Self {
-        Self { inner, fault, reads: 0, writes: 0, last: 0, late: None }
+        Self { inner, fault, reads: 0, writes: 0, last: 0, late: None, failed: 0 }
     }
 
     /// Reads and writes so far.
@@ -56,14 +59,18 @@ impl<R: Registers> FaultyBus<R> {
         (self.reads, self.writes)
     }
 
-    /// Why nothing can be transferred any more.
-    fn gone(&self) -> Option<&'static str> {
+    /// Why this transfer fails.
+    fn gone(&mut self) -> Option<&'static str> {
         let done = self.reads + self.writes;
         match self.fault {
             Some(BusFault::GoneFrom(from)) if done >= from => {
                 Some("it reads all ones: the card is gone or has lost its design")
             }
             Some(BusFault::KilledFrom(from)) if done >= from => Some("the process was killed"),
+            Some(BusFault::ErrorsFrom(from, count)) if done >= from && self.failed < count => {
+                self.failed += 1;
+                Some("the bus did not answer")
+            }
             _ => None,
         }
     }
@@ -160,6 +167,7 @@ mod tests {
         assert_eq!(played(BusFault::Write(0, Trouble::Delay)).1, [(leds, 2), (leds, 1)]);
         assert_eq!(played(BusFault::Write(1, Trouble::Repeat)).1, [(leds, 1), (leds, 2), (leds, 2)]);
         assert_eq!(played(BusFault::WritesFrom(1, Trouble::Drop)).1, [(leds, 1)]);
+        assert_eq!(played(BusFault::ErrorsFrom(1, 2)), (vec![33_333, u32::MAX], vec![(leds, 2)]));
         assert_eq!(played(BusFault::KilledFrom(1)), (vec![33_333, u32::MAX], vec![]));
     }
 }

@@ -44,7 +44,7 @@ impl Line {
 type Draw = fn(&Course, &mut ChaCha8Rng, u64) -> Injected;
 
 /// Name, cases at size 1, and how the case of a number is drawn.
-const FAULTS: [(&str, u64, Draw); 18] = [
+const FAULTS: [(&str, u64, Draw); 20] = [
     ("read: a bit flipped", 600, |c, r, i| read(c, r, i, |r| Trouble::Flip(r.random_range(0..32)))),
     ("read: lost, answered with zero", 300, |c, r, i| read(c, r, i, |_| Trouble::Drop)),
     ("read: made twice", 300, |c, r, i| read(c, r, i, |_| Trouble::Repeat)),
@@ -56,6 +56,9 @@ const FAULTS: [(&str, u64, Draw); 18] = [
     ("every write lost from then on", 60, |c, r, _| Injected::Bus(BusFault::WritesFrom(c.write(r), Trouble::Drop))),
     ("every write flipped from then on", 60, |c, r, _| {
         Injected::Bus(BusFault::WritesFrom(c.write(r), Trouble::Flip(r.random_range(0..24))))
+    }),
+    ("bus errors for 1 to 40 transfers, then none", 300, |c, r, _| {
+        Injected::Bus(BusFault::ErrorsFrom(c.any(r), r.random_range(1..=40)))
     }),
     ("card gone, reads all ones", 100, |c, r, _| Injected::Bus(BusFault::GoneFrom(c.any(r)))),
     ("process killed", 500, |c, r, i| {
@@ -74,6 +77,9 @@ const FAULTS: [(&str, u64, Draw); 18] = [
     ("encoder: line cut, swapped, shorted, crossed", 360, |c, r, i| {
         let cable = [Cable::Cut, Cable::Swapped, Cable::Shorted, Cable::Crossed][(i % 4) as usize];
         Injected::Rig(c.moment(r), RigFault::Cable((i / 4 % 3) as usize, cable))
+    }),
+    ("wheel blocked, or both lines of an encoder cut", 120, |c, r, i| {
+        Injected::Rig(c.moment(r), RigFault::Cable((i % 3) as usize, Cable::Silent))
     }),
     ("emergency stop pressed", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::EmergencyStop)),
     ("camera gone", 60, |c, r, _| Injected::Rig(c.moment(r), RigFault::CameraGone)),

@@ -228,6 +228,7 @@ struct Run {
 fn names_the_cause(fault: Injected, message: &str) -> Result<(), String> {
     let expected: &[&str] = match fault {
         Injected::Bus(BusFault::KilledFrom(_)) => &["killed"],
+        Injected::Bus(BusFault::ErrorsFrom(..)) => &["the bus did not answer"],
         Injected::Bus(BusFault::GoneFrom(_)) => &["the card is gone"],
         // A register by its name, the bus, or what the card itself reports of it.
         Injected::Bus(BusFault::Write(..) | BusFault::WritesFrom(..)) => {

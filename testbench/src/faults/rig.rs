@@ -3,12 +3,12 @@
 use driver::drive::PoseSource;
 use driver::realtime::Clock;
 use driver::{BusError, Registers};
-use fixed_kin::registers::{NOMINAL_CLOCK_HZ, STATUS, STATUS_FIELDS};
+use fixed_kin::registers::{NOMINAL_CLOCK_HZ, STATUS, STATUS_ARMED};
 use model::camera::{Camera, CameraModel};
 use runs::frames::Pose;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
-use simulator::virtual_card::{BitTrueLive, Live, Machine, StandIn, Wiring};
+use simulator::virtual_card::{BitTrueLive, Live, Machine, Wiring};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
@@ -43,6 +43,8 @@ pub enum Cable {
     Swapped,
     /// Lines shorted.
     Shorted,
+    /// Both lines cut; so does a blocked wheel look.
+    Silent,
     /// Exchanged with the next axis.
     Crossed,
 }
@@ -76,7 +78,7 @@ impl Rig {
     /// A robot whose wheels cannot drive it.
     pub fn new(robot: &Robot, clock_hz: f64, fault: Option<(Duration, RigFault)>) -> Result<Self, GeometryError> {
         Ok(Self(Rc::new(RefCell::new(Inside {
-            live: BitTrueLive::new(StandIn::committed()),
+            live: BitTrueLive::new(),
             machine: Machine::new(robot)?,
             camera: Some(Camera::new(CameraModel::of(robot), 1)),
             clock_hz,
@@ -145,7 +147,7 @@ impl Rig {
 
 impl Inside {
     fn armed(&mut self) -> bool {
-        self.live.read(STATUS.offset).is_ok_and(|word| STATUS_FIELDS[0].of(word) == 1)
+        self.live.read(STATUS.offset).is_ok_and(|word| STATUS_ARMED.is_set(word))
     }
 
     fn run_to(&mut self, until: Duration) {
@@ -187,6 +189,7 @@ impl Inside {
                     Cable::Cut => wiring[axis] = Wiring::Cut(positions[axis]),
                     Cable::Swapped => wiring[axis] = Wiring::Swapped(positions[axis]),
                     Cable::Shorted => wiring[axis] = Wiring::Shorted(positions[axis]),
+                    Cable::Silent => wiring[axis] = Wiring::Silent(positions[axis]),
                     Cable::Crossed => {
                         let offset = positions[other] - positions[axis];
                         wiring[axis] = Wiring::Crossed(other, offset);

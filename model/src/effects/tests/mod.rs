@@ -66,3 +66,15 @@ fn close(found: f64, expected: f64, relative: f64) {
 fn what_cannot_be_simulated_is_said() {
     assert_eq!(Applied::of(&robot("my-rub", &[("c", 0.5)])).unsupported, ["my-rub"]);
 }
+
+#[test]
+fn a_misspelt_parameter_is_found() {
+    let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
+    assert_eq!(
+        Applied::unread(&robot("wheel-radius", &[("scale_3", 0.01), ("scal_2", 0.01)])),
+        [pair("wheel-radius", "scal_2")]
+    );
+    assert_eq!(Applied::unread(&robot("wheel-skew", &[("skew_4_rad", 0.01)])), [pair("wheel-skew", "skew_4_rad")]);
+    assert_eq!(Applied::unread(&robot("wheel-skew", &[("skew_1_rad", 0.0)])), []);
+    assert_eq!(Applied::unread(&robot("my-rub", &[("c", 0.5)])), [], "a user's own");
+}

@@ -2,23 +2,13 @@
 
 use crate::terminal::progress::Progress as Bar;
 use crate::terminal::{Answer, Failure, Table, Target};
-use bitstream::configuration::StartUp;
-use bitstream::container::{Header, PART};
-use bitstream::device::Device;
-use bitstream::flow::constraints::Constraints;
 use bitstream::flow::timing::DomainReport;
-use bitstream::flow::{Built, Progress, SLICES, Stage, bits, build, floorplan, synthesis};
+use bitstream::flow::{Built, Progress, SLICES, Stage, floorplan, synthesis};
 use clap::Args;
-use hdl::board::Board;
-use hdl::design::{COMMITTED_VERILOG, NAME, content_hash};
-use hdl::emit::ucf::ucf;
+use hdl::design::{COMMITTED_VERILOG, NAME};
 use serde_json::{Value, json};
+use simulator::gateware::{self, SEED};
 use std::path::PathBuf;
-
-/// Seed of the committed bitstream.
-const SEED: u64 = 1;
-/// The header's date and time: the same sources give the same bytes on any day.
-const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 
 /// Options of `bitstream build`.
 #[derive(Args, Debug)]
@@ -56,8 +46,6 @@ impl Options {
         let pictures = [&self.floor_plan, &self.drivers, &self.netlist];
         let written = (!self.check).then_some(&self.out).into_iter();
         self.target.check_free(written.chain(pictures.into_iter().flatten()))?;
-        let board = Board::mesa_4i65_7i30();
-        let constraints = Constraints::parse(&ucf(&board, NAME).map_err(Failure::data)?).map_err(Failure::data)?;
         let bar = Bar::new("synthesis", 100);
         let mut tell = |stage: Stage, percent: u32, _: &str| {
             bar.rename(stage.name());
@@ -68,17 +56,8 @@ impl Options {
         let json = synthesis::synthesise(COMMITTED_VERILOG, NAME, &folder, &mut progress).map_err(Failure::data)?;
         // A folder that stays is no reason to fail.
         let _ = std::fs::remove_dir_all(&folder);
-        let mut built = build(&json, NAME, &constraints, self.seed, &mut progress).map_err(Failure::data)?;
+        let (built, file) = gateware::bitstream(&json, self.seed, &mut progress).map_err(Failure::data)?;
         drop(bar);
-        let device = Device::xc2s200();
-        bits::set_user_id(device, &mut built.configuration, content_hash()).map_err(Failure::data)?;
-        let header = Header {
-            design: format!("{NAME};HASH={:08x}", content_hash()),
-            part: PART.into(),
-            date: DATE.0.into(),
-            time: DATE.1.into(),
-        };
-        let file = built.configuration.file(device, &header, StartUp::default());
         let proof = &built.proof;
         let mut wrong = proof.differences.first().map(|first| {
             format!("{} parts are not proven equal to the netlist, the first: {first}", proof.differences.len())

@@ -126,10 +126,11 @@ struct Truth {
 }
 
 /// A remark on effects that do not show in a drive over the FPGA, whose logic is the controller.
-fn not_shown(applied: &Applied) -> Option<String> {
+pub(super) fn not_shown(applied: &Applied) -> Option<String> {
     if applied.control != ControlDeviations::default() || applied.stamp_jitter_s != 0.0 {
         return Some(
-            "not simulated: effects on commands, controller and stamps; --manoeuvre simulates them".to_owned(),
+            "not simulated: effects on commands, controller and stamps; `racbot simulate --manoeuvre` simulates them"
+                .to_owned(),
         );
     }
     let names = applied.unsupported.join(", ");

@@ -1,5 +1,5 @@
-//! The emitted Verilog, compiled, behind the virtual card: from its pins to the motors, from the wheels to its
-//! pins.
+//! A chip with pins behind the virtual card, compiled Verilog or the circuit of a bitstream: from its pins to the
+//! motors, from the wheels to its pins.
 //!
 //! Time goes in slices of a thousand clocks. The duty of a slice is the share of it in which an axis is
 //! enabled and its PWM pin high; the wheels then turn for as long, and their edges are played in the slice
@@ -7,9 +7,12 @@
 
 use super::live::Live;
 use super::machine::Machine;
+use crate::chip::{Chip, release};
+use crate::circuit::Circuit;
 use crate::cosim::{Change, Session, Verilated};
 use crate::fpga::FpgaError;
 use crate::fpga::edges::{Motion, lines};
+use bitstream::netlist::Netlist;
 use fixed_kin::AXES;
 use hdl::design::{COMMITTED_VERILOG, NAME};
 use hdl::emit::ports::Ports;
@@ -19,8 +22,8 @@ const SLICE: u64 = 1_000;
 
 /// See the module.
 #[derive(Debug)]
-pub struct CompiledLive {
-    session: Session,
+pub struct PinsLive<C> {
+    chip: C,
     encoder_a: usize,
     encoder_b: usize,
     pins: Pins,
@@ -44,35 +47,53 @@ const DIR: usize = 1;
 const ENABLE_N: usize = 2;
 const TRIGGER_N: usize = 3;
 
-impl CompiledLive {
-    /// Compiles the committed chip, once per content, and powers it up with its emergency stop closed.
+impl PinsLive<Session> {
+    /// The committed Verilog, compiled once per content.
     ///
     /// # Errors
     /// A missing Verilator, by the name of its package, or a compilation that fails.
-    pub fn new() -> Result<Self, FpgaError> {
+    pub fn compiled() -> Result<Self, FpgaError> {
         let ports = Ports::parse(COMMITTED_VERILOG, NAME, &["lclk", "synclk"])
             .map_err(|error| FpgaError::Emit(error.to_string()))?;
-        let mut session = Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports)?.start()?;
-        let (encoder_a, encoder_b) = (session.layout().input("encoder_a")?, session.layout().input("encoder_b")?);
-        session.set_port("emergency_stop", 0)?;
-        session.set_port("host_select", 1)?;
+        Self::new(Verilated::build(NAME, COMMITTED_VERILOG, NAME, &ports)?.start()?)
+    }
+}
+
+impl PinsLive<Circuit> {
+    /// A decoded circuit.
+    ///
+    /// # Errors
+    /// A circuit that does not settle.
+    pub fn decoded(netlist: &Netlist) -> Result<Self, FpgaError> {
+        Self::new(Circuit::new(netlist)?)
+    }
+}
+
+impl<C: Chip> PinsLive<C> {
+    /// A chip just configured, its emergency stop closed.
+    ///
+    /// # Errors
+    /// A simulation that fails.
+    pub fn new(mut chip: C) -> Result<Self, FpgaError> {
+        let (encoder_a, encoder_b) = (chip.layout().input("encoder_a")?, chip.layout().input("encoder_b")?);
+        release(&mut chip)?;
         let mut columns = [0; 4];
         for (column, name) in columns.iter_mut().zip(OUTPUTS) {
-            *column = session.layout().output(name)?;
+            *column = chip.layout().output(name)?;
         }
-        session.run(1)?;
-        let levels = session.get(&columns)?;
-        session.record(&columns)?;
+        chip.run(1)?;
+        let levels = chip.get(&columns)?;
+        chip.record(&columns)?;
         let pins = Pins { columns, levels: std::array::from_fn(|n| levels[n]) };
-        let slice = session.clock();
-        Ok(Self { session, encoder_a, encoder_b, pins, slice, positions: [0.0; AXES], levels: [0; AXES], kicks: 0 })
+        let slice = chip.clock();
+        Ok(Self { chip, encoder_a, encoder_b, pins, slice, positions: [0.0; AXES], levels: [0; AXES], kicks: 0 })
     }
 
     /// Mean duty of each axis over the slice that has just ended.
     fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        let (end, mut from) = (self.session.clock(), self.slice);
+        let (end, mut from) = (self.chip.clock(), self.slice);
         let mut high = [0.0; AXES];
-        let mut changes = self.session.take_recorded()?;
+        let mut changes = self.chip.take_recorded()?;
         changes.push(Change { clock: end, port: usize::MAX, value: 0 });
         for change in changes {
             let clocks = change.clock.clamp(from, end) - from;
@@ -108,32 +129,34 @@ impl CompiledLive {
             changes.push(Change { clock, port: self.encoder_b, value: word(1) });
         }
         self.positions = *to;
-        Ok(self.session.schedule(&changes)?)
+        self.chip.schedule(&changes)
     }
 }
 
-impl Live for CompiledLive {
+impl<C: Chip> Live for PinsLive<C> {
     fn run_to(&mut self, clock: u64, clock_hz: f64, machine: &mut Machine) -> Result<(), FpgaError> {
         while self.slice + SLICE <= clock {
-            let end = (self.slice + SLICE).max(self.session.clock());
-            self.session.run(end - self.session.clock())?;
+            let end = (self.slice + SLICE).max(self.chip.clock());
+            self.chip.run(end - self.chip.clock())?;
             let duties = self.duties()?;
             machine.step(&duties, (end - self.slice) as f64 / clock_hz);
             self.slice = end;
             self.turn(&machine.positions())?;
         }
-        if clock > self.session.clock() {
-            self.session.run(clock - self.session.clock())?;
+        if clock > self.chip.clock() {
+            self.chip.run(clock - self.chip.clock())?;
         }
         Ok(())
     }
 
     fn read(&mut self, offset: u16) -> Result<u32, FpgaError> {
-        Ok(self.session.bus_read(offset.into())?)
+        let mut word = [0];
+        self.chip.read(offset, &mut word)?;
+        Ok(word[0])
     }
 
     fn write(&mut self, offset: u16, data: u32) -> Result<(), FpgaError> {
-        Ok(self.session.bus_write(offset.into(), data)?)
+        self.chip.write(offset, data)
     }
 
     fn kicks(&self) -> u32 {

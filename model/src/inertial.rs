@@ -1,0 +1,339 @@
+//! Wheels, gyroscope and overhead camera together.
+
+use std::collections::VecDeque;
+
+use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
+
+use crate::fusion::{Correction, FusionOptions};
+use crate::imu::{ImuModel, Reading};
+use crate::odometry::Odometer;
+use runs::frames::{Pose, Twist, displacement, wrap_angle};
+use runs::geometry::Geometry;
+
+/// Ticks without a count after which the robot stands, s: the slowest drive turns a wheel by a count in this time.
+const STANDING_S: f64 = 0.2;
+/// Window over which wheels and sensor are compared for slip, s: half of the 50 ms within which slip is to be noticed.
+const SLIP_WINDOW_S: f64 = 0.02;
+/// Turn within the window that is slip, rad: four counts of an encoder on wheels 85 mm out, and a share of the turn
+/// itself for skew and scale.
+const SLIP_TURN: f64 = 0.004;
+const SLIP_TURN_SHARE: f64 = 0.1;
+/// Change of speed within the window that is slip, m/s, beyond this share of the change itself: six steps of a wheel's
+/// speed at 1 kHz, and 5° of tilt of the robot (0.86 m/s² for 20 ms).
+const SLIP_SPEED: f64 = 0.05;
+const SLIP_SPEED_SHARE: f64 = 0.2;
+/// Difference of the wheels' speed from the believed one at which they hold again, m/s.
+const HOLDING_SPEED: f64 = 0.06;
+/// Slip ends after this long at the latest, s: integrated acceleration is worth nothing then.
+const LONGEST_SLIP_S: f64 = 0.6;
+/// Variance of the wheels' displacement while they slip, m² per m: half of it may be wrong.
+const SLIPPING_VARIANCE: f64 = 0.02;
+/// Gyroscope's error of scale that is reckoned with, standard deviation.
+const GYRO_SCALE: f64 = 0.005;
+
+/// Pose and gyroscope's bias with the covariance of their errors (x, y, heading, bias).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct State {
+    pose: Pose,
+    bias: f64,
+    covariance: Matrix4<f64>,
+}
+
+/// How a tick moved the robot.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    /// Displacement in the body frame, its turn that of the gyroscope with its bias.
+    moved: Twist,
+    /// Duration, s.
+    dt: f64,
+    /// Covariance of the displacement.
+    noise: Matrix3<f64>,
+}
+
+/// Error-state Kalman filter (Solà 2017, in the plane): wheels tell the displacement, the gyroscope the heading, the
+/// camera, late, the pose, and standstill the gyroscope's bias.
+///
+/// While wheels slip, their displacement is replaced by that of the speed before, changed by the accelerometer. As in
+/// [`crate::fusion::Fusion`], a frame corrects the state at its exposure, and the ticks since are repeated.
+#[derive(Debug, Clone)]
+pub struct Inertial {
+    options: FusionOptions,
+    odometer: Odometer,
+    gyro_noise: f64,
+    bias_walk: f64,
+    now: State,
+    history: VecDeque<(f64, State, Step)>,
+    window: VecDeque<Compared>,
+    still: f64,
+    rest: Rest,
+    velocity: [f64; 2],
+    slipping: Option<f64>,
+    refused: u32,
+    last: Option<f64>,
+}
+
+/// Sums of the accelerometer while the robot stands: its bias and the floor's tilt.
+#[derive(Debug, Clone, Copy, Default)]
+struct Rest {
+    bias: [f64; 2],
+}
+
+/// What wheels and sensor say of one tick.
+#[derive(Debug, Clone, Copy)]
+struct Compared {
+    wheel: Twist,
+    turn: f64,
+    gain: [f64; 2],
+    dt: f64,
+}
+
+impl Inertial {
+    /// A filter that starts at a pose with standard deviations (m, m, rad), at counts 0.
+    pub fn new(
+        geometry: &Geometry,
+        counts_per_wheel_rad: f64,
+        options: FusionOptions,
+        sensor: &ImuModel,
+        start: Pose,
+        start_sd: [f64; 3],
+    ) -> Self {
+        let sd = [start_sd[0], start_sd[1], start_sd[2], sensor.gyro.bias * 2.0];
+        let covariance = Matrix4::from_diagonal(&Vector4::from(sd.map(|s| s * s)));
+        Self {
+            options,
+            odometer: Odometer::new(geometry, counts_per_wheel_rad, options.wheel_variance),
+            gyro_noise: sensor.gyro.noise_density * 0.5_f64.sqrt(),
+            bias_walk: sensor.gyro.bias_walk,
+            now: State { pose: start, bias: 0.0, covariance },
+            history: VecDeque::new(),
+            window: VecDeque::new(),
+            still: 0.0,
+            rest: Rest::default(),
+            velocity: [0.0; 2],
+            slipping: None,
+            refused: 0,
+            last: None,
+        }
+    }
+
+    /// One control tick at time `t` (s, increasing): cumulative counts and the sensor's reading.
+    pub fn predict(&mut self, t: f64, counts: &[i64], reading: &Reading) {
+        let increment = self.odometer.increment(counts);
+        let Some(last) = self.last.replace(t) else { return };
+        let dt = t - last;
+        let turn = reading.gyro[2] * dt;
+        let wheel = increment.moved;
+        let stands = wheel == Twist::default();
+        self.still = if stands { self.still + dt } else { 0.0 };
+        let force = [reading.acceleration[0] - self.rest.bias[0], reading.acceleration[1] - self.rest.bias[1]];
+        let omega = reading.gyro[2] - self.now.bias;
+        // In the turning body frame speed changes by acceleration and by the turn.
+        let gain = [(force[0] + omega * self.velocity[1]) * dt, (force[1] - omega * self.velocity[0]) * dt];
+        self.compare(Compared { wheel, turn: turn - self.now.bias * dt, gain, dt });
+        let mut moved = Twist::new(wheel.vx, wheel.vy, turn);
+        let mut noise = increment.covariance;
+        if self.slipping.is_some() {
+            self.velocity = [self.velocity[0] + gain[0], self.velocity[1] + gain[1]];
+            moved = Twist::new(self.velocity[0] * dt, self.velocity[1] * dt, turn);
+            let way = moved.speed() + wheel.speed();
+            noise += Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0)) * (SLIPPING_VARIANCE * way);
+        } else {
+            let share = (dt / SLIP_WINDOW_S).min(1.0);
+            let speed = [wheel.vx / dt, wheel.vy / dt];
+            self.velocity = std::array::from_fn(|i| self.velocity[i] + gain[i] + share * (speed[i] - self.velocity[i]));
+        }
+        for i in 0..2 {
+            noise[(i, 2)] = 0.0;
+            noise[(2, i)] = 0.0;
+        }
+        noise[(2, 2)] = self.gyro_noise.powi(2) * dt + (GYRO_SCALE * turn).powi(2);
+        let step = Step { moved, dt, noise };
+        self.now = self.now.after(&step, self.bias_walk);
+        if self.still > STANDING_S {
+            self.settle(reading, dt);
+        }
+        self.history.push_back((t, self.now, step));
+        let oldest = t - self.options.latency_s;
+        while self.history.len() > 2 && self.history[1].0 < oldest - 1e-9 {
+            self.history.pop_front();
+        }
+    }
+
+    /// At rest the gyroscope shows its bias, the accelerometer its own and the tilt of the floor.
+    fn settle(&mut self, reading: &Reading, dt: f64) {
+        let share = dt / (self.still - STANDING_S + dt).min(1.0);
+        for (bias, a) in self.rest.bias.iter_mut().zip(reading.acceleration) {
+            *bias += share * (a - *bias);
+        }
+        let p = self.now.covariance;
+        let variance = self.gyro_noise.powi(2) / dt;
+        let gain = p.column(3) / (p[(3, 3)] + variance);
+        self.now.correct(&(gain * (reading.gyro[2] - self.now.bias)));
+        self.now.covariance = p - gain * p.row(3);
+    }
+
+    /// Looks for slip: turn and change of speed by the wheels against those by the sensor.
+    fn compare(&mut self, tick: Compared) {
+        self.window.push_back(tick);
+        let mut length: f64 = self.window.iter().map(|c| c.dt).sum();
+        while length - self.window[0].dt > SLIP_WINDOW_S - 1e-9 {
+            length -= self.window[0].dt;
+            self.window.pop_front();
+        }
+        let turn: f64 = self.window.iter().map(|c| c.turn).sum();
+        let wheels: f64 = self.window.iter().map(|c| c.wheel.omega).sum();
+        let turned = (wheels - turn).abs() > SLIP_TURN + SLIP_TURN_SHARE * turn.abs().max(wheels.abs());
+        // Speeds by the wheels at both ends of the window, over a quarter of it each.
+        let quarter = (self.window.len() / 4).max(1);
+        let mean = |from: usize| -> [f64; 2] {
+            let part = || self.window.iter().skip(from).take(quarter);
+            let time: f64 = part().map(|c| c.dt).sum();
+            [part().map(|c| c.wheel.vx).sum::<f64>() / time, part().map(|c| c.wheel.vy).sum::<f64>() / time]
+        };
+        let (first, end) = (mean(0), mean(self.window.len() - quarter));
+        let share = 1.0 - quarter as f64 / self.window.len() as f64;
+        let felt: [f64; 2] = std::array::from_fn(|i| self.window.iter().map(|c| c.gain[i]).sum::<f64>() * share);
+        let changed = [end[0] - first[0], end[1] - first[1]];
+        let off = (changed[0] - felt[0]).hypot(changed[1] - felt[1]);
+        let size = changed[0].hypot(changed[1]).max(felt[0].hypot(felt[1]));
+        let jumped = self.window.len() >= 8 && off > SLIP_SPEED + SLIP_SPEED_SHARE * size;
+        let now = if turned || jumped { Some(0.0) } else { None };
+        self.slipping = match (self.slipping, now) {
+            (None, found) => found,
+            (Some(since), _) if since + tick.dt > LONGEST_SLIP_S => None,
+            (Some(since), Some(_)) => Some(since + tick.dt),
+            (Some(since), None) => {
+                let holds = (end[0] - self.velocity[0]).hypot(end[1] - self.velocity[1]) < HOLDING_SPEED;
+                if holds { None } else { Some(since + tick.dt) }
+            }
+        };
+    }
+
+    /// A frame that was delivered at time `t`, after the prediction for that tick.
+    pub fn correct(&mut self, t: f64, seen: Pose) -> Correction {
+        let exposed = t - self.options.latency_s;
+        let finite = [seen.x, seen.y, seen.theta].iter().all(|v| v.is_finite());
+        let base = self.history.partition_point(|(at, ..)| *at <= exposed + 1e-9);
+        if !finite || base == 0 {
+            return Correction::Unusable;
+        }
+        let (at, from, _) = self.history[base - 1];
+        let next = self.history.get(base).map(|(after, _, step)| (*step, (exposed - at) / (after - at)));
+        let prior = next.map_or(from, |(step, share)| from.after(&step.part(share), self.bias_walk));
+        let p = prior.pose;
+        let innovation = Vector3::new(seen.x - p.x, seen.y - p.y, wrap_angle(seen.theta - p.theta));
+        let noise = Matrix3::from_diagonal(&Vector3::from(self.options.camera_noise.map(|s| s * s)));
+        let observed = Matrix3x4::<f64>::identity();
+        let Some(inverse) = (prior.covariance.fixed_view::<3, 3>(0, 0) + noise).try_inverse() else {
+            return Correction::Unusable;
+        };
+        let nis = (innovation.transpose() * inverse * innovation)[0];
+        let restart = self.refused + 1 >= self.options.refusals_before_restart;
+        if nis > self.options.gate && !restart {
+            self.refused += 1;
+            return Correction::Refused(nis);
+        }
+        self.refused = 0;
+        let mut posterior = prior;
+        let verdict = if nis > self.options.gate {
+            posterior.pose = seen;
+            posterior.covariance = Matrix4::from_diagonal(&Vector4::new(
+                noise[(0, 0)],
+                noise[(1, 1)],
+                noise[(2, 2)],
+                prior.covariance[(3, 3)],
+            ));
+            Correction::Restarted
+        } else {
+            let gain = prior.covariance * observed.transpose() * inverse;
+            posterior.correct(&(gain * innovation));
+            let keep = Matrix4::identity() - gain * observed;
+            posterior.covariance = keep * prior.covariance * keep.transpose() + gain * noise * gain.transpose();
+            Correction::Accepted(nis)
+        };
+        let mut state = posterior;
+        for (i, entry) in self.history.iter_mut().enumerate().skip(base) {
+            let step = match (i == base, next) {
+                (true, Some((step, share))) => step.part(1.0 - share),
+                _ => entry.2,
+            };
+            state = state.after(&step, self.bias_walk);
+            entry.1 = state;
+        }
+        self.now = state;
+        verdict
+    }
+
+    /// Takes over a pose and covariance that this filter's own prediction is part of, of now: the match of an on-board
+    /// camera. The gyroscope's bias is corrected by what it has to do with the heading.
+    pub fn adopt(&mut self, pose: Pose, covariance: Matrix3<f64>) {
+        let before = self.now.covariance;
+        let heading = before[(2, 2)];
+        let turned = wrap_angle(pose.theta - self.now.pose.theta);
+        let slope = if heading > 0.0 { before[(3, 2)] / heading } else { 0.0 };
+        self.now.pose = Pose { theta: self.now.pose.theta + turned, ..pose };
+        self.now.bias += slope * turned;
+        let tied = slope * covariance[(2, 2)];
+        self.now.covariance = Matrix4::zeros();
+        self.now.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&covariance);
+        self.now.covariance[(3, 3)] = before[(3, 3)] - slope * slope * (heading - covariance[(2, 2)]).max(0.0);
+        self.now.covariance[(3, 2)] = tied;
+        self.now.covariance[(2, 3)] = tied;
+        if let Some((_, state, _)) = self.history.back_mut() {
+            *state = self.now;
+        }
+    }
+
+    /// Where the robot is.
+    pub fn pose(&self) -> Pose {
+        self.now.pose
+    }
+
+    /// Covariance of the errors of x, y and heading.
+    pub fn covariance(&self) -> Matrix3<f64> {
+        self.now.covariance.fixed_view::<3, 3>(0, 0).into_owned()
+    }
+
+    /// The gyroscope's bias about the vertical, rad/s.
+    pub fn gyro_bias(&self) -> f64 {
+        self.now.bias
+    }
+
+    /// Whether the wheels slip now.
+    pub fn slipping(&self) -> bool {
+        self.slipping.is_some()
+    }
+}
+
+impl State {
+    fn after(mut self, step: &Step, bias_walk: f64) -> Self {
+        let moved = Twist { omega: step.moved.omega - self.bias * step.dt, ..step.moved };
+        let pose = self.pose.compose(displacement(moved));
+        let (dx, dy) = (pose.x - self.pose.x, pose.y - self.pose.y);
+        let mut f = Matrix4::identity();
+        f[(0, 2)] = -dy;
+        f[(1, 2)] = dx;
+        f[(2, 3)] = -step.dt;
+        let (s, c) = (self.pose.theta + 0.5 * moved.omega).sin_cos();
+        let turn = Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+        self.covariance = f * self.covariance * f.transpose();
+        let noise = turn * step.noise * turn.transpose();
+        let mut block = self.covariance.fixed_view_mut::<3, 3>(0, 0);
+        block += noise;
+        self.covariance[(3, 3)] += bias_walk * bias_walk * step.dt;
+        self.pose = pose;
+        self
+    }
+
+    fn correct(&mut self, error: &Vector4<f64>) {
+        let p = self.pose;
+        self.pose = Pose::new(p.x + error[0], p.y + error[1], p.theta + error[2]);
+        self.bias += error[3];
+    }
+}
+
+impl Step {
+    fn part(&self, share: f64) -> Self {
+        Self { moved: self.moved.scaled(share), dt: share * self.dt, noise: self.noise * share }
+    }
+}

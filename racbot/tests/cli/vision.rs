@@ -1,0 +1,104 @@
+//! `racbot vision`: pictures of an on-board camera.
+
+use super::racbot;
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+/// A ball on a carpet as a binary PPM cannot be read, so a PNG by hand: stored blocks, no compression.
+fn picture(file: &Path, colour: impl Fn(f64, f64) -> [u8; 3]) {
+    let (width, height) = (96_u32, 64_u32);
+    let mut rows = Vec::new();
+    for y in 0..height {
+        rows.push(0);
+        for x in 0..width {
+            rows.extend(colour(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        }
+    }
+    let mut zlib = vec![0x78, 0x01];
+    let (mut a, mut b) = (1_u32, 0_u32);
+    for byte in &rows {
+        a = (a + u32::from(*byte)) % 65_521;
+        b = (b + a) % 65_521;
+    }
+    let blocks: Vec<&[u8]> = rows.chunks(60_000).collect();
+    for (i, block) in blocks.iter().enumerate() {
+        let length = block.len() as u16;
+        zlib.push(u8::from(i + 1 == blocks.len()));
+        zlib.extend(length.to_le_bytes());
+        zlib.extend((!length).to_le_bytes());
+        zlib.extend(*block);
+    }
+    zlib.extend(((b << 16) | a).to_be_bytes());
+    let mut png = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
+    header.extend([8, 2, 0, 0, 0]);
+    for (kind, data) in [(b"IHDR", &header), (b"IDAT", &zlib), (b"IEND", &Vec::new())] {
+        let body = [kind.as_slice(), data].concat();
+        png.extend((data.len() as u32).to_be_bytes());
+        png.extend(&body);
+        png.extend(crc32(&body).to_be_bytes());
+    }
+    fs::write(file, png).unwrap();
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 })
+    })
+}
+
+/// A shaded orange disc on green with a little texture.
+fn field(x: f64, y: f64) -> [u8; 3] {
+    let (u, v) = ((x - 40.0) / 9.0, (y - 38.0) / 9.0);
+    let grain = ((x * 7.3).sin() * (y * 5.1).cos() * 6.0) as i16;
+    let base: [i16; 3] = if y < 12.0 {
+        [150, 150, 155]
+    } else if u * u + v * v < 1.0 {
+        let light = 1.0 - 0.25 * v;
+        [light * 205.0, light * 95.0, light * 30.0].map(|c| c as i16)
+    } else {
+        [40, 120, 55]
+    };
+    base.map(|c| (c + grain).clamp(0, 255) as u8)
+}
+
+#[test]
+fn a_ball_is_found_and_bad_files_are_named_without_stopping_the_rest() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    picture(&at("a.png"), field);
+    picture(&at("b.png"), |_, _| [3, 2, 4]);
+    fs::write(at("c.jpg"), b"\xff\xd8\xff\xe0cut").unwrap();
+    fs::write(at("d.txt"), "no picture").unwrap();
+    let outcome = racbot(folder.path(), &["--json", "vision", "detect", "."]);
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    let list = outcome.json();
+    assert_eq!(list.as_array().unwrap().len(), 3, "{list}");
+    let ball = &list[0]["balls"][0];
+    let near = |key: &str, value: f64| (ball[key].as_f64().unwrap() - value).abs() < 1.5;
+    assert!(near("x", 40.0) && near("y", 38.0) && near("width", 18.0) && near("height", 18.0), "{ball}");
+    assert!(ball["score"].as_f64().unwrap() > 0.3 && list[0]["file"].as_str().unwrap().ends_with("a.png"));
+    assert!(list[1]["error"].as_str().unwrap().contains("black"), "{list}");
+    assert!(list[2]["error"].as_str().unwrap().contains("cut off"), "{list}");
+    assert!(
+        outcome.stderr.contains("b.png: ") && outcome.stderr.contains("1 more of 3 pictures"),
+        "{}",
+        outcome.stderr
+    );
+
+    let one = racbot(folder.path(), &["vision", "detect", "a.png", "--json"]).done();
+    assert_eq!(one.json()[0]["file"], "a.png");
+    racbot(folder.path(), &["vision", "detect", "a.png"]).done().fits_80_columns();
+    let frozen = racbot(folder.path(), &["vision", "detect", "--sequence", "a.png", "a.png", "--json"]);
+    assert!(frozen.json()[1]["error"].as_str().unwrap().contains("frozen"));
+}
+
+#[test]
+fn folders_without_pictures_and_impossible_scores_are_refused() {
+    let folder = tempdir().unwrap();
+    racbot(folder.path(), &["vision", "detect", "."]).refused(1, &["no pictures"]);
+    racbot(folder.path(), &["vision", "detect", "x.png", "--least", "2"]).refused(2, &["from 0 to 1"]);
+    let missing = racbot(folder.path(), &["vision", "detect", "nowhere.png"]);
+    assert!(missing.code == Some(1) && missing.stderr.contains("nowhere.png: "), "{}", missing.stderr);
+}

@@ -1,0 +1,108 @@
+//! Recall and precision of the ball by its size on rendered pictures that nothing was trained on, and the time a frame
+//! takes. Writes `docs/measured/ball-detection.md` and `docs/measured/vision-time.md`.
+
+use measured::Table;
+use rayon::prelude::*;
+use std::time::Instant;
+use vision::ball::{Ball, DEFAULT_SCORE};
+use vision::detect;
+use vision::render::{Label, sample};
+
+/// Pictures; their seeds start at 0, those of training at 10 000.
+const PICTURES: u64 = 400;
+/// Least share of a ball that must be seen to count.
+const VISIBLE: f64 = 0.4;
+/// Edges of the classes of size, pixels of a picture 224 wide.
+const SIZES: [f64; 6] = [5.0, 8.0, 12.0, 20.0, 40.0, 300.0];
+/// Scores at which the whole is given.
+const SCORES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 0.7];
+/// Frames whose time is measured.
+const FRAMES: u64 = 12;
+
+struct Seen {
+    labels: Vec<Label>,
+    balls: Vec<Ball>,
+}
+
+fn size(label: &Label) -> f64 {
+    label.region.width.max(label.region.height)
+}
+
+/// Balls of a class of size: all, found; and what was found besides that is no ball.
+fn count(seen: &[Seen], from: f64, to: f64, least: f64) -> [usize; 3] {
+    let mut sums = [0; 3];
+    for picture in seen {
+        let mut free: Vec<&Ball> = picture.balls.iter().filter(|ball| ball.score >= least).collect();
+        for label in &picture.labels {
+            let hit = free.iter().position(|ball| ball.region.overlap(&label.region) > 0.5);
+            let hit = hit.map(|place| free.remove(place));
+            if label.visible >= VISIBLE && size(label) > from && size(label) <= to {
+                sums[0] += 1;
+                sums[1] += usize::from(hit.is_some());
+            } else if hit.is_none() {
+                // Too small or too hidden to count: a loose match is no mistake either.
+                free.retain(|ball| ball.region.overlap(&label.region) < 0.1);
+            }
+        }
+        let large = |ball: &&Ball| {
+            let size = ball.region.width.max(ball.region.height);
+            size > from && size <= to
+        };
+        sums[2] += free.into_iter().filter(large).count();
+    }
+    sums
+}
+
+fn share(part: usize, whole: usize) -> String {
+    if whole == 0 { "-".to_owned() } else { format!("{:.1}", 100.0 * part as f64 / whole as f64) }
+}
+
+fn row(name: String, [balls, found, wrong]: [usize; 3]) -> Vec<String> {
+    vec![name, balls.to_string(), share(found, balls), share(found, found + wrong)]
+}
+
+fn main() {
+    if std::env::args().any(|argument| argument == "--test") {
+        return;
+    }
+    let seen: Vec<Seen> = (0..PICTURES)
+        .into_par_iter()
+        .map(|seed| {
+            let rendered = sample(seed, 224, 224).rendered;
+            Seen { balls: detect(&rendered.picture, SCORES[0]).balls, labels: rendered.balls }
+        })
+        .collect();
+    let mut rows: Vec<Vec<String>> = SIZES
+        .windows(2)
+        .map(|w| {
+            row(format!("{} to {} pixels, score {DEFAULT_SCORE}", w[0], w[1]), count(&seen, w[0], w[1], DEFAULT_SCORE))
+        })
+        .collect();
+    rows.extend(SCORES.map(|least| row(format!("over 8 pixels, score {least}"), count(&seen, 8.0, 1e9, least))));
+    Table {
+        name: "ball-detection",
+        title: "The ball in 400 rendered pictures of 224 x 224 pixels, found where boxes overlap by more than half",
+        command: "cargo bench -p vision --bench detection",
+        columns: &["balls of", "balls", "recall, %", "precision, %"],
+    }
+    .write(&rows);
+    let frames: Vec<_> =
+        (0..FRAMES).into_par_iter().map(|seed| sample(5000 + seed, 640, 480).rendered.picture).collect();
+    let mut times: Vec<f64> = (0..5)
+        .flat_map(|_| &frames)
+        .map(|frame| {
+            let start = Instant::now();
+            std::hint::black_box(detect(frame, DEFAULT_SCORE));
+            start.elapsed().as_secs_f64() * 1e3
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| format!("{:.1}", times[((times.len() - 1) as f64 * share) as usize]);
+    Table {
+        name: "vision-time",
+        title: "Time of all detections in a 640 x 480 frame on one core",
+        command: "cargo bench -p vision --bench detection",
+        columns: &["frames", "least, ms", "median, ms", "largest, ms"],
+    }
+    .write(&[vec![times.len().to_string(), at(0.0), at(0.5), at(1.0)]]);
+}

@@ -1,0 +1,187 @@
+//! Trains the weights of the ball's features on rendered pictures, and writes them as Rust:
+//!
+//! ```sh
+//! cargo run --release -p vision --example weights -- 10000 10900 20000 20900 >vision/src/ball/weights.rs
+//! ```
+//!
+//! The arguments are ranges of seeds: the first one and the one after the last. Seeds of tests and benches lie below
+//! 10 000, so that nothing is measured on what was learnt.
+
+use rayon::prelude::*;
+use vision::ball::features::{COUNT, NAMES};
+use vision::ball::{Candidate, candidates};
+use vision::render::{Label, sample};
+
+/// Side of the pictures, pixels.
+const SIDE: usize = 224;
+/// Weights per feature; knots are quantiles of all candidates.
+const KNOTS: usize = 9;
+/// Overlap from which on a candidate is a ball, and below which it is none; between, nothing is learnt.
+const BALL: f64 = 0.6;
+const NO_BALL: f64 = 0.3;
+/// Less of a ball than this is no ball and no mistake either.
+const VISIBLE: f64 = 0.4;
+/// Smallest ball that must be found, pixels.
+const SMALLEST: f64 = 5.0;
+/// Ridge on weights and on their second differences: weights of rare values stay near zero and near their neighbours.
+const RIDGE: f32 = 5e-5;
+const BENDING: f32 = 5e-4;
+const ROUNDS: usize = 1500;
+const RATE: f32 = 0.03;
+
+struct Case {
+    features: [f32; COUNT],
+    ball: bool,
+}
+
+fn main() {
+    let arguments: Vec<u64> = std::env::args().skip(1).map_while(|a| a.parse().ok()).collect();
+    assert!(
+        !arguments.is_empty() && arguments.len() % 2 == 0,
+        "give ranges of seeds: the first and the one after the last"
+    );
+    let seeds: Vec<u64> = arguments.chunks_exact(2).flat_map(|range| range[0]..range[1]).collect();
+    let cases: Vec<Case> = seeds
+        .into_par_iter()
+        .flat_map_iter(|seed| {
+            let rendered = sample(seed, SIDE, SIDE).rendered;
+            cases(&candidates(&rendered.picture), &rendered.balls)
+        })
+        .collect();
+    train(&cases);
+}
+
+fn cases(candidates: &[Candidate], labels: &[Label]) -> Vec<Case> {
+    candidates
+        .iter()
+        .filter_map(|candidate| {
+            let nearest = labels.iter().map(|l| (l.region.overlap(&candidate.region), l));
+            let (overlap, label) = nearest.max_by(|a, b| a.0.total_cmp(&b.0)).unzip();
+            let overlap = overlap.unwrap_or(0.0);
+            let clear = label.is_some_and(|l| l.visible >= VISIBLE && l.region.width.max(l.region.height) > SMALLEST);
+            match overlap {
+                o if o >= BALL && clear => Some(true),
+                o if o < NO_BALL => Some(false),
+                _ => None,
+            }
+            .map(|ball| Case { features: candidate.features.0, ball })
+        })
+        .collect()
+}
+
+fn quantiles(cases: &[Case], feature: usize) -> [f32; KNOTS] {
+    // Half of the knots where balls are, half where the others are.
+    let of = |ball: bool| {
+        let mut values: Vec<f32> = cases.iter().filter(|c| c.ball == ball).map(|c| c.features[feature]).collect();
+        values.sort_by(f32::total_cmp);
+        move |share: f32| values[((values.len() - 1) as f32 * share) as usize]
+    };
+    let (balls, others) = (of(true), of(false));
+    let mut knots = [
+        balls(0.01),
+        balls(0.1),
+        balls(0.35),
+        balls(0.65),
+        balls(0.9),
+        balls(0.99),
+        others(0.05),
+        others(0.5),
+        others(0.95),
+    ];
+    knots.sort_by(f32::total_cmp);
+    let apart = ((knots[KNOTS - 1] - knots[0]) / 40.0).max(1e-3);
+    for i in 1..KNOTS {
+        knots[i] = knots[i].max(knots[i - 1] + apart);
+    }
+    knots
+}
+
+/// Which two knots a value lies between, and the share of the upper one.
+fn place(value: f32, knots: &[f32; KNOTS]) -> (usize, f32) {
+    let above = knots.partition_point(|knot| *knot <= value).clamp(1, KNOTS - 1);
+    let share = (value - knots[above - 1]) / (knots[above] - knots[above - 1]);
+    (above, share.clamp(0.0, 1.0))
+}
+
+fn train(cases: &[Case]) {
+    let knots: [[f32; KNOTS]; COUNT] = std::array::from_fn(|feature| quantiles(cases, feature));
+    let places: Vec<[(usize, f32); COUNT]> =
+        cases.iter().map(|case| std::array::from_fn(|i| place(case.features[i], &knots[i]))).collect();
+    let size = COUNT * KNOTS + 1;
+    let (mut weights, mut mean, mut square) = (vec![0.0_f32; size], vec![0.0_f32; size], vec![0.0_f32; size]);
+    let mut loss = 0.0;
+    for round in 1..=ROUNDS {
+        let (sums, total) = cases
+            .par_iter()
+            .zip(&places)
+            .fold(
+                || (vec![0.0_f32; size], 0.0_f64),
+                |(mut sums, mut total), (case, places)| {
+                    let mut odds = weights[size - 1];
+                    for (i, &(above, share)) in places.iter().enumerate() {
+                        odds += weights[i * KNOTS + above - 1] * (1.0 - share) + weights[i * KNOTS + above] * share;
+                    }
+                    let truth = f32::from(u8::from(case.ball));
+                    let error = 1.0 / (1.0 + (-odds).exp()) - truth;
+                    total += f64::from((1.0 + (if case.ball { -odds } else { odds }).exp()).ln());
+                    for (i, &(above, share)) in places.iter().enumerate() {
+                        sums[i * KNOTS + above - 1] += error * (1.0 - share);
+                        sums[i * KNOTS + above] += error * share;
+                    }
+                    sums[size - 1] += error;
+                    (sums, total)
+                },
+            )
+            .reduce(
+                || (vec![0.0; size], 0.0),
+                |(mut a, x), (b, y)| {
+                    a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+                    (a, x + y)
+                },
+            );
+        loss = total / cases.len() as f64;
+        let mut slope: Vec<f32> = sums.iter().map(|s| s / cases.len() as f32).collect();
+        for i in 0..COUNT {
+            let part = &weights[i * KNOTS..(i + 1) * KNOTS];
+            let slope = &mut slope[i * KNOTS..(i + 1) * KNOTS];
+            for k in 0..KNOTS {
+                slope[k] += RIDGE * part[k];
+            }
+            for k in 1..KNOTS - 1 {
+                let bend = part[k - 1] - 2.0 * part[k] + part[k + 1];
+                slope[k - 1] += BENDING * bend;
+                slope[k] -= 2.0 * BENDING * bend;
+                slope[k + 1] += BENDING * bend;
+            }
+        }
+        // Kingma and Ba 2015.
+        for k in 0..size {
+            mean[k] = 0.9 * mean[k] + 0.1 * slope[k];
+            square[k] = 0.999 * square[k] + 0.001 * slope[k] * slope[k];
+            let m = mean[k] / (1.0 - 0.9_f32.powi(round as i32));
+            let v = square[k] / (1.0 - 0.999_f32.powi(round as i32));
+            weights[k] -= RATE * m / (v.sqrt() + 1e-8);
+        }
+    }
+    let balls = cases.iter().filter(|case| case.ball).count();
+    eprintln!("{balls} balls among {} candidates, loss {loss:.4}", cases.len());
+    print(&knots, &weights);
+}
+
+fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {
+    println!("//! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.\n");
+    println!("use super::features::COUNT;\n");
+    println!("/// Odds of a candidate whose weights are all zero, logarithm.");
+    println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[COUNT * KNOTS]);
+    let rows = |name: &str, what: &str, row: &dyn Fn(usize) -> Vec<f32>| {
+        println!("/// {what}\n#[rustfmt::skip]\npub(super) const {name}: [[f32; {KNOTS}]; COUNT] = [");
+        for (i, name) in NAMES.iter().enumerate() {
+            let numbers: Vec<String> = row(i).iter().map(|n| format!("{n:.3}")).collect();
+            println!("    [{}], // {name}", numbers.join(", "));
+        }
+        println!("];");
+    };
+    rows("KNOTS", "Values of a feature at which its weight is given.", &|i| knots[i].to_vec());
+    println!();
+    rows("WEIGHTS", "Logarithm of odds at each knot.", &|i| weights[i * KNOTS..(i + 1) * KNOTS].to_vec());
+}

@@ -1,0 +1,222 @@
+//! What speaks for and against a ball.
+
+use super::outline::Outline;
+use super::weights::{KNOTS, OFFSET, WEIGHTS};
+use crate::carpet::{Carpet, total};
+use crate::picture::Raster;
+
+/// How many features there are.
+pub const COUNT: usize = 20;
+
+/// Names of the features, in order.
+pub const NAMES: [&str; COUNT] = [
+    "redness inside",
+    "hue, degrees from red to yellow",
+    "redness inside less outside",
+    "outline: share of rays that agree",
+    "outline: roughness, radii",
+    "share of the inside that is red",
+    "share of the surroundings that is red",
+    "share of carpet below",
+    "share of carpet around",
+    "width over height, logarithm",
+    "bottom below the field's boundary, heights of the picture",
+    "size, logarithm of pixels",
+    "upper less lower brightness",
+    "unevenness of colour inside",
+    "redness of the reddest candidate less its own",
+    "share of the outline in the picture",
+    "brightness over the carpet's, logarithm",
+    "red over green against the carpet, logarithm",
+    "green over blue against the carpet, logarithm",
+    "brightness outside against inside, unevenness",
+];
+
+/// The features of a candidate, by [`NAMES`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Features(pub [f32; COUNT]);
+
+/// Share of a half of a candidate that must be in the picture to tell of shading, and the shading of what is cut off:
+/// the median of balls.
+const HALF_SHOWN: f32 = 0.5;
+const USUAL_SHADING: f32 = 0.1;
+
+/// Samples around an outline.
+const AROUND: usize = 24;
+
+impl Features {
+    pub(super) fn of(
+        picture: &Raster<[f32; 3]>,
+        redness: &Raster<f32>,
+        carpet: Option<&Carpet>,
+        outline: &Outline,
+    ) -> Self {
+        let inner = Inner::of(picture, redness, outline);
+        let outer = Outer::of(picture, redness, carpet, outline, inner.middle);
+        let height = picture.height as f32;
+        let bottom = (outline.cy + outline.b).min(height);
+        let boundary = carpet.map_or(height, |carpet| carpet.begins(outline.cx));
+        let [r, g, b] = inner.colour;
+        let ground = carpet.map_or([100.0, 130.0, 100.0], |carpet| carpet.colour);
+        let ratio = |x: f32, y: f32| ((x + 8.0) / (y + 8.0)).ln();
+        Self([
+            outline.inside,
+            hue([r, g, b]),
+            outline.inside - outer.redness,
+            outline.agreeing,
+            outline.rough,
+            inner.filled,
+            outer.leaking,
+            outer.below,
+            outer.carpet,
+            (outline.a / outline.b).ln(),
+            ((bottom - boundary) / height).clamp(-0.5, 0.5),
+            (outline.a * outline.b).sqrt().ln(),
+            inner.shading,
+            inner.uneven,
+            0.0,
+            outline.shown,
+            ratio(total(inner.colour), total(ground)),
+            ratio(r, g) - ratio(ground[0], ground[1]),
+            ratio(g, b) - ratio(ground[1], ground[2]),
+            outer.uneven,
+        ])
+    }
+
+    /// The probability of a ball, from 0 to 1: an additive logistic model with weights that are linear between knots.
+    #[must_use]
+    pub fn score(&self) -> f64 {
+        let terms = self.0.iter().zip(&KNOTS).zip(&WEIGHTS);
+        let odds = OFFSET + terms.map(|((value, knots), weights)| between(*value, knots, weights)).sum::<f32>();
+        1.0 / (1.0 + f64::from(-odds).exp())
+    }
+}
+
+/// The weight of a value: linear between knots, level beyond.
+fn between(value: f32, knots: &[f32], weights: &[f32]) -> f32 {
+    let above = knots.partition_point(|knot| *knot <= value);
+    if above == 0 {
+        return weights[0];
+    }
+    if above == knots.len() {
+        return weights[above - 1];
+    }
+    let share = (value - knots[above - 1]) / (knots[above] - knots[above - 1]);
+    weights[above - 1] * (1.0 - share) + weights[above] * share
+}
+
+/// Fills in what depends on all candidates of a picture.
+pub(super) fn rank(found: &mut [(Outline, Features)]) {
+    let credible = |(_, features): &&(Outline, Features)| features.0[3] > 0.6 && features.0[6] < 0.4;
+    let reddest = found.iter().filter(credible).map(|(_, f)| f.0[0]).fold(f32::NEG_INFINITY, f32::max);
+    for (_, features) in found {
+        features.0[14] = (reddest - features.0[0]).max(0.0);
+    }
+}
+
+/// Degrees from red towards yellow, negative towards pink.
+fn hue([r, g, b]: [f32; 3]) -> f32 {
+    (3.0_f32.sqrt() * (g - b)).atan2(2.0 * r - g - b).to_degrees()
+}
+
+/// What is seen inside.
+struct Inner {
+    colour: [f32; 3],
+    /// Half-way between redness inside and grey.
+    middle: f32,
+    filled: f32,
+    shading: f32,
+    uneven: f32,
+}
+
+impl Inner {
+    fn of(picture: &Raster<[f32; 3]>, redness: &Raster<f32>, outline: &Outline) -> Self {
+        let (left, right) = ((outline.cx - outline.a) as usize, (outline.cx + outline.a).ceil() as usize);
+        let (top, bottom) = ((outline.cy - outline.b) as usize, (outline.cy + outline.b).ceil() as usize);
+        let middle = outline.inside / 2.0;
+        let (mut count, mut red, mut sum, mut halves) = (0.0, 0.0, [0.0; 3], [[0.0_f32; 2]; 2]);
+        let (mut spread, mut reds) = (0.0, 0.0);
+        for y in top..bottom.min(picture.height) {
+            for x in left..right.min(picture.width) {
+                let (u, v) = ((x as f32 + 0.5 - outline.cx) / outline.a, (y as f32 + 0.5 - outline.cy) / outline.b);
+                if u * u + v * v > 0.8 {
+                    continue;
+                }
+                let (pixel, value) = (picture.at(x, y), redness.at(x, y));
+                count += 1.0;
+                let half = &mut halves[usize::from(v > 0.0)];
+                half[0] += total(pixel);
+                half[1] += 1.0;
+                if value > middle {
+                    red += 1.0;
+                    for (sum, c) in sum.iter_mut().zip(pixel) {
+                        *sum += c;
+                    }
+                    reds += value;
+                    spread += value * value;
+                }
+            }
+        }
+        let inside = f32::max(red, 1.0);
+        let whole = 0.4 * std::f32::consts::PI * outline.a * outline.b;
+        let shown = halves.iter().all(|[_, count]| *count > HALF_SHOWN * whole);
+        let [upper, lower] = halves.map(|[sum, count]| sum / f32::max(count, 1.0));
+        let mean = reds / inside;
+        Self {
+            colour: sum.map(|c| c / inside),
+            middle,
+            filled: red / f32::max(count, 1.0),
+            shading: if shown { (upper - lower) / (upper + lower + 30.0) } else { USUAL_SHADING },
+            uneven: (spread / inside - mean * mean).max(0.0).sqrt() / outline.inside.abs().max(0.05),
+        }
+    }
+}
+
+/// What is seen around.
+struct Outer {
+    redness: f32,
+    leaking: f32,
+    below: f32,
+    carpet: f32,
+    uneven: f32,
+}
+
+impl Outer {
+    fn of(
+        picture: &Raster<[f32; 3]>,
+        redness: &Raster<f32>,
+        carpet: Option<&Carpet>,
+        outline: &Outline,
+        middle: f32,
+    ) -> Self {
+        let gap = 1.0 / outline.a.min(outline.b).max(1.0);
+        let (mut values, mut count, mut red) = (Vec::with_capacity(2 * AROUND), 0.0, 0.0);
+        let (mut green, mut low, mut low_green) = (0.0, 0.0, 0.0);
+        let mut lights = Vec::with_capacity(2 * AROUND);
+        for scale in [1.15 + gap, 1.45 + gap] {
+            for k in 0..AROUND {
+                let [x, y] = outline.point(k, AROUND, scale);
+                let Some(value) = redness.under(x, y) else { continue };
+                let is_carpet = carpet.is_some_and(|carpet| carpet.mask.under(x, y).unwrap_or(false));
+                let lower = k > AROUND / 12 && k < AROUND * 5 / 12;
+                values.push(value);
+                lights.extend(picture.under(x, y).map(total));
+                count += 1.0;
+                red += f32::from(u8::from(value > middle));
+                green += f32::from(u8::from(is_carpet));
+                if lower {
+                    low += 1.0;
+                    low_green += f32::from(u8::from(is_carpet));
+                }
+            }
+        }
+        let all = f32::max(count, 1.0);
+        let median = values.len() / 2;
+        let typical = if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(median, f32::total_cmp).1 };
+        let mean = lights.iter().sum::<f32>() / all;
+        let spread = (lights.iter().map(|l| (l - mean).powi(2)).sum::<f32>() / all).sqrt();
+        // Where the picture ends below, nothing speaks against carpet there.
+        let below = if low > 0.0 { low_green / low } else { 1.0 };
+        Self { redness: typical, leaking: red / all, below, carpet: green / all, uneven: spread / (mean + 20.0) }
+    }
+}

@@ -1,0 +1,202 @@
+//! A candidate's outline: an upright ellipse through the points where redness is half-way between inside and outside.
+
+use super::Region;
+use super::regions::Blob;
+use crate::picture::Raster;
+use nalgebra::{Matrix4, Vector4};
+
+/// Rays from the middle.
+pub(super) const RAYS: usize = 32;
+/// Times the ellipse is fitted again from its new middle.
+const ROUNDS: usize = 2;
+/// How far a ray looks, in radii.
+const REACH: f32 = 1.8;
+/// A crossing farther than this from the ellipse, in radii, is of something else: a highlight, a neighbour.
+const OUTLIER: f32 = 0.2;
+/// How far a fit may move a box's sides, in radii.
+const TRUSTED: f32 = 0.5;
+
+/// What half-way misses of a ball, left to right and top to bottom, pixels: medians over rendered balls of 8 pixels and
+/// more. The lower part is dim, and video stores colour at half the resolution.
+const MISSED: [f32; 2] = [0.5, 0.8];
+
+/// An upright ellipse and how well the picture agrees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outline {
+    pub(super) cx: f32,
+    pub(super) cy: f32,
+    pub(super) a: f32,
+    pub(super) b: f32,
+    /// Typical redness inside.
+    pub(super) inside: f32,
+    /// Share of rays, of those within the picture, that cross near the ellipse.
+    pub(super) agreeing: f32,
+    /// Root mean square distance of those crossings from the ellipse, in radii.
+    pub(super) rough: f32,
+    /// Share of rays within the picture.
+    pub(super) shown: f32,
+}
+
+impl Outline {
+    /// The outline of a region; `None` where redness makes none.
+    pub(super) fn refine(redness: &Raster<f32>, blob: Blob) -> Option<Self> {
+        let (a, b) = ((blob.right - blob.left) / 2.0, (blob.bottom - blob.top) / 2.0);
+        let (cx, cy) = (blob.left + a, blob.top + b);
+        let first = Self { cx, cy, a, b, inside: 0.0, agreeing: 0.0, rough: 1.0, shown: 0.0 };
+        let mut now = first;
+        for round in 0..=ROUNDS {
+            now.inside = now.typical(redness)?;
+            let crossings = now.crossings(redness);
+            let shown = crossings.iter().filter(|crossing| !matches!(crossing, Crossing::Outside)).count();
+            now.judge(&crossings, shown);
+            if round < ROUNDS {
+                now = now.fitted(&crossings).filter(|fit| fit.near(&first)).unwrap_or(now);
+            }
+        }
+        Some(now)
+    }
+
+    /// The box, clipped to the picture, in pixels of a picture `by` times as large.
+    pub(super) fn region<T: Copy>(&self, working: &Raster<T>, by: usize) -> Region {
+        let span = |middle: f32, half: f32, size: usize| {
+            let (low, high) = ((middle - half).max(0.0), (middle + half).min(size as f32));
+            (f64::from(low + high) / 2.0 * by as f64, f64::from(high - low) * by as f64)
+        };
+        let [beside, below] = MISSED.map(|missed| missed / 2.0);
+        let (x, width) = span(self.cx, self.a + beside, working.width);
+        let (y, height) = span(self.cy + below, self.b + below, working.height);
+        Region { x, y, width, height }
+    }
+
+    /// A point on the ellipse blown up by `scale`, in the direction of ray `k`.
+    pub(super) fn point(&self, k: usize, rays: usize, scale: f32) -> [f32; 2] {
+        let (s, c) = (std::f32::consts::TAU * k as f32 / rays as f32).sin_cos();
+        [self.cx + scale * self.a * c, self.cy + scale * self.b * s]
+    }
+
+    /// The 60th percentile of redness inside: neither highlight nor blurred edge.
+    fn typical(&self, redness: &Raster<f32>) -> Option<f32> {
+        let mut values: Vec<f32> = Vec::with_capacity(64);
+        for ring in [0.0, 0.3, 0.55, 0.75] {
+            for k in 0..16 {
+                let [x, y] = self.point(k, 16, ring);
+                values.extend(redness.sample(x, y));
+            }
+        }
+        let place = values.len() * 6 / 10;
+        (values.len() >= 12).then(|| *values.select_nth_unstable_by(place, f32::total_cmp).1)
+    }
+
+    fn crossings(&self, redness: &Raster<f32>) -> [Crossing; RAYS] {
+        std::array::from_fn(|k| self.crossing(redness, k))
+    }
+
+    fn crossing(&self, redness: &Raster<f32>, k: usize) -> Crossing {
+        let at = |scale: f32| {
+            let [x, y] = self.point(k, RAYS, scale);
+            redness.sample(x, y)
+        };
+        let Some(_) = at(1.0) else { return Crossing::Outside };
+        // One pixel beyond the ellipse is outside for large and small ones alike.
+        let pixel = 1.0 / self.a.min(self.b).max(1.0);
+        let outside = [1.25, 1.45].map(|scale| at(scale + pixel * 0.7));
+        let outside: Vec<f32> = outside.into_iter().flatten().collect();
+        if outside.is_empty() {
+            return Crossing::Outside;
+        }
+        let outside = outside.iter().sum::<f32>() / outside.len() as f32;
+        if self.inside - outside < 0.3 * self.inside.abs().max(0.1) {
+            return Crossing::None;
+        }
+        let half = (self.inside + outside) / 2.0;
+        let step = (0.4 * pixel).clamp(0.02, 0.2);
+        let mut before = f32::NAN;
+        let mut scale = 0.45;
+        while scale < REACH {
+            let Some(value) = at(scale) else { return Crossing::Outside };
+            if value < half && before >= half {
+                return Crossing::At(scale - step * (half - value) / (before - value));
+            }
+            before = value;
+            scale += step;
+        }
+        Crossing::None
+    }
+
+    fn judge(&mut self, crossings: &[Crossing], shown: usize) {
+        let off: Vec<f32> = crossings
+            .iter()
+            .filter_map(|crossing| match crossing {
+                Crossing::At(scale) if (scale - 1.0).abs() < OUTLIER => Some((scale - 1.0).powi(2)),
+                _ => None,
+            })
+            .collect();
+        self.shown = shown as f32 / RAYS as f32;
+        self.agreeing = if shown == 0 { 0.0 } else { off.len() as f32 / shown as f32 };
+        self.rough = if off.is_empty() { OUTLIER } else { (off.iter().sum::<f32>() / off.len() as f32).sqrt() };
+    }
+
+    /// The ellipse through the crossings: u² / a² + v² / b² linear in its coefficients, twice, the second time without
+    /// what is far from the first.
+    fn fitted(&self, crossings: &[Crossing]) -> Option<Self> {
+        let points: Vec<[f32; 2]> = crossings
+            .iter()
+            .enumerate()
+            .filter_map(|(k, crossing)| match crossing {
+                Crossing::At(scale) => {
+                    let (s, c) = (std::f32::consts::TAU * k as f32 / RAYS as f32).sin_cos();
+                    Some([scale * c, scale * s])
+                }
+                _ => None,
+            })
+            .collect();
+        let first = ellipse(&points)?;
+        let close: Vec<[f32; 2]> = points.into_iter().filter(|p| (distance(&first, *p)).abs() < OUTLIER).collect();
+        let [cu, cv, a, b] = ellipse(&close)?;
+        Some(Self { cx: self.cx + cu * self.a, cy: self.cy + cv * self.b, a: a * self.a, b: b * self.b, ..*self })
+    }
+
+    fn near(&self, first: &Self) -> bool {
+        let moved = |now: f32, was: f32, radius: f32| (now - was).abs() < TRUSTED * radius + 1.0;
+        moved(self.cx - self.a, first.cx - first.a, first.a)
+            && moved(self.cx + self.a, first.cx + first.a, first.a)
+            && moved(self.cy - self.b, first.cy - first.b, first.b)
+            && moved(self.cy + self.b, first.cy + first.b, first.b)
+    }
+}
+
+/// Where a ray leaves the candidate.
+#[derive(Clone, Copy, Debug)]
+enum Crossing {
+    /// At this multiple of the ellipse's radius.
+    At(f32),
+    /// Nowhere: what is outside is as red.
+    None,
+    /// Beyond the picture's edge.
+    Outside,
+}
+
+/// Middle and half axes of the upright ellipse through points, in least squares of A u² + B v² + C u + D v = 1.
+fn ellipse(points: &[[f32; 2]]) -> Option<[f32; 4]> {
+    if points.len() < 10 {
+        return None;
+    }
+    let (mut m, mut right) = (Matrix4::<f32>::zeros(), Vector4::zeros());
+    for &[u, v] in points {
+        let row = Vector4::new(u * u, v * v, u, v);
+        m += row * row.transpose();
+        right += row;
+    }
+    let [[a, b, c, d]] = m.cholesky()?.solve(&right).data.0;
+    if a <= 0.0 || b <= 0.0 {
+        return None;
+    }
+    let (cu, cv) = (-c / (2.0 * a), -d / (2.0 * b));
+    let scale = 1.0 + a * cu * cu + b * cv * cv;
+    Some([cu, cv, (scale / a).sqrt(), (scale / b).sqrt()])
+}
+
+fn distance(ellipse: &[f32; 4], p: [f32; 2]) -> f32 {
+    let [cu, cv, a, b] = *ellipse;
+    ((p[0] - cu) / a).hypot((p[1] - cv) / b) - 1.0
+}

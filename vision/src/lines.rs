@@ -1,0 +1,106 @@
+//! Points on the field's lines: thin and bright across, with carpet on both sides.
+
+use crate::carpet::{Carpet, total};
+use crate::picture::Raster;
+
+/// Brightness of a line over the carpet's at least; worn paint on sunlit carpet.
+const BRIGHTER: f32 = 1.25;
+/// Chromaticity of a line lies at least this far from saturation: the components' range over their sum.
+const COLOUR: f32 = 0.22;
+/// Widest line, as share of the picture's width: 10 mm from 10 cm away.
+const WIDEST: f32 = 0.09;
+/// Pixels beside a line within which carpet must begin: blur makes a fringe.
+const FRINGE: usize = 3;
+
+/// A point on a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePoint {
+    /// From the left, pixels.
+    pub x: f64,
+    /// From the top, pixels.
+    pub y: f64,
+    /// Thickness in the direction it was crossed, pixels.
+    pub width: f64,
+}
+
+/// Points on lines, by scans down every `every`th column and across every `every`th row.
+pub(crate) fn points(picture: &Raster<[f32; 3]>, carpet: &Carpet, by: usize, every: usize) -> Vec<LinePoint> {
+    let ground = total(carpet.colour);
+    let bright: Vec<bool> = picture
+        .data
+        .iter()
+        .map(|&pixel| {
+            let sum = total(pixel);
+            let range = pixel.iter().fold(f32::MIN, |m, &c| m.max(c)) - pixel.iter().fold(f32::MAX, |m, &c| m.min(c));
+            sum > BRIGHTER * ground && range < COLOUR * sum
+        })
+        .collect();
+    let widest = (WIDEST * picture.width as f32) as usize;
+    let scale = by as f64;
+    let mut points = Vec::new();
+    for x in (every / 2..picture.width).step_by(every) {
+        let at = |y: usize| y * picture.width + x;
+        let weight = |y: usize| (total(picture.data[at(y)]) - ground).max(0.0);
+        for (middle, width) in
+            crossings(picture.height, widest, &|y| bright[at(y)], &|y| carpet.mask.data[at(y)], &weight)
+        {
+            points.push(LinePoint { x: (x as f64 + 0.5) * scale, y: middle * scale, width: width * scale });
+        }
+    }
+    for y in (every / 2..picture.height).step_by(every) {
+        let at = |x: usize| y * picture.width + x;
+        let weight = |x: usize| (total(picture.data[at(x)]) - ground).max(0.0);
+        for (middle, width) in
+            crossings(picture.width, widest, &|x| bright[at(x)], &|x| carpet.mask.data[at(x)], &weight)
+        {
+            points.push(LinePoint { x: middle * scale, y: (y as f64 + 0.5) * scale, width: width * scale });
+        }
+    }
+    points
+}
+
+/// Middles and widths of bright runs between carpet.
+fn crossings(
+    length: usize,
+    widest: usize,
+    bright: &dyn Fn(usize) -> bool,
+    carpet: &dyn Fn(usize) -> bool,
+    weight: &dyn Fn(usize) -> f32,
+) -> Vec<(f64, f64)> {
+    let mut found = Vec::new();
+    let mut i = 0;
+    while i < length {
+        if !bright(i) {
+            i += 1;
+            continue;
+        }
+        let from = i;
+        while i < length && bright(i) {
+            i += 1;
+        }
+        let before = from.checked_sub(FRINGE + 1).is_some_and(|first| (first..from).any(carpet) && carpet(first));
+        let after = i + FRINGE < length && (i..=i + FRINGE).any(carpet) && carpet(i + FRINGE);
+        if i - from <= widest && before && after {
+            let (low, high) = (from.saturating_sub(1), (i + 1).min(length));
+            let sum: f64 = (low..high).map(|k| f64::from(weight(k))).sum();
+            let moment: f64 = (low..high).map(|k| f64::from(weight(k)) * (k as f64 + 0.5)).sum();
+            if sum > 0.0 {
+                found.push((moment / sum, (i - from) as f64));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_between_carpet_counts_and_a_wall_behind_carpet_does_not() {
+        let row: Vec<u8> = b"ccccccwwcccccccccccwwwwwwwww".to_vec();
+        let found =
+            crossings(row.len(), 4, &|i| row[i] == b'w', &|i| row[i] == b'c', &|i| f32::from(u8::from(row[i] == b'w')));
+        assert_eq!(found, [(7.0, 2.0)]);
+    }
+}

@@ -1,0 +1,198 @@
+//! A colour picture, and reading it from a file.
+
+mod read;
+
+pub use read::{PictureError, decode, read};
+
+/// Smallest side of a picture, pixels: below, a ball of 8 pixels would fill it.
+pub const SMALLEST_SIDE: usize = 32;
+/// Largest side of a picture, pixels: 8K video.
+pub const LARGEST_SIDE: usize = 8192;
+
+/// Share of pixels below [`DARK`] at which a picture shows nothing: a lens cap leaves noise, a dark hall some lamp.
+const BLACK_SHARE: f64 = 0.995;
+/// Largest component of a dark pixel, of 255: the black level and the noise of small sensors stay below.
+const DARK: u8 = 20;
+/// Share of pixels with two components at the limit at which a picture is over-exposed beyond use: a field with its
+/// carpet at the limit has no green left to measure colours by.
+const OVER_EXPOSED_SHARE: f64 = 0.9;
+/// A component that counts as at the limit, of 255.
+const LIMIT: u8 = 250;
+
+/// 8-bit sRGB pixels, row by row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    width: usize,
+    height: usize,
+    pixels: Vec<[u8; 3]>,
+}
+
+/// Why a picture cannot be used although it could be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unusable {
+    /// Sides out of range.
+    #[error(
+        "{width} x {height} pixels; both sides must be {SMALLEST_SIDE} to {LARGEST_SIDE}: give the camera's own frame"
+    )]
+    Size {
+        /// Pixels a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// Not the size that the camera was calibrated at.
+    #[error("{width} x {height} pixels, but the camera is calibrated at {expected_width} x {expected_height}")]
+    NotCalibrated {
+        /// Pixels a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Pixels a row in the calibration.
+        expected_width: usize,
+        /// Rows in the calibration.
+        expected_height: usize,
+    },
+    /// Nothing but dark pixels.
+    #[error("the picture is black: is the lens covered, or the exposure far too short?")]
+    Black,
+    /// Nearly all pixels at the sensor's limit.
+    #[error("the picture is over-exposed: shorten the exposure or lower the gain")]
+    OverExposed,
+    /// Every pixel the same.
+    #[error("the picture has one colour only: the camera delivers no image")]
+    Flat,
+    /// The same bytes as the picture before; a live sensor's noise makes that impossible.
+    #[error("the picture equals the one before, pixel for pixel: the camera is frozen")]
+    Frozen,
+}
+
+impl Picture {
+    /// A picture of `height` rows of `width` pixels.
+    ///
+    /// # Errors
+    /// [`Unusable::Size`] for sides out of range.
+    ///
+    /// # Panics
+    /// When there are not `width` times `height` pixels.
+    pub fn new(width: usize, height: usize, pixels: Vec<[u8; 3]>) -> Result<Self, Unusable> {
+        let range = SMALLEST_SIDE..=LARGEST_SIDE;
+        if !range.contains(&width) || !range.contains(&height) {
+            return Err(Unusable::Size { width, height });
+        }
+        assert_eq!(pixels.len(), width * height, "a picture of {width} x {height} pixels");
+        Ok(Self { width, height, pixels })
+    }
+
+    /// Pixels a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Red, green and blue, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[[u8; 3]] {
+        &self.pixels
+    }
+
+    /// Red, green and blue, row by row.
+    pub fn pixels_mut(&mut self) -> &mut [[u8; 3]] {
+        &mut self.pixels
+    }
+
+    /// Checks that the picture shows something.
+    ///
+    /// # Errors
+    /// [`Unusable::Flat`], [`Unusable::Black`], [`Unusable::OverExposed`].
+    pub fn check(&self) -> Result<(), Unusable> {
+        let share = |is: &dyn Fn(&[u8; 3]) -> bool| {
+            self.pixels.iter().filter(|pixel| is(pixel)).count() as f64 / self.pixels.len() as f64
+        };
+        if share(&|pixel| pixel.iter().all(|&c| c < DARK)) >= BLACK_SHARE {
+            return Err(Unusable::Black);
+        }
+        if share(&|pixel| pixel.iter().filter(|&&c| c >= LIMIT).count() >= 2) >= OVER_EXPOSED_SHARE {
+            return Err(Unusable::OverExposed);
+        }
+        if self.pixels.iter().all(|pixel| *pixel == self.pixels[0]) {
+            return Err(Unusable::Flat);
+        }
+        Ok(())
+    }
+
+    /// The picture in floating point, sides divided by the whole number that brings the width to `width` or little
+    /// more; and that number.
+    pub(crate) fn reduced(&self, width: usize) -> (Raster<[f32; 3]>, usize) {
+        let by = (self.width / width).max(1);
+        let (columns, rows) = (self.width / by, self.height / by);
+        if by == 1 {
+            let data = self.pixels.iter().map(|pixel| pixel.map(f32::from)).collect();
+            return (Raster { width: columns, height: rows, data }, 1);
+        }
+        let scale = 1.0 / (by * by) as f32;
+        let mut data = Vec::with_capacity(columns * rows);
+        for y in 0..rows {
+            for x in 0..columns {
+                let mut sum = [0_u32; 3];
+                for row in y * by..(y + 1) * by {
+                    let from = row * self.width + x * by;
+                    for pixel in &self.pixels[from..from + by] {
+                        for (sum, &c) in sum.iter_mut().zip(pixel) {
+                            *sum += u32::from(c);
+                        }
+                    }
+                }
+                data.push(sum.map(|c| c as f32 * scale));
+            }
+        }
+        (Raster { width: columns, height: rows, data }, by)
+    }
+}
+
+/// Values on a grid of pixels, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Raster<T> {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) data: Vec<T>,
+}
+
+impl<T: Copy> Raster<T> {
+    /// The same grid with other values.
+    pub(crate) fn map<U>(&self, value: impl Fn(T) -> U) -> Raster<U> {
+        Raster { width: self.width, height: self.height, data: self.data.iter().map(|&old| value(old)).collect() }
+    }
+
+    /// The value at a pixel.
+    pub(crate) fn at(&self, x: usize, y: usize) -> T {
+        self.data[y * self.width + x]
+    }
+
+    /// The value of the pixel that a point lies in; `None` outside.
+    pub(crate) fn under(&self, x: f32, y: f32) -> Option<T> {
+        let inside = x >= 0.0 && y >= 0.0 && (x as usize) < self.width && (y as usize) < self.height;
+        inside.then(|| self.at(x as usize, y as usize))
+    }
+}
+
+impl Raster<f32> {
+    /// The value at a point, bilinear between pixel centres; `None` outside the picture.
+    pub(crate) fn sample(&self, x: f32, y: f32) -> Option<f32> {
+        if x < 0.0 || y < 0.0 || x >= self.width as f32 || y >= self.height as f32 {
+            return None;
+        }
+        let (x, y) = ((x - 0.5).max(0.0), (y - 0.5).max(0.0));
+        let (left, top) = (x as usize, y as usize);
+        let (right, bottom) = ((left + 1).min(self.width - 1), (top + 1).min(self.height - 1));
+        let (fx, fy) = (x - left as f32, y - top as f32);
+        let upper = self.at(left, top) * (1.0 - fx) + self.at(right, top) * fx;
+        let lower = self.at(left, bottom) * (1.0 - fx) + self.at(right, bottom) * fx;
+        Some(upper * (1.0 - fy) + lower * fy)
+    }
+}
