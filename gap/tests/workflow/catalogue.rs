@@ -4,6 +4,7 @@ use super::common::{RICH, cut, names, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
 use rayon::prelude::*;
+use runs::frames::{Pose, wrap_angle};
 use runs::robot::{Robot, Support};
 
 /// One effect to hide.
@@ -122,7 +123,7 @@ fn every_effect_simulated_in_is_found() {
     assert!(faults.is_empty(), "{} of {}:\n{}", faults.len(), CASES.len(), faults.join("\n"));
 }
 
-/// The simulator has no camera with a clock of its own, and no rollers that give way: `tests/real.rs` has both.
+/// The simulator has no camera with a clock of its own, and no rollers that give way: their logs are changed.
 const NOT_SIMULATED: [&str; 2] = ["camera-clock", "sideways-creep"];
 
 #[test]
@@ -130,6 +131,44 @@ fn the_table_holds_the_whole_catalogue() {
     for effect in gap::effects::catalogue().iter().filter(|e| !e.probe() && !NOT_SIMULATED.contains(&e.name())) {
         assert!(CASES.iter().any(|c| c.name == effect.name()), "{} has no case", effect.name());
     }
+}
+
+/// Frames of each run stamped by a clock that was started by hand.
+#[test]
+fn clocks_that_differ_from_run_to_run_are_found() {
+    let mut set = simulate(&Robot::racbot(), &RICH, 91);
+    for (run, ticks) in set.runs.iter_mut().zip([30_i64, -40, 10]) {
+        cut(run, 9.0);
+        run.camera.retain(|c| (0..run.t.len() as i64).contains(&(c.tick as i64 + ticks)));
+        run.camera.iter_mut().for_each(|c| c.tick = (c.tick as i64 + ticks) as usize);
+    }
+    let a = analyse(&set, &Options::default()).unwrap();
+    assert_eq!(names(&a), ["camera-clock"], "{}", a.terminal_summary());
+    for (name, truth) in [("offset_1_s", 0.03), ("offset_2_s", -0.04)] {
+        assert!((value(&a, name) - truth).abs() < 0.002, "{name}: {}", a.terminal_summary());
+    }
+}
+
+/// A robot that moves 5 % further sideways than its wheels say, step by step from frame to frame.
+#[test]
+fn rollers_that_give_way_are_found() {
+    let mut set = simulate(&Robot::racbot(), &RICH, 92);
+    for run in &mut set.runs {
+        cut(run, 9.0);
+        let seen: Vec<_> = run.camera.iter().map(|c| c.pose).collect();
+        let mut at = seen[0];
+        for (k, step) in seen.windows(2).enumerate() {
+            let (dx, dy) = (step[1].x - step[0].x, step[1].y - step[0].y);
+            // Across the heading between the frames.
+            let (sin, cos) = (step[0].theta + 0.5 * wrap_angle(step[1].theta - step[0].theta)).sin_cos();
+            let more = 0.05 * (cos * dx + sin * dy);
+            at = Pose::new(at.x + dx + more * cos, at.y + dy + more * sin, step[1].theta);
+            run.camera[k + 1].pose = at;
+        }
+    }
+    let a = analyse(&set, &Options::default()).unwrap();
+    assert_eq!(names(&a), ["sideways-creep"], "{}", a.terminal_summary());
+    assert!((value(&a, "scale") - 0.05).abs() < 0.006, "{}", a.terminal_summary());
 }
 
 /// Cables and set points are two things of one name: found side by side, kept apart in the file, and both in force
