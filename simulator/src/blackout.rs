@@ -223,7 +223,7 @@ impl<F: Fpga> OnBoard<F> {
         let mut imu = Imu::new(sensor, 3);
         // A second of rest before the start shows the gyroscope's bias.
         let period = 1.0 / model.control_rate_hz;
-        let counts = robot.with_plant(|plant| plant.counts());
+        let counts = robot.with_plant(model::plant::Plant::counts);
         for k in 0..1000 {
             filter.predict((f64::from(k) - 1000.0) * period, &counts, &imu.read(&Motion::default()));
         }
