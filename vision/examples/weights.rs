@@ -41,7 +41,7 @@ struct Case {
 fn main() {
     let arguments: Vec<u64> = std::env::args().skip(1).map_while(|a| a.parse().ok()).collect();
     assert!(
-        !arguments.is_empty() && arguments.len() % 2 == 0,
+        !arguments.is_empty() && arguments.len().is_multiple_of(2),
         "give ranges of seeds: the first and the one after the last"
     );
     let seeds: Vec<u64> = arguments.chunks_exact(2).flat_map(|range| range[0]..range[1]).collect();
