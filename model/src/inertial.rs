@@ -14,12 +14,12 @@ use runs::geometry::Geometry;
 const STANDING_S: f64 = 0.2;
 /// Window over which wheels and sensor are compared for slip, s: half of the 50 ms within which slip is to be noticed.
 const SLIP_WINDOW_S: f64 = 0.02;
-/// Turn within the window that is slip, rad: four counts of an encoder on wheels 85 mm out, and a share of the turn
-/// itself for skew and scale.
+/// Turn within the window that is slip, rad, beyond a share of the turn itself for skew and scale: chosen above the steps of
+/// an encoder on wheels 85 mm out, and checked by `model/tests/inertial.rs`.
 const SLIP_TURN: f64 = 0.004;
 const SLIP_TURN_SHARE: f64 = 0.1;
-/// Change of speed within the window that is slip, m/s, beyond this share of the change itself: six steps of a wheel's
-/// speed at 1 kHz, and 5° of tilt of the robot (0.86 m/s² for 20 ms).
+/// Change of speed within the window that is slip, m/s, beyond a share of the change itself: chosen above what skew of 2°
+/// and 5° of tilt (0.86 m/s² for 20 ms) make, and checked by `model/tests/inertial.rs`.
 const SLIP_SPEED: f64 = 0.05;
 const SLIP_SPEED_SHARE: f64 = 0.2;
 /// Difference of the wheels' speed from the believed one at which they hold again, m/s.

@@ -41,7 +41,7 @@ struct Case {
 fn main() {
     let arguments: Vec<u64> = std::env::args().skip(1).map_while(|a| a.parse().ok()).collect();
     assert!(
-        !arguments.is_empty() && arguments.len() % 2 == 0,
+        !arguments.is_empty() && arguments.len().is_multiple_of(2),
         "give ranges of seeds: the first and the one after the last"
     );
     let seeds: Vec<u64> = arguments.chunks_exact(2).flat_map(|range| range[0]..range[1]).collect();
@@ -199,7 +199,9 @@ fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {
     println!("/// Odds of a candidate whose weights are all zero, logarithm.");
     println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[COUNT * KNOTS]);
     let rows = |name: &str, what: &str, row: &dyn Fn(usize) -> Vec<f32>| {
-        println!("/// {what}\n#[rustfmt::skip]\npub(super) const {name}: [[f32; {KNOTS}]; COUNT] = [");
+        println!("/// {what}\n#[rustfmt::skip]");
+        println!(r#"#[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]"#);
+        println!("pub(super) const {name}: [[f32; {KNOTS}]; COUNT] = [");
         for (i, name) in NAMES.iter().enumerate() {
             let numbers: Vec<String> = row(i).iter().map(|n| format!("{n:.3}")).collect();
             println!("    [{}], // {name}", numbers.join(", "));

@@ -20,7 +20,7 @@ use std::f64::consts::FRAC_PI_2;
 const FARTHEST: f64 = 3.0;
 /// Fewest points that make a match; three unknowns, and lines come in runs of points.
 const FEWEST: usize = 12;
-/// Standard deviation of a point in the picture, pixels, by rendered pictures: the middle of a blurred line.
+/// Standard deviation of a point in the picture, pixels: assumed for the middle of a blurred line.
 const PIXEL_SD: f64 = 0.8;
 /// Standard deviation that no point is better than, m: camera calibration, bumps of the floor.
 const FLOOR_SD: f64 = 0.008;

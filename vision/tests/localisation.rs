@@ -50,7 +50,7 @@ fn lines_correct_a_prediction_and_find_a_lost_robot() {
         // The field looks the same from its other end.
         let mirrored = Pose::new(-truth.x, -truth.y, wrap_angle(truth.theta + std::f64::consts::PI));
         let near = |estimate: &Estimate| [truth, mirrored].iter().any(|t| off(estimate.pose, *t) < (0.1, 0.1));
-        relocated += usize::from(relocate(&map, &camera(), &points).iter().take(2).any(|e| near(e)));
+        relocated += usize::from(relocate(&map, &camera(), &points).iter().take(2).any(near));
     }
     assert!(relocated >= 4, "{relocated} of {} found without a prediction", POSES.len());
 }

@@ -7,6 +7,7 @@ pub(super) const OFFSET: f32 = -0.591;
 
 /// Values of a feature at which its weight is given.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
 pub(super) const KNOTS: [[f32; 9]; COUNT] = [
     [0.047, 0.103, 0.175, 0.190, 0.254, 0.341, 0.472, 0.521, 0.626], // redness inside
     [-53.221, 0.209, 6.035, 8.706, 16.897, 24.909, 33.625, 43.826, 48.783], // hue, degrees from red to yellow
@@ -32,6 +33,7 @@ pub(super) const KNOTS: [[f32; 9]; COUNT] = [
 
 /// Logarithm of odds at each knot.
 #[rustfmt::skip]
+#[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
 pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
     [-1.155, -0.667, -0.198, 0.133, 0.280, 0.226, 0.049, -0.177, -0.443], // redness inside
     [-2.128, -1.204, -0.3179, 0.358, 0.771, 0.975, 0.848, 0.285, -0.492], // hue, degrees from red to yellow
