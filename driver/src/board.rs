@@ -528,7 +528,7 @@ mod tests {
         let mut board = Board::new(Failing { card: board.bus.inner, transfers: 0, fails: 0..usize::MAX });
         let message = board.disarm().unwrap_err().to_string();
         assert!(message.contains("parity error"), "{message}");
-        assert_eq!(board.bus.transfers, 3, "it writes zero on every try");
+        assert_eq!(board.bus.transfers, DISARM_TRIES as usize, "it writes zero on every try");
     }
 
     /// A bus that flips one bit of one write.

@@ -36,7 +36,7 @@ pub(super) const KNOTS: [[f32; 9]; COUNT] = [
 #[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
 pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
     [-1.155, -0.667, -0.198, 0.133, 0.280, 0.226, 0.049, -0.177, -0.443], // redness inside
-    [-2.128, -1.204, -0.3179, 0.358, 0.771, 0.975, 0.848, 0.285, -0.492], // hue, degrees from red to yellow
+    [-2.128, -1.204, -0.318, 0.358, 0.771, 0.975, 0.848, 0.285, -0.492], // hue, degrees from red to yellow
     [-1.514, -1.208, -0.833, -0.351, 0.162, 0.631, 1.000, 1.287, 1.553], // redness inside less outside
     [-1.320, -0.911, -0.487, -0.125, -0.005, 0.003, 0.003, 0.003, 0.003], // outline: share of rays that agree
     [1.202, 0.970, 0.658, 0.220, -0.327, -0.722, -0.775, -0.775, -0.775], // outline: roughness, radii
