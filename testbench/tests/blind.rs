@@ -44,10 +44,10 @@ fn gross_effects_are_named_and_clean_data_stay_clean() {
     assert_eq!(report.count(Group::Outside, Grade::Wrong), 0, "names for what no catalogue lists:\n{table}");
     assert_eq!(report.count(Group::Ablation, Grade::Right), 0, "spoiled data scored as a hit:\n{table}");
     let [all, held] = report.intervals();
-    assert!(all >= 10 && 10 * held >= 7 * all, "{held} of {all} intervals hold, nominally 95 %:\n{table}");
+    assert!(all >= 10 && 10 * held >= 8 * all, "{held} of {all} intervals hold, nominally 95 %:\n{table}");
     let closed = report.median_closed().unwrap_or(0.0);
     // By the written file, with nothing adjusted beside it.
-    assert!(closed >= 0.6, "{closed} of the gap closed in the middle, 0.78 when measured:\n{table}");
+    assert!(closed >= 0.75, "{closed} of the gap closed in the middle, 0.80 when measured:\n{table}");
 }
 
 #[test]

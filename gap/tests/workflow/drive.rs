@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{cut, names, simulate, with};
-use gap::Verdict;
+use super::common::{names, simulate, with};
 use gap::drive::{DriveLink, DriveModel};
 use gap::effect::{Effect, Form, Link, Values};
 use gap::pieces::{PIECE, segments};
@@ -12,7 +11,7 @@ use gap::state::{Active, State};
 use gap::statistics::rms;
 use model::manoeuvre::Manoeuvre;
 use runs::robot::{Robot, Support};
-use runs::{DataSet, Logs, Run};
+use runs::{Logs, Run};
 
 /// Unexplained torque of all wheels, Nm RMS, where the model knows the skews in rad.
 fn unexplained(skew_rad: [f64; 3]) -> f64 {
@@ -140,54 +139,4 @@ fn rows_further_apart_than_the_control_period_are_no_inertia() {
     });
     let a = gap::analyse(&set, &gap::Options::default()).unwrap();
     assert!(names(&a).is_empty(), "{}", a.terminal_summary());
-}
-
-/// The same drive in other units: masses times `mass`, angles of the wheels times `angle` (an axis in metres is a wheel
-/// that turns by one of its radians a metre).
-fn rescaled(set: &DataSet, mass: f64, angle: f64) -> DataSet {
-    let mut out = set.clone();
-    let r = &mut out.robot;
-    r.mass_kg *= mass;
-    r.yaw_inertia_kg_m2 *= mass;
-    r.wheel_inertia_kg_m2 *= mass / angle.powi(2);
-    // The motor's shaft keeps its angles, and the gear takes it to the others.
-    r.gear_ratio /= angle;
-    r.motor.back_emf_constant = Some(r.motor.back_emf());
-    r.motor.torque_constant *= mass;
-    r.motor.rotor_inertia *= mass;
-    r.motor.friction_torque *= mass;
-    r.wheel_radius_m /= angle;
-    r.pi.kp /= angle;
-    r.pi.ki /= angle;
-    for run in &mut out.runs {
-        run.reference.iter_mut().flatten().for_each(|w| *w *= angle);
-    }
-    out
-}
-
-/// Verdict, names and sizes in the units of the first.
-fn told(set: &DataSet, back: f64) -> (Verdict, Vec<(String, f64)>) {
-    let a = gap::analyse(set, &gap::Options::default()).unwrap();
-    let sizes = a.effects.iter().map(|e| (e.name.clone(), e.parameters[0].1 * back)).collect();
-    (a.verdict, sizes)
-}
-
-/// A thumb-sized motor and a crane are judged alike: mass, angle and with them torque and speed times 10^±3.
-#[test]
-fn units_change_no_verdict() {
-    let nominal = Robot { support: Support::Blocks, ..Robot::racbot() };
-    let truth = with(&nominal, "coulomb-friction", &[("torque_nm", 0.02)]);
-    let mut set = simulate(&truth, &[Manoeuvre::Blocks, Manoeuvre::Blocks], 12);
-    let mut free = simulate(&nominal, &[Manoeuvre::Blocks, Manoeuvre::Blocks], 13);
-    set.runs.iter_mut().chain(&mut free.runs).for_each(|r| cut(r, 6.0));
-    let wanted = told(&set, 1.0);
-    assert_eq!(wanted.1.len(), 1, "{wanted:?}");
-    assert_eq!(told(&free, 1.0).1, []);
-    for (mass, angle) in [(1e3, 1.0), (1e-3, 1.0), (1.0, 1e3), (1.0, 1e-3), (1e3, 1e-3)] {
-        let found = told(&rescaled(&set, mass, angle), angle / mass);
-        assert_eq!(found.0, wanted.0, "{mass} {angle}: {found:?}");
-        assert_eq!(found.1[0].0, wanted.1[0].0, "{mass} {angle}");
-        assert!((found.1[0].1 / wanted.1[0].1 - 1.0).abs() < 0.02, "{mass} {angle}: {found:?} {wanted:?}");
-        assert_eq!(told(&rescaled(&free, mass, angle), 1.0).1, [], "{mass} {angle}");
-    }
 }
