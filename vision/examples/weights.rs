@@ -195,7 +195,7 @@ fn monotone(weights: &mut [f32], direction: f32) {
 
 fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {
     println!("//! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.\n");
-    println!("use super::features::COUNT;\n");
+    println!("/// Number of features.\npub const COUNT: usize = {COUNT};\n");
     println!("/// Odds of a candidate whose weights are all zero, logarithm.");
     println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[COUNT * KNOTS]);
     let rows = |name: &str, what: &str, row: &dyn Fn(usize) -> Vec<f32>| {

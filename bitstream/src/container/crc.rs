@@ -1,6 +1,6 @@
 //! The CRC inside a Virtex or Spartan-II bitstream.
 
-use super::packets;
+use super::registers;
 
 /// Polynomial x¹⁶ + x¹⁵ + x² + 1, reflected.
 const POLYNOMIAL: u16 = 0xA001;
@@ -20,7 +20,7 @@ impl Crc {
 
     /// A write to any register, with what it does to the CRC itself: a check or a reset leaves zero.
     pub fn update(&mut self, register: u32, data: u32) {
-        if register == packets::CRC || (register == packets::COMMAND && data == packets::RESET_CRC) {
+        if register == registers::CRC || (register == registers::COMMAND && data == registers::RESET_CRC) {
             self.0 = 0;
         } else {
             self.write(register, data);
@@ -38,7 +38,7 @@ impl Crc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::container::packets::{COMMAND, CONTROL, FRAME_DATA};
+    use crate::container::registers::{COMMAND, CONTROL, FRAME_DATA};
 
     /// The end of the bitstreams that Xilinx's tools make for this device: last frame, start, control,
     /// and the CRC word 38FE that stands behind them in every file looked at.

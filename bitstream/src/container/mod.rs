@@ -13,6 +13,7 @@ mod crc;
 mod error;
 mod header;
 pub mod packets;
+mod registers;
 
 pub use crc::Crc;
 pub use error::{BitstreamError, Fault};

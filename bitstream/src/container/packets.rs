@@ -7,38 +7,10 @@
 //! | type 1 | 1 | 0 none, 1 read, 2 write | register | words |
 //! | type 2 | 2 | as above | words in 26:0, to the register of the packet before | |
 
+pub use super::registers::*;
+
 use super::crc::Crc;
 use super::{FRAME_WORDS, FRAMES, Fault, Order, SYNC};
-
-/// Register: CRC check.
-pub const CRC: u32 = 0;
-/// Register: address of the next frame.
-pub const FRAME_ADDRESS: u32 = 1;
-/// Register: frame data in.
-pub const FRAME_DATA: u32 = 2;
-/// Register: command.
-pub const COMMAND: u32 = 4;
-/// Register: control.
-pub const CONTROL: u32 = 5;
-/// Register: mask of the control register.
-pub const MASK: u32 = 6;
-/// Register: configuration options, with the order of the start-up.
-pub const OPTIONS: u32 = 9;
-/// Register: frame length, one less than a frame's words.
-pub const FRAME_LENGTH: u32 = 11;
-/// Registers there are.
-const REGISTERS: u32 = 12;
-
-/// Command: write configuration.
-pub const WRITE_CONFIGURATION: u32 = 1;
-/// Command: the frame that follows is the last.
-pub const LAST_FRAME: u32 = 3;
-/// Command: start-up.
-pub const START: u32 = 5;
-/// Command: CRC register to zero.
-pub const RESET_CRC: u32 = 7;
-/// Command: take over the configuration clock's options.
-pub const SWITCH_CLOCK: u32 = 9;
 
 /// The sync word stands this near to the beginning.
 const SYNC_WITHIN: usize = 256;

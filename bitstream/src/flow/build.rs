@@ -2,6 +2,7 @@
 //! bits, decoded, are the netlist.
 
 use super::constraints::Constraints;
+use super::driver::Driver;
 use super::logic::Logic;
 use super::netlist::{Net, Netlist};
 use super::nets::{Nets, Part};
@@ -35,21 +36,6 @@ pub struct Resources {
     pub wires: usize,
     /// Rounds of the router.
     pub rounds: usize,
-}
-
-/// Where a net is driven.
-#[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
-pub struct Driver {
-    /// Name of the net.
-    pub net: String,
-    /// Column and row.
-    pub at: (u8, u8),
-    /// Element, such as `SLICE[1]` or `BRAM`.
-    pub element: String,
-    /// Pin of it, such as `XQ`; `CF` and `CG` are the carries out of its halves.
-    pub pin: String,
-    /// The cell of a flip-flop.
-    pub flip_flop: Option<String>,
 }
 
 /// A design as bits, and where its parts went.

@@ -3,6 +3,7 @@
 pub mod bits;
 mod build;
 pub mod constraints;
+mod driver;
 pub mod floorplan;
 pub mod logic;
 pub mod netlist;
@@ -15,7 +16,8 @@ pub mod route;
 pub mod synthesis;
 pub mod timing;
 
-pub use build::{Built, Driver, Resources, build};
+pub use build::{Built, Resources, build};
+pub use driver::Driver;
 pub use progress::{Progress, Stage};
 
 use thiserror::Error;

@@ -13,8 +13,8 @@
 mod circuits;
 mod elements;
 
-use super::build::Driver;
 use super::constraints::Constraints;
+use super::driver::Driver;
 use super::netlist::{Net, Netlist, Signal};
 use crate::device::Device;
 use crate::netlist::{self, NetId};

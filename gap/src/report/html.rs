@@ -107,7 +107,7 @@ fn effects(out: &mut String, a: &Analysis) {
                 out,
                 "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
                 first(escape(&e.name)),
-                first(terminal::list(&e.wheels)),
+                first(words::list(&e.wheels)),
                 escape(name),
                 short(*v),
                 interval,

@@ -21,7 +21,7 @@ pub(super) fn summary(a: &Analysis) -> String {
     if !a.effects.is_empty() {
         out.push_str("\nWhat\n");
         for e in &a.effects {
-            let on = if e.wheels.is_empty() { String::new() } else { format!(" on wheel {}", list(&e.wheels)) };
+            let on = if e.wheels.is_empty() { String::new() } else { format!(" on wheel {}", words::list(&e.wheels)) };
             wrap(
                 &mut out,
                 "  ",
@@ -80,7 +80,9 @@ pub(super) fn sentence(a: &Analysis) -> String {
     let names: Vec<String> = a
         .effects
         .iter()
-        .map(|e| if e.wheels.is_empty() { e.name.clone() } else { format!("{} (wheel {})", e.name, list(&e.wheels)) })
+        .map(|e| {
+            if e.wheels.is_empty() { e.name.clone() } else { format!("{} (wheel {})", e.name, words::list(&e.wheels)) }
+        })
         .collect();
     let (before, after) = overall(&a.links);
     match a.verdict {
@@ -106,10 +108,6 @@ pub(super) fn sentence(a: &Analysis) -> String {
             format!("Model and data disagree, and no effect of the catalogue explains it{first}.{near}")
         }
     }
-}
-
-pub(super) fn list(wheels: &[usize]) -> String {
-    wheels.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 fn wrap(out: &mut String, indent: &str, text: &str) {

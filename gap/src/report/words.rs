@@ -1,6 +1,6 @@
 //! The findings in sentences.
 
-use super::{terminal, units};
+use super::units;
 use crate::analysis::{Analysis, Named, Verdict};
 use crate::effect::Link;
 
@@ -14,7 +14,7 @@ pub(super) fn effect(e: &Named) -> String {
     let place = match &e.wheels[..] {
         [] => String::new(),
         [one] => format!(" on wheel {one}"),
-        many => format!(" on wheels {}", terminal::list(many)),
+        many => format!(" on wheels {}", list(many)),
     };
     let values: Vec<String> = e
         .parameters
@@ -73,4 +73,9 @@ fn join(names: &[&str]) -> String {
         [one] => (*one).to_owned(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
+}
+
+/// Numbers of wheels, with commas.
+pub(super) fn list(wheels: &[usize]) -> String {
+    wheels.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -1,12 +1,10 @@
 //! What speaks for and against a ball.
 
 use super::outline::Outline;
+pub use super::weights::COUNT;
 use super::weights::{KNOTS, OFFSET, WEIGHTS};
 use crate::carpet::{Carpet, total};
 use crate::picture::Raster;
-
-/// How many features there are.
-pub const COUNT: usize = 20;
 
 /// Names of the features, in order.
 pub const NAMES: [&str; COUNT] = [

@@ -1,6 +1,7 @@
 //! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.
 
-use super::features::COUNT;
+/// How many features there are.
+pub const COUNT: usize = 20;
 
 /// Odds of a candidate whose weights are all zero, logarithm.
 pub(super) const OFFSET: f32 = -0.591;

@@ -1,7 +1,7 @@
 //! The two circuits, each as functions of cut nets.
 
-use crate::flow::build::Driver;
 use crate::flow::constraints::Constraints;
+use crate::flow::driver::Driver;
 use crate::flow::netlist::{CarryMux, CarryXor, FlipFlop, Lut, Net, Netlist, Signal, WideMux};
 use crate::netlist::{self, CellKind, NetId};
 use std::collections::{BTreeMap, BTreeSet};
