@@ -97,12 +97,15 @@ fn slope(pairs: &[(f64, f64)]) -> f64 {
 
 /// Set points in another unit, or speeds that are wrong beside them.
 fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
-    let pairs: Vec<(f64, f64)> = signals
-        .iter()
-        .flat_map(|s| s.speed.iter().zip(&s.reference).flat_map(|(w, r)| w.iter().copied().zip(r.iter().copied())))
-        .filter(|(w, r)| w.is_finite() && r.is_finite())
-        .collect();
-    if pairs.len() < FEWEST || correlation(pairs.iter().copied()) < FOLLOWS {
+    // Wheels follow their set points: the lag at which they do so best.
+    let of = |lag: usize| -> Vec<(f64, f64)> {
+        let axes = signals.iter().flat_map(|s| s.speed.iter().zip(&s.reference));
+        let pairs = axes.flat_map(|(w, r)| w.iter().skip(lag).copied().zip(r.iter().copied()));
+        pairs.filter(|(w, r)| w.is_finite() && r.is_finite()).collect()
+    };
+    let follows = |pairs: &[(f64, f64)]| correlation(pairs.iter().copied());
+    let pairs = (0..=LAGS).map(of).max_by(|a, b| follows(a).total_cmp(&follows(b)))?;
+    if pairs.len() < FEWEST || follows(&pairs) < FOLLOWS {
         return None;
     }
     let ratio = slope(&pairs);
