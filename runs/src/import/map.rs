@@ -241,7 +241,7 @@ impl Map {
         keys.dedup();
         let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
         let mut run = Run::with_columns(&columns);
-        run.t = keys.iter().map(|k| (k - first) as f64 * 1e-9).collect();
+        run.t = keys.iter().map(|k| (k - first) as f64 / 1e9).collect();
         let ticks = keys.len();
         run.reals_mut().into_iter().skip(1).for_each(|c| c.resize(ticks, f64::NAN));
         let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
@@ -249,7 +249,7 @@ impl Map {
             let mut column = vec![f64::NAN; ticks];
             for (t, value) in s.t.iter().zip(&s.values) {
                 if let Ok(tick) = keys.binary_search(&key(*t)) {
-                    column[tick] = w.factor * value + w.offset;
+                    column[tick] = units::times(*value, w.factor) + w.offset;
                 }
             }
             match w.column {

@@ -43,8 +43,27 @@ pub(super) fn factor(unit: &str) -> Option<f64> {
     UNITS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)
 }
 
+/// A value times a factor; by division where that is what the factor means, so that 30 ms are 0.03 s and not
+/// 0.030000000000000002.
+pub(super) fn times(value: f64, factor: f64) -> f64 {
+    let parts = (1.0 / factor).round();
+    if parts.abs() > 1.0 && parts.recip() == factor { value / parts } else { value * factor }
+}
+
 /// All of them, for a message.
 pub(super) fn names() -> String {
     let names: Vec<&str> = UNITS.iter().map(|(name, _)| *name).filter(|n| !n.is_empty()).collect();
     names.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thousandth_is_written_as_one() {
+        assert_eq!(times(30.0, 1e-3).to_string(), "0.03");
+        assert_eq!(times(-350.0, -1e-3), 0.35);
+        assert_eq!((times(2.0, 1.0), times(3.0, -1.0), times(2.0, 0.0254)), (2.0, -3.0, 0.0508));
+    }
 }
