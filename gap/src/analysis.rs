@@ -308,7 +308,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             e.also() == Some(Link::Drive) && own.clone().count() > 0 && own.clone().all(|l| l.limit < SEEN * l.material)
         };
         let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-        let matters = |floor: &[f64]| gaps::drive_matters(floor, reached);
+        let small = if robot.support == Support::Floor { reached } else { 0.0 };
+        let matters = |floor: &[f64]| gaps::drive_matters(floor, small);
         let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
             chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
         };

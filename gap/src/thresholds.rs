@@ -48,6 +48,11 @@ pub const AS_WELL: f64 = 1.15;
 /// robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
 pub const UNDECIDED: f64 = 0.3;
 
+/// Share of the squared gap that several effects close together, each too small to matter, which each closes at least to
+/// be named with them. On an axis with friction alone, clean but for its encoder's steps, a curve, a dead zone and a
+/// sagging battery of a thousandth each closed 4, 1 and 0 % beside it.
+pub const LEAST_TOGETHER: f64 = 0.1;
+
 /// Squared gap that one effect may open by itself, in those of the link before anything was named, beyond which it only
 /// takes back what others named beside it do. On a short log of the example set a motor 130 K warm and 73 % stronger,
 /// which gap opened 20 times as far without either, passed for a few per cent of rolling loss.

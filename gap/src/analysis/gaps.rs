@@ -93,7 +93,8 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// What matters within a second of motion, m and rad.
 const MATTERS: [f64; 2] = [0.004, 0.02];
-/// Share of the drive's torque that matters: twice what rollers and contacts cost every omni drive.
+/// Share of the drive's torque that matters on a floor: twice what rollers and contacts cost every omni drive. An axis
+/// on blocks has neither, and is judged by its noise alone.
 const DRIVE_MATTERS: f64 = 0.06;
 
 /// Gap of the motion link that matters, in noise floors.

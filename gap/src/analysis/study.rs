@@ -10,6 +10,7 @@ use crate::problem::{Owner, Problem};
 use crate::select::{self, Selection};
 use crate::state::{Active, State};
 use crate::thresholds;
+use crate::thresholds::LEAST_TOGETHER;
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;
@@ -198,7 +199,24 @@ fn several(
         a.together = index >= begun.active.len();
     }
     problem.fit(&mut found.state);
-    let keep = |_: &Active| true;
+    let loss = |state: &State| select::held_out(problem, state).0;
+    let open = loss(&begun);
+    let mut kept = found.state.clone();
+    loop {
+        let closed = open - loss(&kept);
+        let least = (from..kept.active.len()).filter(|index| kept.active[*index].together).map(|index| {
+            let mut without = kept.clone();
+            without.active.remove(index);
+            problem.fit(&mut without);
+            (open - loss(&without), without)
+        });
+        match least.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            None => return None,
+            Some((rest, without)) if closed - rest < LEAST_TOGETHER * closed => kept = without,
+            Some(_) => break,
+        }
+    }
+    let keep = |a: &Active| kept.active.iter().any(|k| k.effect.name() == a.effect.name());
     Some(select::without(problem, &found, from, keep, all, thresholds))
 }
 
