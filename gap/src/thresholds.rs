@@ -48,8 +48,8 @@ pub const AS_WELL: f64 = 1.15;
 /// robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
 pub const UNDECIDED: f64 = 0.3;
 
-/// Share of the squared gap that several effects close together, each too small to matter, which each closes at least to
-/// be named with them. On an axis with friction alone, clean but for its encoder's steps, a curve, a dead zone and a
+/// Share of the squared gap closed by all that is named, which each of several effects too small to matter alone closes
+/// at least to be named with them. On an axis with friction alone, clean but for its encoder's steps, a curve, a dead zone and a
 /// sagging battery of a thousandth each closed 4, 1 and 0 % beside it.
 pub const LEAST_TOGETHER: f64 = 0.1;
 

@@ -200,7 +200,7 @@ fn several(
     }
     problem.fit(&mut found.state);
     let loss = |state: &State| select::held_out(problem, state).0;
-    let open = loss(&begun);
+    let open = loss(start);
     let mut kept = found.state.clone();
     loop {
         let closed = open - loss(&kept);
