@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 use serde_json::json;
 
 use super::excitation::{Excitation, best_direction};
-use super::size::{self, Sizes};
+use super::size::{Estimated, Sizes};
+use super::structure::{self, Part};
 use super::{KinematicModel, KinematicParameter};
 use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals};
 use runs::Run;
@@ -38,16 +39,20 @@ pub struct SkewEstimate {
     /// Half widths of the 95 % intervals of skew i − skew j, rad, for wheels i < j from 0. These
     /// need no marker.
     pub differences: Vec<(usize, usize, f64)>,
-    /// Camera latency beyond what robot.toml states, and its 95 % interval, s; fitted alongside.
-    pub latency_s: (f64, [f64; 2]),
+    /// Camera latency beyond what robot.toml states, s; fitted alongside.
+    pub latency_s: Estimated,
     /// Half width of the 95 % interval of the mean skew if the marker plate may be turned, rad.
     pub common_half_width: f64,
     /// Whether every difference is known to 1°.
     pub identifiable: bool,
     /// Whether the mean skew is known to 0.5° without trusting the marker plate.
     pub common_identifiable: bool,
-    /// Radii and marker, where skews alone leave far more than noise.
-    pub sizes: Option<Sizes>,
+    /// What the camera asks for, as [`Sizes`] and skews.
+    pub parts: Vec<Part>,
+    /// Radii, marker and clocks, where it asks for any.
+    pub sizes: Sizes,
+    /// Everything that was fitted, by name.
+    pub fitted: Vec<(KinematicParameter, f64)>,
     /// How well the camera is predicted.
     pub residual: Residual,
     /// What the data cannot tell, and which drive would help; empty if all is well.
@@ -88,8 +93,8 @@ impl SkewEstimate {
                 "before": r.before, "after": r.after, "noise": r.noise,
                 "reduced_chi2": r.reduced_chi2, "frames": r.frames, "outliers": r.outliers,
             },
-            "latency_s": { "value": self.latency_s.0, "ci95": self.latency_s.1 },
-            "sizes": self.sizes.map(Sizes::to_json),
+            "latency_s": { "value": self.latency_s.value, "ci95": self.latency_s.ci95 },
+            "sizes": (self.sizes != Sizes::default()).then(|| self.sizes.to_json(&self.parts)),
             "remarks": self.remarks,
         })
     }
@@ -98,8 +103,11 @@ impl SkewEstimate {
     #[must_use]
     pub fn apply(&self, robot: &Robot) -> Robot {
         let mut robot = robot.clone();
-        if let Some(sizes) = self.sizes {
-            sizes.apply(&mut robot);
+        self.sizes.apply(&mut robot);
+        // A camera that is earlier than the robot is a clock that was set by hand; it says nothing of the next run.
+        let latency = robot.camera_latency_s + self.latency_s.value;
+        if self.latency_s.is_certain() && latency >= 0.0 {
+            robot.camera_latency_s = latency;
         }
         match &mut robot.layout {
             Layout::Rac { skew_rad, .. } => {
@@ -126,50 +134,31 @@ impl SkewEstimate {
 /// [`FitError::NotFinite`] if the robot or the logs hold numbers that lead nowhere.
 pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitError> {
     let n = robot.wheel_count();
-    let mut free: Vec<KinematicParameter> = (0..n).map(KinematicParameter::Skew).collect();
-    // A latency nobody measured would otherwise pass for skew; the data fix it by themselves.
-    free.push(KinematicParameter::CameraLatency);
-    let model = KinematicModel::new(robot, free.clone());
     let options = FitOptions { window_s: WINDOW_S, noise: robot.camera_noise, ..FitOptions::default() };
-    let start = vec![0.0; n + 1];
-    let mut fitted = match fit(&model, runs, &start, &options) {
-        Ok(fitted) => fitted,
+    let parts = match structure::choose(robot, runs, &options) {
+        Ok(parts) => parts,
         Err(FitError::NoWindows) => return Ok(nothing(robot, runs)),
         Err(e) => return Err(e),
     };
-    let before = residuals(&model, runs, &start, &options)?;
-    let mut sizes = None;
-    if fitted.residuals.reduced_chi2 > UNEXPLAINED
-        && let Some((with, found)) = size::beside(robot, runs, &free, &fitted, &options)?
-    {
-        fitted = with;
-        sizes = Some(found);
-    }
+    let fit_of = |parameters: &[KinematicParameter]| {
+        fit(&KinematicModel::new(robot, parameters.to_vec()), runs, &vec![0.0; parameters.len()], &options)
+    };
     let nominal = nominal_skew(robot);
-    let widths: Vec<(usize, usize, f64)> = (0..n)
-        .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
-        .map(|(i, j)| {
-            let mut weights = vec![0.0; fitted.parameters.len()];
-            (weights[i], weights[j]) = (1.0, -1.0);
-            (i, j, fitted.half_width(&weights))
-        })
-        .collect();
-    let common_half_width = common_with_free_marker(robot, runs, &free, &fitted, &options)?;
-    let identifiable = widths.iter().all(|(_, _, half)| half.to_degrees() <= FOUND);
-    let ci95: Vec<[f64; 2]> = (0..n).map(|i| fitted.ci95(i).map(|end| end + nominal[i])).collect();
+    let parameters = structure::parameters(&parts, n, runs.len());
+    let fitted = fit_of(&parameters)?;
+    let before = residuals(&KinematicModel::new(robot, Vec::new()), runs, &[], &options)?;
+    let sizes = Sizes::of(&fitted, &parameters);
+    let latency_s = sizes.common_clock().unwrap_or_else(|| Sizes::latency(&fitted, &parameters));
     let mut estimate = SkewEstimate {
-        skew_rad: nominal
-            .iter()
-            .zip(&fitted.parameters)
-            .map(|(s, d)| if sizes.is_some_and(|s| s.instead_of_skew) { *s } else { wrap_angle(s + d) })
-            .collect(),
-        ci95,
-        differences: widths,
-        latency_s: (fitted.parameters[n], fitted.ci95(n)),
-        common_half_width,
-        identifiable,
-        common_identifiable: identifiable && common_half_width.to_degrees() <= COMMON_FOUND,
-        sizes,
+        skew_rad: nominal.clone(),
+        ci95: nominal.iter().map(|s| [*s; 2]).collect(),
+        differences: Vec::new(),
+        latency_s,
+        common_half_width: 0.0,
+        identifiable: true,
+        common_identifiable: true,
+        parts: parts.clone(),
+        fitted: parameters.iter().copied().zip(fitted.parameters.iter().copied()).collect(),
         residual: Residual {
             before: before.rms,
             after: fitted.residuals.rms,
@@ -178,15 +167,62 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
             frames: fitted.residuals.frames,
             outliers: fitted.residuals.outliers,
         },
+        sizes,
         remarks: Vec::new(),
     };
-    let far = fitted.parameters[..n].iter().any(|d| d.abs() > MOST_SKEW);
-    if far || fitted.residuals.reduced_chi2 > ABSURD {
+    let skewed = parts.contains(&Part::Skews);
+    let differential = robot.geometry().is_ok_and(|g| g.is_differential());
+    let mut worst = 0.0_f64;
+    if !differential {
+        // Where the camera asks for no skew it still tells how well they are known.
+        let (order, freed) = if skewed {
+            (parameters, fitted.clone())
+        } else {
+            let order = structure::parameters(&structure::with(&parts, Part::Skews), n, runs.len());
+            let freed = fit_of(&order)?;
+            (order, freed)
+        };
+        let first = order.iter().position(|p| *p == KinematicParameter::Skew(0)).unwrap_or(0);
+        worst = (0..n).map(|i| freed.parameters[first + i].abs()).fold(0.0, f64::max);
+        estimate.set_skews(&freed, first, skewed, &nominal);
+        estimate.common_half_width = common_with_free_marker(robot, runs, &order, &freed, first, &options)?;
+        estimate.common_identifiable = estimate.identifiable && estimate.common_half_width.to_degrees() <= COMMON_FOUND;
+        estimate.remarks = remarks(robot, runs, &freed, first, &estimate);
+    } else {
+        estimate.remarks = camera_remarks(&estimate);
+    }
+    let far = skewed && worst > MOST_SKEW;
+    if far || fitted.residuals.reduced_chi2 > ABSURD || !estimate.sizes.are_sound() {
         return Ok(refused(robot, &estimate, far));
     }
-    estimate.remarks = remarks(robot, runs, &fitted, &estimate);
-    estimate.remarks.extend(sizes.map(Sizes::remark));
+    let said = estimate.sizes.remarks(skewed);
+    estimate.remarks.extend(said);
     Ok(estimate)
+}
+
+impl SkewEstimate {
+    /// Skews, intervals and differences of a fit in which the skews begin at `first`; where they are not `asked` for
+    /// they stay nominal, with intervals that hold both that and what the fit would make of them.
+    fn set_skews(&mut self, freed: &Fit, first: usize, asked: bool, nominal: &[f64]) {
+        let n = nominal.len();
+        for (i, nominal) in nominal.iter().enumerate() {
+            let [low, high] = freed.ci95(first + i);
+            if asked {
+                self.skew_rad[i] = wrap_angle(nominal + freed.parameters[first + i]);
+                self.ci95[i] = [low + nominal, high + nominal];
+            } else {
+                self.ci95[i] = [low.min(0.0) + nominal, high.max(0.0) + nominal];
+            }
+        }
+        for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))) {
+            let mut weights = vec![0.0; freed.parameters.len()];
+            (weights[first + i], weights[first + j]) = (1.0, -1.0);
+            let off = freed.parameters[first + i] - freed.parameters[first + j];
+            let half = freed.half_width(&weights) + if asked { 0.0 } else { off.abs() };
+            self.differences.push((i, j, half));
+        }
+        self.identifiable = self.differences.iter().all(|(_, _, half)| half.to_degrees() <= FOUND);
+    }
 }
 
 fn nominal_skew(robot: &Robot) -> Vec<f64> {
@@ -200,17 +236,18 @@ fn nominal_skew(robot: &Robot) -> Vec<f64> {
 fn common_with_free_marker(
     robot: &Robot,
     runs: &[Run],
-    free: &[KinematicParameter],
+    order: &[KinematicParameter],
     fitted: &Fit,
+    first: usize,
     options: &FitOptions,
 ) -> Result<f64, FitError> {
     let n = robot.wheel_count();
-    let mut free = free.to_vec();
+    let mut free = order.to_vec();
     free.push(KinematicParameter::MarkerHeading);
-    let mut at = fitted.parameters[..=n].to_vec();
+    let mut at = fitted.parameters.clone();
     at.push(0.0);
     let (covariance, _) = covariance_at(&KinematicModel::new(robot, free), runs, &at, options)?;
-    let variance = covariance.view((0, 0), (n, n)).sum() / (n * n) as f64;
+    let variance = covariance.view((first, first), (n, n)).sum() / (n * n) as f64;
     Ok(fitted.quantile * variance.max(0.0).sqrt())
 }
 
@@ -247,17 +284,19 @@ fn nothing(robot: &Robot, runs: &[Run]) -> SkewEstimate {
         ci95: skew_rad.iter().map(|s| [s - anything, s + anything]).collect(),
         skew_rad,
         differences: (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j, anything))).collect(),
-        latency_s: (0.0, [-1.0, 1.0]),
+        latency_s: Estimated { value: 0.0, ci95: [-1.0, 1.0] },
         common_half_width: anything,
         identifiable: false,
         common_identifiable: false,
-        sizes: None,
+        parts: Vec::new(),
+        sizes: Sizes::default(),
+        fitted: Vec::new(),
         residual: Residual::default(),
         remarks: vec![remark.to_owned()],
     }
 }
 
-fn remarks(robot: &Robot, runs: &[Run], fitted: &Fit, estimate: &SkewEstimate) -> Vec<String> {
+fn remarks(robot: &Robot, runs: &[Run], fitted: &Fit, first: usize, estimate: &SkewEstimate) -> Vec<String> {
     let mut remarks = Vec::new();
     let excitation = Excitation::of(robot, runs);
     if excitation.path_m < 0.05 && excitation.turned_rad < 0.2 {
@@ -285,27 +324,13 @@ fn remarks(robot: &Robot, runs: &[Run], fitted: &Fit, estimate: &SkewEstimate) -
                 i + 1,
                 j + 1,
                 half.to_degrees(),
-                direction_words(best_direction(robot, &weakest_difference(fitted, estimate.skew_rad.len()))),
+                direction_words(best_direction(robot, &weakest_difference(fitted, first, estimate.skew_rad.len()))),
             ));
         }
     }
-    let (latency, [low, high]) = estimate.latency_s;
-    if latency.abs() > 0.002 && (low > 0.0 || high < 0.0) {
-        remarks.push(format!(
-            "The camera is {:.1} ms later (95 %: {:.1} to {:.1}) than robot.toml states; add it to camera_latency_s.",
-            latency * 1e3,
-            low * 1e3,
-            high * 1e3
-        ));
-    }
-    if estimate.residual.reduced_chi2 > UNEXPLAINED {
-        remarks.push(format!(
-            "With the best skews the camera is still not predicted to its noise: χ² is {:.1} per degree of freedom. \
-             Something else is wrong with the robot or its description; the intervals allow for it, the estimates may be off.",
-            estimate.residual.reduced_chi2
-        ));
-    }
-    if !estimate.common_identifiable {
+    remarks.extend(camera_remarks(estimate));
+    // A turned plate that was found is said to be one or the other by itself.
+    if !estimate.common_identifiable && estimate.parts.contains(&Part::Skews) {
         let mean = estimate.skew_rad.iter().sum::<f64>() / estimate.skew_rad.len() as f64;
         let half = estimate.common_half_width.to_degrees();
         let known = if half < 10.0 {
@@ -323,10 +348,32 @@ fn remarks(robot: &Robot, runs: &[Run], fitted: &Fit, estimate: &SkewEstimate) -
     remarks
 }
 
+/// What is to be said of the camera itself.
+fn camera_remarks(estimate: &SkewEstimate) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let Estimated { value: latency, ci95: [low, high] } = estimate.latency_s;
+    if latency.abs() > 0.002 && estimate.latency_s.is_certain() {
+        remarks.push(format!(
+            "The camera is {:.1} ms later (95 %: {:.1} to {:.1}) than robot.toml states; add it to camera_latency_s.",
+            latency * 1e3,
+            low * 1e3,
+            high * 1e3
+        ));
+    }
+    if estimate.residual.reduced_chi2 > UNEXPLAINED {
+        remarks.push(format!(
+            "With the best values the camera is still not predicted to its noise: χ² is {:.1} per degree of freedom. \
+             Something else is wrong with the robot or its description; the intervals allow for it, the estimates may be off.",
+            estimate.residual.reduced_chi2
+        ));
+    }
+    remarks
+}
+
 /// The combination of skews, common part aside, about which least is known.
-fn weakest_difference(fitted: &Fit, wheels: usize) -> Vec<f64> {
+fn weakest_difference(fitted: &Fit, first: usize, wheels: usize) -> Vec<f64> {
     let centre = DMatrix::identity(wheels, wheels) - DMatrix::from_element(wheels, wheels, 1.0 / wheels as f64);
-    let block = fitted.covariance.view((0, 0), (wheels, wheels));
+    let block = fitted.covariance.view((first, first), (wheels, wheels));
     let eigen = (&centre * block * &centre).symmetric_eigen();
     eigen.eigenvectors.column(eigen.eigenvalues.imax()).iter().copied().collect()
 }

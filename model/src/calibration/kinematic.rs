@@ -23,8 +23,12 @@ pub enum KinematicParameter {
     MarkerX,
     /// The marker plate is off the centre to the front; m.
     MarkerY,
+    /// The robot moves further to its right and left than its wheels say: rollers that give way; relative.
+    Sideways,
     /// The camera is later than robot.toml says; s.
     CameraLatency,
+    /// The camera is later in one run alone, from 0: clocks that were set by hand; s.
+    CameraClock(usize),
     /// The camera's metre, relative to the true one.
     CameraScale,
 }
@@ -40,17 +44,22 @@ impl KinematicParameter {
             Self::MarkerHeading => "angle_rad".to_owned(),
             Self::MarkerX => "x_m".to_owned(),
             Self::MarkerY => "y_m".to_owned(),
+            Self::Sideways => "sideways_scale".to_owned(),
             Self::CameraLatency => "latency_s".to_owned(),
+            Self::CameraClock(run) => format!("offset_{}_s", run + 1),
             Self::CameraScale => "camera_scale".to_owned(),
         }
     }
 
-    fn scale(self) -> f64 {
+    /// A step that is small but matters.
+    pub(super) fn scale(self) -> f64 {
         match self {
             Self::Skew(_) | Self::MarkerHeading => 1.0_f64.to_radians(),
-            Self::WheelRadius(_) | Self::WheelRadiusCommon | Self::BodyRadius | Self::CameraScale => 0.01,
+            Self::WheelRadius(_) | Self::WheelRadiusCommon | Self::BodyRadius | Self::CameraScale | Self::Sideways => {
+                0.01
+            }
             Self::MarkerX | Self::MarkerY => 0.002,
-            Self::CameraLatency => 0.005,
+            Self::CameraLatency | Self::CameraClock(_) => 0.005,
         }
     }
 }
@@ -93,9 +102,11 @@ impl KinematicModel {
         }
         let geometry = Geometry::new(wheels, self.wheel_radius_m).ok()?;
         let common = self.sum(values, P::WheelRadiusCommon);
+        let sideways = 1.0 + self.sum(values, P::Sideways);
         let column = |(i, c): (usize, [f64; 3])| {
             let radius = 1.0 + common + self.sum(values, P::WheelRadius(i));
-            c.map(|v| v * radius / self.counts_per_wheel_rad)
+            let [x, y, theta] = c.map(|v| v * radius / self.counts_per_wheel_rad);
+            [x * sideways, y, theta]
         };
         let direct = geometry.direct();
         Some(direct.column_iter().map(|c| [c[0], c[1], c[2]]).enumerate().map(column).collect())
@@ -111,14 +122,14 @@ impl PoseModel for KinematicModel {
         self.parameters.iter().map(|p| p.scale()).collect()
     }
 
-    fn track(&self, values: &[f64], run: &Run) -> Vec<Pose> {
+    fn track(&self, values: &[f64], number: usize, run: &Run) -> Vec<Pose> {
         use KinematicParameter as P;
         let lost = || vec![Pose::new(f64::NAN, f64::NAN, f64::NAN); run.camera.len()];
         let Some(columns) = self.per_count(values) else { return lost() };
         if run.counts.len() != columns.len() {
             return lost();
         }
-        let latency = self.latency_s + self.sum(values, P::CameraLatency);
+        let latency = self.latency_s + self.sum(values, P::CameraLatency) + self.sum(values, P::CameraClock(number));
         let (sin, cos) = self.sum(values, P::MarkerHeading).sin_cos();
         let marker = Pose::new(self.sum(values, P::MarkerX), self.sum(values, P::MarkerY), sin.atan2(cos));
         let mut track = Vec::with_capacity(run.camera.len());

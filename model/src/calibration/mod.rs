@@ -6,9 +6,11 @@ mod excitation;
 mod kinematic;
 mod paper;
 mod size;
+mod structure;
 
 pub use drives::{DriveError, Drives, Straightness};
 pub use estimate::{Residual, SkewEstimate, estimate_skew};
 pub use kinematic::{KinematicModel, KinematicParameter};
 pub use paper::{Iteration, PaperCalibration, PaperError, PaperOptions, Stage, calibrate_like_the_paper};
-pub use size::Sizes;
+pub use size::{Estimated, Sizes};
+pub use structure::Part;

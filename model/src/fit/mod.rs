@@ -28,9 +28,9 @@ pub trait PoseModel {
     /// differences and the unit in which directions of the parameter space are compared.
     fn scales(&self) -> Vec<f64>;
 
-    /// One pose for every entry of [`Run::camera`], all up to one rigid motion of the plane.
-    /// Heading must be continuous, not wrapped.
-    fn track(&self, parameters: &[f64], run: &Run) -> Vec<Pose>;
+    /// One pose for every entry of [`Run::camera`] of the run with this number, from 0, all up to one rigid motion of
+    /// the plane. Heading must be continuous, not wrapped.
+    fn track(&self, parameters: &[f64], number: usize, run: &Run) -> Vec<Pose>;
 
     /// What the camera makes of a pose in the field: the identity, but for distortion and scale.
     fn observe(&self, _parameters: &[f64], pose: Pose) -> Pose {
@@ -209,6 +209,36 @@ pub fn covariance_at(
     Ok((&scale * covariance * &scale, unknown))
 }
 
+/// What one window says about the parameters, linearised: δ more of them, in units of [`PoseModel::scales`], changes its
+/// sum of squares by δᵀ·`information`·δ − 2·`score`ᵀ·δ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowEquations {
+    /// The window's run, from 0.
+    pub run: usize,
+    /// Parameters × parameters.
+    pub information: DMatrix<f64>,
+    /// One entry a parameter.
+    pub score: DVector<f64>,
+    /// Its sum of squares as it is, in units of the camera's noise.
+    pub squares: f64,
+}
+
+/// The equations of every window at given parameters, the start poses projected out: for choosing among models by
+/// windows that had no part in the fit.
+///
+/// # Errors
+/// [`FitError`] if there is nothing to compare.
+pub fn window_equations(
+    model: &dyn PoseModel,
+    runs: &[Run],
+    parameters: &[f64],
+    options: &FitOptions,
+) -> Result<Vec<WindowEquations>, FitError> {
+    let problem = Problem::new(model, runs, options)?;
+    let evaluation = problem.evaluate(parameters)?;
+    Ok(problem.equations(parameters, &evaluation))
+}
+
 struct Problem<'a> {
     model: &'a dyn PoseModel,
     runs: &'a [Run],
@@ -229,7 +259,7 @@ impl<'a> Problem<'a> {
 
     /// Predicted frames of every run.
     fn tracks(&self, parameters: &[f64]) -> Vec<Vec<Pose>> {
-        self.runs.iter().map(|run| self.model.track(parameters, run)).collect()
+        self.runs.iter().enumerate().map(|(number, run)| self.model.track(parameters, number, run)).collect()
     }
 
     fn evaluate(&self, parameters: &[f64]) -> Result<Evaluation, FitError> {
@@ -239,10 +269,9 @@ impl<'a> Problem<'a> {
         if evaluation.cost().is_finite() { Ok(evaluation) } else { Err(FitError::NotFinite) }
     }
 
-    /// Normal equations with the start poses projected out, in units of the scales.
-    fn linearise(&self, parameters: &[f64], at: &Evaluation) -> Normal {
-        let n = parameters.len();
-        let derivatives: Vec<Vec<Vec<Frame>>> = (0..n)
+    /// Every window's equations with the start poses projected out, in units of the scales.
+    fn equations(&self, parameters: &[f64], at: &Evaluation) -> Vec<WindowEquations> {
+        let derivatives: Vec<Vec<Vec<Frame>>> = (0..parameters.len())
             .map(|j| {
                 let h = 0.02 * self.scales[j];
                 let side = |sign: f64| {
@@ -253,15 +282,24 @@ impl<'a> Problem<'a> {
                 windows::difference(&side(1.0), &side(-1.0), self.scales[j] / (2.0 * h))
             })
             .collect();
+        let equations = |(w, window): (usize, &Window)| {
+            let columns: Vec<&[Frame]> = derivatives.iter().map(|d| d[w].as_slice()).collect();
+            let (information, score) = at.window_equations(w, &columns);
+            WindowEquations { run: window.run(), information, score, squares: at.window_cost(w) }
+        };
+        self.windows.iter().enumerate().map(equations).collect()
+    }
+
+    /// The normal equations: those of all windows.
+    fn linearise(&self, parameters: &[f64], at: &Evaluation) -> Normal {
+        let n = parameters.len();
         let mut normal = Normal {
             information: DMatrix::zeros(n, n),
             gradient: DVector::zeros(n),
             spread: DMatrix::zeros(n, n),
             windows: self.windows.len(),
         };
-        for w in 0..self.windows.len() {
-            let columns: Vec<&[Frame]> = derivatives.iter().map(|d| d[w].as_slice()).collect();
-            let (information, score) = at.window_equations(w, &columns);
+        for WindowEquations { information, score, .. } in self.equations(parameters, at) {
             normal.spread += &score * score.transpose();
             normal.information += information;
             normal.gradient += score;

@@ -29,6 +29,13 @@ pub(super) struct Window {
     seen: Vec<Pose>,
 }
 
+impl Window {
+    /// Its run, from 0.
+    pub(super) fn run(&self) -> usize {
+        self.run
+    }
+}
+
 /// Cuts runs with camera and encoders into windows of `window_s`.
 pub(super) fn cut(runs: &[Run], window_s: f64) -> Vec<Window> {
     let mut windows = Vec::new();
@@ -111,6 +118,11 @@ impl Evaluation {
     /// Weighted sum of squares, half of −2 log likelihood.
     pub(super) fn cost(&self) -> f64 {
         self.windows.iter().map(|w| w.cost(&w.weights)).sum()
+    }
+
+    /// The share of one window.
+    pub(super) fn window_cost(&self, w: usize) -> f64 {
+        self.windows[w].cost(&self.windows[w].weights)
     }
 
     /// The cost under another evaluation's weights, so that the two can be compared.

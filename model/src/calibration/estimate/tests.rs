@@ -34,7 +34,7 @@ fn the_measured_set_gives_its_true_skews() {
     let (truth, got) = ([4.0, -3.0, 2.0_f64], degrees(&e));
     for (i, j, half) in &e.differences {
         let off = (got[*i] - got[*j]) - (truth[*i] - truth[*j]);
-        assert!(off.abs() < 0.1, "wheels {i} and {j}: {off} degrees off");
+        assert!(off.abs() < 0.1, "wheels {i} and {j}: {off} degrees off; {:?} {:?}", e.parts, e.residual);
         assert!(half.to_degrees() < 0.2 && off.abs() < half.to_degrees());
     }
     for (truth, ci) in truth.iter().zip(&e.ci95) {
@@ -46,7 +46,7 @@ fn the_measured_set_gives_its_true_skews() {
     // 0.5° and 1.5 mm, found without being told.
     assert!((e.residual.noise[2].to_degrees() / 0.5 - 1.0).abs() < 0.1);
     assert!((e.residual.noise[0] / 0.0015 - 1.0).abs() < 0.1);
-    assert!(e.latency_s.0.abs() < 0.0005);
+    assert!(e.latency_s.value.abs() < 0.0005);
     assert_eq!(e.remarks.len(), 1, "{:?}", e.remarks);
     assert!(e.remarks[0].contains("marker plate"));
 }
@@ -74,12 +74,13 @@ fn differences_are_found_to_a_tenth_of_a_degree_in_thirty_seconds() {
 }
 
 #[test]
-fn a_common_skew_is_reported_as_such() {
+fn a_common_skew_is_a_turned_marker() {
+    // No drive tells the two apart; one angle says it, three are not needed.
     let e = estimate_skew(&Robot::racbot(), &[log([2.0; 3], 3)]).unwrap();
     assert!(e.identifiable && !e.common_identifiable && e.common_half_width.to_degrees() > 1.0);
-    for got in degrees(&e) {
-        assert!((got - 2.0).abs() < 0.15, "{got}");
-    }
+    let heading = e.sizes.marker_heading.expect("a turned plate").value.to_degrees();
+    assert!((heading - 2.0).abs() < 0.15, "{heading}");
+    assert!(e.remarks.iter().any(|r| r.contains("every wheel is turned by it clockwise")), "{:?}", e.remarks);
     let json = e.to_json();
     assert_eq!(json["common_identifiable"], false);
     assert_eq!(json["skew_rad"].as_array().unwrap().len(), 3);
@@ -93,7 +94,7 @@ fn an_unknown_latency_does_not_pass_for_skew() {
     let mut v = VirtualRobot::new(&robot, Contact::Rolling, camera, Pose::default(), 8).unwrap();
     calibration_drive(&mut v, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
     let e = estimate_skew(&Robot::racbot(), &[v.into_log()]).unwrap();
-    assert!((e.latency_s.0 - 0.05).abs() < 0.001, "{:?}", e.latency_s);
+    assert!((e.latency_s.value - 0.05).abs() < 0.001, "{:?}", e.latency_s);
     assert!((degrees(&e)[0] - 4.0).abs() < 0.15);
     assert!(e.remarks.iter().any(|r| r.contains("camera_latency_s")), "{:?}", e.remarks);
 }
@@ -155,12 +156,46 @@ fn a_wrong_radius_is_called_a_radius() {
     let mut robot = virtual_robot(&truth, 5);
     calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
     let e = estimate_skew(&Robot::racbot(), &[robot.into_log()]).unwrap();
-    let sizes = e.sizes.expect("radii explain it");
-    assert!(sizes.instead_of_skew, "{sizes:?}");
-    assert!((sizes.wheel_radius.0 + 0.075).abs() < 0.004, "{sizes:?}");
+    let radius = e.sizes.wheel_radius.expect("a radius explains it");
+    assert!((radius.value + 0.075).abs() < 0.004 && !e.parts.contains(&Part::Skews), "{:?}", e.sizes);
     assert!(e.skew_rad.iter().all(|s| *s == 0.0), "{:?}", e.skew_rad);
     assert!(e.remarks.iter().any(|r| r.contains("a radius, not a skew")), "{:?}", e.remarks);
     assert!((e.apply(&Robot::racbot()).wheel_radius_m / truth.wheel_radius_m - 1.0).abs() < 0.004);
+}
+
+#[test]
+fn one_small_wheel_is_one_small_wheel() {
+    let mut robot = virtual_robot(&Robot::racbot(), 11);
+    calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    let mut run = robot.into_log();
+    // A wheel of 97 % of the radius turns further for the same way.
+    run.counts[1].iter_mut().for_each(|c| *c = (*c as f64 / 0.97).round() as i64);
+    let e = estimate_skew(&Robot::racbot(), &[run]).unwrap();
+    assert_eq!(e.sizes.wheel_radii.len(), 3, "{:?} {:?}", e.parts, e.remarks);
+    for (radius, truth) in e.sizes.wheel_radii.iter().zip([0.0, -0.03, 0.0]) {
+        assert!(radius.ci95[0] - 5e-4 < truth && truth < radius.ci95[1] + 5e-4, "{:?}", e.sizes.wheel_radii);
+    }
+    let written = e.apply(&Robot::racbot());
+    assert_eq!(written.effects[0].name, "wheel-radius");
+}
+
+#[test]
+fn clocks_that_differ_from_run_to_run_are_no_latency() {
+    let mut runs: Vec<Run> = (0..4).map(|seed| log([4.0, -3.0, 2.0], 20 + seed)).collect();
+    for (run, late_s) in runs.iter_mut().zip([0.06, -0.05, 0.02, -0.04]) {
+        let ticks = (late_s / 1e-3) as i64;
+        run.camera.retain(|s| (0..run.t.len() as i64).contains(&(s.tick as i64 + ticks)));
+        run.camera.iter_mut().for_each(|s| s.tick = (s.tick as i64 + ticks) as usize);
+    }
+    let e = estimate_skew(&Robot::racbot(), &runs).unwrap();
+    let clocks: Vec<f64> = e.sizes.clocks_s.iter().map(|c| c.value).collect();
+    assert_eq!(clocks.len(), 4, "{:?}", e.parts);
+    for (got, truth) in clocks.iter().zip([0.06, -0.05, 0.02, -0.04]) {
+        assert!((got - truth).abs() < 0.002, "{clocks:?}");
+    }
+    assert!(!e.latency_s.is_certain(), "{:?}", e.latency_s);
+    assert_eq!(e.apply(&Robot::racbot()).camera_latency_s, Robot::racbot().camera_latency_s);
+    assert!((degrees(&e)[0] - degrees(&e)[1] - 7.0).abs() < 0.1, "{:?} {:?}", e.fitted, e.residual);
 }
 
 #[test]

@@ -10,12 +10,16 @@ fn degrees(rad: f64) -> String {
 
 /// The skews, their intervals, their differences, and what the data cannot tell.
 pub(super) fn text(estimate: &SkewEstimate) -> String {
-    let mut table = Table::new(1, &["wheel", "skew", "95 % from", "to"]);
-    for (wheel, (skew, [low, high])) in estimate.skew_rad.iter().zip(&estimate.ci95).enumerate() {
-        table.row([(wheel + 1).to_string(), degrees(*skew), degrees(*low), degrees(*high)]);
+    let mut text = String::new();
+    // The wheels of a differential drive have no skew that a camera shows.
+    if !estimate.differences.is_empty() {
+        let mut table = Table::new(1, &["wheel", "skew", "95 % from", "to"]);
+        for (wheel, (skew, [low, high])) in estimate.skew_rad.iter().zip(&estimate.ci95).enumerate() {
+            table.row([(wheel + 1).to_string(), degrees(*skew), degrees(*low), degrees(*high)]);
+        }
+        text = table.render();
+        text.push('\n');
     }
-    let mut text = table.render();
-    text.push('\n');
     for (i, j, half) in &estimate.differences {
         let difference = estimate.skew_rad[*i] - estimate.skew_rad[*j];
         let _ = writeln!(text, "wheel {} - {}  {} ± {}", i + 1, j + 1, degrees(difference), degrees(*half));

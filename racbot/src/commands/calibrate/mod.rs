@@ -93,11 +93,6 @@ impl Options {
                 "the logs have the robot's odometry and no wheels: log enc_1..N or speed_1..N to find their skews";
             return Err(Failure::about(folder, what));
         }
-        if set.robot.geometry().is_ok_and(|g| g.is_differential()) {
-            let what = "the wheels of a differential drive have no skew that a camera shows; `racbot gap` finds radius, track \
-                        and camera";
-            return Err(Failure::about(folder, what));
-        }
         let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.target.forced())?;
         let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
         let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
