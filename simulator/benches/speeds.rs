@@ -1,6 +1,9 @@
 //! How fast the virtual robot and the chip's simulators are, as ratios of one run: writes `docs/measured/speeds.md`.
 //! `cargo bench -p simulator --bench speeds`; half a minute.
 //!
+//! `… -- --against BENCH` measures the loops against an older build of this bench, in turns, and writes
+//! `docs/measured/speedup.md`. The older build is asked with `--loops`: one round, one line each.
+//!
 //! Rounds of all measurements follow each other, and the best of each counts, so that a machine that is busy for a
 //! while slows all of them alike.
 
@@ -16,6 +19,7 @@ use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::cosim::{Verilated, icarus};
 use simulator::fpga::BitTrue;
 use std::hint::black_box;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 const ROUNDS: usize = 7;
@@ -152,16 +156,70 @@ fn ratio(measured: &Measured<'_>, rust_hdl: f64) -> String {
     }
 }
 
+/// Speeds against an older build of this bench.
+const AGAINST: measured::Table<'_> = measured::Table {
+    name: "speedup",
+    title: "The loops of today and of an older commit, in turns in one run",
+    command: "cargo bench -p simulator --bench speeds -- --against BENCH_OF_THAT_COMMIT",
+    columns: &["what", "then, ticks a second", "now", "ratio"],
+};
+/// Rounds in turns; a child process has to warm up each time.
+const TURNS: usize = 25;
+
+fn time(all: &mut [Measured<'_>]) {
+    for measured in all {
+        let begin = Instant::now();
+        (measured.round)();
+        measured.best = measured.best.min(begin.elapsed());
+    }
+}
+
+/// One round each, after one to warm up; a line with the name and the seconds of a tick.
+fn print_loops() {
+    let mut loops = [card(), closed_loop(), drive()];
+    time(&mut loops);
+    loops.iter_mut().for_each(|measured| measured.best = Duration::MAX);
+    time(&mut loops);
+    for measured in &loops {
+        println!("{}\t{}", measured.name, measured.rate());
+    }
+}
+
+fn against(older: &str) {
+    let mut loops = [card(), closed_loop(), drive()];
+    let mut then = [0.0_f64; 3];
+    for _ in 0..TURNS {
+        let output = Command::new(older).arg("--loops").output().expect("an older build of this bench");
+        let text = String::from_utf8(output.stdout).expect("text");
+        for ((measured, then), line) in loops.iter().zip(&mut then).zip(text.lines()) {
+            let (name, rate) = line.split_once('\t').expect("name and rate");
+            assert_eq!(name, measured.name);
+            *then = then.max(rate.parse().expect("a rate"));
+        }
+        time(&mut loops);
+    }
+    let row = |(measured, then): (&Measured<'_>, f64)| {
+        let now = measured.rate();
+        vec![measured.name.to_owned(), format!("{then:.2e}"), format!("{now:.2e}"), format!("{:.2}", now / then)]
+    };
+    let rows: Vec<_> = loops.iter().zip(then).map(row).collect();
+    rows.iter().for_each(|row| println!("{}", row.join(" | ")));
+    AGAINST.write(&rows);
+}
+
 fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if arguments.iter().any(|a| a == "--loops") {
+        return print_loops();
+    }
+    if let Some(at) = arguments.iter().position(|a| a == "--against") {
+        return against(arguments.get(at + 1).expect("--against needs the path of an older build"));
+    }
     let mut all = vec![card(), closed_loop(), drive(), rust_hdl()];
     all.extend(verilator());
     all.extend(icarus());
     for _ in 0..ROUNDS {
-        for measured in &mut all {
-            let begin = Instant::now();
-            (measured.round)();
-            measured.best = measured.best.min(begin.elapsed());
-        }
+        time(&mut all);
     }
     let rust_hdl = all.iter().find(|m| m.name.contains("rust-hdl")).map_or(f64::NAN, Measured::rate);
     let rows: Vec<Vec<String>> = all
