@@ -77,6 +77,10 @@ impl Registers for fixed_kin::card::Card {
         Self::write(self, offset, data);
         Ok(())
     }
+    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
+        Self::read_block(self, offset, words);
+        Ok(())
+    }
 }
 
 /// One word over the bus.

@@ -2,7 +2,8 @@
 //! `cargo bench -p simulator --bench speeds`; half a minute.
 //!
 //! `… -- --against BENCH` measures the loops against an older build of this bench, in turns, and writes
-//! `docs/measured/speedup.md`. The older build is asked with `--loops`: one round, one line each.
+//! `docs/measured/speedup.md`. The older build is asked with `--loops`: one round, one line each. Both count the
+//! processor time of the loop's thread, so that other work on the machine does not matter.
 //!
 //! Rounds of all measurements follow each other, and the best of each counts, so that a machine that is busy for a
 //! while slows all of them alike.
@@ -15,6 +16,7 @@ use hdl::sim::cycle;
 use model::plant::Plant;
 use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
+use rustix::time::{ClockId, clock_gettime};
 use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::cosim::{Verilated, icarus};
 use simulator::fpga::BitTrue;
@@ -174,12 +176,26 @@ fn time(all: &mut [Measured<'_>]) {
     }
 }
 
-/// One round each, after one to warm up; a line with the name and the seconds of a tick.
+/// Processor time of this thread.
+fn processor_time() -> Duration {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.try_into().expect("nanoseconds"))
+}
+
+fn time_loops(loops: &mut [Measured<'_>]) {
+    for measured in loops {
+        let begin = processor_time();
+        (measured.round)();
+        measured.best = measured.best.min(processor_time() - begin);
+    }
+}
+
+/// One round each, after one to warm up; a line with the name and the ticks a second.
 fn print_loops() {
     let mut loops = [card(), closed_loop(), drive()];
-    time(&mut loops);
+    time_loops(&mut loops);
     loops.iter_mut().for_each(|measured| measured.best = Duration::MAX);
-    time(&mut loops);
+    time_loops(&mut loops);
     for measured in &loops {
         println!("{}\t{}", measured.name, measured.rate());
     }
@@ -196,7 +212,7 @@ fn against(older: &str) {
             assert_eq!(name, measured.name);
             *then = then.max(rate.parse().expect("a rate"));
         }
-        time(&mut loops);
+        time_loops(&mut loops);
     }
     let row = |(measured, then): (&Measured<'_>, f64)| {
         let now = measured.rate();

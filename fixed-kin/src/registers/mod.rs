@@ -86,18 +86,21 @@ pub struct Field {
 impl Field {
     /// The field's value in `word`.
     #[must_use]
+    #[inline]
     pub const fn of(&self, word: u32) -> u32 {
         (word >> self.bit) & (u32::MAX >> (32 - self.width))
     }
 
     /// Whether any bit of the field is set in `word`.
     #[must_use]
+    #[inline]
     pub const fn is_set(&self, word: u32) -> bool {
         self.of(word) != 0
     }
 
     /// `value` at the field's place; excess bits are dropped.
     #[must_use]
+    #[inline]
     pub const fn place(&self, value: u32) -> u32 {
         (value & (u32::MAX >> (32 - self.width))) << self.bit
     }
@@ -193,6 +196,7 @@ impl Register {
     /// # Panics
     /// If the array has no such word: a bug in the caller, never input.
     #[must_use]
+    #[inline]
     pub const fn at(&self, index: usize) -> u16 {
         assert!(index < self.words as usize, "no such word in this register array");
         self.offset + 4 * index as u16
@@ -240,6 +244,7 @@ pub fn lookup(offset: u16) -> Option<(&'static Register, usize)> {
 /// [`CHECKSUM_SEED`]. A write that is lost, doubled, out of order, at a wrong address or with any
 /// single bit flipped gives another sum.
 #[must_use]
+#[inline]
 pub const fn checksum(state: u32, word_address: u16, data: u32) -> u32 {
     state.rotate_left(1) ^ data ^ word_address as u32
 }
@@ -249,6 +254,7 @@ pub const CHECKSUM_SEED: u32 = 0x5241_4353;
 
 /// The 30-bit word that the gateware stores for a staged write (convention 6).
 #[must_use]
+#[inline]
 pub const fn stored_word(data: u32) -> i32 {
     ((data << 2) as i32) >> 2
 }
