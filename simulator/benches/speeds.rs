@@ -1,7 +1,7 @@
 //! How fast the virtual robot and the chip's simulators are, as ratios of one run: writes `docs/measured/speeds.md`.
 //! `cargo bench -p simulator --bench speeds`; half a minute.
 //!
-//! `… -- --against BENCH` measures the loops against an older build of this bench, in turns, and writes
+//! `… -- --against BENCH COMMIT` measures the loops against an older build of this bench, in turns, and writes
 //! `docs/measured/speedup.md`. The older build is asked with `--loops`: one round, one line each. Both count the
 //! processor time of the loop's thread, so that other work on the machine does not matter.
 //!
@@ -158,15 +158,8 @@ fn ratio(measured: &Measured<'_>, rust_hdl: f64) -> String {
     }
 }
 
-/// Speeds against an older build of this bench.
-const AGAINST: measured::Table<'_> = measured::Table {
-    name: "speedup",
-    title: "The loops of today and of an older commit, in turns in one run",
-    command: "cargo bench -p simulator --bench speeds -- --against BENCH_OF_THAT_COMMIT",
-    columns: &["what", "then, ticks a second", "now", "ratio"],
-};
 /// Rounds in turns; a child process has to warm up each time.
-const TURNS: usize = 25;
+const TURNS: usize = 40;
 
 fn time(all: &mut [Measured<'_>]) {
     for measured in all {
@@ -201,26 +194,41 @@ fn print_loops() {
     }
 }
 
-fn against(older: &str) {
+/// Writes the speeds against an older build of this bench.
+fn against(older: &str, commit: &str) {
     let mut loops = [card(), closed_loop(), drive()];
-    let mut then = [0.0_f64; 3];
+    // Seconds of all turns, then and now: sums, so that a coarse clock does not matter.
+    let mut times = [[0.0_f64; 2]; 3];
+    time_loops(&mut loops);
     for _ in 0..TURNS {
         let output = Command::new(older).arg("--loops").output().expect("an older build of this bench");
         let text = String::from_utf8(output.stdout).expect("text");
-        for ((measured, then), line) in loops.iter().zip(&mut then).zip(text.lines()) {
+        for ((measured, time), line) in loops.iter().zip(&mut times).zip(text.lines()) {
             let (name, rate) = line.split_once('\t').expect("name and rate");
             assert_eq!(name, measured.name);
-            *then = then.max(rate.parse().expect("a rate"));
+            time[0] += measured.amount / rate.parse::<f64>().expect("a rate");
         }
-        time_loops(&mut loops);
+        for (measured, time) in loops.iter_mut().zip(&mut times) {
+            measured.best = Duration::MAX;
+            time_loops(std::slice::from_mut(measured));
+            time[1] += measured.best.as_secs_f64();
+        }
     }
-    let row = |(measured, then): (&Measured<'_>, f64)| {
-        let now = measured.rate();
-        vec![measured.name.to_owned(), format!("{then:.2e}"), format!("{now:.2e}"), format!("{:.2}", now / then)]
+    let row = |(measured, [then, now]): (&Measured<'_>, [f64; 2])| {
+        let rate = |time: f64| format!("{:.2e}", measured.amount * TURNS as f64 / time);
+        vec![measured.name.to_owned(), rate(then), rate(now), format!("{:.2}", then / now)]
     };
-    let rows: Vec<_> = loops.iter().zip(then).map(row).collect();
+    let rows: Vec<_> = loops.iter().zip(times).map(row).collect();
     rows.iter().for_each(|row| println!("{}", row.join(" | ")));
-    AGAINST.write(&rows);
+    let table = measured::Table {
+        name: "speedup",
+        title: &format!(
+            "The loops of today and of commit {commit}, in turns in one run, by processor time of their thread"
+        ),
+        command: "cargo bench -p simulator --bench speeds -- --against BENCH COMMIT",
+        columns: &["what", "then, ticks a second", "now", "ratio"],
+    };
+    table.write(&rows);
 }
 
 fn main() {
@@ -229,7 +237,8 @@ fn main() {
         return print_loops();
     }
     if let Some(at) = arguments.iter().position(|a| a == "--against") {
-        return against(arguments.get(at + 1).expect("--against needs the path of an older build"));
+        let next = |n| arguments.get(at + n).expect("--against needs the path of an older build, and its commit");
+        return against(next(1), next(2));
     }
     let mut all = vec![card(), closed_loop(), drive(), rust_hdl()];
     all.extend(verilator());

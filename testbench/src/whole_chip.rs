@@ -240,8 +240,8 @@ impl Pair {
     /// Edges between rest and end, and indices after it; those that rise in this rest.
     fn schedule(&mut self, rest: u64, end: u64, targets: &[f64; AXES]) -> Result<u32, Difference> {
         let mut changes = Vec::new();
-        for axis in 0..AXES {
-            for edge in Motion::new(self.counters[axis].position, targets[axis], PERIOD, QUIET).edges() {
+        for (axis, (counter, target)) in self.counters.iter().zip(targets).enumerate() {
+            for edge in Motion::new(counter.position, *target, PERIOD, QUIET).edges() {
                 changes.push((rest + 1 + u64::from(edge.clock), axis, lines(edge.count)));
             }
         }
