@@ -5,6 +5,13 @@
 //! `time`: a bus access takes clocks there. Pins between ticks, filters and PWM are not here; their
 //! twins ([`crate::encoder`], [`crate::pwm`]) work clock by clock.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "registers and snapshot are raw words; masks stand beside each cast"
+)]
+
 use crate::AXES;
 use crate::commit::{Commit, Group};
 use crate::control::{

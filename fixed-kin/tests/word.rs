@@ -69,7 +69,11 @@ fn sums_around_all_edges_are_exact_or_at_the_end() {
         for &b in &words {
             let (sum, difference) = (i64::from(a) + i64::from(b), i64::from(a) - i64::from(b));
             let nearest = |value: i64| value.max(WORD_MIN.into()).min(WORD_MAX.into());
-            assert_eq!((i64::from(add(a, b)), i64::from(subtract(a, b))), (nearest(sum), nearest(difference)), "{a}, {b}");
+            assert_eq!(
+                (i64::from(add(a, b)), i64::from(subtract(a, b))),
+                (nearest(sum), nearest(difference)),
+                "{a}, {b}"
+            );
             assert_eq!(i64::from(saturate(sum)), nearest(sum));
         }
     }

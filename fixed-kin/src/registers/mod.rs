@@ -12,6 +12,13 @@
 //! 7. The minor number of [`VERSION`] counts additions and mends that a driver of an older minor number can
 //!    live with; the major number counts all others.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words are raw bits; offsets fit 16 bits"
+)]
+
 mod fields;
 mod map;
 mod rules;
@@ -111,7 +118,7 @@ impl Field {
 pub struct Value {
     /// Name, in kebab-case.
     pub name: &'static str,
-    /// The word.
+    /// All 32 bits, as written or read.
     pub word: u32,
     /// What it does.
     pub text: &'static str,
@@ -154,7 +161,7 @@ pub struct Register {
     pub offset: u16,
     /// Words; more than one is an array, mostly one word per axis.
     pub words: u16,
-    /// Access.
+    /// Who may read and write it, and when.
     pub access: Access,
     /// Meaning of the bits.
     pub kind: Kind,
