@@ -7,7 +7,7 @@
 use fixed_kin::encoder::edge_delay;
 use fixed_kin::speed::{EncoderSample, TIME_BITS};
 
-/// One edge.
+/// A change of the lines by one count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// Rising clock edges between the tick and the first that samples the new level.

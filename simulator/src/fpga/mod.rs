@@ -41,7 +41,7 @@ pub const QUIET_CLOCKS: u32 = 1_400;
 /// A simulation that cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum FpgaError {
-    /// The bus.
+    /// A register could not be read or written.
     #[error(transparent)]
     Bus(#[from] BusError),
     /// The co-simulation.
