@@ -1,5 +1,12 @@
 //! The register bus: aligned 32-bit reads and writes, and a recorder that wraps any of them.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "a block has at most as many words as the window"
+)]
+
 use std::fmt::Display;
 
 /// A failed transfer: the card is gone, or the simulation behind it is.

@@ -11,6 +11,13 @@
 //! | position x, y; heading | 2⁻²⁸ m; 2⁻³² turn |
 //! | duty | 2⁻²⁴ of the supply |
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "numbers are clamped to their word just before"
+)]
+
 use fixed_kin::AXES;
 use fixed_kin::control::Configuration;
 use fixed_kin::format::{
