@@ -1,5 +1,12 @@
 //! The card as a robot's motion controller: identify, configure, arm, command, read.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words are raw bits; numbers are clamped to their register just before"
+)]
+
 mod error;
 mod state;
 

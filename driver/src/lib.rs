@@ -9,6 +9,9 @@
 //! configure, arm, command, read snapshots. [`drive`] is the control loop over all that, [`realtime`] its
 //! time, [`recording`] its way to a file.
 
+// A file in which casts are the point says so itself.
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_possible_wrap))]
+
 pub use ::bitstream::container as bitstream;
 mod board;
 pub mod design;

@@ -46,11 +46,11 @@ impl Observation {
         let lines = read(&map::ENCODER_LINES, 0)?;
         let mut set_points = [0; SET_POINT_WORDS];
         for (index, word) in set_points.iter_mut().enumerate() {
-            *word = read(&map::ACTIVE_SET_POINTS, index)? as i32;
+            *word = read(&map::ACTIVE_SET_POINTS, index)?.cast_signed();
         }
         let mut integrals = [0.0; AXES];
         for (index, integral) in integrals.iter_mut().enumerate() {
-            *integral = f64::from(Duty::from_bits(read(&map::INTEGRALS, index)? as i32));
+            *integral = f64::from(Duty::from_bits(read(&map::INTEGRALS, index)?.cast_signed()));
         }
         let line = |bit: usize| lines >> bit & 1 == 1;
         let mut seen = Self {

@@ -1,5 +1,12 @@
 //! The register bus: aligned 32-bit reads and writes, and a recorder that wraps any of them.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "a block has at most as many words as the window"
+)]
+
 use std::fmt::Display;
 
 /// A failed transfer: the card is gone, or the simulation behind it is.
@@ -75,6 +82,10 @@ impl Registers for fixed_kin::card::Card {
     }
     fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
         Self::write(self, offset, data);
+        Ok(())
+    }
+    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
+        Self::read_block(self, offset, words);
         Ok(())
     }
 }

@@ -11,6 +11,13 @@
 //! | position x, y; heading | 2⁻²⁸ m; 2⁻³² turn |
 //! | duty | 2⁻²⁴ of the supply |
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "numbers are clamped to their word just before"
+)]
+
 use fixed_kin::AXES;
 use fixed_kin::control::Configuration;
 use fixed_kin::format::{
@@ -244,7 +251,7 @@ impl Scale {
     #[must_use]
     pub fn twist_words(&self, twist: Twist) -> [i32; 3] {
         let components = [twist.vx, twist.vy, twist.omega];
-        [0, 1, 2].map(|k| nearest(components[k] * f64::from(self.exponents[k]).exp2()))
+        [0, 1, 2].map(|k| nearest(components[k] * power_of_two(self.exponents[k])))
     }
 
     /// Pose from the words of a snapshot: position in metres, within ±8 m of where it wraps, heading in
@@ -266,9 +273,15 @@ impl Scale {
     /// Body velocity in m/s and rad/s.
     #[must_use]
     pub fn twist(&self, words: [i32; 3]) -> Twist {
-        let component = |k: usize| f64::from(words[k]) / f64::from(self.exponents[k]).exp2();
+        let component = |k: usize| f64::from(words[k]) * power_of_two(-self.exponents[k]);
         Twist { vx: component(0), vy: component(1), omega: component(2) }
     }
+}
+
+/// Two to an exponent, made of its bits: `exp2` is a function call, three times a tick.
+fn power_of_two(exponent: i32) -> f64 {
+    const BIAS: i32 = 1023;
+    f64::from_bits(u64::from((exponent + BIAS).clamp(1, 2 * BIAS).unsigned_abs()) << 52)
 }
 
 /// The nearest word; no number is zero, which stands still.

@@ -5,6 +5,13 @@
 //! `time`: a bus access takes clocks there. Pins between ticks, filters and PWM are not here; their
 //! twins ([`crate::encoder`], [`crate::pwm`]) work clock by clock.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "registers and snapshot are raw words; masks stand beside each cast"
+)]
+
 use crate::AXES;
 use crate::commit::{Commit, Group};
 use crate::control::{
@@ -229,6 +236,11 @@ impl Card {
 
     /// Reads the register at a byte offset; reserved and unaligned ones read zero.
     pub fn read(&mut self, offset: u16) -> u32 {
+        // What a host reads in every tick comes first.
+        let snapshot = map::SNAPSHOT_SEQUENCE.offset..=map::SNAPSHOT_SEQUENCE_END.offset;
+        if snapshot.contains(&offset) && offset.is_multiple_of(4) {
+            return self.read_snapshot(usize::from(offset - map::SNAPSHOT_SEQUENCE.offset) / 4);
+        }
         let Some((register, index)) = map::lookup(offset) else { return 0 };
         if let Some((place, _)) = self.plain.of(register) {
             return *place;
@@ -271,11 +283,21 @@ impl Card {
             }
             o if o == map::INDEX_POSITION.offset => self.core.index_positions[index] as u32,
             o if o == map::INTEGRALS.offset => self.core.loops[index].integral.to_bits() as u32,
-            o if o >= map::SNAPSHOT_SEQUENCE.offset => {
-                self.read_snapshot(usize::from(o - map::SNAPSHOT_SEQUENCE.offset) / 4 + index)
-            }
             _ if register.access == map::Access::ReadOnly => register.reset,
             _ => 0,
+        }
+    }
+
+    /// Reads consecutive words, as so many calls of [`Self::read`] would.
+    pub fn read_block(&mut self, offset: u16, words: &mut [u32]) {
+        // The whole snapshot, as a host reads it in every tick: its first word holds it, its last lets it go.
+        if offset == map::SNAPSHOT_SEQUENCE.offset && words.len() == map::SNAPSHOT_WORDS {
+            (self.held_bank, self.held) = (self.latest, None);
+            words.copy_from_slice(&self.snapshots[self.latest]);
+            return;
+        }
+        for (index, word) in words.iter_mut().enumerate() {
+            *word = self.read(offset.wrapping_add(4 * index as u16));
         }
     }
 
@@ -437,8 +459,13 @@ impl Card {
             let moved = outputs.moved[axis];
             let quiet =
                 stall::Inputs { enable, threshold: self.plain.stall_compare as u16, ..stall::Inputs::default() };
-            for _ in 0..moved.unsigned_abs().min(2 * stall::STALL_COUNTS as u32) {
+            for _ in 0..moved.unsigned_abs() {
+                let before = *detector;
                 detector.clock(&stall::Inputs { step: true, up: moved > 0, ..quiet });
+                // The net count is at its end: more of the same change nothing.
+                if *detector == before {
+                    break;
+                }
             }
             detector.clock(&stall::Inputs { window, ..quiet });
             detector.clock(&stall::Inputs { load: true, compare: outputs.modulation[axis].compare, ..quiet });
@@ -720,6 +747,26 @@ mod tests {
             assert_eq!(before & u32::from(fault.mask()), u32::from(fault.mask()), "{fault:?}");
             card.write(map::FAULTS.offset, fault.mask().into());
             assert_eq!(card.read(map::FAULTS.offset), before & !u32::from(fault.mask()), "a one clears its bit alone");
+        }
+    }
+
+    #[test]
+    fn a_block_reads_as_so_many_words() {
+        let mut block = driving();
+        let mut words = block.clone();
+        for tick in 0..20_u16 {
+            for card in [&mut block, &mut words] {
+                card.tick(&Pins::default());
+            }
+            // From before the snapshot, at it, inside of it, and beyond its end; some of them hold it.
+            let offset = [map::INTEGRALS.offset, map::SNAPSHOT_SEQUENCE.offset, map::SNAPSHOT_TIME.offset]
+                [usize::from(tick % 3)];
+            let mut together = [0; map::SNAPSHOT_WORDS + 3];
+            let length = if tick % 4 == 3 { together.len() } else { map::SNAPSHOT_WORDS };
+            block.read_block(offset, &mut together[..length]);
+            for (index, word) in together[..length].iter().enumerate() {
+                assert_eq!(*word, words.read(offset + 4 * index as u16), "tick {tick}, word {index}");
+            }
         }
     }
 

@@ -5,6 +5,13 @@
 //! one group. A staged write while a commit of its group waits for the tick takes that commit back:
 //! newer values are on their way, and a tick must not see half of them.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words are raw bits"
+)]
+
 use crate::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use crate::registers::{CHECKSUM_SEED, checksum};
 

@@ -6,6 +6,13 @@
 //!  body velocity ──► inverse kinematics ──► slew limit ──► PI ──► duty ──► PWM
 //! ```
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words of the map are raw bits"
+)]
+
 use crate::AXES;
 use crate::format::{Coefficient, Displacement, Duty, FeedForwardGain, IntegralGain, ProportionalGain, Speed};
 use crate::kinematics::{InverseMatrix, TWIST, inverse};
@@ -143,9 +150,9 @@ pub struct TickOutputs {
     pub speeds: [Speed; AXES],
     /// Wheel speed set points in force.
     pub references: [Speed; AXES],
-    /// Duties.
+    /// Share of the PWM period that each axis is to drive, −1 to 1.
     pub duties: [Duty; AXES],
-    /// Pose.
+    /// Where odometry has the robot; zero without it.
     pub pose: Pose,
     /// Counts since the last tick.
     pub moved: [i32; AXES],
@@ -166,7 +173,7 @@ pub struct Core {
     pub homes: [i32; AXES],
     /// Counts at the last captured index.
     pub index_positions: [i32; AXES],
-    /// Pose.
+    /// Where odometry has the robot since it was switched on.
     pub pose: Pose,
 }
 

@@ -112,7 +112,7 @@ pub struct Outputs {
     pub index_count: u16,
     /// An index was captured between the last two samples.
     pub index_event: bool,
-    /// An index is waited for.
+    /// Armed for an index that has not come yet.
     pub index_waiting: bool,
     /// One was captured since the last arming.
     pub index_seen: bool,
@@ -144,7 +144,7 @@ impl Encoder {
         self.outputs
     }
 
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let settled = before.settling >= SETTLING_CLOCKS;

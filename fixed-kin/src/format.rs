@@ -5,6 +5,13 @@
 //! words, 24 for gains, 18 for coefficients. [`Format`] holds that width, and [`Format::round`] is
 //! the **only** place where a real number becomes a hardware number.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "checked against the format just before"
+)]
+
 use crate::word::{Scale, WORD_BITS};
 use fixed::FixedI32;
 use fixed::types::extra::{U8, U16, U22, U24, U32};

@@ -35,7 +35,7 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let events = u8::from(inputs.done) | u8::from(before.was_armed && !inputs.armed) << 1;

@@ -156,7 +156,7 @@ impl Kicker {
         self.outputs
     }
 
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let pulse = inputs.pulse & PULSE_MASK;

@@ -68,6 +68,8 @@
 //! # Ok::<(), fixed_kin::format::OutOfRange>(())
 //! ```
 #![no_std]
+// A file in which casts are the point says so itself.
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_possible_wrap))]
 
 #[cfg(test)]
 extern crate std;

@@ -113,7 +113,7 @@ impl LocalBus {
         Self::default()
     }
 
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) {
         let phase = self.phase;
         if phase == Phase::Take {

@@ -1,5 +1,12 @@
 //! From a duty to what the PWM generator compares with.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "13 bits of a word"
+)]
+
 use crate::format::Duty;
 use crate::word::{Scale, multiply, subtract};
 

@@ -23,6 +23,13 @@
 //! angle between heading and entry, to first order. The rotation is then within 1.3·10⁻⁵ of its
 //! length: 2⁻¹⁷ from each entry, 4.7·10⁻⁶ from the second order.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "headings wrap by design, words are raw bits"
+)]
+
 use crate::AXES;
 use crate::format::Displacement;
 use crate::kinematics::TWIST;

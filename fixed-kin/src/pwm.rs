@@ -80,7 +80,7 @@ pub struct Pwm {
 }
 
 impl Pwm {
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let period = inputs.period & PERIOD_MASK;

@@ -5,6 +5,13 @@
 //! misses ticks that the card computed all the same. One duty that is not at a limit tells the integrator
 //! to the last bit ([`PiState::after`]), so [`LoopReplay`] goes on exactly behind every gap.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words of a log are raw bits"
+)]
+
 use crate::AXES;
 use crate::format::{Coefficient, Duty, FeedForwardGain, Format, IntegralGain, ProportionalGain, Speed};
 use crate::kinematics::{InverseMatrix, TWIST, inverse};

@@ -139,7 +139,7 @@ pub struct Safety {
 }
 
 impl Safety {
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let timeout = inputs.watchdog_timeout & TIMEOUT_MASK;

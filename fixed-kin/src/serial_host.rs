@@ -47,7 +47,7 @@ pub fn write_request(offset: u16, data: u32) -> [u8; 8] {
 pub enum Reply {
     /// The word read.
     Read(u32),
-    /// Written.
+    /// Answer to a write: it has been made on the bus.
     Written,
     /// The request was damaged; nothing was done.
     Refused,

@@ -14,6 +14,13 @@
 //! - **No edge for [`EDGE_TIMEOUT`].** Speed is zero, and the next edge has no partner; until
 //!   there is one the plain difference over the tick is used.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "counters wrap by design"
+)]
+
 use crate::format::Speed;
 use crate::word::divide;
 

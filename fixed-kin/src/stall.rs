@@ -49,7 +49,7 @@ pub struct Stall {
 }
 
 impl Stall {
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let before = *self;
         let start = if inputs.window { 0 } else { before.net };

@@ -12,6 +12,13 @@
 //!
 //! Nothing here wraps and nothing panics, whatever the arguments.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "clamped to a word just before, or bits that are meant to go"
+)]
+
 /// Width of a word in bits.
 pub const WORD_BITS: u32 = 30;
 /// Largest word, 2²⁹ − 1.

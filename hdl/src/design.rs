@@ -6,6 +6,7 @@ use crate::board::{Board, BoardError};
 use crate::emit::{blocks, hash, ise, open_board, registers, top, ucf, verilog, wavejson};
 use fixed_kin::registers::BOARD_4I65;
 use rust_hdl::prelude::{Block, ToBits};
+use std::sync::OnceLock;
 
 /// Name of the top module and of the files.
 pub const NAME: &str = "rac4i65";
@@ -45,7 +46,8 @@ pub enum DesignError {
 /// The hash that a card with the committed design answers with.
 #[must_use]
 pub fn content_hash() -> u32 {
-    hash::embedded(COMMITTED_VERILOG).unwrap_or_else(|| hash::content_hash(COMMITTED_VERILOG))
+    static HASH: OnceLock<u32> = OnceLock::new();
+    *HASH.get_or_init(|| hash::embedded(COMMITTED_VERILOG).unwrap_or_else(|| hash::content_hash(COMMITTED_VERILOG)))
 }
 
 /// The core, connected, ready to simulate.

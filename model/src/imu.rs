@@ -38,7 +38,7 @@ pub struct Triad {
 pub struct ImuModel {
     /// Gyroscope.
     pub gyro: Triad,
-    /// Accelerometer.
+    /// Specific force on three axes, m/s².
     pub accelerometer: Triad,
     /// Readings a second.
     pub rate_hz: f64,
@@ -106,7 +106,7 @@ pub struct Reading {
     pub gyro: [f64; 3],
     /// Specific force: 9.81 upwards at rest, m/s².
     pub acceleration: [f64; 3],
-    /// °C.
+    /// Of the chip, °C; biases drift with it.
     pub temperature_c: f64,
     /// Whether an axis is at its limit.
     pub saturated: bool,

@@ -62,6 +62,11 @@ impl Axis {
         winding - self.rotor_inertia * acceleration + motor_part
     }
 
+    /// [`Self::transmitted`] while the friction is at its limit, as it is in motion.
+    pub fn transmitted_in_motion(&self, winding: f64, acceleration: f64, friction: f64) -> f64 {
+        winding - self.rotor_inertia * acceleration + self.coulomb.copysign(friction)
+    }
+
     /// Largest friction torque at the wheel shaft, Nm, while the gear transmits `transmitted`.
     pub fn friction_limit(&self, transmitted: f64) -> f64 {
         self.coulomb + self.gear_loss * transmitted.abs()

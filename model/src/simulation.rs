@@ -156,7 +156,7 @@ impl VirtualRobot {
         &self.log
     }
 
-    /// The log.
+    /// All ticks so far, as a real robot would have written them.
     pub fn into_log(self) -> Run {
         self.log
     }

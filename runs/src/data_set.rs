@@ -9,7 +9,7 @@ use crate::robot::{Robot, Support};
 /// A robot and its recorded runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DataSet {
-    /// The folder.
+    /// Where robot.toml and the runs lie.
     pub folder: PathBuf,
     /// The nominal robot.
     pub robot: Robot,

@@ -127,15 +127,36 @@ impl Pose {
 
 /// SE(2) exponential of a body displacement (m, m, rad): the pose reached, in the start frame.
 pub fn displacement(d: Twist) -> Pose {
-    let (a, b) = if d.omega.abs() < 1e-4 {
-        // Series of sin ω/ω and (1 − cos ω)/ω; the next terms are below 1e-17.
-        let w2 = d.omega * d.omega;
-        (1.0 - w2 / 6.0, d.omega * (0.5 - w2 / 24.0))
-    } else {
-        (d.omega.sin() / d.omega, (1.0 - d.omega.cos()) / d.omega)
-    };
+    let (a, b) = chord(d.omega);
     Pose::new(a * d.vx - b * d.vy, b * d.vx + a * d.vy, d.omega)
 }
+
+/// sin ω/ω and (1 − cos ω)/ω: a chord along and across the direction in which its arc of 1 begins.
+#[inline]
+fn chord(w: f64) -> (f64, f64) {
+    if w.abs() > SMALL_RAD {
+        let (s, c) = w.sin_cos();
+        return (s / w, (1.0 - c) / w);
+    }
+    // Series, because the second quotient cancels; the next terms are below 1e-17.
+    let w2 = w * w;
+    let a = 1.0 - w2 * (1.0 / 6.0 - w2 * (1.0 / 120.0 - w2 * (1.0 / 5_040.0 - w2 * (1.0 / 362_880.0))));
+    let b = 0.5 - w2 * (1.0 / 24.0 - w2 * (1.0 / 720.0 - w2 * (1.0 / 40_320.0 - w2 * (1.0 / 3_628_800.0))));
+    (a, w * b)
+}
+
+/// Sine and cosine of an angle that is mostly as small as the turn of a robot in a control tick: there by their series.
+#[inline]
+pub fn small_sin_cos(angle: f64) -> (f64, f64) {
+    if angle.abs() > SMALL_RAD {
+        return angle.sin_cos();
+    }
+    let (a, b) = chord(angle);
+    (angle * a, 1.0 - angle * b)
+}
+
+/// Angles up to which five terms of a series are exact to the last bit or two, rad.
+const SMALL_RAD: f64 = 0.05;
 
 /// The body displacement that leads to a pose in the start frame: the SE(2) logarithm, inverse of [`displacement`] for
 /// turns of less than half a circle.
@@ -157,6 +178,7 @@ pub struct Walk {
 
 impl Walk {
     /// From a pose.
+    #[inline]
     pub fn from(pose: Pose) -> Self {
         let (sin, cos) = pose.theta.sin_cos();
         Self { pose, cos, sin }
@@ -167,21 +189,19 @@ impl Walk {
         self.pose
     }
 
-    /// The same as `pose.compose(displacement(d))`, to 1e-12.
+    /// The same as `pose.compose(displacement(d))`, to 1e-12 after many thousand.
+    #[inline]
     pub fn step(&mut self, d: Twist) {
-        let w = d.omega;
-        if w.abs() > 0.05 {
+        if d.omega.abs() > SMALL_RAD {
             *self = Self::from(self.pose.compose(displacement(d)));
             return;
         }
-        let w2 = w * w;
-        // Series of sin ω/ω and (1 − cos ω)/ω; the next terms are below 1e-12.
-        let (a, b) = (1.0 - w2 / 6.0 * (1.0 - w2 / 20.0), 0.5 * w * (1.0 - w2 / 12.0 * (1.0 - w2 / 30.0)));
+        let (a, b) = chord(d.omega);
         let (x, y) = (a * d.vx - b * d.vy, b * d.vx + a * d.vy);
         self.pose.x += self.cos * x - self.sin * y;
         self.pose.y += self.sin * x + self.cos * y;
-        self.pose.theta += w;
-        let (sin, cos) = (w * a, 1.0 - w * b);
+        self.pose.theta += d.omega;
+        let (sin, cos) = (d.omega * a, 1.0 - d.omega * b);
         (self.cos, self.sin) = (self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin);
     }
 }
@@ -266,8 +286,8 @@ mod tests {
             p = p.advance(twist, 1.5e-3);
         }
         assert!((p.x - whole.x).abs() < 1e-11 && (p.y - whole.y).abs() < 1e-11);
-        let below = displacement(Twist::new(1.0, 1.0, 0.999_999e-4));
-        let above = displacement(Twist::new(1.0, 1.0, 1.000_001e-4));
+        let below = displacement(Twist::new(1.0, 1.0, SMALL_RAD - 1e-10));
+        let above = displacement(Twist::new(1.0, 1.0, SMALL_RAD + 1e-10));
         assert!((below.x - above.x).abs() < 1e-9 && (below.y - above.y).abs() < 1e-9);
     }
 

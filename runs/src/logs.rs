@@ -14,7 +14,7 @@ const IN_MEMORY: usize = 1 << 18;
 /// A robot and its recorded runs, as [`DataSet`], but of any length.
 #[derive(Debug)]
 pub struct Logs<'a> {
-    /// The folder.
+    /// Where robot.toml and the runs lie.
     pub folder: PathBuf,
     /// The nominal robot.
     pub robot: Robot,

@@ -33,7 +33,7 @@ pub struct Layout {
     pub odometry: bool,
     /// Rates of turn.
     pub gyro: bool,
-    /// Accelerations.
+    /// Whether there are `acc_x`, `acc_y`, m/s².
     pub acceleration: bool,
     /// Temperature of the inertial sensors.
     pub imu_temp: bool,
@@ -81,7 +81,7 @@ pub struct Tick<'a> {
     pub duty: &'a [f64],
     /// Wheel speeds as the loop measured them, rad/s at the wheel.
     pub measured: &'a [f64],
-    /// Supply, V.
+    /// Battery voltage at this tick, V; NaN where nobody measured it.
     pub supply_v: f64,
     /// Camera pose, where there is one at this tick.
     pub camera: Option<Pose>,

@@ -18,7 +18,7 @@ pub struct Ticks<'a> {
 /// Rows that are missing from a log, and counters that began anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Gaps {
-    /// Pauses.
+    /// Places at which rows are missing.
     pub pauses: usize,
     /// Ticks that the log lacks in them.
     pub missing: u64,

@@ -71,7 +71,7 @@ pub struct DetectionBall {
     pub pixel_y: f32,
 }
 
-/// A robot.
+/// What a frame says of one robot.
 #[derive(Clone, Copy, PartialEq, Message)]
 pub struct DetectionRobot {
     #[prost(float, required, tag = "1")]

@@ -1,6 +1,10 @@
 //! How fast the virtual robot and the chip's simulators are, as ratios of one run: writes `docs/measured/speeds.md`.
 //! `cargo bench -p simulator --bench speeds`; half a minute.
 //!
+//! `… -- --against BENCH COMMIT` measures the loops against an older build of this bench, in turns, and writes
+//! `docs/measured/speedup.md`. The older build is asked with `--loops`: one round, one line each. Both count the
+//! processor time of the loop's thread, so that other work on the machine does not matter.
+//!
 //! Rounds of all measurements follow each other, and the best of each counts, so that a machine that is busy for a
 //! while slows all of them alike.
 
@@ -12,10 +16,12 @@ use hdl::sim::cycle;
 use model::plant::Plant;
 use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
+use rustix::time::{ClockId, clock_gettime};
 use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::cosim::{Verilated, icarus};
 use simulator::fpga::BitTrue;
 use std::hint::black_box;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 const ROUNDS: usize = 7;
@@ -152,16 +158,93 @@ fn ratio(measured: &Measured<'_>, rust_hdl: f64) -> String {
     }
 }
 
+/// Rounds in turns; a child process has to warm up each time.
+const TURNS: usize = 40;
+
+fn time(all: &mut [Measured<'_>]) {
+    for measured in all {
+        let begin = Instant::now();
+        (measured.round)();
+        measured.best = measured.best.min(begin.elapsed());
+    }
+}
+
+/// Processor time of this thread.
+fn processor_time() -> Duration {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.try_into().expect("nanoseconds"))
+}
+
+fn time_loops(loops: &mut [Measured<'_>]) {
+    for measured in loops {
+        let begin = processor_time();
+        (measured.round)();
+        measured.best = measured.best.min(processor_time() - begin);
+    }
+}
+
+/// One round each, after one to warm up; a line with the name and the ticks a second.
+fn print_loops() {
+    let mut loops = [card(), closed_loop(), drive()];
+    time_loops(&mut loops);
+    loops.iter_mut().for_each(|measured| measured.best = Duration::MAX);
+    time_loops(&mut loops);
+    for measured in &loops {
+        println!("{}\t{}", measured.name, measured.rate());
+    }
+}
+
+/// Writes the speeds against an older build of this bench.
+fn against(older: &str, commit: &str) {
+    let mut loops = [card(), closed_loop(), drive()];
+    // Seconds of all turns, then and now: sums, so that a coarse clock does not matter.
+    let mut times = [[0.0_f64; 2]; 3];
+    time_loops(&mut loops);
+    for _ in 0..TURNS {
+        let output = Command::new(older).arg("--loops").output().expect("an older build of this bench");
+        let text = String::from_utf8(output.stdout).expect("text");
+        for ((measured, time), line) in loops.iter().zip(&mut times).zip(text.lines()) {
+            let (name, rate) = line.split_once('\t').expect("name and rate");
+            assert_eq!(name, measured.name);
+            time[0] += measured.amount / rate.parse::<f64>().expect("a rate");
+        }
+        for (measured, time) in loops.iter_mut().zip(&mut times) {
+            measured.best = Duration::MAX;
+            time_loops(std::slice::from_mut(measured));
+            time[1] += measured.best.as_secs_f64();
+        }
+    }
+    let row = |(measured, [then, now]): (&Measured<'_>, [f64; 2])| {
+        let rate = |time: f64| format!("{:.2e}", measured.amount * TURNS as f64 / time);
+        vec![measured.name.to_owned(), rate(then), rate(now), format!("{:.2}", then / now)]
+    };
+    let rows: Vec<_> = loops.iter().zip(times).map(row).collect();
+    rows.iter().for_each(|row| println!("{}", row.join(" | ")));
+    let table = measured::Table {
+        name: "speedup",
+        title: &format!(
+            "The loops of today and of commit {commit}, in turns in one run, by processor time of their thread"
+        ),
+        command: "cargo bench -p simulator --bench speeds -- --against BENCH COMMIT",
+        columns: &["what", "then, ticks a second", "now", "ratio"],
+    };
+    table.write(&rows);
+}
+
 fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if arguments.iter().any(|a| a == "--loops") {
+        return print_loops();
+    }
+    if let Some(at) = arguments.iter().position(|a| a == "--against") {
+        let next = |n| arguments.get(at + n).expect("--against needs the path of an older build, and its commit");
+        return against(next(1), next(2));
+    }
     let mut all = vec![card(), closed_loop(), drive(), rust_hdl()];
     all.extend(verilator());
     all.extend(icarus());
     for _ in 0..ROUNDS {
-        for measured in &mut all {
-            let begin = Instant::now();
-            (measured.round)();
-            measured.best = measured.best.min(begin.elapsed());
-        }
+        time(&mut all);
     }
     let rust_hdl = all.iter().find(|m| m.name.contains("rust-hdl")).map_or(f64::NAN, Measured::rate);
     let rows: Vec<Vec<String>> = all

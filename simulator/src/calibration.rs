@@ -117,7 +117,55 @@ pub fn skew_fan(nominal: &Robot, largest_rad: f64) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::calibration::{PaperOptions, calibrate_like_the_paper};
+    use model::calibration::{PaperOptions, Stage, calibrate_like_the_paper, estimate_skew};
+    use runs::DataSet;
+    use std::path::Path;
+
+    const TABLE: measured::Table<'_> = measured::Table {
+        name: "calibration",
+        title: "Skews of 4°, −3°, 2° as found: from the shipped log, and by the paper's procedure on the virtual robot",
+        command: "cargo test --release -p simulator --lib calibration",
+        columns: &[
+            "by",
+            "wheel 1, °",
+            "wheel 2, °",
+            "wheel 3, °",
+            "half of the 95 % interval, °",
+            "lines turn by, °/m",
+        ],
+    };
+
+    fn row(by: &str, skews: &[f64], half: &str, turn: &str) -> Vec<String> {
+        let skews = skews.iter().map(|skew| format!("{:.2}", skew.to_degrees()));
+        [by.to_owned()].into_iter().chain(skews).chain([half.to_owned(), turn.to_owned()]).collect()
+    }
+
+    #[test]
+    fn a_log_tells_all_skews() {
+        let set = DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew")).unwrap();
+        let found = estimate_skew(&set.robot, &set.runs).unwrap();
+        let widest = found.ci95.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
+        TABLE.check_row(&row("estimate", &found.skew_rad, &format!("{:.2}", widest.to_degrees()), ""));
+        for (skew, truth) in found.skew_rad.iter().zip([4.0_f64, -3.0, 2.0]) {
+            assert!((skew - truth.to_radians()).abs() < widest, "{:.3}° for {truth}°", skew.to_degrees());
+        }
+    }
+
+    #[test]
+    fn the_paper_procedure_is_measured_as_the_command_prints_it() {
+        let nominal = Robot::racbot();
+        let mut actual = nominal.clone();
+        actual.layout = Layout::Rac { body_radius_m: 0.085, skew_rad: [4.0_f64, -3.0, 2.0].map(f64::to_radians) };
+        let mut robot = BoardRobot::new(&nominal, &actual, Contact::default(), 1);
+        let found = calibrate_like_the_paper(&nominal, &mut robot, &PaperOptions::default()).unwrap();
+        for (by, skew, stage) in [
+            ("paper, straight", found.straight, Stage::Straight),
+            ("paper, scaled as printed", found.scaled, Stage::Scaled),
+            ("paper, one angle added", found.common, Stage::Common),
+        ] {
+            TABLE.check_row(&row(by, &skew, "", &format!("{:.2}", found.quality(stage).0.to_degrees())));
+        }
+    }
 
     #[test]
     fn the_paper_procedure_over_the_fpga_finds_the_differences() {

@@ -32,7 +32,7 @@ pub struct Period {
 /// Everything that went into an FPGA, and what it answered.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
-    /// Period by period.
+    /// What went in, and the snapshot at the end of each control period.
     pub periods: Vec<Period>,
 }
 
@@ -107,7 +107,7 @@ fn snapshot(fpga: &mut impl Fpga) -> Result<[u32; SNAPSHOT_WORDS], BusError> {
 pub struct Difference {
     /// Control period, from 0 after configuration.
     pub period: usize,
-    /// Register.
+    /// Name of the register that differs.
     pub register: &'static str,
     /// Word of it, from 0.
     pub index: usize,

@@ -1,12 +1,9 @@
 //! The tools that hardware people start with: FuseSoC's targets of `rac4i65.core`, and through them the
 //! cocotb test that drives the emitted chip by its bus.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
+use testbench::repository;
 
 /// Runs a target in a fresh build folder, on what that folder of generated files holds.
 fn fusesoc(target: &str, build: &Path, generated: &Path) -> (Output, String) {

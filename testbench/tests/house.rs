@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use testbench::repository;
 
 /// Crates whose files are looked at, by folder.
 const CRATES: [&str; 12] =
@@ -15,10 +16,6 @@ const LONGEST: usize = 800;
 const MEDIAN: usize = 250;
 /// Circles that are known and not yet untied, by their first file. None may be added.
 const KNOWN: &[&str] = &["gap::analysis,", "gap::analysis::gaps,", "gap::drive,", "gap::problem,"];
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {

@@ -2,10 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
+use testbench::repository;
 
 /// Markdown files below a folder, but for build output.
 fn documents(folder: &Path, found: &mut Vec<PathBuf>) {

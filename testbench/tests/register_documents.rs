@@ -3,12 +3,8 @@
 
 use fixed_kin::registers::{CHECKSUM_SEED, Kind, REGISTERS, VERSION};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 use std::process::Command;
-
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
+use testbench::repository;
 
 /// Runs a tool that must succeed and gives what it printed.
 fn run(command: &mut Command) -> String {

@@ -153,7 +153,7 @@ impl Snapshot {
         let word = |register: &map::Register, index: usize| {
             words[usize::from(register.at(index) - map::SNAPSHOT_SEQUENCE.offset) / 4]
         };
-        let signed = |register: &map::Register, index: usize| word(register, index) as i32;
+        let signed = |register: &map::Register, index: usize| word(register, index).cast_signed();
         Self {
             sequence: words[0],
             status: Status::of(word(&map::SNAPSHOT_STATUS, 0)),

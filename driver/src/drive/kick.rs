@@ -1,5 +1,12 @@
 //! Charging and firing the solenoid kicker.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "checked against the register before"
+)]
+
 use super::Armed;
 use crate::realtime::{Clock, Timer};
 use crate::{Board, BoardError, Registers, Scale, Settings, Standing};

@@ -55,6 +55,8 @@ pub(super) struct Watch {
     lost: [f64; AXES],
     saturated: [f64; AXES],
     clock: Option<(Duration, u32)>,
+    /// Time over which clocks are compared.
+    clock_window: Duration,
     refused: u32,
 }
 
@@ -72,6 +74,7 @@ impl Watch {
             lost: [0.0; AXES],
             saturated: [0.0; AXES],
             clock: None,
+            clock_window: CLOCK_WINDOW.max(Duration::from_secs_f64(f64::from(CLOCK_TICKS) * scale.tick_s())),
             refused: 0,
         }
     }
@@ -142,7 +145,7 @@ impl Watch {
     fn clocks(&mut self, sequence: u32, host: Duration) -> Result<(), Fault> {
         let (since, first) = *self.clock.get_or_insert((host, sequence));
         let (elapsed, ticks) = (host.saturating_sub(since), sequence.wrapping_sub(first));
-        if elapsed < CLOCK_WINDOW.max(Duration::from_secs_f64(f64::from(CLOCK_TICKS) * self.tick_s)) {
+        if elapsed < self.clock_window {
             return Ok(());
         }
         self.clock = Some((host, sequence));

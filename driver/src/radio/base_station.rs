@@ -76,7 +76,7 @@ impl<L: Line> BaseStation<L> {
                 }
             }
             let mut frame = self.frame()?;
-            let [x, y, omega] = self.scale.twist_words(wanted.unwrap_or_default()).map(|word| word as u32);
+            let [x, y, omega] = self.scale.twist_words(wanted.unwrap_or_default()).map(i32::cast_unsigned);
             frame.set_points([x, y, omega, 0])?;
             at = self.send(clock, at, begun, frame)?;
             sent.velocities += 1;

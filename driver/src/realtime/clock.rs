@@ -1,5 +1,12 @@
 //! Time as a control loop sees it: the machine's, or that of a simulation.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "nanoseconds below 1e9, seconds since power-up"
+)]
+
 use rustix::thread::{ClockId, clock_nanosleep_absolute};
 use rustix::time::{Timespec, clock_gettime};
 use std::time::Duration;

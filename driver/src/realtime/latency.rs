@@ -39,7 +39,8 @@ impl Latency {
     pub fn add(&mut self, wake: &Wake) {
         self.last = wake.late;
         self.missed += wake.missed;
-        self.nanoseconds.saturating_record((wake.late.as_nanos() as u64).clamp(1, LONGEST_NS));
+        self.nanoseconds
+            .saturating_record(u64::try_from(wake.late.as_nanos()).unwrap_or(LONGEST_NS).clamp(1, LONGEST_NS));
     }
 
     /// Wake-ups seen.

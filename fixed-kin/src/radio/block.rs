@@ -1,5 +1,12 @@
 //! Bit-true twin of the radio block: levels of the line in, writes to the core out, clock by clock.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "bytes of a word"
+)]
+
 use super::frame::step;
 use super::{
     CLOCKS_PER_BIT, CRC_BYTES, CRC_RESIDUE, GAP_BYTES, HEAD, Link, MAX_WRITES, STRAP_CLOCKS, WRITE_BYTES, offset_of,
@@ -126,7 +133,7 @@ impl Radio {
         }
     }
 
-    /// One clock.
+    /// A rising edge of the clock, with what the block sees before it.
     pub fn clock(&mut self, inputs: &Inputs) -> Outputs {
         let hearing = self.receiver.hearing();
         let silent = self.quiet == 10 * GAP_BYTES as u8;

@@ -1,5 +1,12 @@
 //! Frames to bytes and back.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "bytes of a word"
+)]
+
 use super::{
     CRC_BYTES, CRC_RESIDUE, CRC_TAPS, HEAD, HEADER_BYTES, LONGEST_FRAME, MAX_WRITES, WRITE_BYTES, code_of, offset_of,
 };
@@ -31,7 +38,7 @@ pub enum FrameError {
     },
     /// More writes than a frame holds.
     Full,
-    /// Robots are 0 to 15.
+    /// A number beyond 15, which no robot has.
     RobotNumber(u8),
 }
 

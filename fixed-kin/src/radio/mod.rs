@@ -40,9 +40,9 @@ pub const HEAD: u8 = 0xA1;
 pub const MAX_WRITES: usize = 95;
 /// Bytes before the first write.
 pub const HEADER_BYTES: usize = 4;
-/// Bytes of a write.
+/// Length of a register write in a frame: an offset and its word.
 pub const WRITE_BYTES: usize = 5;
-/// Bytes of the CRC.
+/// Length of the CRC-32 at the end of a frame.
 pub const CRC_BYTES: usize = 4;
 /// Bytes of the longest frame.
 pub const LONGEST_FRAME: usize = HEADER_BYTES + MAX_WRITES * WRITE_BYTES + CRC_BYTES;

@@ -1,5 +1,12 @@
 //! Bits and fields of the registers that have some, each by its name and in its register's table.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "constants that fit their field"
+)]
+
 use super::Field;
 use crate::AXES;
 

@@ -1,5 +1,12 @@
 //! The table itself.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "constants that fit their field"
+)]
+
 use super::fields::{BLOCK_FIELDS, BLOCKS_VALUE, FAULT_FIELDS, INTERRUPT_FIELDS, STATUS_FIELDS, bit, bits};
 use super::{Access, Field, Group, Kind, Register, Target, VERSION, Value};
 use crate::AXES;
@@ -79,7 +86,7 @@ const DUTY: Kind = Kind::Fixed(Format::DUTY);
 /// Identifies the design.
 pub const COOKIE: Register =
     register("cookie", 0x000, Access::ReadOnly, Kind::Text, COOKIE_VALUE, "\"RAC4\": this is the design");
-/// Map version.
+/// Major and minor number of this map, 16 bits each.
 pub const MAP_VERSION: Register = register(
     "map_version",
     0x004,
@@ -107,7 +114,7 @@ pub const CLOCK_HZ: Register = register(
     NOMINAL_CLOCK_HZ,
     "nominal clock of that board in Hz, 33000000 on the HX8K; the real one is measured with `time`",
 );
-/// Content hash.
+/// CRC-32 of the Verilog that the bitstream was made from.
 pub const CONTENT_HASH: Register = register(
     "content_hash",
     0x010,
@@ -159,13 +166,13 @@ pub const MODE_COUNT_AND_TIME: Field =
 /// Set points are a body velocity.
 pub const MODE_TWIST: Field =
     bit("twist", 1, "1: set points are a body velocity, inverse kinematics in gateware; 0: wheel speeds");
-/// Odometry.
+/// Set: the card keeps a pose from the counts.
 pub const MODE_ODOMETRY: Field =
     bit("odometry", 2, "1: a pose is kept from the encoders at every tick; 0: bypassed, the pose is zero");
 /// Kind of PWM.
 pub const MODE_UP_DOWN: Field =
     bit("up-down", 3, "1: PWM pin pulses forward, DIR pin backward, never both; 0: magnitude on PWM, sign on DIR");
-/// Encoder filter.
+/// Clocks for which a line must differ before it counts.
 pub const ENCODER_FILTER: Register = register(
     "encoder_filter",
     0x028,
@@ -175,11 +182,11 @@ pub const ENCODER_FILTER: Register = register(
     "an encoder line must be stable for so many clocks and one more",
 )
 .zero("a line counts from the first clock on");
-/// PWM period.
+/// Clocks of a PWM period, 13 bits; 0 switches the outputs off.
 pub const PWM_PERIOD: Register =
     register("pwm_period", 0x02C, Access::LockedWhileArmed, Kind::Unsigned(13), 0, "PWM period in clocks")
         .zero("off: no pulse whatever the duty");
-/// Blanking.
+/// Clocks for which PWM stays low around a change of direction.
 pub const PWM_BLANKING: Register = register(
     "pwm_blanking",
     0x030,
@@ -189,7 +196,7 @@ pub const PWM_BLANKING: Register = register(
     "clocks with PWM low before and after a change of DIR",
 )
 .zero("no blanking");
-/// Watchdog.
+/// Clocks without a commit after which the card disarms.
 pub const WATCHDOG_TIMEOUT: Register = register(
     "watchdog_timeout",
     0x034,
@@ -199,7 +206,7 @@ pub const WATCHDOG_TIMEOUT: Register = register(
     "clocks without a valid set-point commit until the outputs go off",
 )
 .zero("always bitten: the card cannot be armed");
-/// Arm.
+/// Takes the two words that arm, in order; any other disarms.
 pub const ARM: Register = register("arm", 0x038, Access::WriteOnly, Kind::Text, 0, ARMING).values(&[
     value("first", ARM_FIRST, "\"ARM1\": disarms and begins the sequence"),
     value("second", ARM_SECOND, "\"ARM2\": arms, as the next write to this register after the first word"),
@@ -208,7 +215,7 @@ pub const ARM: Register = register("arm", 0x038, Access::WriteOnly, Kind::Text, 
 pub const ARMING: &str = "the first word and then, as the next write to this register, the second arm the card, if \
      from the one to the other no cause of watchdog, emergency-stop, encoder, external or stall stands; bits \
      of `faults` whose cause is gone do not matter, nor do commit and arm-refused; any other word disarms at once";
-/// Faults.
+/// Sticky causes of disarming, a bit each, cleared by ones.
 pub const FAULTS: Register = register(
     "faults",
     0x03C,
@@ -219,7 +226,7 @@ pub const FAULTS: Register = register(
      until `stall` is, watchdog until a commit of set points; after configuration those that power-up is",
 )
 .starts(0x13, 0);
-/// First fault.
+/// Of the sticky faults those that came first since the last clear.
 pub const FIRST_FAULT: Register = register(
     "first_fault",
     0x040,
@@ -229,10 +236,10 @@ pub const FIRST_FAULT: Register = register(
     "the fault that came first of those not cleared since; two bits where two came in one clock",
 )
 .starts(0x03, 0);
-/// Status.
+/// Live: armed, set points in force, pins, commits pending.
 pub const STATUS: Register =
     register("status", 0x044, Access::ReadOnly, Kind::Fields(&STATUS_FIELDS), 0, "live state").starts(0x0C, 0x0C);
-/// Commit of set points.
+/// Takes the checksum of the staged set points; they act at the next tick.
 pub const COMMIT_SET_POINTS: Register = register(
     "commit_set_points",
     0x048,
@@ -241,7 +248,7 @@ pub const COMMIT_SET_POINTS: Register = register(
     0,
     "checksum over the staged set points; a right one restarts the watchdog's time",
 );
-/// Commit of the configuration.
+/// Takes the checksum of the staged configuration; it acts at the next tick.
 pub const COMMIT_CONFIGURATION: Register = register(
     "commit_configuration",
     0x04C,
@@ -259,11 +266,11 @@ pub const COMMITS: Register = register(
     0,
     "commits since configuration, wrapping",
 );
-/// Accepted commits.
+/// Commits with the right checksum, 16 bits, wrapping.
 pub const COMMITS_ACCEPTED: Field = bits("accepted", 0, 16, "commits with the right checksum and number of words");
-/// Rejected commits.
+/// Commits with a wrong checksum, 16 bits, wrapping.
 pub const COMMITS_REJECTED: Field = bits("rejected", 16, 16, "commits that changed nothing");
-/// Encoder errors.
+/// Axes that saw an impossible transition, a sticky bit each.
 pub const ENCODER_ERROR: Register = register(
     "encoder_error",
     0x054,
@@ -272,7 +279,7 @@ pub const ENCODER_ERROR: Register = register(
     0,
     "per axis: both lines changed at once",
 );
-/// Encoder lines.
+/// Levels of A, B and index of every axis, filtered.
 pub const ENCODER_LINES: Register = register(
     "encoder_lines",
     0x058,
@@ -292,7 +299,7 @@ pub const ENCODER_FAULT_MASK: Register = register(
     "axes whose encoder error disarms",
 );
 
-/// Kicker control.
+/// Charging, firing at the ball, holding the charge.
 pub const KICKER_CONTROL: Register = register(
     "kicker_control",
     0x060,
@@ -316,11 +323,11 @@ pub const KICKER_HOLD: Field =
 /// Charge without the input for a full capacitor.
 pub const KICKER_BY_TIME: Field =
     bit("by-time", 3, "1: charge until the time-out whatever `kicker_full` says; 0: stop charging while it is high");
-/// Kicker fire.
+/// Fires when its one word is written.
 pub const KICKER_FIRE: Register =
     register("kicker_fire", 0x064, Access::WriteOnly, Kind::Text, 0, "fires, when armed and not locked out")
         .values(&[value("fire", KICKER_FIRE_WORD, "\"KICK\": fires; any other word does nothing")]);
-/// Kicker pulse.
+/// Length of the trigger pulse, µs, 14 bits.
 pub const KICKER_PULSE: Register = register(
     "kicker_pulse",
     0x068,
@@ -351,7 +358,7 @@ pub const KICKER_CHARGE_TIMEOUT: Register = register(
      disarmed: a request that is taken back and made again gains no time",
 )
 .zero("never charges");
-/// Kicker status.
+/// State of the kicker, and what was dropped or timed out.
 pub const KICKER_STATUS: Register = register(
     "kicker_status",
     0x074,
@@ -371,7 +378,7 @@ pub const KICKER_STATE: Field = bits(
 /// The ball trigger has a shot.
 pub const KICKER_ON_BALL: Field =
     bit("on-ball", 3, "the next ball fires: arm-on-ball rose while armed and has its shot");
-/// Kicker ready.
+/// Set: a request to fire would be taken.
 pub const KICKER_READY: Field = bit("ready", 4, "a fire request would be taken");
 /// Charging stopped by its time-out.
 pub const KICKER_TIMED_OUT: Field =
@@ -380,7 +387,7 @@ pub const KICKER_TIMED_OUT: Field =
 pub const KICKER_DROPPED: Field = bit("fire-dropped", 6, "a fire request came while disarmed or locked out");
 /// The capacitor is full.
 pub const KICKER_FULL: Field = bit("full", 7, "the filtered input for a full capacitor; high or open = full");
-/// Clocks per microsecond.
+/// What the time base counts as a microsecond, 25 to 34.
 pub const CLOCKS_PER_MICROSECOND: Register = register(
     "clocks_per_us",
     0x078,
@@ -389,7 +396,7 @@ pub const CLOCKS_PER_MICROSECOND: Register = register(
     33,
     "clocks in what the kicker takes for a microsecond; below 25 acts as 25, above 34 as 34",
 );
-/// LEDs.
+/// Eight LEDs of the card, a bit each.
 pub const LEDS: Register = register("leds", 0x07C, Access::ReadWrite, Kind::Unsigned(8), 0, "the eight LEDs, 1 = on");
 
 /// Time-out of set points.
@@ -402,7 +409,7 @@ pub const SET_POINT_TIMEOUT: Register = register(
     "control ticks after which a set point is zero until the next commit; the watchdog disarms later",
 )
 .zero("no set point ever counts: the wheels are held at zero speed");
-/// Stall window.
+/// Control ticks in which a driven wheel must move.
 pub const STALL_WINDOW: Register = register(
     "stall_window",
     0x084,
@@ -460,7 +467,7 @@ pub const INDEX_WAITING: Field = bits("waiting", 0, AXES as u32, "per axis: arme
 /// Axes that saw one.
 pub const INDEX_SEEN: Field =
     bits("seen", 4, AXES as u32, "per axis: captured; `index_position` is there after the next control tick");
-/// Interrupt enable.
+/// Causes that may pull the interrupt line.
 pub const INTERRUPT_ENABLE: Register = register(
     "interrupt_enable",
     0x098,
@@ -564,7 +571,7 @@ pub const SET_POINTS: Register = array(
 /// Set points in force.
 pub const ACTIVE_SET_POINTS: Register =
     array("active_set_points", 0x640, SET_POINT_WORDS, Access::ReadOnly, WORD, "set points in force");
-/// Index positions.
+/// Counts at the last captured index of every axis.
 pub const INDEX_POSITION: Register = array(
     "index_position",
     0x770,
@@ -587,7 +594,7 @@ pub const SNAPSHOT_SEQUENCE: Register = array(
      snapshot, so that all its words are of this tick until the last one is read",
 )
 .starts(0, u32::MAX);
-/// Snapshot: status.
+/// [`STATUS`] as it was at the tick.
 pub const SNAPSHOT_STATUS: Register = array(
     "snapshot_status",
     0x804,
@@ -597,15 +604,15 @@ pub const SNAPSHOT_STATUS: Register = array(
     "`status` at the tick, without what is pending",
 )
 .starts(0, 0x0C);
-/// Snapshot: time.
+/// Clocks since configuration at the tick, low 24 bits.
 pub const SNAPSHOT_TIME: Register =
     array("snapshot_time", 0x808, 1, Access::ReadOnly, Kind::Unsigned(24), "low 24 bits of `time` at the tick")
         .starts(0, 0xFF_FFFF);
-/// Snapshot: faults.
+/// [`FAULTS`] as it was at the tick.
 pub const SNAPSHOT_FAULTS: Register =
     array("snapshot_faults", 0x80C, 1, Access::ReadOnly, Kind::Fields(&FAULT_FIELDS), "`faults` at the tick")
         .starts(0, 0x7F);
-/// Snapshot: counts.
+/// Position of every axis at the tick, counts, 32 bits, wrapping.
 pub const SNAPSHOT_COUNT: Register = array(
     "snapshot_count",
     0x810,
@@ -622,7 +629,7 @@ pub const SNAPSHOT_REFERENCE: Register =
     array("snapshot_reference", 0x830, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
 /// Snapshot: duties.
 pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x840, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
-/// Snapshot: pose.
+/// x, y and heading by odometry at the tick.
 pub const SNAPSHOT_POSE: Register = array(
     "snapshot_pose",
     0x850,

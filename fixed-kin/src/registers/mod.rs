@@ -12,6 +12,13 @@
 //! 7. The minor number of [`VERSION`] counts additions and mends that a driver of an older minor number can
 //!    live with; the major number counts all others.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "words are raw bits; offsets fit 16 bits"
+)]
+
 mod fields;
 mod map;
 mod rules;
@@ -86,18 +93,21 @@ pub struct Field {
 impl Field {
     /// The field's value in `word`.
     #[must_use]
+    #[inline]
     pub const fn of(&self, word: u32) -> u32 {
         (word >> self.bit) & (u32::MAX >> (32 - self.width))
     }
 
     /// Whether any bit of the field is set in `word`.
     #[must_use]
+    #[inline]
     pub const fn is_set(&self, word: u32) -> bool {
         self.of(word) != 0
     }
 
     /// `value` at the field's place; excess bits are dropped.
     #[must_use]
+    #[inline]
     pub const fn place(&self, value: u32) -> u32 {
         (value & (u32::MAX >> (32 - self.width))) << self.bit
     }
@@ -108,7 +118,7 @@ impl Field {
 pub struct Value {
     /// Name, in kebab-case.
     pub name: &'static str,
-    /// The word.
+    /// All 32 bits, as written or read.
     pub word: u32,
     /// What it does.
     pub text: &'static str,
@@ -151,7 +161,7 @@ pub struct Register {
     pub offset: u16,
     /// Words; more than one is an array, mostly one word per axis.
     pub words: u16,
-    /// Access.
+    /// Who may read and write it, and when.
     pub access: Access,
     /// Meaning of the bits.
     pub kind: Kind,
@@ -193,6 +203,7 @@ impl Register {
     /// # Panics
     /// If the array has no such word: a bug in the caller, never input.
     #[must_use]
+    #[inline]
     pub const fn at(&self, index: usize) -> u16 {
         assert!(index < self.words as usize, "no such word in this register array");
         self.offset + 4 * index as u16
@@ -240,6 +251,7 @@ pub fn lookup(offset: u16) -> Option<(&'static Register, usize)> {
 /// [`CHECKSUM_SEED`]. A write that is lost, doubled, out of order, at a wrong address or with any
 /// single bit flipped gives another sum.
 #[must_use]
+#[inline]
 pub const fn checksum(state: u32, word_address: u16, data: u32) -> u32 {
     state.rotate_left(1) ^ data ^ word_address as u32
 }
@@ -249,6 +261,7 @@ pub const CHECKSUM_SEED: u32 = 0x5241_4353;
 
 /// The 30-bit word that the gateware stores for a staged write (convention 6).
 #[must_use]
+#[inline]
 pub const fn stored_word(data: u32) -> i32 {
     ((data << 2) as i32) >> 2
 }

@@ -18,7 +18,7 @@ pub struct FramePart {
     pub name: &'static str,
     /// Where it begins, in bytes; n is the number of writes, i counts them from 0.
     pub at: &'static str,
-    /// Its bytes.
+    /// How many bytes it takes.
     pub bytes: usize,
     /// The value it must have, if there is one.
     pub value: Option<u8>,

@@ -30,7 +30,7 @@ pub struct Applied {
     pub contact: Contact,
     /// What `robot` cannot say about the true one.
     pub deviations: Deviations,
-    /// The camera.
+    /// What the overhead camera is like, with its effects.
     pub camera: CameraModel,
     /// The controller.
     pub control: ControlDeviations,

@@ -11,8 +11,10 @@ pub(super) type Delayed = VecDeque<Vec<f64>>;
 impl Plant {
     /// Sets the torque of every winding for one tick.
     pub(super) fn energise(&mut self, duty: &[f64], supply_v: f64, dt: f64) {
-        let n = self.wheels.len();
-        let mut acting: Vec<f64> = (0..n).map(|i| duty.get(i).copied().unwrap_or(0.0).clamp(-1.0, 1.0)).collect();
+        let mut acting = std::mem::take(&mut self.acting);
+        for (i, acting) in acting.iter_mut().enumerate() {
+            *acting = duty.get(i).copied().unwrap_or(0.0).clamp(-1.0, 1.0);
+        }
         let mut supply = supply_v;
         if let Some(d) = self.deviations.as_deref() {
             delay(&mut self.delayed, &mut acting, d.duty_delay_s / dt);
@@ -48,6 +50,7 @@ impl Plant {
         for ((wheel, axis), u) in self.wheels.iter_mut().zip(&self.axes).zip(&acting) {
             wheel.drive = axis.winding_torque(u * supply, 0.0);
         }
+        self.acting = acting;
     }
 }
 

@@ -67,11 +67,11 @@ pub struct WheelDeviation {
 pub struct HeadingDrag {
     /// n.
     pub harmonic: f64,
-    /// Nm.
+    /// Mean over all headings, Nm.
     pub mean_nm: f64,
-    /// Nm.
+    /// Amplitude with cos(n θ), Nm.
     pub cos_nm: f64,
-    /// Nm.
+    /// Amplitude with sin(n θ), Nm.
     pub sin_nm: f64,
 }
 

@@ -12,14 +12,15 @@ impl Plant {
     /// Sets every wheel's load and friction, and the force on the body, for one step.
     pub(super) fn load(&mut self) {
         let Some(d) = self.deviations.as_deref() else { return };
+        let heading = self.walk.pose().theta;
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
             wheel.load = -d.wheel(i).viscous_nms * wheel.speed;
-            wheel.dry = d.friction(i, wheel.speed, wheel.drive, self.pose.theta);
+            wheel.dry = d.friction(i, wheel.speed, wheel.drive, heading);
         }
         if self.support == Support::Blocks {
             return;
         }
-        let (twist, heading) = (self.twist, self.pose.theta);
+        let twist = self.twist;
         let (s, c) = heading.sin_cos();
         let weight = self.mass * GRAVITY;
         let [grain, azimuth] = d.grain;

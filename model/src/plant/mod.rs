@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 pub use deviations::{Deviations, HeadingDrag, WheelDeviation};
 
 use crate::motor::Axis;
-use runs::frames::{Pose, Twist};
+use runs::frames::{Pose, Twist, Walk, small_sin_cos};
 use runs::geometry::{Geometry, GeometryError};
 use runs::robot::{Robot, Support};
 
@@ -68,12 +68,14 @@ pub struct Plant {
     /// Force on the body beside that of the wheels: N, N, Nm.
     push: Vector3<f64>,
     twist: Twist,
-    pose: Pose,
+    walk: Walk,
     wheels: Vec<WheelState>,
     before: Vec<f64>,
     after: Vec<f64>,
     contacts: Vec<slipping::ContactPoint>,
-    rolling: Option<rolling::Tables>,
+    rolling: Option<Box<rolling::Tables>>,
+    /// Duties as they act in this tick.
+    acting: Vec<f64>,
 }
 
 /// One wheel and its motor.
@@ -132,11 +134,12 @@ impl Plant {
             encoders: vec![encoder::Encoder::default(); n],
             push: Vector3::zeros(),
             twist: Twist::default(),
-            pose: Pose::default(),
+            walk: Walk::from(Pose::default()),
             wheels: vec![WheelState::default(); n],
             before: vec![0.0; n],
             after: vec![0.0; n],
             rolling: None,
+            acting: vec![0.0; n],
         })
     }
 
@@ -158,7 +161,7 @@ impl Plant {
     /// The same robot at another place.
     #[must_use]
     pub fn at(mut self, pose: Pose) -> Self {
-        self.pose = pose;
+        self.walk = Walk::from(pose);
         self
     }
 
@@ -185,6 +188,7 @@ impl Plant {
         // A tick that is a multiple of the longest step up to rounding gets no extra step.
         let steps = (dt / LONGEST_STEP_S - 1e-6).ceil().max(1.0);
         let h = dt / steps;
+        self.walk = Walk::from(self.walk.pose());
         for _ in 0..steps as usize {
             self.load();
             match (self.support, self.contact) {
@@ -212,7 +216,7 @@ impl Plant {
 
     /// Pose in the world, heading not wrapped.
     pub fn pose(&self) -> Pose {
-        self.pose
+        self.walk.pose()
     }
 
     /// Wheel speeds, rad/s.
@@ -259,10 +263,12 @@ impl Plant {
         }
     }
 
+    #[inline]
     fn move_body(&mut self, twist: Vector3<f64>, h: f64) {
         let old = self.twist;
-        let sum = Twist::new(old.vx + twist.x, old.vy + twist.y, old.omega + twist.z);
-        self.pose = self.pose.advance(sum, 0.5 * h);
+        let half = 0.5 * h;
+        let sum = [old.vx + twist.x, old.vy + twist.y, old.omega + twist.z].map(|v| v * half);
+        self.walk.step(Twist::new(sum[0], sum[1], sum[2]));
         self.twist = Twist::new(twist.x, twist.y, twist.z);
     }
 
@@ -282,7 +288,7 @@ impl Plant {
 
 /// Change of a twist because the body frame turns on by ω·h: the Coriolis acceleration, exactly.
 fn turn(twist: &Vector3<f64>, h: f64) -> Vector3<f64> {
-    let (s, c) = (twist.z * h).sin_cos();
+    let (s, c) = small_sin_cos(twist.z * h);
     Vector3::new(c * twist.x + s * twist.y - twist.x, c * twist.y - s * twist.x - twist.y, 0.0)
 }
 

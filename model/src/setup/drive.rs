@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use runs::robot::Robot;
-use runs::{Columns, DRIVE_KEYS, Log, Run};
+use runs::{Columns, Log, Run, drive_lacks};
 
 use super::samples::{Wheels, correlation};
 use super::{Mistake, common_ratio, is_true, near, short};
@@ -166,7 +166,7 @@ fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
 
 /// A supply in another unit, or of another battery.
 fn supply(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
-    if !robot.lacks(&DRIVE_KEYS).is_empty() {
+    if !drive_lacks(robot).is_empty() {
         return None;
     }
     let mut logged: Vec<f64> = signals.iter().flat_map(|s| s.supply.iter().copied()).collect();

@@ -15,7 +15,7 @@ use runs::robot::Robot;
 
 pub use orders::orders;
 
-/// One mistake.
+/// Something set up wrongly, with what shows it and what mends it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mistake {
     /// What kind, kebab-case, stable.
@@ -35,7 +35,7 @@ impl Mistake {
         Self { kind, column: column.to_owned(), what, remedy, nameable: false }
     }
 
-    /// In one sentence.
+    /// What, where and the remedy, for a terminal.
     pub fn sentence(&self) -> String {
         format!("{}: {}; {}", self.column, self.what, self.remedy)
     }

@@ -1,6 +1,6 @@
 //! A controller for real robots: limits, corners, stops.
 
-use super::{Limits, SetPoint};
+use super::{Limits, SetPoint, length_of};
 use crate::motor::Axis;
 use runs::frames::{Pose, Twist};
 use runs::geometry::{Geometry, GeometryError};
@@ -83,6 +83,8 @@ pub struct Follower {
     geometry: Geometry,
     next: usize,
     from: [f64; 2],
+    /// Speed at the corner of the next set point, m/s.
+    corner: f64,
     /// Commanded velocity in the world, m/s, and rotation, rad/s.
     velocity: [f64; 2],
     omega: f64,
@@ -101,20 +103,23 @@ impl Follower {
         limits: Limits,
         options: FollowerOptions,
     ) -> Self {
-        Self {
+        let mut follower = Self {
             set_points: set_points.to_vec(),
             limits,
             options,
             geometry: geometry.clone(),
             next: 0,
             from: [start.x, start.y],
+            corner: f64::INFINITY,
             velocity: [0.0; 2],
             omega: 0.0,
             t: 0.0,
             arrivals: vec![Arrival::Pending; set_points.len()],
             nearest: f64::INFINITY,
             nearest_at: 0.0,
-        }
+        };
+        follower.corner = follower.corner_speed();
+        follower
     }
 
     /// What became of each set point so far.
@@ -157,9 +162,9 @@ impl Follower {
     fn limited_step(&self, change: [f64; 2], dt: f64) -> [f64; 2] {
         let allowed = self.limits.acceleration * dt;
         let u = self.set_points.get(self.next).map_or([0.0; 2], |p| [p.x - self.from[0], p.y - self.from[1]]);
-        let length = u[0].hypot(u[1]);
-        if length == 0.0 || change[0].hypot(change[1]) <= allowed {
-            let share = (allowed / change[0].hypot(change[1]).max(1e-12)).min(1.0);
+        let length = length_of(u);
+        if length == 0.0 || length_of(change) <= allowed {
+            let share = (allowed / length_of(change).max(1e-12)).min(1.0);
             return [share * change[0], share * change[1]];
         }
         let u = [u[0] / length, u[1] / length];
@@ -174,11 +179,11 @@ impl Follower {
     fn wanted(&mut self, pose: Pose) -> ([f64; 2], f64) {
         while let Some(target) = self.set_points.get(self.next).copied() {
             let leg = [target.x - self.from[0], target.y - self.from[1]];
-            let length = leg[0].hypot(leg[1]);
+            let length = length_of(leg);
             let to_go = [target.x - pose.x, target.y - pose.y];
-            let distance = to_go[0].hypot(to_go[1]);
+            let distance = length_of(to_go);
             let along = if length > 0.0 { (to_go[0] * leg[0] + to_go[1] * leg[1]) / length } else { 0.0 };
-            let slow = self.velocity[0].hypot(self.velocity[1]) < 0.02;
+            let slow = length_of(self.velocity) < 0.02;
             let arrived = if target.stop {
                 distance <= self.options.tolerance_m && slow
             } else {
@@ -206,12 +211,13 @@ impl Follower {
         self.next += 1;
         self.from = [target.x, target.y];
         (self.nearest, self.nearest_at) = (f64::INFINITY, self.t);
+        self.corner = self.corner_speed();
     }
 
     fn towards(&self, target: SetPoint, to_go: [f64; 2], leg: [f64; 2], length: f64, along: f64) -> [f64; 2] {
-        let distance = to_go[0].hypot(to_go[1]);
+        let distance = length_of(to_go);
         let cruise = target.v.min(self.limits.speed);
-        let end = if target.stop { 0.0 } else { self.corner_speed(target, leg).min(cruise) };
+        let end = if target.stop { 0.0 } else { self.corner.min(cruise) };
         // Braking with a reserve, because speed loops lag behind.
         let braking = 0.7 * self.limits.acceleration;
         let room = if target.stop { distance } else { along.max(0.0) };
@@ -227,19 +233,22 @@ impl Follower {
         let u = [leg[0] / length, leg[1] / length];
         // From the robot back to the line.
         let across = [to_go[0] - along * u[0], to_go[1] - along * u[1]];
-        let off = across[0].hypot(across[1]);
+        let off = length_of(across);
         let back = (self.options.gain * off).min(0.5 * speed + 0.05) / off.max(1e-9);
         // A stop that was passed is approached from the other side.
         let forward = if target.stop { along.clamp(-0.1, 0.1) * 10.0 * speed } else { speed };
         let wanted = [u[0] * forward + across[0] * back, u[1] * forward + across[1] * back];
-        let scale = (cruise / wanted[0].hypot(wanted[1]).max(1e-9)).min(1.0);
+        let scale = (cruise / length_of(wanted).max(1e-9)).min(1.0);
         [wanted[0] * scale, wanted[1] * scale]
     }
 
     /// Speed at which the turn into the next leg swings out by `corner_m`: a change of velocity of
     /// 2·v·sin(φ/2) at constant acceleration a leads past the corner by about v²·sin²(φ/2)/(2a).
-    fn corner_speed(&self, target: SetPoint, leg: [f64; 2]) -> f64 {
-        let Some(next) = self.set_points.get(self.next + 1) else { return f64::INFINITY };
+    fn corner_speed(&self) -> f64 {
+        let (Some(target), Some(next)) = (self.set_points.get(self.next), self.set_points.get(self.next + 1)) else {
+            return f64::INFINITY;
+        };
+        let leg = [target.x - self.from[0], target.y - self.from[1]];
         let out = [next.x - target.x, next.y - target.y];
         let (cross, dot) = (leg[0] * out[1] - leg[1] * out[0], leg[0] * out[0] + leg[1] * out[1]);
         let half_turn = (0.5 * cross.atan2(dot)).sin().abs();

@@ -52,3 +52,8 @@ pub const FIG_6: [SetPoint; 4] = [
 /// The skew of the paper's Fig. 7 as we drive it, unknown to the controller: 4°, −3°, 2° (the paper
 /// does not print its own).
 pub const FIG_7_SKEW_DEG: [f64; 3] = [4.0, -3.0, 2.0];
+
+/// Length of a vector of the field, m. Not `hypot`: that takes five times as long to stand numbers beyond 1e150.
+fn length_of([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}

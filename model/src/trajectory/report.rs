@@ -1,6 +1,6 @@
 //! How well a trajectory was driven.
 
-use super::{Arrival, SetPoint};
+use super::{Arrival, SetPoint, length_of};
 use runs::frames::Pose;
 
 /// What became of one set point.
@@ -53,7 +53,7 @@ impl TrajectoryReport {
                 let from = i.checked_sub(1).and_then(|i| time_of(arrivals.get(i))).unwrap_or(0.0);
                 let to = time_of(arrivals.get(i + 1)).unwrap_or(f64::INFINITY);
                 let there = track.iter().filter(|(t, _)| *t >= from && *t <= to);
-                let miss_m = there.map(|(_, at)| (at.x - p.x).hypot(at.y - p.y)).fold(f64::INFINITY, f64::min);
+                let miss_m = there.map(|(_, at)| length_of([at.x - p.x, at.y - p.y])).fold(f64::INFINITY, f64::min);
                 set_point_report(arrival, miss_m, tolerance_m, track)
             })
             .collect();
@@ -63,7 +63,7 @@ impl TrajectoryReport {
         let errors: Vec<f64> = track
             .iter()
             .filter(|(t, _)| *t <= until)
-            .map(|(_, p)| legs().map(|(a, b)| off_segment(*p, a, b)).fold(f64::INFINITY, f64::min))
+            .map(|(_, p)| legs().map(|(a, b)| off_segment(*p, a, b)).fold(f64::INFINITY, f64::min).sqrt())
             .collect();
         let squares: f64 = errors.iter().map(|e| e * e).sum();
         let mut overshoot_m = 0.0_f64;
@@ -118,13 +118,14 @@ fn set_point_report(arrival: Arrival, miss_m: f64, tolerance_m: f64, track: &[(f
     SetPointReport { reached_at, miss_m, why_not }
 }
 
-/// Distance of a position to a line segment.
+/// Square of the distance of a position to a line segment, m².
 fn off_segment(p: Pose, a: [f64; 2], b: [f64; 2]) -> f64 {
     let d = [b[0] - a[0], b[1] - a[1]];
     let squared = d[0] * d[0] + d[1] * d[1];
     let along = if squared > 0.0 { ((p.x - a[0]) * d[0] + (p.y - a[1]) * d[1]) / squared } else { 0.0 };
     let along = along.clamp(0.0, 1.0);
-    (p.x - a[0] - along * d[0]).hypot(p.y - a[1] - along * d[1])
+    let off = [p.x - a[0] - along * d[0], p.y - a[1] - along * d[1]];
+    off[0] * off[0] + off[1] * off[1]
 }
 
 #[cfg(test)]

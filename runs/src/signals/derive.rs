@@ -8,7 +8,7 @@ use crate::robot::Robot;
 /// What is carried from part to part.
 pub(super) struct Derive {
     source: Source,
-    /// Duty per ampere.
+    /// What a winding current counts as, 1/A.
     duty_per_ampere: f64,
     /// Time and value of each wheel's last speed, and its angle since the start, rad.
     speeds: Vec<(Option<(f64, f64)>, f64)>,

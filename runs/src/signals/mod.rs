@@ -23,7 +23,7 @@ const VIRTUAL_ARM_M: f64 = 0.1;
 /// What the counts of a run are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CountSource {
-    /// Encoders.
+    /// Cumulative counts (`enc_1..N`).
     #[default]
     Encoders,
     /// Wheel speeds (`speed_i`, else `meas_i`), integrated.
@@ -35,7 +35,7 @@ pub enum CountSource {
 /// What the duties of a run are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DutySource {
-    /// Duties.
+    /// Logged duties (`duty_1..N`).
     #[default]
     Duties,
     /// Motor currents: current times resistance over supply, without back-EMF.
@@ -45,9 +45,9 @@ pub enum DutySource {
 /// What counts and duties of a run are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Source {
-    /// Counts.
+    /// What the wheel angles are read from.
     pub counts: CountSource,
-    /// Duties.
+    /// What the drive of the motors is read from.
     pub duties: DutySource,
 }
 

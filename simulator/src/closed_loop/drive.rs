@@ -7,6 +7,7 @@ use driver::Board;
 use driver::drive::{Ending, Plan, PoseSource};
 use driver::realtime::Clock;
 use driver::recording::{Recording, logged_robot};
+use fixed_kin::AXES;
 use fixed_kin::speed::SpeedMode;
 use model::camera::CameraModel;
 use model::localisation::Localiser;
@@ -185,9 +186,10 @@ impl Drive {
 fn believed(mut localiser: Localiser, run: &Run) -> Vec<Pose> {
     let mut camera = run.camera.iter().peekable();
     let pose = |(tick, t): (usize, &f64)| {
-        let counts: Vec<i64> = run.counts.iter().map(|counts| counts[tick]).collect();
+        let mut counts = [0; AXES];
+        counts.iter_mut().zip(&run.counts).for_each(|(count, column)| *count = column[tick]);
         let seen = camera.next_if(|sample| sample.tick == tick).map(|sample| sample.pose);
-        localiser.tick(*t, &counts, seen)
+        localiser.tick(*t, &counts[..run.counts.len()], seen)
     };
     run.t.iter().enumerate().map(pose).collect()
 }

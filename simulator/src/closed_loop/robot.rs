@@ -13,12 +13,12 @@ use std::rc::Rc;
 use std::time::Duration;
 
 /// Where the robot was at a control tick, and how fast its wheels turned, rad/s.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     /// True pose.
     pub pose: Pose,
-    /// True wheel speeds.
-    pub wheel_speeds: Vec<f64>,
+    /// True wheel speeds; 0 where there is no wheel.
+    pub wheel_speeds: [f64; AXES],
 }
 
 /// A robot on an FPGA in simulated time; clones are the same one.
@@ -41,9 +41,11 @@ struct Inside<F> {
     plant: Plant,
     supply_v: f64,
     camera: Option<Camera>,
-    /// Length of a control period.
+    /// Length of a control period, and the same in s.
     period: Duration,
-    ticks: u32,
+    period_s: f64,
+    /// Control periods so far.
+    now: Duration,
     history: Vec<Moment>,
     failure: Option<FpgaError>,
 }
@@ -57,7 +59,8 @@ impl<F: Fpga> VirtualRobot<F> {
             supply_v,
             camera: None,
             period,
-            ticks: 0,
+            period_s: period.as_secs_f64(),
+            now: Duration::ZERO,
             history: Vec::new(),
             failure: None,
         })))
@@ -122,15 +125,17 @@ impl<F: Fpga> VirtualRobot<F> {
 
 impl<F: Fpga> Inside<F> {
     fn tick(&mut self) -> Result<(), FpgaError> {
-        self.history.push(Moment { pose: self.plant.pose(), wheel_speeds: self.plant.wheel_speeds().collect() });
+        let mut wheel_speeds = [0.0; AXES];
+        wheel_speeds.iter_mut().zip(self.plant.wheel_speeds()).for_each(|(own, speed)| *own = speed);
+        self.history.push(Moment { pose: self.plant.pose(), wheel_speeds });
         let mut positions = [0.0; AXES];
         for (position, now) in positions.iter_mut().zip(self.plant.encoder_after()) {
             *position = *now;
         }
         self.fpga.advance(&positions)?;
         let duty = self.fpga.duties()?;
-        self.plant.step(&duty, self.supply_v, self.period.as_secs_f64());
-        self.ticks += 1;
+        self.plant.step(&duty, self.supply_v, self.period_s);
+        self.now += self.period;
         Ok(())
     }
 }
@@ -149,14 +154,13 @@ impl<F: Fpga> Registers for VirtualRobot<F> {
 
 impl<F: Fpga> Clock for VirtualRobot<F> {
     fn now(&mut self) -> Duration {
-        let inside = self.0.borrow();
-        inside.period * inside.ticks
+        self.0.borrow().now
     }
 
     fn sleep_until(&mut self, at: Duration) {
         let mut inside = self.0.borrow_mut();
         // Nothing passes after a failure: the driver finds the card without ticks and ends the drive.
-        while inside.failure.is_none() && inside.period * inside.ticks < at {
+        while inside.failure.is_none() && inside.now < at {
             if let Err(error) = inside.tick() {
                 inside.failure = Some(error);
             }

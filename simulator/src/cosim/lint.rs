@@ -28,7 +28,7 @@ const HIGH_BITS_COUNT: [&str; 9] = ["AND", "SHIFTR", "EQ", "NEQ", "LT", "LTE", "
 /// One remark of a tool.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The tool.
+    /// Who complains: verilator, icarus or yosys.
     pub tool: &'static str,
     /// The tool's name for it: `WIDTH`, `LATCH`; `ERROR` where it has none.
     pub kind: String,

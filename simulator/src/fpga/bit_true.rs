@@ -6,7 +6,7 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::control::TickOutputs;
-use fixed_kin::registers::{PWM_PERIOD, STATUS, STATUS_ARMED};
+use fixed_kin::registers::PWM_PERIOD;
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -55,6 +55,10 @@ impl Registers for BitTrue {
         self.card.write(offset, data);
         Ok(())
     }
+    fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
+        self.card.read_block(offset, words);
+        Ok(())
+    }
 }
 
 impl Fpga for BitTrue {
@@ -79,10 +83,10 @@ impl Fpga for BitTrue {
     }
 
     fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        if !STATUS_ARMED.is_set(self.card.read(STATUS.offset)) {
+        if !self.card.armed() {
             return Ok([0.0; AXES]);
         }
         let period = self.card.read(PWM_PERIOD.offset) as u16;
-        Ok(self.outputs.duties.map(|duty| super::share(duty, period)))
+        Ok(self.outputs.modulation.map(|modulation| super::share(modulation, period)))
     }
 }

@@ -7,7 +7,7 @@
 use fixed_kin::encoder::edge_delay;
 use fixed_kin::speed::{EncoderSample, TIME_BITS};
 
-/// One edge.
+/// A change of the lines by one count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// Rising clock edges between the tick and the first that samples the new level.
@@ -22,26 +22,32 @@ pub struct Edge {
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
     from: f64,
-    to: f64,
+    /// What the counter shows before and after.
+    shown: [i64; 2],
+    way: f64,
+    span: f64,
     period: u32,
     quiet: u32,
+}
+
+/// The floor; a conversion, where `f64::floor` is a function call.
+fn shown(position: f64) -> i64 {
+    let towards_zero = position as i64;
+    towards_zero.saturating_sub(i64::from(towards_zero as f64 > position))
 }
 
 impl Motion {
     /// A linear motion between two positions in the part of a period after `quiet` clocks.
     #[must_use]
     pub fn new(from: f64, to: f64, period: u32, quiet: u32) -> Self {
-        Self { from, to, period, quiet: quiet.min(period - 1) }
-    }
-
-    fn up(&self) -> bool {
-        self.to > self.from
+        let quiet = quiet.min(period - 1);
+        Self { from, shown: [shown(from), shown(to)], way: to - from, span: f64::from(period - quiet), period, quiet }
     }
 
     /// Number of edges.
     #[must_use]
     pub fn len(&self) -> u64 {
-        (self.to.floor() as i64).abs_diff(self.from.floor() as i64)
+        self.shown[1].abs_diff(self.shown[0])
     }
 
     /// Whether the encoder stands still.
@@ -53,8 +59,7 @@ impl Motion {
     /// Edge `index`, in the order of time.
     #[must_use]
     pub fn edge(&self, index: u64) -> Edge {
-        let start = self.from.floor() as i64;
-        let up = self.up();
+        let (start, up) = (self.shown[0], self.way > 0.0);
         let (count, line) = if up {
             let count = start + 1 + index as i64;
             (count, count)
@@ -62,9 +67,8 @@ impl Motion {
             let line = start - index as i64;
             (line - 1, line)
         };
-        let fraction = ((line as f64 - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
-        let span = f64::from(self.period - self.quiet);
-        let clock = self.quiet + (fraction * span) as u32;
+        let fraction = ((line as f64 - self.from) / self.way).clamp(0.0, 1.0);
+        let clock = self.quiet + (fraction * self.span) as u32;
         Edge { clock: clock.min(self.period - 1), count, up }
     }
 

@@ -27,7 +27,7 @@ pub use verilog::Verilog;
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::format::Duty;
-use fixed_kin::modulation::modulate;
+use fixed_kin::modulation::{Modulation, modulate};
 use fixed_kin::registers::{
     PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_ARMED,
 };
@@ -41,7 +41,7 @@ pub const QUIET_CLOCKS: u32 = 1_400;
 /// A simulation that cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum FpgaError {
-    /// The bus.
+    /// A register could not be read or written.
     #[error(transparent)]
     Bus(#[from] BusError),
     /// The co-simulation.
@@ -105,13 +105,14 @@ pub trait Fpga: Registers {
             return Ok([0.0; AXES]);
         }
         let period = self.read(PWM_PERIOD.offset)? as u16;
-        Ok(std::array::from_fn(|axis| share(Duty::from_bits(word(&SNAPSHOT_DUTY, axis) as i32), period)))
+        Ok(std::array::from_fn(|axis| {
+            share(modulate(Duty::from_bits(word(&SNAPSHOT_DUTY, axis) as i32), period), period)
+        }))
     }
 }
 
 /// The share of the PWM period in which an H-bridge drives, with its direction.
-fn share(duty: Duty, period: u16) -> f64 {
-    let pwm = modulate(duty, period);
+fn share(pwm: Modulation, period: u16) -> f64 {
     let share = if period == 0 { 0.0 } else { f64::from(pwm.compare) / f64::from(period) };
     if pwm.reverse { -share } else { share }
 }

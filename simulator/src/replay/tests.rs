@@ -5,6 +5,13 @@ use fixed_kin::speed::SpeedMode;
 use runs::{DataSet, Run};
 use std::path::Path;
 
+const TABLE: measured::Table<'_> = measured::Table {
+    name: "replay",
+    title: "Duties of the shipped log, replayed by the FPGA's arithmetic",
+    command: "cargo test --release -p simulator --lib replay",
+    columns: &["run", "digit of the log", "largest difference from the log", "from floating point"],
+};
+
 fn shipped() -> DataSet {
     DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew")).unwrap()
 }
@@ -30,6 +37,13 @@ fn every_measured_duty_is_within_the_rounding_of_the_log() {
             assert!(wheel.fpga.beyond < wheel.fpga.ticks / 40, "{}: {wheel:?}", run.name);
             ticks += wheel.fpga.ticks;
         }
+        let worst = |of: &dyn Fn(&WheelAgreement) -> f64| replayed.wheels.iter().map(of).fold(0.0, f64::max);
+        TABLE.check_row(&[
+            run.name.clone(),
+            replayed.quantum.to_string(),
+            format!("{:.6}", worst(&|wheel| wheel.fpga.max)),
+            format!("{:.6}", worst(&|wheel| wheel.arithmetic.max)),
+        ]);
     }
     assert!(ticks > 70_000, "{ticks}");
 }

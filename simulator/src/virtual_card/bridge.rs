@@ -89,13 +89,13 @@ impl Bridge {
         gpio & direction(line) == 0 || gpio & line != 0
     }
 
-    /// PROGRAM.
+    /// Level of the line PROGRAM: low clears the FPGA.
     #[must_use]
     pub fn program(&self) -> bool {
         self.level(PROGRAM)
     }
 
-    /// WRITE.
+    /// Level of the line WRITE: low takes bytes.
     #[must_use]
     pub fn write_line(&self) -> bool {
         self.level(WRITE)

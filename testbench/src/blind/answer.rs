@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// A named effect.
+/// An effect that an analysis names, with its size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NamedEffect {
-    /// Name.
+    /// As in the catalogue of effects.
     pub name: String,
     /// Wheels from 1; empty = the whole robot.
     pub wheels: Vec<usize>,

@@ -12,7 +12,7 @@ use std::time::Duration;
 pub struct Line {
     /// What was broken.
     pub fault: &'static str,
-    /// Its cases.
+    /// What became of every drive.
     pub cases: Vec<Verdict>,
 }
 

@@ -93,7 +93,7 @@ impl Rig {
         }))))
     }
 
-    /// The nominal clock.
+    /// Clock of the simulated card, Hz.
     #[must_use]
     pub fn nominal_clock_hz() -> f64 {
         f64::from(NOMINAL_CLOCK_HZ)

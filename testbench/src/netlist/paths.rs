@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::fmt;
 
-/// One path.
+/// From a flip-flop or pin through LUTs and carry to the next.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Path {
     /// Lookup tables in a row.

@@ -2,7 +2,7 @@
 
 /// Regular file, executable by all.
 const FILE: u32 = 0o100_755;
-/// Directory.
+/// File mode of a folder that all may enter.
 const DIRECTORY: u32 = 0o040_755;
 
 /// A file system in the making.

@@ -20,7 +20,7 @@ const MOST_RESETS: u32 = 40;
 /// Something the guest said.
 #[derive(Clone, Copy, Debug)]
 pub struct Message<'a> {
-    /// The line.
+    /// What the guest printed, without its end.
     pub line: &'a str,
     /// The file behind it, empty where there is none.
     pub content: &'a [u8],

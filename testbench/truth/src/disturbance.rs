@@ -38,9 +38,9 @@ pub enum Disturbance {
         wheel: usize,
         /// Amplitude, Nm.
         torque_nm: f64,
-        /// Hz.
+        /// Cycles a second, Hz.
         frequency_hz: f64,
-        /// rad.
+        /// At t = 0, rad.
         phase_rad: f64,
     },
     /// Somebody runs into the robot: a short push at drawn times.

@@ -1,0 +1,200 @@
+//! No figure is copied into a document by hand: what was measured is included from `docs/measured/`, what is set says where
+//! the code sets it, and README's table is written from the measured ones.
+//!
+//! `RACBOT_MEASURED=write cargo test --release -p testbench --test figures` rewrites README's table.
+
+use std::fs;
+use testbench::repository;
+
+/// Units that make a number a figure.
+const UNITS: [&str; 39] = [
+    "%", "×", "°", "°/m", "ns", "µs", "us", "ms", "s", "minutes", "hours", "mm", "cm", "m", "km", "Hz", "kHz", "MHz",
+    "GHz", "V", "A", "Nm", "mNm", "N", "kg", "g", "m/s", "m/s²", "rad", "mrad", "kB", "MB", "GB", "clocks", "ticks",
+    "LUTs", "slices", "LSB", "seconds",
+];
+
+/// Pages that are not held to it yet: figures of models, advice, and campaigns that no table has.
+const NOT_YET: [&str; 7] =
+    ["bitstream.md", "gap.md", "introduction.md", "limits.md", "log-format.md", "serve.md", "smartbot.md"];
+
+/// Figures that are set, not measured: page, figure, the file that sets it, and how it stands there.
+const SET: [(&str, &str, &str, &str); 30] = [
+    ("course.md", "10.2 ms", "fixed-kin/src/kicker.rs", "MAXIMUM_PULSE_US as u32 * MICROSECOND_CLOCKS[1]"),
+    ("driving.md", "100 ms", "driver/src/recording/writer.rs", "FLUSH_EVERY: Duration = Duration::from_millis(100)"),
+    ("driving.md", "50 ms", "driver/src/board/state.rs", "watchdog_s: 0.05"),
+    ("driving.md", "30 ms", "driver/src/board/state.rs", "set_point_s: 0.03"),
+    ("driving.md", "0.2 s", "driver/src/board/state.rs", "stall_s: 0.2"),
+    ("driving.md", "50 MHz", "hdl/src/board.rs", "Crystal oscillator, 50 MHz"),
+    ("driving.md", "340,000 clocks", "fixed-kin/src/kicker.rs", "MAXIMUM_PULSE_US as u32 * MICROSECOND_CLOCKS[1]"),
+    ("driving.md", "10.2 ms", "fixed-kin/src/kicker.rs", "MAXIMUM_PULSE_US: u16 = 10_000"),
+    ("evidence.md", "4,000,000 clocks", "testbench/tests/cosim_local_bus.rs", "4_000_000"),
+    ("evidence.md", "1,500,000 clocks", "hdl/tests/blocks_radio.rs", "1_500_000"),
+    ("evidence.md", "2,500 ticks", "hdl/tests/sequencer.rs", "scenario(8, ticks / 4)"),
+    ("evidence.md", "120 ticks", "testbench/tests/core_backends.rs", "{ 5 } else { 60 }"),
+    ("evidence.md", "40 ticks", "testbench/tests/open_board.rs", "const TICKS: usize = 40"),
+    ("evidence.md", "12,000 ticks", "testbench/tests/core_short_tick.rs", "PAIRS: u64 = 3_000"),
+    ("evidence.md", "11,000 ticks", "testbench/tests/core_backends.rs", "compare(Kind::Verilog, 8_000.0, 5_000)"),
+    ("evidence.md", "400 ticks", "testbench/tests/netlist.rs", "const TICKS: usize = 400"),
+    ("evidence.md", "8 kHz", "testbench/tests/core_backends.rs", "Kind::RustHdl, 8_000.0"),
+    ("evidence.md", "34 clocks", "fixed-kin/src/kicker.rs", "MICROSECOND_CLOCKS: [u32; 2] = [25, 34]"),
+    ("evidence.md", "30 mm", "testbench/src/faults/judge.rs", "OFF_TRACK_M: f64 = 0.03"),
+    ("evidence.md", "52 ms", "testbench/src/faults/judge.rs", "WATCHDOG: Duration = Duration::from_millis(52)"),
+    ("evidence.md", "1.5 s", "testbench/src/faults/judge.rs", "SLOW: Duration = Duration::from_millis(1_500)"),
+    ("evidence.md", "10 minutes", "model/tests/fuzz.rs", "RACBOT_FUZZ_S=600"),
+    ("gateware.md", "33.33 MHz", "fixed-kin/src/registers/map.rs", "NOMINAL_CLOCK_HZ: u32 = 33_333_333"),
+    ("open-board.md", "40 ticks", "testbench/tests/open_board.rs", "const TICKS: usize = 40"),
+    ("open-board.md", "33.33 MHz", "fixed-kin/src/registers/map.rs", "NOMINAL_CLOCK_HZ: u32 = 33_333_333"),
+    ("open-board.md", "33 MHz", "fixed-kin/src/registers/map.rs", "clock_hz: 33_000_000"),
+    ("open-board.md", "12 MHz", "hdl/src/emit/open_board.rs", "12 MHz · 88 / 32 = 33 MHz"),
+    ("radio.md", "33.33 MHz", "fixed-kin/src/registers/map.rs", "NOMINAL_CLOCK_HZ: u32 = 33_333_333"),
+    ("radio.md", "50 ms", "driver/src/board/state.rs", "watchdog_s: 0.05"),
+    ("radio.md", "10 ms", "driver/src/radio/base_station.rs", "PERIOD: Duration = Duration::from_millis(10)"),
+];
+
+/// README's four figures: what is said of them, the table, its row (by the first cell), and the columns.
+const README: [(&str, &str, &str, &[&str]); 4] = [
+    (
+        "whole chip, emitted Verilog, against its fixed-point twin: clocks, differences",
+        "campaign",
+        "",
+        &["clocks", "differences"],
+    ),
+    ("slices of the XC2S200 that the gateware takes, of", "bitstream-resources", "slices", &["used", "of"]),
+    ("drives with one fault each, violations of what is promised", "fault-campaign", "all", &["cases", "violations"]),
+    (
+        "the control loop on a simulated robot, with controller, odometry, camera and log",
+        "speeds",
+        "the same with controller, odometry, camera and log",
+        &["ratio"],
+    ),
+];
+
+fn read(path: &str) -> String {
+    fs::read_to_string(repository().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// A document without code, links' targets and included tables.
+fn prose(text: &str) -> String {
+    let blocks: String = text.split("```").step_by(2).collect();
+    let lines = blocks.lines().filter(|line| !line.starts_with("{{#include"));
+    let text = lines.collect::<Vec<_>>().join("\n");
+    let text: String = text.split('`').step_by(2).collect::<Vec<_>>().join(" ");
+    text.split("](")
+        .enumerate()
+        .map(|(n, part)| if n == 0 { part } else { part.split_once(')').map_or("", |p| p.1) })
+        .collect()
+}
+
+/// Numbers with a unit behind them, as written, but on one line.
+fn figures(text: &str) -> Vec<String> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let trim = |word: &str| -> String {
+        word.trim_matches(|c: char| !c.is_alphanumeric() && !"%°²×/".contains(c)).to_owned()
+    };
+    let is_number = |word: &str| {
+        word.starts_with(|c: char| c.is_ascii_digit()) && word.chars().all(|c| c.is_ascii_digit() || ".,".contains(c))
+    };
+    let mut found = Vec::new();
+    for (n, word) in words.iter().enumerate() {
+        // "3 ms", "3 million clocks", and "3°" or "3%" in one.
+        let word = trim(word);
+        let next = |k: usize| words.get(n + k).map(|w| trim(w)).unwrap_or_default();
+        let is_unit = |word: &str| UNITS.contains(&word);
+        if is_number(&word) {
+            let (one, two) = (next(1), next(2));
+            if is_unit(&one) {
+                found.push(format!("{word} {one}"));
+            } else if is_unit(&two) && ["million", "thousand"].contains(&one.as_str()) {
+                found.push(format!("{word} {one} {two}"));
+            }
+        } else if let Some(split) = word.find(|c: char| !c.is_ascii_digit() && !".,".contains(c))
+            && split > 0
+            && is_unit(&word[split..])
+        {
+            found.push(word);
+        }
+    }
+    found
+}
+
+/// Rows of a measured table as cells, the head first.
+fn table(name: &str) -> Vec<Vec<String>> {
+    let text = read(&format!("docs/measured/{name}.md"));
+    let rows = text.lines().filter(|line| line.starts_with('|') && !line.starts_with("|---"));
+    rows.map(|row| row.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()).collect()
+}
+
+fn cells(name: &str, row: &str, columns: &[&str]) -> String {
+    let rows = table(name);
+    let found = if row.is_empty() { rows.get(1) } else { rows.iter().find(|cells| cells[0] == row) };
+    let found = found.unwrap_or_else(|| panic!("docs/measured/{name}.md has no row {row:?}"));
+    let cell = |column: &&str| {
+        let at = rows[0].iter().position(|head| head == *column);
+        found[at.unwrap_or_else(|| panic!("docs/measured/{name}.md has no column {column:?}"))].clone()
+    };
+    columns.iter().map(cell).collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn the_readme_shows_what_was_measured() {
+    let rows = README.iter().map(|(what, name, row, columns)| {
+        format!("| {what} | {} | [table](docs/measured/{name}.md) |\n", cells(name, row, columns))
+    });
+    let (begin, end) = ("<!-- from docs/measured, by testbench/tests/figures.rs -->\n", "<!-- to here -->");
+    let expected = format!("{begin}| measured | | |\n|---|---|---|\n{}{end}", rows.collect::<String>());
+    let text = read("README.md");
+    let (before, rest) = text.split_once(begin).expect("README has the mark where its figures begin");
+    let (_, after) = rest.split_once(end).expect("README has the mark where its figures end");
+    let right = format!("{before}{expected}{after}");
+    if std::env::var_os("RACBOT_MEASURED").is_some_and(|value| value == "write") {
+        fs::write(repository().join("README.md"), right).unwrap();
+        return;
+    }
+    assert!(
+        text == right,
+        "README's figures are old: RACBOT_MEASURED=write cargo test --release -p testbench --test figures"
+    );
+}
+
+#[test]
+fn no_document_has_a_figure_of_its_own() {
+    let mut pages: Vec<String> = fs::read_dir(repository().join("docs/book/src"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".md") && !NOT_YET.contains(&name.as_str()))
+        .collect();
+    pages.sort();
+    let mut own = Vec::new();
+    for page in pages.iter().map(|page| format!("docs/book/src/{page}")).chain(["README.md".to_owned()]) {
+        let text = read(&page);
+        let name = page.rsplit('/').next().unwrap();
+        // README's own table comes from docs/measured.
+        let text =
+            text.split("<!-- from").next().unwrap().to_owned() + text.split("<!-- to here -->").nth(1).unwrap_or("");
+        for figure in figures(&prose(&text)) {
+            if !SET.iter().any(|(page, set, ..)| *page == name && *set == figure) {
+                own.push(format!("{page}: {figure}"));
+            }
+        }
+    }
+    assert!(
+        own.is_empty(),
+        "figures by hand; include a table of docs/measured, link to it, or say in SET where the code sets them:\n{}",
+        own.join("\n")
+    );
+}
+
+#[test]
+fn what_is_set_stands_where_it_is_said_to() {
+    for (page, figure, file, text) in SET {
+        assert!(read(file).contains(text), "{page}: {figure}: {file} no longer says {text:?}");
+        let page = format!("docs/book/src/{page}");
+        assert!(figures(&prose(&read(&page))).iter().any(|f| f == figure), "{page} no longer says {figure}");
+    }
+}
+
+#[test]
+fn figures_are_found_in_prose_only() {
+    let text = "It takes 3.5 ms, `5 ms` not, 2 to 3 million clocks; [4 s](x.md) 14.5°/m, 1 % and (7°).\n```\n9 ms\n```\n8 apples";
+    assert_eq!(figures(&prose(text)), ["3.5 ms", "3 million clocks", "4 s", "14.5°/m", "1 %", "7°"]);
+}
