@@ -24,6 +24,7 @@ pub mod field;
 mod goal;
 mod lines;
 pub mod localise;
+pub mod onboard;
 pub mod picture;
 pub mod render;
 

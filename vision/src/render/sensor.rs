@@ -11,6 +11,9 @@ pub struct Sensor {
     pub exposure: f64,
     /// Gains of red, green and blue, of its white balance against the light.
     pub white_balance: [f64; 3],
+    /// Share of the automatic white balance that makes the picture's mean grey: a green field then looks dull and all else
+    /// pink.
+    pub grey_world: f64,
     /// Colour saturation, 1 is true.
     pub saturation: f64,
     /// Exponent of the tone curve, 1 / 2.2 is standard.
@@ -38,6 +41,7 @@ impl Sensor {
     pub const GOOD: Self = Self {
         exposure: 1.0,
         white_balance: [1.0; 3],
+        grey_world: 0.0,
         saturation: 1.0,
         gamma: 1.0 / 2.2,
         haze: 0.01,
@@ -54,12 +58,13 @@ impl Sensor {
     pub(super) fn develop(&self, width: usize, height: usize, light: Vec<[f64; 3]>, rng: &mut ChaCha8Rng) -> Picture {
         let mut light = blurred(light, width, self.blur);
         self.soil(&mut light, width, height, rng);
+        let gains = self.gains(&light);
         let centre = [width as f64 / 2.0, height as f64 / 2.0];
         for (i, pixel) in light.iter_mut().enumerate() {
             let at = [(i % width) as f64 + 0.5, (i / width) as f64 + 0.5];
             let r2 = ((at[0] - centre[0]) / centre[0]).powi(2) + ((at[1] - centre[1]) / centre[1]).powi(2);
             let shade = 1.0 - self.vignette * r2 / 2.0;
-            for (c, gain) in pixel.iter_mut().zip(self.white_balance) {
+            for (c, gain) in pixel.iter_mut().zip(gains) {
                 let signal = (*c * shade + self.haze) * self.exposure;
                 let noise = self.noise[0] * signal.clamp(0.0, 1.0).sqrt() * normal(rng) + self.noise[1] * normal(rng);
                 *c = (signal + noise).min(1.0) * gain;
@@ -72,6 +77,12 @@ impl Sensor {
             None => picture,
             Some(quality) => compressed(&picture, quality, self.subsampled),
         }
+    }
+
+    /// Gains of red, green and blue, manual and automatic.
+    fn gains(&self, light: &[[f64; 3]]) -> [f64; 3] {
+        let mean = |i: usize| light.iter().map(|pixel| (pixel[i] * self.exposure).min(1.0)).sum::<f64>() + 1e-6;
+        [0, 1, 2].map(|i| self.white_balance[i] * (mean(1) / mean(i)).powf(self.grey_world))
     }
 
     fn tone(&self, pixel: [f64; 3]) -> [u8; 3] {
