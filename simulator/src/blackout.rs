@@ -5,12 +5,13 @@
 //! looks again; then it drives to the ball and to the coordinates, by the loop that drives a real robot. On the way
 //! [`OnBoard`] joins wheels, gyroscope and the camera's matches to a pose.
 
+pub mod page;
 mod ride;
 
 pub use ride::OnBoard;
 
 use crate::closed_loop::{Drive, Driven, LoopError};
-use crate::eye::{Eye, Fault, Shot};
+use crate::eye::{Eye, Fault, SharedEye, Shot, shared};
 use crate::fpga::BitTrue;
 use model::camera::CameraModel;
 use model::plant::Contact;
@@ -19,7 +20,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::Pose;
 use runs::robot::{Layout, Robot};
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
@@ -145,7 +146,7 @@ impl Blackout {
     /// [`LoopError`] where the simulation fails.
     pub fn story(&self, senses: Senses, fault: Option<Fault>, pictures: bool) -> Result<Story, LoopError> {
         let eye = Eye::new(Eye::small(), Field::DIVISION_B, Some(self.ball), self.seed).with_fault(fault);
-        let eye = Rc::new(RefCell::new(if pictures { eye.keeping() } else { eye }));
+        let eye = shared(if pictures { eye.keeping() } else { eye });
         let belief = Estimate::new(self.told, ASTRAY);
         let mut now = Now { truth: self.truth, belief, t: 0.0, legs: Vec::new() };
         // Without a camera the ball's place is told as it is, in the frame of the belief.
@@ -170,7 +171,7 @@ impl Blackout {
     }
 
     /// Looks, and drives nearer, until the ball is seen from near by.
-    fn search(&self, now: &mut Now, eye: &Rc<RefCell<Eye>>) -> Result<Option<[f64; 2]>, LoopError> {
+    fn search(&self, now: &mut Now, eye: &SharedEye) -> Result<Option<[f64; 2]>, LoopError> {
         let mut last = None;
         for _ in 0..LOOKS {
             let glance = eye.borrow_mut().look(now.t, now.truth, &now.belief);
@@ -193,13 +194,7 @@ impl Blackout {
     }
 
     /// Drives along set points to rest.
-    fn drive(
-        &self,
-        now: &mut Now,
-        senses: Senses,
-        eye: &Rc<RefCell<Eye>>,
-        set_points: &[SetPoint],
-    ) -> Result<(), LoopError> {
+    fn drive(&self, now: &mut Now, senses: Senses, eye: &SharedEye, set_points: &[SetPoint]) -> Result<(), LoopError> {
         let mut robot = Robot::racbot();
         robot.camera_latency_s = 0.0;
         robot.camera_noise = Some(POSE_SD);

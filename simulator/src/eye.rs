@@ -132,8 +132,7 @@ impl Eye {
         let glance = self.onboard.glance(&picture, predicted);
         let why = match &glance {
             Ok(Glance { pose: Ok(_), .. }) => None,
-            // Which figure it was differs from frame to frame.
-            Ok(Glance { pose: Err(refused), .. }) => Some(kind(refused)),
+            Ok(Glance { pose: Err(refused), .. }) => Some(refused.kind().to_owned()),
             Err(unusable) => Some(unusable.to_string()),
         };
         if let Some(why) = why {
@@ -167,23 +166,20 @@ impl Eye {
     }
 }
 
-fn kind(refused: &vision::onboard::Refused) -> String {
-    use vision::localise::NoMatch;
-    use vision::onboard::Refused;
-    match refused {
-        Refused::Lines(NoMatch::TooFewPoints(_)) => "too few points on lines",
-        Refused::Lines(NoMatch::Contradiction(_)) => "most points on lines are not on the map",
-        Refused::Unsure(_) => "the lines leave the place open",
-        Refused::Far(_) => "the match is not where the robot can be",
-    }
-    .to_owned()
+/// A camera that a pose source and whoever asks it afterwards share.
+pub type SharedEye = Rc<RefCell<Eye>>;
+
+/// Shares a camera.
+#[must_use]
+pub fn shared(eye: Eye) -> SharedEye {
+    Rc::new(RefCell::new(eye))
 }
 
 /// A camera on the robot of a virtual card, as the source of its poses.
 #[derive(Debug)]
 pub struct CardEye {
     card: SharedCard,
-    eye: Rc<RefCell<Eye>>,
+    eye: SharedEye,
     /// Seconds between two pictures, and when the next one is due.
     every: f64,
     due: f64,
@@ -193,7 +189,7 @@ pub struct CardEye {
 impl CardEye {
     /// A camera that takes a picture every so many seconds.
     #[must_use]
-    pub fn new(card: SharedCard, eye: Rc<RefCell<Eye>>, every: f64) -> Self {
+    pub fn new(card: SharedCard, eye: SharedEye, every: f64) -> Self {
         Self { card, eye, every, due: 0.0, believed: None }
     }
 }

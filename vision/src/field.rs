@@ -2,6 +2,8 @@
 //!
 //! Field frame: origin at the centre mark, x towards one goal, y to the left of it, m.
 
+mod file;
+
 /// Sizes of a field, m (rules of the small-size league, section "The field"; the league's geometry message has the same
 /// fields in millimetres).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +68,7 @@ impl Field {
         line_width: 0.01,
     };
 
-    /// All lines.
+    /// The middles of all lines: touch, goal, halfway and centre line, the defence areas and the centre circle.
     #[must_use]
     pub fn lines(&self) -> Vec<Line> {
         let (x, y) = (self.length / 2.0, self.width / 2.0);

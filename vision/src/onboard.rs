@@ -38,6 +38,19 @@ pub enum Refused {
     Far(f64),
 }
 
+impl Refused {
+    /// The reason without its figures, which differ from frame to frame.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Lines(NoMatch::TooFewPoints(_)) => "too few points on lines",
+            Self::Lines(NoMatch::Contradiction(_)) => "most points on lines are not on the map",
+            Self::Unsure(_) => "the lines leave place or heading open",
+            Self::Far(_) => "the match of the lines is not where the robot can be: wrong calibration, or lost",
+        }
+    }
+}
+
 /// What a frame showed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Glance {

@@ -106,6 +106,24 @@ impl Picture {
         &mut self.pixels
     }
 
+    /// The picture as a JPEG file of a quality from 1 to 100; `subsampled` stores colour at half the resolution, as video
+    /// does.
+    ///
+    /// # Panics
+    /// When memory runs out.
+    #[must_use]
+    pub fn to_jpeg(&self, quality: u8, subsampled: bool) -> Vec<u8> {
+        use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, quality);
+        encoder.set_sampling_factor(if subsampled { SamplingFactor::F_2_2 } else { SamplingFactor::F_1_1 });
+        // Sides are at most LARGEST_SIDE.
+        encoder
+            .encode(self.pixels.as_flattened(), self.width as u16, self.height as u16, ColorType::Rgb)
+            .expect("memory takes every picture");
+        bytes
+    }
+
     /// Checks that the picture shows something.
     ///
     /// # Errors

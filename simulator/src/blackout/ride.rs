@@ -2,7 +2,7 @@
 
 use super::{Now, Senses};
 use crate::closed_loop::VirtualRobot;
-use crate::eye::Eye;
+use crate::eye::SharedEye;
 use crate::fpga::Fpga;
 use driver::drive::PoseSource;
 use model::fusion::FusionOptions;
@@ -10,7 +10,7 @@ use model::imu::{Imu, ImuModel, Motion};
 use model::inertial::Inertial;
 use runs::frames::{Pose, Twist, wrap_angle};
 use runs::robot::Robot;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::rc::Rc;
 use vision::localise::Estimate;
 use vision::onboard::Glance;
@@ -29,7 +29,7 @@ pub struct OnBoard<F> {
     before: Twist,
     tick: u64,
     period: f64,
-    eye: Option<Rc<RefCell<Eye>>>,
+    eye: Option<SharedEye>,
     senses: Senses,
     /// Seconds of the story before this drive.
     since: f64,
@@ -43,7 +43,7 @@ impl<F: Fpga> OnBoard<F> {
         model: &Robot,
         now: &Now,
         senses: Senses,
-        eye: Rc<RefCell<Eye>>,
+        eye: SharedEye,
         end: Rc<Cell<Pose>>,
     ) -> Self {
         let sensor = ImuModel::icm_42688_p(model.control_rate_hz);

@@ -108,15 +108,7 @@ impl Sensor {
 
 /// Through the encoder of a camera and back.
 fn compressed(picture: &Picture, quality: u8, subsampled: bool) -> Picture {
-    let mut bytes = Vec::new();
-    let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, quality);
-    let sampling = if subsampled { jpeg_encoder::SamplingFactor::F_2_2 } else { jpeg_encoder::SamplingFactor::F_1_1 };
-    encoder.set_sampling_factor(sampling);
-    let (width, height) = (picture.width() as u16, picture.height() as u16);
-    encoder
-        .encode(picture.pixels().as_flattened(), width, height, jpeg_encoder::ColorType::Rgb)
-        .expect("memory takes every picture");
-    decode(&bytes).expect("what was just encoded can be decoded")
+    decode(&picture.to_jpeg(quality, subsampled)).expect("what was just encoded can be decoded")
 }
 
 /// Gaussian of standard deviation `sd` pixels, first along rows, then along columns.
