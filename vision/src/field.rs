@@ -26,7 +26,7 @@ pub struct Field {
     pub defence_width: f64,
     /// Of the centre circle.
     pub circle_radius: f64,
-    /// Of a line.
+    /// Across the paint of a line.
     pub line_width: f64,
 }
 

@@ -11,8 +11,11 @@ pub const LARGEST_SIDE: usize = 8192;
 
 /// Share of pixels below [`DARK`] at which a picture shows nothing: a lens cap leaves noise, a dark hall some lamp.
 const BLACK_SHARE: f64 = 0.995;
-/// Largest component of a dark pixel, of 255: the black level and the noise of small sensors stay below.
-const DARK: u8 = 20;
+/// Largest component of a dark pixel, of 255: read noise of 0.4 % of full scale, four standard deviations, through the
+/// tone curve is 39.
+const DARK: u8 = 48;
+/// Mean of all components of a black picture, of 255, at most: the same noise has a mean of 8.
+const BLACK_MEAN: f64 = 14.0;
 /// Share of pixels with two components at the limit at which a picture is over-exposed beyond use: a field with its
 /// carpet at the limit has no green left to measure colours by.
 const OVER_EXPOSED_SHARE: f64 = 0.9;
@@ -132,7 +135,9 @@ impl Picture {
         let share = |is: &dyn Fn(&[u8; 3]) -> bool| {
             self.pixels.iter().filter(|pixel| is(pixel)).count() as f64 / self.pixels.len() as f64
         };
-        if share(&|pixel| pixel.iter().all(|&c| c < DARK)) >= BLACK_SHARE {
+        let sum: u64 = self.pixels.as_flattened().iter().map(|&c| u64::from(c)).sum();
+        let mean = sum as f64 / (3 * self.pixels.len()) as f64;
+        if mean < BLACK_MEAN && share(&|pixel| pixel.iter().all(|&c| c < DARK)) >= BLACK_SHARE {
             return Err(Unusable::Black);
         }
         if share(&|pixel| pixel.iter().filter(|&&c| c >= LIMIT).count() >= 2) >= OVER_EXPOSED_SHARE {
