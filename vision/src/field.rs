@@ -111,7 +111,7 @@ impl Line {
                 [a[0] + share * d[0], a[1] + share * d[1]]
             }
             Self::Circle(radius) => {
-                let from_centre = p[0].hypot(p[1]);
+                let from_centre = (p[0] * p[0] + p[1] * p[1]).sqrt();
                 if from_centre < 1e-9 {
                     return [radius, 0.0];
                 }
@@ -124,9 +124,9 @@ impl Line {
 /// Distance from a point to the nearest line's middle, m.
 #[must_use]
 pub fn distance(lines: &[Line], p: [f64; 2]) -> f64 {
-    let to = |line: &Line| {
+    let squared = |line: &Line| {
         let near = line.nearest(p);
-        (near[0] - p[0]).hypot(near[1] - p[1])
+        (near[0] - p[0]).powi(2) + (near[1] - p[1]).powi(2)
     };
-    lines.iter().map(to).fold(f64::INFINITY, f64::min)
+    lines.iter().map(squared).fold(f64::INFINITY, f64::min).sqrt()
 }

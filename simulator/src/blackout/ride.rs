@@ -15,8 +15,8 @@ use std::rc::Rc;
 use vision::localise::Estimate;
 use vision::onboard::Glance;
 
-/// Ticks between two pictures: ten a second.
-const PICTURE_EVERY: u64 = 100;
+/// Ticks between two pictures: five a second.
+const PICTURE_EVERY: u64 = 200;
 /// Ticks between two poses for the control loop.
 const POSE_EVERY: u64 = 16;
 
