@@ -26,6 +26,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
 use vision::field::Field;
 use vision::localise::Estimate;
+use vision::onboard::Glance;
 
 /// From the middle of the robot to the ball at its front, m.
 const REACH: f64 = 0.1;
@@ -45,6 +46,9 @@ const STAND_OFF: f64 = 0.4;
 const AHEAD: f64 = 0.4;
 /// Looks at most before it gives the ball up.
 const LOOKS: usize = 5;
+/// How often it looks where it stands at the end and drives what is left, and what needs no drive, m.
+const CORRECTIONS: usize = 2;
+const CLOSE: f64 = 0.015;
 /// Half the field that it drives on, m: the lines of division B.
 const DRIVABLE: [f64; 2] = [4.4, 2.9];
 
@@ -157,6 +161,9 @@ impl Blackout {
         let last = SetPoint::stop(self.target[0], self.target[1], SPEED, 0.0);
         let set_points: Vec<SetPoint> = fetch.into_iter().chain([last]).collect();
         self.drive(&mut now, senses, &eye, &set_points)?;
+        if senses == Senses::Camera {
+            self.settle(&mut now, &eye, last)?;
+        }
         let front = |pose: &Pose| {
             let view = pose.theta + FRAC_PI_2;
             (pose.x + REACH * view.cos() - self.ball[0]).hypot(pose.y + REACH * view.sin() - self.ball[1])
@@ -191,6 +198,20 @@ impl Blackout {
             self.drive(now, Senses::Camera, eye, &[SetPoint::stop(to[0], to[1], SPEED, 0.0)])?;
         }
         Ok(last)
+    }
+
+    /// Looks where it stands, and drives what is left.
+    fn settle(&self, now: &mut Now, eye: &SharedEye, last: SetPoint) -> Result<(), LoopError> {
+        for _ in 0..CORRECTIONS {
+            let glance = eye.borrow_mut().look(now.t, now.truth, &now.belief);
+            let Ok(Glance { pose: Ok(found), .. }) = glance else { return Ok(()) };
+            now.belief = found;
+            if (found.pose.x - last.x).hypot(found.pose.y - last.y) < CLOSE {
+                return Ok(());
+            }
+            self.drive(now, Senses::Camera, eye, &[last])?;
+        }
+        Ok(())
     }
 
     /// Drives along set points to rest.

@@ -11,17 +11,17 @@ use vision::picture::{Picture, read};
 use vision::render::Label;
 
 /// A picture and what is in it.
-pub struct Photograph {
+pub(crate) struct Photograph {
     /// Its file.
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// Its pixels.
-    pub picture: Picture,
+    pub(crate) picture: Picture,
     /// Its balls; whatever is to be ignored is a ball of which nothing is visible.
-    pub labels: Vec<Label>,
+    pub(crate) labels: Vec<Label>,
 }
 
 /// All labelled pictures of a folder, by name.
-pub fn folder(folder: &Path) -> Result<Vec<Photograph>, String> {
+pub(crate) fn folder(folder: &Path) -> Result<Vec<Photograph>, String> {
     let about = |file: &Path, what: &dyn std::fmt::Display| format!("{}: {what}", file.display());
     let entries = std::fs::read_dir(folder).map_err(|error| about(folder, &error))?;
     let mut files: Vec<PathBuf> = entries
