@@ -100,15 +100,16 @@ impl OnBoard {
     }
 
     fn pose(&self, scene: &Scene, predicted: &Estimate) -> Result<Estimate, Refused> {
-        let drift = Matrix3::from_diagonal(&Vector3::from(DRIFT.map(|sd| sd * sd)));
-        let covariance = predicted.covariance + drift;
-        let found = track(&self.map, &self.camera, &scene.lines, &Estimate { covariance, ..*predicted })?;
+        let found = track(&self.map, &self.camera, &scene.lines, predicted)?;
         let sds = found.standard_deviations();
         if sds[0] > SURE[0] || sds[1] > SURE[1] {
             return Err(Refused::Unsure(sds));
         }
         let (at, from) = (found.pose, predicted.pose);
         let off = Vector3::new(at.x - from.x, at.y - from.y, wrap_angle(at.theta - from.theta));
+        // Only here: in the match it would add up from frame to frame along a line that is seen alone.
+        let drift = Matrix3::from_diagonal(&Vector3::from(DRIFT.map(|sd| sd * sd)));
+        let covariance = predicted.covariance + drift;
         let squared = covariance.try_inverse().map_or(f64::INFINITY, |inverse| off.dot(&(inverse * off)));
         if squared > FAR { Err(Refused::Far(squared.sqrt())) } else { Ok(found) }
     }
