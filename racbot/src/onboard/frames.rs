@@ -68,9 +68,6 @@ mod v4l2 {
     use linuxvideo::stream::ReadStream;
     use vision::picture::decode;
 
-    /// Frames the driver may hold.
-    const BUFFERS: u32 = 2;
-
     pub(super) struct Device(ReadStream);
 
     impl Device {
@@ -83,7 +80,7 @@ mod v4l2 {
             if got.pixel_format() != PixelFormat::MJPG {
                 return Err(Failure::about(place, format!("sends no motion JPEG but {:?}", got.pixel_format())));
             }
-            capture.into_stream(BUFFERS).map(Self).map_err(about)
+            capture.into_stream().map(Self).map_err(about)
         }
     }
 
