@@ -46,6 +46,9 @@ pub(crate) struct OpenCard {
     pub(crate) clock: Box<dyn Clock>,
     /// The camera above its robot, if there is one.
     pub(crate) source: Option<Box<dyn PoseSource>>,
+    /// The built-in card, for a camera on its robot.
+    #[cfg(all(feature = "simulation", feature = "vision"))]
+    pub(crate) shared: Option<simulator::virtual_card::SharedCard>,
 }
 
 /// A card that runs our design.
@@ -60,6 +63,9 @@ pub(crate) struct ReadyCard {
     pub(crate) clock: Box<dyn Clock>,
     /// The camera above its robot, if there is one.
     pub(crate) source: Option<Box<dyn PoseSource>>,
+    /// The built-in card, for a camera on its robot.
+    #[cfg(all(feature = "simulation", feature = "vision"))]
+    pub(crate) shared: Option<simulator::virtual_card::SharedCard>,
 }
 
 impl CardOptions {
@@ -93,6 +99,8 @@ impl CardOptions {
             built_in: false,
             clock: Box::new(MonotonicClock),
             source: None,
+            #[cfg(all(feature = "simulation", feature = "vision"))]
+            shared: None,
         })
     }
 
@@ -124,6 +132,8 @@ impl CardOptions {
             clock_hz,
             clock: open.clock,
             source: open.source,
+            #[cfg(all(feature = "simulation", feature = "vision"))]
+            shared: open.shared,
         })
     }
 }
@@ -139,5 +149,13 @@ fn built_in(robot: &Robot, pace: Pace) -> Result<OpenCard, Failure> {
     let card = SharedCard::new(if pace == Pace::Real { card.in_host_time() } else { card });
     let clock: Box<dyn Clock> = if pace == Pace::Real { Box::new(MonotonicClock) } else { Box::new(card.clone()) };
     let source = Box::new(card.camera(CameraModel::of(robot), SEED));
-    Ok(OpenCard { name: VIRTUAL.to_owned(), card: Box::new(card), built_in: true, clock, source: Some(source) })
+    Ok(OpenCard {
+        name: VIRTUAL.to_owned(),
+        #[cfg(feature = "vision")]
+        shared: Some(card.clone()),
+        card: Box::new(card),
+        built_in: true,
+        clock,
+        source: Some(source),
+    })
 }

@@ -6,6 +6,8 @@ mod card;
 mod commands;
 #[cfg(feature = "simulation")]
 mod demo;
+#[cfg(feature = "vision")]
+mod onboard;
 mod terminal;
 
 use clap::Parser;

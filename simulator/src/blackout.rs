@@ -1,45 +1,56 @@
 //! The overhead camera is off: a robot fetches a ball and drives to given coordinates by what it has on board.
 //!
-//! Before it starts, the robot believes to stand some centimetres from where it does. It looks once, at rest, corrects
-//! its pose by the field's lines and sees the ball; it drives to the ball and then to the coordinates, by the loop that
-//! drives a real robot. On the way [`OnBoard`] joins wheels, gyroscope and the camera's matches to a pose.
+//! Before it starts, the robot believes to stand some centimetres from where it does. It looks, at rest, corrects its pose
+//! by the field's lines and sees the ball. From far away a pixel is worth centimetres, so that it stops before the ball and
+//! looks again; then it drives to the ball and to the coordinates, by the loop that drives a real robot. On the way
+//! [`OnBoard`] joins wheels, gyroscope and the camera's matches to a pose.
 
-use crate::closed_loop::{Drive, LoopError, VirtualRobot};
-use crate::fpga::{BitTrue, Fpga};
-use driver::drive::PoseSource;
+pub mod page;
+mod ride;
+
+pub use ride::OnBoard;
+
+use crate::closed_loop::{Drive, Driven, LoopError};
+use crate::eye::{Eye, Fault, SharedEye, Shot, shared};
+use crate::fpga::BitTrue;
 use model::camera::CameraModel;
-use model::fusion::FusionOptions;
-use model::imu::{Imu, ImuModel, Motion};
-use model::inertial::Inertial;
 use model::plant::Contact;
 use model::trajectory::SetPoint;
-use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use runs::frames::{Pose, Twist, wrap_angle};
+use runs::frames::Pose;
 use runs::robot::{Layout, Robot};
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
-use vision::ball::DEFAULT_SCORE;
-use vision::camera::Camera;
+use std::rc::Rc;
 use vision::field::Field;
-use vision::localise::{Estimate, Map, track};
-use vision::render::{BALL_RADIUS, Sensor, Shutter, World, render};
-use vision::{Scene, detect};
+use vision::localise::Estimate;
+use vision::onboard::Glance;
 
 /// From the middle of the robot to the ball at its front, m.
 const REACH: f64 = 0.1;
-/// Ticks between two pictures: ten a second.
-const PICTURE_EVERY: u64 = 100;
-/// Ticks between two poses for the control loop.
-const POSE_EVERY: u64 = 16;
 /// Where the robot believes to stand before it looks: standard deviations, m, m, rad.
 const ASTRAY: [f64; 3] = [0.04, 0.04, 0.03];
+/// Where it believes to stand after a drive, likewise.
+const DRIVEN: [f64; 3] = [0.03, 0.03, 0.03];
 /// Standard deviations of the poses that the control loop gets.
 const POSE_SD: [f64; 3] = [0.01, 0.01, 0.01];
 /// Speed, m/s.
 const SPEED: f64 = 1.0;
-/// A match is believed where its standard deviations stay below these (m, rad): it never drives on a guess.
-const SURE: [f64; 2] = [0.08, 0.08];
+/// Distance from which the ball's place is good enough to drive to it, m: one row of the demo's camera is worth 12 mm.
+const NEAR: f64 = 0.55;
+/// From the robot's middle to the ball when it looks again, m.
+const STAND_OFF: f64 = 0.4;
+/// How far it goes ahead where it sees no ball, m.
+const AHEAD: f64 = 0.4;
+/// Looks at most before it gives the ball up.
+const LOOKS: usize = 5;
+/// How often it looks where it stands at the end and drives what is left, and what needs no drive, m.
+const CORRECTIONS: usize = 2;
+const CLOSE: f64 = 0.015;
+/// Half the field that it drives on, m: the lines of division B.
+const DRIVABLE: [f64; 2] = [4.4, 2.9];
 
 /// What the robot has on board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +72,19 @@ pub struct Outcome {
     pub miss: f64,
 }
 
+/// A start from beginning to end.
+#[derive(Debug)]
+pub struct Story {
+    /// What it came to.
+    pub outcome: Outcome,
+    /// The drives, between which the robot stands and looks.
+    pub legs: Vec<Driven>,
+    /// What its camera took, where pictures were kept.
+    pub shots: Vec<Shot>,
+    /// How often a picture gave no pose, by the reason.
+    pub refused: BTreeMap<String, usize>,
+}
+
 /// One start, all drawn by its seed: pose, hidden skew, ball, coordinates.
 #[derive(Clone, Debug)]
 pub struct Blackout {
@@ -72,21 +96,21 @@ pub struct Blackout {
     target: [f64; 2],
 }
 
-/// The camera of the demo, 240 by 180 pixels.
-#[must_use]
-pub fn camera() -> Camera {
-    Camera { distortion: [-0.08, 0.0], ..Camera::ideal(240, 180, 1.25, 0.15, 0.33) }
-}
-
-fn sd(covariance: &Matrix3<f64>) -> [f64; 2] {
-    [covariance[(0, 0)].max(covariance[(1, 1)]).sqrt(), covariance[(2, 2)].sqrt()]
-}
-
-fn diagonal(sd: [f64; 3]) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::from(sd.map(|s| s * s)))
+/// Where the story is.
+struct Now {
+    truth: Pose,
+    belief: Estimate,
+    t: f64,
+    legs: Vec<Driven>,
 }
 
 impl Blackout {
+    /// Where the ball lies and where to drive to, m.
+    #[must_use]
+    pub fn places(&self) -> [[f64; 2]; 2] {
+        [self.ball, self.target]
+    }
+
     /// The start of a seed, on a field of division B.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -116,29 +140,82 @@ impl Blackout {
     /// # Errors
     /// [`LoopError`] where the simulation fails.
     pub fn run(&self, senses: Senses) -> Result<Outcome, LoopError> {
-        let mut eye = Eye::new(
-            self.seed,
-            World::plain(Field::DIVISION_B, self.seed as u32).with_ball(self.ball[0], self.ball[1]),
-        );
-        let scene = eye.look(self.truth);
-        let mut belief = Estimate { pose: self.told, covariance: diagonal(ASTRAY), agreeing: 1.0 };
-        if senses == Senses::Camera {
-            belief = eye.correct(&scene, &belief).unwrap_or(belief);
-        }
+        Ok(self.story(senses, None, false)?.outcome)
+    }
+
+    /// Drives it and tells how, with a fault of the camera if one is given, and with all its pictures where they are to be
+    /// kept.
+    ///
+    /// # Errors
+    /// [`LoopError`] where the simulation fails.
+    pub fn story(&self, senses: Senses, fault: Option<Fault>, pictures: bool) -> Result<Story, LoopError> {
+        let eye = Eye::new(Eye::small(), Field::DIVISION_B, Some(self.ball), self.seed).with_fault(fault);
+        let eye = shared(if pictures { eye.keeping() } else { eye });
+        let belief = Estimate::new(self.told, ASTRAY);
+        let mut now = Now { truth: self.truth, belief, t: 0.0, legs: Vec::new() };
         // Without a camera the ball's place is told as it is, in the frame of the belief.
-        let view = belief.pose.theta + FRAC_PI_2;
-        let seen = scene.balls.first().and_then(|ball| ball.place(&eye.camera, BALL_RADIUS));
-        let ball = match (senses, seen) {
-            (Senses::Camera, Some([forward, left])) => [
-                belief.pose.x + forward * view.cos() - left * view.sin(),
-                belief.pose.y + forward * view.sin() + left * view.cos(),
-            ],
-            (Senses::Camera, None) => return Ok(Outcome { ball_miss: f64::INFINITY, miss: f64::INFINITY }),
-            _ => self.ball,
+        let ball = if senses == Senses::Camera { self.search(&mut now, &eye)? } else { Some(self.ball) };
+        let view = now.belief.pose.theta + FRAC_PI_2;
+        let fetch =
+            ball.map(|ball| SetPoint::stop(ball[0] - REACH * view.cos(), ball[1] - REACH * view.sin(), SPEED, 0.0));
+        let last = SetPoint::stop(self.target[0], self.target[1], SPEED, 0.0);
+        let set_points: Vec<SetPoint> = fetch.into_iter().chain([last]).collect();
+        self.drive(&mut now, senses, &eye, &set_points)?;
+        if senses == Senses::Camera {
+            self.settle(&mut now, &eye, last)?;
+        }
+        let front = |pose: &Pose| {
+            let view = pose.theta + FRAC_PI_2;
+            (pose.x + REACH * view.cos() - self.ball[0]).hypot(pose.y + REACH * view.sin() - self.ball[1])
         };
-        let at = [ball[0] - REACH * view.cos(), ball[1] - REACH * view.sin()];
-        let set_points =
-            [SetPoint::stop(at[0], at[1], SPEED, 0.0), SetPoint::stop(self.target[0], self.target[1], SPEED, 0.0)];
+        let track = now.legs.iter().flat_map(|leg| &leg.track);
+        let outcome = Outcome {
+            ball_miss: track.map(|(_, pose)| front(pose)).fold(f64::INFINITY, f64::min),
+            miss: (now.truth.x - self.target[0]).hypot(now.truth.y - self.target[1]),
+        };
+        let mut eye = eye.borrow_mut();
+        Ok(Story { outcome, legs: now.legs, shots: eye.take_shots(), refused: eye.refused().clone() })
+    }
+
+    /// Looks, and drives nearer, until the ball is seen from near by.
+    fn search(&self, now: &mut Now, eye: &SharedEye) -> Result<Option<[f64; 2]>, LoopError> {
+        let mut last = None;
+        for _ in 0..LOOKS {
+            let glance = eye.borrow_mut().look(now.t, now.truth, &now.belief);
+            let Ok(glance) = glance else { return Ok(last) };
+            if let Ok(found) = glance.pose {
+                now.belief = found;
+            }
+            let (pose, view) = (now.belief.pose, now.belief.pose.theta + FRAC_PI_2);
+            let seen = eye.borrow().ball(&glance, pose);
+            last = seen.or(last);
+            let to = match seen {
+                Some(ball) if (ball[0] - pose.x).hypot(ball[1] - pose.y) <= NEAR => return Ok(seen),
+                Some(ball) => [ball[0] - STAND_OFF * view.cos(), ball[1] - STAND_OFF * view.sin()],
+                None => [pose.x + AHEAD * view.cos(), pose.y + AHEAD * view.sin()],
+            };
+            let to = [0, 1].map(|i| to[i].clamp(-DRIVABLE[i], DRIVABLE[i]));
+            self.drive(now, Senses::Camera, eye, &[SetPoint::stop(to[0], to[1], SPEED, 0.0)])?;
+        }
+        Ok(last)
+    }
+
+    /// Looks where it stands, and drives what is left.
+    fn settle(&self, now: &mut Now, eye: &SharedEye, last: SetPoint) -> Result<(), LoopError> {
+        for _ in 0..CORRECTIONS {
+            let glance = eye.borrow_mut().look(now.t, now.truth, &now.belief);
+            let Ok(Glance { pose: Ok(found), .. }) = glance else { return Ok(()) };
+            now.belief = found;
+            if (found.pose.x - last.x).hypot(found.pose.y - last.y) < CLOSE {
+                return Ok(());
+            }
+            self.drive(now, Senses::Camera, eye, &[last])?;
+        }
+        Ok(())
+    }
+
+    /// Drives along set points to rest.
+    fn drive(&self, now: &mut Now, senses: Senses, eye: &SharedEye, set_points: &[SetPoint]) -> Result<(), LoopError> {
         let mut robot = Robot::racbot();
         robot.camera_latency_s = 0.0;
         robot.camera_noise = Some(POSE_SD);
@@ -150,127 +227,52 @@ impl Blackout {
             contact: Contact::Friction { friction_coefficient: 0.5, creep_s_per_kg: 0.000_5 },
             camera: Some(CameraModel::of(&robot)),
             fused: senses != Senses::Wheels,
-            start: belief.pose,
-            stands: Some(self.truth),
+            start: now.belief.pose,
+            stands: Some(now.truth),
             limit_s: 20.0,
             seed: self.seed,
-            ..Drive::new(&robot, &set_points)
+            ..Drive::new(&robot, set_points)
         };
-        let driven =
-            drive.run_seen_by(BitTrue::new(), |ride| OnBoard::new(ride, &robot, belief, senses, eye), |_| {})?;
-        let last = driven.track.last().map_or(self.truth, |(_, pose)| *pose);
-        let front = |pose: &Pose| {
-            let view = pose.theta + FRAC_PI_2;
-            (pose.x + REACH * view.cos() - self.ball[0]).hypot(pose.y + REACH * view.sin() - self.ball[1])
-        };
-        Ok(Outcome {
-            ball_miss: driven.track.iter().map(|(_, pose)| front(pose)).fold(f64::INFINITY, f64::min),
-            miss: (last.x - self.target[0]).hypot(last.y - self.target[1]),
-        })
-    }
-}
-
-/// The camera with the world in front of it.
-#[derive(Debug)]
-struct Eye {
-    camera: Camera,
-    world: World,
-    map: Map,
-    rng: ChaCha8Rng,
-}
-
-impl Eye {
-    fn new(seed: u64, world: World) -> Self {
-        Self { camera: camera(), world, map: Map::new(Field::DIVISION_B), rng: ChaCha8Rng::seed_from_u64(seed + 7) }
-    }
-
-    fn look(&mut self, truth: Pose) -> Scene {
-        let shutter = Shutter { pose: [truth.x, truth.y, truth.theta + FRAC_PI_2], ..Shutter::default() };
-        let rendered = render(&self.world, &self.camera, shutter, &Sensor::GOOD, 1, &mut self.rng);
-        detect(&rendered.picture, DEFAULT_SCORE)
-    }
-
-    /// The belief corrected by the lines seen; `None` where they tell nothing or too little.
-    fn correct(&self, scene: &Scene, belief: &Estimate) -> Option<Estimate> {
-        let found = track(&self.map, &self.camera, &scene.lines, belief).ok()?;
-        let [place, heading] = sd(&found.covariance);
-        (place < SURE[0] && heading < SURE[1]).then_some(found)
-    }
-}
-
-/// Wheels, gyroscope and camera of a robot as one source of poses.
-#[derive(Debug)]
-pub struct OnBoard<F> {
-    robot: VirtualRobot<F>,
-    filter: Inertial,
-    imu: Imu,
-    before: Twist,
-    tick: u64,
-    period: f64,
-    eye: Option<Eye>,
-    senses: Senses,
-}
-
-impl<F: Fpga> OnBoard<F> {
-    fn new(robot: VirtualRobot<F>, model: &Robot, belief: Estimate, senses: Senses, eye: Eye) -> Self {
-        let sensor = ImuModel::icm_42688_p(model.control_rate_hz);
-        let geometry = model.geometry().expect("the robot drives by this geometry");
-        let [place, heading] = sd(&belief.covariance);
-        let options = FusionOptions::of(model).uncalibrated();
-        let start_sd = [place, place, heading];
-        let mut filter =
-            Inertial::new(&geometry, model.counts_per_wheel_rad(), options, &sensor, belief.pose, start_sd);
-        let mut imu = Imu::new(sensor, 3);
-        // A second of rest before the start shows the gyroscope's bias.
-        let period = 1.0 / model.control_rate_hz;
-        let counts = robot.with_plant(model::plant::Plant::counts);
-        for k in 0..1000 {
-            filter.predict((f64::from(k) - 1000.0) * period, &counts, &imu.read(&Motion::default()));
+        let end = Rc::new(Cell::new(now.belief.pose));
+        let driven = drive.run_seen_by(
+            BitTrue::new(),
+            |ride| OnBoard::new(ride, &robot, now, senses, Rc::clone(eye), Rc::clone(&end)),
+            |_| {},
+        )?;
+        if let Some((t, pose)) = driven.track.last() {
+            (now.truth, now.t) = (*pose, now.t + t);
         }
-        let eye = (senses == Senses::Camera).then_some(eye);
-        Self { robot, filter, imu, before: Twist::default(), tick: 0, period, eye, senses }
-    }
-
-    fn motion(&mut self) -> (Motion, Vec<i64>, Pose) {
-        let (now, counts, pose, speeds) = self.robot.with_plant(|plant| {
-            let speeds = plant.wheel_speeds().map(f64::abs).sum::<f64>() / plant.wheel_speeds().count().max(1) as f64;
-            (plant.twist(), plant.counts(), plant.pose(), speeds)
-        });
-        let rate = |a: f64, b: f64| (a - b) / self.period;
-        let motion = Motion {
-            omega: [0.0, 0.0, now.omega],
-            omega_rate: [0.0, 0.0, rate(now.omega, self.before.omega)],
-            acceleration: [
-                rate(now.vx, self.before.vx) - now.omega * now.vy,
-                rate(now.vy, self.before.vy) + now.omega * now.vx,
-                0.0,
-            ],
-            wheel_speed: speeds,
-        };
-        self.before = now;
-        (motion, counts, pose)
+        now.belief = Estimate::new(end.get(), DRIVEN);
+        now.legs.push(driven);
+        Ok(())
     }
 }
 
-impl<F: Fpga> PoseSource for OnBoard<F> {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
-        let (motion, counts, truth) = self.motion();
-        let reading = self.imu.read(&motion);
-        self.filter.predict(t, &counts, &reading);
-        self.tick += 1;
-        if self.tick.is_multiple_of(PICTURE_EVERY)
-            && let Some(eye) = &mut self.eye
-        {
-            let scene = eye.look(truth);
-            let covariance = self.filter.covariance();
-            let belief = Estimate { pose: self.filter.pose(), covariance, agreeing: 1.0 };
-            // The match holds the prediction already: the filter takes it over as it is.
-            if let Some(found) = eye.correct(&scene, &belief) {
-                self.filter.adopt(found.pose, found.covariance);
-            }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A start whose lines are seen well, so that without the fault the robot gets there.
+    const SEED: u64 = 0;
+
+    #[test]
+    fn a_camera_at_fault_is_named_and_leads_nowhere_else_than_odometry() {
+        let blind = Blackout::new(SEED).run(Senses::Gyroscope).unwrap();
+        let sees = Blackout::new(SEED).story(Senses::Camera, None, true).unwrap();
+        assert!(sees.outcome.miss < 0.05 && sees.outcome.ball_miss < 0.05, "{:?}", sees.outcome);
+        assert!(sees.shots.len() > 10);
+        for (fault, name) in [
+            (Fault::Frozen, "frozen"),
+            (Fault::Black, "black"),
+            (Fault::OverExposed, "over-exposed"),
+            (Fault::Size, "calibrated at"),
+            (Fault::Calibration, "lines"),
+        ] {
+            let story = Blackout::new(SEED).story(Senses::Camera, Some(fault), false).unwrap();
+            let refused: usize = story.refused.values().sum();
+            assert!(story.refused.keys().any(|why| why.contains(name)), "{fault:?}: {:?}", story.refused);
+            assert!(refused > 5, "{fault:?}: {:?}", story.refused);
+            assert!(story.outcome.miss < blind.miss + 0.1, "{fault:?}: {:?} against {blind:?}", story.outcome);
         }
-        let pose = self.filter.pose();
-        let due = self.senses != Senses::Wheels && self.tick.is_multiple_of(POSE_EVERY);
-        due.then(|| Pose::new(pose.x, pose.y, wrap_angle(pose.theta)))
     }
 }

@@ -1,13 +1,17 @@
-//! Trains the weights of the ball's features on rendered pictures, and writes them as Rust:
+//! Trains the weights of the ball's features on rendered pictures and labelled photographs, and writes them as Rust:
 //!
 //! ```sh
-//! cargo run --release -p vision --example weights -- 10000 10900 20000 20900 >vision/src/ball/weights.rs
+//! cargo run --release -p vision --example weights -- 10000 10900 20000 20900 [FOLDER ...] >vision/src/ball/weights.rs
 //! ```
 //!
-//! The arguments are ranges of seeds: the first one and the one after the last. Seeds of tests and benches lie below
-//! 10 000, so that nothing is measured on what was learnt.
+//! The numbers are ranges of seeds: the first one and the one after the last. Seeds of tests and benches lie below
+//! 10 000, so that nothing is measured on what was learnt. Folders hold photographs with labels beside them, as `labelled`
+//! says; where the committed weights' photographs are from is in `docs/book/src/smartbot.md`.
+
+mod labelled;
 
 use rayon::prelude::*;
+use std::path::Path;
 use vision::ball::features::{COUNT, NAMES};
 use vision::ball::{Candidate, candidates};
 use vision::render::{Label, sample};
@@ -45,13 +49,21 @@ fn main() {
         "give ranges of seeds: the first and the one after the last"
     );
     let seeds: Vec<u64> = arguments.chunks_exact(2).flat_map(|range| range[0]..range[1]).collect();
-    let cases: Vec<Case> = seeds
+    let mut cases: Vec<Case> = seeds
         .into_par_iter()
         .flat_map_iter(|seed| {
             let rendered = sample(seed, SIDE, SIDE).rendered;
             cases(&candidates(&rendered.picture), &rendered.balls)
         })
         .collect();
+    for folder in std::env::args().skip(1 + arguments.len()) {
+        let photographs = labelled::folder(Path::new(&folder)).unwrap_or_else(|what| panic!("{what}"));
+        cases.par_extend(
+            photographs
+                .par_iter()
+                .flat_map_iter(|photograph| self::cases(&candidates(&photograph.picture), &photograph.labels)),
+        );
+    }
     train(&cases);
 }
 

@@ -29,6 +29,9 @@ const SAME: f64 = 0.3;
 /// there on rendered pictures (docs/measured/ball-detection.md).
 pub const DEFAULT_SCORE: f64 = 0.3;
 
+/// Radius of a golf ball, m (rules of golf: at least 42.67 mm across).
+pub const RADIUS: f64 = 0.021_35;
+
 /// A place in a picture, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Region {
@@ -69,6 +72,18 @@ impl Ball {
     #[must_use]
     pub fn place(&self, camera: &Camera, radius: f64) -> Option<[f64; 2]> {
         camera.onto([self.region.x, self.region.y], radius)
+    }
+
+    /// Whether a ball of this radius (m) on the floor would look as large from a camera; true of half to twice the size, as
+    /// a ball that is partly hidden or blurred has.
+    #[must_use]
+    pub fn fits(&self, camera: &Camera, radius: f64) -> bool {
+        let Some([forward, left]) = self.place(camera, radius) else { return false };
+        let range = forward.hypot(left).hypot(camera.mount_height - radius);
+        let expected = [2.0 * radius * camera.focal[0] / range, 2.0 * radius * camera.focal[1] / range];
+        let near = |seen: f64, expected: f64| (0.5..2.0).contains(&(seen / expected));
+        near(self.region.width.max(self.region.height * camera.focal[0] / camera.focal[1]), expected[0])
+            && near(self.region.height.max(self.region.width * camera.focal[1] / camera.focal[0]), expected[1])
     }
 }
 

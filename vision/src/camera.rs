@@ -2,14 +2,18 @@
 //!
 //! Robot frame here: x forward, y to the left, z up, origin on the floor below the camera, m.
 
-use crate::picture::{Picture, Unusable};
+use crate::picture::{LARGEST_SIDE, Picture, SMALLEST_SIDE, Unusable};
 use nalgebra::{Rotation3, Vector3};
+use runs::error::{InputError, line_and_column};
+use serde::Deserialize;
+use std::path::Path;
 
 /// Steps that undo a distortion; each one shrinks the error by the distortion's size, a tenth or so.
 const UNDISTORTION_STEPS: usize = 8;
 
 /// Where a camera looks and how it maps directions to pixels (Brown 1966, radial terms only).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Pixels a row.
     pub width: usize,
@@ -43,6 +47,40 @@ impl Camera {
             mount_height,
             tilt,
             roll: 0.0,
+        }
+    }
+
+    /// A calibration from a TOML file with the names of the members, all of them.
+    ///
+    /// # Errors
+    /// What is wrong, where.
+    pub fn load(file: &Path) -> Result<Self, InputError> {
+        let text = std::fs::read_to_string(file).map_err(|error| InputError::io(file, &error))?;
+        Self::of_toml(&text, file)
+    }
+
+    fn of_toml(text: &str, file: &Path) -> Result<Self, InputError> {
+        let hint = "give width, height, focal = [x, y], centre = [x, y] in pixels, distortion = [k1, k2], mount_height in \
+                    metres, tilt and roll in radians";
+        let camera: Self = toml::from_str(text).map_err(|error| {
+            let (line, column) = line_and_column(text, error.span().map_or(0, |span| span.start));
+            InputError::new(file, error.message().to_owned(), hint).at(line, column)
+        })?;
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let upright = |x: f64| x.abs() < std::f64::consts::FRAC_PI_2;
+        let wrong = [
+            ("width", (SMALLEST_SIDE..=LARGEST_SIDE).contains(&camera.width)),
+            ("height", (SMALLEST_SIDE..=LARGEST_SIDE).contains(&camera.height)),
+            ("focal", camera.focal.into_iter().all(positive)),
+            ("centre", camera.centre.into_iter().all(positive)),
+            ("distortion", camera.distortion.into_iter().all(|k| k.abs() < 1.0)),
+            ("mount_height", positive(camera.mount_height) && camera.mount_height < 3.0),
+            ("tilt", upright(camera.tilt)),
+            ("roll", upright(camera.roll)),
+        ];
+        match wrong.into_iter().find(|(_, good)| !good) {
+            None => Ok(camera),
+            Some((member, _)) => Err(InputError::new(file, "out of range", hint).field(member)),
         }
     }
 

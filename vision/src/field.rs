@@ -2,6 +2,8 @@
 //!
 //! Field frame: origin at the centre mark, x towards one goal, y to the left of it, m.
 
+mod file;
+
 /// Sizes of a field, m (rules of the small-size league, section "The field"; the league's geometry message has the same
 /// fields in millimetres).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +26,7 @@ pub struct Field {
     pub defence_width: f64,
     /// Of the centre circle.
     pub circle_radius: f64,
-    /// Of a line.
+    /// Across the paint of a line.
     pub line_width: f64,
 }
 
@@ -66,7 +68,7 @@ impl Field {
         line_width: 0.01,
     };
 
-    /// All lines.
+    /// The middles of all lines: touch, goal, halfway and centre line, the defence areas and the centre circle.
     #[must_use]
     pub fn lines(&self) -> Vec<Line> {
         let (x, y) = (self.length / 2.0, self.width / 2.0);
@@ -109,7 +111,7 @@ impl Line {
                 [a[0] + share * d[0], a[1] + share * d[1]]
             }
             Self::Circle(radius) => {
-                let from_centre = p[0].hypot(p[1]);
+                let from_centre = (p[0] * p[0] + p[1] * p[1]).sqrt();
                 if from_centre < 1e-9 {
                     return [radius, 0.0];
                 }
@@ -122,9 +124,9 @@ impl Line {
 /// Distance from a point to the nearest line's middle, m.
 #[must_use]
 pub fn distance(lines: &[Line], p: [f64; 2]) -> f64 {
-    let to = |line: &Line| {
+    let squared = |line: &Line| {
         let near = line.nearest(p);
-        (near[0] - p[0]).hypot(near[1] - p[1])
+        (near[0] - p[0]).powi(2) + (near[1] - p[1]).powi(2)
     };
-    lines.iter().map(to).fold(f64::INFINITY, f64::min)
+    lines.iter().map(squared).fold(f64::INFINITY, f64::min).sqrt()
 }

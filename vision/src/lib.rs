@@ -24,6 +24,7 @@ pub mod field;
 mod goal;
 mod lines;
 pub mod localise;
+pub mod onboard;
 pub mod picture;
 pub mod render;
 
@@ -41,13 +42,13 @@ const BOUNDARY_EVERY: usize = 8;
 /// What is in a picture, pixels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Balls, best first.
+    /// The likeliest ball first.
     pub balls: Vec<Ball>,
     /// The far edge of the carpet from left to right; empty where there is no carpet.
     pub boundary: Vec<[f64; 2]>,
-    /// Points on lines.
+    /// Where scans down and across cross the middle of a painted line.
     pub lines: Vec<LinePoint>,
-    /// Goals.
+    /// Boxes around the white walls that stand on the boundary.
     pub goals: Vec<Region>,
 }
 

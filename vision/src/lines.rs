@@ -12,7 +12,7 @@ const WIDEST: f32 = 0.09;
 /// Pixels beside a line within which carpet must begin: blur makes a fringe.
 const FRINGE: usize = 3;
 
-/// A point on a line.
+/// Where a scan crosses a painted line: the middle, weighed by brightness, to parts of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePoint {
     /// From the left, pixels.

@@ -44,6 +44,21 @@ pub struct Estimate {
     pub agreeing: f64,
 }
 
+impl Estimate {
+    /// A pose with independent standard deviations (m, m, rad).
+    #[must_use]
+    pub fn new(pose: Pose, sd: [f64; 3]) -> Self {
+        Self { pose, covariance: Matrix3::from_diagonal(&Vector3::from(sd.map(|sd| sd * sd))), agreeing: 1.0 }
+    }
+
+    /// Of the place in the axis where it is larger (m), and of the heading (rad).
+    #[must_use]
+    pub fn standard_deviations(&self) -> [f64; 2] {
+        let variance = |i: usize| self.covariance[(i, i)];
+        [variance(0).max(variance(1)).sqrt(), variance(2).sqrt()]
+    }
+}
+
 /// Why there is no match.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoMatch {

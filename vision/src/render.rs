@@ -22,8 +22,8 @@ use rand_chacha::ChaCha8Rng;
 
 type Point = nalgebra::Vector3<f64>;
 
-/// Radius of a golf ball, m.
-pub const BALL_RADIUS: f64 = 0.021_35;
+/// Radius of the ball that is rendered, m.
+pub const BALL_RADIUS: f64 = crate::ball::RADIUS;
 
 /// A ball in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +52,8 @@ pub struct Shutter {
     pub turn: f64,
     /// Change of tilt during the exposure, rad.
     pub nod: f64,
+    /// Share of those that is between the first row and the last (rolling shutter); the rest blurs every row.
+    pub rolling: f64,
 }
 
 /// Renders a world through a camera; `grid` times `grid` rays a pixel.
@@ -75,7 +77,9 @@ pub fn render(
             for k in 0..grid * grid {
                 let px = x as f64 + (((k % grid) as f64) + rng.random::<f64>()) * step;
                 let py = y as f64 + (((k / grid) as f64) + rng.random::<f64>()) * step;
-                let time = if shutter.turn == 0.0 && shutter.nod == 0.0 { 0.0 } else { rng.random::<f64>() - 0.5 };
+                let still = shutter.turn == 0.0 && shutter.nod == 0.0;
+                let open = if still { 0.0 } else { rng.random::<f64>() - 0.5 };
+                let time = shutter.rolling * (py / height as f64 - 0.5) + (1.0 - shutter.rolling) * open;
                 let lens = Camera { tilt: camera.tilt + time * shutter.nod, ..*camera };
                 let (s, c) = (shutter.pose[2] + time * shutter.turn).sin_cos();
                 let ray = lens.ray([px, py]);

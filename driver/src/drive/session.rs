@@ -231,6 +231,7 @@ impl<S: Steer> State<S> {
         self.note_source(t, seen);
         let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
         self.driven.pose = pose;
+        source.believed(t, pose);
         let in_force = self.command;
         let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
         let wanted = self.steer.command(pose, elapsed);

@@ -42,6 +42,10 @@ pub(crate) struct Options {
     #[arg(long)]
     camera: bool,
 
+    #[cfg(feature = "vision")]
+    #[command(flatten)]
+    vision: crate::onboard::Vision,
+
     /// Start pose: x and y in metres, heading of the body's x axis in degrees
     #[arg(long, value_name = "X,Y,DEG", default_value = "0,0,0", allow_hyphen_values = true)]
     start: Start,
@@ -112,9 +116,13 @@ impl Options {
             return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
         }
         self.target.check_free(&self.record)?;
-        let plan = self.plan(&robot, &set_points);
         let (actual, pace) = self.built_in(&robot)?;
-        let ready = self.card.ready(Use::Drive, &actual, pace)?;
+        #[cfg(feature = "vision")]
+        let (robot, setting) = (self.vision.seen(&robot), self.vision.setting()?);
+        let plan = self.plan(&robot, &set_points);
+        let mut ready = self.card.ready(Use::Drive, &actual, pace)?;
+        #[cfg(feature = "vision")]
+        let refused = if self.vision.is_onboard() { Some(onboard(&mut ready, setting, pace)?) } else { None };
         let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
@@ -135,6 +143,8 @@ impl Options {
         let driven = plan
             .drive(Board::new(registers), &mut clock, clock_hz, &mut source, recording.as_mut(), &stop)
             .map_err(|error| about(&error))?;
+        #[cfg(feature = "vision")]
+        remarks.extend(refused.into_iter().flat_map(|refused| refused()));
         let recorded = recording.map(Recording::finish);
         let robot_file = self.robot_beside(&logged_robot(&plan.believed(), &scale, &plan.settings))?;
         let (recorded, failed) = match recorded.transpose() {
@@ -174,6 +184,15 @@ impl Options {
         Ok((believed.clone(), Pace::Real))
     }
 
+    /// Whether something corrects the pose.
+    fn fused(&self) -> bool {
+        #[cfg(feature = "vision")]
+        if self.vision.is_onboard() {
+            return true;
+        }
+        self.camera
+    }
+
     fn plan(&self, robot: &Robot, set_points: &[SetPoint]) -> Plan {
         let mut plan = Plan::new(robot, set_points);
         plan.control = match self.controller {
@@ -184,7 +203,7 @@ impl Options {
             Speeds::Difference => SpeedMode::Difference,
             Speeds::CountAndTime => SpeedMode::CountAndTime,
         };
-        Plan { start: self.start.0, fused: self.camera, limit_s: self.limit_s, ..plan }
+        Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, ..plan }
     }
 
     fn record(&self, wheels: usize, camera: bool) -> Result<Option<Recording>, Failure> {
@@ -207,6 +226,31 @@ impl Options {
         self.target.save(&path, &robot.to_toml())?;
         Ok(Some(path.display().to_string()))
     }
+}
+
+/// Puts the camera on the robot in the place of the one above it; the answer says afterwards which pictures gave no pose.
+#[cfg(feature = "vision")]
+fn onboard(
+    ready: &mut ReadyCard,
+    setting: crate::onboard::Setting,
+    pace: Pace,
+) -> Result<Box<dyn FnOnce() -> Vec<String>>, Failure> {
+    let said = |(why, count): (&String, &usize)| format!("{count} pictures of the on-board camera gave no pose: {why}");
+    #[cfg(feature = "simulation")]
+    if let Some(card) = ready.shared.take() {
+        if pace == Pace::Real {
+            return Err(Failure::usage(
+                "--real-time: the built-in card's on-board camera is rendered, which takes longer",
+            ));
+        }
+        let (source, eye) = setting.built_in(card)?;
+        ready.source = Some(source);
+        return Ok(Box::new(move || eye.borrow().refused().iter().map(said).collect()));
+    }
+    let _ = pace;
+    let (source, refusals) = setting.real()?;
+    ready.source = Some(source);
+    Ok(Box::new(move || refusals.lock().map(|refused| refused.iter().map(said).collect()).unwrap_or_default()))
 }
 
 impl Report<'_> {

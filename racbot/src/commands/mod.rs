@@ -33,7 +33,7 @@ mod serve;
 mod simulate;
 mod start;
 #[cfg(feature = "vision")]
-mod vision;
+pub(crate) mod vision;
 #[cfg(feature = "simulation")]
 mod wave;
 

@@ -95,7 +95,7 @@ impl Detect {
 }
 
 /// A file itself, or the pictures of a folder by name.
-fn pictures(input: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn pictures(input: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !input.is_dir() {
         return Ok(vec![input.to_owned()]);
     }

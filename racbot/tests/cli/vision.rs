@@ -102,3 +102,40 @@ fn folders_without_pictures_and_impossible_scores_are_refused() {
     let missing = racbot(folder.path(), &["vision", "detect", "nowhere.png"]);
     assert!(missing.code == Some(1) && missing.stderr.contains("nowhere.png: "), "{}", missing.stderr);
 }
+
+/// How well the poses are is measured in `simulator::blackout`, which knows the truth.
+#[test]
+fn an_on_board_camera_gives_a_drive_its_poses_and_its_options_are_checked() {
+    let folder = tempdir().unwrap();
+    let run = |arguments: &[&str]| racbot(folder.path(), arguments);
+    fs::write(folder.path().join("there.csv"), "1.2,0.6,1,0,stop\n0.2,1.0,1,0,stop\n").unwrap();
+    let drive = ["drive", "--card", "virtual", "--setpoints", "there.csv", "--skew-deg", "4,4,4", "--json"];
+    let seen = run(&[&drive[..], &["--vision", "onboard", "--record", "seen/a.csv"]].concat()).done().json();
+    assert_eq!(seen["ended"], "finished", "{seen}");
+    let log = runs::Run::read(folder.path().join("seen/a.csv")).unwrap();
+    assert!(log.camera.len() > 5, "{} poses", log.camera.len());
+
+    fs::write(folder.path().join("field.toml"), "length = 9\nwidth = 6000\n").unwrap();
+    let with = |more: &[&str]| run(&[&drive[..7], more].concat());
+    with(&["--vision", "onboard", "--field", "field.toml"]).refused(1, &["field.toml:2:1: width: 6000 m"]);
+    with(&["--vision", "onboard", "--camera"]).refused(2, &["--camera"]);
+    with(&["--vision", "onboard", "--real-time"]).refused(2, &["--real-time"]);
+    with(&["--vision", "onboard", "--frames", "."]).refused(2, &["--frames is for a real robot"]);
+    fs::write(folder.path().join("lens.toml"), "width = 320\n").unwrap();
+    with(&["--vision", "onboard", "--lens", "lens.toml"]).refused(1, &["lens.toml:1:1: missing field `height`"]);
+}
+
+#[test]
+fn a_start_without_overhead_camera_leaves_runs_pictures_and_a_page() {
+    let folder = tempdir().unwrap();
+    let json = racbot(folder.path(), &["simulate", "--smart", "--seed", "0", "--out", "smart", "--json"]).done().json();
+    let camera = &json["outcomes"][2];
+    assert!(camera["off_m"].as_f64().unwrap() < 0.05 && camera["ball_m"].as_f64().unwrap() < 0.05, "{json}");
+    let page = fs::read_to_string(folder.path().join("smart/report.html")).unwrap();
+    assert!(page.contains("<ellipse") && page.contains("pictures/0000.jpg"));
+    assert!(fs::read(folder.path().join("smart/pictures/0000.jpg")).unwrap().starts_with(b"\xff\xd8"));
+    assert!(runs::Run::read(folder.path().join("smart/leg-1.csv")).unwrap().len() > 100);
+    let again = racbot(folder.path(), &["simulate", "--smart", "--out", "smart"]);
+    assert!(again.code == Some(1) && again.stderr.contains("report.html"), "{}", again.stderr);
+    racbot(folder.path(), &["simulate", "--smart", "--controller", "paper"]).refused(2, &["--smart"]);
+}

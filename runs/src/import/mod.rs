@@ -16,6 +16,7 @@ use std::path::Path;
 use crate::error::{InputError, nearest};
 
 pub use map::Map;
+pub use ssl::{field_size, is_game_log};
 
 /// Samples of one quantity.
 #[derive(Debug, Clone, PartialEq, Default)]

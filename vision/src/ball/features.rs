@@ -39,6 +39,9 @@ pub struct Features(pub [f32; COUNT]);
 const HALF_SHOWN: f32 = 0.5;
 const USUAL_SHADING: f32 = 0.1;
 
+/// Samples from the middle of a candidate to its outline at most: means of a thousand pixels are as good as of all.
+const MOST_ACROSS: f32 = 18.0;
+
 /// Samples around an outline.
 const AROUND: usize = 24;
 
@@ -134,8 +137,9 @@ impl Inner {
         let middle = outline.inside / 2.0;
         let (mut count, mut red, mut sum, mut halves) = (0.0, 0.0, [0.0; 3], [[0.0_f32; 2]; 2]);
         let (mut spread, mut reds) = (0.0, 0.0);
-        for y in top..bottom.min(picture.height) {
-            for x in left..right.min(picture.width) {
+        let every = ((outline.a.max(outline.b) / MOST_ACROSS) as usize).max(1);
+        for y in (top..bottom.min(picture.height)).step_by(every) {
+            for x in (left..right.min(picture.width)).step_by(every) {
                 let (u, v) = ((x as f32 + 0.5 - outline.cx) / outline.a, (y as f32 + 0.5 - outline.cy) / outline.b);
                 if u * u + v * v > 0.8 {
                     continue;
@@ -156,7 +160,7 @@ impl Inner {
             }
         }
         let inside = f32::max(red, 1.0);
-        let whole = 0.4 * std::f32::consts::PI * outline.a * outline.b;
+        let whole = 0.4 * std::f32::consts::PI * outline.a * outline.b / (every * every) as f32;
         let shown = halves.iter().all(|[_, count]| *count > HALF_SHOWN * whole);
         let [upper, lower] = halves.map(|[sum, count]| sum / f32::max(count, 1.0));
         let mean = reds / inside;

@@ -1,59 +1,59 @@
 //! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.
 
-/// How many features there are.
+/// Number of features.
 pub const COUNT: usize = 20;
 
 /// Odds of a candidate whose weights are all zero, logarithm.
-pub(super) const OFFSET: f32 = -0.591;
+pub(super) const OFFSET: f32 = -0.523;
 
 /// Values of a feature at which its weight is given.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
 pub(super) const KNOTS: [[f32; 9]; COUNT] = [
-    [0.047, 0.103, 0.175, 0.190, 0.254, 0.341, 0.472, 0.521, 0.626], // redness inside
-    [-53.221, 0.209, 6.035, 8.706, 16.897, 24.909, 33.625, 43.826, 48.783], // hue, degrees from red to yellow
-    [0.018, 0.108, 0.134, 0.238, 0.354, 0.383, 0.467, 0.645, 0.898], // redness inside less outside
-    [0.000, 0.594, 0.656, 0.826, 0.969, 1.000, 1.025, 1.050, 1.075], // outline: share of rays that agree
-    [0.011, 0.024, 0.045, 0.054, 0.067, 0.091, 0.096, 0.121, 0.200], // outline: roughness, radii
-    [0.630, 0.697, 0.851, 0.944, 0.991, 1.000, 1.010, 1.019, 1.028], // share of the inside that is red
-    [0.000, 0.025, 0.050, 0.075, 0.100, 0.125, 0.275, 0.300, 1.000], // share of the surroundings that is red
-    [0.000, 0.025, 0.050, 0.075, 0.500, 0.857, 0.929, 1.000, 1.025], // share of carpet below
-    [0.000, 0.025, 0.050, 0.312, 0.633, 0.658, 0.867, 0.979, 1.004], // share of carpet around
-    [-1.031, -0.813, -0.553, -0.285, -0.095, -0.025, 0.167, 0.476, 0.847], // width over height, logarithm
-    [-0.377, -0.345, -0.003, 0.042, 0.201, 0.427, 0.500, 0.522, 0.544], // bottom below the field's boundary, heights of the picture
-    [0.569, 0.797, 1.124, 1.198, 1.778, 2.422, 2.622, 3.001, 3.519], // size, logarithm of pixels
-    [-0.066, 0.001, 0.010, 0.063, 0.097, 0.105, 0.139, 0.192, 0.279], // upper less lower brightness
-    [0.037, 0.084, 0.122, 0.155, 0.167, 0.187, 0.245, 0.428, 0.550], // unevenness of colour inside
-    [0.000, 0.012, 0.023, 0.035, 0.103, 0.175, 0.224, 0.403, 0.469], // redness of the reddest candidate less its own
+    [0.048, 0.106, 0.171, 0.187, 0.256, 0.350, 0.473, 0.519, 0.688], // redness inside
+    [-55.059, -8.522, 5.467, 8.151, 14.435, 22.492, 31.431, 41.094, 52.302], // hue, degrees from red to yellow
+    [0.021, 0.113, 0.154, 0.242, 0.352, 0.385, 0.479, 0.686, 0.885], // redness inside less outside
+    [0.000, 0.594, 0.656, 0.812, 0.969, 1.000, 1.025, 1.050, 1.075], // outline: share of rays that agree
+    [0.010, 0.024, 0.043, 0.055, 0.067, 0.091, 0.096, 0.121, 0.200], // outline: roughness, radii
+    [0.600, 0.655, 0.851, 0.948, 0.989, 0.999, 1.009, 1.019, 1.029], // share of the inside that is red
+    [0.000, 0.025, 0.050, 0.075, 0.100, 0.125, 0.250, 0.275, 1.000], // share of the surroundings that is red
+    [0.000, 0.025, 0.050, 0.143, 0.500, 0.857, 0.882, 1.000, 1.025], // share of carpet below
+    [0.000, 0.025, 0.062, 0.375, 0.553, 0.667, 0.875, 1.000, 1.025], // share of carpet around
+    [-0.986, -0.754, -0.552, -0.281, -0.035, 0.012, 0.194, 0.515, 0.879], // width over height, logarithm
+    [-0.416, -0.354, -0.021, 0.063, 0.215, 0.423, 0.500, 0.523, 0.546], // bottom below the field's boundary, heights of the picture
+    [0.568, 0.798, 1.108, 1.181, 1.787, 2.380, 2.598, 3.024, 3.459], // size, logarithm of pixels
+    [-0.152, 0.001, 0.011, 0.062, 0.101, 0.139, 0.158, 0.185, 0.261], // upper less lower brightness
+    [0.044, 0.090, 0.126, 0.156, 0.172, 0.189, 0.245, 0.332, 0.618], // unevenness of colour inside
+    [0.000, 0.012, 0.025, 0.037, 0.095, 0.185, 0.221, 0.458, 0.499], // redness of the reddest candidate less its own
     [0.594, 0.656, 0.781, 1.000, 1.010, 1.020, 1.030, 1.041, 1.051], // share of the outline in the picture
-    [-0.774, -0.312, -0.091, -0.056, 0.045, 0.163, 0.307, 0.434, 0.466], // brightness over the carpet's, logarithm
-    [0.300, 0.339, 0.509, 0.724, 0.772, 0.980, 1.376, 1.714, 1.853], // red over green against the carpet, logarithm
-    [-1.090, -0.775, -0.325, -0.280, -0.103, 0.075, 0.295, 0.340, 0.732], // green over blue against the carpet, logarithm
-    [0.029, 0.039, 0.057, 0.094, 0.141, 0.156, 0.226, 0.347, 0.393], // brightness outside against inside, unevenness
+    [-2.093, -0.302, -0.154, -0.090, 0.051, 0.167, 0.303, 0.407, 0.474], // brightness over the carpet's, logarithm
+    [0.311, 0.356, 0.508, 0.723, 0.861, 0.971, 1.340, 1.820, 2.093], // red over green against the carpet, logarithm
+    [-0.988, -0.689, -0.306, -0.253, -0.100, 0.086, 0.333, 0.415, 0.686], // green over blue against the carpet, logarithm
+    [0.031, 0.051, 0.071, 0.092, 0.135, 0.210, 0.230, 0.380, 0.839], // brightness outside against inside, unevenness
 ];
 
 /// Logarithm of odds at each knot.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
 pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
-    [-1.155, -0.667, -0.198, 0.133, 0.280, 0.226, 0.049, -0.177, -0.443], // redness inside
-    [-2.128, -1.204, -0.318, 0.358, 0.771, 0.975, 0.848, 0.285, -0.492], // hue, degrees from red to yellow
-    [-1.514, -1.208, -0.833, -0.351, 0.162, 0.631, 1.000, 1.287, 1.553], // redness inside less outside
-    [-1.320, -0.911, -0.487, -0.125, -0.005, 0.003, 0.003, 0.003, 0.003], // outline: share of rays that agree
-    [1.202, 0.970, 0.658, 0.220, -0.327, -0.722, -0.775, -0.775, -0.775], // outline: roughness, radii
-    [-1.040, -0.583, -0.218, -0.021, 0.004, 0.010, 0.011, 0.011, 0.011], // share of the inside that is red
-    [0.810, 0.810, 0.810, 0.677, 0.383, -0.059, -0.626, -1.224, -1.734], // share of the surroundings that is red
-    [-0.074, -0.071, -0.071, -0.071, -0.071, -0.071, -0.071, -0.071, -0.065], // share of carpet below
-    [-1.240, -1.191, -1.009, -0.576, -0.037, 0.277, 0.397, 0.397, 0.397], // share of carpet around
-    [-1.356, -0.660, -0.022, 0.433, 0.641, 0.629, 0.301, -0.560, -1.725], // width over height, logarithm
-    [-0.366, -0.366, -0.366, -0.366, -0.337, -0.176, 0.047, 0.190, 0.303], // bottom below the field's boundary, heights of the picture
-    [-1.492, -0.740, -0.132, 0.108, 0.121, 0.138, 0.136, 0.033, -0.187], // size, logarithm of pixels
-    [-2.946, -2.234, -1.154, 0.407, 1.554, 2.067, 2.257, 2.216, 2.049], // upper less lower brightness
-    [-0.553, -0.443, -0.347, -0.237, -0.137, -0.031, -0.089, -0.158, -0.242], // unevenness of colour inside
-    [0.456, 0.425, 0.348, 0.176, -0.073, -0.352, -0.605, -0.910, -1.198], // redness of the reddest candidate less its own
-    [-0.992, -0.585, -0.216, -0.210, -0.164, -0.108, -0.055, -0.008, 0.035], // share of the outline in the picture
-    [-1.710, -1.019, -0.397, 0.058, 0.259, 0.376, 0.364, 0.306, 0.221], // brightness over the carpet's, logarithm
-    [-1.074, -0.686, -0.313, 0.000, 0.082, -0.048, -0.131, -0.124, -0.135], // red over green against the carpet, logarithm
-    [-1.196, -0.959, -0.552, -0.044, 0.288, 0.427, 0.273, 0.016, -0.266], // green over blue against the carpet, logarithm
-    [0.099, 0.251, 0.337, 0.300, 0.093, -0.248, -0.653, -1.031, -1.337], // brightness outside against inside, unevenness
+    [-0.892, -0.466, -0.095, 0.047, 0.041, 0.090, 0.069, -0.100, -0.353], // redness inside
+    [-1.892, -1.090, -0.236, 0.443, 0.877, 1.024, 0.690, -0.013, -0.848], // hue, degrees from red to yellow
+    [-1.644, -1.285, -0.770, -0.153, 0.327, 0.699, 1.106, 1.504, 1.823], // redness inside less outside
+    [-1.228, -0.778, -0.357, -0.091, -0.033, 0.010, 0.010, 0.010, 0.010], // outline: share of rays that agree
+    [1.315, 1.015, 0.620, 0.156, -0.335, -0.660, -0.660, -0.660, -0.660], // outline: roughness, radii
+    [-0.756, -0.442, -0.184, -0.074, -0.074, -0.047, -0.031, -0.014, 0.002], // share of the inside that is red
+    [0.652, 0.558, 0.525, 0.417, 0.239, -0.056, -0.474, -0.935, -1.359], // share of the surroundings that is red
+    [-1.035, -0.907, -0.851, -0.851, -0.851, -0.851, -0.851, -0.851, -0.774], // share of carpet below
+    [-2.017, -1.531, -1.092, -0.609, -0.156, 0.107, 0.107, 0.107, 0.107], // share of carpet around
+    [-1.401, -0.691, -0.034, 0.447, 0.675, 0.640, 0.269, -0.484, -1.430], // width over height, logarithm
+    [-0.571, -0.500, -0.367, -0.168, -0.095, -0.076, -0.011, 0.036, 0.075], // bottom below the field's boundary, heights of the picture
+    [-1.119, -0.606, -0.291, -0.179, -0.067, 0.141, 0.294, 0.297, 0.144], // size, logarithm of pixels
+    [-2.692, -2.021, -1.019, 0.442, 1.506, 1.965, 2.034, 1.850, 1.660], // upper less lower brightness
+    [-0.643, -0.462, -0.284, -0.070, 0.058, 0.099, 0.054, -0.189, -0.467], // unevenness of colour inside
+    [0.427, 0.374, 0.360, 0.301, 0.065, -0.264, -0.600, -0.903, -1.111], // redness of the reddest candidate less its own
+    [-0.397, -0.206, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001, 0.001], // share of the outline in the picture
+    [-1.621, -1.039, -0.424, 0.095, 0.397, 0.549, 0.526, 0.444, 0.347], // brightness over the carpet's, logarithm
+    [-0.499, -0.176, 0.067, 0.067, -0.052, -0.211, -0.350, -0.457, -0.495], // red over green against the carpet, logarithm
+    [-1.271, -0.857, -0.398, 0.021, 0.234, 0.325, 0.187, 0.051, -0.004], // green over blue against the carpet, logarithm
+    [0.672, 0.696, 0.687, 0.525, 0.271, -0.127, -0.638, -1.207, -1.821], // brightness outside against inside, unevenness
 ];

@@ -4,16 +4,16 @@ use super::Point;
 use super::sensor::normal;
 use rand_chacha::ChaCha8Rng;
 
-/// A lamp.
+/// A lamp of the hall: a soft ball of light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lamp {
-    /// Its middle, m.
+    /// Field frame, m.
     pub(super) at: Point,
     /// How soft its shadows are: standard deviation of its size, m.
     pub(super) size: f64,
     /// Light it gives the floor below [`Self::reference`], of white.
     pub(super) strength: f64,
-    /// Its colour.
+    /// Factors of red, green and blue, about 1.
     pub(super) tint: [f64; 3],
     /// Place on the floor where its strength holds.
     pub(super) reference: Point,

@@ -37,7 +37,9 @@ pub fn sample(seed: u64, width: usize, height: usize) -> Sample {
     populate(&mut world, &camera, pose, rng);
     let shaky = rng.random_bool(0.35);
     let shake = |rng: &mut ChaCha8Rng| if shaky { rng.random_range(-0.02..0.02) } else { 0.0 };
-    let shutter = Shutter { pose, turn: shake(rng), nod: shake(rng) * 0.6 };
+    let (turn, nod) = (shake(rng), shake(rng) * 0.6);
+    let rolling = rng.random_range(0.0..0.8);
+    let shutter = Shutter { pose, turn, nod, rolling };
     let sensor = sensor(rng);
     let rendered = render(&world, &camera, shutter, &sensor, 2, rng);
     Sample { rendered, camera, pose }
@@ -63,6 +65,7 @@ fn sensor(rng: &mut ChaCha8Rng) -> Sensor {
     Sensor {
         exposure: 2.0_f64.powf(rng.random_range(-1.0..1.7)),
         white_balance: [warm.exp(), tint.exp(), (-warm).exp()],
+        grey_world: if rng.random_bool(0.4) { rng.random_range(0.0..0.8) } else { 0.0 },
         saturation: rng.random_range(0.65..1.35),
         gamma: 1.0 / rng.random_range(1.7..2.5),
         haze: rng.random_range(0.0..0.05),
@@ -146,6 +149,9 @@ fn hall(field: Field, pose: [f64; 3], rng: &mut ChaCha8Rng) -> World {
     }
 }
 
+/// Places tried for a ball until one is on the carpet; from a corner, looking out, none is.
+const TRIES: usize = 12;
+
 /// A place in front of the camera: distance by a power law, inside the field of view or near it.
 fn place(camera: &Camera, pose: [f64; 3], near: f64, far: f64, rng: &mut ChaCha8Rng) -> [f64; 2] {
     let half = (camera.width as f64 / 2.0 / camera.focal[0]).atan() * 1.05;
@@ -180,7 +186,14 @@ fn populate(world: &mut World, camera: &Camera, pose: [f64; 3], rng: &mut ChaCha
     }
     let count = [0, 1, 1, 1, 1, 1, 1, 2, 2, 3][rng.random_range(0..10)];
     for number in 0..count {
-        let at = place(camera, pose, 0.11, 3.0, rng);
+        let mut at = place(camera, pose, 0.11, 3.0, rng);
+        // Off the carpet a ball is rare: somebody takes it back.
+        for _ in 0..TRIES {
+            if world.field.on_carpet(at[0], at[1]) || rng.random_bool(0.02) {
+                break;
+            }
+            at = place(camera, pose, 0.11, 3.0, rng);
+        }
         let above = if rng.random_bool(0.07) { rng.random_range(0.0..0.08) } else { 0.0 };
         world.bodies.push(ball(number, at[0], at[1], above, ball_finish(rng), rng.random()));
     }

@@ -11,6 +11,9 @@ pub struct Sensor {
     pub exposure: f64,
     /// Gains of red, green and blue, of its white balance against the light.
     pub white_balance: [f64; 3],
+    /// Share of the automatic white balance that makes the picture's mean grey: a green field then looks dull and all else
+    /// pink.
+    pub grey_world: f64,
     /// Colour saturation, 1 is true.
     pub saturation: f64,
     /// Exponent of the tone curve, 1 / 2.2 is standard.
@@ -38,6 +41,7 @@ impl Sensor {
     pub const GOOD: Self = Self {
         exposure: 1.0,
         white_balance: [1.0; 3],
+        grey_world: 0.0,
         saturation: 1.0,
         gamma: 1.0 / 2.2,
         haze: 0.01,
@@ -54,14 +58,16 @@ impl Sensor {
     pub(super) fn develop(&self, width: usize, height: usize, light: Vec<[f64; 3]>, rng: &mut ChaCha8Rng) -> Picture {
         let mut light = blurred(light, width, self.blur);
         self.soil(&mut light, width, height, rng);
+        let gains = self.gains(&light);
         let centre = [width as f64 / 2.0, height as f64 / 2.0];
         for (i, pixel) in light.iter_mut().enumerate() {
             let at = [(i % width) as f64 + 0.5, (i / width) as f64 + 0.5];
             let r2 = ((at[0] - centre[0]) / centre[0]).powi(2) + ((at[1] - centre[1]) / centre[1]).powi(2);
             let shade = 1.0 - self.vignette * r2 / 2.0;
-            for (c, gain) in pixel.iter_mut().zip(self.white_balance) {
+            for (c, gain) in pixel.iter_mut().zip(gains) {
                 let signal = (*c * shade + self.haze) * self.exposure;
-                let noise = self.noise[0] * signal.clamp(0.0, 1.0).sqrt() * normal(rng) + self.noise[1] * normal(rng);
+                let variance = self.noise[0].powi(2) * signal.clamp(0.0, 1.0) + self.noise[1].powi(2);
+                let noise = variance.sqrt() * normal(rng);
                 *c = (signal + noise).min(1.0) * gain;
             }
         }
@@ -72,6 +78,12 @@ impl Sensor {
             None => picture,
             Some(quality) => compressed(&picture, quality, self.subsampled),
         }
+    }
+
+    /// Gains of red, green and blue, manual and automatic.
+    fn gains(&self, light: &[[f64; 3]]) -> [f64; 3] {
+        let mean = |i: usize| light.iter().map(|pixel| (pixel[i] * self.exposure).min(1.0)).sum::<f64>() + 1e-6;
+        [0, 1, 2].map(|i| self.white_balance[i] * (mean(1) / mean(i)).powf(self.grey_world))
     }
 
     fn tone(&self, pixel: [f64; 3]) -> [u8; 3] {
@@ -97,15 +109,7 @@ impl Sensor {
 
 /// Through the encoder of a camera and back.
 fn compressed(picture: &Picture, quality: u8, subsampled: bool) -> Picture {
-    let mut bytes = Vec::new();
-    let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, quality);
-    let sampling = if subsampled { jpeg_encoder::SamplingFactor::F_2_2 } else { jpeg_encoder::SamplingFactor::F_1_1 };
-    encoder.set_sampling_factor(sampling);
-    let (width, height) = (picture.width() as u16, picture.height() as u16);
-    encoder
-        .encode(picture.pixels().as_flattened(), width, height, jpeg_encoder::ColorType::Rgb)
-        .expect("memory takes every picture");
-    decode(&bytes).expect("what was just encoded can be decoded")
+    decode(&picture.to_jpeg(quality, subsampled)).expect("what was just encoded can be decoded")
 }
 
 /// Gaussian of standard deviation `sd` pixels, first along rows, then along columns.
@@ -146,8 +150,10 @@ fn sharpened(light: Vec<[f64; 3]>, width: usize, share: f64) -> Vec<[f64; 3]> {
     light.iter().zip(soft).map(|(pixel, soft)| [0, 1, 2].map(|i| pixel[i] + share * (pixel[i] - soft[i]))).collect()
 }
 
-/// Standard normal, by Box and Muller.
+/// Nearly standard normal, for noise of pixels: the sum of four uniform numbers, whose tails end at 3.5.
 pub(super) fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let (u, v): (f64, f64) = (rng.random(), rng.random());
-    (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    let bits: u64 = rng.random();
+    let sum: f64 = (0..4).map(|k| ((bits >> (16 * k)) & 0xffff) as f64).sum();
+    // Mean 4 · 32767.5, variance 4 · 65536² / 12.
+    (sum - 131_070.0) / 37_837.23
 }

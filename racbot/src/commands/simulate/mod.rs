@@ -1,6 +1,7 @@
 //! `racbot simulate`
 
 mod manoeuvre;
+mod smart;
 
 use super::fpga_options::{FpgaChoice, SpeedChoice};
 use super::options::{Hidden, load_robot};
@@ -24,6 +25,7 @@ use std::time::Instant;
 /// Where runs go, and what they are called, where nothing is said.
 const OUT: &str = "out/simulate";
 const NAME: &str = "run";
+const SMART_OUT: &str = "out/smart";
 
 /// Options of `simulate`.
 #[derive(Args, Debug)]
@@ -44,6 +46,15 @@ pub(crate) struct Options {
     /// How often the manoeuvre is driven, each time from another heading, a run each
     #[arg(long, value_name = "N", default_value_t = 1, requires = "manoeuvre", value_parser = clap::value_parser!(u32).range(1..=1000))]
     times: u32,
+
+    /// Fetch a ball and drive to given coordinates by wheels, gyroscope and on-board camera, the overhead camera off;
+    /// --seed draws the start. Writes runs, pictures and a report page
+    #[arg(long, conflicts_with_all = ["robot", "setpoints", "manoeuvre", "fpga", "speed_mode", "controller", "limit_s", "camera", "start", "name", "hidden", "skew_deg"])]
+    smart: bool,
+
+    /// What is wrong with the on-board camera
+    #[arg(long, value_enum, value_name = "FAULT", requires = "smart")]
+    camera_fault: Option<smart::CameraFault>,
 
     #[command(flatten)]
     hidden: Hidden,
@@ -139,6 +150,11 @@ pub(super) fn not_shown(applied: &Applied) -> Option<String> {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        if self.smart {
+            let out = self.target.place(self.out.as_deref(), SMART_OUT);
+            let smart = smart::Smart { seed: self.seed, fault: self.camera_fault, out: &out, target: self.target };
+            return smart.drive();
+        }
         let believed = load_robot(self.robot.as_deref())?;
         let actual = self.hidden.robot(&believed)?;
         let out = self.target.place(self.out.as_deref(), OUT);

@@ -1,0 +1,106 @@
+//! `--vision onboard`: poses by the pictures of a camera on the robot.
+
+mod frames;
+mod watcher;
+
+use crate::terminal::Failure;
+use clap::{Args, ValueEnum};
+use driver::drive::PoseSource;
+use runs::robot::Robot;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use vision::camera::Camera;
+use vision::field::Field;
+
+/// Standard deviations of a pose by the lines (m, m, rad): the 95 % of `docs/measured/blackout.md` and a margin for halls
+/// that are no rendered ones.
+const POSE_SD: [f64; 3] = [0.02, 0.02, 0.015];
+
+/// Who sees the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Source {
+    /// A camera on the robot that matches the field's lines
+    Onboard,
+}
+
+/// Options of a camera on the robot.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Vision {
+    /// Let a camera on the robot correct the controller's pose by the field's lines
+    #[arg(long, value_enum, value_name = "SOURCE", conflicts_with = "camera")]
+    vision: Option<Source>,
+
+    /// The field: A, B, a TOML file of sizes, or a game log with the league's geometry message
+    #[arg(long, value_name = "FIELD", default_value = "B")]
+    field: PathBuf,
+
+    /// Where a real robot's pictures come from: a video device (/dev/video0), or a folder of pictures to play
+    #[arg(long, value_name = "DEVICE|FOLDER", requires = "vision")]
+    frames: Option<PathBuf>,
+
+    /// The camera's calibration, TOML; the built-in card's robot has its own
+    #[arg(long, value_name = "FILE", requires = "vision")]
+    lens: Option<PathBuf>,
+}
+
+/// Why pictures gave no pose, and how many, while the drive goes on.
+pub(crate) type Refusals = Arc<Mutex<BTreeMap<String, usize>>>;
+
+impl Vision {
+    /// Whether a camera on the robot is asked for.
+    pub(crate) fn is_onboard(&self) -> bool {
+        self.vision.is_some()
+    }
+
+    /// The robot as its controller takes it with such a camera.
+    pub(crate) fn seen(&self, robot: &Robot) -> Robot {
+        if !self.is_onboard() {
+            return robot.clone();
+        }
+        Robot { camera_noise: Some(POSE_SD), ..robot.clone() }
+    }
+
+    /// Field and camera, read before anything moves.
+    pub(crate) fn setting(&self) -> Result<Setting, Failure> {
+        let field = Field::of(&self.field)?;
+        let lens = self.lens.as_ref().map(|file| Camera::load(file)).transpose()?;
+        Ok(Setting { field, lens, frames: self.frames.clone() })
+    }
+}
+
+/// What a drive by an on-board camera needs.
+pub(crate) struct Setting {
+    field: Field,
+    lens: Option<Camera>,
+    frames: Option<PathBuf>,
+}
+
+impl Setting {
+    /// The camera of a real robot.
+    pub(crate) fn real(self) -> Result<(Box<dyn PoseSource>, Refusals), Failure> {
+        let need = |what: &str| Failure::usage(format!("--vision onboard: {what}"));
+        let frames = self.frames.ok_or_else(|| need("give --frames, a video device or a folder of pictures"))?;
+        let lens = self.lens.ok_or_else(|| need("give --lens, the camera's calibration"))?;
+        let frames = frames::open(&frames, [lens.width, lens.height])?;
+        let (watcher, refusals) = watcher::Watcher::start(frames, lens, self.field).map_err(Failure::data)?;
+        Ok((Box::new(watcher), refusals))
+    }
+
+    /// A rendered one on the robot of the built-in card.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn built_in(
+        &self,
+        card: simulator::virtual_card::SharedCard,
+    ) -> Result<(Box<dyn PoseSource>, simulator::eye::SharedEye), Failure> {
+        use simulator::eye::{CardEye, Eye, shared};
+        /// Seconds between two pictures, and the hall's seed.
+        const EVERY_S: f64 = 0.1;
+        const SEED: u64 = 1;
+        if self.frames.is_some() {
+            return Err(Failure::usage("--frames is for a real robot: the built-in card's camera is rendered"));
+        }
+        let eye = shared(Eye::new(self.lens.unwrap_or_else(Eye::small), self.field, None, SEED));
+        Ok((Box::new(CardEye::new(card, eye.clone(), EVERY_S)), eye))
+    }
+}

@@ -1,0 +1,108 @@
+//! What rides on the robot: wheels, gyroscope and camera, joined to a pose tick by tick.
+
+use super::{Now, Senses};
+use crate::closed_loop::VirtualRobot;
+use crate::eye::SharedEye;
+use crate::fpga::Fpga;
+use driver::drive::PoseSource;
+use model::fusion::FusionOptions;
+use model::imu::{Imu, ImuModel, Motion};
+use model::inertial::Inertial;
+use runs::frames::{Pose, Twist, wrap_angle};
+use runs::robot::Robot;
+use std::cell::Cell;
+use std::rc::Rc;
+use vision::localise::Estimate;
+use vision::onboard::Glance;
+
+/// Ticks between two pictures: five a second.
+const PICTURE_EVERY: u64 = 200;
+/// Ticks between two poses for the control loop.
+const POSE_EVERY: u64 = 16;
+
+/// Wheels, gyroscope and camera of a robot as one source of poses.
+#[derive(Debug)]
+pub struct OnBoard<F> {
+    robot: VirtualRobot<F>,
+    filter: Inertial,
+    imu: Imu,
+    before: Twist,
+    tick: u64,
+    period: f64,
+    eye: Option<SharedEye>,
+    senses: Senses,
+    /// Seconds of the story before this drive.
+    since: f64,
+    /// The pose at the last tick, for the next drive.
+    end: Rc<Cell<Pose>>,
+}
+
+impl<F: Fpga> OnBoard<F> {
+    pub(super) fn new(
+        robot: VirtualRobot<F>,
+        model: &Robot,
+        now: &Now,
+        senses: Senses,
+        eye: SharedEye,
+        end: Rc<Cell<Pose>>,
+    ) -> Self {
+        let sensor = ImuModel::icm_42688_p(model.control_rate_hz);
+        let geometry = model.geometry().expect("the robot drives by this geometry");
+        let [place, heading] = now.belief.standard_deviations();
+        let options = FusionOptions::of(model).uncalibrated();
+        let start_sd = [place, place, heading];
+        let mut filter =
+            Inertial::new(&geometry, model.counts_per_wheel_rad(), options, &sensor, now.belief.pose, start_sd);
+        let mut imu = Imu::new(sensor, 3);
+        // A second of rest before the start shows the gyroscope's bias.
+        let period = 1.0 / model.control_rate_hz;
+        let counts = robot.with_plant(model::plant::Plant::counts);
+        for k in 0..1000 {
+            filter.predict((f64::from(k) - 1000.0) * period, &counts, &imu.read(&Motion::default()));
+        }
+        let eye = (senses == Senses::Camera).then_some(eye);
+        Self { robot, filter, imu, before: Twist::default(), tick: 0, period, eye, senses, since: now.t, end }
+    }
+
+    fn motion(&mut self) -> (Motion, Vec<i64>, Pose) {
+        let (now, counts, pose, speeds) = self.robot.with_plant(|plant| {
+            let speeds = plant.wheel_speeds().map(f64::abs).sum::<f64>() / plant.wheel_speeds().count().max(1) as f64;
+            (plant.twist(), plant.counts(), plant.pose(), speeds)
+        });
+        let rate = |a: f64, b: f64| (a - b) / self.period;
+        let motion = Motion {
+            omega: [0.0, 0.0, now.omega],
+            omega_rate: [0.0, 0.0, rate(now.omega, self.before.omega)],
+            acceleration: [
+                rate(now.vx, self.before.vx) - now.omega * now.vy,
+                rate(now.vy, self.before.vy) + now.omega * now.vx,
+                0.0,
+            ],
+            wheel_speed: speeds,
+        };
+        self.before = now;
+        (motion, counts, pose)
+    }
+}
+
+impl<F: Fpga> PoseSource for OnBoard<F> {
+    fn arrived(&mut self, t: f64) -> Option<Pose> {
+        let (motion, counts, truth) = self.motion();
+        let reading = self.imu.read(&motion);
+        self.filter.predict(t, &counts, &reading);
+        self.tick += 1;
+        if self.tick.is_multiple_of(PICTURE_EVERY)
+            && let Some(eye) = &self.eye
+        {
+            let belief = Estimate { pose: self.filter.pose(), covariance: self.filter.covariance(), agreeing: 1.0 };
+            // The match holds the prediction already: the filter takes it over as it is.
+            if let Ok(Glance { pose: Ok(found), .. }) = eye.borrow_mut().look(self.since + t, truth, &belief) {
+                self.filter.adopt(found.pose, found.covariance);
+            }
+        }
+        let pose = self.filter.pose();
+        self.end.set(pose);
+        let due = self.senses != Senses::Wheels && self.tick.is_multiple_of(POSE_EVERY);
+        due.then(|| Pose::new(pose.x, pose.y, wrap_angle(pose.theta)))
+    }
+}
