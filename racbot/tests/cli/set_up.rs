@@ -141,3 +141,37 @@ fn two_wheels_and_dead_reckoning_are_compared_with_the_camera() {
     assert!(named.iter().all(|n| !n.starts_with("wheel-") || *n == "wheel-radius-common"), "{named:?}");
     racbot(folder.path(), &["calibrate", "odom"]).refused(1, &["odometry and no wheels"]);
 }
+
+#[test]
+fn a_strangers_log_becomes_a_run_by_a_drafted_map() {
+    let folder = tempdir().unwrap();
+    let rows: String = (0..400)
+        .map(|k| {
+            let t = f64::from(k) * 0.02;
+            let camera =
+                if k % 2 == 0 { format!("{:.1};{:.1};{:.2}", 1e3 * t, 50.0 * t, 10.0 * t) } else { ";;".to_owned() };
+            format!("{};{};{};{camera}\n", 5_000 + 20 * k, 40 * k, -38 * k).replace('.', ",")
+        })
+        .collect();
+    fs::create_dir(folder.path().join("set")).unwrap();
+    let text = "Zeit [ms];Motor 1 (ticks);Motor 2 (ticks);vision x;vision y;vision phi [deg]\n".to_owned() + &rows;
+    fs::write(folder.path().join("set/theirs.csv"), &text).unwrap();
+    // Beside a robot.toml as it is, the error says how to go on.
+    racbot(folder.path(), &["init", "set/robot.toml", "--track-mm", "200", "--radius-mm", "40"]).done();
+    racbot(folder.path(), &["check", "set"])
+        .refused(1, &["theirs.csv:1:1: t: no such column", "racbot convert --draft"]);
+    let list = racbot(folder.path(), &["convert", "--list", "set/theirs.csv"]).done();
+    assert!(list.stdout.contains("Zeit [ms]  the time, its unit 0.001 s"), "{}", list.stdout);
+    racbot(folder.path(), &["convert", "--draft", "set/theirs.csv", "map.toml"]).done().fits_80_columns();
+    racbot(folder.path(), &["convert", "--draft", "set/theirs.csv", "map.toml"]).refused(1, &["exists already"]);
+    racbot(folder.path(), &["convert", "map.toml", "set/theirs.csv", "run.csv"]).done();
+    let run = runs::Run::read(folder.path().join("run.csv")).unwrap();
+    assert_eq!((run.counts[1][399], run.camera.len()), (-38 * 399, 200));
+    assert!((run.t[399] - 399.0 * 0.02).abs() < 1e-9 && (run.camera[199].pose.x - 398.0 * 0.02).abs() < 1e-3);
+    let plain = racbot(folder.path(), &["convert", "set/theirs.csv", "out.csv"]);
+    plain.refused(2, &["give a map", "racbot convert --draft"]);
+    // A file without any time is listed nevertheless, by its rows.
+    fs::write(folder.path().join("bare.csv"), "a,b\n1,2\n3,4\n").unwrap();
+    let list = racbot(folder.path(), &["convert", "--list", "bare.csv"]).done();
+    assert!(list.stdout.contains("a  2 samples, 1.000000 to 3.000000"), "{}", list.stdout);
+}
