@@ -118,12 +118,13 @@ impl Options {
         let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
+        let logged = logged_robot(&plan.believed(), &scale, &plan.settings);
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut remarks = Vec::new();
         if self.camera && source.is_none() {
             remarks.push("there is no camera: the pose is odometry's alone".to_owned());
         }
-        let mut recording = self.recorder().start(robot.wheel_count(), source.is_some())?;
+        let mut recording = self.recorder().start(&logged, source.is_some())?;
         if let Some(recording) = recording.as_mut().filter(|_| pace != Pace::Real) {
             recording.wait_where_full();
         }
@@ -136,7 +137,7 @@ impl Options {
             .drive(Board::new(registers), &mut clock, clock_hz, &mut source, recording.as_mut(), &stop)
             .map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish);
-        let robot_file = self.recorder().robot_beside(&logged_robot(&plan.believed(), &scale, &plan.settings))?;
+        let robot_file = self.recorder().robot_beside(&logged)?;
         let (recorded, failed) = match recorded.transpose() {
             Ok(recorded) => (recorded, None),
             Err(error) => (None, Some(error.to_string())),

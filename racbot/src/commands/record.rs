@@ -16,14 +16,15 @@ pub(crate) struct Record<'a> {
 }
 
 impl Record<'_> {
-    /// Starts the recording and makes the folders above it.
-    pub(crate) fn start(self, wheels: usize, camera: bool) -> Result<Option<Recording>, Failure> {
+    /// Starts the recording of this robot, which an MCAP has in it, and makes the folders above it.
+    pub(crate) fn start(self, robot: &Robot, camera: bool) -> Result<Option<Recording>, Failure> {
         let Some(file) = self.file else { return Ok(None) };
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
         }
-        let layout = Layout::of_robot(wheels, camera);
-        Recording::start(file, layout, self.target.existing()).map(Some).map_err(Failure::data)
+        let layout = Layout::of_robot(robot.wheel_count(), camera);
+        let recording = Recording::start_of(file, layout, self.target.existing(), Some(&robot.to_toml()));
+        recording.map(Some).map_err(Failure::data)
     }
 
     /// Makes a data set of the recording's folder, unless it is one already; what there is to say of its robot.toml.

@@ -214,8 +214,9 @@ impl Options {
         let ReadyCard { name, registers, clock_hz, clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
+        let logged = logged_robot(&plan.believed(), &scale, &plan.settings);
         let recorder = Record { file: self.record.as_deref(), target: self.target };
-        let mut recording = recorder.start(robot.wheel_count(), source.is_some())?;
+        let mut recording = recorder.start(&logged, source.is_some())?;
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut sockets = self.open(&[])?;
         let rights = Rights::acquire(self.priority);
@@ -226,7 +227,7 @@ impl Options {
         let link = Link { board: Board::new(registers), clock_hz, clock, source, recording: recording.as_mut() };
         let driven = ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish).transpose().map_err(Failure::data)?;
-        let robot_file = recorder.robot_beside(&logged_robot(&plan.believed(), &scale, &plan.settings))?;
+        let robot_file = recorder.robot_beside(&logged)?;
         let traffic = sockets.traffic();
         let (ended, wrong) = match &driven.ending {
             Ending::Fault(fault) => ("with a fault", Some(format!("{name}: {fault}"))),
