@@ -142,6 +142,24 @@ fn two_wheels_and_dead_reckoning_are_compared_with_the_camera() {
     racbot(folder.path(), &["calibrate", "odom"]).refused(1, &["odometry and no wheels"]);
 }
 
+/// The camera saw a robot on one spot: what its noise makes of that is no mistake.
+#[test]
+fn a_robot_that_only_turned_is_set_up_right() {
+    let folder = tempdir().unwrap();
+    let spin = ["simulate", "--skew-deg", "5,0,-2", "--manoeuvre", "spin", "--times", "3", "--out", "spin"];
+    racbot(folder.path(), &spin).done();
+    let check = racbot(folder.path(), &["check", "spin"]).done();
+    assert!(check.stdout.contains("no set-up mistake"), "{}", check.stdout);
+    racbot(folder.path(), &["calibrate", "spin"]).done();
+    // Turns alone tell a diameter and clockwise headings.
+    let robot = folder.path().join("spin/robot.toml");
+    let text = fs::read_to_string(&robot).unwrap();
+    let wide = text.replace("wheel_radius_m = 0.0275", "wheel_radius_m = 0.055");
+    assert_ne!(wide, text);
+    fs::write(&robot, wide).unwrap();
+    racbot(folder.path(), &["check", "spin"]).refused(1, &["1 set-up mistake"]);
+}
+
 #[test]
 fn a_strangers_log_becomes_a_run_by_a_drafted_map() {
     let folder = tempdir().unwrap();
