@@ -263,8 +263,8 @@ fn text(out: &mut String, [x, y]: [f64; 2], anchor: &str, class: &str, content: 
         writeln!(out, "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{content}</text>");
 }
 
-/// Text for XML; characters that XML 1.0 forbids become the replacement character.
-fn escape(text: &str) -> String {
+/// Text for XML and HTML; characters that XML 1.0 forbids become the replacement character.
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
