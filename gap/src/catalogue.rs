@@ -6,7 +6,7 @@ use model::effects::Applied;
 use runs::robot::{Effect as Written, EffectParameter, Robot};
 
 use crate::effect::{Effect, Link};
-use crate::effects::{catalogue, exact_equation};
+use crate::effects::{catalogue_for, exact_equation};
 use crate::report::{short, unit};
 
 /// Effects of the links that are replayed instead of fitted.
@@ -54,7 +54,7 @@ pub struct Range {
 pub fn descriptions() -> Vec<Description> {
     let robot = Robot::racbot();
     let mut all: Vec<Description> =
-        catalogue().iter().filter(|e| !e.probe()).map(|e| describe(e.as_ref(), &robot)).collect();
+        catalogue_for(2).iter().filter(|e| !e.probe()).map(|e| describe(e.as_ref(), &robot)).collect();
     for (name, link, parameters) in EXACT {
         let range = |name: &&str| Range { name: (*name).to_owned(), unit: unit(name), bounds: None, material: None };
         let parameters: Vec<Range> = parameters.iter().map(range).collect();

@@ -161,10 +161,15 @@ impl Table {
     }
 }
 
-/// Text with its parts between backquotes as code, broken only where they have spaces.
+/// Text with its parts between backquotes as code, broken only where they have spaces: not between the hyphens of an
+/// option.
 fn with_code(text: &str) -> String {
+    let code = |part: &str| {
+        let words: Vec<String> = part.split(' ').map(|word| format!("<span>{}</span>", escape(word))).collect();
+        format!("<code>{}</code>", words.join(" "))
+    };
     let parts = text.split('`').zip(0_u32..);
-    parts.map(|(part, i)| if i % 2 == 0 { escape(part) } else { format!("<code>{}</code>", escape(part)) }).collect()
+    parts.map(|(part, i)| if i % 2 == 0 { escape(part) } else { code(part) }).collect()
 }
 
 #[cfg(test)]
@@ -181,9 +186,11 @@ mod tests {
         page.table(&table);
         let html = page.finish();
         assert!(!html.contains("<script>") && !html.contains("<b>"), "{html}");
-        for part in
-            ["run <code>racbot &quot;x&quot;</code>", "<td data-of=\"two\">2 &amp; 3</td>", "<title>a &lt;b&gt;"]
-        {
+        for part in [
+            "run <code><span>racbot</span> <span>&quot;x&quot;</span></code>",
+            "<td data-of=\"two\">2 &amp; 3</td>",
+            "<title>a &lt;b&gt;",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
     }

@@ -66,6 +66,35 @@ fn init_writes_a_robot_that_reads_and_asks_once_for_what_a_log_needs() {
 }
 
 #[test]
+fn a_servo_on_a_bench_is_a_robot_of_one_axis() {
+    let folder = tempdir().unwrap();
+    // A motor of 1.2 ohm and 0.05 Nm/A at 24 V with 0.004 Nm of friction, 8192 counts a turn, no gear.
+    let (mut speed, mut angle, mut rows) = (0.0_f64, 0.0_f64, String::new());
+    for k in 0..6_000 {
+        let t = f64::from(k) * 1e-3;
+        let duty = ((0.5 * (4.0 * t).sin() + 0.3 * (11.0 * t).sin()) * 1e3).round() / 1e3;
+        let counts = (angle / std::f64::consts::TAU * 8192.0).floor();
+        rows += &format!("{},{counts},{:.1},24\n", 1_000 * k, 100.0 * duty);
+        for _ in 0..10 {
+            let current = (24.0 * duty - 0.05 * speed) / 1.2;
+            speed += 1e-4 * (0.05 * current - 0.004 * (speed / 0.05).tanh()) / 2e-5;
+            angle += 1e-4 * speed;
+        }
+    }
+    fs::write(folder.path().join("servo.csv"), "time_us,pos_counts,pwm_percent,vbus\n".to_owned() + &rows).unwrap();
+    racbot(folder.path(), &["convert", "--draft", "servo.csv", "map.toml"]).done();
+    racbot(folder.path(), &["convert", "map.toml", "servo.csv", "set/run_1.csv"]).done();
+    let init = ["init", "set/robot.toml", "--axis", "--log", "set", "--gear", "1", "--counts-per-motor-rev", "8192"];
+    racbot(folder.path(), &init)
+        .refused(2, &["--supply-v", "--resistance-ohm", "--torque-constant", "--rotor-inertia"]);
+    let motor = ["--supply-v", "24", "--resistance-ohm", "1.2", "--torque-constant", "0.05", "--rotor-inertia", "2e-5"];
+    racbot(folder.path(), &[&init[..], &motor].concat()).done();
+    racbot(folder.path(), &["check", "set"]).done();
+    let gap = racbot(folder.path(), &["gap", "set", "--out", "out"]).done();
+    assert!(gap.stdout.contains("coulomb-friction"), "{}", gap.stdout);
+}
+
+#[test]
 fn a_log_with_x_forward_millimetres_and_degrees_is_converted_and_calibrates_as_the_original() {
     let folder = tempdir().unwrap();
     let original = runs::Run::read(data("runs/wheel-skew/run_01.csv")).unwrap();

@@ -187,8 +187,16 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     }
 }
 
-/// The wheel that a name numbers, from 0.
+/// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.
 fn number(words: &[&str]) -> Option<usize> {
+    let has = |word: &str| words.contains(&word);
+    match (has("right"), has("left"), has("front"), has("rear") || has("back")) {
+        (right, left, front, rear) if right != left && front != rear => {
+            return Some(usize::from(right) + 2 * usize::from(rear));
+        }
+        (right, left, false, false) if right != left => return Some(usize::from(left)),
+        _ => {}
+    }
     let corner = |word: &&str| CORNERS.iter().position(|corner| corner == word);
     let digits = |word: &&str| {
         let number = word.trim_start_matches(|c: char| c.is_ascii_alphabetic());
@@ -269,7 +277,7 @@ mod tests {
             "timestamp,/cmd_vel/linear/x,/cmd_vel/angular/z,/left_wheel/ticks,/right_wheel/ticks,/mocap/pose/x,/mocap/pose/y,/mocap/pose/yaw",
             ["1.0,0.1,0.2,1,2,0.5,0.6,1.0", "1.1,0.1,0.2,3,4,,,", "1.2,0.1,0.2,5,6,0.5,0.6,1.0"],
         );
-        for line in ["cmd_vx = \"/cmd_vel/linear/x\"", "cmd_w = ", "enc_1 = \"/left_wheel/ticks\"", "cam_theta = "] {
+        for line in ["cmd_vx = \"/cmd_vel/linear/x\"", "cmd_w = ", "enc_2 = \"/left_wheel/ticks\"", "cam_theta = "] {
             assert!(two.contains(line), "{line}\n{two}");
         }
         let mecanum = drafted("t,fl,fr,rl,rr,x,y,yaw", ["0,0,1,2,3,0.1,0.2,0.3", "1,0,1,2,3,,,", "2,0,1,2,3,1,2,3"]);
@@ -282,11 +290,11 @@ mod tests {
             assert!(servo.contains(line), "{line}\n{servo}");
         }
         let joints = drafted(
-            "__time,/joint_states/left_wheel/position,/joint_states/left_wheel/velocity,/pose/position/x,/pose/position/y,/pose/orientation/x,/pose/orientation/y,/pose/orientation/z,/pose/orientation/w,mode",
+            "__time,/joint_states/right_wheel/position,/joint_states/right_wheel/velocity,/pose/position/x,/pose/position/y,/pose/orientation/x,/pose/orientation/y,/pose/orientation/z,/pose/orientation/w,mode",
             ["0,0.25,1,1,2,0,0,0.6,0.8,7", "1,0.5,1,1,2,0,0,0.6,0.8,7", "2,1.75,1,1,2,0,0,0.6,0.8,7"],
         );
         for line in [
-            "enc_1 = { from = \"/joint_states/left_wheel/position\", unit = \"rad\", counts_per_rev",
+            "enc_1 = { from = \"/joint_states/right_wheel/position\", unit = \"rad\", counts_per_rev",
             "speed_1 = ",
             "cam_theta = \"/pose/orientation/yaw\"",
             "# \"mode\", 7 to 7",

@@ -10,7 +10,6 @@ use super::options::{Hidden, load_robot};
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
-use model::firmware::Firmware;
 use result::Calibrated;
 use runs::DataSet;
 use runs::robot::Robot;
@@ -70,8 +69,14 @@ impl Options {
             Procedure::Paper => self.paper()?,
         };
         answer.json["configuration"] = calibrated.words();
+        let files = match &self.out {
+            Some(folder) => calibrated.save(folder, self.target, &answer.text)?,
+            None => Vec::new(),
+        };
+        if let Some(firmware) = calibrated.firmware() {
+            answer.text += &format!("\nInto your firmware\n{}\n", firmware.c_arrays());
+        }
         if let Some(folder) = &self.out {
-            let files = calibrated.save(folder, self.target, &answer.text)?;
             answer.text += &wrapped(&format!("written to {}: {}", folder.display(), files.join(", ")), 2);
         }
         Ok(answer)
@@ -111,10 +116,6 @@ impl Options {
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
         let mut text = hints + &estimate::text(&estimate);
-        if let Some(firmware) = Firmware::corrected(&set.robot, &found) {
-            text += "\nInto your firmware\n";
-            text += &firmware.c_arrays();
-        }
         // Logs come from robots of any kind; words and drives are for those that the card can drive.
         let whole = set.robot.missing.is_empty();
         let card = if whole { Calibrated::new(&set.robot, &found, &found).ok() } else { None };

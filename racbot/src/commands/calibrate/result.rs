@@ -3,7 +3,6 @@
 use crate::terminal::{Failure, Target};
 use driver::Scale;
 use fixed_kin::registers::{CONFIGURATION, NOMINAL_CLOCK_HZ};
-#[cfg(feature = "simulation")]
 use model::firmware::Firmware;
 #[cfg(feature = "simulation")]
 use plot::page::Page;
@@ -89,6 +88,11 @@ impl Calibrated {
         self.words.iter().map(|(offset, word)| json!({ "offset": offset, "word": word })).collect()
     }
 
+    /// What its owner types into a program of his own.
+    pub(super) fn firmware(&self) -> Option<Firmware> {
+        Firmware::of(&self.robot).ok()
+    }
+
     /// What stands in `index.html`: the answer as the terminal shows it, what to type in, the pictures.
     #[cfg(feature = "simulation")]
     fn page(&self, text: &str) -> String {
@@ -97,7 +101,7 @@ impl Calibrated {
         let words = (!self.words.is_empty()).then_some(words);
         page.links(std::iter::once(("robot.toml", "the calibrated robot.toml")).chain(words));
         page.verbatim(text);
-        if let Ok(found) = Firmware::of(&self.robot) {
+        if let Some(found) = self.firmware() {
             page.heading("Into your firmware");
             page.verbatim(&found.c_arrays());
         }
