@@ -70,7 +70,7 @@ pub fn draft(table: &Table) -> String {
     );
     out.push_str("\n[columns]\n");
     for Guess { series, column, unit } in &guesses {
-        let angle = matches!(column, Column::Counts(_)) && *unit != "";
+        let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
         let value = match *unit {
             "" => quoted(&series.name),
             unit if angle => format!(
@@ -136,14 +136,13 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
         known.iter().any(|name| words.contains(name) || name.contains('_') && lower.contains(name))
     };
     // A pose has axes, a wheel has none: `/pose/position/x` is no encoder.
-    let kinds = WORDS.iter().map(|(kind, _)| *kind).filter(|kind| has(*kind));
+    let mut kinds = WORDS.iter().map(|(kind, _)| *kind).filter(|kind| has(*kind));
     let kind = kinds
-        .filter(|kind| match kind {
+        .find(|kind| match kind {
             Kind::Command | Kind::Camera | Kind::Odometry | Kind::Gyro | Kind::Acceleration => axis.is_some(),
             Kind::Supply => true,
             _ => axis.is_none(),
         })
-        .next()
         .or_else(|| wordless(&words, axis, series))?;
     let kind = if kind == Kind::Counts && said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm") {
         Kind::Speed
