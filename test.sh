@@ -109,13 +109,7 @@ book() {
         cargo install -q mdbook --version 0.5.4 --locked --no-default-features --root "$book_tools" &&
             mdbook=$book_tools/bin/mdbook
     }
-    local said
-    said=$("$mdbook" build docs/book --dest-dir "$(realpath -m "${CARGO_TARGET_DIR:-target}")/book" 2>&1) || {
-        printf '%s\n' "$said"
-        return 1
-    }
-    # What mdBook only warns of is wrong, too.
-    if grep -E 'WARN|ERROR' <<<"$said"; then return 1; fi
+    "$mdbook" build docs/book --dest-dir "$(realpath -m "${CARGO_TARGET_DIR:-target}")/book"
 }
 stage "the book" book
 # Built by the test that looks at it, so that the virtual machine's tests find it ready.
