@@ -101,7 +101,7 @@ if [ -x "$python_environment/bin/pip" ]; then
 else
     skipped+=("the Python package: no environment in $python_environment, see the tools from PyPI")
 fi
-# mdBook is in no Debian before 13 and in no other registry: built once from its crate, without its server.
+# mdBook is neither in Debian 12 nor on PyPI (npm's is another program): built once from its crate, without its server.
 book_tools=$(realpath -m "${CARGO_TARGET_DIR:-target}")/tools
 book() {
     local mdbook=$book_tools/bin/mdbook
