@@ -273,7 +273,9 @@ impl Options {
         }
         let names: Vec<_> = files.iter().filter_map(|f| f.file_name()).map(|f| f.to_string_lossy()).collect();
         let folder = files[0].parent().unwrap_or(Path::new(""));
-        let _ = writeln!(text, "written      {}: {}", folder.display(), names.join(", "));
+        // The label's width stands for its white space, which wrapping would take.
+        let written = wrapped(&format!("written------{}: {}", folder.display(), names.join(", ")), 13);
+        text += &written.replacen("written------", "written      ", 1);
         let mut json = to_json(drive, timed);
         json["fpga"] = json!(self.fpga.kind().to_string());
         json["files"] = json!(files);
