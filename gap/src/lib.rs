@@ -13,6 +13,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod analysis;
+pub mod catalogue;
 mod command;
 mod controller;
 pub mod drive;

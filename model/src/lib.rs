@@ -28,6 +28,7 @@
 pub mod calibration;
 pub mod camera;
 pub mod effects;
+pub mod firmware;
 pub mod fit;
 pub mod fusion;
 pub mod imu;

@@ -1,4 +1,5 @@
-//! Plots as SVG text: lines and points over axes with units, for reports, print and phones.
+//! Plots as SVG text: lines and points over axes with units, for reports, print and phones; and the frame of the pages
+//! that they stand on.
 //!
 //! ```
 //! use plot::{Axis, Figure, Panel, Series};
@@ -8,6 +9,7 @@
 //! ```
 
 mod axis;
+pub mod page;
 mod svg;
 
 /// One picture: panels side by side or below each other.

@@ -7,7 +7,8 @@ use super::{Color, Figure, Mark, Panel, Series};
 
 /// Width of a panel with its margins, px; text of 15 px is still 9 px on a phone 360 px wide.
 const PANEL_WIDTH: f64 = 600.0;
-const LEFT: f64 = 74.0;
+/// Room for a tick's label of six characters beside the axis's caption.
+const LEFT: f64 = 84.0;
 const RIGHT: f64 = 18.0;
 const BOTTOM: f64 = 54.0;
 const TITLE: f64 = 34.0;
@@ -135,7 +136,7 @@ impl Layout {
             text(out, [self.left - 8.0, py + 5.0], "end", "k", &label(v, sy));
         }
         text(out, [self.left + self.width / 2.0, bottom + 43.0], "middle", "a", &panel.x.caption());
-        let (x, y) = (18.0, self.top + self.height / 2.0);
+        let (x, y) = (15.0, self.top + self.height / 2.0);
         let caption = escape(&panel.y.caption());
         let _ = writeln!(
             out,
@@ -263,8 +264,8 @@ fn text(out: &mut String, [x, y]: [f64; 2], anchor: &str, class: &str, content: 
         writeln!(out, "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{content}</text>");
 }
 
-/// Text for XML; characters that XML 1.0 forbids become the replacement character.
-fn escape(text: &str) -> String {
+/// Text for XML and HTML; characters that XML 1.0 forbids become the replacement character.
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

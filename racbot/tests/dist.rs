@@ -101,3 +101,63 @@ fn the_rule_matches_the_card_that_the_driver_finds() {
         assert!(text.contains(&format!("ATTR{{{attribute}}}==\"0x{id:04x}\"")), "{attribute}");
     }
 }
+
+fn release(folder: &Path, arguments: &[&str]) -> std::process::Output {
+    Command::new(dist("release.sh")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn said(output: &std::process::Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// The command that is tested stands for both of the archive's: building them takes minutes and is a stage of test.sh.
+#[test]
+fn the_release_archive_is_whole_and_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = env!("CARGO_BIN_EXE_racbot");
+    let make = |out: &str| {
+        let made = release(folder.path(), &["--out", out, "--pc", command, "--robot", command]);
+        assert!(made.status.success(), "{}", said(&made));
+        folder.path().join(said(&made).trim())
+    };
+    let archive = make("a");
+    assert_eq!(fs::read(&archive).unwrap(), fs::read(make("b")).unwrap(), "two archives of the same differ");
+    let run = |program: &str, arguments: &[&str], place: &Path| {
+        let output = Command::new(program).args(arguments).current_dir(place).output().unwrap();
+        assert!(output.status.success(), "{program}: {}", said(&output));
+        said(&output)
+    };
+    let name = archive.file_name().unwrap().to_str().unwrap();
+    run("sha256sum", &["-c", &format!("{name}.sha256")], &folder.path().join("a"));
+    run("tar", &["-xzf", archive.to_str().unwrap()], folder.path());
+    let root = folder.path().join(name.strip_suffix(".tar.gz").unwrap());
+    run("sha256sum", &["--quiet", "-c", "SHA256SUMS"], &root);
+    let listed = fs::read_to_string(root.join("SHA256SUMS")).unwrap().lines().count();
+    let there = run("find", &[".", "-type", "f"], &root).lines().count();
+    assert_eq!(listed + 1, there, "files without a checksum");
+    for file in [
+        "robot/rac4i65.bit",
+        "robot/racbot-load.service",
+        "robot/60-racbot.rules",
+        "share/man/man1/racbot-gap.1",
+        "share/completions/racbot.zsh",
+        "LICENSE-MIT",
+    ] {
+        assert!(fs::metadata(root.join(file)).is_ok_and(|f| f.len() > 100), "{file}");
+    }
+    assert!(run("robot/racbot", &["--version"], &root).starts_with("racbot 0."));
+    let checked = run("bin/racbot", &["load", "--check", "robot/rac4i65.bit"], &root);
+    assert!(checked.contains("2s200"), "{checked}");
+    let pages: Vec<String> = run("ls", &["share/man/man1"], &root).lines().map(str::to_owned).collect();
+    assert!(pages.len() > 20, "{pages:?}");
+}
+
+#[test]
+fn a_release_with_wrong_words_makes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, what) in [(&["--zip", "x"][..], "--zip: unknown"), (&["--out"], "its value is missing")] {
+        let refused = release(folder.path(), arguments);
+        assert!(refused.status.code() == Some(2) && said(&refused).contains(what), "{}", said(&refused));
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}

@@ -207,6 +207,10 @@ impl<'a> Reader<'a> {
             } else {
                 match nearest("t", &names).or_else(|| names.iter().find(|n| n.starts_with("time")).copied()) {
                     Some(name) if !name.is_empty() => format!("name the column with the time in seconds t, not {name}"),
+                    _ if columns.iter().all(|c| *c == Column::Other) => {
+                        "none of its columns is ours: `racbot convert --draft` writes a map to convert it with"
+                            .to_owned()
+                    }
                     _ => "log the time in seconds in a column named t".to_owned(),
                 }
             };

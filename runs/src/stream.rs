@@ -137,6 +137,14 @@ pub trait RunStream: Send {
     /// What the medium reports.
     fn tick(&mut self, tick: &Tick<'_>) -> io::Result<()>;
 
+    /// Puts a file into the run, such as the robot's, where the format has room for it; a CSV has none.
+    ///
+    /// # Errors
+    /// What the medium reports.
+    fn attach(&mut self, _name: &str, _text: &str) -> io::Result<()> {
+        Ok(())
+    }
+
     /// Hands all that was taken to the operating system.
     ///
     /// # Errors

@@ -1,17 +1,20 @@
 //! Other people's reader understands our MCAP: the Python library of the format's makers, with its protobuf
 //! decoder, which knows our messages from the file alone.
 
-use runs::Run;
+use runs::output::Existing;
+use runs::robot::Robot;
+use runs::{Layout, Run};
 use std::path::Path;
 use std::process::Command;
 
 const SCRIPT: &str = r#"
+import math
 import sys
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
 units = {}
-ticks, poses, counts, duty, topics = 0, 0, 0, 0.0, set()
+ticks, poses, drawn, counts, duty, topics = 0, 0, 0, 0, 0.0, set()
 with open(sys.argv[1], "rb") as file:
     reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
     for schema in reader.get_summary().schemas.values():
@@ -26,9 +29,26 @@ with open(sys.argv[1], "rb") as file:
             assert abs(message.log_time * 1e-9 - decoded.t) < 1e-8
             ticks, counts, duty = ticks + 1, counts + decoded.enc_3, duty + decoded.duty_1
             assert not decoded.HasField("supply_v") or decoded.supply_v > 0
-        else:
+        elif channel.topic == "/racbot/camera":
             poses += 1
-    assert reader.get_summary().statistics.message_count == ticks + poses
+            x, y, theta = decoded.cam_x, decoded.cam_y, decoded.cam_theta
+        else:
+            # What 3D views draw: the same place, and x forward.
+            drawn += 1
+            if schema.name == "foxglove.PoseInFrame":
+                assert decoded.frame_id == "field"
+                place, turn = decoded.pose.position, decoded.pose.orientation
+            else:
+                assert (decoded.parent_frame_id, decoded.child_frame_id) == ("field", "robot")
+                place, turn = decoded.translation, decoded.rotation
+            assert decoded.timestamp.ToNanoseconds() == message.log_time
+            assert abs(place.x - x) + abs(place.y - y) < 1e-12
+            off = 2 * math.atan2(turn.z, turn.w) - theta - math.pi / 2
+            assert abs(math.remainder(off, 2 * math.pi)) < 1e-9
+    assert drawn == 2 * poses
+    assert reader.get_summary().statistics.message_count == ticks + 3 * poses
+    robot, = reader.iter_attachments()
+    assert robot.name == "robot.toml" and b"wheel_radius_m" in robot.data
 print(ticks, poses, counts, round(duty, 6), *sorted(topics))
 "#;
 
@@ -44,12 +64,24 @@ fn the_python_library_reads_every_tick_and_pose() {
     let run = Run::read(data).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.mcap");
-    run.write(&path).unwrap();
+    let layout = Layout {
+        command: true,
+        references: 3,
+        counts: 3,
+        duties: 3,
+        supply: run.supply_v.is_some(),
+        camera: true,
+        ..Layout::default()
+    };
+    let mut stream = runs::create(&path, layout, 0, Existing::Refuse).unwrap();
+    stream.attach("robot.toml", &Robot::racbot().to_toml()).unwrap();
+    run.stream_to(&mut *stream).unwrap();
+    assert_eq!(Run::read(&path).unwrap().len(), run.len());
     let output = python(&["-c", SCRIPT, path.to_str().unwrap()]).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let duty = (run.duty[0].iter().sum::<f64>() * 1e6).round() / 1e6;
     let expected = format!(
-        "{} {} {} {duty} racbot.Camera racbot.Tick",
+        "{} {} {} {duty} foxglove.FrameTransform foxglove.PoseInFrame racbot.Camera racbot.Tick",
         run.len(),
         run.camera.len(),
         run.counts[2].iter().sum::<i64>()

@@ -8,7 +8,7 @@
 /// Standard gravity, m/s².
 const GRAVITY: f64 = model::plant::GRAVITY;
 
-/// A ball.
+/// The league's golf ball, in field coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ball {
     /// Centre above the field: x, y, and height of the lowest point over the floor, m.

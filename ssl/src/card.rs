@@ -20,9 +20,9 @@ const CHARGE_LIMIT_S: f64 = 4.0;
 /// A robot on a card, by its team and number.
 #[derive(Debug)]
 pub struct CardRobot {
-    /// Its team.
+    /// The port whose commands it hears.
     pub team: Team,
-    /// Its number.
+    /// Its number in the team, 0 to 15.
     pub id: u32,
     pilot: Rc<RefCell<Pilot>>,
     ball: bool,
@@ -42,7 +42,7 @@ impl Robots for CardRobot {
 /// What a card's drive needs beside the sockets.
 #[derive(Debug)]
 pub struct Link<'a, R, C, P> {
-    /// The card.
+    /// A card that runs our design, not yet armed.
     pub board: Board<R>,
     /// Its measured clock, Hz.
     pub clock_hz: f64,

@@ -44,7 +44,7 @@ pub enum Code {
 }
 
 impl Code {
-    /// All of them.
+    /// Every code, in the order of their declaration.
     pub const ALL: [Self; 18] = [
         Self::Unreadable,
         Self::TooMany,

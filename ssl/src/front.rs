@@ -22,7 +22,7 @@ const LARGEST: f32 = 1_000.0;
 /// Steepest chip kick, degrees.
 const STEEPEST: f32 = 75.0;
 
-/// A team.
+/// A team: told by the port alone, no message of a robot carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Team {
     /// Port 10301.

@@ -54,7 +54,7 @@ impl Default for Addresses {
     }
 }
 
-/// What has come and gone.
+/// Datagrams and frames since the sockets were opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
     /// Datagrams that were heard.
@@ -116,7 +116,7 @@ impl Sockets {
         Ok([self.control.local_addr()?, self.teams[0].1.local_addr()?, self.teams[1].1.local_addr()?])
     }
 
-    /// What has come and gone.
+    /// Datagrams and frames so far.
     #[must_use]
     pub fn traffic(&self) -> Traffic {
         Traffic { refused: self.gate.refused, ..self.traffic }
@@ -201,7 +201,7 @@ pub struct Served {
     pub lost: u64,
     /// Longest time by which a step was late, s.
     pub latest_s: f64,
-    /// Traffic.
+    /// Datagrams and frames of the whole time.
     pub traffic: Traffic,
 }
 

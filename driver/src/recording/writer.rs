@@ -65,10 +65,26 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`] where the file cannot be created, or exists and is to stay.
     pub fn start(file: &Path, layout: Layout, existing: Existing) -> Result<Self, RecordingError> {
+        Self::start_of(file, layout, existing, None)
+    }
+
+    /// The same with the text of the robot's `robot.toml` in the file, where that is an MCAP.
+    ///
+    /// # Errors
+    /// As [`Recording::start`].
+    pub fn start_of(
+        file: &Path,
+        layout: Layout,
+        existing: Existing,
+        robot: Option<&str>,
+    ) -> Result<Self, RecordingError> {
         let fail = |cause: io::Error| RecordingError { file: file.to_owned(), cause };
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let start_ns = u64::try_from(now.as_nanos()).unwrap_or(0);
-        let stream = create(file, layout, start_ns, existing).map_err(fail)?;
+        let mut stream = create(file, layout, start_ns, existing).map_err(fail)?;
+        if let Some(robot) = robot {
+            stream.attach("robot.toml", robot).map_err(fail)?;
+        }
         Self::onto(stream, file, layout.counts).map_err(fail)
     }
 

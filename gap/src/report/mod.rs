@@ -1,11 +1,14 @@
 //! The analysis as JSON, as text for a terminal, as a page, and as files.
 
+mod firmware;
 mod html;
 mod json;
 mod regimes;
 mod terminal;
 mod units;
 mod words;
+
+pub(crate) use units::si as unit;
 
 use runs::output::{Existing, check_free, write_whole};
 use std::path::Path;

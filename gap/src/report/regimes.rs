@@ -1,6 +1,6 @@
 //! The regime map: in which situations each signal is off, before and after.
 
-use std::fmt::Write as _;
+use plot::page::Table;
 
 use crate::analysis::{Analysis, Moment};
 use crate::statistics::rms;
@@ -21,7 +21,7 @@ fn regimes(speed: f64, median: f64, gain: f64, late: bool) -> [bool; COLUMNS.len
     [true, !fast, fast, speed > 0.0, speed < 0.0, gain > 0.0, gain < 0.0, late]
 }
 
-pub(super) fn table(a: &Analysis) -> Option<String> {
+pub(super) fn table(a: &Analysis) -> Option<Table> {
     let mut rows: Vec<(String, Vec<Sample>)> = Vec::new();
     if let Some([before, after]) = &a.motion {
         for (i, name) in ["camera x", "camera y", "camera heading"].iter().enumerate() {
@@ -36,26 +36,20 @@ pub(super) fn table(a: &Analysis) -> Option<String> {
     if rows.is_empty() {
         return None;
     }
-    let mut out = String::from("<div class=\"w\"><table class=\"m\"><tr><th>signal</th>");
-    for c in COLUMNS {
-        let _ = write!(out, "<th>{c}</th>");
-    }
-    out.push_str("</tr>");
+    let headers: Vec<&str> = std::iter::once("signal").chain(COLUMNS).collect();
+    let mut table = Table::new(&headers).heat();
     for (name, samples) in rows {
-        let _ = write!(out, "<tr><td>{name}</td>");
-        for column in 0..COLUMNS.len() {
+        let cells = (0..COLUMNS.len()).map(|column| {
             let own = || samples.iter().filter(|s| s.regimes[column]);
             if own().count() < 5 {
-                out.push_str("<td>–</td>");
-                continue;
+                return ("–".to_owned(), None);
             }
             let (before, after) = (rms(own().map(|s| s.before)), rms(own().map(|s| s.after)));
-            let _ = write!(out, "<td style=\"background:{}\">{before:.1} → {after:.1}</td>", colour(before));
-        }
-        out.push_str("</tr>");
+            (format!("{before:.1} → {after:.1}"), Some(colour(before)))
+        });
+        table.coloured(std::iter::once((name, None)).chain(cells));
     }
-    out.push_str("</table></div>");
-    Some(out)
+    Some(table)
 }
 
 /// White at the floor, orange from five floors.

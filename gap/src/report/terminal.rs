@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{short, units, words};
+use super::{firmware, short, units, words};
 use crate::analysis::{Analysis, Verdict, overall};
 
 /// Columns of a terminal.
@@ -26,9 +26,9 @@ pub(super) fn summary(a: &Analysis) -> String {
                 &mut out,
                 "  ",
                 &format!(
-                    "{}{on}: closes {:.0} % of the link's squared gap, {}",
+                    "{}{on}: closes {} of the link's squared gap, {}",
                     e.name,
-                    100.0 * e.gain,
+                    words::percent(e.gain),
                     e.evidence.words()
                 ),
             );
@@ -41,6 +41,9 @@ pub(super) fn summary(a: &Analysis) -> String {
                 let _ = writeln!(out, "{}", line.chars().take(WIDTH).collect::<String>().trim_end());
             }
         }
+    }
+    for line in words::own(a) {
+        wrap(&mut out, "  ", &line);
     }
     for set in &a.alternatives {
         wrap(&mut out, "  ", &format!("cannot be told apart: {}", words::tied(set)));
@@ -65,6 +68,10 @@ pub(super) fn summary(a: &Analysis) -> String {
     }
     for r in a.remains.iter().map(|r| format!("{r}.")).collect::<Vec<_>>().iter().chain(&a.remarks) {
         wrap(&mut out, "  ", r);
+    }
+    if let Some(found) = firmware::of(a) {
+        out.push_str("\nInto your firmware, as found\n");
+        out.push_str(&found.c_arrays());
     }
     if a.verdict == Verdict::Agrees {
         out.push_str("\nWould be named, nine times of ten, from\n");

@@ -22,6 +22,28 @@ fn unit(name: &str) -> (f64, &'static str) {
     }
 }
 
+/// The SI unit that a parameter's name ends in; empty for a ratio.
+pub(crate) fn si(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 15] = [
+        ("_rad_s", "rad/s"),
+        ("_rad_m", "rad m"),
+        ("_rad", "rad"),
+        ("_nms", "N m s"),
+        ("_nm", "N m"),
+        ("_s_per_kg", "s/kg"),
+        ("_per_m2", "1/m²"),
+        ("_n", "N"),
+        ("_ohm", "Ω"),
+        ("_v", "V"),
+        ("_a", "A"),
+        ("_m", "m"),
+        ("_s", "s"),
+        ("_kg", "kg"),
+        ("_ticks", "ticks"),
+    ];
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
+}
+
 /// The name without its unit, such as `skew 1`.
 pub(super) fn label(name: &str) -> String {
     let units = ["_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];

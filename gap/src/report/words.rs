@@ -22,12 +22,50 @@ pub(super) fn effect(e: &Named) -> String {
         .map(|(name, x, ci)| format!("{} {}", units::label(name), units::interval(name, *x, ci.ends())))
         .collect();
     format!(
-        "{}{place}: {}. Without it {:.0} % of the {} link's squared gap come back.",
+        "{}{place}: {}. Without it {} of the {} link's squared gap come back.",
         e.name,
         values.join(", "),
-        100.0 * e.gain,
+        percent(e.gain),
         e.link.name()
     )
+}
+
+/// A share for people.
+pub(super) fn percent(share: f64) -> String {
+    if (0.0..0.01).contains(&share) { "less than 1 %".to_owned() } else { format!("{:.0} %", 100.0 * share) }
+}
+
+/// What became of effects that came from the user: each has its line, named or not.
+pub(super) fn own(a: &Analysis) -> Vec<String> {
+    let of_user = |name: &&String| crate::effects::find(name).is_none();
+    let line = |name: &String| {
+        if a.effects.iter().any(|e| e.name == *name) {
+            return format!("{name}, an effect of yours, is named.");
+        }
+        if let Some(set) = a.alternatives.iter().find(|set| set.contains(name)) {
+            let named: Vec<&str> = set.iter().filter(|n| *n != name).map(String::as_str).collect();
+            return format!(
+                "{name}, an effect of yours, is not named: here it cannot be told from {}.",
+                named.join(", ")
+            );
+        }
+        let limits: Vec<String> = a
+            .limits
+            .iter()
+            .filter(|l| l.name == *name)
+            .map(|l| {
+                let (x, sd, limit) = (super::short(l.estimate), super::short(l.sd), super::short(l.limit));
+                format!("{} is {x}, standard deviation {sd}, and named from {limit}", l.parameter)
+            })
+            .collect();
+        if limits.is_empty() {
+            return format!(
+                "{name}, an effect of yours, is not named: these logs do not show it, or another effect hides it."
+            );
+        }
+        format!("{name}, an effect of yours, is not named: {}.", limits.join("; "))
+    };
+    a.tried.iter().filter(of_user).map(line).collect()
 }
 
 /// Which links agree as they are, and which do not.

@@ -24,6 +24,9 @@ const MOST: usize = 3000;
 const EQUAL: (f64, f64) = (1.6, 0.04);
 /// Share of the motion that is left at most where the log is read as it was meant.
 const FITS: f64 = 0.35;
+/// Share of the squared way of the wheels below which a robot did not turn, or did nothing else: what a camera's noise or
+/// a marker beside the centre then make of the rest says nothing.
+const LITTLE: f64 = 0.02;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;
 
@@ -123,11 +126,17 @@ fn fit(
     let left_r = if tt > 0.0 { 1.0 - wt.max(0.0).powi(2) / (ww * tt).max(1e-300) } else { 1.0 };
     // Lengths by the counts say how much of the motion is a turn.
     let share = rim * rim * ww / (rim * rim * ww + pp).max(1e-300);
-    let turns = share > 0.02;
-    let left = if turns { 0.5 * (left_t + left_r) } else { left_t };
+    let turns = share > LITTLE;
+    let goes = bb > LITTLE * (bb + rim * rim * tt);
+    let left = match (goes, turns) {
+        (true, true) => 0.5 * (left_t + left_r),
+        (false, true) => left_r,
+        (_, false) => left_t,
+    };
     let image = reading.clockwise && reading.down;
     let camera = if image { 1.0 } else { f64::from(u8::from(reading.clockwise)) + f64::from(u8::from(reading.down)) };
-    let turn = im.atan2(re);
+    let only_turns = turns && !goes;
+    let (scale, turn) = if only_turns { (spin, 0.0) } else { (scale, im.atan2(re)) };
     let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;

@@ -9,7 +9,7 @@ use serde_json::json;
 #[derive(Args, Debug)]
 #[command(after_help = "racbot completions bash > ~/.local/share/bash-completion/completions/racbot")]
 pub(crate) struct Options {
-    /// The shell
+    /// Shell that is to understand the script
     #[arg(value_enum)]
     shell: Shell,
 }

@@ -2,7 +2,7 @@
 
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
-use runs::import::{Map, Table};
+use runs::import::{Clock, Map, Table, draft};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -20,8 +20,12 @@ pub(crate) struct Options {
     files: Vec<PathBuf>,
 
     /// List the series of a file
-    #[arg(long)]
+    #[arg(long, conflicts_with = "draft")]
     list: bool,
+
+    /// Write a first map for a file, guessed from names and ranges: `racbot convert --draft IN map.toml`
+    #[arg(long)]
+    draft: bool,
 
     #[command(flatten)]
     target: Target,
@@ -29,14 +33,33 @@ pub(crate) struct Options {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        match (&self.files[..], self.list) {
-            ([file], true) => list(file),
-            ([map, file, out], false) => self.convert(map, file, out),
-            (_, true) => Err(Failure::usage("--list: give one file")),
+        match &self.files[..] {
+            [file] if self.list => list(file),
+            _ if self.list => Err(Failure::usage("--list: give one file")),
+            [file] if self.draft => self.draft(file, None),
+            [file, map] if self.draft => self.draft(file, Some(map)),
+            _ if self.draft => Err(Failure::usage("--draft: give the file to read, and the map to write")),
+            [map, file, out] => self.convert(map, file, out),
             _ => Err(Failure::usage(
-                "give a map, a file to read and a file to write; `racbot convert --list FILE` shows what a file holds",
+                "give a map, a file to read and a file to write; `racbot convert --draft IN map.toml` writes a first \
+                 map, `racbot convert --list IN` shows what a file holds",
             )),
         }
+    }
+
+    fn draft(&self, file: &Path, map: Option<&PathBuf>) -> Result<Answer, Failure> {
+        self.target.check_free(map)?;
+        let text = draft(&survey(file)?);
+        let Some(map) = map else { return Ok(Answer { json: json!({ "map": text }), text, wrong: None }) };
+        self.target.save(map, &text)?;
+        let json = json!({ "map": map });
+        let said = format!(
+            "{}: check every line, then racbot convert {} {} OUT.csv",
+            map.display(),
+            map.display(),
+            file.display()
+        );
+        Ok(Answer { text: wrapped(&said, 2), json, wrong: None })
     }
 
     fn convert(&self, map: &Path, file: &Path, out: &Path) -> Result<Answer, Failure> {
@@ -45,7 +68,7 @@ impl Options {
         }
         self.target.check_free([out])?;
         let map = Map::load(map)?;
-        let table = Table::read(file, map.format(), map.time()?)?;
+        let table = Table::read(file, map.format(), &map.time()?)?;
         let run = map.run(&table, file)?;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|error| runs::error::InputError::io(folder, &error))?;
@@ -66,11 +89,19 @@ impl Options {
     }
 }
 
+/// Everything in a file, of a CSV without a column of time by its rows.
+fn survey(file: &Path) -> Result<Table, Failure> {
+    Ok(Table::read(file, None, &Clock { rows: true, ..Clock::default() })?)
+}
+
 fn list(file: &Path) -> Result<Answer, Failure> {
-    let table = Table::read(file, None, (None, 1.0))?;
+    let table = survey(file)?;
     let mut text = String::new();
+    if let Some((name, unit)) = &table.time {
+        text += &format!("{name}  the time, its unit {unit} s\n");
+    }
     for s in &table.series {
-        let (low, high) = s.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+        let [low, high] = s.range();
         text += &format!("{}  {} samples, {low:.6} to {high:.6}\n", s.name, s.values.len());
     }
     let json = json!({ "series": table.series.iter().map(|s| json!({ "name": s.name, "samples": s.values.len() })).collect::<Vec<_>>() });

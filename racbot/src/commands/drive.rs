@@ -1,5 +1,6 @@
 //! `racbot drive`
 
+use super::record::Record;
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
 use crate::terminal::{Answer, Failure, Table, Target, entry};
@@ -11,11 +12,10 @@ use driver::realtime::{Rights, stop_on_signals};
 use driver::recording::{Recorded, Recording, logged_robot};
 use fixed_kin::speed::SpeedMode;
 use model::trajectory::{Arrival, SetPoint};
-use runs::Layout;
 use runs::robot::Robot;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Options of `drive`.
 #[derive(Args, Debug)]
@@ -126,12 +126,13 @@ impl Options {
         let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
+        let logged = logged_robot(&plan.believed(), &scale, &plan.settings);
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut remarks = Vec::new();
         if self.camera && source.is_none() {
             remarks.push("there is no camera: the pose is odometry's alone".to_owned());
         }
-        let mut recording = self.record(robot.wheel_count(), source.is_some())?;
+        let mut recording = self.recorder().start(&logged, source.is_some())?;
         if let Some(recording) = recording.as_mut().filter(|_| pace != Pace::Real) {
             recording.wait_where_full();
         }
@@ -146,7 +147,7 @@ impl Options {
         #[cfg(feature = "vision")]
         remarks.extend(refused.into_iter().flat_map(|refused| refused()));
         let recorded = recording.map(Recording::finish);
-        let robot_file = self.robot_beside(&logged_robot(&plan.believed(), &scale, &plan.settings))?;
+        let robot_file = self.recorder().robot_beside(&logged)?;
         let (recorded, failed) = match recorded.transpose() {
             Ok(recorded) => (recorded, None),
             Err(error) => (None, Some(error.to_string())),
@@ -206,25 +207,8 @@ impl Options {
         Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, ..plan }
     }
 
-    fn record(&self, wheels: usize, camera: bool) -> Result<Option<Recording>, Failure> {
-        let Some(file) = &self.record else { return Ok(None) };
-        if let Some(folder) = file.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
-        }
-        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing())
-            .map(Some)
-            .map_err(Failure::data)
-    }
-
-    /// Makes a data set of the recording's folder, unless it is one already.
-    fn robot_beside(&self, robot: &Robot) -> Result<Option<String>, Failure> {
-        let Some(file) = &self.record else { return Ok(None) };
-        let path = file.parent().unwrap_or(Path::new("")).join("robot.toml");
-        if path.exists() {
-            return Ok(Some(format!("{}, as it was", path.display())));
-        }
-        self.target.save(&path, &robot.to_toml())?;
-        Ok(Some(path.display().to_string()))
+    fn recorder(&self) -> Record<'_> {
+        Record { file: self.record.as_deref(), target: self.target }
     }
 }
 

@@ -3,9 +3,10 @@
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
+use gap::catalogue::{Description, descriptions};
 use gap::effect::Effect;
 use gap::user::UserEffect;
-use runs::error::InputError;
+use runs::error::{InputError, nearest};
 use runs::output::{Existing, write_whole};
 use runs::robot::Robot;
 use serde_json::json;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Folder with robot.toml and runs (*.csv); with --undo it may be left out
-    #[arg(value_name = "DATASET", required_unless_present = "undo")]
+    #[arg(value_name = "DATASET", required_unless_present_any = ["undo", "list"])]
     data_set: Option<PathBuf>,
 
     /// Another robot.toml than the data set's own; it may carry effects
@@ -39,12 +40,19 @@ pub(crate) struct Options {
     /// Take an effect out of a robot.toml (--robot, or that of the data set) again; analyse nothing
     #[arg(long, value_name = "NAME")]
     undo: Option<String>,
+
+    /// List the catalogue of effects, or describe one; analyse nothing
+    #[arg(long, value_name = "NAME", num_args = 0..=1, conflicts_with_all = ["undo", "data_set"])]
+    list: Option<Option<String>>,
 }
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         if let Some(name) = &self.undo {
             return self.undo(name);
+        }
+        if let Some(name) = &self.list {
+            return list(name.as_deref());
         }
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
         let set = super::check::open(folder, self.robot.as_deref())?;
@@ -83,6 +91,39 @@ impl Options {
         let text = wrapped(&format!("{name} is taken out of {}", file.display()), 2);
         Ok(Answer { text, json: json!({ "removed": name, "robot": file }), wrong: None })
     }
+}
+
+/// The catalogue in lines, or an effect's own page.
+fn list(name: Option<&str>) -> Result<Answer, Failure> {
+    let all = descriptions();
+    let Some(name) = name else {
+        let line = |d: &Description| {
+            format!("{} ({})\n{}", d.name, d.links[0].name(), wrapped(&format!("- {}", d.short()), 2))
+        };
+        let text: String = all.iter().map(line).collect();
+        return Ok(Answer {
+            text,
+            json: json!({ "effects": all.iter().map(to_json).collect::<Vec<_>>() }),
+            wrong: None,
+        });
+    };
+    let Some(found) = all.iter().find(|d| d.name == name) else {
+        let names: Vec<&str> = all.iter().map(|d| d.name.as_str()).collect();
+        let hint = nearest(name, &names).map_or_else(String::new, |near| format!("; did you mean {near}?"));
+        return Err(Failure::usage(format!("--list: the catalogue has no effect {name}{hint}")));
+    };
+    Ok(Answer { text: found.markdown(), json: to_json(found), wrong: None })
+}
+
+fn to_json(d: &Description) -> serde_json::Value {
+    json!({
+        "name": d.name, "links": d.links.iter().map(|l| l.name()).collect::<Vec<_>>(), "equation": d.equation,
+        "reference": d.reference, "simulated": d.simulated,
+        "parameters": d.parameters.iter().map(|p| json!({
+            "name": p.name, "unit": p.unit, "bounds": p.bounds, "material": p.material,
+        })).collect::<Vec<_>>(),
+        "measurement": d.measurement.as_ref().map(|(how, minutes)| json!({ "how": how, "minutes": minutes })),
+    })
 }
 
 fn unknown_effect(file: &Path, robot: &Robot, name: &str) -> InputError {

@@ -39,6 +39,14 @@ pub(crate) struct Options {
     #[arg(long, value_name = "BASE,TRACK", conflicts_with = "wheels", value_delimiter = ',', num_args = 1)]
     mecanum_mm: Vec<f64>,
 
+    /// One axis alone on a bench, such as a servo or a linear drive: a motor, its gear and a load
+    #[arg(long, conflicts_with_all = ["wheels", "track_mm", "mecanum_mm"])]
+    axis: bool,
+
+    /// With --axis: moment of inertia of the load at the output shaft [default: 0]
+    #[arg(long, value_name = "KGM2", requires = "axis")]
+    load_inertia: Option<f64>,
+
     /// Radius of the wheels
     #[arg(long, value_name = "MM")]
     radius_mm: Option<f64>,
@@ -140,7 +148,7 @@ impl Options {
             key(
                 "wheel_radius_m",
                 "--radius-mm",
-                self.radius_mm.map(|r| 1e-3 * r),
+                self.radius_mm.map(|r| 1e-3 * r).or(self.axis.then_some(1.0)),
                 speeds || log.is_none(),
                 "wheel radius",
             ),
@@ -173,16 +181,17 @@ impl Options {
                 false,
                 "camera frames a second; else taken from the log",
             ),
-            key("mass_kg", "--mass-kg", self.mass_kg, drives, "mass of the whole robot"),
-            key(
-                "yaw_inertia_kg_m2",
-                "--yaw-inertia",
-                self.yaw_inertia.or(disc),
-                drives,
-                "moment of inertia about the vertical",
-            ),
-            key("supply_v", "--supply-v", self.supply_v, duties, "motor supply"),
         ]);
+        if self.axis {
+            let load = Some(self.load_inertia.unwrap_or(0.0));
+            keys.push(key("wheel_inertia_kg_m2", "", load, false, "load at the output shaft"));
+        } else {
+            let inertia = self.yaw_inertia.or(disc);
+            let meaning = "moment of inertia about the vertical";
+            keys.push(key("mass_kg", "--mass-kg", self.mass_kg, drives, "mass of the whole robot"));
+            keys.push(key("yaw_inertia_kg_m2", "--yaw-inertia", inertia, drives, meaning));
+        }
+        keys.extend([key("supply_v", "--supply-v", self.supply_v, duties, "motor supply")]);
         let motor = [
             key("resistance_ohm", "--resistance-ohm", self.resistance_ohm, duties, "terminal resistance"),
             key("torque_constant", "--torque-constant", self.torque_constant, drives, "Nm/A"),
@@ -191,7 +200,7 @@ impl Options {
         ];
         let mut missing: Vec<String> = Vec::new();
         if wheels.is_empty() && (speeds || log.is_none()) {
-            missing.push("--wheels DEG,.. with --body-radius-mm (or --track-mm, or --mecanum-mm)".to_owned());
+            missing.push("--wheels DEG,.. with --body-radius-mm (or --track-mm, --mecanum-mm, --axis)".to_owned());
         }
         let asked = keys.iter().chain(&motor).filter(|k| k.needed && k.value.is_none());
         missing.extend(asked.map(|k| format!("{} ({})", k.flag, k.meaning)));
@@ -203,7 +212,8 @@ impl Options {
         // What was written must be read.
         Robot::parse_partial(&text, &self.file)?;
         self.target.save(&self.file, &text)?;
-        let said = format!("{} with {} wheels\n", self.file.display(), wheels.len());
+        let what = if self.axis { "one axis".to_owned() } else { format!("{} wheels", wheels.len()) };
+        let said = format!("{} with {what}\n", self.file.display());
         Ok(Answer { text: said, json: json!({ "robot": self.file, "wheels": wheels.len() }), wrong: None })
     }
 
@@ -213,6 +223,9 @@ impl Options {
         let numbers = lengths.into_iter().flatten().chain(self.mecanum_mm.iter().copied());
         if numbers.chain(self.gear).any(|x| !(x.is_finite() && x > 0.0)) || self.wheels.iter().any(|x| !x.is_finite()) {
             return Err(Failure::usage("lengths and ratios are positive numbers, angles numbers"));
+        }
+        if self.axis {
+            return Ok(vec![[0.0; 4]]);
         }
         if let Some(track) = self.track_mm {
             let half = 0.5e-3 * track;
@@ -252,6 +265,10 @@ impl Options {
                 None => writeln!(out, "# {} =   # {}", k.name, k.meaning),
             };
         };
+        if self.axis {
+            out +=
+                "support = \"blocks\"  # no floor: the axis alone; of a linear axis travel_per_rev_m may stand here\n";
+        }
         keys.iter().for_each(|k| line(&mut out, k));
         let known = motor.iter().any(|k| k.value.is_some_and(|x| x != 0.0));
         let _ = writeln!(out, "\n{}", if known { "[motor]" } else { "# [motor]" });

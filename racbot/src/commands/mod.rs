@@ -26,6 +26,7 @@ mod monitor;
 #[cfg(feature = "simulation")]
 mod options;
 mod radio;
+mod record;
 #[cfg(feature = "simulation")]
 mod replay;
 mod serve;

@@ -1,5 +1,6 @@
 //! `racbot serve`
 
+use super::record::Record;
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
 use crate::terminal::{Answer, Failure, Target, entry};
@@ -9,14 +10,13 @@ use driver::drive::{Ending, NoSource, Plan, PoseSource};
 use driver::pci::Use;
 use driver::realtime::{Rights, stop_on_signals};
 use driver::recording::{Recording, logged_robot};
-use runs::Layout;
 use runs::robot::Robot;
 use serde_json::json;
 use ssl::card::Link;
 use ssl::front::Team;
 use ssl::server::{Addresses, Sockets, Traffic};
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Options of `serve`.
 #[derive(Args, Debug)]
@@ -214,7 +214,9 @@ impl Options {
         let ReadyCard { name, registers, clock_hz, clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
-        let mut recording = self.record(robot.wheel_count(), source.is_some())?;
+        let logged = logged_robot(&plan.believed(), &scale, &plan.settings);
+        let recorder = Record { file: self.record.as_deref(), target: self.target };
+        let mut recording = recorder.start(&logged, source.is_some())?;
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut sockets = self.open(&[])?;
         let rights = Rights::acquire(self.priority);
@@ -225,12 +227,7 @@ impl Options {
         let link = Link { board: Board::new(registers), clock_hz, clock, source, recording: recording.as_mut() };
         let driven = ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish).transpose().map_err(Failure::data)?;
-        if let Some(file) = &self.record {
-            let beside = file.parent().unwrap_or(Path::new("")).join("robot.toml");
-            if !beside.exists() {
-                self.target.save(&beside, &logged_robot(&plan.believed(), &scale, &plan.settings).to_toml())?;
-            }
-        }
+        let robot_file = recorder.robot_beside(&logged)?;
         let traffic = sockets.traffic();
         let (ended, wrong) = match &driven.ending {
             Ending::Fault(fault) => ("with a fault", Some(format!("{name}: {fault}"))),
@@ -243,22 +240,15 @@ impl Options {
         if let Some(recorded) = &recorded {
             text += &entry("recorded", &format!("{}: {} ticks", recorded.file.display(), recorded.ticks));
         }
+        if let Some(file) = &robot_file {
+            text += &entry("robot", file);
+        }
         let json = json!({
             "card": name, "t_s": driven.t, "ticks": driven.ticks, "unseen": driven.unseen, "ended": ended,
             "outputs_off": driven.switched_off.is_ok(), "heard": traffic.heard, "refused": traffic.refused,
             "recorded": recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
         });
         Ok(Answer { text, json, wrong })
-    }
-
-    fn record(&self, wheels: usize, camera: bool) -> Result<Option<Recording>, Failure> {
-        let Some(file) = &self.record else { return Ok(None) };
-        if let Some(folder) = file.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
-        }
-        Recording::start(file, Layout::of_robot(wheels, camera), self.target.existing())
-            .map(Some)
-            .map_err(Failure::data)
     }
 }
 
@@ -277,6 +267,7 @@ impl Options {
     fn simulate(&self) -> Result<Answer, Failure> {
         use driver::realtime::{Clock, MonotonicClock};
         use ssl::server::{Served, run, run_in_lock_step};
+        use std::sync::atomic::AtomicBool;
         use std::time::Duration;
 
         let mut world = self.world()?;
@@ -289,7 +280,7 @@ impl Options {
         }
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut sockets = self.open(&vision)?;
-        let stop: &std::sync::atomic::AtomicBool = &stop;
+        let stop: &AtomicBool = &stop;
         let limit = self.seconds.map(Duration::from_secs_f64);
         let mut told = 0;
         let progress = |served: &Served| {

@@ -48,6 +48,14 @@ struct Picture {
 }
 
 impl Report {
+    /// All in a sentence.
+    fn outcome(&self) -> String {
+        match self.parts.iter().find(|part| !part.good) {
+            None => format!("All {} parts came out as they should.", self.parts.len()),
+            Some(part) => format!("{} is wrong: {}.", part.name, part.outcome),
+        }
+    }
+
     /// The report's files: the page with everything, and the pictures alone.
     pub(crate) fn files(&self) -> Vec<(String, String)> {
         let pictures = self.pictures.iter().map(|p| (format!("{}.svg", p.name), p.svg.clone()));

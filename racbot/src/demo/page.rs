@@ -1,39 +1,31 @@
 //! The report as one page that needs no other file.
 
 use super::Report;
-use std::fmt::Write as _;
-
-const STYLE: &str = "body{font:16px/1.5 'Helvetica Neue',Helvetica,Arial,'DejaVu Sans',sans-serif;color:#1a1a1a;\
-max-width:46rem;margin:2rem auto;padding:0 1rem}h1{font-size:1.5rem}table{border-collapse:collapse;width:100%}\
-th,td{text-align:left;vertical-align:top;padding:.35rem .8rem .35rem 0;border-bottom:1px solid #ddd}\
-td:last-child{white-space:nowrap}.good{color:#00795a}.wrong{color:#b34700;font-weight:600}\
-figure{margin:2rem 0}figcaption{color:#444;font-size:.95rem}svg{max-width:100%;height:auto}";
+use plot::page::{Page, Table};
 
 /// The page.
 pub(super) fn html(report: &Report) -> String {
-    let mut body = String::from("<h1>racbot demo</h1>\n<table>\n<tr><th>part</th><th>result</th><th></th></tr>\n");
+    let mut page = Page::new("racbot demo");
+    page.links([
+        ("board/gap/report.html", "the gap report of the drives over the card"),
+        ("board/gap/robot.toml", "robot.toml with what it named"),
+        ("board/runs/robot.toml", "the data set: board/runs"),
+    ]);
+    page.verdict(&report.outcome());
+    let mut table = Table::new(&["part", "result", ""]);
     for part in &report.parts {
-        let details: Vec<String> = part.details.iter().map(|line| escape(line)).collect();
-        let (class, mark) = if part.good { ("good", "ok") } else { ("wrong", "wrong") };
-        let _ = writeln!(
-            body,
-            "<tr><td>{}</td><td>{}</td><td class=\"{class}\">{mark}</td></tr>",
-            escape(part.name),
-            details.join("<br>")
-        );
+        let mark = if part.good { "ok" } else { "wrong" };
+        table.row([part.name.to_owned(), part.details.join("\n"), mark.to_owned()]);
     }
-    body.push_str("</table>\n");
+    page.table(&table);
+    page.note(NEXT);
     for picture in &report.pictures {
-        let _ =
-            writeln!(body, "<figure>\n{}<figcaption>{}</figcaption>\n</figure>", picture.svg, escape(&picture.caption));
+        page.figure(&picture.svg, &picture.caption);
     }
-    format!(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>racbot demo</title>\
-         <style>{STYLE}</style></head>\n<body>\n{body}</body></html>\n"
-    )
+    page.finish()
 }
 
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
+/// What a reader does with the rest of his evening.
+const NEXT: &str = "Next, your own logs: `racbot convert --draft LOG map.toml` guesses which column is what, \
+`racbot convert map.toml LOG my/run_01.csv` makes a run of it, `racbot init my/robot.toml --log my` asks for what it needs, \
+`racbot check my` finds mistakes, `racbot gap my` says what your model leaves out.";

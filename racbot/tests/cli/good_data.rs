@@ -87,6 +87,45 @@ fn the_gap_of_a_skewed_robot_is_named_and_taken_back() {
 }
 
 #[test]
+fn the_gap_says_what_to_type_in_and_what_became_of_ones_own_effect() {
+    let folder = tempdir().unwrap();
+    let (set, own) = (data("runs/wheel-skew"), data("effects/air-drag.toml"));
+    let arguments = ["gap", set.to_str().unwrap(), "--effect", own.to_str().unwrap(), "--out", "gap"];
+    let outcome = racbot(folder.path(), &arguments).done().fits_80_columns();
+    assert!(outcome.stdout.contains("air-drag, an effect of yours, is not named"), "{}", outcome.stdout);
+    let report = fs::read_to_string(folder.path().join("gap/report.html")).unwrap();
+    assert!(report.contains("air-drag, an effect of yours, is not named"));
+    let line = outcome.stdout.lines().skip_while(|l| !l.contains("wheels_from_body[3][3]")).nth(1).unwrap();
+    assert!(report.contains(line), "{line}");
+    // Wheel 1, in front, drives to the right; skewed by 4 degrees clockwise, a little to the back.
+    let row: Vec<f64> = line
+        .trim_matches([' ', '{', '}', ','])
+        .split("f, ")
+        .map(|x| x.trim_end_matches('f').parse().unwrap())
+        .collect();
+    let (skew, r) = (4.0_f64.to_radians(), 0.0275);
+    let true_row = [-skew.sin() / r, -skew.cos() / r, -0.085 * skew.cos() / r];
+    assert!(row.iter().zip(true_row).all(|(a, b)| (a - b).abs() < 0.3), "{row:?} {true_row:?}");
+}
+
+#[test]
+fn the_catalogue_is_listed_and_described() {
+    let folder = tempdir().unwrap();
+    let list = racbot(folder.path(), &["gap", "--list"]).done().fits_80_columns();
+    assert!(
+        list.stdout.contains("wheel-skew (motion)") && list.stdout.contains("pi-gain (controller)"),
+        "{}",
+        list.stdout
+    );
+    let page = racbot(folder.path(), &["gap", "--list", "gear-backlash"]).done();
+    assert!(page.stdout.contains("play_i_rad") && page.stdout.contains("Nordin and Gutman 2002"), "{}", page.stdout);
+    racbot(folder.path(), &["gap", "--list", "wheel-skw"])
+        .refused(2, &["no effect wheel-skw; did you mean wheel-skew?"]);
+    let json = racbot(folder.path(), &["--json", "gap", "--list"]).done().json();
+    assert!(json["effects"].as_array().unwrap().len() > 40);
+}
+
+#[test]
 fn the_seed_decides_the_run() {
     let folder = tempdir().unwrap();
     let drive = |seed: &str, out: &str| {
@@ -252,7 +291,9 @@ fn what_is_there_stays_unless_it_is_to_be_replaced() {
         run(arguments).refused(1, &[target, "exists already", "--force"]);
         assert_eq!(read(target), b"precious", "{arguments:?}");
         run(&[arguments, &["--force"]].concat()).done();
-        assert_eq!(read(target).len(), good.len(), "{arguments:?}");
+        // Stamps of an MCAP's poses are as long as the time of day makes them.
+        let slack = if target.ends_with(".mcap") { good.len() / 100 } else { 0 };
+        assert!(read(target).len().abs_diff(good.len()) <= slack, "{arguments:?}");
         // No temporary file is left behind.
         let parent = folder.path().join(target);
         let hidden = fs::read_dir(parent.parent().unwrap()).unwrap();

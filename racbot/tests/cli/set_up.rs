@@ -66,6 +66,35 @@ fn init_writes_a_robot_that_reads_and_asks_once_for_what_a_log_needs() {
 }
 
 #[test]
+fn a_servo_on_a_bench_is_a_robot_of_one_axis() {
+    let folder = tempdir().unwrap();
+    // A motor of 1.2 ohm and 0.05 Nm/A at 24 V with 0.004 Nm of friction, 8192 counts a turn, no gear.
+    let (mut speed, mut angle, mut rows) = (0.0_f64, 0.0_f64, String::new());
+    for k in 0..6_000 {
+        let t = f64::from(k) * 1e-3;
+        let duty = ((0.5 * (4.0 * t).sin() + 0.3 * (11.0 * t).sin()) * 1e3).round() / 1e3;
+        let counts = (angle / std::f64::consts::TAU * 8192.0).floor();
+        rows += &format!("{},{counts},{:.1},24\n", 1_000 * k, 100.0 * duty);
+        for _ in 0..10 {
+            let current = (24.0 * duty - 0.05 * speed) / 1.2;
+            speed += 1e-4 * (0.05 * current - 0.004 * (speed / 0.05).tanh()) / 2e-5;
+            angle += 1e-4 * speed;
+        }
+    }
+    fs::write(folder.path().join("servo.csv"), "time_us,pos_counts,pwm_percent,vbus\n".to_owned() + &rows).unwrap();
+    racbot(folder.path(), &["convert", "--draft", "servo.csv", "map.toml"]).done();
+    racbot(folder.path(), &["convert", "map.toml", "servo.csv", "set/run_1.csv"]).done();
+    let init = ["init", "set/robot.toml", "--axis", "--log", "set", "--gear", "1", "--counts-per-motor-rev", "8192"];
+    racbot(folder.path(), &init)
+        .refused(2, &["--supply-v", "--resistance-ohm", "--torque-constant", "--rotor-inertia"]);
+    let motor = ["--supply-v", "24", "--resistance-ohm", "1.2", "--torque-constant", "0.05", "--rotor-inertia", "2e-5"];
+    racbot(folder.path(), &[&init[..], &motor].concat()).done();
+    racbot(folder.path(), &["check", "set"]).done();
+    let gap = racbot(folder.path(), &["gap", "set", "--out", "out"]).done();
+    assert!(gap.stdout.contains("coulomb-friction"), "{}", gap.stdout);
+}
+
+#[test]
 fn a_log_with_x_forward_millimetres_and_degrees_is_converted_and_calibrates_as_the_original() {
     let folder = tempdir().unwrap();
     let original = runs::Run::read(data("runs/wheel-skew/run_01.csv")).unwrap();
@@ -141,4 +170,56 @@ fn two_wheels_and_dead_reckoning_are_compared_with_the_camera() {
     let named: Vec<&str> = json["effects"].as_array().unwrap().iter().map(|e| e["name"].as_str().unwrap()).collect();
     assert!(named.iter().all(|n| !n.starts_with("wheel-") || *n == "wheel-radius-common"), "{named:?}");
     racbot(folder.path(), &["calibrate", "odom"]).refused(1, &["odometry and no wheels"]);
+}
+
+/// The camera saw a robot on one spot: what its noise makes of that is no mistake.
+#[test]
+fn a_robot_that_only_turned_is_set_up_right() {
+    let folder = tempdir().unwrap();
+    let spin = ["simulate", "--skew-deg", "5,0,-2", "--manoeuvre", "spin", "--times", "3", "--out", "spin"];
+    racbot(folder.path(), &spin).done();
+    let check = racbot(folder.path(), &["check", "spin"]).done();
+    assert!(check.stdout.contains("no set-up mistake"), "{}", check.stdout);
+    racbot(folder.path(), &["calibrate", "spin"]).done();
+    // Turns alone tell a diameter and clockwise headings.
+    let robot = folder.path().join("spin/robot.toml");
+    let text = fs::read_to_string(&robot).unwrap();
+    let wide = text.replace("wheel_radius_m = 0.0275", "wheel_radius_m = 0.055");
+    assert_ne!(wide, text);
+    fs::write(&robot, wide).unwrap();
+    racbot(folder.path(), &["check", "spin"]).refused(1, &["1 set-up mistake"]);
+}
+
+#[test]
+fn a_strangers_log_becomes_a_run_by_a_drafted_map() {
+    let folder = tempdir().unwrap();
+    let rows: String = (0..400)
+        .map(|k| {
+            let t = f64::from(k) * 0.02;
+            let camera =
+                if k % 2 == 0 { format!("{:.1};{:.1};{:.2}", 1e3 * t, 50.0 * t, 10.0 * t) } else { ";;".to_owned() };
+            format!("{};{};{};{camera}\n", 5_000 + 20 * k, 40 * k, -38 * k).replace('.', ",")
+        })
+        .collect();
+    fs::create_dir(folder.path().join("set")).unwrap();
+    let text = "Zeit [ms];Motor 1 (ticks);Motor 2 (ticks);vision x;vision y;vision phi [deg]\n".to_owned() + &rows;
+    fs::write(folder.path().join("set/theirs.csv"), &text).unwrap();
+    // Beside a robot.toml as it is, the error says how to go on.
+    racbot(folder.path(), &["init", "set/robot.toml", "--track-mm", "200", "--radius-mm", "40"]).done();
+    racbot(folder.path(), &["check", "set"])
+        .refused(1, &["theirs.csv:1:1: t: no such column", "racbot convert --draft"]);
+    let list = racbot(folder.path(), &["convert", "--list", "set/theirs.csv"]).done();
+    assert!(list.stdout.contains("Zeit [ms]  the time, its unit 0.001 s"), "{}", list.stdout);
+    racbot(folder.path(), &["convert", "--draft", "set/theirs.csv", "map.toml"]).done().fits_80_columns();
+    racbot(folder.path(), &["convert", "--draft", "set/theirs.csv", "map.toml"]).refused(1, &["exists already"]);
+    racbot(folder.path(), &["convert", "map.toml", "set/theirs.csv", "run.csv"]).done();
+    let run = runs::Run::read(folder.path().join("run.csv")).unwrap();
+    assert_eq!((run.counts[1][399], run.camera.len()), (-38 * 399, 200));
+    assert!((run.t[399] - 399.0 * 0.02).abs() < 1e-9 && (run.camera[199].pose.x - 398.0 * 0.02).abs() < 1e-3);
+    let plain = racbot(folder.path(), &["convert", "set/theirs.csv", "out.csv"]);
+    plain.refused(2, &["give a map", "racbot convert --draft"]);
+    // A file without any time is listed nevertheless, by its rows.
+    fs::write(folder.path().join("bare.csv"), "a,b\n1,2\n3,4\n").unwrap();
+    let list = racbot(folder.path(), &["convert", "--list", "bare.csv"]).done();
+    assert!(list.stdout.contains("a  2 samples, 1.000000 to 3.000000"), "{}", list.stdout);
 }

@@ -1,12 +1,12 @@
 //! The map: which series is which column, in which unit, sign and frame.
 
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{Format, Table, units};
+use super::{Clock, Format, Table, units};
 use crate::columns::{Column, GROUPS, missing_member};
 use crate::error::{InputError, line_and_column, nearest};
 use crate::frames::{Pose, Twist, wrap_angle};
@@ -101,6 +101,8 @@ struct Scaled {
     scale: Option<f64>,
     #[serde(default)]
     offset: f64,
+    /// Counts a turn of an encoder whose log has angles.
+    counts_per_rev: Option<f64>,
 }
 
 /// One column of the run to be.
@@ -152,18 +154,17 @@ impl Map {
         self.format.as_deref().and_then(Format::from_name)
     }
 
-    /// The time column of a CSV, if it names one, and the length of its unit, s.
+    /// What it says of the time column of a CSV.
     ///
     /// # Errors
     /// [`InputError`] for a unit that is none of time.
-    pub fn time(&self) -> Result<(Option<&str>, f64), InputError> {
-        Ok((self.time.column.as_deref(), self.time_unit()?))
+    pub fn time(&self) -> Result<Clock<'_>, InputError> {
+        Ok(Clock { column: self.time.column.as_deref(), unit_s: self.time_unit()?, rows: false })
     }
 
-    fn time_unit(&self) -> Result<f64, InputError> {
-        let unit = self.time.unit.as_deref().unwrap_or("s");
-        let known = ["s", "ms", "us", "ns"].contains(&unit);
-        units::factor(unit).filter(|_| known).ok_or_else(|| {
+    fn time_unit(&self) -> Result<Option<f64>, InputError> {
+        let Some(unit) = self.time.unit.as_deref() else { return Ok(None) };
+        units::of_time(unit).map(Some).ok_or_else(|| {
             InputError::new(Path::new(""), format!("{unit:?} is no unit of time"), "give s, ms, us or ns")
                 .field("time.unit")
         })
@@ -184,20 +185,33 @@ impl Map {
                 );
                 return Err(fail("is no column of a run".to_owned(), hint));
             }
-            let (from, unit, scale, offset) = match source {
-                Source::Name(from) => (from, "", 1.0, 0.0),
-                Source::Scaled(s) => (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset),
+            let (from, name, scale, offset, per_rev) = match source {
+                Source::Name(from) => (from, "", 1.0, 0.0, None),
+                Source::Scaled(s) => (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.counts_per_rev),
             };
-            let Some(unit) = units::factor(unit) else {
+            let angle = ["rad", "deg", "rev"].contains(&name);
+            let counted = matches!(column, Column::Counts(_));
+            if counted && units::factor(name).is_some() && !matches!(name, "" | "counts" | "lines") && per_rev.is_none()
+            {
+                let hint = "say what the encoder counts: counts_per_rev = 1440 beside unit = \"rad\", and \
+                            encoder_counts_per_wheel_rev = 1440 in robot.toml; any fine number, as 65536, where nobody knows";
+                return Err(fail(format!("counts cannot be in {name:?}"), hint.to_owned()));
+            }
+            if let Some(n) = per_rev.filter(|n| !(counted && angle && n.is_finite() && *n > 0.0)) {
+                let hint = "it is a positive number, for an enc_ column whose unit is rad, deg or rev";
+                return Err(fail(format!("counts_per_rev = {n} has no meaning here"), hint.to_owned()));
+            }
+            let Some(unit) = units::factor(name) else {
                 return Err(fail(
-                    format!("{unit:?} is no unit that is known"),
+                    format!("{name:?} is no unit that is known"),
                     format!("give one of {}, or a scale", units::names()),
                 ));
             };
             if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
                 return Err(fail("its scale or offset is no number".to_owned(), "such as scale = -1".to_owned()));
             }
-            wanted.push(Wanted { column, from, factor: unit * scale, offset });
+            let factor = unit * scale * per_rev.map_or(1.0, |n| n / TAU);
+            wanted.push(Wanted { column, from, factor, offset });
         }
         Ok(wanted)
     }
@@ -215,14 +229,26 @@ impl Map {
             let ours = ours.filter(|(column, _)| !matches!(column, Column::Other | Column::Time));
             wanted.extend(ours.map(|(column, from)| Wanted { column, from, factor: 1.0, offset: 0.0 }));
         }
-        let columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
+        let mut columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
+        // Two wheels on an axle are told no sideways velocity.
+        let sideways = Column::Command(if self.frame.x == Axis::Forward { 1 } else { 0 });
+        let others = (0..3).map(Column::Command).filter(|c| *c != sideways);
+        let straight = !columns.contains(&sideways) && others.into_iter().all(|c| columns.contains(&c));
+        if straight {
+            columns.push(sideways);
+        }
         if columns.is_empty() {
             let hint = table.suggestion("enc_1");
             return Err(InputError::new(path, "none of its series is a column of ours: name them in [columns]", hint));
         }
         for (group, at_least) in GROUPS {
             if let Some(column) = missing_member(&columns, group, at_least) {
-                let hint = "map the whole group of columns, or none of it";
+                let hint = match column {
+                    Column::Command(_) => {
+                        "map cmd_vx, cmd_vy and cmd_w (only the sideways one may be left out), or none"
+                    }
+                    _ => "map the whole group of columns, or none of it",
+                };
                 return Err(InputError::new(path, "no such column in the map", hint).field(column.name()));
             }
         }
@@ -244,6 +270,9 @@ impl Map {
         run.t = keys.iter().map(|k| (k - first) as f64 / 1e9).collect();
         let ticks = keys.len();
         run.reals_mut().into_iter().skip(1).for_each(|c| c.resize(ticks, f64::NAN));
+        if straight && let Some(slot) = run.real_mut(sideways) {
+            slot.fill(0.0);
+        }
         let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
         for (w, s) in wanted.iter().zip(&series) {
             let mut column = vec![f64::NAN; ticks];
@@ -253,7 +282,18 @@ impl Map {
                 }
             }
             match w.column {
-                Column::Counts(wheel) => counts(&mut run, wheel, &column),
+                Column::Counts(wheel) => {
+                    // Angles are counts only to rounding; what was never counted is no encoder's.
+                    let known: Vec<f64> = column.iter().copied().filter(|x| x.is_finite()).collect();
+                    let fractions = known.iter().filter(|x| (*x - x.round()).abs() > 0.01).count();
+                    if w.factor.abs() == 1.0 && 2 * fractions > known.len() {
+                        let hint = "an angle needs its unit: { from = ..., unit = \"rad\", counts_per_rev = 1440 }; a \
+                                    speed is a speed_ column";
+                        let what = format!("series {:?} has fractions, which no counter has", w.from);
+                        return Err(InputError::new(path, what, hint).field(w.column.name()));
+                    }
+                    counts(&mut run, wheel, &column);
+                }
                 Column::Camera(i) => camera.iter_mut().zip(&column).for_each(|(pose, x)| pose[i] = *x),
                 Column::Duty(_) => {
                     if let Some(x) = column.iter().find(|x| x.abs() > 1.001) {

@@ -5,6 +5,7 @@
 
 mod cdr;
 mod csv;
+mod draft;
 mod map;
 mod ros2;
 mod ssl;
@@ -15,6 +16,7 @@ use std::path::Path;
 
 use crate::error::{InputError, nearest};
 
+pub use draft::draft;
 pub use map::Map;
 pub use ssl::{field_size, is_game_log};
 
@@ -34,7 +36,20 @@ pub struct Series {
 pub struct Table {
     /// The series, in the order in which they appear.
     pub series: Vec<Series>,
+    /// The column of time of a CSV and its unit, s.
+    pub time: Option<(String, f64)>,
     index: std::collections::HashMap<String, usize>,
+}
+
+/// The column of time of a CSV; other files have their own.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Clock<'a> {
+    /// Its name; else the one that is named like time.
+    pub column: Option<&'a str>,
+    /// Its unit, s; else the one in its name, else a second.
+    pub unit_s: Option<f64>,
+    /// Count rows where there is no such column.
+    pub rows: bool,
 }
 
 /// A kind of file.
@@ -74,12 +89,19 @@ impl Format {
     }
 }
 
+impl Series {
+    /// Least and greatest value.
+    pub fn range(&self) -> [f64; 2] {
+        self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)])
+    }
+}
+
 impl Table {
-    /// Reads a file. `time` names the time column of a CSV and how many of its units make a second.
+    /// Reads a file. `time` says what the map says of the time column of a CSV.
     ///
     /// # Errors
     /// [`InputError`] with the place (line and column of a CSV, byte of the others) of what cannot be read.
-    pub fn read(path: &Path, format: Option<Format>, time: (Option<&str>, f64)) -> Result<Self, InputError> {
+    pub fn read(path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
         let bytes = std::fs::read(path).map_err(|e| InputError::io(path, &e))?;
         Self::of_bytes(&bytes, path, format, time)
     }
@@ -88,12 +110,7 @@ impl Table {
     ///
     /// # Errors
     /// As [`Table::read`].
-    pub fn of_bytes(
-        bytes: &[u8],
-        path: &Path,
-        format: Option<Format>,
-        time: (Option<&str>, f64),
-    ) -> Result<Self, InputError> {
+    pub fn of_bytes(bytes: &[u8], path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
         let table = match format.unwrap_or_else(|| Format::of(path, bytes)) {
             Format::Csv => csv::read(bytes, path, time),
             Format::Ros2 => ros2::read(bytes, path),
@@ -143,6 +160,11 @@ impl Table {
             }
         }
     }
+}
+
+/// Heading of a quaternion x, y, z, w: the angle about the vertical.
+fn heading([x, y, z, w]: [f64; 4]) -> f64 {
+    f64::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 }
 
 /// A damaged file.

@@ -134,5 +134,5 @@ fn twist_of(twist: [f64; 6], mut put: impl FnMut(&str, f64)) {
 fn pose_of([x, y, _, qx, qy, qz, qw]: [f64; 7], mut put: impl FnMut(&str, f64)) {
     put("x", x);
     put("y", y);
-    put("theta", f64::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz)));
+    put("theta", super::heading([qx, qy, qz, qw]));
 }

@@ -3,11 +3,11 @@ use crate::Run;
 use std::f64::consts::FRAC_PI_2;
 
 fn table(bytes: &[u8], name: &str) -> Table {
-    Table::of_bytes(bytes, Path::new(name), None, (None, 1.0)).unwrap()
+    Table::of_bytes(bytes, Path::new(name), None, &Clock::default()).unwrap()
 }
 
 fn error(bytes: &[u8], name: &str) -> String {
-    Table::of_bytes(bytes, Path::new(name), None, (None, 1.0)).unwrap_err().to_string()
+    Table::of_bytes(bytes, Path::new(name), None, &Clock::default()).unwrap_err().to_string()
 }
 
 fn run(map: &str, table: &Table) -> Result<Run, String> {
@@ -230,6 +230,34 @@ fn any_csv_by_names_units_signs_and_frame() {
 }
 
 #[test]
+fn angles_become_counts_and_quaternions_headings() {
+    let text = "time_us,left,right,q/x,q/y,q/z,q/w,vx,w\n0,0.0,0.1,0,0,0.6,0.8,0.5,0.1\n500000,1.5707963,0.3,0,0,0.6,0.8,0.5,0.1\n";
+    let read = table(text.as_bytes(), "joints.csv");
+    assert_eq!(read.time, Some(("time_us".to_owned(), 1e-6)));
+    let map = "[frame]\nx = \"forward\"\n[columns]\nenc_1 = { from = \"left\", unit = \"rad\", counts_per_rev = 1440 }\n\
+               cmd_vx = \"vx\"\ncmd_w = \"w\"\ncam_x = \"vx\"\ncam_y = \"w\"\ncam_theta = \"q/yaw\"\n";
+    let made = run(map, &read).unwrap();
+    assert_eq!((made.t[1], made.counts[0].clone()), (0.5, vec![0, 360]));
+    // Two wheels on an axle: forward is our y, and nothing goes sideways.
+    let command = made.command.as_ref().unwrap();
+    assert_eq!((command[0][0].abs(), command[1][0], command[2][0]), (0.0, 0.5, 0.1));
+    let heading = 2.0 * f64::atan2(0.6, 0.8) - FRAC_PI_2;
+    assert!((made.camera[0].pose.theta - heading).abs() < 1e-12);
+    for (column, message) in [
+        ("enc_1 = \"right\"", "in: enc_1: series \"right\" has fractions, which no counter has; an angle needs"),
+        ("enc_1 = { from = \"left\", unit = \"rad\" }", "counts cannot be in \"rad\"; say what the encoder counts"),
+        ("enc_1 = { from = \"left\", counts_per_rev = 9 }", "counts_per_rev = 9 has no meaning here"),
+        ("cmd_vx = \"vx\"", "cmd_vy: no such column in the map; map cmd_vx, cmd_vy and cmd_w (only"),
+    ] {
+        let e = run(&format!("[frame]\nx = \"forward\"\n[columns]\n{column}\n"), &read).unwrap_err();
+        assert!(e.contains(message), "{column}: {e}");
+    }
+    assert!(run("[columns]\nspeed_1 = \"left\"\n", &read).is_ok());
+    let slow = table(b"t_motor,Zeit [ms],a\n20,1000,1\n20,1500,2\n", "x.csv");
+    assert_eq!((slow.find("a").unwrap().t[1], slow.find("t_motor").unwrap().values[0]), (1.5, 20.0));
+}
+
+#[test]
 fn no_soup_of_bytes_panics_an_importer() {
     use rand::{Rng, SeedableRng};
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
@@ -237,11 +265,11 @@ fn no_soup_of_bytes_panics_an_importer() {
     for k in 0..400 {
         let mut bytes = vec![0; k % 97];
         rng.fill_bytes(&mut bytes);
-        let _ = Table::of_bytes(&[heads[k % 5], &bytes].concat(), Path::new("soup"), None, (None, 1.0));
+        let _ = Table::of_bytes(&[heads[k % 5], &bytes].concat(), Path::new("soup"), None, &Clock::default());
         let mut bag = bag(&messages(), ["", "lz4", "zstd"][k % 3]);
         let at = rng.next_u32() as usize % bag.len();
         bag[at] ^= 1 << (k % 8);
-        let _ = Table::of_bytes(&bag, Path::new("soup"), None, (None, 1.0));
+        let _ = Table::of_bytes(&bag, Path::new("soup"), None, &Clock::default());
     }
 }
 
@@ -257,6 +285,6 @@ fn commands_stand_for_wheels_that_nobody_logged() {
     assert_eq!(run.speed.len(), 3);
     assert!((run.speed[2][0] + 0.085 / 0.0275).abs() < 1e-9 && (run.speed[0][1] - 0.5 / 0.0275).abs() < 1e-9);
     assert!(parse("[derive]\nspeeds = \"none.toml\"\n").unwrap_err().contains("none.toml"));
-    let bare = Table::of_bytes(b"t,enc_1\n0,1\n1,2\n", Path::new("in.csv"), None, (None, 1.0)).unwrap();
+    let bare = Table::of_bytes(b"t,enc_1\n0,1\n1,2\n", Path::new("in.csv"), None, &Clock::default()).unwrap();
     assert!(map.run(&bare, Path::new("in")).unwrap_err().to_string().contains("the wheels are logged"));
 }

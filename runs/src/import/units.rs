@@ -43,6 +43,34 @@ pub(super) fn factor(unit: &str) -> Option<f64> {
     UNITS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)
 }
 
+/// The unit that a column's name says: in brackets, or as its last word.
+pub(super) fn in_name(name: &str) -> Option<&'static str> {
+    let inside = |open, close| name.split_once(open).and_then(|(_, rest)| rest.split_once(close)).map(|(unit, _)| unit);
+    let last = || name.rsplit(['_', ' ', '/', '.', '-']).next().filter(|word| word.len() < name.len());
+    let said = inside('[', ']').or_else(|| inside('(', ')')).or_else(last)?;
+    let plain = match said.trim() {
+        "sec" | "secs" | "seconds" => "s",
+        "usec" | "µs" | "μs" | "micros" => "us",
+        "msec" | "millis" => "ms",
+        "nsec" | "nanos" => "ns",
+        "°" | "degrees" | "grad" => "deg",
+        "°/s" | "dps" => "deg/s",
+        "ticks" => "counts",
+        "pct" => "percent",
+        "meters" | "metres" => "m",
+        other => other,
+    };
+    let same = |(unit, _): &&(&'static str, f64)| !matches!(*unit, "" | "1") && unit.eq_ignore_ascii_case(plain);
+    // A bare letter at the end is rather a name's: `pos_m`, but `motor_A`.
+    let sure = |unit: &&'static str| unit.len() > 1 || said == *unit;
+    UNITS.iter().find(same).map(|(unit, _)| *unit).filter(sure)
+}
+
+/// How many seconds a unit of time is.
+pub(super) fn of_time(unit: &str) -> Option<f64> {
+    factor(unit).filter(|_| ["s", "ms", "us", "ns"].contains(&unit))
+}
+
 /// A value times a factor; by division where that is what the factor means, so that 30 ms are 0.03 s and not
 /// 0.030000000000000002.
 pub(super) fn times(value: f64, factor: f64) -> f64 {
@@ -59,6 +87,23 @@ pub(super) fn names() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_stand_in_names() {
+        for (name, unit) in [
+            ("Zeit [ms]", "ms"),
+            ("time_us", "us"),
+            ("vx (mm/s)", "mm/s"),
+            ("pwm_percent", "percent"),
+            ("phi [°]", "deg"),
+            ("pos_m", "m"),
+        ] {
+            assert_eq!(in_name(name), Some(unit), "{name}");
+        }
+        for name in ["t", "ms", "left wheel", "motor_a", "x"] {
+            assert_eq!(in_name(name), None, "{name}");
+        }
+    }
 
     #[test]
     fn a_thousandth_is_written_as_one() {

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use std::io::{self, Seek, Write};
 
 use mcap::records::MessageHeader;
-use mcap::{McapError, WriteOptions, Writer};
+use mcap::{Attachment, McapError, WriteOptions, Writer};
 use prost::encoding::{double, sint64};
 
+use super::scene;
 use super::schema::{CAMERA, TICK, descriptor, number};
 use crate::columns::Column;
 use crate::stream::{Layout, RunStream, Tick};
@@ -17,6 +18,8 @@ pub struct McapStream<W: Write + Seek> {
     writer: Writer<W>,
     tick: Topic,
     camera: Option<Topic>,
+    /// What 3D views draw, beside the camera.
+    scene: Vec<(u16, u32)>,
     start_ns: u64,
 }
 
@@ -41,7 +44,13 @@ impl<W: Write + Seek> McapStream<W> {
             let columns = std::iter::once(Column::Time).chain((0..3).map(Column::Camera)).collect();
             topic(&mut writer, "/racbot/camera", CAMERA, columns)
         });
+        let mut scene = Vec::new();
+        for (name, message) in scene::TOPICS.iter().filter(|_| layout.camera) {
+            let schema = writer.add_schema(message, "protobuf", &scene::descriptor()).map_err(other)?;
+            scene.push((writer.add_channel(schema, name, "protobuf", &BTreeMap::new()).map_err(other)?, 0));
+        }
         Ok(Self {
+            scene,
             tick: topic(&mut writer, "/racbot/tick", TICK, tick)?,
             camera: camera.transpose()?,
             writer,
@@ -76,9 +85,7 @@ impl Topic {
                 double::encode(number(column), &value, &mut data);
             }
         }
-        // Times before 1970 have no stamp; the field t keeps them.
-        let stamp = (start_ns as f64 + tick.t * 1e9).round().max(0.0) as u64;
-        let exact = if tick.t >= 0.0 { start_ns.saturating_add((tick.t * 1e9).round() as u64) } else { stamp };
+        let exact = stamp(start_ns, tick.t);
         let header =
             MessageHeader { channel_id: self.channel, sequence: self.sequence, log_time: exact, publish_time: exact };
         self.sequence = self.sequence.wrapping_add(1);
@@ -86,12 +93,38 @@ impl Topic {
     }
 }
 
+/// Nanoseconds since 1970; times before have no stamp, the field t keeps them.
+fn stamp(start_ns: u64, t: f64) -> u64 {
+    if t >= 0.0 {
+        return start_ns.saturating_add((t * 1e9).round() as u64);
+    }
+    (start_ns as f64 + t * 1e9).round().max(0.0) as u64
+}
+
 impl<W: Write + Seek + Send> RunStream for McapStream<W> {
     fn tick(&mut self, tick: &Tick<'_>) -> io::Result<()> {
-        if let (Some(camera), Some(_)) = (&mut self.camera, tick.camera) {
+        if let (Some(camera), Some(pose)) = (&mut self.camera, tick.camera) {
             camera.write(&mut self.writer, self.start_ns, tick)?;
+            let at = stamp(self.start_ns, tick.t);
+            for ((channel_id, sequence), data) in self.scene.iter_mut().zip(scene::messages(pose, at)) {
+                let header =
+                    MessageHeader { channel_id: *channel_id, sequence: *sequence, log_time: at, publish_time: at };
+                *sequence = sequence.wrapping_add(1);
+                self.writer.write_to_known_channel(&header, &Cow::Owned(data)).map_err(other)?;
+            }
         }
         self.tick.write(&mut self.writer, self.start_ns, tick)
+    }
+
+    fn attach(&mut self, name: &str, text: &str) -> io::Result<()> {
+        let attachment = Attachment {
+            log_time: self.start_ns,
+            create_time: self.start_ns,
+            name: name.to_owned(),
+            media_type: "text/plain".to_owned(),
+            data: Cow::Borrowed(text.as_bytes()),
+        };
+        self.writer.attach(&attachment).map_err(other)
     }
 
     fn flush(&mut self) -> io::Result<()> {

@@ -69,8 +69,14 @@ impl Options {
             Procedure::Paper => self.paper()?,
         };
         answer.json["configuration"] = calibrated.words();
+        let files = match &self.out {
+            Some(folder) => calibrated.save(folder, self.target, &answer.text)?,
+            None => Vec::new(),
+        };
+        if let Some(firmware) = calibrated.firmware() {
+            answer.text += &format!("\nInto your firmware\n{}\n", firmware.c_arrays());
+        }
         if let Some(folder) = &self.out {
-            let files = calibrated.save(folder, self.target)?;
             answer.text += &wrapped(&format!("written to {}: {}", folder.display(), files.join(", ")), 2);
         }
         Ok(answer)

@@ -3,6 +3,9 @@
 use crate::terminal::{Failure, Target};
 use driver::Scale;
 use fixed_kin::registers::{CONFIGURATION, NOMINAL_CLOCK_HZ};
+use model::firmware::Firmware;
+#[cfg(feature = "simulation")]
+use plot::page::Page;
 use runs::robot::Robot;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -85,13 +88,47 @@ impl Calibrated {
         self.words.iter().map(|(offset, word)| json!({ "offset": offset, "word": word })).collect()
     }
 
-    /// Writes the files; gives their names.
-    pub(super) fn save(&self, folder: &Path, target: Target) -> Result<Vec<&'static str>, Failure> {
+    /// What its owner types into a program of his own.
+    pub(super) fn firmware(&self) -> Option<Firmware> {
+        Firmware::of(&self.robot).ok()
+    }
+
+    /// What stands in `index.html`: the answer as the terminal shows it, what to type in, the pictures.
+    #[cfg(feature = "simulation")]
+    fn page(&self, text: &str) -> String {
+        let mut page = Page::new("Calibration");
+        let words = ("configuration.csv", "words for the FPGA: configuration.csv");
+        let words = (!self.words.is_empty()).then_some(words);
+        page.links(std::iter::once(("robot.toml", "the calibrated robot.toml")).chain(words));
+        page.verbatim(text);
+        if let Some(found) = self.firmware() {
+            page.heading("Into your firmware");
+            page.verbatim(&found.c_arrays());
+        }
+        for (_, svg) in &self.pictures {
+            page.figure(svg, "");
+        }
+        page.note(
+            "Next: `racbot gap DATASET` names what skews alone do not explain, such as the radius of a wheel. Your own logs: \
+             `racbot convert --draft LOG map.toml`.",
+        );
+        page.finish()
+    }
+
+    #[cfg(not(feature = "simulation"))]
+    fn page(&self, text: &str) -> String {
+        text.to_owned()
+    }
+
+    /// Writes the files, and a page with the answer `text`; gives their names.
+    pub(super) fn save(&self, folder: &Path, target: Target, text: &str) -> Result<Vec<&'static str>, Failure> {
         let rows = self.words.iter().map(|(offset, word)| format!("{offset:#05x},{word}\n"));
         let words = format!("offset,word\n{}", rows.collect::<String>());
         let mut files = vec![("robot.toml", self.robot.to_toml())];
         files.extend((!self.words.is_empty()).then_some(("configuration.csv", words)));
         files.extend(self.pictures.iter().cloned());
+        let name = if cfg!(feature = "simulation") { "index.html" } else { "calibration.txt" };
+        files.push((name, self.page(text)));
         target.check_free(files.iter().map(|(name, _)| folder.join(name)))?;
         for (name, content) in &files {
             target.save(&folder.join(name), content)?;

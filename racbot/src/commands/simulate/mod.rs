@@ -13,6 +13,7 @@ use model::effects::{Applied, ControlDeviations};
 use model::plant::{Contact, Deviations};
 use model::trajectory::{FIG_6, SetPoint};
 use plot::Color;
+use plot::page::Page;
 use runs::error::InputError;
 use serde_json::{Value, json};
 use simulator::closed_loop::picture::{Curve, speeds, trajectory};
@@ -193,7 +194,7 @@ impl Options {
         };
         let hidden = actual != believed;
         let files = self.files(&out);
-        self.target.check_free([&files[0], &files[2], &files[3]])?;
+        self.target.check_free([&files[0], &files[2], &files[3], &files[4]])?;
         let timed = self.timed(&drive)?;
         let ideal = (hidden || !actual.effects.is_empty()).then(|| {
             let ideal = Drive {
@@ -204,8 +205,9 @@ impl Options {
             };
             ideal.run(BitTrue::new(), |_| {}).map_err(|error| self.about_robot(error))
         });
-        self.save(&files, &drive, &timed.driven, ideal.transpose()?.as_ref())?;
-        Ok(self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) }))
+        let answer = self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) });
+        self.save(&files, &drive, &timed.driven, ideal.transpose()?.as_ref(), &answer.text)?;
+        Ok(answer)
     }
 
     fn set_points(&self) -> Result<Vec<SetPoint>, InputError> {
@@ -238,26 +240,45 @@ impl Options {
     }
 
     /// The run, its robot, and the pictures, which a run with a name of its own has for itself.
-    fn files(&self, out: &Path) -> [PathBuf; 4] {
+    fn files(&self, out: &Path) -> [PathBuf; 5] {
         let picture = |what: &str| match self.name.as_str() {
             NAME => out.join(what),
             name => out.join(format!("{name}-{what}")),
         };
         let run = out.join(format!("{}.csv", self.name));
-        [run, out.join("robot.toml"), picture("trajectory.svg"), picture("speeds.svg")]
+        [run, out.join("robot.toml"), picture("trajectory.svg"), picture("speeds.svg"), picture("index.html")]
     }
 
     fn save(
         &self,
-        files: &[PathBuf; 4],
+        files: &[PathBuf; 5],
         drive: &Drive,
         driven: &Driven,
         ideal: Option<&Driven>,
+        text: &str,
     ) -> Result<(), Failure> {
+        let pictures = [picture(drive, driven, ideal), speeds("Wheel speeds, heading and duties", driven)];
         self.target.save(&files[1], &driven.robot.to_toml())?;
         driven.run.save(&files[0], self.target.existing())?;
-        self.target.save(&files[2], &picture(drive, driven, ideal))?;
-        self.target.save(&files[3], &speeds("Wheel speeds, heading and duties", driven))
+        for (file, svg) in files[2..4].iter().zip(&pictures) {
+            self.target.save(file, svg)?;
+        }
+        self.target.save(&files[4], &self.page(text, &pictures))
+    }
+
+    fn page(&self, text: &str, pictures: &[String]) -> String {
+        let mut page = Page::new("Simulated drive");
+        let run = format!("{}.csv", self.name);
+        page.links([(run.as_str(), "the run"), ("robot.toml", "its robot.toml")]);
+        page.verbatim(text);
+        for svg in pictures {
+            page.figure(svg, "");
+        }
+        page.note(
+            "Next: this folder is a data set, so `racbot gap` and `racbot calibrate` read it as they read logs. Your own logs: \
+             `racbot convert --draft LOG map.toml`.",
+        );
+        page.finish()
     }
 
     fn answer(&self, drive: &Drive, timed: &Timed, files: &[PathBuf], truth: &Truth) -> Answer {
@@ -268,7 +289,9 @@ impl Options {
         }
         let names: Vec<_> = files.iter().filter_map(|f| f.file_name()).map(|f| f.to_string_lossy()).collect();
         let folder = files[0].parent().unwrap_or(Path::new(""));
-        let _ = writeln!(text, "written      {}: {}", folder.display(), names.join(", "));
+        // The label's width stands for its white space, which wrapping would take.
+        let written = wrapped(&format!("written------{}: {}", folder.display(), names.join(", ")), 13);
+        text += &written.replacen("written------", "written      ", 1);
         let mut json = to_json(drive, timed);
         json["fpga"] = json!(self.fpga.kind().to_string());
         json["files"] = json!(files);
