@@ -25,11 +25,11 @@ use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
 use gaps::Remains;
-use measure::{Data, Drive, Measured, MeasuredDrive};
+use measure::{Data, Drive, Measured};
 use order::{ORDER, order_named, wheel_order};
 use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
-use study::{FAR as FAR_OFF, Outcome, chosen};
+use study::{Outcome, chosen};
 
 pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
@@ -279,7 +279,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     if has_motion {
         let problem = Problem::Motion(&motion_link);
         let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(noise));
-        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, FAR_OFF);
+        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, gaps::FAR);
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
         start.active.iter_mut().for_each(|a| a.given = true);
@@ -308,10 +308,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             e.also() == Some(Link::Drive) && own.clone().count() > 0 && own.clone().all(|l| l.limit < SEEN * l.material)
         };
         let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-        let small = if robot.support == Support::Floor { reached } else { 0.0 };
-        let matters = |floor: &[f64]| gaps::drive_matters(floor, small);
         let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
-            chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
+            chosen(&Problem::Drive(link), &start, known, &here, thresholds, gaps::drive_matters(link, floor))
         };
         let from = start.active.len();
         let mut selection = looked(&link, &thresholds, &[], &floor);
@@ -333,7 +331,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             }
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
-        let far = FAR_OFF.max(matters(&floor));
+        let far = gaps::drive_far(&link, &floor);
         let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, far);
         let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
@@ -474,7 +472,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let mut remains = Vec::new();
     for l in links.iter().filter(|l| !slides(l)) {
-        let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
+        let far = if l.link == Link::Drive { drive.as_ref().map_or(gaps::FAR, |d| d.far) } else { gaps::FAR };
         match gaps::remains(l, &located, far) {
             _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {

@@ -49,8 +49,8 @@ pub const AS_WELL: f64 = 1.15;
 pub const UNDECIDED: f64 = 0.3;
 
 /// Share of the squared gap closed by all that is named, which each of several effects too small to matter alone closes
-/// at least to be named with them. On an axis with friction alone, clean but for its encoder's steps, a curve, a dead zone and a
-/// sagging battery of a thousandth each closed 4, 1 and 0 % beside it.
+/// at least to be named with them. On an axis with friction alone, clean but for its encoder's steps, a curve, a dead
+/// zone and a sagging battery of a thousandth each closed 4, 1 and 0 % beside it.
 pub const LEAST_TOGETHER: f64 = 0.1;
 
 /// Squared gap that one effect may open by itself, in those of the link before anything was named, beyond which it only

@@ -1,8 +1,10 @@
 //! The gap in figures: per link, over all signals, and how it falls.
 
+use runs::robot::Support;
+
 use super::measure::MeasuredDrive;
 use super::{Located, Named};
-use crate::drive::DriveResiduals;
+use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::Link;
 use crate::exact::ExactLink;
 use crate::motion::WindowResiduals;
@@ -91,6 +93,8 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
     (mean(&|l| l.before), mean(&|l| l.after))
 }
 
+/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
+pub(super) const FAR: f64 = 3.0;
 /// What matters within a second of motion, m and rad.
 const MATTERS: [f64; 2] = [0.004, 0.02];
 /// Share of the drive's torque that matters on a floor: twice what rollers and contacts cost every omni drive. An axis
@@ -103,9 +107,18 @@ pub(super) fn motion_matters(noise: [f64; 3]) -> f64 {
     2.0_f64.max((MATTERS[0] / x.max(y).max(1e-9)).min(MATTERS[1] / theta.max(1e-9)))
 }
 
-/// Gap of the drive link that matters, in noise floors (Nm, one a wheel).
-pub(super) fn drive_matters(floor: &[f64], drive_nm: f64) -> f64 {
-    DRIVE_MATTERS * drive_nm / crate::statistics::rms(floor.iter().copied()).max(1e-9)
+/// Gap of the drive link that matters beside what is driven, in noise floors (Nm, one a wheel); 0 on blocks, where any
+/// that is no noise does.
+pub(super) fn drive_matters(link: &DriveLink, floor: &[f64]) -> f64 {
+    match link.pieces.robot().support {
+        Support::Floor => DRIVE_MATTERS * link.sizes.drive_nm / crate::statistics::rms(floor.iter().copied()),
+        Support::Blocks => 0.0,
+    }
+}
+
+/// Noise floors (Nm, one a wheel) from which the drive link does not agree.
+pub(super) fn drive_far(link: &DriveLink, floor: &[f64]) -> f64 {
+    FAR.max(drive_matters(link, floor))
 }
 
 /// What is left on a link after everything that is named.

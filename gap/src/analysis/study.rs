@@ -10,12 +10,9 @@ use crate::problem::{Owner, Problem};
 use crate::select::{self, Selection};
 use crate::state::{Active, State};
 use crate::thresholds;
-use crate::thresholds::LEAST_TOGETHER;
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;
-/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
-pub(super) const FAR: f64 = 3.0;
 /// Share of the squared residual that the estimates may leave more than the best ones of what is named.
 const WORSE: f64 = 0.1;
 /// Share of a held-out sum of squares by which a selection with more parameters must be better.
@@ -201,22 +198,22 @@ fn several(
     problem.fit(&mut found.state);
     let loss = |state: &State| select::held_out(problem, state).0;
     let open = loss(start);
-    let mut kept = found.state.clone();
+    let mut kept = (loss(&found.state), found.state.clone());
     loop {
-        let closed = open - loss(&kept);
-        let least = (from..kept.active.len()).filter(|index| kept.active[*index].together).map(|index| {
-            let mut without = kept.clone();
+        let (now, state) = &kept;
+        let least = (from..state.active.len()).filter(|index| state.active[*index].together).map(|index| {
+            let mut without = state.clone();
             without.active.remove(index);
             problem.fit(&mut without);
-            (open - loss(&without), without)
+            (loss(&without), without)
         });
-        match least.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        match least.min_by(|a, b| a.0.total_cmp(&b.0)) {
             None => return None,
-            Some((rest, without)) if closed - rest < LEAST_TOGETHER * closed => kept = without,
+            Some(without) if without.0 - now < thresholds::LEAST_TOGETHER * (open - now) => kept = without,
             Some(_) => break,
         }
     }
-    let keep = |a: &Active| kept.active.iter().any(|k| k.effect.name() == a.effect.name());
+    let keep = |a: &Active| kept.1.active.iter().any(|k| k.effect.name() == a.effect.name());
     Some(select::without(problem, &found, from, keep, all, thresholds))
 }
 
