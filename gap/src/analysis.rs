@@ -278,7 +278,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut seen = None;
     if has_motion {
         let problem = Problem::Motion(&motion_link);
-        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(noise));
+        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(&motion_link));
         let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, gaps::FAR);
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
@@ -309,7 +309,14 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         };
         let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
         let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
-            chosen(&Problem::Drive(link), &start, known, &here, thresholds, gaps::drive_matters(link, floor))
+            chosen(
+                &Problem::Drive(link),
+                &start,
+                known,
+                &here,
+                thresholds,
+                gaps::FAR * gaps::floor_of_scatter(link, floor),
+            )
         };
         let from = start.active.len();
         let mut selection = looked(&link, &thresholds, &[], &floor);
@@ -331,8 +338,10 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             }
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
-        let far = gaps::drive_far(&link, &floor);
-        let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, far);
+        let least = gaps::floor_of_scatter(&link, &floor);
+        let mut outcome =
+            study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, gaps::FAR * least);
+        outcome.held_out /= least;
         let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
         if rattling.is_some() && !outcome.named.is_empty() {
@@ -472,8 +481,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let mut remains = Vec::new();
     for l in links.iter().filter(|l| !slides(l)) {
-        let far = if l.link == Link::Drive { drive.as_ref().map_or(gaps::FAR, |d| d.far) } else { gaps::FAR };
-        match gaps::remains(l, &located, far) {
+        match gaps::remains(l, &located) {
             _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });

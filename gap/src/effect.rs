@@ -263,11 +263,13 @@ impl Sizes {
             Support::Blocks => 0.0,
         };
         let drive_nm = (thresholds::PEAK_OF_RMS * torque_nm).max(thresholds::GRIP * load);
-        Self {
-            drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm },
-            speed: if speed > 0.0 { speed } else { sizes.speed },
-            ..sizes
-        }
+        Self { drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm }, ..sizes }.at_speed(speed)
+    }
+
+    /// The same for wheels that turned at this speed, rad/s, if they did.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> Self {
+        Self { speed: if speed > 0.0 { speed } else { self.speed }, ..self }
     }
 }
 

@@ -152,6 +152,11 @@ impl Gram {
         sum
     }
 
+    /// Whether the data say anything of a column.
+    pub fn tells(&self, column: usize) -> bool {
+        self.clusters.iter().any(|c| c.jj[(column, column)] > 0.0)
+    }
+
     /// Number of residuals, weighted.
     pub fn n(&self) -> f64 {
         self.clusters.iter().map(|c| c.n).sum()
@@ -257,6 +262,14 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
         None => scaled.lu().solve(&rhs).unwrap_or_else(|| DVector::zeros(m)),
     };
     DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { x[i] / scale[i] })
+}
+
+/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny ridge on the way; `None` if it has none.
+pub(crate) fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let m = a.nrows();
+    let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
+    let unit = DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { RIDGE } else { 0.0 });
+    Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
 }
 
 /// W with W·Wᵀ = A⁻¹.

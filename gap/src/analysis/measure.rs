@@ -42,8 +42,6 @@ pub(super) struct MeasuredDrive {
     pub(super) plots: [DriveResiduals; 2],
     /// Nm, one a wheel.
     pub(super) floor: Vec<f64>,
-    /// Noise floors from which the link does not agree.
-    pub(super) far: f64,
 }
 
 /// Figures of a written model beside the nominal one's.
@@ -134,7 +132,10 @@ impl<'a> Data<'a> {
             out.driven.frames = Driven::at_frames(self.pieces, &plots[0]);
             out.motion = Some(plots);
         }
-        let drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        let mut drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        if let Some(Drive { link, .. }) = &mut drive {
+            link.noise = gaps::drive_floor(link, &link.noise);
+        }
         if let Some(drive) = &drive {
             let problem = Problem::Drive(&drive.link);
             let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
@@ -142,7 +143,7 @@ impl<'a> Data<'a> {
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
             out.driven.bumps = Driven::at_bumps(&drive.link);
             let floor = drive.link.noise.clone();
-            out.drive = Some(MeasuredDrive { plots, far: gaps::drive_far(&drive.link, &floor), floor });
+            out.drive = Some(MeasuredDrive { plots, floor });
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
             let motion = self.has_motion.then(|| (Link::Motion, rms(&motion, state)));

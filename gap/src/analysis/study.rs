@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Limit, Named};
-use crate::effect::{Effect, Parameter};
+use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
@@ -197,7 +197,7 @@ fn several(
     }
     problem.fit(&mut found.state);
     let loss = |state: &State| select::held_out(problem, state).0;
-    let open = loss(start);
+    let (_, noise) = select::held_out(problem, &found.state);
     let mut kept = (loss(&found.state), found.state.clone());
     loop {
         let (now, state) = &kept;
@@ -209,7 +209,7 @@ fn several(
         });
         match least.min_by(|a, b| a.0.total_cmp(&b.0)) {
             None => return None,
-            Some(without) if without.0 - now < thresholds::LEAST_TOGETHER * (open - now) => kept = without,
+            Some(without) if without.0 - now < thresholds::LEAST_TOGETHER * (without.0 - noise) => kept = without,
             Some(_) => break,
         }
     }
@@ -294,6 +294,12 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
     let clusters = bench.linear.gram.clusters.len();
     let left_out = bench.left_out(&roles);
+    let missed = bench.missed(&roles);
+    // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
+    let usual = |p: &Parameter| match problem.link() {
+        Link::Drive if p.material.is_finite() => bench.held_share() * p.material,
+        _ => 0.0,
+    };
     let mut out = Vec::new();
     for index in from..selection.state.active.len() {
         let active = &selection.state.active[index];
@@ -309,7 +315,8 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             let half = column.map_or(0.0, |c| {
                 let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
                 let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-                half_width(covariance[(c, c)].max(beside[(c, c)]).max(0.0), df, runs)
+                let scatter = covariance[(c, c)].max(beside[(c, c)]).max(0.0);
+                half_width(scatter, missed[c] + usual(p).powi(2), df, runs)
             });
             // The effect's own law is not known to better than that.
             let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);
@@ -320,9 +327,15 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     out
 }
 
-/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain.
-/// `left_out` are the estimates without one run each.
-fn half_width(variance: f64, df: usize, left_out: &[f64]) -> f64 {
+/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
+/// what is the same in all of them. `left_out` are the estimates without one run each.
+fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
+    let of_common = model::fit::t_quantile_975(usize::MAX) * common.sqrt();
+    of_common.hypot(half_scatter(variance, df, left_out))
+}
+
+/// The same of what scatters alone.
+fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
     let by_clusters = model::fit::t_quantile_975(df) * variance.sqrt();
     let runs = left_out.len();
     if runs < 3 {
@@ -426,10 +439,13 @@ mod tests {
     fn intervals_are_as_wide_as_runs_differ() {
         // Runs that agree as clusters have it.
         let t = model::fit::t_quantile_975(100);
-        assert!((half_width(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
+        assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
         // Leave-one-out estimates three cluster deviations apart.
-        let wide = half_width(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
+        let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
         assert!(wide > 3.0 * t, "{wide}");
-        assert!((half_width(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+        assert!((half_scatter(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+        // What all runs share adds to that.
+        let both = half_width(1.0, 1.0, 100, &[9.0, -9.0]);
+        assert!((both / t / 2.0_f64.sqrt() - 1.0).abs() < 0.01, "{both}");
     }
 }

@@ -88,11 +88,12 @@ pub(super) struct Base<'a> {
 }
 
 impl<'a> Base<'a> {
-    /// Of a model at a segment.
-    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment) -> Self {
+    /// Of a model at a segment; without its signals, unless loads are to be added.
+    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, with_signals: bool) -> Self {
         let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
-        let mut signals = Vec::with_capacity(segment.t.len() * (5 * model.wheels.len() + 4));
-        let forces = model.evaluate(segment, &prepared, Some(&mut signals));
+        let room = if with_signals { segment.t.len() * (5 * model.wheels.len() + 4) } else { 0 };
+        let mut signals = Vec::with_capacity(room);
+        let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals));
         Self { model, segment, forces, signals, prepared }
     }
 

@@ -6,6 +6,7 @@
 //! unexplained torque per wheel and bump, Nm at the wheel shaft.
 
 mod bumps;
+mod columns;
 mod floor;
 mod forces;
 mod free_run;
@@ -18,6 +19,7 @@ use crate::effect::Values;
 use crate::segment::Segment;
 
 pub use bumps::{DriveLink, DriveResiduals};
+pub use columns::Side;
 pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads, smooth_sign};
 pub use free_run::{further, in_own_torque, runaway};

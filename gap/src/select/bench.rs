@@ -291,6 +291,11 @@ impl Bench {
         Ridge::new(&self.linear.gram, self.variance)
     }
 
+    /// Standard deviation of what is not named, as a share of its materiality threshold.
+    pub fn held_share(&self) -> f64 {
+        self.held_share
+    }
+
     /// Roles with nothing freed.
     pub fn roles(&self) -> Vec<Role> {
         self.held.clone()
@@ -494,12 +499,7 @@ impl Bench {
         let ridge = self.ridge();
         let mut trials: Vec<Trial> = (0..self.candidates.len())
             .into_par_iter()
-            .filter(|c| {
-                self.linear
-                    .of_candidate(*c)
-                    .iter()
-                    .all(|j| self.linear.gram.clusters.iter().any(|k| k.jj[(*j, *j)] > 0.0))
-            })
+            .filter(|c| self.linear.of_candidate(*c).iter().all(|j| self.linear.gram.tells(*j)))
             .filter(|c| !self.is_active(*c))
             .filter_map(|c| {
                 let (_, fit, beyond) = self.inside(&ridge, c)?;
@@ -550,13 +550,45 @@ impl Bench {
         free.zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= self.margin(c, j))
     }
 
+    /// Variances of the freed columns per mean square of what the laws miss, beyond the noise.
+    ///
+    /// What is left above the noise is no scatter: it is a law that is missing, the same in every cluster and every run,
+    /// and how much of it a named effect took for its own does not show in the data. As laws of the catalogue it points
+    /// in as many directions as these differ, any of them as likely as the effect's own.
+    pub fn missed(&self, roles: &[Role]) -> Vec<f64> {
+        let (square, n) = self.linear.gram.plain();
+        let excess = (square - n).max(0.0) / self.directions();
+        let used: Vec<usize> =
+            (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.linear.gram.tells(*i)).collect();
+        let jj = self.linear.gram.information();
+        let mut out = vec![0.0; roles.len()];
+        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
+            let held =
+                if let (true, Role::Held(sd, _)) = (p == q, roles[used[p]]) { self.variance / (sd * sd) } else { 0.0 };
+            jj[(used[p], used[q])] + held
+        });
+        match crate::gram::inverse(&own) {
+            Some(inverse) => used.iter().enumerate().for_each(|(p, c)| out[*c] = excess * inverse[(p, p)]),
+            None => used.iter().for_each(|c| out[*c] = f64::INFINITY),
+        }
+        out
+    }
+
+    /// Directions in which the laws of the catalogue differ: the participation ratio of their look-alikes.
+    fn directions(&self) -> f64 {
+        let jj = self.linear.gram.information();
+        let used: Vec<usize> = (0..jj.nrows()).filter(|c| jj[(*c, *c)] > 0.0).collect();
+        let alike = |a: &usize, b: &usize| jj[(*a, *b)].powi(2) / (jj[(*a, *a)] * jj[(*b, *b)]);
+        let sum: f64 = used.iter().map(|a| used.iter().map(|b| alike(a, b)).sum::<f64>()).sum();
+        (used.len() as f64).powi(2) / sum.max(f64::MIN_POSITIVE)
+    }
+
     /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
     /// observations, nowhere below what the residual variance explains.
     pub fn covariance(&self, roles: &[Role], fit: &RidgeFit) -> DMatrix<f64> {
         let gram = &self.linear.gram;
         let m = roles.len();
-        let columns: Vec<usize> =
-            (0..m).filter(|i| roles[*i] != Role::Out && gram.clusters.iter().any(|c| c.jj[(*i, *i)] > 0.0)).collect();
+        let columns: Vec<usize> = (0..m).filter(|i| roles[*i] != Role::Out && gram.tells(*i)).collect();
         let k = columns.len();
         let mut jj = DMatrix::zeros(k, k);
         let mut meat = DMatrix::zeros(k, k);
@@ -583,10 +615,7 @@ impl Bench {
                 plain[(p, p)] += weight * self.variance;
             }
         }
-        let scale: Vec<f64> = (0..k).map(|i| jj[(i, i)].sqrt().max(1e-150)).collect();
-        let unit = DMatrix::from_fn(k, k, |p, q| jj[(p, q)] / (scale[p] * scale[q]) + if p == q { 1e-9 } else { 0.0 });
-        let Some(inverse) = unit.try_inverse() else { return DMatrix::from_element(m, m, f64::INFINITY) };
-        let inverse = DMatrix::from_fn(k, k, |p, q| inverse[(p, q)] / (scale[p] * scale[q]));
+        let Some(inverse) = crate::gram::inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
         let robust = &inverse * meat * &inverse;
         let plain = &inverse * plain * &inverse;
         let mut out = DMatrix::zeros(m, m);
