@@ -31,6 +31,7 @@ use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
 use study::{Outcome, chosen};
 
+pub use crate::locate::Located;
 pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
 pub use robot_file::undo;
@@ -61,19 +62,6 @@ impl Verdict {
             Self::NotCompared => "not-compared",
         }
     }
-}
-
-/// Where the model and the data part.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Located {
-    /// Link.
-    pub link: Link,
-    /// Signal, such as `enc_3`.
-    pub signal: String,
-    /// RMS residual in units of the noise floor.
-    pub excess: f64,
-    /// In words.
-    pub place: String,
 }
 
 /// A named effect.
@@ -464,7 +452,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for link in &exact {
         located.extend(crate::locate::exact(link));
     }
-    let weightless = gaps::weightless(&pieces, drive.as_ref());
+    let weightless = gaps::weightless(&pieces, drive.as_ref().map(|d| &d.plots[1]));
     links.extend(exact_links);
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);

@@ -13,6 +13,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod analysis;
+pub mod candidates;
 mod command;
 mod controller;
 pub mod drive;
@@ -41,6 +42,7 @@ mod symmetric;
 pub mod thresholds;
 mod timing;
 pub mod user;
+pub mod values;
 mod words;
 
 pub use analysis::{Analysis, Verdict, analyse, analyse_logs, undo};

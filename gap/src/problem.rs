@@ -75,7 +75,7 @@ impl Problem<'_> {
             Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()),
             Self::Drive(link) => link.sizes,
         };
-        crate::select::candidates_in(state, catalogue, self.link(), &sizes)
+        crate::candidates::candidates_in(state, catalogue, self.link(), &sizes)
     }
 
     /// Residuals and the derivatives by all active parameters of this link and all candidates.

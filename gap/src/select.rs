@@ -23,7 +23,9 @@ use crate::thresholds::{AS_WELL, FAR_LEFT, UNDECIDED};
 use gates::Gates;
 use join::join;
 
-pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
+pub use crate::candidates::candidates;
+pub use crate::state::is_material;
+pub use bench::{Bench, Trial};
 pub(crate) use plain::{held_out, plain};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
 pub use sure::estimates;

@@ -2,7 +2,6 @@
 
 use runs::robot::Support;
 
-use super::measure::MeasuredDrive;
 use super::{Located, Named};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Link, Sizes};
@@ -174,7 +173,7 @@ pub(super) fn remains(link: &LinkGap, located: &[Located]) -> Option<Remains> {
 }
 
 /// Links without a moment that could show anything, and what would be needed.
-pub(super) fn weightless(pieces: &Pieces, drive: Option<&MeasuredDrive>) -> Vec<(Link, String)> {
+pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec<(Link, String)> {
     let mut out = Vec::new();
     let turned = |s: &crate::segment::Segment| {
         s.angle.iter().map(|a| a.iter().fold(0.0_f64, |most, x| most.max((x - a[0]).abs()))).fold(0.0, f64::max)
@@ -189,7 +188,7 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&MeasuredDrive>) -> Vec<
         return [Link::Command, Link::Controller, Link::Drive, Link::Motion].map(|link| (link, why.clone())).to_vec();
     }
     if let Some(drive) = drive {
-        let used = drive.plots[1].weights.iter().flatten().any(|w| *w > 0.0);
+        let used = drive.weights.iter().flatten().any(|w| *w > 0.0);
         if !used {
             let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
             out.push((

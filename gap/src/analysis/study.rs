@@ -279,7 +279,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
     let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
-    Some(format!("{}; p = {}", refusal.reason(), crate::report::short(estimate.p)))
+    Some(format!("{}; p = {}", refusal.reason(), crate::evidence::short(estimate.p)))
 }
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.

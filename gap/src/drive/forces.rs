@@ -70,11 +70,6 @@ impl Loads {
     }
 }
 
-/// Smooth sign.
-pub fn smooth_sign(x: f64, width: f64) -> f64 {
-    (x / width).tanh()
-}
-
 /// Torques and forces of a model at every tick of a segment, with all that further loads look at.
 pub(super) struct Base<'a> {
     model: &'a DriveModel,

@@ -1,13 +1,11 @@
 //! A linearised link with all candidates: fits of any subset, their trials and covariances.
 
 use std::ops::Index;
-use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::ALIKE;
-use crate::effect::{Effect, Link, Sizes};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::{Ridge, RidgeFit, Role};
@@ -48,24 +46,6 @@ pub struct Trial {
     pub material: bool,
     /// Whether the straight line leads out of the bounds, at which the estimates were stopped.
     pub beyond: bool,
-}
-
-/// The link's candidates: every form of every effect fitted there.
-pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
-    candidates_in(state, catalogue, link, &Sizes::of(&state.robot))
-}
-
-/// The same for logs of these sizes.
-pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, sizes: &Sizes) -> Vec<Active> {
-    let wanted = catalogue.iter().filter(|e| {
-        (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
-            // Creep is slip below the limit of friction: one law of the contact is named.
-            && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
-            && crate::effects::fits(e.name(), &state.robot)
-    });
-    wanted
-        .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
-        .collect()
 }
 
 impl Bench {
@@ -648,9 +628,4 @@ fn whole(linear: &Linear, state: &State, index: usize) -> (Vec<usize>, Vec<f64>)
 fn square(jj: &impl Index<(usize, usize), Output = f64>, columns: &[usize], p: &[f64]) -> f64 {
     let row = |(a, x): (&usize, &f64)| columns.iter().zip(p).map(|(b, y)| jj[(*a, *b)] * x * y).sum::<f64>();
     columns.iter().zip(p).map(row).sum()
-}
-
-/// Whether any parameter of an effect exceeds its materiality threshold.
-pub fn is_material(active: &Active, values: &[f64]) -> bool {
-    active.form.free.iter().zip(values).any(|(p, v)| p.is_material(*v))
 }
