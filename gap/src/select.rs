@@ -349,7 +349,7 @@ fn finish_bare(problem: &Problem, state: State, from: usize, all: &[Active], thr
 
 /// The same clusters with parts of the runs as folds.
 fn in_parts(gram: &Gram, parts: usize) -> Gram {
-    Gram { folds: (0..gram.clusters.len()).map(|i| i % parts).collect(), ..gram.clone() }
+    gram.with_folds(|i| i % parts)
 }
 
 /// A selection with some of its own effects taken out, the others fitted anew.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Limit, Named};
+use crate::drive::Generic;
 use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::options::Thresholds;
@@ -294,7 +295,11 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
     let clusters = bench.linear.gram.clusters.len();
     let left_out = bench.left_out(&roles);
-    let missed = bench.missed(&roles);
+    // A floor is what smooth functions of speed, duty and the like leave of each wheel: laws that are missing are such.
+    let missed = match problem {
+        Problem::Drive(link) => bench.missed(&roles, Generic::columns_of_wheel(link.noise.len()) as f64),
+        Problem::Motion(_) => vec![0.0; roles.len()],
+    };
     // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
     let usual = |p: &Parameter| match problem.link() {
         Link::Drive if p.material.is_finite() => bench.held_share() * p.material,

@@ -420,8 +420,7 @@ impl Bench {
 
     /// The same with parts of runs held out instead of runs.
     pub fn held_out_blocks(&self, freed: Option<usize>) -> Vec<f64> {
-        let mut gram = self.linear.gram.clone();
-        gram.folds = (0..gram.clusters.len()).map(|i| i % 5).collect();
+        let gram = self.linear.gram.with_folds(|i| i % 5);
         Ridge::new(&gram, self.variance).held_out(&self.bare(freed))
     }
 
@@ -530,37 +529,27 @@ impl Bench {
         free.zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= self.margin(c, j))
     }
 
-    /// Variances of the freed columns per mean square of what the laws miss, beyond the noise.
+    /// What one direction of a missing law may add to the variances of the freed columns, where laws have so many of
+    /// them.
     ///
-    /// What is left above the noise is no scatter: it is a law that is missing, the same in every cluster and every run,
-    /// and how much of it a named effect took for its own does not show in the data. As laws of the catalogue it points
-    /// in as many directions as these differ, any of them as likely as the effect's own.
-    pub fn missed(&self, roles: &[Role]) -> Vec<f64> {
+    /// What is left above the noise is no scatter: it is the same in every cluster and every run, and how much of it a
+    /// named effect took for its own does not show in the data. It points in any direction as likely as in another.
+    pub fn missed(&self, roles: &[Role], directions: f64) -> Vec<f64> {
         let (square, n) = self.linear.gram.plain();
-        let excess = (square - n).max(0.0) / self.directions();
+        let excess = (square - n).max(0.0) / directions;
         let used: Vec<usize> =
             (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.linear.gram.tells(*i)).collect();
         let jj = self.linear.gram.information();
-        let mut out = vec![0.0; roles.len()];
+        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
         let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
-            let held =
-                if let (true, Role::Held(sd, _)) = (p == q, roles[used[p]]) { self.variance / (sd * sd) } else { 0.0 };
-            jj[(used[p], used[q])] + held
+            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
         });
-        match crate::gram::inverse(&own) {
-            Some(inverse) => used.iter().enumerate().for_each(|(p, c)| out[*c] = excess * inverse[(p, p)]),
-            None => used.iter().for_each(|c| out[*c] = f64::INFINITY),
+        let inverse = crate::gram::inverse(&own);
+        let mut out = vec![0.0; roles.len()];
+        for (p, c) in used.iter().enumerate() {
+            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| excess * inverse[(p, p)]);
         }
         out
-    }
-
-    /// Directions in which the laws of the catalogue differ: the participation ratio of their look-alikes.
-    fn directions(&self) -> f64 {
-        let jj = self.linear.gram.information();
-        let used: Vec<usize> = (0..jj.nrows()).filter(|c| jj[(*c, *c)] > 0.0).collect();
-        let alike = |a: &usize, b: &usize| jj[(*a, *b)].powi(2) / (jj[(*a, *a)] * jj[(*b, *b)]);
-        let sum: f64 = used.iter().map(|a| used.iter().map(|b| alike(a, b)).sum::<f64>()).sum();
-        (used.len() as f64).powi(2) / sum.max(f64::MIN_POSITIVE)
     }
 
     /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
