@@ -18,7 +18,7 @@ use crate::effect::{Effect, Link, Sizes};
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
-use crate::options::{Options, Thresholds};
+use crate::options::{Options, Stage, Thresholds};
 use crate::pieces::{PIECE, segments};
 use crate::problem::Problem;
 use crate::state::{Active, State};
@@ -263,10 +263,12 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     study.unexplained.extend(crate::leftover::frozen(&pieces));
     study.unexplained.extend(crate::leftover::torn(&pieces));
+    options.reached(Stage::Exact);
     let mut seen = None;
     if has_motion {
         let problem = Problem::Motion(&motion_link);
         let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(&motion_link));
+        options.reached(Stage::MotionChosen);
         let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, gaps::FAR);
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
@@ -274,6 +276,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     } else {
         remarks.push(missing(set));
     }
+    options.reached(Stage::MotionStudied);
     if let Some(found) = data.drive(&start, seen.as_ref()) {
         let Drive { mut link, correlation, .. } = found;
         let mut floor = link.noise.clone();
@@ -326,6 +329,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             }
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
+        options.reached(Stage::DriveChosen);
         let least = gaps::floor_of_scatter(&link, &floor);
         let mut outcome =
             study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, gaps::FAR * least);
@@ -372,6 +376,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             "No duties in the logs (or none that belong to the wheels): the drive link is not compared.".to_owned(),
         );
     }
+    options.reached(Stage::DriveStudied);
     let mut exact_links = Vec::new();
     for link in &exact {
         let is_new = |f: &&Finding| f.name == ORDER || !study.named.iter().any(|n: &Named| n.name == f.name);
@@ -429,6 +434,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         alternatives.retain(|set| !set.first().is_some_and(|first| gone.contains(first)));
         ambiguous &= !named.is_empty();
     };
+    options.reached(Stage::Measured);
     for n in &mut named {
         if let Some((_, gain)) =
             measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
