@@ -104,7 +104,7 @@ impl Options {
     /// Says that a stage is done.
     pub(crate) fn reached(&self, stage: Stage) {
         if let Some(progress) = &self.progress {
-            progress(stage as u32 as f64 / 100.0);
+            progress(f64::from(stage as u32) / 100.0);
         }
     }
 }

@@ -75,7 +75,12 @@ impl Problem<'_> {
             Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()),
             Self::Drive(link) => link.sizes,
         };
-        crate::candidates::candidates_in(state, catalogue, self.link(), &sizes)
+        let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);
+        if matches!(self, Self::Motion(link) if !link.pieces.have_duties()) {
+            // What lags by its mass: where no drive is compared, nobody vouches for a mass.
+            all.retain(|a| a.effect.name() != "wheel-creep");
+        }
+        all
     }
 
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
