@@ -18,19 +18,20 @@ use crate::effect::{Effect, Link, Sizes};
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
-use crate::options::{Options, Thresholds};
+use crate::options::{Options, Stage, Thresholds};
 use crate::pieces::{PIECE, segments};
 use crate::problem::Problem;
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
 use gaps::Remains;
-use measure::{Data, Drive, Measured, MeasuredDrive};
+use measure::{Data, Drive, Measured};
 use order::{ORDER, order_named, wheel_order};
 use patterns::ripple_named;
 use robot_file::{completed, given, robot_text, with_effects};
-use study::{FAR as FAR_OFF, Outcome, chosen};
+use study::{Outcome, chosen};
 
+pub use crate::locate::Located;
 pub use driven::{Driven, Moment};
 pub use gaps::{LinkGap, overall};
 pub use robot_file::undo;
@@ -61,19 +62,6 @@ impl Verdict {
             Self::NotCompared => "not-compared",
         }
     }
-}
-
-/// Where the model and the data part.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Located {
-    /// Link.
-    pub link: Link,
-    /// Signal, such as `enc_3`.
-    pub signal: String,
-    /// RMS residual in units of the noise floor.
-    pub excess: f64,
-    /// In words.
-    pub place: String,
 }
 
 /// A named effect.
@@ -275,17 +263,20 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     study.unexplained.extend(crate::leftover::frozen(&pieces));
     study.unexplained.extend(crate::leftover::torn(&pieces));
+    options.reached(Stage::Exact);
     let mut seen = None;
     if has_motion {
         let problem = Problem::Motion(&motion_link);
-        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(noise));
-        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, FAR_OFF);
+        let selection = chosen(&problem, &start, &[], &catalogue, &thresholds, gaps::motion_matters(&motion_link));
+        options.reached(Stage::MotionChosen);
+        let outcome = study::study(&problem, &start, selection, &catalogue, &thresholds, gaps::FAR);
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
         start.active.iter_mut().for_each(|a| a.given = true);
     } else {
         remarks.push(missing(set));
     }
+    options.reached(Stage::MotionStudied);
     if let Some(found) = data.drive(&start, seen.as_ref()) {
         let Drive { mut link, correlation, .. } = found;
         let mut floor = link.noise.clone();
@@ -308,10 +299,15 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             e.also() == Some(Link::Drive) && own.clone().count() > 0 && own.clone().all(|l| l.limit < SEEN * l.material)
         };
         let here: Vec<Arc<dyn Effect>> = catalogue.iter().filter(|e| !shown(e)).cloned().collect();
-        let small = if robot.support == Support::Floor { reached } else { 0.0 };
-        let matters = |floor: &[f64]| gaps::drive_matters(floor, small);
         let looked = |link: &DriveLink, thresholds: &Thresholds, known: &[Active], floor: &[f64]| {
-            chosen(&Problem::Drive(link), &start, known, &here, thresholds, matters(floor))
+            chosen(
+                &Problem::Drive(link),
+                &start,
+                known,
+                &here,
+                thresholds,
+                gaps::FAR * gaps::floor_of_scatter(link, floor),
+            )
         };
         let from = start.active.len();
         let mut selection = looked(&link, &thresholds, &[], &floor);
@@ -333,8 +329,11 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             }
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
-        let far = FAR_OFF.max(matters(&floor));
-        let mut outcome = study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, far);
+        options.reached(Stage::DriveChosen);
+        let least = gaps::floor_of_scatter(&link, &floor);
+        let mut outcome =
+            study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, gaps::FAR * least);
+        outcome.held_out /= least;
         let rattling = patterns::rattling(&pieces, robot, &start.drive(None), &catalogue)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
         if rattling.is_some() && !outcome.named.is_empty() {
@@ -377,6 +376,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             "No duties in the logs (or none that belong to the wheels): the drive link is not compared.".to_owned(),
         );
     }
+    options.reached(Stage::DriveStudied);
     let mut exact_links = Vec::new();
     for link in &exact {
         let is_new = |f: &&Finding| f.name == ORDER || !study.named.iter().any(|n: &Named| n.name == f.name);
@@ -434,6 +434,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         alternatives.retain(|set| !set.first().is_some_and(|first| gone.contains(first)));
         ambiguous &= !named.is_empty();
     };
+    options.reached(Stage::Measured);
     for n in &mut named {
         if let Some((_, gain)) =
             measured.gains.iter().find(|g| g.0 == n.name && matches!(n.evidence, Evidence::Test { .. }))
@@ -457,7 +458,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     for link in &exact {
         located.extend(crate::locate::exact(link));
     }
-    let weightless = gaps::weightless(&pieces, drive.as_ref());
+    let weightless = gaps::weightless(&pieces, drive.as_ref().map(|d| &d.plots[1]));
     links.extend(exact_links);
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
@@ -474,8 +475,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let mut remains = Vec::new();
     for l in links.iter().filter(|l| !slides(l)) {
-        let far = if l.link == Link::Drive { drive.as_ref().map_or(FAR_OFF, MeasuredDrive::far) } else { FAR_OFF };
-        match gaps::remains(l, &located, far) {
+        match gaps::remains(l, &located) {
             _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });

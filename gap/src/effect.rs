@@ -7,6 +7,7 @@ use runs::robot::{Robot, Support};
 use crate::drive::DriveModel;
 use crate::motion::MotionModel;
 use crate::thresholds;
+pub use crate::values::{Values, wheel_name};
 
 /// A piece of the chain from command to camera, cut at logged signals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -120,44 +121,6 @@ impl Form {
     }
 }
 
-/// Parameter values by name; what is not there is 0.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Values(pub Vec<(String, f64)>);
-
-impl Values {
-    /// A value, if it is there.
-    pub fn find(&self, name: &str) -> Option<f64> {
-        self.0.iter().find(|(n, _)| n == name).map(|(_, v)| *v)
-    }
-
-    /// A value, 0 if it is not there.
-    pub fn get(&self, name: &str) -> f64 {
-        self.find(name).unwrap_or(0.0)
-    }
-
-    /// The value of wheel `i` (from 0): `stem_i+1_unit`, plus the common `stem_unit`.
-    pub fn wheel(&self, stem: &str, i: usize, unit: &str) -> f64 {
-        self.get(&wheel_name(stem, i, unit)) + self.get(&join(stem, unit))
-    }
-
-    /// Sets a value.
-    pub fn set(&mut self, name: &str, value: f64) {
-        match self.0.iter_mut().find(|(n, _)| n == name) {
-            Some(slot) => slot.1 = value,
-            None => self.0.push((name.to_owned(), value)),
-        }
-    }
-}
-
-/// `stem_2_unit` for wheel 1 (from 0).
-pub fn wheel_name(stem: &str, wheel: usize, unit: &str) -> String {
-    join(&format!("{stem}_{}", wheel + 1), unit)
-}
-
-fn join(stem: &str, unit: &str) -> String {
-    if unit.is_empty() { stem.to_owned() } else { format!("{stem}_{unit}") }
-}
-
 /// A physical effect that the nominal model leaves out.
 pub trait Effect: Send + Sync {
     /// Name, kebab-case, stable.
@@ -263,11 +226,13 @@ impl Sizes {
             Support::Blocks => 0.0,
         };
         let drive_nm = (thresholds::PEAK_OF_RMS * torque_nm).max(thresholds::GRIP * load);
-        Self {
-            drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm },
-            speed: if speed > 0.0 { speed } else { sizes.speed },
-            ..sizes
-        }
+        Self { drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm }, ..sizes }.at_speed(speed)
+    }
+
+    /// The same for wheels that turned at this speed, rad/s, if they did.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> Self {
+        Self { speed: if speed > 0.0 { speed } else { self.speed }, ..self }
     }
 }
 

@@ -61,10 +61,10 @@ impl Evidence {
     /// In a few words.
     pub fn words(&self) -> String {
         match self {
-            Self::Test { p, .. } => format!("p = {}", crate::report::short(*p)),
+            Self::Test { p, .. } => format!("p = {}", short(*p)),
             Self::Replay { ticks, wrong } => format!("{} of {ticks} ticks wrong, {} without it", wrong[1], wrong[0]),
             Self::Pattern { what, p: None } => what.clone(),
-            Self::Pattern { what, p: Some(p) } => format!("{what}, p = {}", crate::report::short(*p)),
+            Self::Pattern { what, p: Some(p) } => format!("{what}, p = {}", short(*p)),
         }
     }
 }
@@ -119,6 +119,15 @@ impl Interval {
         }
         Value::Object(out)
     }
+}
+
+/// A number with three significant digits.
+pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{x:.digits$}")
 }
 
 #[cfg(test)]

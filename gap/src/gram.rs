@@ -4,6 +4,8 @@
 //! covariances, sign flips, look-alikes) comes from JᵀJ, Jᵀr and rᵀr of each cluster, so that its
 //! cost does not depend on the length of the logs.
 
+use std::sync::{Arc, OnceLock};
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::symmetric::Symmetric;
@@ -108,6 +110,20 @@ pub struct Gram {
     pub clusters: Vec<Cluster>,
     /// Group of each cluster for leaving out: the run, or a block of a single run.
     pub folds: Vec<usize>,
+    totals: OnceLock<Arc<Totals>>,
+}
+
+/// Sums over all clusters.
+#[derive(Debug, Clone)]
+pub struct Totals {
+    /// JᵀJ.
+    pub jj: DMatrix<f64>,
+    /// Jᵀr.
+    pub jr: DVector<f64>,
+    /// rᵀr.
+    pub rr: f64,
+    /// JᵀJ and Jᵀr of each fold.
+    pub folds: Vec<(usize, DMatrix<f64>, DVector<f64>)>,
 }
 
 /// Blocks a single run is cut into.
@@ -125,7 +141,37 @@ impl Gram {
         let n = clusters.len();
         let folds =
             (0..n).map(|i| if single { i * BLOCKS.min(n.max(1)) / n.max(1) } else { clusters[i].run }).collect();
-        Self { clusters, folds }
+        Self { clusters, folds, totals: OnceLock::new() }
+    }
+
+    /// The same clusters with other folds.
+    #[must_use]
+    pub fn with_folds(&self, of: impl Fn(usize) -> usize) -> Self {
+        let folds = (0..self.clusters.len()).map(of).collect();
+        Self { clusters: self.clusters.clone(), folds, totals: OnceLock::new() }
+    }
+
+    /// Sums over all clusters, worked out once.
+    pub fn totals(&self) -> Arc<Totals> {
+        let sum = || {
+            let m = self.clusters.first().map_or(0, |c| c.jr.len());
+            let mut folds: Vec<(usize, DMatrix<f64>, DVector<f64>)> = Vec::new();
+            for (c, fold) in self.clusters.iter().zip(&self.folds) {
+                let at = folds.iter().position(|f| f.0 == *fold).unwrap_or_else(|| {
+                    folds.push((*fold, DMatrix::zeros(m, m), DVector::zeros(m)));
+                    folds.len() - 1
+                });
+                c.jj.add_to(&mut folds[at].1);
+                folds[at].2 += &c.jr;
+            }
+            let (mut jj, mut jr) = (DMatrix::zeros(m, m), DVector::zeros(m));
+            for (_, own, score) in &folds {
+                jj += own;
+                jr += score;
+            }
+            Arc::new(Totals { jj, jr, rr: self.clusters.iter().map(|c| c.rr).sum(), folds })
+        };
+        self.totals.get_or_init(sum).clone()
     }
 
     /// Huber loss of the residuals.
@@ -146,10 +192,12 @@ impl Gram {
 
     /// JᵀJ of all columns.
     pub fn information(&self) -> DMatrix<f64> {
-        let m = self.clusters.first().map_or(0, |c| c.jr.len());
-        let mut sum = DMatrix::zeros(m, m);
-        self.clusters.iter().for_each(|c| c.jj.add_to(&mut sum));
-        sum
+        self.totals().jj.clone()
+    }
+
+    /// Whether the data say anything of a column.
+    pub fn tells(&self, column: usize) -> bool {
+        self.clusters.iter().any(|c| c.jj[(column, column)] > 0.0)
     }
 
     /// Number of residuals, weighted.
@@ -257,6 +305,14 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
         None => scaled.lu().solve(&rhs).unwrap_or_else(|| DVector::zeros(m)),
     };
     DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { x[i] / scale[i] })
+}
+
+/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny ridge on the way; `None` if it has none.
+pub(crate) fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let m = a.nrows();
+    let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
+    let unit = DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { RIDGE } else { 0.0 });
+    Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
 }
 
 /// W with W·Wᵀ = A⁻¹.

@@ -13,6 +13,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod analysis;
+pub mod candidates;
 pub mod catalogue;
 mod command;
 mod controller;
@@ -42,6 +43,7 @@ mod symmetric;
 pub mod thresholds;
 mod timing;
 pub mod user;
+pub mod values;
 mod words;
 
 pub use analysis::{Analysis, Verdict, analyse, analyse_logs, undo};

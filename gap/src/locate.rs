@@ -1,11 +1,23 @@
 //! Where the model and the data part, in words.
 
-use crate::analysis::Located;
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::Link;
 use crate::exact::ExactLink;
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::statistics::rms;
+
+/// Where the model and the data part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located {
+    /// Link.
+    pub link: Link,
+    /// Signal, such as `enc_3`.
+    pub signal: String,
+    /// RMS residual in units of the noise floor.
+    pub excess: f64,
+    /// In words.
+    pub place: String,
+}
 
 /// Signals whose residual is below this many floors are not listed.
 const WORTH: f64 = 1.3;

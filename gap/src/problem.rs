@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::drive::{DriveLink, DriveModel};
-use crate::effect::{Effect, Link, Sizes};
+use crate::drive::{DriveLink, DriveModel, Side};
+use crate::effect::{Effect, Link, Parameter, Sizes};
 use crate::gram::{Cluster, Gram};
 use crate::motion::{MotionLink, MotionModel};
 use crate::state::{Active, State};
@@ -72,23 +72,35 @@ impl Problem<'_> {
     /// The link's candidates: every form of every effect fitted there, in the sizes of its logs.
     pub fn candidates(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         let sizes = match self {
-            Self::Motion(_) => Sizes::of(&state.robot),
+            Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()),
             Self::Drive(link) => link.sizes,
         };
-        crate::select::candidates_in(state, catalogue, self.link(), &sizes)
+        let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);
+        if matches!(self, Self::Motion(link) if !link.pieces.have_duties()) {
+            // What lags by its mass: where no drive is compared, nobody vouches for a mass.
+            all.retain(|a| a.effect.name() != "wheel-creep");
+        }
+        all
     }
 
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
-        // From, to (`None`: the state itself, predicted once for all), and the step between them.
-        let mut moves: Vec<(Option<State>, State, f64)> = Vec::new();
+        // From, to (`None`: the state itself, predicted once for all), the step between them, and what the derivative
+        // depends on if it is the same whatever loads are added.
+        let mut moves: Vec<(Option<State>, State, f64, Option<String>)> = Vec::new();
+        let besides = self.besides_loads(state);
+        let key = |a: &Active, p: &Parameter| {
+            let is_load = self.link() == Link::Drive && a.effect.is_load();
+            is_load.then(|| format!("{besides}{} {:?} {}", a.effect.name(), a.form.fixed, p.name))
+        };
         for index in state.fitted_on(self.link()) {
             let a = &state.active[index];
             for (j, p) in a.form.free.iter().enumerate() {
                 let h = 0.05 * p.scale;
                 owners.push(Owner::Active(index, j));
-                moves.push((Some(state.with(index, a.moved(j, -h))), state.with(index, a.moved(j, h)), 2.0 * h));
+                let [low, high] = [-h, h].map(|by| state.with(index, a.moved(j, by)));
+                moves.push((Some(low), high, 2.0 * h, key(a, p)));
             }
         }
         for index in state.fitted_on(self.link()).into_iter().filter(|i| state.active[*i].switched()) {
@@ -96,7 +108,7 @@ impl Problem<'_> {
             off.active.remove(index);
             owners.push(Owner::Whole(index));
             // Backwards, which turns the sign round.
-            moves.push((None, off, -1.0));
+            moves.push((None, off, -1.0, None));
         }
         // Forms of one effect share parameters: each is worked out once.
         let mut known: HashMap<(&str, String, &str), usize> = HashMap::new();
@@ -108,14 +120,14 @@ impl Problem<'_> {
                 let mut on = state.clone();
                 on.active.push(candidate.clone());
                 column_of.push(moves.len());
-                moves.push((None, on, 1.0));
+                moves.push((None, on, 1.0, None));
                 continue;
             }
             for (j, p) in candidate.form.free.iter().enumerate() {
                 let h = p.scale;
                 owners.push(Owner::Candidate(c, j));
-                let key = (candidate.effect.name(), format!("{:?}", candidate.form.fixed), p.name.as_str());
-                let column = *known.entry(key).or_insert(moves.len());
+                let shared = (candidate.effect.name(), format!("{:?}", candidate.form.fixed), p.name.as_str());
+                let column = *known.entry(shared).or_insert(moves.len());
                 column_of.push(column);
                 if column < moves.len() {
                     continue;
@@ -129,27 +141,39 @@ impl Problem<'_> {
                 let both = p.bounds[0] < 0.0 && !(self.link() == Link::Drive && candidate.effect.is_load());
                 let low = both.then(|| side(-h));
                 let step = if low.is_some() { 2.0 * h } else { h };
-                moves.push((low, side(h), step));
+                moves.push((low, side(h), step, key(candidate, p)));
             }
         }
+        let columns = moves.len();
         let clusters: Vec<Cluster> = match self {
             Self::Motion(link) => {
                 let sides: Vec<(Option<MotionModel>, MotionModel, f64)> =
-                    moves.iter().map(|(a, b, h)| (a.as_ref().map(|a| a.motion(None)), b.motion(None), *h)).collect();
+                    moves.iter().map(|(a, b, h, _)| (a.as_ref().map(|a| a.motion(None)), b.motion(None), *h)).collect();
                 link.linearise(&state.motion(None), &sides)
             }
             Self::Drive(link) => {
-                let sides: Vec<(Option<DriveModel>, DriveModel, f64)> =
-                    moves.iter().map(|(a, b, h)| (a.as_ref().map(|a| a.drive(None)), b.drive(None), *h)).collect();
+                let side = |(low, high, step, key): (Option<State>, State, f64, Option<String>)| Side {
+                    low: low.map(|low| low.drive(None)),
+                    high: high.drive(None),
+                    step,
+                    key,
+                };
+                let sides: Vec<Side> = moves.into_iter().map(side).collect();
                 link.linearise(&state.drive(None), &sides)
             }
         };
-        let clusters = if column_of.len() == moves.len() {
+        let clusters = if column_of.iter().copied().eq(0..columns) {
             clusters
         } else {
             clusters.into_iter().map(|c| c.spread(&column_of)).collect()
         };
         Linear { gram: Gram::new(clusters), owners }
+    }
+
+    /// All of a state that is no load in proportion to its parameters, and so changes what loads do.
+    fn besides_loads(&self, state: &State) -> String {
+        let others = state.active.iter().filter(|a| !a.effect.is_load());
+        others.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
     }
 
     /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it

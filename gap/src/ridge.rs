@@ -5,19 +5,18 @@
 //! effects; leaving it out would let it pass for one. So all effects that are not named keep a
 //! Gaussian prior about zero whose width is a fixed share of their materiality threshold.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
-use crate::gram::{Gram, solve};
+use crate::gram::{Gram, Totals, solve};
 
 /// A penalised least-squares problem over all columns of a linearisation.
 pub struct Ridge<'a> {
     gram: &'a Gram,
     /// Variance the residuals really have, in units of the assumed noise.
     variance: f64,
-    jj: DMatrix<f64>,
-    jr: DVector<f64>,
-    rr: f64,
-    folds: Vec<(usize, DMatrix<f64>, DVector<f64>)>,
+    totals: Arc<Totals>,
 }
 
 /// A fit.
@@ -47,32 +46,17 @@ pub enum Role {
 impl<'a> Ridge<'a> {
     /// Sums over the clusters once.
     pub fn new(gram: &'a Gram, variance: f64) -> Self {
-        let m = gram.clusters.first().map_or(0, |c| c.jr.len());
-        let (mut jj, mut jr, mut rr) = (DMatrix::zeros(m, m), DVector::zeros(m), 0.0);
-        let mut folds: Vec<(usize, DMatrix<f64>, DVector<f64>)> = Vec::new();
-        for (c, fold) in gram.clusters.iter().zip(&gram.folds) {
-            c.jj.add_to(&mut jj);
-            jr += &c.jr;
-            rr += c.rr;
-            match folds.iter_mut().find(|f| f.0 == *fold) {
-                Some(f) => {
-                    c.jj.add_to(&mut f.1);
-                    f.2 += &c.jr;
-                }
-                None => folds.push((*fold, c.jj.full(), c.jr.clone())),
-            }
-        }
-        Self { gram, variance, jj, jr, rr, folds }
+        Self { gram, variance, totals: gram.totals() }
     }
 
     /// What the data say of one column: its sum of squares.
     pub fn information(&self, column: usize) -> f64 {
-        self.jj[(column, column)]
+        self.totals.jj[(column, column)]
     }
 
     /// The best step with these roles.
     pub fn fit(&self, roles: &[Role]) -> RidgeFit {
-        let (step, columns) = self.solve(&self.jj, &self.jr, roles);
+        let (step, columns) = self.solve(&self.totals.jj, &self.totals.jr, roles);
         self.rated(step, &columns, roles)
     }
 
@@ -93,23 +77,20 @@ impl<'a> Ridge<'a> {
 
     /// The best steps with each fold left out in turn.
     pub fn left_out(&self, roles: &[Role]) -> Vec<DVector<f64>> {
-        let without =
-            |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| self.solve(&(&self.jj - jj), &(&self.jr - jr), roles).0;
-        self.folds.iter().map(without).collect()
+        let without = |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| {
+            self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles).0
+        };
+        self.totals.folds.iter().map(without).collect()
     }
 
     /// How well the other columns do in place of one, whatever the data say.
     pub fn explain(&self, column: usize, roles: &[Role]) -> RidgeFit {
         let mut roles = roles.to_vec();
         roles[column] = if let Role::Held(..) = roles[column] { roles[column] } else { Role::Out };
-        let wanted = Self {
-            gram: self.gram,
-            variance: self.variance,
-            jj: self.jj.clone(),
-            jr: self.jj.column(column).into_owned(),
-            rr: self.jj[(column, column)],
-            folds: Vec::new(),
-        };
+        let jj = &self.totals.jj;
+        let totals =
+            Totals { jr: jj.column(column).into_owned(), rr: jj[(column, column)], jj: jj.clone(), folds: Vec::new() };
+        let wanted = Self { gram: self.gram, variance: self.variance, totals: Arc::new(totals) };
         wanted.fit(&roles)
     }
 
@@ -117,23 +98,23 @@ impl<'a> Ridge<'a> {
         let mut linear = 0.0;
         let mut square = 0.0;
         for &p in columns {
-            linear += step[p] * self.jr[p];
+            linear += step[p] * self.totals.jr[p];
             for &q in columns {
-                square += step[p] * step[q] * self.jj[(p, q)];
+                square += step[p] * step[q] * self.totals.jj[(p, q)];
             }
         }
         let penalty = penalty(&step, roles);
-        RidgeFit { loss: (self.rr - 2.0 * linear + square) / self.variance, step, penalty }
+        RidgeFit { loss: (self.totals.rr - 2.0 * linear + square) / self.variance, step, penalty }
     }
 
     /// Held-out sum of squares of each cluster, in units of the assumed noise (not the variance).
     pub fn held_out(&self, roles: &[Role]) -> Vec<f64> {
         let mut out: Vec<f64> = self.gram.clusters.iter().map(|c| c.rr).collect();
-        if self.folds.len() < 2 {
+        if self.totals.folds.len() < 2 {
             return out;
         }
-        for (fold, jj, jr) in &self.folds {
-            let (step, columns) = self.solve(&(&self.jj - jj), &(&self.jr - jr), roles);
+        for (fold, jj, jr) in &self.totals.folds {
+            let (step, columns) = self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles);
             for (i, c) in self.gram.clusters.iter().enumerate().filter(|(i, _)| self.gram.folds[*i] == *fold) {
                 let (mut linear, mut square) = (0.0, 0.0);
                 for &p in &columns {
@@ -149,7 +130,7 @@ impl<'a> Ridge<'a> {
     }
 
     fn solve(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
-        let used = |i: &usize| roles[*i] != Role::Out && self.jj[(*i, *i)] > 0.0;
+        let used = |i: &usize| roles[*i] != Role::Out && self.totals.jj[(*i, *i)] > 0.0;
         let (taken, columns): (Vec<usize>, Vec<usize>) =
             (0..roles.len()).filter(used).partition(|i| matches!(roles[*i], Role::At(_)));
         let m = columns.len();

@@ -5,7 +5,6 @@ use runs::geometry::Geometry;
 use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
-use crate::drive::smooth_sign;
 use crate::thresholds;
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
@@ -292,6 +291,11 @@ fn unwrapped(run: &Run, wheel: usize, first: f64, t: &[f64]) -> Vec<f64> {
         }
     }
     out
+}
+
+/// Direction of a speed, −1 to 1, smooth over about `width` on either side of 0.
+pub fn smooth_sign(speed: f64, width: f64) -> f64 {
+    (speed / width).tanh()
 }
 
 /// Whether the loop set further duties between the rows of a log.

@@ -23,7 +23,9 @@ use crate::thresholds::{AS_WELL, FAR_LEFT, UNDECIDED};
 use gates::Gates;
 use join::join;
 
-pub use bench::{Bench, Trial, candidates, candidates_in, is_material};
+pub use crate::candidates::candidates;
+pub use crate::state::is_material;
+pub use bench::{Bench, Trial};
 pub(crate) use plain::{held_out, plain};
 pub use rivals::{Rivals, figures, rivals, sign_flip};
 pub use sure::estimates;
@@ -347,7 +349,7 @@ fn finish_bare(problem: &Problem, state: State, from: usize, all: &[Active], thr
 
 /// The same clusters with parts of the runs as folds.
 fn in_parts(gram: &Gram, parts: usize) -> Gram {
-    Gram { folds: (0..gram.clusters.len()).map(|i| i % parts).collect(), ..gram.clone() }
+    gram.with_folds(|i| i % parts)
 }
 
 /// A selection with some of its own effects taken out, the others fitted anew.

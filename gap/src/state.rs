@@ -52,7 +52,7 @@ impl Active {
 
     /// Whether it is material, and so named or reported.
     pub fn worth(&self) -> bool {
-        !self.given && (self.together || crate::select::is_material(self, &self.parameters()))
+        !self.given && (self.together || is_material(self, &self.parameters()))
     }
 
     /// Whether it is named: worth it, and an effect of the catalogue.
@@ -107,4 +107,9 @@ impl State {
     pub fn fitted_on(&self, link: Link) -> Vec<usize> {
         (0..self.active.len()).filter(|i| !self.active[*i].given && self.active[*i].link == link).collect()
     }
+}
+
+/// Whether any parameter of an effect exceeds its materiality threshold.
+pub fn is_material(active: &Active, values: &[f64]) -> bool {
+    active.form.free.iter().zip(values).any(|(p, v)| p.is_material(*v))
 }

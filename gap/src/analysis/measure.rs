@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use runs::Log;
-use runs::robot::{Robot, Support};
+use runs::robot::Robot;
 
 use super::robot_file::{completed, given};
 use super::study::rms;
@@ -42,15 +42,6 @@ pub(super) struct MeasuredDrive {
     pub(super) plots: [DriveResiduals; 2],
     /// Nm, one a wheel.
     pub(super) floor: Vec<f64>,
-    /// Torque that the motors reach in the logs where wheels roll on a floor, Nm; else 0.
-    small_of_nm: f64,
-}
-
-impl MeasuredDrive {
-    /// Noise floors from which the link does not agree: those of a torque that matters beside what is driven.
-    pub(super) fn far(&self) -> f64 {
-        super::study::FAR.max(gaps::drive_matters(&self.floor, self.small_of_nm))
-    }
 }
 
 /// Figures of a written model beside the nominal one's.
@@ -141,17 +132,18 @@ impl<'a> Data<'a> {
             out.driven.frames = Driven::at_frames(self.pieces, &plots[0]);
             out.motion = Some(plots);
         }
-        let drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        let mut drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        if let Some(Drive { link, .. }) = &mut drive {
+            link.noise = gaps::drive_floor(link, &link.noise);
+        }
         if let Some(drive) = &drive {
             let problem = Problem::Drive(&drive.link);
             let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
             let plots = [nominally, drive.residuals.clone()];
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
             out.driven.bumps = Driven::at_bumps(&drive.link);
-            let rolls = nominal.support == Support::Floor;
-            let small_of_nm = if rolls { drive.link.sizes.drive_nm } else { 0.0 };
             let floor = drive.link.noise.clone();
-            out.drive = Some(MeasuredDrive { plots, floor, small_of_nm });
+            out.drive = Some(MeasuredDrive { plots, floor });
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
             let motion = self.has_motion.then(|| (Link::Motion, rms(&motion, state)));

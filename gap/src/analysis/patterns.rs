@@ -35,7 +35,7 @@ pub(super) fn ripple_named(
             ripple.count,
             100.0 * amplitude,
             wheels.join(", "),
-            crate::report::short(ripple.p_value)
+            crate::evidence::short(ripple.p_value)
         ));
     }
     let noise = ripple.wheels.iter().map(|w| w.2 * w.2).sum::<f64>().sqrt() / n;

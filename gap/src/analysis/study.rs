@@ -3,19 +3,17 @@
 use std::sync::Arc;
 
 use super::{Limit, Named};
-use crate::effect::{Effect, Parameter};
+use crate::drive::Generic;
+use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Selection};
 use crate::state::{Active, State};
 use crate::thresholds;
-use crate::thresholds::LEAST_TOGETHER;
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;
-/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
-pub(super) const FAR: f64 = 3.0;
 /// Share of the squared residual that the estimates may leave more than the best ones of what is named.
 const WORSE: f64 = 0.1;
 /// Share of a held-out sum of squares by which a selection with more parameters must be better.
@@ -200,23 +198,23 @@ fn several(
     }
     problem.fit(&mut found.state);
     let loss = |state: &State| select::held_out(problem, state).0;
-    let open = loss(start);
-    let mut kept = found.state.clone();
+    let (_, noise) = select::held_out(problem, &found.state);
+    let mut kept = (loss(&found.state), found.state.clone());
     loop {
-        let closed = open - loss(&kept);
-        let least = (from..kept.active.len()).filter(|index| kept.active[*index].together).map(|index| {
-            let mut without = kept.clone();
+        let (now, state) = &kept;
+        let least = (from..state.active.len()).filter(|index| state.active[*index].together).map(|index| {
+            let mut without = state.clone();
             without.active.remove(index);
             problem.fit(&mut without);
-            (open - loss(&without), without)
+            (loss(&without), without)
         });
-        match least.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        match least.min_by(|a, b| a.0.total_cmp(&b.0)) {
             None => return None,
-            Some((rest, without)) if closed - rest < LEAST_TOGETHER * closed => kept = without,
+            Some(without) if without.0 - now < thresholds::LEAST_TOGETHER * (without.0 - noise) => kept = without,
             Some(_) => break,
         }
     }
-    let keep = |a: &Active| kept.active.iter().any(|k| k.effect.name() == a.effect.name());
+    let keep = |a: &Active| kept.1.active.iter().any(|k| k.effect.name() == a.effect.name());
     Some(select::without(problem, &found, from, keep, all, thresholds))
 }
 
@@ -282,7 +280,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
     let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
-    Some(format!("{}; p = {}", refusal.reason(), crate::report::short(estimate.p)))
+    Some(format!("{}; p = {}", refusal.reason(), crate::evidence::short(estimate.p)))
 }
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.
@@ -297,6 +295,16 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
     let clusters = bench.linear.gram.clusters.len();
     let left_out = bench.left_out(&roles);
+    // A floor is what smooth functions of speed, duty and the like leave of each wheel: laws that are missing are such.
+    let missed = match problem {
+        Problem::Drive(link) => bench.missed(&roles, Generic::columns_of_wheel(link.noise.len()) as f64),
+        Problem::Motion(_) => vec![0.0; roles.len()],
+    };
+    // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
+    let usual = |p: &Parameter| match problem.link() {
+        Link::Drive if p.material.is_finite() => bench.held_share() * p.material,
+        _ => 0.0,
+    };
     let mut out = Vec::new();
     for index in from..selection.state.active.len() {
         let active = &selection.state.active[index];
@@ -312,7 +320,8 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             let half = column.map_or(0.0, |c| {
                 let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
                 let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-                half_width(covariance[(c, c)].max(beside[(c, c)]).max(0.0), df, runs)
+                let scatter = covariance[(c, c)].max(beside[(c, c)]).max(0.0);
+                half_width(scatter, missed[c] + usual(p).powi(2), df, runs)
             });
             // The effect's own law is not known to better than that.
             let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);
@@ -323,9 +332,15 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     out
 }
 
-/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain.
-/// `left_out` are the estimates without one run each.
-fn half_width(variance: f64, df: usize, left_out: &[f64]) -> f64 {
+/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
+/// what is the same in all of them. `left_out` are the estimates without one run each.
+fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
+    let of_common = model::fit::t_quantile_975(usize::MAX) * common.sqrt();
+    of_common.hypot(half_scatter(variance, df, left_out))
+}
+
+/// The same of what scatters alone.
+fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
     let by_clusters = model::fit::t_quantile_975(df) * variance.sqrt();
     let runs = left_out.len();
     if runs < 3 {
@@ -429,10 +444,13 @@ mod tests {
     fn intervals_are_as_wide_as_runs_differ() {
         // Runs that agree as clusters have it.
         let t = model::fit::t_quantile_975(100);
-        assert!((half_width(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
+        assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
         // Leave-one-out estimates three cluster deviations apart.
-        let wide = half_width(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
+        let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
         assert!(wide > 3.0 * t, "{wide}");
-        assert!((half_width(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+        assert!((half_scatter(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+        // What all runs share adds to that.
+        let both = half_width(1.0, 1.0, 100, &[9.0, -9.0]);
+        assert!((both / t / 2.0_f64.sqrt() - 1.0).abs() < 0.01, "{both}");
     }
 }

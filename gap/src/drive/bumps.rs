@@ -1,10 +1,12 @@
 //! Weak form: bumps, and the unexplained torque of each.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::columns::{Column, Columns, Side};
 use super::forces::Base;
 use super::{DriveModel, Mechanics};
 use crate::effect::Sizes;
@@ -35,6 +37,7 @@ pub struct DriveLink<'a> {
     /// What torques and speeds are large beside.
     pub sizes: Sizes,
     bumps: Vec<Bump>,
+    columns: Columns,
 }
 
 /// One test function on one segment.
@@ -117,7 +120,7 @@ impl<'a> DriveLink<'a> {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link = Self { pieces, inertia, noise: vec![1.0; n], sizes, bumps };
+        let mut link = Self { pieces, inertia, noise: vec![1.0; n], sizes, bumps, columns: Columns::default() };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         Some(link)
     }
@@ -414,9 +417,8 @@ impl<'a> DriveLink<'a> {
         (self.bumps[bump].segment, self.bumps[bump].first)
     }
 
-    /// Linearises: residuals and derivatives along each pair of models (low or `None` for the model
-    /// itself, high, step), per cluster.
-    pub fn linearise(&self, model: &DriveModel, sides: &[(Option<DriveModel>, DriveModel, f64)]) -> Vec<Cluster> {
+    /// Linearises: residuals and derivatives along each side, per cluster.
+    pub fn linearise(&self, model: &DriveModel, sides: &[Side]) -> Vec<Cluster> {
         let n = self.noise.len();
         let mut clusters = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
@@ -427,18 +429,26 @@ impl<'a> DriveLink<'a> {
             let left = |model: &DriveModel, forces: &[f64]| {
                 self.unexplained_part(model, s, &range, &shapes, (forces, Some(&self.inertia)), &measured)
             };
-            let start = Base::new(model, s);
+            let known: Vec<Option<Column>> = sides.iter().map(|side| self.columns.find(range.start, side)).collect();
+            let start = Base::new(model, s, known.iter().any(Option::is_none));
             let Some(base) = left(model, &start.forces) else { return Vec::new() };
-            let columns: Vec<Option<Vec<DVector<f64>>>> = sides
+            let columns: Vec<Option<Column>> = sides
                 .par_iter()
-                .map(|(low, high, step)| {
-                    let low = match low {
+                .zip(known)
+                .map(|(side, known)| {
+                    if known.is_some() {
+                        return known;
+                    }
+                    let low = match &side.low {
                         Some(low) => Some(left(low, &start.forces_of(low))?),
                         None => None,
                     };
-                    let high = left(high, &start.forces_of(high))?;
+                    let high = left(&side.high, &start.forces_of(&side.high))?;
                     let low = low.as_ref().unwrap_or(&base);
-                    Some(low.iter().zip(&high).map(|(a, b)| (a - b) / *step).collect())
+                    let moved = low.iter().zip(&high).flat_map(|(a, b)| (0..n).map(|i| (a[i] - b[i]) / side.step));
+                    let column = Arc::new(moved.collect());
+                    self.columns.keep(range.start, side, &column);
+                    Some(column)
                 })
                 .collect();
             let mut first = 0;
@@ -452,7 +462,7 @@ impl<'a> DriveLink<'a> {
                 });
                 let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
                     let (b, i) = at(r);
-                    columns[c].as_ref().map_or(0.0, |column| column[b][i] * weight(r))
+                    columns[c].as_ref().map_or(0.0, |column| column[b * n + i] * weight(r))
                 });
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));

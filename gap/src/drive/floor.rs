@@ -28,12 +28,20 @@ pub struct Left {
     pub scatter: f64,
 }
 
+/// Columns of a wheel that no other shares.
+const ALONE: usize = 4;
+
 impl Generic {
+    /// Functions that describe one of so many wheels.
+    pub fn columns_of_wheel(wheels: usize) -> usize {
+        3 * wheels + 6 + ALONE
+    }
+
     /// Its columns.
     pub fn new(link: &DriveLink) -> Self {
         let n = link.noise.len();
         let slides = thresholds::SLIDES * link.pieces.robot().wheel_radius_m;
-        let (common, alone) = (3 * n + 6, 4);
+        let (common, alone) = (Self::columns_of_wheel(n) - ALONE, ALONE);
         let mut all = link.means(common + alone * n, |s, k, out| {
             let (common, own) = out.split_at_mut(common);
             for i in 0..n {

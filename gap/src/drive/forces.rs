@@ -70,11 +70,6 @@ impl Loads {
     }
 }
 
-/// Smooth sign.
-pub fn smooth_sign(x: f64, width: f64) -> f64 {
-    (x / width).tanh()
-}
-
 /// Torques and forces of a model at every tick of a segment, with all that further loads look at.
 pub(super) struct Base<'a> {
     model: &'a DriveModel,
@@ -88,11 +83,12 @@ pub(super) struct Base<'a> {
 }
 
 impl<'a> Base<'a> {
-    /// Of a model at a segment.
-    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment) -> Self {
+    /// Of a model at a segment; without its signals, unless loads are to be added.
+    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, with_signals: bool) -> Self {
         let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
-        let mut signals = Vec::with_capacity(segment.t.len() * (5 * model.wheels.len() + 4));
-        let forces = model.evaluate(segment, &prepared, Some(&mut signals));
+        let room = if with_signals { segment.t.len() * (5 * model.wheels.len() + 4) } else { 0 };
+        let mut signals = Vec::with_capacity(room);
+        let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals));
         Self { model, segment, forces, signals, prepared }
     }
 

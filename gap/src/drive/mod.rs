@@ -6,6 +6,7 @@
 //! unexplained torque per wheel and bump, Nm at the wheel shaft.
 
 mod bumps;
+mod columns;
 mod floor;
 mod forces;
 mod free_run;
@@ -14,12 +15,14 @@ use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::{Robot, Support};
 
-use crate::effect::Values;
 use crate::segment::Segment;
+use crate::values::Values;
 
+pub use crate::segment::smooth_sign;
 pub use bumps::{DriveLink, DriveResiduals};
+pub use columns::Side;
 pub use floor::{Generic, Left, floor};
-pub use forces::{Instant, Loads, smooth_sign};
+pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
 
 /// Adds torques and forces at one instant.

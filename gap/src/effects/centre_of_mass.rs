@@ -26,11 +26,9 @@ impl Effect for CentreOfMass {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let m = 0.05 * Sizes::of(robot).rim_m;
-        vec![Form::whole(vec![
-            Parameter::new("x_m", 0.002, [-0.3, 0.3], m),
-            Parameter::new("y_m", 0.002, [-0.3, 0.3], m),
-        ])]
+        let rim = Sizes::of(robot).rim_m;
+        let p = |name| Parameter::new(name, 0.025 * rim, [-4.0 * rim, 4.0 * rim], 0.05 * rim);
+        vec![Form::whole(vec![p("x_m"), p("y_m")])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

@@ -1,6 +1,6 @@
 //! Which effects a robot can have at all.
 
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 
 /// What a differential drive has no wheels for: they have no rollers, and a wheel that is turned scrubs; both turned alike
 /// are a turned marker plate.
@@ -22,8 +22,25 @@ const NOT_BY_DEAD_RECKONING: [&str; 12] = [
     "sideways-creep",
 ];
 
+/// What acts on the body or follows its way, none of which there is while the wheels are off the floor.
+const NOT_ON_BLOCKS: [&str; 10] = [
+    "robot-mass",
+    "yaw-inertia",
+    "centre-of-mass",
+    "floor-tilt",
+    "carpet-grain",
+    "roller-friction",
+    "heading-drag",
+    "probe-heading-friction",
+    "probe-position-force",
+    "probe-position-drag",
+];
+
 /// Whether a robot can have an effect.
 pub(crate) fn fits(name: &str, robot: &Robot) -> bool {
+    if robot.support == Support::Blocks && NOT_ON_BLOCKS.contains(&name) {
+        return false;
+    }
     if runs::is_dead_reckoning(robot) {
         return !NOT_BY_DEAD_RECKONING.contains(&name);
     }
@@ -45,6 +62,9 @@ mod tests {
             (wheel.x_m, wheel.y_m, wheel.drive_rad) = (x, 0.0, std::f64::consts::FRAC_PI_2);
         }
         let two = Robot { layout: runs::robot::Layout::Wheels(axle), ..robot.clone() };
+        let blocks = Robot { support: Support::Blocks, ..robot.clone() };
+        assert!(NOT_ON_BLOCKS.iter().all(|name| fits(name, &robot) && !fits(name, &blocks)));
+        assert!(fits("coulomb-friction", &blocks));
         for (name, on) in [
             ("wheel-skew", [true, false, false]),
             ("wheel-radius", [true, true, false]),

@@ -3,7 +3,7 @@
 use runs::frames::Pose;
 use runs::robot::Robot;
 
-use crate::effect::{Effect, Form, Link, Parameter, Values};
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
 use crate::motion::MotionModel;
 
 /// A lens whose scale changes with the distance from the field centre.
@@ -26,8 +26,10 @@ impl Effect for LensDistortion {
         Link::Motion
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("k1_per_m2", 0.002, [-0.2, 0.2], 0.004)])]
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        // A field some dozens of robots wide: 0.004 per square metre where wheels stand 8 cm from the centre.
+        let unit = 2.5e-5 / Sizes::of(robot).rim_m.powi(2);
+        vec![Form::whole(vec![Parameter::new("k1_per_m2", 0.5 * unit, [-50.0 * unit, 50.0 * unit], unit)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

@@ -71,8 +71,9 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-camera-drift",
             link: Link::Motion,
-            forms: |_, _| {
-                let p = |n: &str| Parameter::new(n, 0.002, [-0.5, 0.5], 0.002);
+            forms: |robot, sizes| {
+                let v = sizes.speed * robot.wheel_radius_m;
+                let p = |n: &str| Parameter::new(n, 0.005 * v, [-v, v], 0.005 * v);
                 vec![Form::whole(vec![p("x_m_per_s"), p("y_m_per_s")])]
             },
             motion: |v, m| m.drift = [v.get("x_m_per_s"), v.get("y_m_per_s")],
@@ -88,7 +89,11 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
         Box::new(Probe {
             name: "probe-camera-speed-delay",
             link: Link::Motion,
-            forms: |_, _| vec![Form::whole(vec![Parameter::new("delay_s2_per_m", 0.005, [-1.0, 1.0], 0.006)])],
+            forms: |robot, sizes| {
+                // Seconds at the speed that wheels roll at.
+                let unit = 0.0025 / (sizes.speed * robot.wheel_radius_m);
+                vec![Form::whole(vec![Parameter::new("delay_s2_per_m", unit, [-160.0 * unit, 160.0 * unit], unit)])]
+            },
             motion: |v, m| m.speed_delay = v.get("delay_s2_per_m"),
             drive: |_, _| {},
             describe: |v| {

@@ -29,7 +29,7 @@ impl Effect for RotorInertia {
         // Material is what changes the inertia a wheel feels by as much as a material mass does.
         let model = DriveModel::new(robot);
         let own = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
-        let material = 0.06 * model.felt_inertia() / own.max(1e-12);
+        let material = 0.06 * model.felt_inertia() / own.max(f64::MIN_POSITIVE);
         vec![Form::whole(vec![Parameter::new("scale", (0.2 * material).max(0.02), [-0.9, 200.0], material)])]
     }
 

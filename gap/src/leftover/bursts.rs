@@ -61,7 +61,7 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_
     for w in &series.wheels {
         for (b, x) in w.torque.iter().enumerate() {
             let slot = moments.entry((w.segment[b], (w.t[b] / series.hop).round() as i64)).or_insert((0.0, 0.0));
-            slot.0 += (x / w.scatter.max(1e-12)).powi(2);
+            slot.0 += (x / w.scatter.max(f64::MIN_POSITIVE)).powi(2);
             slot.1 = slot.1.max(x.abs());
         }
     }
@@ -137,7 +137,7 @@ pub(super) fn stretches(series: &Series, drive_nm: f64) -> Option<Structure> {
             continue;
         }
         let mut sizes: Vec<f64> = means.iter().map(|m| m.1.abs()).collect();
-        let error = (1.4826 * median(&mut sizes)).max(1e-12);
+        let error = (1.4826 * median(&mut sizes)).max(f64::MIN_POSITIVE);
         for (first, mean) in means {
             if mean.abs() > STRETCH_MATERIAL * drive_nm && mean.abs() > STRETCH_OUT * error {
                 let size = mean.abs() / error;

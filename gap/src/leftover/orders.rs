@@ -100,7 +100,7 @@ pub(super) fn orders(
     }
     // What a wheel carries, at its rim, as an acceleration of the wheel.
     let carried = GRAVITY * model.mass / n as f64 * model.wheel_radius_m;
-    let bob = BOBS[usize::from(n > 3)] * carried / model.felt_inertia().max(1e-12);
+    let bob = BOBS[usize::from(n > 3)] * carried / model.felt_inertia().max(f64::MIN_POSITIVE);
     let tests = 2.0 * n as f64 * candidates.len() as f64;
     let mut ripples: Vec<(usize, usize, Line)> = Vec::new();
     let mut structures = Vec::new();

@@ -15,6 +15,7 @@ use std::path::Path;
 
 use crate::GapError;
 use crate::analysis::Analysis;
+pub(crate) use crate::evidence::short;
 
 /// Names of the files of a report.
 pub(crate) const FILES: [&str; 3] = ["gap.json", "report.html", "robot.toml"];
@@ -59,13 +60,4 @@ impl Analysis {
         }
         Ok(())
     }
-}
-
-/// A number with three significant digits.
-pub(crate) fn short(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x}");
-    }
-    let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{x:.digits$}")
 }

@@ -1,13 +1,11 @@
 //! A linearised link with all candidates: fits of any subset, their trials and covariances.
 
 use std::ops::Index;
-use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::ALIKE;
-use crate::effect::{Effect, Link, Sizes};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::ridge::{Ridge, RidgeFit, Role};
@@ -48,24 +46,6 @@ pub struct Trial {
     pub material: bool,
     /// Whether the straight line leads out of the bounds, at which the estimates were stopped.
     pub beyond: bool,
-}
-
-/// The link's candidates: every form of every effect fitted there.
-pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
-    candidates_in(state, catalogue, link, &Sizes::of(&state.robot))
-}
-
-/// The same for logs of these sizes.
-pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, sizes: &Sizes) -> Vec<Active> {
-    let wanted = catalogue.iter().filter(|e| {
-        (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
-            // Creep is slip below the limit of friction: one law of the contact is named.
-            && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
-            && crate::effects::fits(e.name(), &state.robot)
-    });
-    wanted
-        .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
-        .collect()
 }
 
 impl Bench {
@@ -291,6 +271,11 @@ impl Bench {
         Ridge::new(&self.linear.gram, self.variance)
     }
 
+    /// Standard deviation of what is not named, as a share of its materiality threshold.
+    pub fn held_share(&self) -> f64 {
+        self.held_share
+    }
+
     /// Roles with nothing freed.
     pub fn roles(&self) -> Vec<Role> {
         self.held.clone()
@@ -435,8 +420,7 @@ impl Bench {
 
     /// The same with parts of runs held out instead of runs.
     pub fn held_out_blocks(&self, freed: Option<usize>) -> Vec<f64> {
-        let mut gram = self.linear.gram.clone();
-        gram.folds = (0..gram.clusters.len()).map(|i| i % 5).collect();
+        let gram = self.linear.gram.with_folds(|i| i % 5);
         Ridge::new(&gram, self.variance).held_out(&self.bare(freed))
     }
 
@@ -494,12 +478,7 @@ impl Bench {
         let ridge = self.ridge();
         let mut trials: Vec<Trial> = (0..self.candidates.len())
             .into_par_iter()
-            .filter(|c| {
-                self.linear
-                    .of_candidate(*c)
-                    .iter()
-                    .all(|j| self.linear.gram.clusters.iter().any(|k| k.jj[(*j, *j)] > 0.0))
-            })
+            .filter(|c| self.linear.of_candidate(*c).iter().all(|j| self.linear.gram.tells(*j)))
             .filter(|c| !self.is_active(*c))
             .filter_map(|c| {
                 let (_, fit, beyond) = self.inside(&ridge, c)?;
@@ -550,13 +529,35 @@ impl Bench {
         free.zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= self.margin(c, j))
     }
 
+    /// What one direction of a missing law may add to the variances of the freed columns, where laws have so many of
+    /// them.
+    ///
+    /// What is left above the noise is no scatter: it is the same in every cluster and every run, and how much of it a
+    /// named effect took for its own does not show in the data. It points in any direction as likely as in another.
+    pub fn missed(&self, roles: &[Role], directions: f64) -> Vec<f64> {
+        let (square, n) = self.linear.gram.plain();
+        let excess = (square - n).max(0.0) / directions;
+        let used: Vec<usize> =
+            (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.linear.gram.tells(*i)).collect();
+        let jj = self.linear.gram.information();
+        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
+        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
+            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
+        });
+        let inverse = crate::gram::inverse(&own);
+        let mut out = vec![0.0; roles.len()];
+        for (p, c) in used.iter().enumerate() {
+            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| excess * inverse[(p, p)]);
+        }
+        out
+    }
+
     /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
     /// observations, nowhere below what the residual variance explains.
     pub fn covariance(&self, roles: &[Role], fit: &RidgeFit) -> DMatrix<f64> {
         let gram = &self.linear.gram;
         let m = roles.len();
-        let columns: Vec<usize> =
-            (0..m).filter(|i| roles[*i] != Role::Out && gram.clusters.iter().any(|c| c.jj[(*i, *i)] > 0.0)).collect();
+        let columns: Vec<usize> = (0..m).filter(|i| roles[*i] != Role::Out && gram.tells(*i)).collect();
         let k = columns.len();
         let mut jj = DMatrix::zeros(k, k);
         let mut meat = DMatrix::zeros(k, k);
@@ -583,10 +584,7 @@ impl Bench {
                 plain[(p, p)] += weight * self.variance;
             }
         }
-        let scale: Vec<f64> = (0..k).map(|i| jj[(i, i)].sqrt().max(1e-150)).collect();
-        let unit = DMatrix::from_fn(k, k, |p, q| jj[(p, q)] / (scale[p] * scale[q]) + if p == q { 1e-9 } else { 0.0 });
-        let Some(inverse) = unit.try_inverse() else { return DMatrix::from_element(m, m, f64::INFINITY) };
-        let inverse = DMatrix::from_fn(k, k, |p, q| inverse[(p, q)] / (scale[p] * scale[q]));
+        let Some(inverse) = crate::gram::inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
         let robust = &inverse * meat * &inverse;
         let plain = &inverse * plain * &inverse;
         let mut out = DMatrix::zeros(m, m);
@@ -619,9 +617,4 @@ fn whole(linear: &Linear, state: &State, index: usize) -> (Vec<usize>, Vec<f64>)
 fn square(jj: &impl Index<(usize, usize), Output = f64>, columns: &[usize], p: &[f64]) -> f64 {
     let row = |(a, x): (&usize, &f64)| columns.iter().zip(p).map(|(b, y)| jj[(*a, *b)] * x * y).sum::<f64>();
     columns.iter().zip(p).map(row).sum()
-}
-
-/// Whether any parameter of an effect exceeds its materiality threshold.
-pub fn is_material(active: &Active, values: &[f64]) -> bool {
-    active.form.free.iter().zip(values).any(|(p, v)| p.is_material(*v))
 }

@@ -32,8 +32,7 @@ pub fn sign_flip(linear: &Linear, candidate: usize) -> f64 {
             u
         })
         .collect();
-    let ridge = 1e-9 * spread.trace().max(1e-300);
-    let Some(inverse) = (spread + DMatrix::identity(m, m) * ridge).try_inverse() else { return 1.0 };
+    let Some(inverse) = crate::gram::inverse(&spread) else { return 1.0 };
     let statistic = |signs: &mut dyn FnMut() -> f64| {
         let mut sum = nalgebra::DVector::<f64>::zeros(m);
         for u in &scores {

@@ -7,6 +7,7 @@ mod experiment;
 mod margins;
 mod pairs;
 mod partial;
+mod scale;
 
 use common::{RICH, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};

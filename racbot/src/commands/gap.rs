@@ -59,8 +59,10 @@ impl Options {
         let hints = super::check::first_stage(folder, &set, self.target.forced())?;
         let out = self.target.place(self.out.as_deref(), "out/gap");
         self.target.check_free(["gap.json", "report.html", "robot.toml"].map(|name| out.join(name)))?;
-        let progress = Progress::new("looking for the missing effect", 1);
-        let mut options = gap::Options { robot_file: self.robot.clone(), ..gap::Options::default() };
+        let bar = Progress::new("looking for the missing effect", 100);
+        let progress: gap::options::Progress = Box::new(move |share| bar.at((100.0 * share).round() as u64));
+        let mut options =
+            gap::Options { robot_file: self.robot.clone(), progress: Some(progress), ..gap::Options::default() };
         for file in &self.effect {
             let effect = UserEffect::load(file).map_err(Failure::excerpt)?;
             if options.effects.iter().any(|e| e.name() == effect.name()) {
@@ -69,8 +71,7 @@ impl Options {
             options.effects.push(Arc::new(effect));
         }
         let analysis = gap::analyse_logs(&set, &options).map_err(|error| Failure::about(folder, error))?;
-        progress.at(1);
-        drop(progress);
+        drop(options);
         analysis.save(&out, self.target.existing()).map_err(Failure::data)?;
         let text = format!("{hints}{}\nreport in {}\n", analysis.terminal_summary().trim_end(), out.display());
         Ok(Answer { text, json: analysis.to_json(), wrong: None })
