@@ -24,6 +24,7 @@ const STRETCHES_S: [f64; 2] = [2.0, 10.0];
 const SAME: f64 = 0.02;
 
 type Values = Vec<(KinematicParameter, f64)>;
+type Method = dyn Fn(&Robot, &[Run]) -> Values;
 
 const MEASURED: Table = Table {
     name: "recordings",
@@ -196,7 +197,7 @@ fn held_out_runs_are_predicted_no_worse_than_by_others() {
     let mut worse = Vec::new();
     for name in SETS {
         let set = DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/real").join(name)).unwrap();
-        let methods: [(&str, &dyn Fn(&Robot, &[Run]) -> Values); 4] = [
+        let methods: [(&str, &Method); 4] = [
             ("robot.toml as it came", &|_, _| Vec::new()),
             ("common radius", &common_radius),
             ("OptiOdom", &optiodom),

@@ -26,7 +26,8 @@ fn servo(inertia: f64, told: f64, viscous: f64, dry: f64) -> DataSet {
         for k in 0..4000 {
             let t = tick * k as f64;
             let phase = |i: usize| (1 + i) as f64 * (1.3 + number as f64);
-            let duty: f64 = waves.iter().enumerate().map(|(i, (f, a))| a * (6.283 * f * t + phase(i)).sin()).sum();
+            let duty: f64 =
+                waves.iter().enumerate().map(|(i, (f, a))| a * (std::f64::consts::TAU * f * t + phase(i)).sin()).sum();
             let duty = (duty * 1e4).round() / 1e4;
             run.t.push(t);
             duties.push(duty);

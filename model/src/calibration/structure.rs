@@ -298,8 +298,7 @@ impl<'a> HeldOut<'a> {
         let unknown = FitOptions::default().unknown_beyond.powi(-2);
         let entry = |i: usize, j: usize| sums.information[(free[i], free[j])] + if i == j { unknown } else { 0.0 };
         let solved = Cholesky::new(DMatrix::from_fn(n, n, entry))
-            .map(|c| c.solve(&DVector::from_fn(n, |i, _| fixed[free[i]])))
-            .unwrap_or_else(|| DVector::zeros(n));
+            .map_or_else(|| DVector::zeros(n), |c| c.solve(&DVector::from_fn(n, |i, _| fixed[free[i]])));
         free.iter().zip(solved.iter()).for_each(|(i, v)| change[*i] = *v);
         change
     }

@@ -72,7 +72,7 @@ impl Smart<'_> {
             if number == 0 {
                 self.target.save(&self.out.join("robot.toml"), &leg.robot.to_toml())?;
             }
-            leg.run.save(&self.out.join(format!("leg-{}.csv", number + 1)), self.target.existing())?;
+            leg.run.save(self.out.join(format!("leg-{}.csv", number + 1)), self.target.existing())?;
         }
         for (number, shot) in story.shots.iter().enumerate() {
             self.target.save(&self.out.join(picture_name(number)), &shot.picture.to_jpeg(QUALITY, true))?;
