@@ -139,10 +139,23 @@ fn a_foreign_design_is_called_what_it_is() {
     try_load(&mut card).unwrap();
 }
 
+#[test]
+fn a_design_that_makes_no_circuit_is_said_to_be_so() {
+    let broken = || card().with_fabric(Box::new(|_| Err(FpgaError::NoCircuit("two drivers at X3Y4".into()))));
+    let message = try_load(&mut broken()).unwrap_err().to_string();
+    assert!(message.contains("cannot run") && message.contains("two drivers at X3Y4"), "{message}");
+    let mut card = configured_by_others(broken(), COMMITTED_BITSTREAM);
+    let other = inspect(&mut card).unwrap().other.unwrap();
+    assert!(other.contains("two drivers at X3Y4"), "{other}");
+}
+
 /// A card that somebody else has configured.
 fn card_with(file: &[u8]) -> VirtualCard {
+    configured_by_others(card(), file)
+}
+
+fn configured_by_others(mut card: VirtualCard, file: &[u8]) -> VirtualCard {
     use driver::plx9030::{Bridge, PROGRAM, WRITE};
-    let mut card = card();
     Bridge::new(&mut card).set_lines(WRITE, PROGRAM).unwrap();
     card.sleep(Duration::from_micros(10));
     Bridge::new(&mut card).set_lines(PROGRAM, 0).unwrap();

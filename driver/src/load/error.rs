@@ -53,11 +53,13 @@ pub enum LoadError {
     Verify(#[from] BoardError),
     /// A design without our registers.
     #[error(
-        "loaded, DONE is high, but nothing answers at the registers: {file} holds a valid bitstream of another design, not of the gateware in generated/; load one that was made from it"
+        "loaded, DONE is high, but nothing answers at the registers: {file} holds a valid bitstream of another design{kind}, not of the gateware in generated/; load one that was made from it"
     )]
     Foreign {
         /// What the file says of its design.
         file: String,
+        /// What else is known of it, in brackets, or nothing.
+        kind: String,
     },
     /// Another build.
     #[error(

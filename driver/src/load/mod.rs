@@ -124,7 +124,11 @@ fn attempt<C: PciCard>(
     let identity = match Board::new(RegisterWindow::new(&mut *card)).identify_as(BOARD_4I65) {
         // A card that is gone reads all ones at its bridge as well.
         Err(BoardError::Bus(_)) if sequence::configured(card)? => {
-            return Err(LoadError::Foreign { file: described(bitstream) });
+            return Err(foreign_design(card, bitstream));
+        }
+        // The maker's designs answer at our registers as well, with other words.
+        Err(BoardError::Identity { .. }) if state::foreign(card).is_some() => {
+            return Err(foreign_design(card, bitstream));
         }
         other => other?,
     };
@@ -135,6 +139,11 @@ fn attempt<C: PciCard>(
     }
     let clock_hz = measure_clock(card, options.clock_time)?;
     Ok(Loaded { kept: false, tries: 1, transfer, ready_enabled, identity, clock_hz })
+}
+
+fn foreign_design<C: PciCard>(card: &mut C, bitstream: &Bitstream) -> LoadError {
+    let kind = state::foreign(card).map_or_else(String::new, |kind| format!(" ({kind})"));
+    LoadError::Foreign { file: described(bitstream), kind }
 }
 
 /// What a file says of its design.

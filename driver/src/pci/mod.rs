@@ -126,6 +126,11 @@ pub trait PciCard {
 
     /// Lets at least this time pass.
     fn sleep(&mut self, time: Duration);
+
+    /// What the access path knows of the card beside its windows: a simulated one, why what was loaded does not run.
+    fn remark(&self) -> Option<String> {
+        None
+    }
 }
 
 macro_rules! forward {
@@ -148,6 +153,9 @@ macro_rules! forward {
             }
             fn sleep(&mut self, time: Duration) {
                 (**self).sleep(time);
+            }
+            fn remark(&self) -> Option<String> {
+                (**self).remark()
             }
         }
     )*};

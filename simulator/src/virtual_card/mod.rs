@@ -477,6 +477,11 @@ impl PciCard for VirtualCard {
         }
         self.settle();
     }
+
+    fn remark(&self) -> Option<String> {
+        let misfit = self.misfit().map(|why| format!("a design that cannot run, {why}"));
+        misfit.or_else(|| self.failure().map(|why| format!("the simulation behind the card failed: {why}")))
+    }
 }
 
 fn check(bar: Bar, offset: u32, width: u32) -> Result<(), &'static str> {

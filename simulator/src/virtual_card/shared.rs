@@ -53,6 +53,9 @@ impl PciCard for SharedCard {
     fn sleep(&mut self, time: Duration) {
         self.0.borrow_mut().sleep(time);
     }
+    fn remark(&self) -> Option<String> {
+        self.0.borrow().remark()
+    }
 }
 
 impl Clock for SharedCard {
