@@ -129,11 +129,18 @@ impl<R: Registers> Board<R> {
             self.write_checked(register, value)?;
         }
         if settings.kicker_charge_s > 0.0 {
-            let charge_us = (settings.kicker_charge_s.min(16.0) * 1e6) as u32;
-            self.write_checked(&map::KICKER_CHARGE_TIMEOUT, charge_us)?;
+            self.set_charge_timeout(settings.kicker_charge_s.min(16.0))?;
         }
         let words = scale.configuration().to_words().map(|word| word as u32);
         self.commit("the configuration", &map::CONFIGURATION, &map::COMMIT_CONFIGURATION, &words)
+    }
+
+    /// Sets for how long the kicker may charge without getting full, s, up to 16.
+    ///
+    /// # Errors
+    /// See [`Board::write_checked`].
+    pub(crate) fn set_charge_timeout(&mut self, charge_s: f64) -> Result<(), BoardError> {
+        self.write_checked(&map::KICKER_CHARGE_TIMEOUT, (charge_s * 1e6).round() as u32)
     }
 
     /// Writes a register and reads it back, trying again where it reads otherwise.

@@ -29,21 +29,12 @@ use runs::geometry::GeometryError;
 /// A virtual robot that cannot be set up, or whose card failed.
 #[derive(Debug, thiserror::Error)]
 pub enum LoopError {
-    /// The robot does not fit the card.
+    /// Robot, wheels or card are not fit to drive.
     #[error(transparent)]
-    Scale(#[from] ScaleError),
-    /// The wheels cannot drive the robot.
-    #[error(transparent)]
-    Geometry(#[from] GeometryError),
-    /// The driver got no proper answer.
-    #[error(transparent)]
-    Board(#[from] BoardError),
+    Drive(#[from] DriveError),
     /// The FPGA's simulation failed.
     #[error(transparent)]
     Fpga(#[from] FpgaError),
-    /// The drive could not begin.
-    #[error(transparent)]
-    Drive(#[from] DriveError),
     /// The log could not be kept.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -51,6 +42,17 @@ pub enum LoopError {
     #[error("the log cannot be kept: {0}")]
     Thread(#[from] std::io::Error),
 }
+
+macro_rules! through_drive {
+    ($($cause:ty),*) => {$(
+        impl From<$cause> for LoopError {
+            fn from(cause: $cause) -> Self {
+                Self::Drive(cause.into())
+            }
+        }
+    )*};
+}
+through_drive!(ScaleError, GeometryError, BoardError);
 
 /// The clock near the nominal one at which a control period is a whole number of clocks, so that a
 /// simulated tick is exactly 1 / `rate_hz` long.

@@ -6,13 +6,13 @@ use crate::registers::BusError;
 /// What went wrong between host and card.
 #[derive(Debug, thiserror::Error)]
 pub enum BoardError {
-    /// The bus.
+    /// An access over the bus failed.
     #[error(transparent)]
     Bus(#[from] BusError),
     /// Not our design, or not for this board.
     #[error("{register} reads {found:#010x}, expected {expected:#010x}: {hint}")]
     Identity {
-        /// Register.
+        /// Its name in the register map.
         register: &'static str,
         /// What it reads.
         found: u32,
@@ -30,7 +30,7 @@ pub enum BoardError {
         what: &'static str,
         /// Commits accepted since configuration.
         accepted: u32,
-        /// Fault register.
+        /// The word of the register `faults`.
         faults: u32,
     },
     /// The card stayed disarmed: what stands came again after it was cleared.
@@ -39,7 +39,7 @@ pub enum BoardError {
     /// A register does not hold what was written.
     #[error("{register} reads {found:#x} after {written:#x} was written; is the card armed, or the bus broken?")]
     ReadBack {
-        /// Register.
+        /// Its name in the register map.
         register: &'static str,
         /// What it reads.
         found: u32,
@@ -52,7 +52,7 @@ pub enum BoardError {
     /// The configuration in force is another than was committed.
     #[error("{register} word {index} in force is {found:#x}, committed was {written:#x}; the bus changes words")]
     InForce {
-        /// Register.
+        /// Its name in the register map.
         register: &'static str,
         /// Word of it.
         index: usize,

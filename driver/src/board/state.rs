@@ -16,7 +16,7 @@ pub struct Identity {
     pub version: u32,
     /// Hash of the Verilog the bitstream was made from.
     pub content_hash: u32,
-    /// Axes.
+    /// How many axes it controls.
     pub axes: u32,
     /// Board whose pins it drives.
     pub board: map::Target,
@@ -27,9 +27,9 @@ pub struct Identity {
 /// How the card is to work.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Speed measurement.
+    /// Whether speeds come from counts alone or from counts and the time of the edges.
     pub speed_mode: SpeedMode,
-    /// Kind of set points.
+    /// Whether set points are a body velocity or a speed for each wheel.
     pub set_point_mode: SetPointMode,
     /// PWM frequency, Hz.
     pub pwm_hz: f64,
@@ -93,7 +93,7 @@ impl Status {
 /// What keeps or kept a card from being armed: sticky registers, as they read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Standing {
-    /// Fault register.
+    /// The word of the register `faults`, a bit each cause.
     pub faults: u32,
     /// Axes with an encoder error, a bit each.
     pub encoder_errors: u32,
@@ -132,17 +132,17 @@ pub struct Snapshot {
     pub sequence: u32,
     /// Status at the tick.
     pub status: Status,
-    /// Fault register.
+    /// The word of the register `faults`, a bit each cause.
     pub faults: u32,
     /// Clocks at the tick, low 24 bits.
     pub time: u32,
     /// Encoder counts, wrapping.
     pub counts: [i32; AXES],
-    /// Measured speeds.
+    /// Speeds as measured at the tick.
     pub speeds: [Speed; AXES],
     /// Set points in force.
     pub references: [Speed; AXES],
-    /// Duties.
+    /// Duties that the PI loops gave, before they become compare values.
     pub duties: [Duty; AXES],
     /// Pose, see [`Scale::pose`]; zero while the card keeps none.
     pub pose: [i32; 3],

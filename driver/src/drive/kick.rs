@@ -19,8 +19,8 @@ use std::time::Duration;
 const PERIOD: Duration = Duration::from_millis(5);
 /// Time from the request to the end of the pulse beyond the pulse itself.
 const SLACK: Duration = Duration::from_millis(20);
-/// Charging stops by itself after what was asked for and so much, µs.
-const CHARGE_SLACK_US: f64 = 100_000.0;
+/// Charging stops by itself after what was asked for and so much, s.
+const CHARGE_SLACK_S: f64 = 0.1;
 
 /// What to do with the kicker.
 #[derive(Clone, Copy, Debug)]
@@ -89,9 +89,8 @@ impl Kick {
         }
         board.identify()?;
         board.configure(scale, settings)?;
-        let charge_us = (self.charge_s * 1e6 + CHARGE_SLACK_US) as u32;
         board.write_checked(&map::KICKER_CONTROL, 0)?;
-        board.write_checked(&map::KICKER_CHARGE_TIMEOUT, charge_us)?;
+        board.set_charge_timeout(self.charge_s + CHARGE_SLACK_S)?;
         board.write_checked(&map::KICKER_PULSE, self.pulse_us.into())?;
         let (mut armed, stood) = Armed::new(board)?;
         let result = self.charged(&mut armed, clock, scale, stop);

@@ -3,32 +3,22 @@
 use super::{Fpga, FpgaError, Kind};
 use fixed_kin::AXES;
 
-impl<F: Fpga + ?Sized> Fpga for &mut F {
-    fn kind(&self) -> Kind {
-        (**self).kind()
-    }
-    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
-        (**self).advance(positions)
-    }
-    fn quiet_clocks(&self) -> u32 {
-        (**self).quiet_clocks()
-    }
-    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        (**self).duties()
-    }
+macro_rules! forward {
+    ($($fpga:ty),*) => {$(
+        impl<F: Fpga + ?Sized> Fpga for $fpga {
+            fn kind(&self) -> Kind {
+                (**self).kind()
+            }
+            fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
+                (**self).advance(positions)
+            }
+            fn quiet_clocks(&self) -> u32 {
+                (**self).quiet_clocks()
+            }
+            fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
+                (**self).duties()
+            }
+        }
+    )*};
 }
-
-impl<F: Fpga + ?Sized> Fpga for Box<F> {
-    fn kind(&self) -> Kind {
-        (**self).kind()
-    }
-    fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
-        (**self).advance(positions)
-    }
-    fn quiet_clocks(&self) -> u32 {
-        (**self).quiet_clocks()
-    }
-    fn duties(&mut self) -> Result<[f64; AXES], FpgaError> {
-        (**self).duties()
-    }
-}
+forward!(&mut F, Box<F>);
