@@ -120,9 +120,9 @@ impl Options {
         #[cfg(feature = "vision")]
         let (robot, setting) = (self.vision.seen(&robot), self.vision.setting()?);
         let plan = self.plan(&robot, &set_points);
-        let mut ready = self.card.ready(Use::Drive, &actual, pace)?;
+        let ready = self.card.ready(Use::Drive, &actual, pace)?;
         #[cfg(feature = "vision")]
-        let refused = if self.vision.is_onboard() { Some(onboard(&mut ready, setting, pace)?) } else { None };
+        let (ready, refused) = if self.vision.is_onboard() { onboard(ready, setting, pace)? } else { (ready, None) };
         let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
@@ -212,13 +212,17 @@ impl Options {
     }
 }
 
+/// Which pictures gave no pose, asked after the drive.
+#[cfg(feature = "vision")]
+type Refused = Option<Box<dyn FnOnce() -> Vec<String>>>;
+
 /// Puts the camera on the robot in the place of the one above it; the answer says afterwards which pictures gave no pose.
 #[cfg(feature = "vision")]
 fn onboard(
-    ready: &mut ReadyCard,
+    mut ready: ReadyCard,
     setting: crate::onboard::Setting,
     pace: Pace,
-) -> Result<Box<dyn FnOnce() -> Vec<String>>, Failure> {
+) -> Result<(ReadyCard, Refused), Failure> {
     let said = |(why, count): (&String, &usize)| format!("{count} pictures of the on-board camera gave no pose: {why}");
     #[cfg(feature = "simulation")]
     if let Some(card) = ready.shared.take() {
@@ -229,12 +233,13 @@ fn onboard(
         }
         let (source, eye) = setting.built_in(card)?;
         ready.source = Some(source);
-        return Ok(Box::new(move || eye.borrow().refused().iter().map(said).collect()));
+        return Ok((ready, Some(Box::new(move || eye.borrow().refused().iter().map(said).collect()))));
     }
     let _ = pace;
     let (source, refusals) = setting.real()?;
     ready.source = Some(source);
-    Ok(Box::new(move || refusals.lock().map(|refused| refused.iter().map(said).collect()).unwrap_or_default()))
+    let refused = move || refusals.lock().map(|refused| refused.iter().map(said).collect()).unwrap_or_default();
+    Ok((ready, Some(Box::new(refused))))
 }
 
 impl Report<'_> {
