@@ -33,12 +33,12 @@ fn an_effect_too_large_for_a_straight_line_is_found_beside_another() {
 #[test]
 fn a_large_effect_does_not_hide_a_small_one_in_the_floor() {
     let hidden: [Hidden; 2] =
-        [("roller-friction", &[("force_n", 1.3)]), ("coulomb-friction", &[("torque_1_nm", 0.007)])];
+        [("roller-friction", &[("force_n", 1.3)]), ("coulomb-friction", &[("torque_1_nm", 0.014)])];
     let a = looked(&hidden, &RICH, 82);
     let mut found = names(&a);
     found.sort_unstable();
     assert_eq!(found, ["coulomb-friction", "roller-friction"], "{}", a.terminal_summary());
-    assert!((value(&a, "torque_1_nm") / 0.007 - 1.0).abs() < 0.3, "{}", a.terminal_summary());
+    assert!((value(&a, "torque_1_nm") / 0.014 - 1.0).abs() < 0.3, "{}", a.terminal_summary());
 }
 
 /// A camera's scale is wheels and body too large by the same share: one name, and the two beside it.
