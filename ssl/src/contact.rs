@@ -1,4 +1,4 @@
-//! Ball against robot: hull, mouth, dribbler; robot against robot: discs.
+//! Ball against robot: hull, mouth, dribbler.
 
 use crate::ball::Ball;
 use runs::frames::{Pose, Twist};
@@ -104,51 +104,6 @@ impl Hull {
     }
 }
 
-/// What is left of the speed of two hulls against each other. An assumption: plastic covers, nothing of a spring.
-const ROBOTS: f64 = 0.2;
-
-/// A robot as others meet it: a disc without friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disc {
-    /// Where it is.
-    pub pose: Pose,
-    /// How it moves.
-    pub twist: Twist,
-    /// m.
-    pub radius: f64,
-    /// kg.
-    pub mass: f64,
-}
-
-/// Two robots that overlap, apart again and no longer closing; `None` where they do not overlap. The lighter gives way
-/// further, what they turn stays.
-#[must_use]
-pub fn collide(a: &Disc, b: &Disc) -> Option<[(Pose, Twist); 2]> {
-    let apart = [b.pose.x - a.pose.x, b.pose.y - a.pose.y];
-    let distance = apart[0].hypot(apart[1]);
-    let depth = a.radius + b.radius - distance;
-    if depth <= 0.0 {
-        return None;
-    }
-    // On the same spot any direction is right.
-    let normal = if distance > 1e-9 { apart.map(|x| x / distance) } else { [1.0, 0.0] };
-    let velocity = |disc: &Disc| disc.pose.rotate_to_world([disc.twist.vx, disc.twist.vy]);
-    let (va, vb) = (velocity(a), velocity(b));
-    let closing = (va[0] - vb[0]) * normal[0] + (va[1] - vb[1]) * normal[1];
-    let change = (1.0 + ROBOTS) * closing.max(0.0);
-    let moved = |disc: &Disc, v: [f64; 2], share: f64| {
-        let pose = Pose::new(
-            disc.pose.x + share * depth * normal[0],
-            disc.pose.y + share * depth * normal[1],
-            disc.pose.theta,
-        );
-        let [vx, vy] = pose.rotate_to_body([0, 1].map(|axis| v[axis] + share * change * normal[axis]));
-        (pose, Twist::new(vx, vy, disc.twist.omega))
-    };
-    let share = b.mass / (a.mass + b.mass);
-    Some([moved(a, va, -share), moved(b, vb, 1.0 - share)])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -202,37 +157,5 @@ mod tests {
         let mut far = Ball::at(0.0, 0.2);
         hull.kick(Pose::default(), Twist::default(), 4.0, 0.0, &mut far);
         assert_eq!(far.velocity, [0.0; 3]);
-    }
-
-    #[test]
-    fn robots_part_with_the_momentum_they_had() {
-        let disc = |x: f64, y: f64, theta: f64, speed: f64, mass: f64| Disc {
-            pose: Pose::new(x, y, theta),
-            // Along the field's x, whichever way it looks.
-            twist: {
-                let [vx, vy] = Pose::new(x, y, theta).rotate_to_body([speed, 0.0]);
-                Twist::new(vx, vy, 2.0)
-            },
-            radius: 0.09,
-            mass,
-        };
-        assert_eq!(collide(&disc(0.0, 0.0, 0.0, 1.0, 2.0), &disc(0.181, 0.0, 0.0, -1.0, 2.0)), None);
-        let (a, b) = (disc(0.0, 0.0, 1.0, 1.0, 2.0), disc(0.17, 0.02, -2.0, -0.5, 3.0));
-        let [(pa, ta), (pb, tb)] = collide(&a, &b).unwrap();
-        let world = |pose: Pose, twist: Twist| pose.rotate_to_world([twist.vx, twist.vy]);
-        let momentum =
-            |p: Pose, t: Twist, q: Pose, u: Twist| [0, 1].map(|i| 2.0 * world(p, t)[i] + 3.0 * world(q, u)[i]);
-        let (before, after) = (momentum(a.pose, a.twist, b.pose, b.twist), momentum(pa, ta, pb, tb));
-        assert!((0..2).all(|i| (before[i] - after[i]).abs() < 1e-12), "{before:?} {after:?}");
-        assert!(((pb.x - pa.x).hypot(pb.y - pa.y) - 0.18).abs() < 1e-12 && ta.omega == 2.0);
-        let closing = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]) * (pb.x - pa.x) + (p[1] - q[1]) * (pb.y - pa.y);
-        let (was, is) = (closing([1.0, 0.0], [-0.5, 0.0]), closing(world(pa, ta), world(pb, tb)));
-        assert!((is + ROBOTS * was).abs() < 1e-9, "{was} {is}");
-        // Already parting, they are only moved apart.
-        let [(_, parting), _] = collide(&disc(0.0, 0.0, 0.0, -1.0, 2.0), &disc(0.1, 0.0, 0.0, 1.0, 2.0)).unwrap();
-        assert!((parting.vx + 1.0).abs() < 1e-12);
-        let same = disc(0.3, 0.3, 0.0, 0.0, 2.0);
-        let [(p, _), (q, _)] = collide(&same, &same).unwrap();
-        assert!((q.x - p.x - 0.18).abs() < 1e-12);
     }
 }

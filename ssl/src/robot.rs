@@ -1,6 +1,6 @@
 //! One simulated robot: the loop that drives a real one, over the bit-true FPGA, in the field's time.
 
-use crate::contact::{Disc, Hull};
+use crate::contact::Hull;
 use crate::pilot::{Order, Pilot, SharedPilot};
 use crate::trigger::Trigger;
 use driver::drive::{Ending, NoSource, Plan, Session};
@@ -157,18 +157,6 @@ impl SimulatedRobot {
     pub fn place(&mut self, pose: Pose, twist: Twist) {
         self.robot.place(pose, twist);
         self.pilot.borrow_mut().begin(twist);
-    }
-
-    /// How others meet it.
-    #[must_use]
-    pub fn disc(&self) -> Disc {
-        let (radius, mass) = (self.kind.hull.radius, self.applied.robot.mass_kg);
-        Disc { pose: self.pose(), twist: self.twist(), radius, mass }
-    }
-
-    /// Something pushed it: it is there and moves so, its wheels rolling; its controller sees no more of it than they do.
-    pub fn push(&mut self, pose: Pose, twist: Twist) {
-        self.robot.place(pose, twist);
     }
 
     /// Lets time pass until the field's time `until`, with the ball before the sensor or not. The speed and elevation of

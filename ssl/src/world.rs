@@ -4,7 +4,6 @@ mod config;
 mod vision;
 
 use crate::ball::Ball;
-use crate::contact::collide;
 use crate::field::Field;
 use crate::front::{Robots, State, Team};
 use crate::messages::{SimulatorCommand, SimulatorError};
@@ -29,7 +28,7 @@ const LINE: f64 = 1.0;
 /// What there is at first.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Its lines, goals and boards.
+    /// The field.
     pub field: Field,
     /// Robots: team, number, kind.
     pub robots: Vec<(Team, u32, Kind)>,
@@ -110,23 +109,7 @@ impl World {
             }
             hull.touch(pose, twist, robot.order().dribbler_rpm, &mut self.ball, dt);
         }
-        self.part();
         self.frame_due().then(|| self.see())
-    }
-
-    /// Robots that ran into each other part.
-    fn part(&mut self) {
-        let mut discs: Vec<_> = self.robots.iter().map(|(who, robot)| (*who, robot.disc())).collect();
-        for (i, j) in (1..discs.len()).flat_map(|j| (0..j).map(move |i| (i, j))) {
-            let Some(apart) = collide(&discs[i].1, &discs[j].1) else { continue };
-            for (at, (pose, twist)) in [i, j].into_iter().zip(apart) {
-                let (who, disc) = &mut discs[at];
-                (disc.pose, disc.twist) = (pose, twist);
-                if let Some(robot) = self.robots.get_mut(who) {
-                    robot.push(pose, twist);
-                }
-            }
-        }
     }
 
     /// Steps to the next frame of vision.
@@ -138,7 +121,7 @@ impl World {
         }
     }
 
-    /// Time since the field began; teleports and pauses do not set it back.
+    /// Simulated time.
     #[must_use]
     pub fn time(&self) -> Duration {
         self.time
@@ -150,19 +133,19 @@ impl World {
         self.speed
     }
 
-    /// The ball as it is; vision sees it through a camera.
+    /// The ball.
     #[must_use]
     pub fn ball(&self) -> &Ball {
         &self.ball
     }
 
-    /// A robot, if the team has one of that number on the field.
+    /// A robot on the field.
     #[must_use]
     pub fn robot_of(&self, team: Team, id: u32) -> Option<&SimulatedRobot> {
         self.robots.get(&(team, id))
     }
 
-    /// Robots of both teams.
+    /// Robots on the field.
     #[must_use]
     pub fn robot_count(&self) -> usize {
         self.robots.len()

@@ -54,25 +54,6 @@ fn a_local_velocity_moves_the_robot_along_its_nose_and_silence_stops_it() {
 }
 
 #[test]
-fn robots_push_each_other_and_never_overlap() {
-    let mut world = field_of(&[Robot::racbot(), Robot::racbot()]);
-    for (id, x) in [(0, 0.0), (1, 0.5)] {
-        let at = TeleportRobot { id: blue(id), x: Some(x), y: Some(0.0), orientation: Some(0.0), ..Default::default() };
-        assert_eq!(teleport(&mut world, at), [""; 0]);
-    }
-    let mut nearest = f64::INFINITY;
-    for _ in 0..120 {
-        drive(&mut world, local(0, 0.5, 0.0, 0.0), 16);
-        let [a, b] = [0, 1].map(|id| world.robot_of(Team::Blue, id).unwrap().pose());
-        nearest = nearest.min((b.x - a.x).hypot(b.y - a.y));
-    }
-    let [a, b] = [0, 1].map(|id| world.robot_of(Team::Blue, id).unwrap().pose());
-    assert!(nearest > 0.179, "{nearest}");
-    assert!(a.x > 0.4 && b.x > a.x + 0.17, "the one that stood was pushed on: {a:?} {b:?}");
-    assert!(world.robot_of(Team::Blue, 0).unwrap().fault().is_none());
-}
-
-#[test]
 fn a_global_velocity_is_along_the_field_while_the_robot_turns() {
     let mut world = at_origin();
     let command = MoveCommand::GlobalVelocity(MoveGlobalVelocity { x: 0.3, y: 0.0, angular: 1.0 });
