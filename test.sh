@@ -74,7 +74,7 @@ fi
 # Pages are looked at in a browser without a screen: one Debian package.
 install_browser() {
     command -v "$browser" >/dev/null && return 0
-    command -v apt-get >/dev/null && [ "$(id -u)" = 0 ] &&
+    command -v apt-get >/dev/null && [ "$(id -u)" = 0 ] && apt-get update -q >/dev/null &&
         DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$browser" >/dev/null
 }
 stage "a browser from Debian" install_browser
