@@ -208,37 +208,6 @@ fn simpler(chosen: &[Part]) -> Vec<Vec<Part>> {
     all
 }
 
-/// Sums of equations, in units of the parameters' scales.
-#[derive(Clone)]
-struct Sums {
-    information: DMatrix<f64>,
-    score: DVector<f64>,
-    squares: f64,
-}
-
-impl Sums {
-    fn zero(n: usize) -> Self {
-        Self { information: DMatrix::zeros(n, n), score: DVector::zeros(n), squares: 0.0 }
-    }
-
-    fn add(&mut self, other: &Self, factor: f64) {
-        self.information += &other.information * factor;
-        self.score += &other.score * factor;
-        self.squares += other.squares * factor;
-    }
-
-    /// Change of the sum of squares for a change of the parameters.
-    fn loss(&self, change: &DVector<f64>) -> f64 {
-        change.dot(&(&self.information * change)) - 2.0 * self.score.dot(change)
-    }
-}
-
-/// One stretch of one run.
-struct Block {
-    run: usize,
-    sums: Sums,
-}
-
 /// What is held out at a time.
 #[derive(Clone, Copy, PartialEq)]
 enum Folds {
@@ -254,8 +223,9 @@ struct HeldOut<'a> {
     /// Where the equations were linearised.
     values: &'a DVector<f64>,
     runs: usize,
-    blocks: Vec<Block>,
-    total: Sums,
+    /// Stretches, none across two runs.
+    blocks: Vec<WindowEquations>,
+    total: WindowEquations,
 }
 
 impl<'a> HeldOut<'a> {
@@ -266,20 +236,14 @@ impl<'a> HeldOut<'a> {
         runs: usize,
     ) -> Self {
         let per_block = equations.len().div_ceil(BLOCKS);
-        let mut blocks: Vec<Block> = Vec::new();
-        let mut total = Sums::zero(all.len());
-        for of_run in equations.chunk_by(|a, b| a.run == b.run) {
-            for chunk in of_run.chunks(per_block) {
-                let mut sums = Sums::zero(all.len());
-                for window in chunk {
-                    sums.information += &window.information;
-                    sums.score += &window.score;
-                    sums.squares += window.squares;
-                }
-                total.add(&sums, 1.0);
-                blocks.push(Block { run: chunk[0].run, sums });
-            }
-        }
+        let joined = |parts: &[WindowEquations]| {
+            let mut sum = WindowEquations::none(all.len(), parts.first().map_or(0, |part| part.run));
+            parts.iter().for_each(|part| sum.add(part, 1.0));
+            sum
+        };
+        let of_runs = equations.chunk_by(|a, b| a.run == b.run);
+        let blocks: Vec<_> = of_runs.flat_map(|of_run| of_run.chunks(per_block)).map(joined).collect();
+        let total = joined(&blocks);
         Self { all, values, runs, blocks, total }
     }
 
@@ -289,7 +253,7 @@ impl<'a> HeldOut<'a> {
     }
 
     /// The change of all parameters that fits these best and takes the others to zero.
-    fn solve(&self, free: &[usize], sums: &Sums) -> DVector<f64> {
+    fn solve(&self, free: &[usize], sums: &WindowEquations) -> DVector<f64> {
         let mut change = -self.values;
         free.iter().for_each(|i| change[*i] = 0.0);
         let fixed = &sums.score - &sums.information * &change;
@@ -311,12 +275,12 @@ impl<'a> HeldOut<'a> {
         for fold in 0..count {
             let mut rest = self.total.clone();
             let own: Vec<usize> = (0..self.blocks.len()).filter(|b| fold_of(*b) == fold).collect();
-            own.iter().for_each(|b| rest.add(&self.blocks[*b].sums, -1.0));
+            own.iter().for_each(|b| rest.add(&self.blocks[*b], -1.0));
             let mut change = self.solve(free, &rest);
             if folds == Folds::Runs {
                 self.set_clock(&mut change, free, fold);
             }
-            own.iter().for_each(|b| losses[*b] = self.blocks[*b].sums.loss(&change));
+            own.iter().for_each(|b| losses[*b] = self.blocks[*b].loss(&change));
         }
         losses
     }
@@ -325,8 +289,8 @@ impl<'a> HeldOut<'a> {
     fn set_clock(&self, change: &mut DVector<f64>, free: &[usize], run: usize) {
         let clock = self.all.iter().position(|p| *p == KinematicParameter::CameraClock(run));
         let Some(clock) = clock.filter(|c| free.contains(c)) else { return };
-        let mut own = Sums::zero(self.all.len());
-        self.blocks.iter().filter(|b| b.run == run).for_each(|b| own.add(&b.sums, 1.0));
+        let mut own = WindowEquations::none(self.all.len(), run);
+        self.blocks.iter().filter(|b| b.run == run).for_each(|b| own.add(b, 1.0));
         change[clock] = 0.0;
         let information = own.information[(clock, clock)];
         if information > 0.0 {

@@ -209,18 +209,38 @@ pub fn covariance_at(
     Ok((&scale * covariance * &scale, unknown))
 }
 
-/// What one window says about the parameters, linearised: δ more of them, in units of [`PoseModel::scales`], changes its
-/// sum of squares by δᵀ·`information`·δ − 2·`score`ᵀ·δ.
+/// What a stretch of one run says about the parameters, linearised: δ more of them, in units of [`PoseModel::scales`],
+/// changes its sum of squares by δᵀ·`information`·δ − 2·`score`ᵀ·δ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowEquations {
-    /// The window's run, from 0.
+    /// The run, from 0.
     pub run: usize,
     /// Parameters × parameters.
     pub information: DMatrix<f64>,
     /// One entry a parameter.
     pub score: DVector<f64>,
-    /// Its sum of squares as it is, in units of the camera's noise.
+    /// The sum of squares as it is, in units of the camera's noise.
     pub squares: f64,
+}
+
+impl WindowEquations {
+    /// Those of nothing.
+    pub(crate) fn none(parameters: usize, run: usize) -> Self {
+        let (information, score) = (DMatrix::zeros(parameters, parameters), DVector::zeros(parameters));
+        Self { run, information, score, squares: 0.0 }
+    }
+
+    /// Adds others' `factor` times, 1 to join two stretches and −1 to part them.
+    pub(crate) fn add(&mut self, other: &Self, factor: f64) {
+        self.information += &other.information * factor;
+        self.score += &other.score * factor;
+        self.squares += other.squares * factor;
+    }
+
+    /// Change of the sum of squares for a change of the parameters.
+    pub(crate) fn loss(&self, change: &DVector<f64>) -> f64 {
+        change.dot(&(&self.information * change)) - 2.0 * self.score.dot(change)
+    }
 }
 
 /// The equations of every window at given parameters, the start poses projected out: for choosing among models by
