@@ -105,7 +105,7 @@ fn simulated(name: &str, parameters: &[Range], robot: &Robot) -> bool {
 }
 
 impl Description {
-    /// The part of the equation before its first full stop or comma: a line of a list.
+    /// The part of the equation before its first semicolon or colon: a line of a list.
     pub fn short(&self) -> &str {
         self.equation.split([';', ':']).next().unwrap_or(&self.equation)
     }

@@ -109,8 +109,8 @@ impl Options {
     }
 }
 
-/// Stages of an analysis with the percentage of its time after which each is done, on logs with camera and duties
-/// (example set; three omni wheels without duties spend all between the first and the third).
+/// Stages of an analysis with the percentage of its time after which each is done. The percentages are guesses for logs
+/// with camera and duties: no experiment set them, and they move the bar alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// Logs read and cut, exact links replayed.

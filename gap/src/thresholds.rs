@@ -55,7 +55,7 @@ pub const UNDECIDED: f64 = 0.3;
 
 /// Share of what is more than noise without it that an effect too small to matter alone must close to be named beside
 /// others. A servo's viscous friction, a tenth of its dry friction, closed all that this left; on wheels that stick
-/// between moves, whose friction no law catches near rest, viscous friction that was not there closed a quarter.
+/// between moves viscous friction that is not there closes a part of it, estimated at a quarter and not measured.
 pub const LEAST_TOGETHER: f64 = 0.5;
 
 /// Squared gap that one effect may open by itself, in those of the link before anything was named, beyond which it only
