@@ -1,8 +1,7 @@
 //! What to type into one's own firmware: the kinematics of a robot with the effects that were found.
 
 use crate::effects::Applied;
-use nalgebra::DMatrix;
-use runs::geometry::{Geometry, GeometryError};
+use runs::geometry::GeometryError;
 use runs::robot::Robot;
 use std::fmt::Write as _;
 
@@ -33,10 +32,14 @@ impl Firmware {
                 *scale *= 1.0 + own + effect.value("scale").unwrap_or(0.0);
             }
         }
-        let inverse: Vec<[f64; 3]> =
-            scales.iter().enumerate().map(|(i, s)| std::array::from_fn(|j| geometry.inverse()[(i, j)] / s)).collect();
-        let direct = direct(&geometry, &inverse)?;
-        Ok(Self { radius_m: scales.iter().map(|s| s * geometry.wheel_radius_m()).collect(), inverse, direct })
+        let mut inverse = geometry.inverse().clone();
+        inverse.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row /= *scale);
+        let direct = geometry.direct_of(&inverse)?;
+        Ok(Self {
+            radius_m: scales.iter().map(|s| s * geometry.wheel_radius_m()).collect(),
+            inverse: inverse.row_iter().map(|row| std::array::from_fn(|axis| row[axis])).collect(),
+            direct: std::array::from_fn(|axis| direct.row(axis).iter().copied().collect()),
+        })
     }
 
     /// That of `found`, where it is not that of `nominal`; `None` too where no wheels drive the robot over a floor.
@@ -72,17 +75,6 @@ impl Firmware {
 /// No minus before a zero.
 fn tidy(x: f64) -> f64 {
     if x.abs() < 5e-7 { 0.0 } else { x }
-}
-
-/// The least-squares inverse among the twists that the wheels allow.
-fn direct(geometry: &Geometry, inverse: &[[f64; 3]]) -> Result<[Vec<f64>; 3], GeometryError> {
-    let wheels = DMatrix::from_fn(inverse.len(), 3, |i, j| inverse[i][j]);
-    let allowed = geometry.allowed_twists();
-    let within = &wheels * &allowed;
-    let normal = within.transpose() * &within;
-    let Some(inverted) = normal.try_inverse() else { return Err(GeometryError::TooFewWheels(inverse.len())) };
-    let back = allowed * inverted * within.transpose();
-    Ok(std::array::from_fn(|axis| back.row(axis).iter().copied().collect()))
 }
 
 #[cfg(test)]

@@ -106,12 +106,24 @@ impl Geometry {
         }
         let inverse = inverse_of(&wheels, wheel_radius_m)?;
         let allowed = one_way(&wheels);
-        let direct = match &allowed {
-            Some(allowed) => differential(&inverse, allowed)?,
-            None if wheels.len() == 2 => return Err(GeometryError::NoAxle),
-            None => direct_of(&inverse, &wheels)?,
-        };
-        Ok(Self { wheels, wheel_radius_m, inverse, direct, allowed })
+        if allowed.is_none() && wheels.len() == 2 {
+            return Err(GeometryError::NoAxle);
+        }
+        let mut geometry = Self { direct: DirectMatrix::zeros(wheels.len()), wheels, wheel_radius_m, inverse, allowed };
+        geometry.direct = geometry.direct_of(&geometry.inverse)?;
+        Ok(geometry)
+    }
+
+    /// Direct kinematics of other rows in the place of [`Self::inverse`], such as those of wheels whose radii differ: least
+    /// squares among the twists that the wheels allow.
+    ///
+    /// # Errors
+    /// [`GeometryError::Singular`] where they leave a motion undriven.
+    pub fn direct_of(&self, inverse: &InverseMatrix) -> Result<DirectMatrix, GeometryError> {
+        match &self.allowed {
+            Some(allowed) => differential(inverse, allowed),
+            None => pseudo_inverse(inverse, &self.wheels),
+        }
     }
 
     /// Axes on blocks, one or more: no turn of a wheel moves the body, so [`Self::twist`] is zero.
@@ -298,7 +310,7 @@ fn differential(inverse: &InverseMatrix, allowed: &DMatrix<f64>) -> Result<Direc
 }
 
 /// Pseudo-inverse, or the motion that nothing resists.
-fn direct_of(inverse: &InverseMatrix, wheels: &[Wheel]) -> Result<DirectMatrix, GeometryError> {
+fn pseudo_inverse(inverse: &InverseMatrix, wheels: &[Wheel]) -> Result<DirectMatrix, GeometryError> {
     // Rotation counts at the rim, so that the rank does not depend on the unit of length.
     let rim = wheels.iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max).max(1e-9);
     let mut scaled = inverse.clone();

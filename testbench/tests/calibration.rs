@@ -46,11 +46,6 @@ struct HeldOut {
     open_mm: f64,
 }
 
-fn model(robot: &Robot, values: &Values) -> (KinematicModel, Vec<f64>) {
-    let (parameters, values) = values.iter().copied().unzip();
-    (KinematicModel::new(robot, parameters), values)
-}
-
 /// A calibrated robot whose clock alone is free.
 struct Clocked {
     model: KinematicModel,
@@ -72,9 +67,9 @@ impl PoseModel for Clocked {
 }
 
 fn judge(robot: &Robot, values: &Values, run: &Run) -> HeldOut {
-    let geometry = values.iter().copied();
-    let (model, fixed) = model(robot, &geometry.chain([(KinematicParameter::CameraClock(0), 0.0)]).collect());
-    let clocked = Clocked { model, fixed: fixed[..fixed.len() - 1].to_vec() };
+    let (mut parameters, fixed): (Vec<_>, Vec<_>) = values.iter().copied().unzip();
+    parameters.push(KinematicParameter::CameraClock(0));
+    let clocked = Clocked { model: KinematicModel::new(robot, parameters), fixed };
     let run = std::slice::from_ref(run);
     let options = |window_s| FitOptions { window_s, noise: robot.camera_noise, ..FitOptions::default() };
     let clock = fit(&clocked, run, &[0.0], &options(STRETCHES_S[0])).unwrap().parameters;
