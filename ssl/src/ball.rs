@@ -24,6 +24,8 @@ pub struct Ball {
 impl Ball {
     /// Radius, m.
     pub const RADIUS: f64 = 0.0215;
+    /// kg.
+    pub const MASS: f64 = 0.046;
     /// Deceleration while sliding, m/s².
     pub const SLIDING: f64 = 3.0;
     /// Deceleration while rolling, m/s².
@@ -35,7 +37,7 @@ impl Ball {
     /// A hop lower than this is none, m.
     const LEAST_HOP: f64 = 0.005;
     /// What is left of the speed against a board around the field.
-    const BOARD: f64 = 0.5;
+    pub(crate) const BOARD: f64 = 0.5;
 
     /// A ball at rest.
     #[must_use]

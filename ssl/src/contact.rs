@@ -1,6 +1,7 @@
-//! Ball against robot: hull, mouth, dribbler.
+//! A robot's outside: hull, mouth, dribbler, and where the ball touches it.
 
 use crate::ball::Ball;
+use crate::meet::Touch;
 use runs::frames::{Pose, Twist};
 
 /// A robot's outside: a round hull with a flat front, where dribbler and kicker are.
@@ -55,44 +56,42 @@ impl Hull {
             && ball.position[2] < Ball::RADIUS
     }
 
-    /// Pushes the ball out and lets it bounce, and the dribbler hold it for `dt` seconds. The robot, fifty times as heavy,
-    /// does not feel it.
-    pub fn touch(&self, pose: Pose, twist: Twist, dribbler_rpm: f64, ball: &mut Ball, dt: f64) {
+    /// Where ball and robot overlap, as bodies of these numbers, the robot the first.
+    #[must_use]
+    pub fn touch(&self, bodies: [usize; 2], pose: Pose, twist: Twist, ball: &Ball) -> Option<Touch> {
         if ball.position[2] > self.height {
+            return None;
+        }
+        let [right, forward] = Self::place(pose, ball);
+        let flat = (self.radius * self.radius - self.front * self.front).max(0.0).sqrt();
+        // The front turns with the robot; the rest of the hull is round, and its turn moves no ball.
+        if forward > 0.0 && right.abs() < flat {
+            let depth = self.front + Ball::RADIUS - forward;
+            let [x, y] = pose.rotate_to_world([0.0, 1.0]);
+            let touch = Touch { bodies, normal: [x, y], depth, surface: twist.omega * right, bounce: MOUTH };
+            return (depth > 0.0).then_some(touch);
+        }
+        let places = [[pose.x, pose.y], [ball.position[0], ball.position[1]]];
+        Touch::of_discs(bodies, places, self.radius + Ball::RADIUS, HULL)
+    }
+
+    /// The dribbler holds the ball for `dt` seconds: towards the middle of the mouth, no harder than rubber can.
+    pub fn dribble(&self, pose: Pose, twist: Twist, dribbler_rpm: f64, ball: &mut Ball, dt: f64) {
+        if dribbler_rpm <= 0.0 || !self.in_mouth(pose, ball, REACH) {
             return;
         }
         let place = Self::place(pose, ball);
         let [right, forward] = place;
         // The velocity of the robot's body where the ball is, in its frame.
         let body = [twist.vx - twist.omega * forward, twist.vy + twist.omega * right];
-        let flat = (self.radius * self.radius - self.front * self.front).max(0.0).sqrt();
-        let (normal, depth, left) = if forward > 0.0 && right.abs() < flat {
-            ([0.0, 1.0], self.front + Ball::RADIUS - forward, MOUTH)
-        } else {
-            let distance = right.hypot(forward).max(1e-9);
-            ([right / distance, forward / distance], self.radius + Ball::RADIUS - distance, HULL)
-        };
-        let mut velocity = pose.rotate_to_body([ball.velocity[0], ball.velocity[1]]);
-        let mut moved = place;
-        if depth > 0.0 {
-            let against = (velocity[0] - body[0]) * normal[0] + (velocity[1] - body[1]) * normal[1];
-            for axis in 0..2 {
-                moved[axis] += depth * normal[axis];
-                velocity[axis] -= (1.0 + left) * against.min(0.0) * normal[axis];
-            }
-        }
-        if dribbler_rpm > 0.0 && self.in_mouth(pose, ball, REACH) {
-            // Towards the middle of the mouth, no harder than rubber can.
-            let middle = [0.0, self.front + Ball::RADIUS];
-            let most = HOLD * (dribbler_rpm / FULL_RPM).min(1.0) * dt;
-            let wanted = [0, 1].map(|axis| body[axis] + DRAW * (middle[axis] - moved[axis]) - velocity[axis]);
-            let share = (most / wanted[0].hypot(wanted[1]).max(1e-12)).min(1.0);
-            velocity = [0, 1].map(|axis| velocity[axis] + share * wanted[axis]);
-            ball.roll = [0.0; 2];
-        }
-        let [x, y] = pose.rotate_to_world(moved);
-        [ball.position[0], ball.position[1]] = [pose.x + x, pose.y + y];
+        let velocity = pose.rotate_to_body([ball.velocity[0], ball.velocity[1]]);
+        let middle = [0.0, self.front + Ball::RADIUS];
+        let most = HOLD * (dribbler_rpm / FULL_RPM).min(1.0) * dt;
+        let wanted = [0, 1].map(|axis| body[axis] + DRAW * (middle[axis] - place[axis]) - velocity[axis]);
+        let share = (most / wanted[0].hypot(wanted[1]).max(1e-12)).min(1.0);
+        let velocity = [0, 1].map(|axis| velocity[axis] + share * wanted[axis]);
         [ball.velocity[0], ball.velocity[1]] = pose.rotate_to_world(velocity);
+        ball.roll = [0.0; 2];
     }
 
     /// A kick where the ball sensor sees the ball: forward, added to the robot's own velocity.
@@ -107,8 +106,25 @@ impl Hull {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::meet::{Body, part};
 
     const DT: f64 = 1e-3;
+
+    /// The ball against a robot that nothing moves.
+    fn meet(hull: &Hull, pose: Pose, twist: Twist, ball: &mut Ball) {
+        let body = |place: [f64; 2], velocity: [f64; 2], inverse_mass| Body { place, velocity, inverse_mass };
+        let velocity = pose.rotate_to_world([twist.vx, twist.vy]);
+        let [x, y, _] = ball.position;
+        let mut bodies = [
+            body([pose.x, pose.y], velocity, 0.0),
+            body([x, y], [ball.velocity[0], ball.velocity[1]], 1.0 / Ball::MASS),
+        ];
+        if let Some(touch) = hull.touch([0, 1], pose, twist, ball) {
+            part(&mut bodies, &[touch]);
+            [ball.position[0], ball.position[1]] = bodies[1].place;
+            [ball.velocity[0], ball.velocity[1]] = bodies[1].velocity;
+        }
+    }
 
     fn rolling(x: f64, y: f64, velocity: [f64; 3]) -> Ball {
         Ball { velocity, roll: [velocity[0], velocity[1]], ..Ball::at(x, y) }
@@ -123,9 +139,9 @@ mod tests {
             let mut ball = rolling(from[0], from[1], velocity);
             for _ in 0..1_000 {
                 ball.step(DT, [5.0; 2]);
-                hull.touch(Pose::default(), Twist::default(), 0.0, &mut ball, DT);
+                meet(&hull, Pose::default(), Twist::default(), &mut ball);
                 let [right, forward] = [ball.position[0], ball.position[1]];
-                assert!(right.hypot(forward) > hull.front + Ball::RADIUS - 1e-9, "{ball:?}");
+                assert!(right.hypot(forward) > hull.front + Ball::RADIUS - 1e-6, "{ball:?}");
             }
             let back = ball.velocity[0] * velocity[0] + ball.velocity[1] * velocity[1];
             assert!(back <= 0.0, "{ball:?}");
@@ -142,7 +158,8 @@ mod tests {
                 speed -= acceleration * DT;
                 pose.y += speed * DT;
                 ball.step(DT, [50.0; 2]);
-                hull.touch(pose, Twist::new(0.0, speed, 0.0), 1_000.0, &mut ball, DT);
+                hull.dribble(pose, Twist::new(0.0, speed, 0.0), 1_000.0, &mut ball, DT);
+                meet(&hull, pose, Twist::new(0.0, speed, 0.0), &mut ball);
             }
             assert_eq!(hull.sees(pose, &ball) || hull.in_mouth(pose, &ball, REACH), holds, "{acceleration}: {ball:?}");
         }

@@ -54,7 +54,7 @@ impl std::str::FromStr for Team {
 pub struct State {
     /// The ball sensor sees the ball.
     pub ball: bool,
-    /// Why it is switched off, if it is.
+    /// Why it is switched off, if it is, and how it is had back.
     pub fault: Option<String>,
     /// Fastest straight and chip kick, m/s; 0 for a kick it does not have.
     pub fastest_kick: [f64; 2],
@@ -109,7 +109,7 @@ fn one(robots: &mut impl Robots, team: Team, command: &RobotCommand, answer: &mu
     let mut pilot = pilot.borrow_mut();
     let mut complain = |code: Code, what: String| answer.errors.push(code.says(format!("{team} {id}: {what}")));
     if let Some(fault) = &state.fault {
-        complain(Code::RobotFault, format!("{fault}; it is armed anew after half a second without motion asked for"));
+        complain(Code::RobotFault, fault.clone());
     }
     let mut order = Order::default();
     let mut taken = true;

@@ -22,6 +22,8 @@ pub mod contact;
 pub mod field;
 pub mod front;
 pub mod gate;
+#[cfg(feature = "simulation")]
+pub mod meet;
 pub mod messages;
 pub mod pilot;
 #[cfg(feature = "simulation")]

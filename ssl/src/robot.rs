@@ -1,18 +1,21 @@
 //! One simulated robot: the loop that drives a real one, over the bit-true FPGA, in the field's time.
 
 use crate::contact::Hull;
+use crate::meet::Body;
 use crate::pilot::{Order, Pilot, SharedPilot};
 use crate::trigger::Trigger;
-use driver::drive::{Ending, NoSource, Plan, Session};
+use driver::drive::{Ending, Fault, NoSource, Plan, Session};
 use driver::realtime::Clock;
 use driver::{Board, Scale};
+use fixed_kin::registers::FAULT_STALL;
 use model::camera::CameraModel;
 use model::effects::Applied;
 use runs::frames::{Pose, Twist};
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 use simulator::closed_loop::{LoopError, VirtualRobot, whole_tick_clock_hz};
 use simulator::fpga::BitTrue;
 use std::cell::RefCell;
+use std::fmt::Display;
 use std::rc::Rc;
 use std::time::Duration;
 
@@ -21,6 +24,11 @@ const CHARGE_S: f64 = 1.0;
 const CHARGE_LIMIT_S: f64 = 4.0;
 /// Rest after a fault before the robot may be armed anew, s.
 const REST_S: f64 = 0.5;
+/// Time after a touch in which a wheel that stands or lags was held by it, s: the watch doubts no longer.
+const TOUCHED_S: f64 = 1.0;
+/// Friction coefficient of rubber rollers on carpet once something else moves the robot. An assumption: it lets a strong
+/// robot brake with half of gravity.
+const GRIP: f64 = 0.5;
 
 /// What kind of robot it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +68,10 @@ pub struct SimulatedRobot {
     pilot: Rc<RefCell<Pilot>>,
     session: Option<Driving>,
     fault: Option<String>,
+    /// Whether that came of pushing against something.
+    stalled: bool,
+    /// Since it touched a robot, the ball or a board, s.
+    untouched_s: f64,
     /// Since when it has rested after a fault, s.
     rested_s: f64,
     trigger: Trigger,
@@ -87,6 +99,8 @@ impl SimulatedRobot {
             since: now,
             session: None,
             fault: None,
+            stalled: false,
+            untouched_s: f64::INFINITY,
             rested_s: 0.0,
             trigger: Trigger::default(),
             charge: 1.0,
@@ -141,7 +155,7 @@ impl SimulatedRobot {
         self.pilot.borrow().order_in_force()
     }
 
-    /// Why it is switched off, if it is.
+    /// Why it is switched off, if it is, and how it is had back.
     #[must_use]
     pub fn fault(&self) -> Option<&str> {
         self.fault.as_deref()
@@ -159,6 +173,20 @@ impl SimulatedRobot {
         self.pilot.borrow_mut().begin(twist);
     }
 
+    /// How others meet it.
+    #[must_use]
+    pub fn body(&self) -> Body {
+        let (pose, twist, robot) = (self.pose(), self.twist(), &self.applied.robot);
+        let inverse_mass = if robot.support == Support::Floor { 1.0 / robot.mass_kg } else { 0.0 };
+        Body { place: [pose.x, pose.y], velocity: pose.rotate_to_world([twist.vx, twist.vy]), inverse_mass }
+    }
+
+    /// Something hit it: its place (m) and velocity (m/s) change by so much, along the field's axes.
+    pub fn strike(&mut self, moved: [f64; 2], changed: [f64; 2]) {
+        self.robot.strike(moved, changed, GRIP);
+        self.untouched_s = 0.0;
+    }
+
     /// Lets time pass until the field's time `until`, with the ball before the sensor or not. The speed and elevation of
     /// a kick that happened.
     pub fn advance(&mut self, until: Duration, ball: bool) -> Option<[f64; 2]> {
@@ -169,6 +197,7 @@ impl SimulatedRobot {
         let mut clock = self.robot.clone();
         while self.since + clock.now() + period <= until {
             self.pilot.borrow_mut().heading = Some(self.robot.pose().theta);
+            self.untouched_s += period.as_secs_f64();
             match self.session.as_mut() {
                 Some(session) => {
                     session.wait(&mut clock);
@@ -176,9 +205,9 @@ impl SimulatedRobot {
                     let asked = self.pilot.borrow().order_in_force().kick;
                     match (ending, self.trigger.tick(session.board(), asked)) {
                         (None, Ok(kick)) => kicked = kicked.or(kick.map(|kick| self.shot(kick.speed, kick.angle))),
-                        (Some(Ending::Fault(fault)), _) => self.switch_off(fault.to_string()),
-                        (_, Err(error)) => self.switch_off(error.to_string()),
-                        (Some(_), Ok(_)) => self.switch_off("the drive ended".to_owned()),
+                        (Some(Ending::Fault(fault)), _) => self.switch_off(&fault, self.is_held(&fault)),
+                        (_, Err(error)) => self.switch_off(&error, false),
+                        (Some(_), Ok(_)) => self.switch_off(&"the drive ended", false),
                     }
                 }
                 None => self.rest(&mut clock, period),
@@ -203,15 +232,31 @@ impl SimulatedRobot {
         [speed, angle]
     }
 
-    fn switch_off(&mut self, why: String) {
+    /// Whether a fault came of wheels that were held from outside.
+    fn is_held(&self, fault: &Fault) -> bool {
+        let held = match fault {
+            Fault::StandsStill { .. } | Fault::Backwards { .. } | Fault::DoesNotFollow { .. } => true,
+            Fault::Disarmed { faults, .. } => FAULT_STALL.is_set(*faults),
+            _ => false,
+        };
+        held && self.untouched_s < TOUCHED_S
+    }
+
+    fn switch_off(&mut self, why: &dyn Display, stalled: bool) {
         // Dropped, the session disarms.
         self.session = None;
         self.trigger = Trigger::default();
-        self.fault = Some(why);
+        self.fault = Some(if stalled {
+            format!("it pushes against something and stalls ({why}); it is armed anew after half a second")
+        } else {
+            format!("{why}; it is armed anew after half a second without motion asked for")
+        });
+        self.stalled = stalled;
         self.rested_s = 0.0;
     }
 
-    /// Switched off: once nobody asks for motion any more, it is armed anew.
+    /// Switched off: once nobody asks for motion any more, it is armed anew; after a stall, motors that cooled so long may
+    /// try again.
     fn rest(&mut self, clock: &mut VirtualRobot<BitTrue>, period: Duration) {
         let at = clock.now() + period;
         clock.sleep_until(at);
@@ -220,11 +265,11 @@ impl SimulatedRobot {
             pilot.wait(period.as_secs_f64());
             pilot.asks_for_rest()
         };
-        self.rested_s = if asks_for_rest { self.rested_s + period.as_secs_f64() } else { 0.0 };
+        self.rested_s = if asks_for_rest || self.stalled { self.rested_s + period.as_secs_f64() } else { 0.0 };
         if self.rested_s >= REST_S
             && let Err(error) = self.arm()
         {
-            self.switch_off(error.to_string());
+            self.switch_off(&error, self.stalled);
         }
     }
 
@@ -235,7 +280,7 @@ impl SimulatedRobot {
             self.robot = robot;
             self.since = now;
         }
-        self.switch_off(why.to_owned());
+        self.switch_off(&why, false);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The field with robots and a ball: a state machine of simulated time, which no clock and no socket is part of.
 
 mod config;
+mod contacts;
 mod vision;
 
 use crate::ball::Ball;
@@ -107,8 +108,9 @@ impl World {
             if let Some([speed, angle]) = kicked {
                 hull.kick(pose, twist, speed, angle, &mut self.ball);
             }
-            hull.touch(pose, twist, robot.order().dribbler_rpm, &mut self.ball, dt);
+            hull.dribble(pose, twist, robot.order().dribbler_rpm, &mut self.ball, dt);
         }
+        self.meet();
         self.frame_due().then(|| self.see())
     }
 

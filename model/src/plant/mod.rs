@@ -35,6 +35,8 @@ pub enum Contact {
 
 /// Standard gravity, m/s².
 pub const GRAVITY: f64 = 9.806_65;
+/// Slip velocity per force of wheels that something knocked loose, s/kg: no more than 5 mm/s while they still hold.
+const LOOSE_CREEP_S_PER_KG: f64 = 0.001;
 /// Longest internal step, s. Halving it changes a second of driving by less than 0.1 mm.
 const LONGEST_STEP_S: f64 = 0.000_25;
 
@@ -74,6 +76,8 @@ pub struct Plant {
     after: Vec<f64>,
     contacts: Vec<slipping::ContactPoint>,
     rolling: Option<Box<rolling::Tables>>,
+    /// Friction coefficient of the floor while wheels that otherwise roll are knocked loose.
+    loose: Option<f64>,
     /// Duties as they act in this tick.
     acting: Vec<f64>,
 }
@@ -139,6 +143,7 @@ impl Plant {
             before: vec![0.0; n],
             after: vec![0.0; n],
             rolling: None,
+            loose: None,
             acting: vec![0.0; n],
         })
     }
@@ -169,12 +174,33 @@ impl Plant {
     #[must_use]
     pub fn moving(mut self, twist: Twist) -> Self {
         self.twist = if self.support == Support::Floor { twist } else { Twist::default() };
+        self.loose = None;
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
             let contact = &self.contacts[i];
             wheel.speed =
                 contact.row.dot(&Vector3::new(self.twist.vx, self.twist.vy, self.twist.omega)) / contact.lever;
         }
         self
+    }
+
+    /// Something hit the body through its centre: place (m) and velocity (m/s) change at once by so much, in world axes.
+    /// The wheels keep their speeds. Where they otherwise roll they slip from now on, as on a floor of this friction
+    /// coefficient, until that holds every one of them again. On blocks nothing happens.
+    pub fn strike(&mut self, moved: [f64; 2], changed: [f64; 2], friction_coefficient: f64) {
+        if self.support == Support::Blocks {
+            return;
+        }
+        let pose = self.pose();
+        self.walk = Walk::from(Pose::new(pose.x + moved[0], pose.y + moved[1], pose.theta));
+        if changed != [0.0; 2] {
+            let [x, y] = pose.rotate_to_body(changed);
+            let mass = self.platform();
+            let change = Vector3::new(x, y, 0.0);
+            // Wheels without rollers take what would be sideways.
+            let change = self.geometry.invert_allowed(&mass).map_or(change, |inverse| inverse * mass * change);
+            self.twist = Twist::new(self.twist.vx + change.x, self.twist.vy + change.y, self.twist.omega + change.z);
+            self.loose = Some(friction_coefficient);
+        }
     }
 
     /// One control tick of `dt` seconds with a constant duty in [−1, 1] a wheel (0, the motor
@@ -191,10 +217,15 @@ impl Plant {
         self.walk = Walk::from(self.walk.pose());
         for _ in 0..steps as usize {
             self.load();
-            match (self.support, self.contact) {
-                (Support::Blocks, _) => self.step_on_blocks(h),
-                (_, Contact::Rolling) => self.step_rolling(h),
-                (_, Contact::Friction { friction_coefficient, creep_s_per_kg }) => {
+            match (self.support, self.contact, self.loose) {
+                (Support::Blocks, ..) => self.step_on_blocks(h),
+                (_, Contact::Rolling, None) => self.step_rolling(h),
+                (_, Contact::Rolling, Some(friction_coefficient)) => {
+                    if self.step_slipping(h, friction_coefficient, LOOSE_CREEP_S_PER_KG) {
+                        self.loose = None;
+                    }
+                }
+                (_, Contact::Friction { friction_coefficient, creep_s_per_kg }, _) => {
                     self.step_slipping(h, friction_coefficient, creep_s_per_kg);
                 }
             }

@@ -66,7 +66,8 @@ impl Floor {
 }
 
 impl Plant {
-    pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: f64) {
+    /// Whether the floor held every wheel.
+    pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: f64) -> bool {
         let mass = self.platform() / h;
         let grip = friction_coefficient * self.mass * super::GRAVITY / self.wheels.len() as f64;
         let start = self.twist_vector();
@@ -76,6 +77,7 @@ impl Plant {
         // Wheels without rollers hold sideways whatever they slip along.
         let within = |slope: &Matrix3<f64>| self.geometry.invert_allowed(slope);
         let mut twist = within(&mass).map_or(start, |inverse| inverse * mass * start);
+        let mut held = true;
         for _ in 0..friction::GEAR_ROUNDS {
             for step in 0..NEWTON_STEPS {
                 let mut residual = mass * (twist - start) - self.push;
@@ -92,6 +94,7 @@ impl Plant {
                     break;
                 }
             }
+            held = true;
             for ((wheel, contact), axis) in self.wheels.iter_mut().zip(&self.contacts).zip(&axes) {
                 let t = floor.traction(axis, wheel, contact, &twist);
                 let limit = wheel.friction_limit(axis);
@@ -100,6 +103,7 @@ impl Plant {
                 wheel.friction = axis.inertia() * acceleration - winding - wheel.load + contact.lever * t.force;
                 wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
                 wheel.next_speed = t.speed;
+                held &= t.force.abs() < grip;
             }
         }
         self.axes = axes;
@@ -112,5 +116,6 @@ impl Plant {
             twist = self.geometry.invert_allowed(&mass).map_or(twist, |inverse| inverse * mass * twist);
         }
         self.move_body(twist, h);
+        held
     }
 }

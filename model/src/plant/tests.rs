@@ -264,3 +264,41 @@ fn a_differential_drive_never_slides_sideways() {
         assert!((twist.omega - plant.twist().omega).abs() < 0.02 * twist.omega, "{twist:?} {:?}", plant.twist());
     }
 }
+
+#[test]
+fn a_robot_that_is_stopped_slips_until_the_floor_holds_it_again() {
+    let robot = Robot::racbot();
+    let grip = 0.5;
+    let mut plant = Plant::new(&robot).unwrap().moving(Twist::new(0.0, 1.0, 0.0));
+    plant.strike([0.01, -0.02], [0.0, -1.0], grip);
+    assert_eq!((plant.pose(), plant.twist()), (Pose::new(0.01, -0.02, 0.0), Twist::default()));
+    let turning = plant.wheel_speeds().fold(0.0, |most: f64, w| most.max(w.abs()));
+    assert!(turning > 30.0, "the wheels are not stopped with it: {turning}");
+    // A millisecond of two wheels that slip, 30 degrees from forward, with a third of the weight each.
+    plant.step(&[0.0; 3], robot.supply_v, 1e-3);
+    let most = grip * GRAVITY * 2.0 * (std::f64::consts::PI / 6.0).cos() / 3.0 * 1e-3;
+    assert!(plant.twist().vy > 0.0 && plant.twist().vy <= most * (1.0 + 1e-9), "{:?} {most}", plant.twist());
+    for _ in 0..20 {
+        plant.step(&[0.0; 3], robot.supply_v, 1e-3);
+    }
+    let held = |plant: &Plant| {
+        plant.geometry().wheel_speeds(plant.twist()).iter().zip(plant.wheel_speeds()).all(|(a, b)| (a - b).abs() < 1e-9)
+    };
+    assert!(held(&plant) && plant.twist().vy < 0.1, "{:?}", plant.twist());
+    // Held where it is, motors that are stronger than the floor spin the wheels, and weaker ones stall.
+    for (grip, spins) in [(0.1, true), (0.5, false)] {
+        let mut plant = Plant::new(&robot).unwrap();
+        for _ in 0..500 {
+            plant.step(&[0.0, 1.0, -1.0], robot.supply_v, 1e-3);
+            let [x, y] = plant.pose().rotate_to_world([plant.twist().vx, plant.twist().vy]);
+            plant.strike([0.0; 2], [-x, -y], grip);
+        }
+        let fastest = plant.wheel_speeds().fold(0.0, |most: f64, w| most.max(w.abs()));
+        assert_eq!(fastest > 50.0, spins, "{grip}: {fastest}");
+        assert!(spins || fastest < 1.0, "{fastest}");
+    }
+    // On blocks nothing moves it.
+    let mut blocks = Plant::new(&Robot { support: Support::Blocks, ..robot }).unwrap();
+    blocks.strike([1.0; 2], [1.0; 2], grip);
+    assert_eq!((blocks.pose(), blocks.twist()), (Pose::default(), Twist::default()));
+}

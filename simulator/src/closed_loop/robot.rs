@@ -99,6 +99,11 @@ impl<F: Fpga> VirtualRobot<F> {
         inside.plant = inside.plant.clone().at(pose).moving(twist);
     }
 
+    /// Something hit the robot: [`Plant::strike`]; its controller sees no more of it than its encoders do.
+    pub fn strike(&self, moved: [f64; 2], changed: [f64; 2], friction_coefficient: f64) {
+        self.0.borrow_mut().plant.strike(moved, changed, friction_coefficient);
+    }
+
     /// Looks at the FPGA from outside, such as at its pins.
     pub fn fpga<T>(&self, look: impl FnOnce(&mut F) -> T) -> T {
         look(&mut self.0.borrow_mut().fpga)
