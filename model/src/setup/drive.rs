@@ -97,15 +97,18 @@ fn slope(pairs: &[(f64, f64)]) -> f64 {
 
 /// Set points in another unit, or speeds that are wrong beside them.
 fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
-    // Wheels follow their set points: the lag at which they do so best.
-    let of = |lag: usize| -> Vec<(f64, f64)> {
-        let axes = signals.iter().flat_map(|s| s.speed.iter().zip(&s.reference));
+    // Wheels follow their set points: the lag at which they do so best, log by log. One that asks for what no motor can
+    // do says nothing, and does not drown the others.
+    let of = |s: &Signals, lag: usize| -> Vec<(f64, f64)> {
+        let axes = s.speed.iter().zip(&s.reference);
         let pairs = axes.flat_map(|(w, r)| w.iter().skip(lag).copied().zip(r.iter().copied()));
         pairs.filter(|(w, r)| w.is_finite() && r.is_finite()).collect()
     };
     let follows = |pairs: &[(f64, f64)]| correlation(pairs.iter().copied());
-    let pairs = (0..=LAGS).map(of).max_by(|a, b| follows(a).total_cmp(&follows(b)))?;
-    if pairs.len() < FEWEST || follows(&pairs) < FOLLOWS {
+    let best = |s| (0..=LAGS).map(|lag| of(s, lag)).max_by(|a, b| follows(a).total_cmp(&follows(b)));
+    let pairs: Vec<(f64, f64)> =
+        signals.iter().filter_map(best).filter(|pairs| follows(pairs) >= FOLLOWS).flatten().collect();
+    if pairs.len() < FEWEST {
         return None;
     }
     let ratio = slope(&pairs);
@@ -130,25 +133,27 @@ fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
 /// Commands in another frame.
 fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     let geometry = robot.geometry().ok()?;
-    // Commands run ahead of the wheels: the lag at which they follow best.
-    let of = |lag: usize| {
-        let (mut pp, mut re, mut im, mut cc, mut n) = (0.0, 0.0, 0.0, 0.0, 0);
-        for s in signals {
-            for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
-                let w: Vec<f64> = s.speed.iter().filter_map(|w| w.get(k + lag).copied()).collect();
-                if w.len() == s.speed.len() {
-                    let p = geometry.twist(&w);
-                    pp += p.vx * p.vx + p.vy * p.vy;
-                    re += c[0] * p.vx + c[1] * p.vy;
-                    im += c[1] * p.vx - c[0] * p.vy;
-                    cc += c[0] * c[0] + c[1] * c[1];
-                    n += 1;
-                }
+    // Commands run ahead of the wheels, in every log by its own lag. Sums of what the wheels drove, of what was asked
+    // for, of both along and across each other, and their number; only of logs whose wheels follow.
+    let of = |s: &Signals, lag: usize| {
+        let mut sums = [0.0; 5];
+        for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
+            let w: Vec<f64> = s.speed.iter().filter_map(|w| w.get(k + lag).copied()).collect();
+            if w.len() == s.speed.len() {
+                let p = geometry.twist(&w);
+                let (driven, asked) = (p.vx * p.vx + p.vy * p.vy, c[0] * c[0] + c[1] * c[1]);
+                let (along, across) = (c[0] * p.vx + c[1] * p.vy, c[1] * p.vx - c[0] * p.vy);
+                sums.iter_mut().zip([driven, asked, along, across, 1.0]).for_each(|(sum, x)| *sum += x);
             }
         }
-        (f64::hypot(re, im) / f64::sqrt(pp * cc).max(1e-300), f64::atan2(im, re), n)
+        sums
     };
-    let (follows, turn, n) = (0..=LAGS).map(of).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let follows =
+        |[driven, asked, along, across, _]: [f64; 5]| f64::hypot(along, across) / f64::sqrt(driven * asked).max(1e-300);
+    let best = |s| (0..=LAGS).map(|lag| of(s, lag)).max_by(|a, b| follows(*a).total_cmp(&follows(*b)));
+    let logs = signals.iter().filter_map(best).filter(|sums| follows(*sums) >= FOLLOWS);
+    let all = logs.fold([0.0; 5], |all, of| std::array::from_fn(|i| all[i] + of[i]));
+    let (follows, turn, n) = (follows(all), f64::atan2(all[3], all[2]), all[4] as usize);
     // What wheels that are wired in another order make of a command is no frame: frames are quarter turns.
     let quarter = (turn / std::f64::consts::FRAC_PI_2).round() * std::f64::consts::FRAC_PI_2;
     if n < FEWEST || follows < FOLLOWS || quarter == 0.0 || (turn - quarter).abs() > 0.4 {
