@@ -101,20 +101,24 @@ if [ -x "$python_environment/bin/pip" ]; then
 else
     skipped+=("the Python package: no environment in $python_environment, see the tools from PyPI")
 fi
-# mdBook is neither in Debian 12 nor on PyPI (npm's is another program): built once from its crate, without its server.
+# mdBook is neither in Debian 12 nor on PyPI (npm's is another program): built once from its crate, without its server and
+# without optimisation, which takes longer than it saves on a book of this size.
 book_tools=$(realpath -m "${CARGO_TARGET_DIR:-target}")/tools
 book() {
     local mdbook=$book_tools/bin/mdbook
     [ -x "$mdbook" ] || mdbook=$(command -v mdbook) || {
-        cargo install -q mdbook --version 0.5.4 --locked --no-default-features --root "$book_tools" &&
+        CARGO_PROFILE_RELEASE_OPT_LEVEL=0 cargo install -q mdbook --version 0.5.4 --locked --no-default-features --root "$book_tools" &&
             mdbook=$book_tools/bin/mdbook
     }
     "$mdbook" build docs/book --dest-dir "$(realpath -m "${CARGO_TARGET_DIR:-target}")/book"
 }
 stage "the book" book
 # Built by the test that looks at it, so that the virtual machine's tests find it ready.
-stage "the robot's binary" cargo test -q -p testbench --release --test qemu robots_binary
-stage "the release archive" dist/release.sh --out "$(realpath -m "${CARGO_TARGET_DIR:-target}")/dist"
+# Of the whole workspace, as the build: one package alone has other features and would compile most crates again.
+stage "the robot's binary" cargo test -q --workspace --release --test qemu robots_binary
+# The command is the one built above; the robot's binary is found built, by the same command as in the archive's script.
+target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
+stage "the release archive" dist/release.sh --out "$target/dist" --pc "$target/release/racbot"
 if [ -z "$(missing)" ]; then
     stage "tests" cargo test --workspace --release --no-fail-fast "${left_out[@]}"
 else
