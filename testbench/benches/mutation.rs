@@ -7,7 +7,8 @@
 //!
 //! The changes are drawn by a seed among all places where an operator, a bound or a truth value can be another; each is
 //! made in a copy of the repository with a build folder of its own, so that only one crate is built again. A change that
-//! survives is either one that makes no difference, or a test that is missing.
+//! survives is either one that makes no difference, or a test that is missing. The table is written after every change, so
+//! that a campaign may be stopped at any time; with a folder in `RACBOT_SCRATCH` the next one finds everything built.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -155,7 +156,8 @@ fn main() {
     let numbers: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
     let (count, seed) = (numbers.first().map_or(COUNT, |n| *n as usize), numbers.get(1).copied().unwrap_or(1));
     let scratch = tempfile::tempdir().expect("a temporary folder");
-    let (root, target) = (scratch.path().join("tree"), scratch.path().join("target"));
+    let folder = std::env::var_os("RACBOT_SCRATCH").map_or(scratch.path().to_owned(), PathBuf::from);
+    let (root, target) = (folder.join("tree"), folder.join("target"));
     copy_of(&repository(), &root);
     let cargo = |package: &str, more: &[&str]| {
         let mut command = Command::new(env!("CARGO"));
@@ -189,7 +191,12 @@ fn main() {
         };
         println!("{}/{count} {}:{}: {after}: {verdict}", number + 1, site.file.display(), site.line + 1);
         fs::write(&path, text).expect("a source");
+        write(&tallies, number + 1, all.len(), seed);
     }
+}
+
+/// The table of what was tried so far.
+fn write(tallies: &BTreeMap<PathBuf, Tally>, tried: usize, possible: usize, seed: u64) {
     let rows: Vec<Vec<String>> = tallies
         .iter()
         .map(|(file, t)| {
@@ -197,8 +204,7 @@ fn main() {
             [vec![file.display().to_string()], counts.to_vec(), vec![t.survivors.join("; ")]].concat()
         })
         .collect();
-    let title =
-        format!("{count} of {} possible small changes, seed {seed}, against the tests of their crate", all.len());
+    let title = format!("{tried} of {possible} possible small changes, seed {seed}, against the tests of their crate");
     let table = measured::Table {
         name: "mutation",
         title: &title,
