@@ -1,5 +1,9 @@
 //! The catalogue as people read it: a line or a page an effect, from the effects' own descriptions.
 
+#[cfg(test)]
+mod picture;
+mod twins;
+
 use std::fmt::Write as _;
 
 use model::effects::Applied;
@@ -127,6 +131,16 @@ impl Description {
             }
             out.push_str("\nBounds and sizes are those of the paper's robot; `i` is a wheel's number.\n\n");
         }
+        let [always, square] = twins::of(&self.name).map(|names| names.join(", "));
+        if !always.is_empty() {
+            let _ = writeln!(
+                out,
+                "Twins, which do the same in a square, a star, a chirp and hard stops together: {always}.\n"
+            );
+        }
+        if !square.is_empty() {
+            let _ = writeln!(out, "Twins in a square without turns alone: {square}.\n");
+        }
         if let Some((how, minutes)) = &self.measurement {
             let unit = if *minutes == 1.0 { "minute" } else { "minutes" };
             let _ = writeln!(out, "To measure it without driving: {how} ({minutes} {unit}).\n");
@@ -158,7 +172,17 @@ fn capital(text: &str) -> String {
 mod tests {
     use std::path::Path;
 
+    use rayon::prelude::*;
+
     use super::*;
+
+    /// The page of an effect, with its picture before the rest where there is one.
+    fn page(d: &Description, picture: bool) -> String {
+        let (head, rest) = d.markdown().split_once("\n\nLink:").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+        let image =
+            if picture { format!("\n\n![With and without it, simulated]({}.svg)", d.name) } else { String::new() };
+        format!("{head}{image}\n\nLink:{rest}")
+    }
 
     fn pages() -> Vec<(String, String)> {
         let all = descriptions();
@@ -171,7 +195,14 @@ mod tests {
             let _ = writeln!(list, "| [{0}](effects/{0}.md) | {1} | {what} |", d.name, d.links[0].name());
         }
         let mut pages = vec![("effects.md".to_owned(), list)];
-        pages.extend(all.iter().map(|d| (format!("effects/{}.md", d.name), d.markdown())));
+        let drawn: Vec<(&Description, Option<String>)> = all
+            .par_iter()
+            .map(|d| (d, picture::picture(&d.name, d.links[0], crate::effects::find(&d.name).as_deref())))
+            .collect();
+        for (d, picture) in drawn {
+            pages.push((format!("effects/{}.md", d.name), page(d, picture.is_some())));
+            pages.extend(picture.map(|svg| (format!("effects/{}.svg", d.name), svg)));
+        }
         pages
     }
 
@@ -180,21 +211,25 @@ mod tests {
     fn the_books_pages_are_what_the_effects_say() {
         let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/book/src");
         let write = std::env::var("RACBOT_MEASURED").as_deref() == Ok("write");
-        for (name, text) in pages() {
-            let path = book.join(&name);
+        let pages = pages();
+        for (name, text) in &pages {
+            let path = book.join(name);
             if write {
                 std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-                std::fs::write(&path, &text).unwrap();
+                std::fs::write(&path, text).unwrap();
             }
             let found = std::fs::read_to_string(&path).unwrap_or_default();
-            assert_eq!(found, text, "docs/book/src/{name} is not current: RACBOT_MEASURED=write");
+            assert_eq!(&found, text, "docs/book/src/{name} is not current: RACBOT_MEASURED=write");
         }
         let summary = std::fs::read_to_string(book.join("SUMMARY.md")).unwrap();
-        for (name, _) in pages() {
+        for (name, _) in pages.iter().filter(|(name, _)| name.ends_with(".md")) {
             assert!(summary.contains(&format!("({name})")), "{name} is in no chapter list");
         }
         let kept = std::fs::read_dir(book.join("effects")).unwrap().count();
-        assert_eq!(kept, pages().len() - 1, "a page of an effect that is none");
+        assert_eq!(kept, pages.len() - 1, "a page or picture of an effect that is none");
+        let pictures: Vec<usize> =
+            pages.iter().filter(|(name, _)| name.ends_with(".svg")).map(|(_, svg)| svg.len()).collect();
+        assert!(pictures.len() > 40 && pictures.iter().all(|bytes| *bytes < 12_000), "{pictures:?}");
     }
 
     #[test]
