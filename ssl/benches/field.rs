@@ -50,8 +50,9 @@ impl Clock for Teams {
     }
 }
 
-/// Processor time for a second of so many robots a team, and steps lost.
-fn measure(robots: u32) -> (f64, u64) {
+/// Processor time for a second of so many robots a team, and steps lost. Teams that drive straight ahead run into each
+/// other and push.
+fn measure(robots: u32, velocity: MoveLocalVelocity) -> (f64, u64) {
     let kind = Kind::of(&Robot::racbot());
     let team = |team| (0..robots).map(move |id| (team, id));
     let options = Options {
@@ -77,9 +78,7 @@ fn measure(robots: u32) -> (f64, u64) {
     socket.set_nonblocking(true).expect("a socket");
     let command = |id| RobotCommand {
         id,
-        move_command: Some(RobotMoveCommand {
-            command: Some(MoveCommand::LocalVelocity(MoveLocalVelocity { forward: 0.3, left: 0.1, angular: 1.0 })),
-        }),
+        move_command: Some(RobotMoveCommand { command: Some(MoveCommand::LocalVelocity(velocity)) }),
         ..RobotCommand::default()
     };
     let message = RobotControl { robot_commands: (0..robots).map(command).collect() }.encode_to_vec();
@@ -91,12 +90,15 @@ fn measure(robots: u32) -> (f64, u64) {
 }
 
 fn main() {
-    let rows: Vec<Vec<String>> = [1, 6, 11]
+    let turning = MoveLocalVelocity { forward: 0.3, left: 0.1, angular: 1.0 };
+    let ahead = MoveLocalVelocity { forward: 0.5, left: 0.0, angular: 0.0 };
+    let rows: Vec<Vec<String>> = [(1, turning, ""), (6, turning, ""), (11, turning, ""), (11, ahead, ", head-on")]
         .into_iter()
-        .map(|robots| {
-            let (cost, lost) = measure(robots);
+        .map(|(robots, velocity, how)| {
+            let (cost, lost) = measure(robots, velocity);
             let each = 1e6 * cost / 1e3 / f64::from(2 * robots);
-            vec![format!("{robots} + {robots}"), format!("{:.1}", 100.0 * cost), format!("{each:.1}"), lost.to_string()]
+            let name = format!("{robots} + {robots}{how}");
+            vec![name, format!("{:.1}", 100.0 * cost), format!("{each:.1}"), lost.to_string()]
         })
         .collect();
     Table {
