@@ -39,10 +39,9 @@ fn hidden_skew_leads_astray_the_camera_leads_back_and_calibration_finds_it() {
     assert!(json["time_s"].as_f64().is_some_and(|t| t < 20.0), "{json}");
     assert!(json["path_error_max_m"].as_f64().unwrap() < 0.1, "{json}");
 
-    let found = racbot(folder.path(), &["calibrate", "red", "--json"]).done().json();
+    let found = racbot(folder.path(), &["calibrate", "red", "--json", "--out", "found"]).done().json();
     let skew = |i: usize| found["skew_rad"][i].as_f64().unwrap().to_degrees();
     assert!((skew(0) - skew(1) - 7.0).abs() < 0.3 && (skew(0) - skew(2) - 2.0).abs() < 0.3, "{found}");
-    racbot(folder.path(), &["calibrate", "red", "--out", "found"]).done().fits_80_columns();
     assert!(
         fs::read_to_string(folder.path().join("found/configuration.csv")).unwrap().starts_with("offset,word\n0x400,")
     );
@@ -67,27 +66,7 @@ fn the_papers_procedure_ends_where_its_mathematics_says() {
 }
 
 #[test]
-fn the_gap_of_a_skewed_robot_is_named_and_taken_back() {
-    let folder = tempdir().unwrap();
-    let set = data("runs/wheel-skew");
-    let outcome = racbot(folder.path(), &["gap", set.to_str().unwrap(), "--out", "gap"]).done().fits_80_columns();
-    assert!(outcome.stdout.contains("wheel-skew"), "{}", outcome.stdout);
-    let json = fs::read_to_string(folder.path().join("gap/gap.json")).unwrap();
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(
-        (json["verdict"].as_str(), json["effects"][0]["name"].as_str()),
-        (Some("missing-effect"), Some("wheel-skew"))
-    );
-    assert!(fs::read_to_string(folder.path().join("gap/report.html")).unwrap().contains("<svg"));
-
-    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"]).done();
-    assert!(!fs::read_to_string(folder.path().join("gap/robot.toml")).unwrap().contains("wheel-skew"));
-    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"])
-        .refused(1, &["gap/robot.toml: carries no effect wheel-skew"]);
-}
-
-#[test]
-fn the_gap_says_what_to_type_in_and_what_became_of_ones_own_effect() {
+fn the_gap_of_a_skewed_robot_is_named_said_to_be_typed_in_and_taken_back() {
     let folder = tempdir().unwrap();
     let (set, own) = (data("runs/wheel-skew"), data("effects/air-drag.toml"));
     let arguments = ["gap", set.to_str().unwrap(), "--effect", own.to_str().unwrap(), "--out", "gap"];
@@ -106,6 +85,20 @@ fn the_gap_says_what_to_type_in_and_what_became_of_ones_own_effect() {
     let (skew, r) = (4.0_f64.to_radians(), 0.0275);
     let true_row = [-skew.sin() / r, -skew.cos() / r, -0.085 * skew.cos() / r];
     assert!(row.iter().zip(true_row).all(|(a, b)| (a - b).abs() < 0.3), "{row:?} {true_row:?}");
+
+    assert!(outcome.stdout.contains("wheel-skew"), "{}", outcome.stdout);
+    let json = fs::read_to_string(folder.path().join("gap/gap.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(
+        (json["verdict"].as_str(), json["effects"][0]["name"].as_str()),
+        (Some("missing-effect"), Some("wheel-skew"))
+    );
+    assert!(fs::read_to_string(folder.path().join("gap/report.html")).unwrap().contains("<svg"));
+
+    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"]).done();
+    assert!(!fs::read_to_string(folder.path().join("gap/robot.toml")).unwrap().contains("wheel-skew"));
+    racbot(folder.path(), &["gap", "--undo", "wheel-skew", "--robot", "gap/robot.toml"])
+        .refused(1, &["gap/robot.toml: carries no effect wheel-skew"]);
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn two_wheels_and_dead_reckoning_are_compared_with_the_camera() {
     let outcome = racbot(folder.path(), &["--json", "gap", squares.to_str().unwrap()]);
     assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
     assert!(outcome.json()["gap"].to_string().contains("motion"), "{}", outcome.json()["gap"]);
-    let found = racbot(folder.path(), &["calibrate", squares.to_str().unwrap()]).done();
+    let found = racbot(folder.path(), &["calibrate", squares.to_str().unwrap()]).done().fits_80_columns();
     assert!(!found.stdout.contains("95 % from"), "two wheels show no skew: {}", found.stdout);
     // The same drive as the robot's own odometry, with nothing said of the wheels.
     let set = runs::DataSet::open(&squares).unwrap();
