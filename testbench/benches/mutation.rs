@@ -2,7 +2,7 @@
 //! `docs/measured/mutation.md`.
 //!
 //! ```sh
-//! cargo bench -p testbench --bench mutation -- [COUNT [SEED]]
+//! cargo bench -p testbench --bench mutation -- [COUNT [SEED]] [CRATE ...]
 //! ```
 //!
 //! The changes are drawn by a seed among all places where an operator, a bound or a truth value can be another; each is
@@ -82,9 +82,9 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 /// Places in code that is no test, no comment, no attribute and no text.
-fn sites(root: &Path) -> Vec<Site> {
+fn sites(root: &Path, crates: &[&'static str]) -> Vec<Site> {
     let mut found = Vec::new();
-    for package in CRATES {
+    for package in crates.iter().copied() {
         let mut files = Vec::new();
         sources(&root.join(package).join("src"), &mut files);
         for file in files {
@@ -165,7 +165,10 @@ fn main() {
         command.args(crates).args(more).current_dir(&root).env("CARGO_TARGET_DIR", &target);
         command
     };
-    let all = sites(&root);
+    let named: Vec<&'static str> =
+        CRATES.into_iter().filter(|name| std::env::args().any(|argument| argument == *name)).collect();
+    let crates = if named.is_empty() { CRATES.to_vec() } else { named };
+    let all = sites(&root, &crates);
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let chosen: Vec<Site> = (0..count).map(|_| all[random.random_range(0..all.len())].clone()).collect();
     for package in CRATES.into_iter().filter(|package| chosen.iter().any(|site| site.package == *package)) {
@@ -191,12 +194,12 @@ fn main() {
         };
         println!("{}/{count} {}:{}: {after}: {verdict}", number + 1, site.file.display(), site.line + 1);
         fs::write(&path, text).expect("a source");
-        write(&tallies, number + 1, all.len(), seed);
+        write(&tallies, [number + 1, all.len()], &crates, seed);
     }
 }
 
 /// The table of what was tried so far.
-fn write(tallies: &BTreeMap<PathBuf, Tally>, tried: usize, possible: usize, seed: u64) {
+fn write(tallies: &BTreeMap<PathBuf, Tally>, [tried, possible]: [usize; 2], crates: &[&str], seed: u64) {
     let rows: Vec<Vec<String>> = tallies
         .iter()
         .map(|(file, t)| {
@@ -204,7 +207,10 @@ fn write(tallies: &BTreeMap<PathBuf, Tally>, tried: usize, possible: usize, seed
             [vec![file.display().to_string()], counts.to_vec(), vec![t.survivors.join("; ")]].concat()
         })
         .collect();
-    let title = format!("{tried} of {possible} possible small changes, seed {seed}, against the tests of their crate");
+    let title = format!(
+        "{tried} of {possible} possible small changes of {}, seed {seed}, against the tests of their crate",
+        crates.join(" and ")
+    );
     let table = measured::Table {
         name: "mutation",
         title: &title,
