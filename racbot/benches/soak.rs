@@ -28,6 +28,7 @@ const LARGEST: usize = 65_507;
 struct Server {
     child: Child,
     ports: Vec<u16>,
+    errors: std::thread::JoinHandle<Vec<String>>,
 }
 
 impl Server {
@@ -41,16 +42,18 @@ impl Server {
             .expect("racbot starts");
         let mut errors = BufReader::new(child.stderr.take().expect("its errors")).lines().map_while(Result::ok);
         let line = errors.by_ref().find(|line| line.starts_with("serving: ")).expect("it serves");
-        std::thread::spawn(move || errors.for_each(drop));
+        let errors = std::thread::spawn(move || errors.collect());
         let ports = line.split([',', ';']).filter_map(|part| part.rsplit_once("127.0.0.1:")?.1.parse().ok()).take(3);
-        Self { child, ports: ports.collect() }
+        Self { child, ports: ports.collect(), errors }
     }
 
-    fn end(mut self) -> Value {
+    /// What it said at its end, and its error if it ended with one.
+    fn end(mut self) -> (Value, Option<String>) {
         let out = self.child.stdout.take().expect("its answer");
         let said = serde_json::from_reader(out).expect("an answer in JSON");
-        assert!(self.child.wait().expect("it ends").success(), "{said}");
-        said
+        let good = self.child.wait().expect("it ends").success();
+        let errors = self.errors.join().expect("its errors");
+        (said, (!good).then(|| errors.last().cloned().unwrap_or_default()))
     }
 }
 
@@ -124,34 +127,60 @@ fn hostile(ports: &[u16], seed: u64, stop: &AtomicBool, counts: &Counts) {
     }
 }
 
-/// Runs a server for so long; the row of the table.
+/// Runs a server for so long; the row of the table. A card whose watchdog switched off is started again, and that is
+/// counted: where the host comes too late, it has to.
 fn soak(name: &str, seconds: u64, seed: u64, arguments: &[&str], robots: u8) -> Vec<String> {
-    let length = seconds.to_string();
-    let server = Server::start(&[&["--seconds", &length], arguments].concat());
-    let (stop, counts) = (AtomicBool::new(false), Counts::default());
-    let ports = server.ports.clone();
-    let said = std::thread::scope(|scope| {
-        for port in &ports[1..] {
-            scope.spawn(|| team(*port, robots, &stop, &counts));
+    let counts = Counts::default();
+    let (mut ticks, mut lost, mut refused, mut latest, mut faults) = (0, 0, 0, None, Vec::new());
+    let begun = Instant::now();
+    let end = begun + Duration::from_secs(seconds);
+    while Instant::now() < end {
+        let server = Server::start(arguments);
+        let process = server.child.id().to_string();
+        let stop = AtomicBool::new(false);
+        let ports = server.ports.clone();
+        let (said, wrong) = std::thread::scope(|scope| {
+            for port in &ports[1..] {
+                scope.spawn(|| team(*port, robots, &stop, &counts));
+            }
+            scope.spawn(|| hostile(&ports, seed, &stop, &counts));
+            // By the time of the wall: a field that loses time takes longer for its own.
+            scope.spawn(|| {
+                while !stop.load(Ordering::Relaxed) {
+                    if Instant::now() >= end {
+                        let _ = Command::new("kill").args(["-INT", &process]).status();
+                    }
+                    std::thread::sleep(Duration::from_millis(500));
+                }
+            });
+            let ended = server.end();
+            stop.store(true, Ordering::Relaxed);
+            ended
+        });
+        let number = |keys: &[&str]| keys.iter().find_map(|key| said[*key].as_u64()).expect("a number");
+        // The card's answer has how many ticks were not seen, the field's how many steps were left out.
+        ticks += number(&["steps", "ticks"]);
+        lost += number(&["lost", "unseen"]);
+        refused += number(&["refused"]);
+        latest = said["latest_s"].as_f64().or(latest);
+        if let Some(wrong) = wrong {
+            println!("{name}: {wrong}");
+            assert!(wrong.contains("watchdog"), "no matter of time: {wrong}");
+            faults.push(wrong);
         }
-        scope.spawn(|| hostile(&ports, seed, &stop, &counts));
-        let said = server.end();
-        stop.store(true, Ordering::Relaxed);
-        said
-    });
-    let number = |keys: &[&str]| keys.iter().find_map(|key| said[*key].as_u64()).expect("a number");
+    }
     let count = |of: &AtomicU64| of.load(Ordering::Relaxed).to_string();
-    // The card's answer has how many ticks were not seen, the field's how many steps were left out.
     vec![
         name.to_owned(),
-        format!("{:.1}", seconds as f64 / 60.0),
-        number(&["steps", "ticks"]).to_string(),
-        number(&["lost", "unseen"]).to_string(),
-        said["latest_s"].as_f64().map_or("-".to_owned(), |late| format!("{:.0}", 1e3 * late)),
+        format!("{:.1}", begun.elapsed().as_secs_f64() / 60.0),
+        ticks.to_string(),
+        lost.to_string(),
+        latest.map_or("-".to_owned(), |late| format!("{:.0}", 1e3 * late)),
+        faults.len().to_string(),
         count(&counts.commands),
         count(&counts.answers),
         count(&counts.hostile),
-        number(&["refused"]).to_string(),
+        refused.to_string(),
     ]
 }
 
@@ -180,6 +209,7 @@ fn main() {
             "ticks",
             "lost",
             "latest, ms",
+            "watchdog",
             "commands",
             "answered",
             "hostile datagrams",
