@@ -138,6 +138,13 @@ fn chord(w: f64) -> (f64, f64) {
         let (s, c) = w.sin_cos();
         return (s / w, (1.0 - c) / w);
     }
+    small_chord(w)
+}
+
+/// Length of the chord of an arc of 1 along and across the direction in which the arc begins, for a turn of at most
+/// [`SMALL_RAD`]: sin w/w and (1 − cos w)/w.
+#[inline(always)]
+pub fn small_chord(w: f64) -> (f64, f64) {
     // Series, because the second quotient cancels; the next terms are below 1e-17.
     let w2 = w * w;
     let a = 1.0 - w2 * (1.0 / 6.0 - w2 * (1.0 / 120.0 - w2 * (1.0 / 5_040.0 - w2 * (1.0 / 362_880.0))));
@@ -156,7 +163,7 @@ pub fn small_sin_cos(angle: f64) -> (f64, f64) {
 }
 
 /// Angles up to which five terms of a series are exact to the last bit or two, rad.
-const SMALL_RAD: f64 = 0.05;
+pub const SMALL_RAD: f64 = 0.05;
 
 /// The body displacement that leads to a pose in the start frame: the SE(2) logarithm, inverse of [`displacement`] for
 /// turns of less than half a circle.
@@ -181,6 +188,12 @@ impl Walk {
     #[inline]
     pub fn from(pose: Pose) -> Self {
         let (sin, cos) = pose.theta.sin_cos();
+        Self { pose, cos, sin }
+    }
+
+    /// From a pose whose heading has this cosine and sine.
+    #[inline]
+    pub fn turned(pose: Pose, cos: f64, sin: f64) -> Self {
         Self { pose, cos, sin }
     }
 

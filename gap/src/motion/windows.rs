@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
-use super::track::Path;
+use super::track::{LANES, Path};
 use crate::gram::Cluster;
 use crate::pieces::Pieces;
-use crate::segment::Segment;
+use crate::segment::{Frame, Segment};
 
 /// Fewer frames than this fix a start pose but hardly anything else.
 const FEWEST_FRAMES: usize = 4;
@@ -239,41 +239,53 @@ impl<'a> MotionLink<'a> {
     ) -> Vec<Vec<f64>> {
         let rows = 3 * base.iter().map(|w| w.t.len()).sum::<usize>();
         let Some(path) = Path::new(model, s) else { return vec![vec![0.0; rows]; sides.len()] };
-        let tracks = self.tracks(&path, range);
+        let windows: Vec<&[Frame]> = self.windows[range.clone()].iter().map(|w| &s.frames[w.frames.clone()]).collect();
+        let tracks = path.alone(&windows);
         let start = predicted(model, &tracks, base);
-        let predict = |other: &MotionModel| {
-            let other_path = path.of(other)?;
-            Some(if path.is_as(&other_path) {
-                predicted(other, &tracks, base)
-            } else {
-                predicted(other, &self.tracks(&other_path, range), base)
-            })
+        let column = |low: &[Pose], high: &[Pose], step: f64| {
+            let unit = self.noise.map(|s| 1.0 / (step * s));
+            let mut column = Vec::with_capacity(rows);
+            for (a, b) in low.iter().zip(high) {
+                let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
+                column.extend([d[0] * unit[0], d[1] * unit[1], d[2] * unit[2]]);
+            }
+            column
         };
-        sides
-            .par_iter()
-            .map(|(low, high, step)| {
-                let low = match low {
-                    Some(low) => predict(low).map(Cow::Owned),
-                    None => Some(Cow::Borrowed(&start)),
-                };
-                let (Some(low), Some(high)) = (low, predict(high)) else { return vec![0.0; rows] };
-                let unit = self.noise.map(|s| 1.0 / (step * s));
-                let mut column = Vec::with_capacity(rows);
-                for (a, b) in low.iter().zip(&high) {
-                    let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
-                    column.extend([d[0] * unit[0], d[1] * unit[1], d[2] * unit[2]]);
-                }
-                column
-            })
-            .collect()
-    }
-
-    /// The tracks of some windows of one segment, one after the other.
-    fn tracks(&self, path: &Path, range: &Range<usize>) -> Vec<Walk> {
-        let windows = &self.windows[range.clone()];
-        let mut out = Vec::with_capacity(windows.iter().map(|w| w.frames.len()).sum());
-        windows.iter().for_each(|w| path.track(path.frames(&w.frames), &mut out));
-        out
+        let is_beside = |model: &MotionModel| path.of(model).is_some_and(|p| p.is_beside(&path) && !path.is_as(&p));
+        let (beside, others): (Vec<usize>, Vec<usize>) =
+            (0..sides.len()).partition(|i| sides[*i].0.iter().chain([&sides[*i].1]).all(is_beside));
+        // Models that differ in their wheels alone are walked side by side.
+        let together = |part: &[usize]| -> Vec<(usize, Vec<f64>)> {
+            let models: Vec<&MotionModel> =
+                part.iter().flat_map(|i| sides[*i].0.iter().chain([&sides[*i].1])).collect();
+            let paths: Vec<Path> = models.iter().filter_map(|m| path.of(m)).collect();
+            let mut seen = models.iter().zip(Path::beside(&paths, &windows)).map(|(m, t)| predicted(m, &t, base));
+            let mut next = || seen.next().unwrap_or_default();
+            let of_side = |i: &usize| {
+                let (low, _, step) = &sides[*i];
+                let low = if low.is_some() { Cow::Owned(next()) } else { Cow::Borrowed(&start) };
+                (*i, column(&low, &next(), *step))
+            };
+            part.iter().map(of_side).collect()
+        };
+        let predict = |other: &MotionModel| {
+            let own = path.of(other)?;
+            let tracks = if path.is_as(&own) { Cow::Borrowed(&tracks) } else { Cow::Owned(own.alone(&windows)) };
+            Some(predicted(other, &tracks, base))
+        };
+        let alone = |i: &usize| {
+            let (low, high, step) = &sides[*i];
+            let low = match low {
+                Some(low) => predict(low).map(Cow::Owned),
+                None => Some(Cow::Borrowed(&start)),
+            };
+            let both = low.zip(predict(high));
+            (*i, both.map_or_else(|| vec![0.0; rows], |(low, high)| column(&low, &high, *step)))
+        };
+        let mut all: Vec<(usize, Vec<f64>)> = others.par_iter().map(alone).collect();
+        all.par_extend(beside.par_chunks(LANES / 2).flat_map_iter(together));
+        all.sort_by_key(|(i, _)| *i);
+        all.into_iter().map(|(_, column)| column).collect()
     }
 
     fn cluster(&self, aligned: &WindowResiduals, columns: &[Vec<f64>], first: usize) -> Cluster {
@@ -292,12 +304,33 @@ impl<'a> MotionLink<'a> {
             start_rows(aligned.start, aligned.predicted[r / 3])[r % 3][c] * root[r] / self.noise[r % 3]
         });
         let q = nuisance.qr().q();
-        let projected = q.transpose() * &jacobian;
-        jacobian -= &q * projected;
-        let projected = q.transpose() * &residual;
-        residual -= &q * projected;
+        jacobian.as_mut_slice().chunks_exact_mut(rows).for_each(|column| project_out(column, q.as_slice()));
+        project_out(residual.as_mut_slice(), q.as_slice());
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
         Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
+    }
+}
+
+/// Takes out of a column what three orthonormal columns, one after the other, span.
+fn project_out(column: &mut [f64], q: &[f64]) {
+    let rows = column.len();
+    let (a, rest) = q.split_at(rows);
+    let (b, c) = rest.split_at(rows);
+    // Four sums side by side, which a loop over rows alone would add one after the other.
+    let mut sums = [[0.0; 4]; 3];
+    let (x, tail) = column.as_chunks::<4>();
+    for (q, sum) in [a, b, c].into_iter().zip(&mut sums) {
+        let (q, rest) = q.as_chunks::<4>();
+        for (x, q) in x.iter().zip(q) {
+            for l in 0..4 {
+                sum[l] += x[l] * q[l];
+            }
+        }
+        sum[0] += tail.iter().zip(rest).map(|(x, q)| x * q).sum::<f64>();
+    }
+    let [u, v, w] = sums.map(|s| s[0] + s[1] + (s[2] + s[3]));
+    for (((x, a), b), c) in column.iter_mut().zip(a).zip(b).zip(c) {
+        *x -= u * a + v * b + w * c;
     }
 }
 
@@ -322,20 +355,22 @@ fn drifted(model: &MotionModel, p: Pose, t: f64) -> Pose {
 /// Distance of a residual from the median of its neighbours.
 fn apart(residuals: &[[f64; 3]], i: usize) -> f64 {
     let near = &residuals[i.saturating_sub(3)..(i + 4).min(residuals.len())];
-    let component = |j: usize| {
-        // Sorted while they are read: there are seven at most.
-        let mut sorted = [0.0; 7];
-        for (k, r) in near.iter().enumerate() {
-            let mut at = k;
-            while at > 0 && sorted[at - 1] > r[j] {
-                sorted[at] = sorted[at - 1];
-                at -= 1;
-            }
-            sorted[at] = r[j];
-        }
-        residuals[i][j] - sorted[near.len() / 2]
+    let median = |j: usize| match near {
+        [a, b, c, d, e, f, g] => median_of_seven([a[j], b[j], c[j], d[j], e[j], f[j], g[j]]),
+        _ => crate::statistics::median(&mut near.iter().map(|r| r[j]).collect::<Vec<f64>>()),
     };
-    norm(&[component(0), component(1), component(2)])
+    norm(&[0, 1, 2].map(|j| residuals[i][j] - median(j)))
+}
+
+/// The median of seven numbers, by a network that sorts as much as it takes (Devillard 1998).
+fn median_of_seven(mut p: [f64; 7]) -> f64 {
+    const PAIRS: [(usize, usize); 13] =
+        [(0, 5), (0, 3), (1, 6), (2, 4), (0, 1), (3, 5), (2, 6), (2, 3), (3, 6), (4, 5), (1, 4), (1, 3), (3, 4)];
+    for (a, b) in PAIRS {
+        let (low, high) = if p[b] < p[a] { (p[b], p[a]) } else { (p[a], p[b]) };
+        (p[a], p[b]) = (low, high);
+    }
+    p[3]
 }
 
 fn norm(r: &[f64; 3]) -> f64 {
@@ -354,4 +389,43 @@ fn weight(out: f64) -> f64 {
 /// does to a pose is close enough to the identity.
 fn start_rows(start: Pose, placed: Pose) -> [[f64; 3]; 3] {
     [[1.0, 0.0, start.y - placed.y], [0.0, 1.0, placed.x - start.x], [0.0, 0.0, 1.0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_network_finds_the_middle_of_every_order() {
+        // All permutations of seven, by Heap's algorithm.
+        let mut p = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let mut counts = [0; 7];
+        let (mut i, mut seen) = (0, 1);
+        assert_eq!(median_of_seven(p), 3.0);
+        while i < 7 {
+            if counts[i] < i {
+                p.swap(if i % 2 == 0 { 0 } else { counts[i] }, i);
+                assert_eq!(median_of_seven(p), 3.0, "{p:?}");
+                counts[i] += 1;
+                (seen, i) = (seen + 1, 0);
+            } else {
+                counts[i] = 0;
+                i += 1;
+            }
+        }
+        assert_eq!(seen, 5040);
+        assert_eq!(median_of_seven([2.0, 1.0, 2.0, 1.0, 1.0, 2.0, 2.0]), 2.0);
+    }
+
+    #[test]
+    fn what_is_projected_out_is_gone() {
+        let rows = 11;
+        let nuisance = DMatrix::from_fn(rows, 3, |r, c| ((r * (c + 2) + c) % 5) as f64 - 1.5);
+        let q = nuisance.qr().q();
+        let column = DVector::from_fn(rows, |r, _| (r * r % 7) as f64);
+        let mut left = column.clone();
+        project_out(left.as_mut_slice(), q.as_slice());
+        let expected = &column - &q * (q.transpose() * &column);
+        assert!((left - expected).amax() < 1e-12);
+    }
 }
