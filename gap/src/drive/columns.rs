@@ -5,8 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::DriveModel;
 
-/// Numbers that are kept at most, 128 MB: the loads of an hour at 1 kHz. Beyond, what no linearisation asked for lately is
-/// forgotten, and then nothing more is kept.
+/// Numbers that are kept at most, 128 MB: the loads of an hour at 1 kHz. Beyond, nothing more is kept.
 const ROOM: usize = 1 << 24;
 
 /// A direction in which the drive is differentiated.
@@ -37,6 +36,15 @@ struct Kept {
     columns: HashMap<(usize, String), (Column, u64)>,
 }
 
+impl Kept {
+    /// Forgets what no linearisation asked for lately.
+    fn forget(&mut self) {
+        let round = self.round;
+        self.columns.retain(|_, (_, asked)| *asked + LATELY >= round);
+        self.numbers = self.columns.values().map(|(column, _)| column.len()).sum();
+    }
+}
+
 impl Columns {
     fn kept(&self) -> MutexGuard<'_, Kept> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
@@ -44,7 +52,11 @@ impl Columns {
 
     /// Another linearisation begins.
     pub(super) fn begin(&self) {
-        self.kept().round += 1;
+        let mut kept = self.kept();
+        kept.round += 1;
+        if kept.round % LATELY == 0 {
+            kept.forget();
+        }
     }
 
     /// A derivative that is known already.
@@ -61,19 +73,17 @@ impl Columns {
     pub(super) fn keep(&self, first: usize, side: &Side, column: &Column) {
         let Some(key) = side.key.clone() else { return };
         let mut kept = self.kept();
-        let Kept { numbers, round, columns } = &mut *kept;
-        if *numbers + column.len() > ROOM {
-            columns.retain(|_, (_, asked)| *asked + LATELY >= *round);
-            *numbers = columns.values().map(|(column, _)| column.len()).sum();
+        if kept.numbers + column.len() > ROOM {
+            kept.forget();
         }
+        let Kept { numbers, round, columns } = &mut *kept;
         if *numbers + column.len() <= ROOM && columns.insert((first, key), (column.clone(), *round)).is_none() {
             *numbers += column.len();
         }
     }
 }
 
-/// Linearisations after which a derivative that none of them asked for goes when room is short: fits between two of them
-/// ask for a few only.
+/// Linearisations after which a derivative that none of them asked for goes: fits between two of them ask for a few only.
 const LATELY: u64 = 24;
 
 #[cfg(test)]
