@@ -54,7 +54,7 @@ impl Columns {
     pub(super) fn begin(&self) {
         let mut kept = self.kept();
         kept.round += 1;
-        if kept.round % LATELY == 0 {
+        if kept.round.is_multiple_of(LATELY) {
             kept.forget();
         }
     }

@@ -62,6 +62,9 @@ pub struct WindowResiduals {
     start: Pose,
 }
 
+/// A window's track and its residuals.
+type Aligned = (Vec<Walk>, WindowResiduals);
+
 impl<'a> MotionLink<'a> {
     /// Cuts the segments into windows of `window_s`; without an end, each into one.
     pub fn new(pieces: &'a Pieces<'a>, noise: [f64; 3], window_s: f64) -> Self {
@@ -111,7 +114,7 @@ impl<'a> MotionLink<'a> {
 
     /// Residuals of every window, start poses fitted, outliers weighted down.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
-        let parts: Option<Vec<Vec<(Vec<Walk>, WindowResiduals)>>> = self
+        let parts: Option<Vec<Vec<Aligned>>> = self
             .by_segment()
             .into_par_iter()
             .map(|range| {
