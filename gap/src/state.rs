@@ -81,6 +81,7 @@ impl State {
         let mut model = MotionModel::new(&self.robot);
         for a in self.active.iter().chain(extra) {
             a.effect.motion(&a.values, &mut model);
+            model.angles_are_of(a.effect.name(), &a.values);
         }
         model
     }

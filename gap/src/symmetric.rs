@@ -15,13 +15,19 @@ impl Symmetric {
     /// The symmetric matrix with the upper triangle of `full`.
     pub fn of(full: &DMatrix<f64>) -> Self {
         let order = full.ncols();
-        let upper = (0..order).flat_map(|c| (0..=c).map(move |r| full[(r, c)])).collect();
+        let mut upper = Vec::with_capacity(order * (order + 1) / 2);
+        for (c, column) in full.as_slice().chunks_exact(full.nrows().max(1)).enumerate() {
+            upper.extend_from_slice(&column[..=c]);
+        }
         Self { order, upper }
     }
 
     /// The matrix with rows and columns that stand several times: i is `of[i]` of this one's.
     pub fn spread(&self, of: &[usize]) -> Self {
-        let upper = (0..of.len()).flat_map(|c| (0..=c).map(move |r| self[(of[r], of[c])])).collect();
+        let mut upper = Vec::with_capacity(of.len() * (of.len() + 1) / 2);
+        for (c, column) in of.iter().enumerate() {
+            upper.extend(of[..=c].iter().map(|row| self[(*row, *column)]));
+        }
         Self { order: of.len(), upper }
     }
 
@@ -53,6 +59,23 @@ impl Symmetric {
     /// Multiplies it by a number.
     pub fn scale(&mut self, factor: f64) {
         self.upper.iter_mut().for_each(|x| *x *= factor);
+    }
+
+    /// A x.
+    pub fn times(&self, x: &DVector<f64>) -> DVector<f64> {
+        let mut out = DVector::zeros(self.order);
+        let mut upper = self.upper.as_slice();
+        for c in 0..self.order {
+            let (column, rest) = upper.split_at(c + 1);
+            upper = rest;
+            let mut across = 0.0;
+            for r in 0..c {
+                out[r] += column[r] * x[c];
+                across += column[r] * x[r];
+            }
+            out[c] += across + column[c] * x[c];
+        }
+        out
     }
 
     /// xᵀ A x.
@@ -88,6 +111,7 @@ mod tests {
         assert!((0..4).all(|r| (0..4).all(|c| half[(r, c)] == full[(r, c)])));
         let x = DVector::from_fn(4, |i, _| 0.5 - i as f64);
         assert!((half.square(&x) - (x.transpose() * &full * &x)[0]).abs() < 1e-12);
+        assert!((half.times(&x) - &full * &x).amax() < 1e-12);
         let spread = half.spread(&[2, 0, 2]);
         assert_eq!(spread.full(), full.select_rows(&[2, 0, 2]).select_columns(&[2, 0, 2]));
         let mut twice = half.clone();

@@ -138,6 +138,13 @@ fn chord(w: f64) -> (f64, f64) {
         let (s, c) = w.sin_cos();
         return (s / w, (1.0 - c) / w);
     }
+    small_chord(w)
+}
+
+/// Length of the chord of an arc of 1 along and across the direction in which the arc begins, for a turn of at most
+/// [`SMALL_RAD`]: sin w/w and (1 − cos w)/w.
+#[inline(always)]
+pub fn small_chord(w: f64) -> (f64, f64) {
     // Series, because the second quotient cancels; the next terms are below 1e-17.
     let w2 = w * w;
     let a = 1.0 - w2 * (1.0 / 6.0 - w2 * (1.0 / 120.0 - w2 * (1.0 / 5_040.0 - w2 * (1.0 / 362_880.0))));
@@ -156,7 +163,7 @@ pub fn small_sin_cos(angle: f64) -> (f64, f64) {
 }
 
 /// Angles up to which five terms of a series are exact to the last bit or two, rad.
-const SMALL_RAD: f64 = 0.05;
+pub const SMALL_RAD: f64 = 0.05;
 
 /// The body displacement that leads to a pose in the start frame: the SE(2) logarithm, inverse of [`displacement`] for
 /// turns of less than half a circle.
@@ -184,25 +191,57 @@ impl Walk {
         Self { pose, cos, sin }
     }
 
+    /// From a pose whose heading has this cosine and sine.
+    #[inline]
+    pub fn turned(pose: Pose, cos: f64, sin: f64) -> Self {
+        Self { pose, cos, sin }
+    }
+
+    /// From the origin by one displacement: as [`displacement`].
+    #[inline]
+    pub fn by(d: Twist) -> Self {
+        if d.omega.abs() > SMALL_RAD {
+            return Self::from(displacement(d));
+        }
+        let (a, b) = chord(d.omega);
+        let pose = Pose::new(a * d.vx - b * d.vy, b * d.vx + a * d.vy, d.omega);
+        Self { pose, cos: 1.0 - d.omega * b, sin: d.omega * a }
+    }
+
     /// Where it is, heading not wrapped.
+    #[inline]
     pub fn pose(&self) -> Pose {
         self.pose
+    }
+
+    /// On from here by what leads somewhere from the origin: as [`Pose::compose`].
+    #[inline]
+    #[must_use]
+    pub fn then(&self, local: &Self) -> Self {
+        let (p, q) = (self.pose, local.pose);
+        Self {
+            pose: Pose::new(
+                p.x + (self.cos * q.x - self.sin * q.y),
+                p.y + (self.sin * q.x + self.cos * q.y),
+                p.theta + q.theta,
+            ),
+            cos: self.cos * local.cos - self.sin * local.sin,
+            sin: self.sin * local.cos + self.cos * local.sin,
+        }
+    }
+
+    /// The way back: as [`Pose::inverse`].
+    #[inline]
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let (p, cos, sin) = (self.pose, self.cos, -self.sin);
+        Self { pose: Pose::new(-(cos * p.x - sin * p.y), -(sin * p.x + cos * p.y), -p.theta), cos, sin }
     }
 
     /// The same as `pose.compose(displacement(d))`, to 1e-12 after many thousand.
     #[inline]
     pub fn step(&mut self, d: Twist) {
-        if d.omega.abs() > SMALL_RAD {
-            *self = Self::from(self.pose.compose(displacement(d)));
-            return;
-        }
-        let (a, b) = chord(d.omega);
-        let (x, y) = (a * d.vx - b * d.vy, b * d.vx + a * d.vy);
-        self.pose.x += self.cos * x - self.sin * y;
-        self.pose.y += self.sin * x + self.cos * y;
-        self.pose.theta += d.omega;
-        let (sin, cos) = (d.omega * a, 1.0 - d.omega * b);
-        (self.cos, self.sin) = (self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin);
+        *self = self.then(&Self::by(d));
     }
 }
 
@@ -253,6 +292,9 @@ mod tests {
                 pose = pose.compose(displacement(d));
             }
             assert!(walk.pose().distance(pose) < 1e-9 && (walk.pose().theta - pose.theta).abs() < 1e-9);
+            let back = walk.inverse().then(&walk);
+            assert!(close(back.pose(), Pose::default()) && (back.cos - 1.0).abs() < 1e-9 && back.sin.abs() < 1e-9);
+            assert!(walk.inverse().pose().distance(pose.inverse()) < 1e-8);
         }
     }
 

@@ -271,13 +271,35 @@ impl<'a> DriveLink<'a> {
         let out = self.bumps[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
-                for i in 0..n {
-                    let own = &offset[i][b.first..];
-                    a[i] += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
-                }
+                b.offset(shape, offset, &mut a);
             }
             inertia.unwrap_or(&mechanics.inertia) * (measured - a)
         });
+        Some(out.collect())
+    }
+
+    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a bump; `None` for one
+    /// that changes more.
+    fn added_part(
+        &self,
+        model: &DriveModel,
+        base: &Base,
+        range: &Range<usize>,
+        shapes: &[Shape],
+    ) -> Option<Vec<DVector<f64>>> {
+        let loads = base.loads_of(model)?;
+        let offsets = base.offsets_of(model);
+        let mechanics = model.mechanics()?;
+        let n = model.wheels.len();
+        let out = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+            let mean = |row: &Option<Vec<f64>>| row.as_ref().map_or(0.0, |row| dot(&shape.force, &row[b.first..]));
+            let mut a = b.accelerated(&loads.iter().map(mean).collect::<Vec<f64>>(), &mechanics, model);
+            for offset in &offsets {
+                b.offset(shape, offset, &mut a);
+            }
+            &self.inertia * a
+        });
+        debug_assert!(loads.len() == n + 3);
         Some(out.collect())
     }
 
@@ -421,6 +443,9 @@ impl<'a> DriveLink<'a> {
     pub fn linearise(&self, model: &DriveModel, sides: &[Side]) -> Vec<Cluster> {
         let n = self.noise.len();
         let mut clusters = Vec::new();
+        if !sides.is_empty() {
+            self.columns.begin();
+        }
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.bumps[range.start].segment);
@@ -439,14 +464,27 @@ impl<'a> DriveLink<'a> {
                     if known.is_some() {
                         return known;
                     }
-                    let low = match &side.low {
-                        Some(low) => Some(left(low, &start.forces_of(low))?),
-                        None => None,
+                    let added = |model: &DriveModel| self.added_part(model, &start, &range, &shapes);
+                    let only_more =
+                        side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
+                    let mut column = Vec::with_capacity(range.len() * n);
+                    let mut keep = |low: Option<&DVector<f64>>, high: &DVector<f64>| {
+                        column.extend((0..n).map(|i| (high[i] - low.map_or(0.0, |low| low[i])) / side.step));
                     };
-                    let high = left(&side.high, &start.forces_of(&side.high))?;
-                    let low = low.as_ref().unwrap_or(&base);
-                    let moved = low.iter().zip(&high).flat_map(|(a, b)| (0..n).map(|i| (a[i] - b[i]) / side.step));
-                    let column = Arc::new(moved.collect());
+                    if let Some((low, high)) = only_more {
+                        let high = high.iter().enumerate();
+                        high.for_each(|(b, high)| keep(low.as_ref().map(|low| &low[b]), high));
+                    } else {
+                        let low = match &side.low {
+                            Some(low) => Some(left(low, &low.forces(s))?),
+                            None => None,
+                        };
+                        let high = left(&side.high, &side.high.forces(s))?;
+                        let low = low.as_ref().unwrap_or(&base);
+                        // What a model explains more is left less.
+                        low.iter().zip(&high).for_each(|(low, high)| keep(Some(high), low));
+                    }
+                    let column = Arc::new(column);
                     self.columns.keep(range.start, side, &column);
                     Some(column)
                 })
@@ -454,16 +492,16 @@ impl<'a> DriveLink<'a> {
             let mut first = 0;
             for part in self.bumps[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
                 let rows = part.len() * n;
-                let weight = |r: usize| part[r / n].weights[r % n] / self.noise[r % n];
-                let at = |r: usize| (first + r / n, r % n);
-                let residual = DVector::from_fn(rows, |r, _| {
-                    let (b, i) = at(r);
-                    base[b][i] * weight(r)
-                });
-                let jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| {
-                    let (b, i) = at(r);
-                    columns[c].as_ref().map_or(0.0, |column| column[b * n + i] * weight(r))
-                });
+                let own = first * n..first * n + rows;
+                let weights: Vec<f64> =
+                    part.iter().flat_map(|b| b.weights.iter().zip(&self.noise).map(|(w, noise)| w / noise)).collect();
+                let residual = DVector::from_fn(rows, |r, _| base[first + r / n][r % n] * weights[r]);
+                let mut jacobian = DMatrix::zeros(rows, columns.len());
+                for (slots, column) in jacobian.as_mut_slice().chunks_exact_mut(rows).zip(&columns) {
+                    let Some(column) = column else { continue };
+                    let weighted = column[own.clone()].iter().zip(&weights);
+                    slots.iter_mut().zip(weighted).for_each(|(slot, (x, w))| *slot = x * w);
+                }
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
                 first += part.len();
@@ -544,12 +582,42 @@ impl Bump {
                 *slot += w * x;
             }
         }
-        let wheel = DVector::from_column_slice(&mean[..n]);
-        let mut a = &mechanics.response * wheel;
-        if let Some(body) = &mechanics.body {
-            a += body * DVector::from_column_slice(&mean[n..]);
-        }
-        // The wheels' acceleration as the encoders see it.
-        DVector::from_fn(n, |i, _| a[i] / model.axes[i].encoder_scale)
+        self.accelerated(&mean, mechanics, model)
     }
+
+    /// Accelerations of the wheels by mean torques and forces, as the encoders see them.
+    fn accelerated(&self, mean: &[f64], mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
+        let n = model.wheels.len();
+        let mut a = DVector::zeros(n);
+        for (of, x) in mean.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+            match &mechanics.body {
+                _ if of < n => a.axpy(*x, &mechanics.response.column(of), 1.0),
+                Some(body) => a.axpy(*x, &body.column(of - n), 1.0),
+                None => {}
+            }
+        }
+        a.iter_mut().zip(&model.axes).for_each(|(a, axis)| *a /= axis.encoder_scale);
+        a
+    }
+
+    /// Adds the acceleration of encoders against their wheels.
+    fn offset(&self, shape: &Shape, offset: &[Vec<f64>], a: &mut DVector<f64>) {
+        for (a, own) in a.iter_mut().zip(offset) {
+            let own = &own[self.first..];
+            *a += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
+        }
+    }
+}
+
+/// Σ a·b over the shorter of two; four sums side by side, which one loop would add one after the other.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let length = a.len().min(b.len());
+    let ((a, a_rest), (b, b_rest)) = (a[..length].as_chunks::<4>(), b[..length].as_chunks::<4>());
+    let mut sum = [0.0; 4];
+    for (a, b) in a.iter().zip(b) {
+        for l in 0..4 {
+            sum[l] += a[l] * b[l];
+        }
+    }
+    sum[0] + sum[1] + (sum[2] + sum[3]) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }

@@ -1,12 +1,12 @@
 //! Derivatives of the drive that stay what they are while nothing but loads is added to a model: worked out once.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::DriveModel;
 
-/// Numbers that are kept at most, 32 MB; beyond, all are forgotten.
-const ROOM: usize = 1 << 22;
+/// Numbers that are kept at most, 128 MB: the loads of an hour at 1 kHz. Beyond, nothing more is kept.
+const ROOM: usize = 1 << 24;
 
 /// A direction in which the drive is differentiated.
 pub struct Side {
@@ -30,25 +30,84 @@ pub(super) struct Columns(Mutex<Kept>);
 #[derive(Default)]
 struct Kept {
     numbers: usize,
-    columns: HashMap<(usize, String), Column>,
+    /// Linearisations so far.
+    round: u64,
+    /// With the last round in which they were asked for.
+    columns: HashMap<(usize, String), (Column, u64)>,
+}
+
+impl Kept {
+    /// Forgets what no linearisation asked for lately.
+    fn forget(&mut self) {
+        let round = self.round;
+        self.columns.retain(|_, (_, asked)| *asked + LATELY >= round);
+        self.numbers = self.columns.values().map(|(column, _)| column.len()).sum();
+    }
 }
 
 impl Columns {
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Another linearisation begins.
+    pub(super) fn begin(&self) {
+        let mut kept = self.kept();
+        kept.round += 1;
+        if kept.round.is_multiple_of(LATELY) {
+            kept.forget();
+        }
+    }
+
     /// A derivative that is known already.
     pub(super) fn find(&self, first: usize, side: &Side) -> Option<Column> {
         let key = (first, side.key.clone()?);
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).columns.get(&key).cloned()
+        let mut kept = self.kept();
+        let round = kept.round;
+        let (column, asked) = kept.columns.get_mut(&key)?;
+        *asked = round;
+        Some(column.clone())
     }
 
-    /// Keeps a derivative if it may be needed again.
+    /// Keeps a derivative if it may be needed again and there is room.
     pub(super) fn keep(&self, first: usize, side: &Side, column: &Column) {
         let Some(key) = side.key.clone() else { return };
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept();
         if kept.numbers + column.len() > ROOM {
-            *kept = Kept::default();
+            kept.forget();
         }
-        if column.len() <= ROOM && kept.columns.insert((first, key), column.clone()).is_none() {
-            kept.numbers += column.len();
+        let Kept { numbers, round, columns } = &mut *kept;
+        if *numbers + column.len() <= ROOM && columns.insert((first, key), (column.clone(), *round)).is_none() {
+            *numbers += column.len();
         }
+    }
+}
+
+/// Linearisations after which a derivative that none of them asked for goes: fits between two of them ask for a few only.
+const LATELY: u64 = 24;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_asked_for_makes_room() {
+        let robot = runs::robot::Robot::racbot();
+        let side = |key: &str| Side { low: None, high: DriveModel::new(&robot), step: 1.0, key: Some(key.to_owned()) };
+        let columns = Columns::default();
+        let half: Column = Arc::new(vec![0.0; ROOM / 2]);
+        columns.begin();
+        columns.keep(0, &side("old"), &half);
+        columns.keep(0, &side("used"), &half);
+        for _ in 0..=LATELY {
+            columns.begin();
+            assert!(columns.find(0, &side("used")).is_some());
+        }
+        columns.keep(0, &side("new"), &half);
+        let known = |key: &str| columns.find(0, &side(key)).is_some();
+        assert!(known("new") && known("used") && !known("old"));
+        // All of it is in use: nothing goes, and nothing more is kept.
+        columns.keep(0, &side("more"), &half);
+        assert!(known("new") && known("used") && !known("more"));
     }
 }

@@ -92,16 +92,20 @@ impl<'a> Base<'a> {
         Self { model, segment, forces, signals, prepared }
     }
 
-    /// What another model makes of the same segment: added to this one where it only adds loads, else from the start.
-    pub(super) fn forces_of(&self, other: &DriveModel) -> Cow<'_, [f64]> {
+    /// What a model that only adds loads to this one adds to its torques and forces, `[wheels + 3][tick]`; nothing where
+    /// that is 0 throughout. `None` for a model that changes more.
+    pub(super) fn loads_of(&self, other: &DriveModel) -> Option<Vec<Option<Vec<f64>>>> {
         let s = self.segment;
         let n = self.model.wheels.len();
-        if self.signals.is_empty() || !other.only_loads_more(self.model) {
-            return Cow::Owned(other.forces(s));
+        if !other.only_loads_more(self.model) {
+            return None;
         }
         let more = &other.loads[self.model.loads.len()..];
         if more.is_empty() {
-            return Cow::Borrowed(&self.forces);
+            return Some(vec![None; n + 3]);
+        }
+        if self.signals.is_empty() {
+            return None;
         }
         let new = &other.prepare[self.prepared.len()..];
         let prepared = if new.is_empty() {
@@ -109,10 +113,10 @@ impl<'a> Base<'a> {
         } else {
             Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
         };
-        let mut out = self.forces.clone();
+        let mut out = vec![vec![0.0; s.t.len()]; n + 3];
         let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
-        let signals = self.signals.chunks_exact(5 * n + 4);
-        for ((k, row), signals) in out.chunks_exact_mut(n + 3).enumerate().zip(signals) {
+        let sliding_per_turning = self.model.sliding_per_turning();
+        for (k, signals) in self.signals.chunks_exact(5 * n + 4).enumerate() {
             let (by_wheel, whole) = signals.split_at(5 * n);
             let wheel = |index: usize| &by_wheel[index * n..(index + 1) * n];
             let now = Instant {
@@ -129,17 +133,23 @@ impl<'a> Base<'a> {
                 heading: s.heading[k],
                 position: s.position[k],
                 prepared: &prepared,
-                sliding_per_turning: self.model.sliding_per_turning(),
+                sliding_per_turning,
             };
-            loads.wheel.copy_from_slice(&row[..n]);
-            loads.body.copy_from_slice(&row[n..]);
+            loads.wheel.fill(0.0);
+            loads.body = [0.0; 3];
             for term in more {
                 term(&now, &mut loads);
             }
-            row[..n].copy_from_slice(&loads.wheel);
-            row[n..].copy_from_slice(&loads.body);
+            for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
+                row[k] = *x;
+            }
         }
-        Cow::Owned(out)
+        Some(out.into_iter().map(|row| row.iter().any(|x| *x != 0.0).then_some(row)).collect())
+    }
+
+    /// What the offsets are that a model which only adds to this one adds, `[offset][wheel][tick]`.
+    pub(super) fn offsets_of(&self, other: &DriveModel) -> Vec<Vec<Vec<f64>>> {
+        other.offsets[self.model.offsets.len()..].iter().map(|o| o(other, self.segment)).collect()
     }
 }
 
@@ -208,7 +218,11 @@ impl DriveModel {
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
         let start = s.stretch[0];
-        let from_wheels = self.twist_per_wheel_speed();
+        let from_wheels: Option<Vec<[f64; 3]>> = self.twist_per_wheel_speed().map(|m| {
+            let of_wheel = |(i, a): (usize, &super::AxisModel)| [0, 1, 2].map(|j| m[(j, i)] * a.encoder_scale);
+            self.axes.iter().enumerate().map(of_wheel).collect()
+        });
+        let sliding_per_turning = self.sliding_per_turning();
         // Only terms and maps look at more than duties and counts.
         let bare = self.loads.is_empty() && self.supply_maps.is_empty() && signals.is_none();
         let constants: Vec<[f64; 4]> = self
@@ -230,9 +244,14 @@ impl DriveModel {
             let per_dt = 1.0 / dt;
             // By the wheels as they are: skews and radii that were found turn the Coriolis force, too.
             let twist = match &from_wheels {
-                Some(m) => {
-                    let of = |j: usize| (0..n).map(|i| m[(j, i)] * self.axes[i].encoder_scale * s.speed[i][k]).sum();
-                    Twist::new(of(0), of(1), of(2))
+                Some(columns) => {
+                    let mut sum = [0.0; 3];
+                    for (column, speed) in columns.iter().zip(&s.speed) {
+                        for (sum, c) in sum.iter_mut().zip(column) {
+                            *sum += c * speed[k];
+                        }
+                    }
+                    Twist::new(sum[0], sum[1], sum[2])
                 }
                 None => s.twist[k],
             };
@@ -274,7 +293,7 @@ impl DriveModel {
                         heading: s.heading[k],
                         position: s.position[k],
                         prepared,
-                        sliding_per_turning: self.sliding_per_turning(),
+                        sliding_per_turning,
                     };
                     self.supply_maps.iter().fold(s.supply[k], |v, map| map(&now, v, &currents))
                 };
@@ -314,7 +333,7 @@ impl DriveModel {
                     heading: s.heading[k],
                     position: s.position[k],
                     prepared,
-                    sliding_per_turning: self.sliding_per_turning(),
+                    sliding_per_turning,
                 };
                 for term in &self.loads {
                     term(&now, &mut loads);

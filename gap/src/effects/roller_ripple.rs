@@ -47,6 +47,9 @@ impl Effect for RollerRipple {
             let order = values.get("order").max(1.0);
             for (i, angle) in angles.iter_mut().enumerate() {
                 let (a, b) = (values.wheel("cos", i, ""), values.wheel("sin", i, ""));
+                if a == 0.0 && b == 0.0 {
+                    continue;
+                }
                 for (x, phi) in angle.iter_mut().zip(&segment.angle[i]) {
                     let (s, c) = (order * phi).sin_cos();
                     *x += (a * s - b * c) / order;

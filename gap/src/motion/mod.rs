@@ -5,14 +5,18 @@
 //! a nuisance that is projected out (multiple shooting with free nodes). Parameters act on the
 //! prediction only.
 
+mod track;
 mod windows;
 
+use std::borrow::Cow;
+
 use nalgebra::DMatrix;
-use runs::frames::{Pose, Twist, Walk};
+use runs::frames::{Pose, Walk};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::Robot;
 
-use crate::segment::{Frame, Segment};
+use crate::segment::Segment;
+use crate::values::Values;
 
 pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
@@ -55,6 +59,18 @@ pub struct MotionModel {
     pub yaw_inertia_kg_m2: f64,
     /// Motor turns per wheel turn.
     pub gear_ratio: f64,
+    /// What each of `angles` depends on, as far as that is known.
+    origins: Vec<Origin>,
+}
+
+/// What a change of the wheel angles depends on beside the segment.
+#[derive(Debug, Clone, PartialEq)]
+struct Origin {
+    effect: String,
+    values: Values,
+    wheels: Vec<Wheel>,
+    /// Wheel radius, mass, yaw inertia, gear ratio.
+    robot: [f64; 4],
 }
 
 impl MotionModel {
@@ -80,6 +96,7 @@ impl MotionModel {
             mass_kg: robot.mass_kg,
             yaw_inertia_kg_m2: robot.yaw_inertia_kg_m2,
             gear_ratio: robot.gear_ratio,
+            origins: Vec::new(),
         }
     }
 
@@ -92,70 +109,31 @@ impl MotionModel {
     }
 
     /// The wheel angles of a segment with all changes; borrowed if there are none.
-    pub fn angles<'a>(&self, segment: &'a Segment) -> std::borrow::Cow<'a, [Vec<f64>]> {
+    pub fn angles<'a>(&self, segment: &'a Segment) -> Cow<'a, [Vec<f64>]> {
         if self.angles.is_empty() {
-            return std::borrow::Cow::Borrowed(&segment.angle);
+            return Cow::Borrowed(&segment.angle);
         }
         let mut angles = segment.angle.clone();
         for change in &self.angles {
             change(segment, &mut angles);
         }
-        std::borrow::Cow::Owned(angles)
+        Cow::Owned(angles)
     }
 
-    /// Chassis poses at the frames of one window, relative to that at the window's first frame.
-    /// The marker and the camera are not in it yet.
-    pub fn track(&self, segment: &Segment, angles: &[Vec<f64>], columns: &[[f64; 3]], frames: &[Frame]) -> Vec<Pose> {
-        let mut out = Vec::with_capacity(frames.len());
-        let Some(first) = frames.first() else { return out };
-        let last_tick = segment.t.len() - 1;
-        let offset = self.clock_offset_s.get(segment.run).copied().unwrap_or(0.0);
-        let age = |stamp: f64| self.latency_s + offset + self.clock_drift * (stamp - segment.stretch[0]);
-        let early = if self.speed_delay == 0.0 { 0.0 } else { 0.1 };
-        let origin = segment.tick_at(first.t - age(first.t) - early);
-        let mut tick = origin;
-        let moved = |k: usize, share: f64| {
-            let mut sum = [0.0; 3];
-            for (column, angle) in columns.iter().zip(angles) {
-                let turned = (angle[k + 1] - angle[k]) * share;
-                for (s, c) in sum.iter_mut().zip(column) {
-                    *s += c * turned;
-                }
-            }
-            Twist::new(sum[0], sum[1], sum[2])
-        };
-        let mut walk = Walk::from(Pose::default());
-        for frame in frames {
-            let mut exposed = frame.t - age(frame.t);
-            if self.speed_delay != 0.0 {
-                exposed -= self.speed_delay * segment.twist[segment.tick_at(exposed)].speed();
-            }
-            if exposed < segment.t[tick] {
-                // Delays may differ from frame to frame: start over.
-                (tick, walk) = (origin, Walk::from(Pose::default()));
-            }
-            while tick < last_tick && segment.t[tick + 1] <= exposed {
-                walk.step(moved(tick, 1.0));
-                tick += 1;
-            }
-            let mut at = walk;
-            if tick < last_tick && exposed > segment.t[tick] {
-                let share = (exposed - segment.t[tick]) / (segment.t[tick + 1] - segment.t[tick]);
-                at.step(moved(tick, share));
-            }
-            out.push(at.pose());
-        }
-        if let Some(origin) = out.first().copied() {
-            for pose in &mut out {
-                *pose = origin.relative(*pose);
-            }
-        }
-        out
+    /// Writes down what the angles that were added last depend on beside the segment: an effect's name and values, and
+    /// what is known of the robot by now.
+    pub fn angles_are_of(&mut self, effect: &str, values: &Values) {
+        let (wheels, robot) =
+            (self.wheels.clone(), [self.wheel_radius_m, self.mass_kg, self.yaw_inertia_kg_m2, self.gear_ratio]);
+        let origin = Origin { effect: effect.to_owned(), values: values.clone(), wheels, robot };
+        self.origins.resize(self.angles.len(), origin);
     }
 
     /// What the camera sees of a chassis pose.
-    pub fn seen(&self, chassis: Pose) -> Pose {
-        let mut pose = chassis.compose(self.marker);
+    #[inline]
+    pub fn seen(&self, chassis: &Walk) -> Pose {
+        let mut pose =
+            if self.marker == Pose::default() { chassis.pose() } else { chassis.then(&Walk::from(self.marker)).pose() };
         for observe in &self.observe {
             pose = observe(pose);
         }

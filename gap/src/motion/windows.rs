@@ -1,15 +1,17 @@
 //! Windows of camera frames: alignment, weights, residuals and their derivatives.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
-use runs::frames::{Pose, wrap_angle};
+use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
+use super::track::{LANES, Path};
 use crate::gram::Cluster;
 use crate::pieces::Pieces;
-use crate::segment::Segment;
+use crate::segment::{Frame, Segment};
 
 /// Fewer frames than this fix a start pose but hardly anything else.
 const FEWEST_FRAMES: usize = 4;
@@ -60,6 +62,9 @@ pub struct WindowResiduals {
     start: Pose,
 }
 
+/// A window's track and its residuals.
+type Aligned = (Vec<Walk>, WindowResiduals);
+
 impl<'a> MotionLink<'a> {
     /// Cuts the segments into windows of `window_s`; without an end, each into one.
     pub fn new(pieces: &'a Pieces<'a>, noise: [f64; 3], window_s: f64) -> Self {
@@ -109,30 +114,30 @@ impl<'a> MotionLink<'a> {
 
     /// Residuals of every window, start poses fitted, outliers weighted down.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
-        let Some(columns) = model.columns() else { return Vec::new() };
-        let parts: Vec<Vec<(Vec<Pose>, WindowResiduals)>> = self
+        let parts: Option<Vec<Vec<Aligned>>> = self
             .by_segment()
             .into_par_iter()
             .map(|range| {
                 let s = self.pieces.get(self.windows[range.start].segment);
-                let angles = model.angles(&s);
-                let windows = self.windows[range].par_iter();
-                windows
-                    .map(|w| {
-                        let track = model.track(&s, &angles, &columns, &s.frames[w.frames.clone()]);
-                        let aligned = self.align(model, &s, w, &track, None);
-                        (track, aligned)
-                    })
-                    .collect()
+                let path = Path::new(model, &s)?;
+                let aligned = |w: &Window| {
+                    let mut track = Vec::with_capacity(w.frames.len());
+                    path.track(&s.frames[w.frames.clone()], &mut track);
+                    let aligned = self.align(model, &s, w, &track, None);
+                    (track, aligned)
+                };
+                Some(self.windows[range].par_iter().map(aligned).collect())
             })
             .collect();
-        let (tracks, mut all): (Vec<Vec<Pose>>, Vec<WindowResiduals>) = parts.into_iter().flatten().unzip();
+        let (tracks, mut all): (Vec<Vec<Walk>>, Vec<WindowResiduals>) =
+            parts.unwrap_or_default().into_iter().flatten().unzip();
         // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
-        let mut norms: Vec<f64> =
-            all.iter().flat_map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i))).collect();
-        let spread = (crate::statistics::median(&mut norms) / MEDIAN_OF_CHI3).max(1.0);
-        all.par_iter_mut().zip(self.windows.par_iter().zip(&tracks)).for_each(|(w, (window, track))| {
-            let weights: Vec<f64> = (0..w.residuals.len()).map(|i| weight(apart(&w.residuals, i) / spread)).collect();
+        let out: Vec<Vec<f64>> =
+            all.par_iter().map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i)).collect()).collect();
+        let spread = (crate::statistics::median(&mut out.concat()) / MEDIAN_OF_CHI3).max(1.0);
+        let windows = self.windows.par_iter().zip(&tracks).zip(out);
+        all.par_iter_mut().zip(windows).for_each(|(w, ((window, track), out))| {
+            let weights: Vec<f64> = out.into_iter().map(|out| weight(out / spread)).collect();
             if weights.iter().any(|x| *x < 1.0) {
                 *w = self.align(model, &self.pieces.get(window.segment), window, track, Some(weights));
             }
@@ -145,7 +150,7 @@ impl<'a> MotionLink<'a> {
         model: &MotionModel,
         s: &Segment,
         window: &Window,
-        track: &[Pose],
+        track: &[Walk],
         weights: Option<Vec<f64>>,
     ) -> WindowResiduals {
         let frames = &s.frames[window.frames.clone()];
@@ -153,28 +158,36 @@ impl<'a> MotionLink<'a> {
         let middle = n / 2;
         // Chassis pose of the first frame so that the middle one fits.
         let marker_inverse = model.marker.inverse();
-        let mut start = frames[middle].pose.compose(marker_inverse).compose(track[middle].inverse());
+        let mut start = frames[middle].pose.compose(marker_inverse).compose(track[middle].pose().inverse());
         let weights = weights.unwrap_or_else(|| vec![1.0; n]);
         let mut residuals = vec![[0.0; 3]; n];
         let mut predicted = vec![Pose::default(); n];
+        let noise = self.noise;
+        let [x_information, y_information, theta_information] = noise.map(|s| 1.0 / (s * s));
         for step in 0..=4 {
-            let (mut information, mut score) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros());
+            let from = Walk::from(start);
+            // Sums of the rows of `start_rows`: weights, their moments and what pulls.
+            let (mut all, mut across, mut along, mut turning) = (0.0, 0.0, 0.0, 0.0);
+            let mut score = Vector3::<f64>::zeros();
             for i in 0..n {
-                let placed = start.compose(track[i]);
-                let p = drifted(model, model.seen(placed), frames[i].t - frames[0].t);
+                let p = drifted(model, model.seen(&from.then(&track[i])), frames[i].t - frames[0].t);
                 predicted[i] = p;
                 let seen = frames[i].pose;
                 let raw = [seen.x - p.x, seen.y - p.y, wrap_angle(seen.theta - p.theta)];
-                for (j, row) in start_rows(start, p).iter().enumerate() {
-                    let row = Vector3::from(*row) / self.noise[j];
-                    residuals[i][j] = raw[j] / self.noise[j];
-                    information += row * row.transpose() * weights[i];
-                    score += row * (weights[i] * residuals[i][j]);
-                }
+                residuals[i] = [raw[0] / noise[0], raw[1] / noise[1], raw[2] / noise[2]];
+                let (w, dx, dy) = (weights[i], p.x - start.x, p.y - start.y);
+                let (fx, fy) = (w * x_information * raw[0], w * y_information * raw[1]);
+                all += w;
+                across += w * dy;
+                along += w * dx;
+                turning += w * (x_information * dy * dy + y_information * dx * dx + theta_information);
+                score += Vector3::new(fx, fy, dx * fy - dy * fx + w * theta_information * raw[2]);
             }
             if step == 4 {
                 break;
             }
+            let (a, b) = (-x_information * across, y_information * along);
+            let information = Matrix3::new(x_information * all, 0.0, a, 0.0, y_information * all, b, a, b, turning);
             let Some(inverse) = information.try_inverse() else { break };
             let d = inverse * score;
             start = Pose::new(start.x + d.x, start.y + d.y, start.theta + d.z);
@@ -187,22 +200,26 @@ impl<'a> MotionLink<'a> {
     /// a window, or several in long logs.
     pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
         let base = self.residuals(model);
+        if base.is_empty() {
+            return Vec::new();
+        }
         let together = self.windows.len().div_ceil(MOST_CLUSTERS);
         let mut clusters: Vec<Cluster> = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
             let s = self.pieces.get(self.windows[range.start].segment);
-            let start = self.predict(model, &s, &base, range.clone());
-            let columns: Vec<Vec<DVector<f64>>> = sides
-                .par_iter()
-                .map(|(low, high, step)| {
-                    let low = low.as_ref().map(|low| self.predict(low, &s, &base, range.clone()));
-                    let high = self.predict(high, &s, &base, range.clone());
-                    self.column(&base[range.clone()], low.as_ref().unwrap_or(&start), &high, *step)
+            let own = &base[range.clone()];
+            let columns = if sides.is_empty() { Vec::new() } else { self.columns(model, sides, &s, own, &range) };
+            let mut first = 0;
+            let places: Vec<usize> = own
+                .iter()
+                .map(|w| {
+                    first += 3 * w.t.len();
+                    first - 3 * w.t.len()
                 })
                 .collect();
             let part: Vec<Cluster> =
-                (0..range.len()).into_par_iter().map(|w| self.cluster(w, &base[range.start + w], &columns)).collect();
+                own.par_iter().zip(places).map(|(w, first)| self.cluster(w, &columns, first)).collect();
             for (k, cluster) in part.into_iter().enumerate() {
                 match clusters.last_mut() {
                     Some(last) if k % together != 0 => last.add(&cluster),
@@ -213,66 +230,124 @@ impl<'a> MotionLink<'a> {
         clusters
     }
 
-    /// Predictions of some windows of one segment, from start poses already fitted; empty where the
-    /// wheels cannot drive the robot.
-    fn predict(
+    /// Derivatives along all sides over some windows of one segment, `[side][3 frames]`, in units of the noise; 0 where
+    /// the wheels cannot drive the robot.
+    fn columns(
         &self,
         model: &MotionModel,
+        sides: &[(Option<MotionModel>, MotionModel, f64)],
         s: &Segment,
         base: &[WindowResiduals],
-        range: Range<usize>,
-    ) -> Vec<Vec<Pose>> {
-        let Some(columns) = model.columns() else { return vec![Vec::new(); range.len()] };
-        let angles = model.angles(s);
-        range
-            .map(|w| {
-                let track = model.track(s, &angles, &columns, &s.frames[self.windows[w].frames.clone()]);
-                let b = &base[w];
-                let placed = track.iter().zip(&b.t);
-                placed.map(|(p, t)| drifted(model, model.seen(b.start.compose(*p)), t - b.t[0])).collect()
-            })
-            .collect()
+        range: &Range<usize>,
+    ) -> Vec<Vec<f64>> {
+        let rows = 3 * base.iter().map(|w| w.t.len()).sum::<usize>();
+        let Some(path) = Path::new(model, s) else { return vec![vec![0.0; rows]; sides.len()] };
+        let windows: Vec<&[Frame]> = self.windows[range.clone()].iter().map(|w| &s.frames[w.frames.clone()]).collect();
+        let tracks = path.alone(&windows);
+        let start = predicted(model, &tracks, base);
+        let column = |low: &[Pose], high: &[Pose], step: f64| {
+            let unit = self.noise.map(|s| 1.0 / (step * s));
+            let mut column = Vec::with_capacity(rows);
+            for (a, b) in low.iter().zip(high) {
+                let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
+                column.extend([d[0] * unit[0], d[1] * unit[1], d[2] * unit[2]]);
+            }
+            column
+        };
+        let is_beside = |model: &MotionModel| path.of(model).is_some_and(|p| p.is_beside(&path) && !path.is_as(&p));
+        let (beside, others): (Vec<usize>, Vec<usize>) =
+            (0..sides.len()).partition(|i| sides[*i].0.iter().chain([&sides[*i].1]).all(is_beside));
+        // Models that differ in their wheels alone are walked side by side.
+        let together = |part: &[usize]| -> Vec<(usize, Vec<f64>)> {
+            let models: Vec<&MotionModel> =
+                part.iter().flat_map(|i| sides[*i].0.iter().chain([&sides[*i].1])).collect();
+            let paths: Vec<Path> = models.iter().filter_map(|m| path.of(m)).collect();
+            let mut seen = models.iter().zip(Path::beside(&paths, &windows)).map(|(m, t)| predicted(m, &t, base));
+            let mut next = || seen.next().unwrap_or_default();
+            let of_side = |i: &usize| {
+                let (low, _, step) = &sides[*i];
+                let low = if low.is_some() { Cow::Owned(next()) } else { Cow::Borrowed(&start) };
+                (*i, column(&low, &next(), *step))
+            };
+            part.iter().map(of_side).collect()
+        };
+        let predict = |other: &MotionModel| {
+            let own = path.of(other)?;
+            let tracks = if path.is_as(&own) { Cow::Borrowed(&tracks) } else { Cow::Owned(own.alone(&windows)) };
+            Some(predicted(other, &tracks, base))
+        };
+        let alone = |i: &usize| {
+            let (low, high, step) = &sides[*i];
+            let low = match low {
+                Some(low) => predict(low).map(Cow::Owned),
+                None => Some(Cow::Borrowed(&start)),
+            };
+            let both = low.zip(predict(high));
+            (*i, both.map_or_else(|| vec![0.0; rows], |(low, high)| column(&low, &high, *step)))
+        };
+        let mut all: Vec<(usize, Vec<f64>)> = others.par_iter().map(alone).collect();
+        all.par_extend(beside.par_chunks(LANES / 2).flat_map_iter(together));
+        all.sort_by_key(|(i, _)| *i);
+        all.into_iter().map(|(_, column)| column).collect()
     }
 
-    /// Derivative of the predictions of every window, in units of the noise; 0 where one is missing.
-    fn column(&self, base: &[WindowResiduals], low: &[Vec<Pose>], high: &[Vec<Pose>], step: f64) -> Vec<DVector<f64>> {
-        low.iter()
-            .zip(high)
-            .zip(base)
-            .map(|((a, b), w)| {
-                let n = w.t.len();
-                if a.len() != n || b.len() != n {
-                    return DVector::zeros(3 * n);
-                }
-                DVector::from_iterator(
-                    3 * n,
-                    a.iter().zip(b).flat_map(|(a, b)| {
-                        let d = [b.x - a.x, b.y - a.y, wrap_angle(b.theta - a.theta)];
-                        [0, 1, 2].map(|i| d[i] / (step * self.noise[i]))
-                    }),
-                )
-            })
-            .collect()
-    }
-
-    fn cluster(&self, w: usize, aligned: &WindowResiduals, columns: &[Vec<DVector<f64>>]) -> Cluster {
+    fn cluster(&self, aligned: &WindowResiduals, columns: &[Vec<f64>], first: usize) -> Cluster {
         let n = aligned.t.len();
         let rows = 3 * n;
         let root: Vec<f64> = aligned.weights.iter().flat_map(|w| [w.sqrt(); 3]).collect();
-        let mut jacobian = DMatrix::from_fn(rows, columns.len(), |r, c| columns[c][w][r] * root[r]);
+
+        let mut jacobian = DMatrix::<f64>::zeros(rows, columns.len());
+        for (slots, column) in jacobian.as_mut_slice().chunks_exact_mut(rows).zip(columns) {
+            let own = column[first..].iter().zip(&root);
+            slots.iter_mut().zip(own).for_each(|(slot, (x, w))| *slot = x * w);
+        }
         let mut residual =
             DVector::from_iterator(rows, aligned.residuals.iter().flatten().zip(&root).map(|(x, w)| x * w));
         let nuisance = DMatrix::from_fn(rows, 3, |r, c| {
             start_rows(aligned.start, aligned.predicted[r / 3])[r % 3][c] * root[r] / self.noise[r % 3]
         });
         let q = nuisance.qr().q();
-        let projected = q.transpose() * &jacobian;
-        jacobian -= &q * projected;
-        let projected = q.transpose() * &residual;
-        residual -= &q * projected;
+        jacobian.as_mut_slice().chunks_exact_mut(rows).for_each(|column| project_out(column, q.as_slice()));
+        project_out(residual.as_mut_slice(), q.as_slice());
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
         Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
     }
+}
+
+/// Takes out of a column what three orthonormal columns, one after the other, span.
+fn project_out(column: &mut [f64], q: &[f64]) {
+    let rows = column.len();
+    let (a, rest) = q.split_at(rows);
+    let (b, c) = rest.split_at(rows);
+    // Four sums side by side, which a loop over rows alone would add one after the other.
+    let mut sums = [[0.0; 4]; 3];
+    let (x, tail) = column.as_chunks::<4>();
+    for (q, sum) in [a, b, c].into_iter().zip(&mut sums) {
+        let (q, rest) = q.as_chunks::<4>();
+        for (x, q) in x.iter().zip(q) {
+            for l in 0..4 {
+                sum[l] += x[l] * q[l];
+            }
+        }
+        sum[0] += tail.iter().zip(rest).map(|(x, q)| x * q).sum::<f64>();
+    }
+    let [u, v, w] = sums.map(|s| s[0] + s[1] + (s[2] + s[3]));
+    for (((x, a), b), c) in column.iter_mut().zip(a).zip(b).zip(c) {
+        *x -= u * a + v * b + w * c;
+    }
+}
+
+/// What the camera sees along the tracks of some windows, from start poses already fitted.
+fn predicted(model: &MotionModel, tracks: &[Walk], base: &[WindowResiduals]) -> Vec<Pose> {
+    let mut out = Vec::with_capacity(tracks.len());
+    let mut rest = tracks;
+    for b in base {
+        let (track, after) = rest.split_at(b.t.len());
+        rest = after;
+        let from = Walk::from(b.start);
+        out.extend(track.iter().zip(&b.t).map(|(p, t)| drifted(model, model.seen(&from.then(p)), t - b.t[0])));
+    }
+    out
 }
 
 /// A pose seen by a camera whose origin has drifted for `t` seconds.
@@ -283,11 +358,22 @@ fn drifted(model: &MotionModel, p: Pose, t: f64) -> Pose {
 /// Distance of a residual from the median of its neighbours.
 fn apart(residuals: &[[f64; 3]], i: usize) -> f64 {
     let near = &residuals[i.saturating_sub(3)..(i + 4).min(residuals.len())];
-    let component = |j: usize| {
-        let mut values: Vec<f64> = near.iter().map(|r| r[j]).collect();
-        residuals[i][j] - crate::statistics::median(&mut values)
+    let median = |j: usize| match near {
+        [a, b, c, d, e, f, g] => median_of_seven([a[j], b[j], c[j], d[j], e[j], f[j], g[j]]),
+        _ => crate::statistics::median(&mut near.iter().map(|r| r[j]).collect::<Vec<f64>>()),
     };
-    norm(&[component(0), component(1), component(2)])
+    norm(&[0, 1, 2].map(|j| residuals[i][j] - median(j)))
+}
+
+/// The median of seven numbers, by a network that sorts as much as it takes (Devillard 1998).
+fn median_of_seven(mut p: [f64; 7]) -> f64 {
+    const PAIRS: [(usize, usize); 13] =
+        [(0, 5), (0, 3), (1, 6), (2, 4), (0, 1), (3, 5), (2, 6), (2, 3), (3, 6), (4, 5), (1, 4), (1, 3), (3, 4)];
+    for (a, b) in PAIRS {
+        let (low, high) = if p[b] < p[a] { (p[b], p[a]) } else { (p[a], p[b]) };
+        (p[a], p[b]) = (low, high);
+    }
+    p[3]
 }
 
 fn norm(r: &[f64; 3]) -> f64 {
@@ -306,4 +392,43 @@ fn weight(out: f64) -> f64 {
 /// does to a pose is close enough to the identity.
 fn start_rows(start: Pose, placed: Pose) -> [[f64; 3]; 3] {
     [[1.0, 0.0, start.y - placed.y], [0.0, 1.0, placed.x - start.x], [0.0, 0.0, 1.0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_network_finds_the_middle_of_every_order() {
+        // All permutations of seven, by Heap's algorithm.
+        let mut p = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let mut counts = [0; 7];
+        let (mut i, mut seen) = (0, 1);
+        assert_eq!(median_of_seven(p), 3.0);
+        while i < 7 {
+            if counts[i] < i {
+                p.swap(if i % 2 == 0 { 0 } else { counts[i] }, i);
+                assert_eq!(median_of_seven(p), 3.0, "{p:?}");
+                counts[i] += 1;
+                (seen, i) = (seen + 1, 0);
+            } else {
+                counts[i] = 0;
+                i += 1;
+            }
+        }
+        assert_eq!(seen, 5040);
+        assert_eq!(median_of_seven([2.0, 1.0, 2.0, 1.0, 1.0, 2.0, 2.0]), 2.0);
+    }
+
+    #[test]
+    fn what_is_projected_out_is_gone() {
+        let rows = 11;
+        let nuisance = DMatrix::from_fn(rows, 3, |r, c| ((r * (c + 2) + c) % 5) as f64 - 1.5);
+        let q = nuisance.qr().q();
+        let column = DVector::from_fn(rows, |r, _| (r * r % 7) as f64);
+        let mut left = column.clone();
+        project_out(left.as_mut_slice(), q.as_slice());
+        let expected = &column - &q * (q.transpose() * &column);
+        assert!((left - expected).amax() < 1e-12);
+    }
 }

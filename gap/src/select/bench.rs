@@ -559,19 +559,14 @@ impl Bench {
         let m = roles.len();
         let columns: Vec<usize> = (0..m).filter(|i| roles[*i] != Role::Out && gram.tells(*i)).collect();
         let k = columns.len();
-        let mut jj = DMatrix::zeros(k, k);
+        let whole = gram.information();
+        let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
         let mut meat = DMatrix::zeros(k, k);
         let g = gram.clusters.len() as f64;
         for c in &gram.clusters {
-            let score = nalgebra::DVector::from_fn(k, |p, _| {
-                c.jr[columns[p]] - columns.iter().map(|q| c.jj[(columns[p], *q)] * fit.step[*q]).sum::<f64>()
-            });
-            meat += &score * score.transpose();
-            for p in 0..k {
-                for q in 0..k {
-                    jj[(p, q)] += c.jj[(columns[p], columns[q])];
-                }
-            }
+            let left = &c.jr - c.jj.times(&fit.step);
+            let score = nalgebra::DVector::from_fn(k, |p, _| left[columns[p]]);
+            meat.ger(1.0, &score, &score, 1.0);
         }
         let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
         meat *= g / (g - free).max(1.0);
