@@ -271,10 +271,13 @@ impl<'a> DriveLink<'a> {
         let out = self.bumps[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
-                for i in 0..n {
+                let ahead = DVector::from_fn(n, |i, _| {
                     let own = &offset[i][b.first..];
-                    a[i] += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
-                }
+                    shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>()
+                });
+                // The rotor, on which the encoder sits, moves in the play by itself.
+                let rotors = DVector::from_fn(n, |i, _| model.moves_in_play(i) * ahead[i]);
+                a += ahead - &mechanics.response * rotors;
             }
             inertia.unwrap_or(&mechanics.inertia) * (measured - a)
         });
