@@ -18,7 +18,7 @@ use crate::gram::Gram;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
-use crate::thresholds::{AS_WELL, FAR_LEFT, UNDECIDED};
+use crate::thresholds::{AS_WELL, FAR_LEFT, FROM_NOISE, UNDECIDED, decided};
 
 use gates::Gates;
 use join::join;
@@ -96,6 +96,21 @@ fn raw(found: &Selection) -> f64 {
     (square / n.max(1.0)).sqrt()
 }
 
+/// Whether a law of the drive leaves far more than another, each fitted with nothing adjusted beside it.
+fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection) -> bool {
+    if problem.link() != Link::Drive || raw(worse) <= FROM_NOISE {
+        return false;
+    }
+    let alone = |found: &Selection| {
+        let mut state = found.state.clone();
+        problem.fit(&mut state);
+        let (square, n) = problem.linearise_nothing(&state).plain();
+        (square / n.max(1.0)).sqrt()
+    };
+    let left = alone(worse);
+    left > FROM_NOISE && decided(left, alone(better))
+}
+
 fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
     let from = start.active.len();
     let best = if known.is_empty() {
@@ -167,12 +182,22 @@ pub fn single(
     let all = problem.candidates(start, catalogue);
     let narrow = thresholds.narrow();
     let bench = Bench::new(problem, start, &all, &narrow);
-    let best = next(problem.link(), &bench, &narrow, &[]).filter(|t| t.material && !t.beyond)?;
+    let best = next(problem.link(), &bench, &narrow, &[])?;
+    // A little of something else may explain as much; then what is large enough to have a name stands for both.
+    let mut refused = Vec::new();
+    let mut material = Some(best.clone());
+    while let Some(t) = material.as_ref().filter(|t| !t.material) {
+        refused.push(t.candidate);
+        material = next(problem.link(), &bench, &narrow, &refused);
+    }
+    let as_good = |t: &Trial| !t.beyond && t.gain >= best.gain - narrow.tie(best.gain);
+    let best = material.filter(as_good)?;
     let mut state = start.clone();
     state.active.push(placed(&bench.candidates[best.candidate], &best.values));
-    let settled = settle(problem, &mut state, &all, thresholds);
-    let found = finish(state, settled, start.active.len(), thresholds);
-    let found = sure::sure(problem, found, start.active.len(), &all, thresholds);
+    // Estimated as it was found: a margin of what is not named would be as wide as the effect.
+    let settled = settle(problem, &mut state, &all, &narrow);
+    let found = finish(state, settled, start.active.len(), &narrow);
+    let found = sure::sure(problem, found, start.active.len(), &all, &narrow);
     let sound = found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start);
     sound.then_some(found)
 }
@@ -220,7 +245,14 @@ fn swap(
             let settled = settle(problem, &mut state, all, thresholds);
             let rival = finish(state, settled, from, thresholds);
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
-            let needed = if simpler { tie } else { -tie };
+            // What leaves far more than another law of no more parameters is not chosen, however it looks with everything
+            // else adjusted.
+            let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];
+            if fewer <= more && leaves_far_more(problem, &rival, &best) {
+                continue;
+            }
+            let clear = more <= fewer && leaves_far_more(problem, &best, &rival);
+            let needed = if simpler || clear { tie } else { -tie };
             if rival.against(&best) < needed && !problem.runs_away(&rival.state, &without) {
                 best = rival;
                 changed = true;

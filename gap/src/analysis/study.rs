@@ -104,7 +104,11 @@ pub(super) fn study(
     let from = start.active.len();
     let (selection, mut refused) = admitted(problem, selection, start, &all, thresholds);
     let mut judged = judge(problem, start, selection);
+    // What laws of what is named may leave is nothing to explain by small effects.
+    let bench = &judged.selection.bench;
+    let laws = bench.left_by_laws() / bench.linear.gram.plain().1.max(1.0);
     if judged.rms > far
+        && judged.rms.powi(2) - 1.0 > laws
         && let Some(several) = several(problem, start, &judged, &all, thresholds)
     {
         let (selection, more) = admitted(problem, several, start, &all, thresholds);

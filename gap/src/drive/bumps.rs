@@ -271,7 +271,7 @@ impl<'a> DriveLink<'a> {
         let out = self.bumps[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
-                b.offset(shape, offset, &mut a);
+                b.offset(shape, offset, &mechanics, model, &mut a);
             }
             inertia.unwrap_or(&mechanics.inertia) * (measured - a)
         });
@@ -295,7 +295,7 @@ impl<'a> DriveLink<'a> {
             let mean = |row: &Option<Vec<f64>>| row.as_ref().map_or(0.0, |row| dot(&shape.force, &row[b.first..]));
             let mut a = b.accelerated(&loads.iter().map(mean).collect::<Vec<f64>>(), &mechanics, model);
             for offset in &offsets {
-                b.offset(shape, offset, &mut a);
+                b.offset(shape, offset, &mechanics, model, &mut a);
             }
             &self.inertia * a
         });
@@ -600,12 +600,23 @@ impl Bump {
         a
     }
 
-    /// Adds the acceleration of encoders against their wheels.
-    fn offset(&self, shape: &Shape, offset: &[Vec<f64>], a: &mut DVector<f64>) {
-        for (a, own) in a.iter_mut().zip(offset) {
-            let own = &own[self.first..];
-            *a += shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>();
-        }
+    /// Adds the acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play by
+    /// itself.
+    fn offset(
+        &self,
+        shape: &Shape,
+        offset: &[Vec<f64>],
+        mechanics: &Mechanics,
+        model: &DriveModel,
+        a: &mut DVector<f64>,
+    ) {
+        let n = a.len();
+        let ahead = DVector::from_fn(n, |i, _| {
+            let own = &offset[i][self.first..];
+            shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>()
+        });
+        let rotors = DVector::from_fn(n, |i, _| model.moves_in_play(i) * ahead[i]);
+        *a += ahead - &mechanics.response * rotors;
     }
 }
 

@@ -146,6 +146,18 @@ impl DriveModel {
         self.mechanics().map_or(f64::NAN, |m| m.inertia.trace() / m.inertia.nrows() as f64)
     }
 
+    /// Inertia of a rotor at its wheel's shaft, kg m².
+    fn rotor_at_wheel(&self, wheel: usize) -> f64 {
+        self.gear_ratio.powi(2) * self.axes[wheel].rotor_inertia
+    }
+
+    /// Inertia that moves in the play of a gear, at the wheel's shaft, kg m²: the rotor's, or none where the file gives all
+    /// that turns as one.
+    pub fn moves_in_play(&self, wheel: usize) -> f64 {
+        let all_in_one = self.support == Support::Blocks && self.axes[wheel].load_inertia == 0.0;
+        if all_in_one { 0.0 } else { self.rotor_at_wheel(wheel) }
+    }
+
     /// The kinematics; `None` where the wheels cannot drive the robot.
     fn geometry(&self) -> Option<Geometry> {
         let alone = self.support == Support::Blocks && self.wheels.len() < 3;
@@ -169,8 +181,7 @@ impl DriveModel {
     pub fn mechanics(&self) -> Option<Mechanics> {
         let geometry = self.geometry()?;
         let rows = self.wheel_speed_per_twist(&geometry);
-        let spin: Vec<f64> =
-            self.axes.iter().map(|a| self.gear_ratio.powi(2) * a.rotor_inertia + a.load_inertia).collect();
+        let spin: Vec<f64> = (0..self.axes.len()).map(|i| self.rotor_at_wheel(i) + self.axes[i].load_inertia).collect();
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;

@@ -22,8 +22,10 @@ const NOT_BY_DEAD_RECKONING: [&str; 12] = [
     "sideways-creep",
 ];
 
-/// What acts on the body or follows its way, none of which there is while the wheels are off the floor.
-const NOT_ON_BLOCKS: [&str; 10] = [
+/// What acts on the body, at the contact with the floor, or follows the way, none of which there is while the wheels are off the floor.
+const NOT_ON_BLOCKS: [&str; 12] = [
+    "wheel-creep",
+    "wheel-slip",
     "robot-mass",
     "yaw-inertia",
     "centre-of-mass",

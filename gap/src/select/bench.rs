@@ -193,7 +193,10 @@ impl Bench {
                 }
                 let overlap: f64 = columns.iter().zip(&p).map(|(a, x)| jj[(c, *a)] * x).sum();
                 let cos2 = overlap * overlap / (size2 * jj[(c, c)]);
-                let wide = share * cos2 * (size2 / jj[(c, c)]).sqrt();
+                let Owner::Candidate(candidate, j) = self.linear.owners[c] else { continue };
+                // No wider than what is physical: a column that is next to nothing would else be stretched to anything.
+                let [low, high] = self.candidates[candidate].form.free[j].bounds;
+                let wide = (share * cos2 * (size2 / jj[(c, c)]).sqrt()).min(0.5 * (high - low));
                 self.held[c] = Role::Held(sd.max(wide), at);
             }
         }

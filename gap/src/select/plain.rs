@@ -8,10 +8,12 @@
 use rayon::prelude::*;
 
 use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
+use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::ridge::{Ridge, Role};
 use crate::state::{Active, State};
+use crate::thresholds::decided;
 
 /// Effects at most.
 const MOST: usize = 8;
@@ -28,6 +30,8 @@ const PARTS: usize = 5;
 struct Promise {
     candidate: usize,
     score: f64,
+    /// Decrease of the held-out loss.
+    explains: f64,
     parameters: usize,
     values: Vec<f64>,
 }
@@ -155,14 +159,20 @@ fn best(
             (sum >= price && sum >= thresholds.held_out_t * spread).then_some(Promise {
                 candidate: indices[c],
                 score: sum - price,
+                explains: sum,
                 parameters,
                 values,
             })
         })
         .collect();
     let most = promises.iter().map(|p| p.score).fold(0.0, f64::max);
+    // What is as good explains as much; a law of the drive does not leave far more, either.
+    let laws = problem.link() == Link::Drive;
+    let n: f64 = linear.gram.n();
+    let left = |p: &Promise| ((total - p.explains) / n.max(1.0)).max(0.0).sqrt();
+    let least = promises.iter().map(left).fold(f64::INFINITY, f64::min);
     let rank = |p: &Promise| (p.parameters, usize::from(all[p.candidate].effect.name() == "encoder-lag"), p.candidate);
-    promises.into_iter().filter(|p| p.score >= AS_GOOD * most).min_by_key(rank)
+    promises.into_iter().filter(|p| p.score >= AS_GOOD * most && !(laws && decided(left(p), least))).min_by_key(rank)
 }
 
 /// Held-out losses per cluster, each run predicted from the others; what belongs to a run is fitted on it.

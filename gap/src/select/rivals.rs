@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, placed, settle, stopped};
+use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Problem};
 use crate::state::Active;
@@ -117,6 +117,9 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         // Without the price of parameters: what the data say.
         let difference = rival.against(found) + own_cost - rival_cost;
         let tie = thresholds.tie(own_gain).max(TIED);
+        if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &rival, found) {
+            continue;
+        }
         if difference < tie.max(DOUBTFUL) && (twin(t.candidate) || is_material(candidate, &values)) {
             sets.push(vec![name.clone(), rival_name.clone()]);
             told.push(rival_name.clone());

@@ -140,6 +140,19 @@ fn an_inertia_is_the_same_in_any_unit() {
     same(&a, &analysed(&stronger(&set, 1e3)), 0.01);
 }
 
+#[test]
+fn a_torque_constant_is_not_called_friction() {
+    let mut set = servo(2e-5, 2e-5, 0.0, 4e-4);
+    set.robot.motor.friction_torque = 4e-4;
+    set.robot.motor.torque_constant /= 1.163;
+    set.robot.motor.back_emf_constant = Some(set.robot.motor.torque_constant);
+    let a = analysed(&set);
+    // Viscous friction explains all of the gap but a hundredth, and leaves tens of floors.
+    assert_eq!(names(&a), ["torque-constant"], "{}", a.terminal_summary());
+    let [low, high] = a.effects[0].parameters[0].2.ends().unwrap();
+    assert!(low < 0.163 && 0.163 < high, "{low} to {high}");
+}
+
 fn short(truth: &Robot, seed: u64) -> DataSet {
     let mut set = simulate(truth, &RICH, seed);
     set.runs.iter_mut().for_each(|r| cut(r, 6.0));

@@ -79,6 +79,8 @@ fn files_are_read_as_their_owners_write_them() {
     let odd = of("= 2048", "= 43.7");
     assert_eq!(odd.encoder_counts_per_motor_rev, 43.7);
     assert_eq!(Robot::parse(&fine.to_toml(), Path::new("again")).unwrap(), fine);
+    // A linear axis of which a radian is a metre: kilograms and newtons.
+    assert_eq!(of("rotor_inertia = 2.7e-7", "rotor_inertia = 95").motor.rotor_inertia, 95.0);
     let axis = of("wheel_radius_m = 0.0275", "travel_per_rev_m = 0.02");
     assert!((axis.wheel_radius_m * TAU - 0.02).abs() < 1e-15);
     // Degrees, turns, and skews that nobody wrote.
