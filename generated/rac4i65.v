@@ -1,5 +1,5 @@
 // rac4i65
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.2.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.3.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -28,7 +28,12 @@ module rac4i65 (
     input wire ball_sensor,
     input wire radio_rx,
     input wire host_select,
-    input wire [3:0] robot_number
+    input wire [3:0] robot_number,
+    output wire imu_cs_n,
+    output wire imu_sclk,
+    output wire imu_mosi,
+    input wire imu_miso,
+    input wire imu_ready
 );
 
     wire [31:0] lad_out;
@@ -58,6 +63,8 @@ module rac4i65 (
     pullup (robot_number[1]);
     pullup (robot_number[2]);
     pullup (robot_number[3]);
+    pullup (imu_miso);
+    pullup (imu_ready);
     // synthesis translate_on
 `endif
 
@@ -88,6 +95,11 @@ module rac4i65 (
         .radio_rx(radio_rx),
         .host_select(host_select),
         .robot_number(robot_number),
+        .imu_cs_n(imu_cs_n),
+        .imu_sclk(imu_sclk),
+        .imu_mosi(imu_mosi),
+        .imu_miso(imu_miso),
+        .imu_ready(imu_ready),
         .board(32'h34493635),
         .clock_hz(32'd33333333)
     );
@@ -121,7 +133,12 @@ module rac4i65_core (
     input wire ball_sensor,
     input wire radio_rx,
     input wire host_select,
-    input wire [3:0] robot_number
+    input wire [3:0] robot_number,
+    output reg imu_cs_n,
+    output reg imu_sclk,
+    output reg imu_mosi,
+    input wire imu_miso,
+    input wire imu_ready
 );
 
     // Constants
@@ -154,11 +171,13 @@ module rac4i65_core (
 
     reg registers_write;
 
+    wire [31:0] registers_written;
     wire [31:0] registers_read_data;
 
     reg [31:0] registers_commits;
 
     reg [23:0] registers_radio;
+    reg [8:0] registers_imu_status;
     wire [23:0] registers_tick_period;
     wire registers_tick_period_written;
     wire [3:0] registers_mode;
@@ -182,6 +201,8 @@ module rac4i65_core (
     wire [3:0] registers_index_clear;
     wire [1:0] registers_clear_interrupt;
     wire registers_select_radio;
+    wire [10:0] registers_imu_control;
+    wire registers_imu_access;
     wire registers_arm_write;
     wire [7:0] registers_clear_faults;
     wire registers_clear_kicker;
@@ -198,6 +219,7 @@ module rac4i65_core (
 
     wire decoder_in_registers;
     wire decoder_in_memory;
+    wire decoder_in_imu;
     wire [7:0] decoder_memory_address;
     wire decoder_stages_set_point;
     wire decoder_stages_configuration;
@@ -280,6 +302,22 @@ module rac4i65_core (
     wire radio_selected;
     wire [7:0] radio_accepted;
     wire [7:0] radio_dropped;
+
+    reg imu_enable;
+    reg imu_idle_high;
+    reg [1:0] imu_half;
+    reg [6:0] imu_first;
+
+    reg [15:0] imu_command;
+
+    reg [2:0] imu_read_word;
+    wire imu_cs_n_2;
+    wire imu_sclk_2;
+    wire imu_mosi_2;
+    wire imu_busy;
+    wire imu_reading;
+    wire [7:0] imu_value;
+    wire [15:0] imu_read_data;
 
     reg encoders_0_a;
     reg encoders_0_b;
@@ -441,6 +479,12 @@ module rac4i65_core (
     reg read_memory_d;
     wire read_memory_q;
 
+    reg read_imu_d;
+    wire read_imu_q;
+
+    reg finished_d;
+    wire finished_q;
+
     reg [31:0] read_q_d;
     wire [31:0] read_q_q;
 
@@ -471,8 +515,12 @@ module rac4i65_core (
     reg fourth_starts_d;
     wire fourth_starts_q;
 
+    reg [15:0] line_d;
+    wire [15:0] line_q;
+
     // Intermediate values
     reg tick;
+    reg snapshot_done;
     reg alive;
     reg radio_turn;
     reg [13:0] address;
@@ -502,7 +550,6 @@ module rac4i65_core (
     reg [12:0] three_quarters;
     reg shut;
     reg holds;
-    reg [15:0] line;
     reg [12:0] compare;
     reg [3:0] pwm_pins;
     reg [3:0] dir_pins;
@@ -531,6 +578,7 @@ module rac4i65_core (
         .address(index),
         .write(registers_write),
         .data(write_data),
+        .written(registers_written),
         .read_data(registers_read_data),
         .armed(safety_armed),
         .board(board),
@@ -547,6 +595,7 @@ module rac4i65_core (
         .index_status(index_status),
         .interrupt_status(interrupt_status_2),
         .radio(registers_radio),
+        .imu_status(registers_imu_status),
         .tick_period(registers_tick_period),
         .tick_period_written(registers_tick_period_written),
         .mode(registers_mode),
@@ -570,6 +619,8 @@ module rac4i65_core (
         .index_clear(registers_index_clear),
         .clear_interrupt(registers_clear_interrupt),
         .select_radio(registers_select_radio),
+        .imu_control(registers_imu_control),
+        .imu_access(registers_imu_access),
         .arm_write(registers_arm_write),
         .clear_faults(registers_clear_faults),
         .clear_kicker(registers_clear_kicker),
@@ -597,6 +648,7 @@ module rac4i65_core (
         .snapshot_bank(snapshot_read_bank),
         .in_registers(decoder_in_registers),
         .in_memory(decoder_in_memory),
+        .in_imu(decoder_in_imu),
         .memory_address(decoder_memory_address),
         .stages_set_point(decoder_stages_set_point),
         .stages_configuration(decoder_stages_configuration),
@@ -611,6 +663,7 @@ module rac4i65_core (
         .commit_configuration(registers_commit_configuration),
         .address(address),
         .data(write_data),
+        .checksum(registers_written),
         .tick(tick),
         .set_point_bank(commit_set_point_bank),
         .configuration_bank(commit_configuration_bank),
@@ -624,7 +677,7 @@ module rac4i65_core (
     rac4i65_core_snapshot snapshot(
         .clock(lclk),
         .tick(tick),
-        .done(sequencer_done),
+        .done(snapshot_done),
         .read_first(snapshot_read_first),
         .read_last(snapshot_read_last),
         .write_bank(snapshot_write_bank),
@@ -634,7 +687,7 @@ module rac4i65_core (
         .clock(lclk),
         .emergency_stop(emergency_stop),
         .arm_write(registers_arm_write),
-        .arm_data(write_data),
+        .arm_data(registers_written),
         .pet(commit_pet),
         .watchdog_timeout(registers_watchdog_timeout),
         .encoder_fault(safety_encoder_fault),
@@ -705,7 +758,7 @@ module rac4i65_core (
     );
     rac4i65_core_interrupt interrupt(
         .clock(lclk),
-        .done(sequencer_done),
+        .done(snapshot_done),
         .armed(safety_armed),
         .enable(registers_interrupt_enable),
         .clear(registers_clear_interrupt),
@@ -727,6 +780,28 @@ module rac4i65_core (
         .selected(radio_selected),
         .accepted(radio_accepted),
         .dropped(radio_dropped)
+    );
+    rac4i65_core_imu imu(
+        .clock(lclk),
+        .tick(tick),
+        .bank(snapshot_write_bank),
+        .enable(imu_enable),
+        .idle_high(imu_idle_high),
+        .half(imu_half),
+        .first(imu_first),
+        .access(registers_imu_access),
+        .command(imu_command),
+        .miso(imu_miso),
+        .ready(imu_ready),
+        .read_bank(snapshot_read_bank),
+        .read_word(imu_read_word),
+        .cs_n(imu_cs_n_2),
+        .sclk(imu_sclk_2),
+        .mosi(imu_mosi_2),
+        .busy(imu_busy),
+        .reading(imu_reading),
+        .value(imu_value),
+        .read_data(imu_read_data)
     );
     rac4i65_core_encoders encoders_0(
         .clock(lclk),
@@ -939,6 +1014,8 @@ module rac4i65_core (
     rac4i65_core_dff_1 reverse (.d(reverse_d), .q(reverse_q), .clock(lclk));
     rac4i65_core_dff_1 read_page (.d(read_page_d), .q(read_page_q), .clock(lclk));
     rac4i65_core_dff_1 read_memory (.d(read_memory_d), .q(read_memory_q), .clock(lclk));
+    rac4i65_core_dff_1 read_imu (.d(read_imu_d), .q(read_imu_q), .clock(lclk));
+    rac4i65_core_dff_1 finished (.d(finished_d), .q(finished_q), .clock(lclk));
     rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(lclk));
     rac4i65_core_dff_1 stop_sync (.d(stop_sync_d), .q(stop_sync_q), .clock(lclk));
     rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(lclk));
@@ -949,6 +1026,7 @@ module rac4i65_core (
     rac4i65_core_dff_1 second_starts (.d(second_starts_d), .q(second_starts_q), .clock(lclk));
     rac4i65_core_dff_1 third_starts (.d(third_starts_d), .q(third_starts_q), .clock(lclk));
     rac4i65_core_dff_1 fourth_starts (.d(fourth_starts_d), .q(fourth_starts_q), .clock(lclk));
+    rac4i65_core_dff_16 line (.d(line_d), .q(line_q), .clock(lclk));
 
     always @(*) begin
         clear_at_tick_d = clear_at_tick_q;
@@ -962,6 +1040,14 @@ module rac4i65_core (
             now_d = timebase_clock_count[(32'h0)+:(24)];
         end
         drives_0_sync = 1'b0;
+    end
+
+    always @(*) begin
+        line_d = line_q;
+        line_d = count;
+        if (direction) begin
+            line_d = count - one_16;
+        end
     end
 
     always @(*) begin
@@ -982,6 +1068,16 @@ module rac4i65_core (
     end
 
     always @(*) begin
+        read_imu_d = read_imu_q;
+        read_imu_d = decoder_in_imu;
+    end
+
+    always @(*) begin
+        finished_d = finished_q;
+        finished_d = (sequencer_done | finished_q) & imu_reading;
+    end
+
+    always @(*) begin
         read_q_d = read_q_q;
         read_q_d = zero;
         if (read_page_q) begin
@@ -989,6 +1085,9 @@ module rac4i65_core (
         end
         if (read_memory_q) begin
             read_q_d = sequencer_bus_read_data;
+        end
+        if (read_imu_q) begin
+            read_q_d = ((imu_read_data) & 32'hffffffff);
         end
     end
 
@@ -1040,6 +1139,7 @@ module rac4i65_core (
     always @(*) lad_out = bus_lad_out;
     always @(*) lad_drive = bus_lad_drive;
     always @(*) ready_n = bus_ready_n;
+    always @(*) snapshot_done = (sequencer_done | finished_q) & ~imu_reading;
     always @(*) int_n = interrupt_int_n;
     always @(*) led_n = ~registers_leds;
     always @(*) status = ((safety_armed) & 8'hff) | (((safety_setpoints_valid) & 8'hff) << 32'h1) | (((stop_live_q) & 8'hff) << 32'h2) | (((ball_live_q) & 8'hff) << 32'h3) | (((commit_set_points_pending) & 8'hff) << 32'h4) | (((commit_configuration_pending) & 8'hff) << 32'h5);
@@ -1071,10 +1171,27 @@ module rac4i65_core (
     always @(*) staging = decoder_stages_set_point | decoder_stages_configuration;
     always @(*) blocked = staging & sequencer_bus_blocked;
     always @(*) radio_taken = radio_turn & ~blocked;
-    always @(*) radio_select = write_data[32'h0];
+
+    always @(*) begin
+        radio_select = registers_written[32'h0];
+        imu_command = registers_written[(32'h0)+:(16)];
+    end
+
     always @(*) sequencer_bus_write = staging & (radio_turn | (bus_write_2 & ~radio_selected));
     always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
     always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
+
+    always @(*) begin
+        imu_enable = registers_imu_control[32'h0];
+        imu_idle_high = registers_imu_control[32'h1];
+        imu_half = registers_imu_control[(32'h2)+:(2)];
+        imu_first = registers_imu_control[(32'h4)+:(7)];
+    end
+
+    always @(*) imu_read_word = index[(32'h0)+:(3)];
+    always @(*) imu_cs_n = imu_cs_n_2;
+    always @(*) imu_sclk = imu_sclk_2;
+    always @(*) imu_mosi = imu_mosi_2;
 
     always @(*) begin
         encoders_0_a = encoder_a[0];
@@ -1175,13 +1292,6 @@ module rac4i65_core (
     end
 
     always @(*) begin
-        line = count;
-        if (direction) begin
-            line = count - one_16;
-        end
-    end
-
-    always @(*) begin
         case (sequencer_input_port)
             0:
             begin
@@ -1193,7 +1303,7 @@ module rac4i65_core (
             end
             2:
             begin
-                sequencer_input_data = ((line) & 32'hffffffff);
+                sequencer_input_data = ((line_q) & 32'hffffffff);
             end
             3:
             begin
@@ -1365,6 +1475,7 @@ module rac4i65_core (
     always @(*) holds = registers_kicker_control[32'h2] & ~safety_stopped & alive;
     always @(*) kicker_discharge = shut & ~holds;
     always @(*) registers_radio = ((radio_selected) & 24'hffffff) | (((radio_accepted) & 24'hffffff) << 32'h8) | (((radio_dropped) & 24'hffffff) << 32'h10);
+    always @(*) registers_imu_status = ((imu_value) & 9'h1ff) | (((imu_busy) & 9'h1ff) << 32'h8);
     always @(*) registers_commits = ((commit_accepted) & 32'hffffffff) | (((commit_rejected) & 32'hffffffff) << 32'h10);
     always @(*) kicker_status = ((kicker_state) & 8'hff) | (((kicker_on_ball) & 8'hff) << 32'h3) | (((kicker_ready) & 8'hff) << 32'h4) | (((kicker_timed_out) & 8'hff) << 32'h5) | (((kicker_dropped) & 8'hff) << 32'h6) | (((kicker_is_full) & 8'hff) << 32'h7);
 endmodule
@@ -1553,6 +1664,7 @@ module rac4i65_core_registers (
     input wire [5:0] address,
     input wire write,
     input wire [31:0] data,
+    output reg [31:0] written,
     output reg [31:0] read_data,
     input wire armed,
     input wire [31:0] board,
@@ -1569,6 +1681,7 @@ module rac4i65_core_registers (
     input wire [7:0] index_status,
     input wire [1:0] interrupt_status,
     input wire [23:0] radio,
+    input wire [8:0] imu_status,
     output reg [23:0] tick_period,
     output reg tick_period_written,
     output reg [3:0] mode,
@@ -1592,6 +1705,8 @@ module rac4i65_core_registers (
     output reg [3:0] index_clear,
     output reg [1:0] clear_interrupt,
     output reg select_radio,
+    output reg [10:0] imu_control,
+    output reg imu_access,
     output reg arm_write,
     output reg [7:0] clear_faults,
     output reg clear_kicker,
@@ -1603,15 +1718,15 @@ module rac4i65_core_registers (
 
     // Constants
     localparam cookie = 32'h52414334;
-    localparam version = 32'h20002;
-    localparam blocks = 32'hff444;
+    localparam version = 32'h20003;
+    localparam blocks = 32'h1ff444;
     localparam axes = 32'h4;
     localparam fire_word = 32'h4b49434b;
     localparam zero = 32'h0;
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'hefa3dc7e;
+    localparam content_hash = 32'h7b246130;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1668,8 +1783,20 @@ module rac4i65_core_registers (
     reg [3:0] index_clear_q_d;
     wire [3:0] index_clear_q_q;
 
+    reg [10:0] imu_control_q_d;
+    wire [10:0] imu_control_q_q;
+
     reg [31:0] read_q_d;
     wire [31:0] read_q_q;
+
+    reg writing_d;
+    wire writing_q;
+
+    reg [5:0] place_d;
+    wire [5:0] place_q;
+
+    reg [31:0] word_d;
+    wire [31:0] word_q;
 
     // Intermediate values
     reg unlocked;
@@ -1709,7 +1836,11 @@ module rac4i65_core_registers (
     rac4i65_core_dff_13 stall_compare_q (.d(stall_compare_q_d), .q(stall_compare_q_q), .clock(clock));
     rac4i65_core_dff_2 interrupt_enable_q (.d(interrupt_enable_q_d), .q(interrupt_enable_q_q), .clock(clock));
     rac4i65_core_dff_4 index_clear_q (.d(index_clear_q_d), .q(index_clear_q_q), .clock(clock));
+    rac4i65_core_dff_11 imu_control_q (.d(imu_control_q_d), .q(imu_control_q_q), .clock(clock));
     rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(clock));
+    rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
+    rac4i65_core_dff_6 place (.d(place_d), .q(place_q), .clock(clock));
+    rac4i65_core_dff_32 word (.d(word_d), .q(word_q), .clock(clock));
 
     always @(*) begin
         tick_period_q_d = tick_period_q_q;
@@ -1730,9 +1861,11 @@ module rac4i65_core_registers (
         stall_compare_q_d = stall_compare_q_q;
         interrupt_enable_q_d = interrupt_enable_q_q;
         index_clear_q_d = index_clear_q_q;
+        imu_control_q_d = imu_control_q_q;
         tick_period_written = 1'b0;
         arm_write = 1'b0;
         select_radio = 1'b0;
+        imu_access = 1'b0;
         clear_faults = no_faults;
         clear_kicker = 1'b0;
         commit_set_points = 1'b0;
@@ -1742,43 +1875,43 @@ module rac4i65_core_registers (
         clear_stall = no_axes;
         index_arm = no_axes;
         clear_interrupt = no_causes;
-        if (write) begin
-            case (address)
+        if (writing_q) begin
+            case (place_q)
                 8:
                 begin
                     if (unlocked) begin
-                        tick_period_q_d = data[(32'h0)+:(24)];
+                        tick_period_q_d = word_q[(32'h0)+:(24)];
                         tick_period_written = 1'b1;
                     end
                 end
                 9:
                 begin
                     if (unlocked) begin
-                        mode_q_d = data[(32'h0)+:(4)];
+                        mode_q_d = word_q[(32'h0)+:(4)];
                     end
                 end
                 10:
                 begin
                     if (unlocked) begin
-                        encoder_filter_q_d = data[(32'h0)+:(4)];
+                        encoder_filter_q_d = word_q[(32'h0)+:(4)];
                     end
                 end
                 11:
                 begin
                     if (unlocked) begin
-                        pwm_period_q_d = data[(32'h0)+:(13)];
+                        pwm_period_q_d = word_q[(32'h0)+:(13)];
                     end
                 end
                 12:
                 begin
                     if (unlocked) begin
-                        pwm_blanking_q_d = data[(32'h0)+:(10)];
+                        pwm_blanking_q_d = word_q[(32'h0)+:(10)];
                     end
                 end
                 13:
                 begin
                     if (unlocked) begin
-                        watchdog_timeout_q_d = data[(32'h0)+:(24)];
+                        watchdog_timeout_q_d = word_q[(32'h0)+:(24)];
                     end
                 end
                 14:
@@ -1787,8 +1920,8 @@ module rac4i65_core_registers (
                 end
                 15:
                 begin
-                    clear_faults = data[(32'h0)+:(8)];
-                    clear_kicker = data != zero;
+                    clear_faults = word_q[(32'h0)+:(8)];
+                    clear_kicker = word_q != zero;
                 end
                 18:
                 begin
@@ -1800,86 +1933,96 @@ module rac4i65_core_registers (
                 end
                 21:
                 begin
-                    clear_encoder_error = data[(32'h0)+:(4)];
+                    clear_encoder_error = word_q[(32'h0)+:(4)];
                 end
                 23:
                 begin
                     if (unlocked) begin
-                        encoder_fault_mask_q_d = data[(32'h0)+:(4)];
+                        encoder_fault_mask_q_d = word_q[(32'h0)+:(4)];
                     end
                 end
                 24:
                 begin
-                    kicker_control_q_d = data[(32'h0)+:(4)];
+                    kicker_control_q_d = word_q[(32'h0)+:(4)];
                 end
                 25:
                 begin
-                    fire = data == fire_word;
+                    fire = word_q == fire_word;
                 end
                 26:
                 begin
-                    kicker_pulse_q_d = data[(32'h0)+:(14)];
+                    kicker_pulse_q_d = word_q[(32'h0)+:(14)];
                 end
                 27:
                 begin
                     if (unlocked) begin
-                        kicker_lockout_q_d = data[(32'h0)+:(20)];
+                        kicker_lockout_q_d = word_q[(32'h0)+:(20)];
                     end
                 end
                 28:
                 begin
                     if (unlocked) begin
-                        kicker_charge_timeout_q_d = data[(32'h0)+:(24)];
+                        kicker_charge_timeout_q_d = word_q[(32'h0)+:(24)];
                     end
                 end
                 30:
                 begin
                     if (unlocked) begin
-                        clocks_per_microsecond_q_d = data[(32'h0)+:(6)];
+                        clocks_per_microsecond_q_d = word_q[(32'h0)+:(6)];
                     end
                 end
                 31:
                 begin
-                    leds_q_d = data[(32'h0)+:(8)];
+                    leds_q_d = word_q[(32'h0)+:(8)];
                 end
                 32:
                 begin
                     if (unlocked) begin
-                        set_point_timeout_q_d = data[(32'h0)+:(16)];
+                        set_point_timeout_q_d = word_q[(32'h0)+:(16)];
                     end
                 end
                 33:
                 begin
                     if (unlocked) begin
-                        stall_window_q_d = data[(32'h0)+:(16)];
+                        stall_window_q_d = word_q[(32'h0)+:(16)];
                     end
                 end
                 34:
                 begin
                     if (unlocked) begin
-                        stall_compare_q_d = data[(32'h0)+:(13)];
+                        stall_compare_q_d = word_q[(32'h0)+:(13)];
                     end
                 end
                 35:
                 begin
-                    clear_stall = data[(32'h0)+:(4)];
+                    clear_stall = word_q[(32'h0)+:(4)];
                 end
                 36:
                 begin
-                    index_arm = data[(32'h0)+:(4)];
-                    index_clear_q_d = (index_clear_q_q & ~data[(32'h0)+:(4)]) | (data[(32'h4)+:(4)] & data[(32'h0)+:(4)]);
+                    index_arm = word_q[(32'h0)+:(4)];
+                    index_clear_q_d = (index_clear_q_q & ~word_q[(32'h0)+:(4)]) | (word_q[(32'h4)+:(4)] & word_q[(32'h0)+:(4)]);
                 end
                 38:
                 begin
-                    interrupt_enable_q_d = data[(32'h0)+:(2)];
+                    interrupt_enable_q_d = word_q[(32'h0)+:(2)];
                 end
                 39:
                 begin
-                    clear_interrupt = data[(32'h0)+:(2)];
+                    clear_interrupt = word_q[(32'h0)+:(2)];
                 end
                 40:
                 begin
                     select_radio = 1'b1;
+                end
+                41:
+                begin
+                    if (unlocked) begin
+                        imu_control_q_d = word_q[(32'h0)+:(11)];
+                    end
+                end
+                42:
+                begin
+                    imu_access = 1'b1;
                 end
                 default:
                 begin
@@ -2036,6 +2179,14 @@ module rac4i65_core_registers (
             begin
                 read_q_d = ((radio) & 32'hffffffff);
             end
+            41:
+            begin
+                read_q_d = ((imu_control_q_q) & 32'hffffffff);
+            end
+            43:
+            begin
+                read_q_d = ((imu_status) & 32'hffffffff);
+            end
             default:
             begin
                 read_q_d = zero;
@@ -2043,7 +2194,23 @@ module rac4i65_core_registers (
         endcase
     end
 
+    always @(*) begin
+        writing_d = writing_q;
+        writing_d = write;
+    end
+
+    always @(*) begin
+        place_d = place_q;
+        place_d = address;
+    end
+
+    always @(*) begin
+        word_d = word_q;
+        word_d = data;
+    end
+
     always @(*) unlocked = ~armed;
+    always @(*) written = word_q;
     always @(*) read_data = read_q_q;
     always @(*) tick_period = tick_period_q_q;
     always @(*) mode = mode_q_q;
@@ -2063,6 +2230,7 @@ module rac4i65_core_registers (
     always @(*) stall_compare = stall_compare_q_q;
     always @(*) interrupt_enable = interrupt_enable_q_q;
     always @(*) index_clear = index_clear_q_q;
+    always @(*) imu_control = imu_control_q_q;
 endmodule
 
 module rac4i65_core_timebase (
@@ -2188,6 +2356,7 @@ module rac4i65_core_decoder (
     input wire [1:0] snapshot_bank,
     output reg in_registers,
     output reg in_memory,
+    output reg in_imu,
     output reg [7:0] memory_address,
     output reg stages_set_point,
     output reg stages_configuration,
@@ -2216,6 +2385,7 @@ module rac4i65_core_decoder (
     localparam integrals_end = 6'b101000;
     localparam snapshot_end = 6'b11000;
     localparam first = 6'b0;
+    localparam imu_row = 3'b11;
     localparam last = 6'b10111;
 
     // Pins of the parts
@@ -2249,6 +2419,7 @@ module rac4i65_core_decoder (
 
     always @(*) begin
         in_memory = 1'b0;
+        in_imu = 1'b0;
         stages_set_point = 1'b0;
         stages_configuration = 1'b0;
         snapshot_first = 1'b0;
@@ -2290,6 +2461,7 @@ module rac4i65_core_decoder (
         end
         if (page == page_snapshot) begin
             in_memory = index < snapshot_end;
+            in_imu = index[(32'h3)+:(3)] == imu_row;
             snapshot_first = index == first;
             snapshot_last = index == last;
             base = place_address;
@@ -2346,6 +2518,7 @@ module rac4i65_core_commit (
     input wire commit_configuration,
     input wire [13:0] address,
     input wire [31:0] data,
+    input wire [31:0] checksum,
     input wire tick,
     output reg set_point_bank,
     output reg configuration_bank,
@@ -2470,7 +2643,7 @@ module rac4i65_core_commit (
 
     always @(*) next_sum = ((sum_q << 32'h1) | (sum_q >> 32'h1f)) ^ data ^ ((address) & 32'hffffffff);
     always @(*) committing = commit_set_points | commit_configuration;
-    always @(*) sum_right = data == sum_q;
+    always @(*) sum_right = checksum == sum_q;
 
     always @(*) begin
         right = 1'b0;
@@ -3331,6 +3504,48 @@ module rac4i65_core_sequencer (
     reg subtracts_d;
     wire subtracts_q;
 
+    reg jumps_d;
+    wire jumps_q;
+
+    reg jumps_by_zero_d;
+    wire jumps_by_zero_q;
+
+    reg jumps_by_sign_d;
+    wire jumps_by_sign_q;
+
+    reg jumps_by_axis_d;
+    wire jumps_by_axis_q;
+
+    reg jumps_if_not_d;
+    wire jumps_if_not_q;
+
+    reg [31:0] input_word_d;
+    wire [31:0] input_word_q;
+
+    reg [31:0] total_d;
+    wire [31:0] total_q;
+
+    reg total_negated_d;
+    wire total_negated_q;
+
+    reg finishing_d;
+    wire finishing_q;
+
+    reg saturates_d;
+    wire saturates_q;
+
+    reg cuts_16_d;
+    wire cuts_16_q;
+
+    reg cuts_24_d;
+    wire cuts_24_q;
+
+    reg storing_d;
+    wire storing_q;
+
+    reg [7:0] store_address_d;
+    wire [7:0] store_address_q;
+
     reg valid_d;
     wire valid_q;
 
@@ -3350,19 +3565,22 @@ module rac4i65_core_sequencer (
     reg [8:0] pc_next;
     reg stall;
     reg branch;
-    reg storing;
     reg [15:0] read_instruction;
     reg [4:0] read_op;
     reg read_subtracts;
+    reg read_jumps;
+    reg read_jumps_by_zero;
+    reg read_jumps_by_sign;
+    reg read_jumps_by_axis;
+    reg read_jumps_if_not;
+    reg nothing;
     reg [7:0] read_address;
     reg [7:0] read_bank;
     reg [7:0] write_address;
-    reg [7:0] store_address;
     reg [4:0] op;
     reg [31:0] word;
     reg subtracting;
     reg [31:0] left;
-    reg [31:0] raw_sum;
     reg [31:0] sum;
     reg [2:0] sum_top;
     reg [31:0] saturated;
@@ -3409,6 +3627,20 @@ module rac4i65_core_sequencer (
     rac4i65_core_dff_9 pc (.d(pc_d), .q(pc_q), .clock(clock));
     rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(clock));
     rac4i65_core_dff_1 subtracts (.d(subtracts_d), .q(subtracts_q), .clock(clock));
+    rac4i65_core_dff_1 jumps (.d(jumps_d), .q(jumps_q), .clock(clock));
+    rac4i65_core_dff_1 jumps_by_zero (.d(jumps_by_zero_d), .q(jumps_by_zero_q), .clock(clock));
+    rac4i65_core_dff_1 jumps_by_sign (.d(jumps_by_sign_d), .q(jumps_by_sign_q), .clock(clock));
+    rac4i65_core_dff_1 jumps_by_axis (.d(jumps_by_axis_d), .q(jumps_by_axis_q), .clock(clock));
+    rac4i65_core_dff_1 jumps_if_not (.d(jumps_if_not_d), .q(jumps_if_not_q), .clock(clock));
+    rac4i65_core_dff_32 input_word (.d(input_word_d), .q(input_word_q), .clock(clock));
+    rac4i65_core_dff_32 total (.d(total_d), .q(total_q), .clock(clock));
+    rac4i65_core_dff_1 total_negated (.d(total_negated_d), .q(total_negated_q), .clock(clock));
+    rac4i65_core_dff_1 finishing (.d(finishing_d), .q(finishing_q), .clock(clock));
+    rac4i65_core_dff_1 saturates (.d(saturates_d), .q(saturates_q), .clock(clock));
+    rac4i65_core_dff_1 cuts_16 (.d(cuts_16_d), .q(cuts_16_q), .clock(clock));
+    rac4i65_core_dff_1 cuts_24 (.d(cuts_24_d), .q(cuts_24_q), .clock(clock));
+    rac4i65_core_dff_1 storing (.d(storing_d), .q(storing_q), .clock(clock));
+    rac4i65_core_dff_8 store_address (.d(store_address_d), .q(store_address_q), .clock(clock));
     rac4i65_core_dff_1 valid (.d(valid_d), .q(valid_q), .clock(clock));
     rac4i65_core_dff_32 accumulator (.d(accumulator_d), .q(accumulator_q), .clock(clock));
     rac4i65_core_dff_2 axis_number (.d(axis_number_d), .q(axis_number_q), .clock(clock));
@@ -3420,19 +3652,33 @@ module rac4i65_core_sequencer (
         instruction_d = instruction_q;
         subtracts_d = subtracts_q;
         valid_d = valid_q;
-        pc_next = pc_q;
+        jumps_d = jumps_q;
+        jumps_by_zero_d = jumps_by_zero_q;
+        jumps_by_sign_d = jumps_by_sign_q;
+        jumps_by_axis_d = jumps_by_axis_q;
+        jumps_if_not_d = jumps_if_not_q;
         if (active_q & ~stall) begin
-            pc_next = pc_q + one_pc;
             instruction_d = read_instruction;
             subtracts_d = read_subtracts;
+            jumps_d = read_jumps;
+            jumps_by_zero_d = read_jumps_by_zero;
+            jumps_by_sign_d = read_jumps_by_sign;
+            jumps_by_axis_d = read_jumps_by_axis;
+            jumps_if_not_d = read_jumps_if_not;
             valid_d = 1'b1;
+        end
+        pc_next = pc_q + one_pc;
+        if (stall) begin
+            pc_next = pc_q;
         end
         if (branch) begin
             pc_next = instruction_q[(32'h0)+:(9)];
             valid_d = 1'b0;
         end
-        if (done) begin
+        if (~active_q) begin
             pc_next = start_pc;
+        end
+        if (done) begin
             valid_d = 1'b0;
             active_d = 1'b0;
         end
@@ -3449,13 +3695,33 @@ module rac4i65_core_sequencer (
     always @(*) begin
         accumulator_d = accumulator_q;
         axis_number_d = axis_number_q;
-        storing = 1'b0;
-        branch = 1'b0;
+        finishing_d = finishing_q;
+        saturates_d = saturates_q;
+        cuts_16_d = cuts_16_q;
+        cuts_24_d = cuts_24_q;
+        storing_d = storing_q;
+        storing_d = 1'b0;
+        finishing_d = 1'b0;
+        saturates_d = 1'b0;
+        cuts_16_d = 1'b0;
+        cuts_24_d = 1'b0;
         stall = 1'b0;
         done = 1'b0;
         output_strobe = 1'b0;
         multiplier_start = 1'b0;
         divider_start = 1'b0;
+        if (finishing_q) begin
+            accumulator_d = sum;
+        end
+        if (saturates_q) begin
+            accumulator_d = saturated;
+        end
+        if (cuts_16_q) begin
+            accumulator_d = low_16;
+        end
+        if (cuts_24_q) begin
+            accumulator_d = sum & mask_24;
+        end
         if (valid_q) begin
             if (op[32'h4] & op[32'h3]) begin
                 multiplier_start = 1'b1;
@@ -3472,33 +3738,27 @@ module rac4i65_core_sequencer (
                     end
                     3:
                     begin
-                        accumulator_d = saturated;
+                        saturates_d = 1'b1;
                     end
                     4:
                     begin
-                        accumulator_d = saturated;
+                        saturates_d = 1'b1;
                     end
                     5:
                     begin
-                        accumulator_d = sum;
+                        finishing_d = 1'b1;
                     end
                     6:
                     begin
-                        accumulator_d = low_16;
+                        cuts_16_d = 1'b1;
                     end
                     7:
                     begin
-                        accumulator_d = sum & mask_24;
-                    end
-                    8:
-                    begin
-                        if (~sum[32'h1f]) begin
-                            accumulator_d = word;
-                        end
+                        cuts_24_d = 1'b1;
                     end
                     9:
                     begin
-                        if (sum[32'h1f]) begin
+                        if (sum[32'h1f] == instruction_q[32'h9]) begin
                             accumulator_d = word;
                         end
                     end
@@ -3508,35 +3768,15 @@ module rac4i65_core_sequencer (
                     end
                     11:
                     begin
-                        storing = 1'b1;
+                        storing_d = 1'b1;
                     end
                     12:
                     begin
-                        accumulator_d = input_data;
+                        accumulator_d = input_word_q;
                     end
                     13:
                     begin
                         output_strobe = 1'b1;
-                    end
-                    14:
-                    begin
-                        branch = 1'b1;
-                    end
-                    15:
-                    begin
-                        branch = accumulator_q == zero;
-                    end
-                    16:
-                    begin
-                        branch = accumulator_q != zero;
-                    end
-                    17:
-                    begin
-                        branch = accumulator_q[32'h1f];
-                    end
-                    18:
-                    begin
-                        branch = ~accumulator_q[32'h1f];
                     end
                     19:
                     begin
@@ -3545,7 +3785,6 @@ module rac4i65_core_sequencer (
                         end
                         else begin
                             axis_number_d = axis_number_q + one_axis;
-                            branch = 1'b1;
                         end
                     end
                     20:
@@ -3568,7 +3807,7 @@ module rac4i65_core_sequencer (
                     end
                     default:
                     begin
-                        accumulator_d = accumulator_q;
+                        stall = 1'b0;
                     end
                 endcase
             end
@@ -3583,6 +3822,29 @@ module rac4i65_core_sequencer (
     always @(*) begin
         bus_written_d = bus_written_q;
         bus_written_d = memory_write_data;
+    end
+
+    always @(*) begin
+        input_word_d = input_word_q;
+        input_word_d = input_data;
+    end
+
+    always @(*) begin
+        total_d = total_q;
+        total_d = left + word;
+    end
+
+    always @(*) begin
+        total_negated_d = total_negated_q;
+        total_negated_d = subtracting;
+    end
+
+    always @(*) begin
+        store_address_d = store_address_q;
+        store_address_d = write_address;
+        if (write_address[(32'h6)+:(2)] == region_3) begin
+            store_address_d = place_address;
+        end
     end
 
     always @(*) read_instruction = rom_read_data;
@@ -3608,15 +3870,23 @@ module rac4i65_core_sequencer (
 
     always @(*) begin
         op = instruction_q[(32'hb)+:(5)];
-        input_port = instruction_q[(32'h0)+:(5)];
         output_port = instruction_q[(32'h0)+:(2)];
     end
 
     always @(*) word = memory_read_data;
-    always @(*) read_op = read_instruction[(32'hb)+:(5)];
+
+    always @(*) begin
+        read_op = read_instruction[(32'hb)+:(5)];
+        input_port = read_instruction[(32'h0)+:(5)];
+    end
 
     always @(*) begin
         read_subtracts = 1'b0;
+        read_jumps = 1'b0;
+        read_jumps_by_zero = 1'b0;
+        read_jumps_by_sign = 1'b0;
+        read_jumps_by_axis = 1'b0;
+        read_jumps_if_not = 1'b0;
         case (read_op)
             4:
             begin
@@ -3634,9 +3904,31 @@ module rac4i65_core_sequencer (
             begin
                 read_subtracts = 1'b1;
             end
-            9:
+            14:
             begin
-                read_subtracts = 1'b1;
+                read_jumps = 1'b1;
+            end
+            15:
+            begin
+                read_jumps_by_zero = 1'b1;
+            end
+            16:
+            begin
+                read_jumps_by_zero = 1'b1;
+                read_jumps_if_not = 1'b1;
+            end
+            17:
+            begin
+                read_jumps_by_sign = 1'b1;
+            end
+            18:
+            begin
+                read_jumps_by_sign = 1'b1;
+                read_jumps_if_not = 1'b1;
+            end
+            19:
+            begin
+                read_jumps_by_axis = 1'b1;
             end
             default:
             begin
@@ -3645,6 +3937,12 @@ module rac4i65_core_sequencer (
         endcase
     end
 
+    always @(*) begin
+        nothing = accumulator_q == zero;
+        output_data = accumulator_q;
+    end
+
+    always @(*) branch = valid_q & (jumps_q | (jumps_by_zero_q & (nothing != jumps_if_not_q)) | (jumps_by_sign_q & (accumulator_q[32'h1f] != jumps_if_not_q)) | (jumps_by_axis_q & (axis_number_q != last_axis)));
     always @(*) subtracting = subtracts_q;
 
     always @(*) begin
@@ -3654,12 +3952,10 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) raw_sum = left + word;
-
     always @(*) begin
-        sum = raw_sum;
-        if (subtracting) begin
-            sum = ~raw_sum;
+        sum = total_q;
+        if (total_negated_q) begin
+            sum = ~total_q;
         end
     end
 
@@ -3702,24 +3998,17 @@ module rac4i65_core_sequencer (
     always @(*) place_word = write_address[(32'h0)+:(5)];
 
     always @(*) begin
-        store_address = write_address;
-        if (write_address[(32'h6)+:(2)] == region_3) begin
-            store_address = place_address;
-        end
-    end
-
-    always @(*) begin
         memory_write_address = bus_address;
         memory_write_data = bus_write_data;
-        if (storing) begin
-            memory_write_address = store_address;
+        if (storing_q) begin
+            memory_write_address = store_address_q;
             memory_write_data = accumulator_q;
         end
     end
 
     always @(*) begin
-        memory_write_enable = storing | bus_write;
-        bus_write_taken = bus_write & ~storing;
+        memory_write_enable = storing_q | bus_write;
+        bus_write_taken = bus_write & ~storing_q;
     end
 
     always @(*) begin
@@ -3729,9 +4018,8 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) bus_blocked = storing;
+    always @(*) bus_blocked = storing_q;
     always @(*) axis = axis_number_q;
-    always @(*) output_data = accumulator_q;
 endmodule
 
 module rac4i65_core_sequencer_rom (
@@ -3760,180 +4048,180 @@ module rac4i65_core_sequencer_rom (
         mem[12] = 16'h781b;
         mem[13] = 16'h600e;
         mem[14] = 16'h3490;
-        mem[15] = 16'h2c90;
-        mem[16] = 16'h58b9;
-        mem[17] = 16'h2c8c;
-        mem[18] = 16'h5c9c;
-        mem[19] = 16'h600d;
-        mem[20] = 16'h781b;
-        mem[21] = 16'h8b9;
-        mem[22] = 16'h50be;
-        mem[23] = 16'h58b9;
-        mem[24] = 16'h1001;
-        mem[25] = 16'h28b9;
+        mem[15] = 16'h0;
+        mem[16] = 16'h2c90;
+        mem[17] = 16'h58b9;
+        mem[18] = 16'h2c8c;
+        mem[19] = 16'h5c9c;
+        mem[20] = 16'h600d;
+        mem[21] = 16'h781b;
+        mem[22] = 16'h8b9;
+        mem[23] = 16'h28be;
+        mem[24] = 16'h0;
+        mem[25] = 16'h50be;
         mem[26] = 16'h5c8c;
-        mem[27] = 16'hc90;
-        mem[28] = 16'h2c8c;
-        mem[29] = 16'h5cc4;
-        mem[30] = 16'hb800;
-        mem[31] = 16'h18a8;
-        mem[32] = 16'h58a8;
-        mem[33] = 16'h8b0;
-        mem[34] = 16'he410;
-        mem[35] = 16'h6005;
-        mem[36] = 16'h802a;
-        mem[37] = 16'h6004;
-        mem[38] = 16'h58b2;
-        mem[39] = 16'h8b0;
-        mem[40] = 16'ha8b2;
-        mem[41] = 16'h703c;
-        mem[42] = 16'h6001;
-        mem[43] = 16'h3c94;
-        mem[44] = 16'h783e;
-        mem[45] = 16'h58b2;
-        mem[46] = 16'hc98;
-        mem[47] = 16'h8834;
-        mem[48] = 16'h6002;
-        mem[49] = 16'h3498;
-        mem[50] = 16'ha8b2;
-        mem[51] = 16'h7038;
-        mem[52] = 16'h6004;
-        mem[53] = 16'h58b2;
-        mem[54] = 16'h8b0;
+        mem[27] = 16'hb800;
+        mem[28] = 16'h18a8;
+        mem[29] = 16'h58a8;
+        mem[30] = 16'h8b0;
+        mem[31] = 16'he410;
+        mem[32] = 16'h6005;
+        mem[33] = 16'h8028;
+        mem[34] = 16'h6004;
+        mem[35] = 16'h58b2;
+        mem[36] = 16'h8b0;
+        mem[37] = 16'h0;
+        mem[38] = 16'ha8b2;
+        mem[39] = 16'h703c;
+        mem[40] = 16'h6001;
+        mem[41] = 16'h3c94;
+        mem[42] = 16'h58b2;
+        mem[43] = 16'h783e;
+        mem[44] = 16'hc98;
+        mem[45] = 16'h8833;
+        mem[46] = 16'h6002;
+        mem[47] = 16'h3498;
+        mem[48] = 16'h0;
+        mem[49] = 16'ha8b2;
+        mem[50] = 16'h7038;
+        mem[51] = 16'h6004;
+        mem[52] = 16'h58b2;
+        mem[53] = 16'h8b0;
+        mem[54] = 16'h0;
         mem[55] = 16'ha8b2;
         mem[56] = 16'h6001;
         mem[57] = 16'h5c94;
         mem[58] = 16'h6002;
         mem[59] = 16'h5c98;
         mem[60] = 16'h1000;
-        mem[61] = 16'h704b;
+        mem[61] = 16'h7048;
         mem[62] = 16'hc98;
-        mem[63] = 16'h8849;
+        mem[63] = 16'h8905;
         mem[64] = 16'h6003;
         mem[65] = 16'h3c94;
         mem[66] = 16'h58b2;
         mem[67] = 16'h20bc;
-        mem[68] = 16'h9049;
-        mem[69] = 16'h1001;
-        mem[70] = 16'ha8b2;
-        mem[71] = 16'h1001;
-        mem[72] = 16'h704b;
-        mem[73] = 16'h10ff;
-        mem[74] = 16'h5c98;
-        mem[75] = 16'h58b1;
-        mem[76] = 16'hb800;
-        mem[77] = 16'h18a9;
-        mem[78] = 16'h58a9;
-        mem[79] = 16'h6007;
-        mem[80] = 16'h8057;
-        mem[81] = 16'h1000;
-        mem[82] = 16'h706c;
-        mem[83] = 16'h1000;
-        mem[84] = 16'h7068;
-        mem[85] = 16'hc80;
-        mem[86] = 16'h7068;
-        mem[87] = 16'h6008;
-        mem[88] = 16'h7853;
-        mem[89] = 16'h6006;
-        mem[90] = 16'h7855;
-        mem[91] = 16'hc00;
-        mem[92] = 16'hc080;
-        mem[93] = 16'hb800;
+        mem[68] = 16'h0;
+        mem[69] = 16'h9105;
+        mem[70] = 16'h1001;
+        mem[71] = 16'ha8b2;
+        mem[72] = 16'h58b1;
+        mem[73] = 16'hb800;
+        mem[74] = 16'h18a9;
+        mem[75] = 16'h58a9;
+        mem[76] = 16'h6007;
+        mem[77] = 16'h7908;
+        mem[78] = 16'h6008;
+        mem[79] = 16'h790a;
+        mem[80] = 16'h6006;
+        mem[81] = 16'h790c;
+        mem[82] = 16'hc00;
+        mem[83] = 16'hc080;
+        mem[84] = 16'hb800;
+        mem[85] = 16'h58b9;
+        mem[86] = 16'hc04;
+        mem[87] = 16'hc081;
+        mem[88] = 16'hb800;
+        mem[89] = 16'h58b7;
+        mem[90] = 16'hc08;
+        mem[91] = 16'hc082;
+        mem[92] = 16'h8b7;
+        mem[93] = 16'h18b9;
         mem[94] = 16'h58b9;
-        mem[95] = 16'hc04;
-        mem[96] = 16'hc081;
-        mem[97] = 16'hb800;
-        mem[98] = 16'h18b9;
-        mem[99] = 16'h58b9;
-        mem[100] = 16'hc08;
-        mem[101] = 16'hc082;
-        mem[102] = 16'hb800;
-        mem[103] = 16'h18b9;
-        mem[104] = 16'h24ac;
-        mem[105] = 16'h4430;
-        mem[106] = 16'h4c2c;
-        mem[107] = 16'h1cac;
-        mem[108] = 16'h5cac;
-        mem[109] = 16'h5ccc;
-        mem[110] = 16'hc28;
-        mem[111] = 16'hc4ac;
-        mem[112] = 16'h8b1;
-        mem[113] = 16'h787f;
-        mem[114] = 16'h887d;
-        mem[115] = 16'hb000;
-        mem[116] = 16'h58b9;
-        mem[117] = 16'hca0;
-        mem[118] = 16'h8879;
-        mem[119] = 16'h40b9;
-        mem[120] = 16'h7080;
-        mem[121] = 16'h1000;
-        mem[122] = 16'h20b9;
-        mem[123] = 16'h4ca0;
-        mem[124] = 16'h7080;
-        mem[125] = 16'h1000;
-        mem[126] = 16'h7080;
-        mem[127] = 16'hb000;
-        mem[128] = 16'h5ca0;
-        mem[129] = 16'h5cc8;
-        mem[130] = 16'hb800;
-        mem[131] = 16'h58b3;
-        mem[132] = 16'hcac;
-        mem[133] = 16'h24a0;
-        mem[134] = 16'h58b4;
-        mem[135] = 16'hc18;
-        mem[136] = 16'hd0b4;
-        mem[137] = 16'h6007;
-        mem[138] = 16'h78a9;
-        mem[139] = 16'hb800;
-        mem[140] = 16'h18b3;
-        mem[141] = 16'h58b5;
-        mem[142] = 16'hc1c;
-        mem[143] = 16'hc8b4;
-        mem[144] = 16'hb800;
-        mem[145] = 16'h1ca4;
-        mem[146] = 16'h58b2;
-        mem[147] = 16'h8b0;
-        mem[148] = 16'he414;
-        mem[149] = 16'h8b2;
-        mem[150] = 16'h18b5;
-        mem[151] = 16'h58b7;
-        mem[152] = 16'h4424;
-        mem[153] = 16'h4c20;
-        mem[154] = 16'h58b8;
-        mem[155] = 16'h20b7;
-        mem[156] = 16'h80a0;
-        mem[157] = 16'h8b2;
-        mem[158] = 16'h5ca4;
-        mem[159] = 16'h70af;
-        mem[160] = 16'h8b7;
-        mem[161] = 16'h50b4;
-        mem[162] = 16'h889d;
-        mem[163] = 16'h8b5;
-        mem[164] = 16'h1ca4;
-        mem[165] = 16'h4424;
-        mem[166] = 16'h4c20;
+        mem[95] = 16'hb800;
+        mem[96] = 16'h0;
+        mem[97] = 16'h18b9;
+        mem[98] = 16'h0;
+        mem[99] = 16'h24ac;
+        mem[100] = 16'h0;
+        mem[101] = 16'h4430;
+        mem[102] = 16'h4c30;
+        mem[103] = 16'h442c;
+        mem[104] = 16'h4e2c;
+        mem[105] = 16'h1cac;
+        mem[106] = 16'h5cac;
+        mem[107] = 16'h5ccc;
+        mem[108] = 16'hc28;
+        mem[109] = 16'hc4ac;
+        mem[110] = 16'h8b1;
+        mem[111] = 16'h7913;
+        mem[112] = 16'h8911;
+        mem[113] = 16'hb000;
+        mem[114] = 16'h58b9;
+        mem[115] = 16'hca0;
+        mem[116] = 16'h910e;
+        mem[117] = 16'h1000;
+        mem[118] = 16'h20b9;
+        mem[119] = 16'h0;
+        mem[120] = 16'h44a0;
+        mem[121] = 16'h4ea0;
+        mem[122] = 16'h5ca0;
+        mem[123] = 16'h5cc8;
+        mem[124] = 16'hb800;
+        mem[125] = 16'h58b3;
+        mem[126] = 16'hcac;
+        mem[127] = 16'h24a0;
+        mem[128] = 16'h58b4;
+        mem[129] = 16'hc18;
+        mem[130] = 16'h0;
+        mem[131] = 16'hd0b4;
+        mem[132] = 16'h6007;
+        mem[133] = 16'h7918;
+        mem[134] = 16'hb800;
+        mem[135] = 16'h58b5;
+        mem[136] = 16'hc1c;
+        mem[137] = 16'hc8b4;
+        mem[138] = 16'h8b5;
+        mem[139] = 16'h18b3;
+        mem[140] = 16'h58b5;
+        mem[141] = 16'hb800;
+        mem[142] = 16'h1ca4;
+        mem[143] = 16'h58b2;
+        mem[144] = 16'h8b0;
+        mem[145] = 16'he414;
+        mem[146] = 16'h8b2;
+        mem[147] = 16'h18b5;
+        mem[148] = 16'h58b7;
+        mem[149] = 16'h4424;
+        mem[150] = 16'h4c24;
+        mem[151] = 16'h4420;
+        mem[152] = 16'h4e20;
+        mem[153] = 16'h58b8;
+        mem[154] = 16'h20b7;
+        mem[155] = 16'h0;
+        mem[156] = 16'h7915;
+        mem[157] = 16'h8b7;
+        mem[158] = 16'h50b4;
+        mem[159] = 16'h8915;
+        mem[160] = 16'h8b5;
+        mem[161] = 16'h1ca4;
+        mem[162] = 16'h0;
+        mem[163] = 16'h4424;
+        mem[164] = 16'h4c24;
+        mem[165] = 16'h4420;
+        mem[166] = 16'h4e20;
         mem[167] = 16'h58b8;
-        mem[168] = 16'h70af;
-        mem[169] = 16'hb800;
-        mem[170] = 16'h8b0;
-        mem[171] = 16'he414;
-        mem[172] = 16'h1000;
-        mem[173] = 16'h58b8;
-        mem[174] = 16'h5ca4;
-        mem[175] = 16'hb800;
-        mem[176] = 16'h18aa;
-        mem[177] = 16'h58aa;
-        mem[178] = 16'h8b8;
-        mem[179] = 16'h5cd0;
-        mem[180] = 16'h6800;
-        mem[181] = 16'h90b8;
-        mem[182] = 16'h1000;
-        mem[183] = 16'h20b8;
-        mem[184] = 16'h58b9;
-        mem[185] = 16'h6009;
-        mem[186] = 16'hd8b9;
-        mem[187] = 16'hb800;
-        mem[188] = 16'h18bd;
+        mem[168] = 16'h0;
+        mem[169] = 16'h0;
+        mem[170] = 16'h8b8;
+        mem[171] = 16'h6800;
+        mem[172] = 16'h90af;
+        mem[173] = 16'h1000;
+        mem[174] = 16'h20b8;
+        mem[175] = 16'h58b9;
+        mem[176] = 16'hb800;
+        mem[177] = 16'h18aa;
+        mem[178] = 16'h58aa;
+        mem[179] = 16'h6009;
+        mem[180] = 16'hd8b9;
+        mem[181] = 16'h8b8;
+        mem[182] = 16'h5cd0;
+        mem[183] = 16'hc90;
+        mem[184] = 16'h2c8c;
+        mem[185] = 16'h5cc4;
+        mem[186] = 16'hb800;
+        mem[187] = 16'h18bd;
+        mem[188] = 16'h0;
         mem[189] = 16'h6801;
         mem[190] = 16'h9804;
         mem[191] = 16'h600f;
@@ -3945,93 +4233,93 @@ module rac4i65_core_sequencer_rom (
         mem[197] = 16'h58d4;
         mem[198] = 16'h58d5;
         mem[199] = 16'h58d6;
-        mem[200] = 16'h70f4;
+        mem[200] = 16'h70f9;
         mem[201] = 16'h8b6;
         mem[202] = 16'h28aa;
-        mem[203] = 16'h6802;
-        mem[204] = 16'h28aa;
-        mem[205] = 16'h58b6;
-        mem[206] = 16'h58d6;
-        mem[207] = 16'h6010;
-        mem[208] = 16'hc0bf;
-        mem[209] = 16'hb800;
-        mem[210] = 16'h58b9;
-        mem[211] = 16'hc8a9;
-        mem[212] = 16'hb800;
-        mem[213] = 16'h58b0;
-        mem[214] = 16'h8a8;
-        mem[215] = 16'h20b0;
-        mem[216] = 16'h58b4;
-        mem[217] = 16'h8b9;
-        mem[218] = 16'hc8a8;
-        mem[219] = 16'hb800;
-        mem[220] = 16'h18a9;
-        mem[221] = 16'h58b7;
-        mem[222] = 16'h6011;
-        mem[223] = 16'hc0b7;
-        mem[224] = 16'hb800;
-        mem[225] = 16'h58b0;
-        mem[226] = 16'h6012;
-        mem[227] = 16'hc0b4;
-        mem[228] = 16'hb800;
-        mem[229] = 16'h20b0;
-        mem[230] = 16'h28ba;
-        mem[231] = 16'h58ba;
-        mem[232] = 16'h58d4;
-        mem[233] = 16'h6011;
-        mem[234] = 16'hc0b4;
-        mem[235] = 16'hb800;
-        mem[236] = 16'h58b0;
-        mem[237] = 16'h6012;
-        mem[238] = 16'hc0b7;
+        mem[203] = 16'h0;
+        mem[204] = 16'h6802;
+        mem[205] = 16'h28aa;
+        mem[206] = 16'h58b6;
+        mem[207] = 16'h58d6;
+        mem[208] = 16'h6010;
+        mem[209] = 16'hc0bf;
+        mem[210] = 16'hb800;
+        mem[211] = 16'h58b9;
+        mem[212] = 16'hc8a9;
+        mem[213] = 16'hb800;
+        mem[214] = 16'h58b0;
+        mem[215] = 16'h8a8;
+        mem[216] = 16'h0;
+        mem[217] = 16'h20b0;
+        mem[218] = 16'h58b4;
+        mem[219] = 16'h8b9;
+        mem[220] = 16'hc8a8;
+        mem[221] = 16'hb800;
+        mem[222] = 16'h18a9;
+        mem[223] = 16'h58b7;
+        mem[224] = 16'h6011;
+        mem[225] = 16'h0;
+        mem[226] = 16'hc0b7;
+        mem[227] = 16'hb800;
+        mem[228] = 16'h58b0;
+        mem[229] = 16'h6012;
+        mem[230] = 16'hc0b4;
+        mem[231] = 16'hb800;
+        mem[232] = 16'h20b0;
+        mem[233] = 16'h0;
+        mem[234] = 16'h28ba;
+        mem[235] = 16'h58ba;
+        mem[236] = 16'h58d4;
+        mem[237] = 16'h6011;
+        mem[238] = 16'hc0b4;
         mem[239] = 16'hb800;
-        mem[240] = 16'h18b0;
-        mem[241] = 16'h28bb;
-        mem[242] = 16'h58bb;
-        mem[243] = 16'h58d5;
-        mem[244] = 16'h600a;
-        mem[245] = 16'h58c1;
-        mem[246] = 16'h600b;
-        mem[247] = 16'h58c3;
-        mem[248] = 16'h6003;
-        mem[249] = 16'h58c2;
-        mem[250] = 16'h1001;
-        mem[251] = 16'h28ab;
-        mem[252] = 16'h58ab;
-        mem[253] = 16'h58c0;
-        mem[254] = 16'h58d7;
-        mem[255] = 16'ha000;
-        mem[256] = 16'h0;
-        mem[257] = 16'h0;
-        mem[258] = 16'h0;
-        mem[259] = 16'h0;
-        mem[260] = 16'h0;
-        mem[261] = 16'h0;
-        mem[262] = 16'h0;
-        mem[263] = 16'h0;
-        mem[264] = 16'h0;
-        mem[265] = 16'h0;
-        mem[266] = 16'h0;
-        mem[267] = 16'h0;
-        mem[268] = 16'h0;
-        mem[269] = 16'h0;
-        mem[270] = 16'h0;
-        mem[271] = 16'h0;
-        mem[272] = 16'h0;
-        mem[273] = 16'h0;
-        mem[274] = 16'h0;
-        mem[275] = 16'h0;
-        mem[276] = 16'h0;
-        mem[277] = 16'h0;
-        mem[278] = 16'h0;
-        mem[279] = 16'h0;
-        mem[280] = 16'h0;
-        mem[281] = 16'h0;
-        mem[282] = 16'h0;
-        mem[283] = 16'h0;
-        mem[284] = 16'h0;
-        mem[285] = 16'h0;
-        mem[286] = 16'h0;
+        mem[240] = 16'h58b0;
+        mem[241] = 16'h6012;
+        mem[242] = 16'hc0b7;
+        mem[243] = 16'hb800;
+        mem[244] = 16'h18b0;
+        mem[245] = 16'h0;
+        mem[246] = 16'h28bb;
+        mem[247] = 16'h58bb;
+        mem[248] = 16'h58d5;
+        mem[249] = 16'h600a;
+        mem[250] = 16'h58c1;
+        mem[251] = 16'h600b;
+        mem[252] = 16'h58c3;
+        mem[253] = 16'h6003;
+        mem[254] = 16'h58c2;
+        mem[255] = 16'h1001;
+        mem[256] = 16'h28ab;
+        mem[257] = 16'h58ab;
+        mem[258] = 16'h58c0;
+        mem[259] = 16'h58d7;
+        mem[260] = 16'ha000;
+        mem[261] = 16'h10ff;
+        mem[262] = 16'h5c98;
+        mem[263] = 16'h7048;
+        mem[264] = 16'h1000;
+        mem[265] = 16'h706a;
+        mem[266] = 16'h1000;
+        mem[267] = 16'h7062;
+        mem[268] = 16'hc80;
+        mem[269] = 16'h7062;
+        mem[270] = 16'h40b9;
+        mem[271] = 16'h48b9;
+        mem[272] = 16'h707a;
+        mem[273] = 16'h1000;
+        mem[274] = 16'h707a;
+        mem[275] = 16'hb000;
+        mem[276] = 16'h707a;
+        mem[277] = 16'h8b2;
+        mem[278] = 16'h5ca4;
+        mem[279] = 16'h70a8;
+        mem[280] = 16'hb800;
+        mem[281] = 16'h8b0;
+        mem[282] = 16'he414;
+        mem[283] = 16'h1000;
+        mem[284] = 16'h58b8;
+        mem[285] = 16'h5ca4;
+        mem[286] = 16'h70a8;
         mem[287] = 16'h0;
         mem[288] = 16'h0;
         mem[289] = 16'h0;
@@ -4554,6 +4842,10 @@ module rac4i65_core_sequencer_multiplier (
 
     // Constants
     localparam zero = 32'h0;
+    localparam digit_zero = 3'b0;
+    localparam digit_plus_two = 3'b11;
+    localparam digit_minus_two = 3'b100;
+    localparam digit_minus_zero = 3'b111;
     localparam no_steps = 4'h0;
     localparam one_step = 4'h1;
     localparam steps_coefficient = 4'h9;
@@ -4586,15 +4878,20 @@ module rac4i65_core_sequencer_multiplier (
     reg [3:0] steps_d;
     wire [3:0] steps_q;
 
-    reg last_bit_d;
-    wire last_bit_q;
+    reg negate_d;
+    wire negate_q;
+
+    reg twice_d;
+    wire twice_q;
+
+    reg nothing_d;
+    wire nothing_q;
 
     reg guard_8_d;
     wire guard_8_q;
 
     // Intermediate values
     reg [31:0] addend;
-    reg negate;
     reg [31:0] left;
     reg [31:0] raw_sum;
     reg [31:0] sum;
@@ -4610,7 +4907,9 @@ module rac4i65_core_sequencer_multiplier (
     rac4i65_core_dff_32 lo (.d(lo_d), .q(lo_q), .clock(clock));
     rac4i65_core_dff_32 operand (.d(operand_d), .q(operand_q), .clock(clock));
     rac4i65_core_dff_4 steps (.d(steps_d), .q(steps_q), .clock(clock));
-    rac4i65_core_dff_1 last_bit (.d(last_bit_d), .q(last_bit_q), .clock(clock));
+    rac4i65_core_dff_1 negate (.d(negate_d), .q(negate_q), .clock(clock));
+    rac4i65_core_dff_1 twice (.d(twice_d), .q(twice_q), .clock(clock));
+    rac4i65_core_dff_1 nothing (.d(nothing_d), .q(nothing_q), .clock(clock));
     rac4i65_core_dff_1 guard_8 (.d(guard_8_d), .q(guard_8_q), .clock(clock));
 
     always @(*) begin
@@ -4618,7 +4917,6 @@ module rac4i65_core_sequencer_multiplier (
         lo_d = lo_q;
         operand_d = operand_q;
         steps_d = steps_q;
-        last_bit_d = last_bit_q;
         guard_8_d = guard_8_q;
         if (running) begin
             steps_d = steps_q - one_step;
@@ -4627,12 +4925,10 @@ module rac4i65_core_sequencer_multiplier (
                 p_d = shifted | sign_extension;
             end
             lo_d = (lo_q >> 32'h2) | (((sum[(32'h0)+:(2)]) & 32'hffffffff) << 32'h1e);
-            last_bit_d = lo_q[32'h1];
         end
         else if (start) begin
             operand_d = a;
             lo_d = b;
-            last_bit_d = 1'b0;
             guard_8_d = 1'b0;
             case (scale)
                 0:
@@ -4666,55 +4962,44 @@ module rac4i65_core_sequencer_multiplier (
         end
     end
 
+    always @(*) begin
+        negate_d = negate_q;
+        negate_d = digit[32'h2];
+    end
+
+    always @(*) begin
+        twice_d = twice_q;
+        twice_d = (digit == digit_plus_two) | (digit == digit_minus_two);
+    end
+
+    always @(*) begin
+        nothing_d = nothing_q;
+        nothing_d = (digit == digit_zero) | (digit == digit_minus_zero);
+    end
+
     always @(*) running = steps_q != no_steps;
     always @(*) busy = running;
 
     always @(*) begin
-        digit = ((lo_q[(32'h0)+:(2)]) & 3'h7) << 32'h1;
-        if (last_bit_q) begin
-            digit = (((lo_q[(32'h0)+:(2)]) & 3'h7) << 32'h1) | 32'h1;
+        digit = lo_q[(32'h1)+:(3)];
+        if (~running) begin
+            digit = ((b[(32'h0)+:(2)]) & 3'h7) << 32'h1;
         end
     end
 
     always @(*) begin
         addend = operand_q;
-        negate = 1'b0;
-        case (digit)
-            0:
-            begin
-                addend = zero;
-            end
-            3:
-            begin
-                addend = operand_q << 32'h1;
-            end
-            4:
-            begin
-                addend = operand_q << 32'h1;
-                negate = 1'b1;
-            end
-            5:
-            begin
-                negate = 1'b1;
-            end
-            6:
-            begin
-                negate = 1'b1;
-            end
-            7:
-            begin
-                addend = zero;
-            end
-            default:
-            begin
-                addend = operand_q;
-            end
-        endcase
+        if (twice_q) begin
+            addend = operand_q << 32'h1;
+        end
+        if (nothing_q) begin
+            addend = zero;
+        end
     end
 
     always @(*) begin
         left = p_q;
-        if (negate) begin
+        if (negate_q) begin
             left = ~p_q;
         end
     end
@@ -4723,7 +5008,7 @@ module rac4i65_core_sequencer_multiplier (
 
     always @(*) begin
         sum = raw_sum;
-        if (negate) begin
+        if (negate_q) begin
             sum = ~raw_sum;
         end
     end
@@ -4765,7 +5050,8 @@ module rac4i65_core_sequencer_divider (
     // Constants
     localparam no_steps = 6'b0;
     localparam one_step = 6'b1;
-    localparam all_steps = 6'b100001;
+    localparam two_steps = 6'b10;
+    localparam all_steps = 6'b100011;
     localparam zero_25 = 25'h0;
     localparam zero = 32'h0;
     localparam one = 32'h1;
@@ -4822,7 +5108,15 @@ module rac4i65_core_sequencer_divider (
         if (running) begin
             steps_d = steps_q - one_step;
             checking_d = 1'b0;
-            if (checking_q) begin
+            if (steps_q == two_steps) begin
+                bits_d = clipped;
+            end
+            else if (steps_q == one_step) begin
+                if (negative_q) begin
+                    bits_d = zero - bits_q;
+                end
+            end
+            else if (checking_q) begin
                 overflow_d = ~difference[32'h19];
             end
             else if (difference[32'h19]) begin
@@ -4864,19 +5158,15 @@ module rac4i65_core_sequencer_divider (
         end
     end
 
-    always @(*) bits_top = bits_q[(32'h1d)+:(3)];
+    always @(*) begin
+        bits_top = bits_q[(32'h1d)+:(3)];
+        quotient = bits_q;
+    end
 
     always @(*) begin
         clipped = bits_q;
         if (overflow_q | (bits_top != three_clear)) begin
             clipped = word_max;
-        end
-    end
-
-    always @(*) begin
-        quotient = clipped;
-        if (negative_q) begin
-            quotient = zero - clipped;
         end
     end
 endmodule
@@ -6392,6 +6682,521 @@ module rac4i65_core_radio_memory (
     end
 endmodule
 
+module rac4i65_core_imu (
+    input wire clock,
+    input wire tick,
+    input wire [1:0] bank,
+    input wire enable,
+    input wire idle_high,
+    input wire [1:0] half,
+    input wire [6:0] first,
+    input wire access,
+    input wire [15:0] command,
+    input wire miso,
+    input wire ready,
+    input wire [1:0] read_bank,
+    input wire [2:0] read_word,
+    output reg cs_n,
+    output reg sclk,
+    output reg mosi,
+    output reg busy,
+    output reg reading,
+    output reg [7:0] value,
+    output reg [15:0] read_data
+);
+
+    // Constants
+    localparam no_phase = 2'b0;
+    localparam one_phase = 2'b1;
+    localparam burst_start = 8'he;
+    localparam access_start = 8'hde;
+    localparam one_half = 8'h1;
+    localparam last_high = 8'hfe;
+    localparam trail = 8'hff;
+    localparam word_end = 5'b11110;
+    localparam no_slot = 3'b0;
+    localparam read_flag = 16'h8000;
+    localparam bit_0 = 16'h1;
+    localparam never = 16'h0;
+    localparam now = 16'hffff;
+
+    // Pins of the parts
+
+    reg [7:0] words_read_address;
+    wire [15:0] words_read_data;
+    reg [7:0] words_write_address;
+    reg [15:0] words_write_data;
+    reg words_write_enable;
+    reg live_d;
+    wire live_q;
+
+    reg starts_d;
+    wire starts_q;
+
+    reg run_d;
+    wire run_q;
+
+    reg burst_d;
+    wire burst_q;
+
+    reg [7:0] halves_d;
+    wire [7:0] halves_q;
+
+    reg [1:0] phase_d;
+    wire [1:0] phase_q;
+
+    reg [15:0] shift_d;
+    wire [15:0] shift_q;
+
+    reg clock_high_d;
+    wire clock_high_q;
+
+    reg mosi_high_d;
+    wire mosi_high_q;
+
+    reg ready_1_d;
+    wire ready_1_q;
+
+    reg ready_2_d;
+    wire ready_2_q;
+
+    reg ready_3_d;
+    wire ready_3_q;
+
+    reg [15:0] left_d;
+    wire [15:0] left_q;
+
+    // Intermediate values
+    reg edge_now;
+    reg begins_burst;
+    reg begins_access;
+    reg low_half;
+    reg data_phase;
+    reg word_done;
+    reg [7:0] place;
+
+    // Parts
+    rac4i65_core_imu_words words(
+        .clock(clock),
+        .read_address(words_read_address),
+        .read_data(words_read_data),
+        .write_address(words_write_address),
+        .write_data(words_write_data),
+        .write_enable(words_write_enable)
+    );
+    rac4i65_core_dff_1 live (.d(live_d), .q(live_q), .clock(clock));
+    rac4i65_core_dff_1 starts (.d(starts_d), .q(starts_q), .clock(clock));
+    rac4i65_core_dff_1 run (.d(run_d), .q(run_q), .clock(clock));
+    rac4i65_core_dff_1 burst (.d(burst_d), .q(burst_q), .clock(clock));
+    rac4i65_core_dff_8 halves (.d(halves_d), .q(halves_q), .clock(clock));
+    rac4i65_core_dff_2 phase (.d(phase_d), .q(phase_q), .clock(clock));
+    rac4i65_core_dff_16 shift (.d(shift_d), .q(shift_q), .clock(clock));
+    rac4i65_core_dff_1 clock_high (.d(clock_high_d), .q(clock_high_q), .clock(clock));
+    rac4i65_core_dff_1 mosi_high (.d(mosi_high_d), .q(mosi_high_q), .clock(clock));
+    rac4i65_core_dff_1 ready_1 (.d(ready_1_d), .q(ready_1_q), .clock(clock));
+    rac4i65_core_dff_1 ready_2 (.d(ready_2_d), .q(ready_2_q), .clock(clock));
+    rac4i65_core_dff_1 ready_3 (.d(ready_3_d), .q(ready_3_q), .clock(clock));
+    rac4i65_core_dff_16 left (.d(left_d), .q(left_q), .clock(clock));
+
+    always @(*) begin
+        live_d = live_q;
+        live_d = enable & (live_q | ~run_q);
+    end
+
+    always @(*) begin
+        starts_d = starts_q;
+        starts_d = tick;
+    end
+
+    always @(*) begin
+        run_d = run_q;
+        burst_d = burst_q;
+        halves_d = halves_q;
+        shift_d = shift_q;
+        clock_high_d = clock_high_q;
+        mosi_high_d = mosi_high_q;
+        if (~run_q) begin
+            clock_high_d = idle_high;
+        end
+        if (edge_now) begin
+            halves_d = halves_q + one_half;
+            if (low_half) begin
+                if (halves_q == trail) begin
+                    run_d = 1'b0;
+                    burst_d = 1'b0;
+                end
+                else begin
+                    clock_high_d = 1'b1;
+                    shift_d = shift_q << 32'h1;
+                    if (miso) begin
+                        shift_d = (shift_q << 32'h1) | bit_0;
+                    end
+                end
+            end
+            else begin
+                clock_high_d = (halves_q == last_high) & idle_high;
+                mosi_high_d = shift_q[32'hf] & ~data_phase;
+            end
+        end
+        if (begins_burst) begin
+            run_d = 1'b1;
+            burst_d = 1'b1;
+            halves_d = burst_start;
+            shift_d = (((first) & 16'hffff) << 32'h8) | read_flag;
+        end
+        if (begins_access) begin
+            run_d = 1'b1;
+            halves_d = access_start;
+            shift_d = command;
+        end
+    end
+
+    always @(*) begin
+        phase_d = phase_q;
+        phase_d = no_phase;
+        if (run_q & ~edge_now) begin
+            phase_d = phase_q + one_phase;
+        end
+    end
+
+    always @(*) begin
+        ready_1_d = ready_1_q;
+        ready_1_d = ready;
+    end
+
+    always @(*) begin
+        ready_2_d = ready_2_q;
+        ready_2_d = ready_1_q;
+    end
+
+    always @(*) begin
+        ready_3_d = ready_3_q;
+        ready_3_d = ready_2_q;
+    end
+
+    always @(*) begin
+        left_d = left_q;
+        if (left_q != never) begin
+            left_d = left_q - bit_0;
+        end
+        if (ready_2_q & ~ready_3_q) begin
+            left_d = now;
+        end
+        if (~live_q) begin
+            left_d = never;
+        end
+    end
+
+    always @(*) begins_burst = starts_q & live_q & ~run_q;
+    always @(*) begins_access = access & ~enable & ~live_q & ~run_q;
+    always @(*) edge_now = run_q & (phase_q == half);
+    always @(*) low_half = halves_q[32'h0];
+    always @(*) data_phase = burst_q & (halves_q[(32'h5)+:(3)] != no_slot);
+    always @(*) word_done = edge_now & data_phase & (halves_q[(32'h0)+:(5)] == word_end);
+    always @(*) place = ((bank) & 8'hff) << 32'h3;
+
+    always @(*) begin
+        words_write_address = place;
+        words_write_data = ~left_q;
+        if (~starts_q) begin
+            words_write_address = place | ((halves_q[(32'h5)+:(3)]) & 8'hff);
+            words_write_data = shift_q;
+        end
+    end
+
+    always @(*) words_write_enable = starts_q | word_done;
+    always @(*) words_read_address = ((read_word) & 8'hff) | (((read_bank) & 8'hff) << 32'h3);
+    always @(*) read_data = words_read_data;
+
+    always @(*) begin
+        cs_n = ~run_q;
+        busy = run_q;
+    end
+
+    always @(*) sclk = clock_high_q;
+    always @(*) mosi = mosi_high_q;
+    always @(*) reading = burst_q;
+    always @(*) value = shift_q[(32'h0)+:(8)];
+endmodule
+
+module rac4i65_core_imu_words (
+    input wire clock,
+    input wire [7:0] read_address,
+    output reg [15:0] read_data,
+    input wire [7:0] write_address,
+    input wire [15:0] write_data,
+    input wire write_enable
+);
+
+    (* no_rw_check *)
+    reg [15:0] mem [0:255];
+
+    initial begin
+        read_data = 16'h0;
+        mem[0] = 16'h0;
+        mem[1] = 16'h0;
+        mem[2] = 16'h0;
+        mem[3] = 16'h0;
+        mem[4] = 16'h0;
+        mem[5] = 16'h0;
+        mem[6] = 16'h0;
+        mem[7] = 16'h0;
+        mem[8] = 16'h0;
+        mem[9] = 16'h0;
+        mem[10] = 16'h0;
+        mem[11] = 16'h0;
+        mem[12] = 16'h0;
+        mem[13] = 16'h0;
+        mem[14] = 16'h0;
+        mem[15] = 16'h0;
+        mem[16] = 16'h0;
+        mem[17] = 16'h0;
+        mem[18] = 16'h0;
+        mem[19] = 16'h0;
+        mem[20] = 16'h0;
+        mem[21] = 16'h0;
+        mem[22] = 16'h0;
+        mem[23] = 16'h0;
+        mem[24] = 16'h0;
+        mem[25] = 16'h0;
+        mem[26] = 16'h0;
+        mem[27] = 16'h0;
+        mem[28] = 16'h0;
+        mem[29] = 16'h0;
+        mem[30] = 16'h0;
+        mem[31] = 16'h0;
+        mem[32] = 16'h0;
+        mem[33] = 16'h0;
+        mem[34] = 16'h0;
+        mem[35] = 16'h0;
+        mem[36] = 16'h0;
+        mem[37] = 16'h0;
+        mem[38] = 16'h0;
+        mem[39] = 16'h0;
+        mem[40] = 16'h0;
+        mem[41] = 16'h0;
+        mem[42] = 16'h0;
+        mem[43] = 16'h0;
+        mem[44] = 16'h0;
+        mem[45] = 16'h0;
+        mem[46] = 16'h0;
+        mem[47] = 16'h0;
+        mem[48] = 16'h0;
+        mem[49] = 16'h0;
+        mem[50] = 16'h0;
+        mem[51] = 16'h0;
+        mem[52] = 16'h0;
+        mem[53] = 16'h0;
+        mem[54] = 16'h0;
+        mem[55] = 16'h0;
+        mem[56] = 16'h0;
+        mem[57] = 16'h0;
+        mem[58] = 16'h0;
+        mem[59] = 16'h0;
+        mem[60] = 16'h0;
+        mem[61] = 16'h0;
+        mem[62] = 16'h0;
+        mem[63] = 16'h0;
+        mem[64] = 16'h0;
+        mem[65] = 16'h0;
+        mem[66] = 16'h0;
+        mem[67] = 16'h0;
+        mem[68] = 16'h0;
+        mem[69] = 16'h0;
+        mem[70] = 16'h0;
+        mem[71] = 16'h0;
+        mem[72] = 16'h0;
+        mem[73] = 16'h0;
+        mem[74] = 16'h0;
+        mem[75] = 16'h0;
+        mem[76] = 16'h0;
+        mem[77] = 16'h0;
+        mem[78] = 16'h0;
+        mem[79] = 16'h0;
+        mem[80] = 16'h0;
+        mem[81] = 16'h0;
+        mem[82] = 16'h0;
+        mem[83] = 16'h0;
+        mem[84] = 16'h0;
+        mem[85] = 16'h0;
+        mem[86] = 16'h0;
+        mem[87] = 16'h0;
+        mem[88] = 16'h0;
+        mem[89] = 16'h0;
+        mem[90] = 16'h0;
+        mem[91] = 16'h0;
+        mem[92] = 16'h0;
+        mem[93] = 16'h0;
+        mem[94] = 16'h0;
+        mem[95] = 16'h0;
+        mem[96] = 16'h0;
+        mem[97] = 16'h0;
+        mem[98] = 16'h0;
+        mem[99] = 16'h0;
+        mem[100] = 16'h0;
+        mem[101] = 16'h0;
+        mem[102] = 16'h0;
+        mem[103] = 16'h0;
+        mem[104] = 16'h0;
+        mem[105] = 16'h0;
+        mem[106] = 16'h0;
+        mem[107] = 16'h0;
+        mem[108] = 16'h0;
+        mem[109] = 16'h0;
+        mem[110] = 16'h0;
+        mem[111] = 16'h0;
+        mem[112] = 16'h0;
+        mem[113] = 16'h0;
+        mem[114] = 16'h0;
+        mem[115] = 16'h0;
+        mem[116] = 16'h0;
+        mem[117] = 16'h0;
+        mem[118] = 16'h0;
+        mem[119] = 16'h0;
+        mem[120] = 16'h0;
+        mem[121] = 16'h0;
+        mem[122] = 16'h0;
+        mem[123] = 16'h0;
+        mem[124] = 16'h0;
+        mem[125] = 16'h0;
+        mem[126] = 16'h0;
+        mem[127] = 16'h0;
+        mem[128] = 16'h0;
+        mem[129] = 16'h0;
+        mem[130] = 16'h0;
+        mem[131] = 16'h0;
+        mem[132] = 16'h0;
+        mem[133] = 16'h0;
+        mem[134] = 16'h0;
+        mem[135] = 16'h0;
+        mem[136] = 16'h0;
+        mem[137] = 16'h0;
+        mem[138] = 16'h0;
+        mem[139] = 16'h0;
+        mem[140] = 16'h0;
+        mem[141] = 16'h0;
+        mem[142] = 16'h0;
+        mem[143] = 16'h0;
+        mem[144] = 16'h0;
+        mem[145] = 16'h0;
+        mem[146] = 16'h0;
+        mem[147] = 16'h0;
+        mem[148] = 16'h0;
+        mem[149] = 16'h0;
+        mem[150] = 16'h0;
+        mem[151] = 16'h0;
+        mem[152] = 16'h0;
+        mem[153] = 16'h0;
+        mem[154] = 16'h0;
+        mem[155] = 16'h0;
+        mem[156] = 16'h0;
+        mem[157] = 16'h0;
+        mem[158] = 16'h0;
+        mem[159] = 16'h0;
+        mem[160] = 16'h0;
+        mem[161] = 16'h0;
+        mem[162] = 16'h0;
+        mem[163] = 16'h0;
+        mem[164] = 16'h0;
+        mem[165] = 16'h0;
+        mem[166] = 16'h0;
+        mem[167] = 16'h0;
+        mem[168] = 16'h0;
+        mem[169] = 16'h0;
+        mem[170] = 16'h0;
+        mem[171] = 16'h0;
+        mem[172] = 16'h0;
+        mem[173] = 16'h0;
+        mem[174] = 16'h0;
+        mem[175] = 16'h0;
+        mem[176] = 16'h0;
+        mem[177] = 16'h0;
+        mem[178] = 16'h0;
+        mem[179] = 16'h0;
+        mem[180] = 16'h0;
+        mem[181] = 16'h0;
+        mem[182] = 16'h0;
+        mem[183] = 16'h0;
+        mem[184] = 16'h0;
+        mem[185] = 16'h0;
+        mem[186] = 16'h0;
+        mem[187] = 16'h0;
+        mem[188] = 16'h0;
+        mem[189] = 16'h0;
+        mem[190] = 16'h0;
+        mem[191] = 16'h0;
+        mem[192] = 16'h0;
+        mem[193] = 16'h0;
+        mem[194] = 16'h0;
+        mem[195] = 16'h0;
+        mem[196] = 16'h0;
+        mem[197] = 16'h0;
+        mem[198] = 16'h0;
+        mem[199] = 16'h0;
+        mem[200] = 16'h0;
+        mem[201] = 16'h0;
+        mem[202] = 16'h0;
+        mem[203] = 16'h0;
+        mem[204] = 16'h0;
+        mem[205] = 16'h0;
+        mem[206] = 16'h0;
+        mem[207] = 16'h0;
+        mem[208] = 16'h0;
+        mem[209] = 16'h0;
+        mem[210] = 16'h0;
+        mem[211] = 16'h0;
+        mem[212] = 16'h0;
+        mem[213] = 16'h0;
+        mem[214] = 16'h0;
+        mem[215] = 16'h0;
+        mem[216] = 16'h0;
+        mem[217] = 16'h0;
+        mem[218] = 16'h0;
+        mem[219] = 16'h0;
+        mem[220] = 16'h0;
+        mem[221] = 16'h0;
+        mem[222] = 16'h0;
+        mem[223] = 16'h0;
+        mem[224] = 16'h0;
+        mem[225] = 16'h0;
+        mem[226] = 16'h0;
+        mem[227] = 16'h0;
+        mem[228] = 16'h0;
+        mem[229] = 16'h0;
+        mem[230] = 16'h0;
+        mem[231] = 16'h0;
+        mem[232] = 16'h0;
+        mem[233] = 16'h0;
+        mem[234] = 16'h0;
+        mem[235] = 16'h0;
+        mem[236] = 16'h0;
+        mem[237] = 16'h0;
+        mem[238] = 16'h0;
+        mem[239] = 16'h0;
+        mem[240] = 16'h0;
+        mem[241] = 16'h0;
+        mem[242] = 16'h0;
+        mem[243] = 16'h0;
+        mem[244] = 16'h0;
+        mem[245] = 16'h0;
+        mem[246] = 16'h0;
+        mem[247] = 16'h0;
+        mem[248] = 16'h0;
+        mem[249] = 16'h0;
+        mem[250] = 16'h0;
+        mem[251] = 16'h0;
+        mem[252] = 16'h0;
+        mem[253] = 16'h0;
+        mem[254] = 16'h0;
+        mem[255] = 16'h0;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+        if (write_enable) mem[write_address] <= write_data;
+    end
+endmodule
+
 module rac4i65_core_encoders (
     input wire clock,
     input wire a,
@@ -7180,6 +7985,21 @@ module rac4i65_core_dff_10_from_21 (
 
     initial begin
         q = 10'h21;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_11 (
+    input wire [10:0] d,
+    output reg [10:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 11'h0;
     end
 
     always @(posedge clock) begin

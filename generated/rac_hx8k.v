@@ -1,5 +1,5 @@
 // rac_hx8k
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.2.
+// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.3.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -24,7 +24,12 @@ module rac_hx8k (
     input wire ball_sensor,
     input wire radio_rx,
     input wire host_select,
-    input wire [3:0] robot_number
+    input wire [3:0] robot_number,
+    output wire imu_cs_n,
+    output wire imu_sclk,
+    output wire imu_mosi,
+    input wire imu_miso,
+    input wire imu_ready
 );
 
     wire clock;
@@ -55,7 +60,12 @@ module rac_hx8k (
         .ball_sensor(ball_sensor),
         .radio_rx(radio_rx),
         .host_select(host_select),
-        .robot_number(robot_number)
+        .robot_number(robot_number),
+        .imu_cs_n(imu_cs_n),
+        .imu_sclk(imu_sclk),
+        .imu_mosi(imu_mosi),
+        .imu_miso(imu_miso),
+        .imu_ready(imu_ready)
     );
 endmodule
 
@@ -80,7 +90,12 @@ module rac_hx8k_logic (
     input wire ball_sensor,
     input wire radio_rx,
     input wire host_select,
-    input wire [3:0] robot_number
+    input wire [3:0] robot_number,
+    output wire imu_cs_n,
+    output wire imu_sclk,
+    output wire imu_mosi,
+    input wire imu_miso,
+    input wire imu_ready
 );
 
     wire ads_n;
@@ -133,7 +148,12 @@ module rac_hx8k_logic (
         .ball_sensor(ball_sensor),
         .radio_rx(radio_rx),
         .host_select(host_select),
-        .robot_number(robot_number)
+        .robot_number(robot_number),
+        .imu_cs_n(imu_cs_n),
+        .imu_sclk(imu_sclk),
+        .imu_mosi(imu_mosi),
+        .imu_miso(imu_miso),
+        .imu_ready(imu_ready)
     );
 endmodule
 

@@ -1,8 +1,8 @@
-/* Registers of rac4i65, map version 2.2: byte offsets in BAR 5. Do not edit; see registers.md. */
+/* Registers of rac4i65, map version 2.3: byte offsets in BAR 5. Do not edit; see registers.md. */
 #ifndef RAC4I65_REGISTERS_H
 #define RAC4I65_REGISTERS_H
 
-#define RAC4I65_THIS_MAP_VERSION 0x00020002u /* what RAC4I65_MAP_VERSION reads */
+#define RAC4I65_THIS_MAP_VERSION 0x00020003u /* what RAC4I65_MAP_VERSION reads */
 #define RAC4I65_CHECKSUM_SEED 0x52414353u /* sum = rotl(sum, 1) ^ data ^ offset / 4, in the order of the writes */
 #define RAC4I65_RADIO_HEAD 0xa1u /* first byte of a frame */
 
@@ -27,6 +27,7 @@
 #define RAC4I65_BLOCKS_CLOCK_MONITOR 0x00020000u /* monitor on the 50 MHz crystal */
 #define RAC4I65_BLOCKS_INTERRUPT 0x00040000u /* control-tick interrupt */
 #define RAC4I65_BLOCKS_RADIO 0x00080000u /* radio input */
+#define RAC4I65_BLOCKS_IMU 0x00100000u /* reader of an inertial sensor over SPI */
 #define RAC4I65_TICK_PERIOD 0x020u /* control period in clocks, at least 1000 */
 #define RAC4I65_MODE 0x024u /* speed measurement, kind of set points, odometry, kind of PWM */
 #define RAC4I65_MODE_COUNT_AND_TIME 0x00000001u /* 1: speed by count and time (M/T); 0: count difference per tick */
@@ -110,6 +111,18 @@
 #define RAC4I65_RADIO_SELECT 0x00000001u /* 1: commands come in the radio's frames, and a host's writes reach only `arm` and this register; 0: from the host; after configuration 1 where the strap `host_select` is low */
 #define RAC4I65_RADIO_ACCEPTED 0x0000ff00u /* frames that were whole and new, whoever commands */
 #define RAC4I65_RADIO_DROPPED 0x00ff0000u /* frames with a wrong CRC, length or version, cut short, run over, or repeated; not those for other robots */
+#define RAC4I65_IMU_CONTROL 0x0a4u /* how the inertial sensor is read; the count of bytes is 14, most significant bit first, and what they mean is the driver's table of sensors */
+#define RAC4I65_IMU_CONTROL_ENABLE 0x00000001u /* 1: read 14 bytes from register `first` on at every control tick; 0: the line is quiet but for `imu_access` */
+#define RAC4I65_IMU_CONTROL_MODE_3 0x00000002u /* SPI mode, 1: mode 3, the clock rests high; 0: mode 0, it rests low */
+#define RAC4I65_IMU_CONTROL_HALF 0x0000000cu /* half a period of the line's clock in clocks, less one: 0 to 3 are 16.7, 8.3, 5.6, 4.2 MHz at the nominal clock */
+#define RAC4I65_IMU_CONTROL_FIRST 0x000007f0u /* first register of the 14 bytes; the read flag is put before it */
+#define RAC4I65_IMU_ACCESS 0x0a8u /* 16 bits to the inertial sensor, highest first, at most 136 clocks; nothing is sent while `imu_control` enables reading or an access is on its way */
+#define RAC4I65_IMU_ACCESS_DATA 0x000000ffu /* byte for the register; any value for a read */
+#define RAC4I65_IMU_ACCESS_REGISTER 0x00007f00u /* register of the sensor */
+#define RAC4I65_IMU_ACCESS_READ 0x00008000u /* 1: read; 0: write */
+#define RAC4I65_IMU_STATUS 0x0acu /* answer to the last access; ff where no sensor answers, since the line is pulled up */
+#define RAC4I65_IMU_STATUS_VALUE 0x000000ffu /* the last 8 bits from the sensor, whole when `busy` is 0 */
+#define RAC4I65_IMU_STATUS_BUSY 0x00000100u /* an access or a burst is on its way */
 #define RAC4I65_CONFIGURATION 0x400u /* staged configuration bank: thirteen groups of one word per axis */
 #define RAC4I65_CONFIGURATION_INVERSE_X 0x400u /* Q2.16: speed LSB per LSB of velocity x; inverse kinematics: set point of the axis = sum over x, y, rotation */
 #define RAC4I65_CONFIGURATION_INVERSE_Y 0x410u /* Q2.16: speed LSB per LSB of velocity y; inverse kinematics: set point of the axis = sum over x, y, rotation */
@@ -176,5 +189,7 @@
 #define RAC4I65_SNAPSHOT_POSE 0x850u /* pose x, y in the driver's unit, heading in 2^-32 turn; two's complement, wrapping */
 #define RAC4I65_SNAPSHOT_POSE_WORDS 3u
 #define RAC4I65_SNAPSHOT_SEQUENCE_END 0x85cu /* equals `snapshot_sequence` in a coherent snapshot; reading it releases the latch */
+#define RAC4I65_SNAPSHOT_IMU 0x860u /* reading of the inertial sensor that began with the tick, to be read before `snapshot_sequence_end`: first the clocks from the last rise of the data-ready line to the tick, 65535 where none came within 65534 or reading is off, when the other words mean nothing; then seven words of two bytes, the first byte in bits 15:8 */
+#define RAC4I65_SNAPSHOT_IMU_WORDS 8u
 
 #endif

@@ -18,6 +18,7 @@ use crate::scale::Scale;
 use fixed_kin::AXES;
 use fixed_kin::control::{SET_POINT_WORDS, SetPointMode};
 use fixed_kin::format::Speed;
+use fixed_kin::imu_spi::SNAPSHOT_IMU_WORDS;
 use fixed_kin::registers as map;
 use fixed_kin::safety::{ARM_FIRST, ARM_SECOND};
 use fixed_kin::speed::SpeedMode;
@@ -346,6 +347,24 @@ impl<R: Registers> Board<R> {
     /// A bus that fails.
     pub fn set_wheel_speeds(&mut self, speeds: &[Speed; AXES]) -> Result<(), BoardError> {
         Ok(self.stage(&map::SET_POINTS, &map::COMMIT_SET_POINTS, &speeds.map(|speed| speed.to_bits() as u32))?)
+    }
+
+    /// A coherent snapshot with what the inertial sensor sent at its tick. 32 words over the bus.
+    ///
+    /// # Errors
+    /// As [`Self::snapshot`].
+    pub fn snapshot_with_imu(&mut self) -> Result<(Snapshot, [u16; SNAPSHOT_IMU_WORDS]), BoardError> {
+        let (mut words, mut imu) = ([0; map::SNAPSHOT_WORDS], [0; SNAPSHOT_IMU_WORDS]);
+        for _ in 0..TRIES {
+            // The last word of the snapshot releases it: the sensor's words come before.
+            words[0] = self.bus.read(map::SNAPSHOT_SEQUENCE.offset)?;
+            self.bus.read_block(map::SNAPSHOT_IMU.offset, &mut imu)?;
+            self.bus.read_block(map::SNAPSHOT_SEQUENCE.offset + 4, &mut words[1..])?;
+            if words[0] == words[map::SNAPSHOT_WORDS - 1] {
+                return Ok((Snapshot::of(&words), imu.map(|word| word as u16)));
+            }
+        }
+        Err(BoardError::Snapshot(TRIES))
     }
 
     /// A coherent snapshot of the last control tick. 24 words over the bus.

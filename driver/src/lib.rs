@@ -6,7 +6,7 @@
 //! [`Registers`] is what control needs: whatever answers aligned 32-bit reads and writes can be driven,
 //! the bit-true model as well as compiled Verilog; a [`RegisterWindow`] makes it of a card.
 //! [`Scale`] is the one place that knows seconds and radians; [`Board`] is the protocol: identify,
-//! configure, arm, command, read snapshots. [`drive`] is the control loop over all that, [`realtime`] its
+//! configure, arm, command, read snapshots. [`imu`] is the inertial sensor behind it. [`drive`] is the control loop over all that, [`realtime`] its
 //! time, [`recording`] its way to a file.
 
 // A file in which casts are the point says so itself.
@@ -16,6 +16,7 @@ pub use ::bitstream::container as bitstream;
 mod board;
 pub mod design;
 pub mod drive;
+pub mod imu;
 pub mod load;
 mod observation;
 pub mod pci;

@@ -2,7 +2,7 @@
 //! equal the hardware bit for bit. `no_std`, no allocation, no panic, no unsafe.
 //!
 //! Every block of the gateware has its twin here: clock by clock ([`encoder`], [`pwm`], [`kicker`],
-//! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`], [`radio`]) or control tick by control tick
+//! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`], [`radio`], [`imu_spi`]) or control tick by control tick
 //! ([`speed`], [`kinematics`], [`slew`], [`pi`], [`modulation`], [`pose`], joined in [`control::Core`]). [`card::Card`] is the whole,
 //! behind the register map of [`registers`]; [`recording`] replays what it left in a log.
 //!
@@ -37,7 +37,7 @@
 //! # Clocks of a control tick
 //!
 //! One sequencer, one serial multiplier and one divider serve all axes. A multiplication takes 2 +
-//! digits clocks, a division 34, both beside other work: the parts of an axis are woven into each other.
+//! digits clocks, a division 36, both beside other work: the parts of an axis are woven into each other.
 //!
 //! | part | multiplications | beside |
 //! |---|---|---|
@@ -49,7 +49,7 @@
 //! | PI with feed-forward | 11 + 2 × 14 | |
 //! | PWM compare | 9 | |
 //! | pose, once for all axes | 11 + 2 × 14 + 4 × 11 | |
-//! | **all of four axes, pose and snapshot** | | **963** clocks at most, measured |
+//! | **all of four axes, pose and snapshot** | | **980** clocks at most, measured |
 //!
 //! The measure holds the worst of a random walk and of a drive in which every axis captures an index
 //! and creeps without an edge at every tick. The shortest control period is
@@ -80,6 +80,7 @@ pub mod commit;
 pub mod control;
 pub mod encoder;
 pub mod format;
+pub mod imu_spi;
 pub mod interrupt;
 pub mod kicker;
 pub mod kinematics;

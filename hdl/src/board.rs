@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! P1  Mesa 7I30: four encoders, four H-bridges      P3  kicker, emergency stop, ball sensor, radio
-//! P4  free                                          LAD, LEDs, clocks: the card's own
+//! P4  inertial sensor on five lines                 LAD, LEDs, clocks: the card's own
 //! ```
 //!
 //! Pin numbers are those of Mesa's own constraint file for the 4I65. The assignment on P1 is Mesa's
@@ -185,6 +185,9 @@ pub enum BoardError {
 /// Slow edges for cables: 24 mA as the card's I/O is specified.
 const CABLE: Buffer = Buffer::Output { drive_ma: 24, fast: false };
 
+/// Fast edges of little current for a sensor a few centimetres off: 4 to 17 MHz.
+const SHORT: Buffer = Buffer::Output { drive_ma: 8, fast: true };
+
 impl Assignment {
     /// `port<bit>`, as the constraint file spells it.
     #[must_use]
@@ -197,11 +200,11 @@ impl Assignment {
 }
 
 impl Board {
-    /// The 4I65 with a 7I30 on P1, kicker and radio on P3.
+    /// The 4I65 with a 7I30 on P1, kicker and radio on P3, an inertial sensor on P4.
     #[must_use]
     pub fn mesa_4i65_7i30() -> Self {
         let mut board = Self {
-            name: "Mesa 4I65, 7I30 on P1 (layout not confirmed), kicker and radio on P3".into(),
+            name: "Mesa 4I65, 7I30 on P1 (layout not confirmed), kicker and radio on P3, inertial sensor on P4".into(),
             target: BOARD_4I65,
             assignments: vec![],
         };
@@ -218,6 +221,12 @@ impl Board {
         for bit in 0..4 {
             board.add("robot_number", Some(bit), Place::Io(32 + bit), Buffer::PulledUp);
         }
+        // Line 48 is a clock input of the FPGA too and stays free.
+        board.add("imu_cs_n", None, Place::Io(49), SHORT);
+        board.add("imu_sclk", None, Place::Io(50), SHORT);
+        board.add("imu_mosi", None, Place::Io(51), SHORT);
+        board.add("imu_miso", None, Place::Io(52), Buffer::PulledUp);
+        board.add("imu_ready", None, Place::Io(53), Buffer::PulledUp);
         board
     }
 

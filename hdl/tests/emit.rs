@@ -161,7 +161,8 @@ fn core() -> Ports {
                 output pwm_0, output pwm_1, output pwm_2, output pwm_3, output [3:0] dir, output [3:0] enable_n,\n\
                 output kicker_charge_n, output kicker_trigger_n, output kicker_discharge, input kicker_full,\n\
                 input emergency_stop, input ball_sensor,\n\
-                input radio_rx, input host_select, input [3:0] robot_number); endmodule";
+                input radio_rx, input host_select, input [3:0] robot_number,\n\
+                output imu_cs_n, output imu_sclk, output imu_mosi, input imu_miso, input imu_ready); endmodule";
     Ports::parse(text, "rac4i65_core", &[]).unwrap()
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
 
 use crate::fusion::{Correction, FusionOptions};
 use crate::imu::{ImuModel, Reading};
-use crate::odometry::Odometer;
+use crate::odometry::{Estimate, Odometer};
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
 use runs::geometry::Geometry;
 
@@ -152,11 +152,37 @@ impl Inertial {
         if self.still > STANDING_S {
             self.settle(reading, dt);
         }
+        self.keep(t, step);
+    }
+
+    /// One control tick of a sensor that is silent: the wheels tell the turn too.
+    pub fn predict_by_wheels(&mut self, t: f64, counts: &[i64]) {
+        let increment = self.odometer.increment(counts);
+        let Some(last) = self.last.replace(t) else { return };
+        let dt = t - last;
+        let wheel = increment.moved;
+        // The step takes the bias off again.
+        let moved = Twist { omega: wheel.omega + self.now.bias * dt, ..wheel };
+        self.velocity = [wheel.vx / dt, wheel.vy / dt];
+        (self.still, self.slipping) = (0.0, None);
+        self.window.clear();
+        let step = Step { moved, dt, noise: increment.covariance };
+        self.now = self.now.after(&step, self.bias_walk);
+        self.keep(t, step);
+    }
+
+    /// Keeps a step for frames that come late.
+    fn keep(&mut self, t: f64, step: Step) {
         self.history.push_back((t, self.now, step));
         let oldest = t - self.options.latency_s;
         while self.history.len() > 2 && self.history[1].0 < oldest - 1e-9 {
             self.history.pop_front();
         }
+    }
+
+    /// Pose and covariance now.
+    pub fn estimate(&self) -> Estimate {
+        Estimate { pose: self.now.pose, covariance: self.covariance() }
     }
 
     /// At rest the gyroscope shows its bias, the accelerometer its own and the tilt of the floor.

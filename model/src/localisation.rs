@@ -1,6 +1,8 @@
 //! Where the controller believes the robot to be: by odometry alone, or corrected by the camera.
 
 use crate::fusion::{Fusion, FusionOptions};
+use crate::imu::{ImuModel, Reading};
+use crate::inertial::Inertial;
 use crate::odometry::{DEFAULT_WHEEL_VARIANCE, Estimate, Odometer};
 use runs::frames::Pose;
 use runs::geometry::Geometry;
@@ -18,6 +20,13 @@ pub enum Localiser {
     },
     /// Closed: odometry carries the fast loop, the camera corrects slowly.
     Fused(Box<Fusion>),
+    /// Wheels, gyroscope and, where it comes, the camera.
+    Inertial {
+        /// The filter.
+        filter: Box<Inertial>,
+        /// What the sensor says at the coming tick.
+        felt: Option<Reading>,
+    },
 }
 
 impl Localiser {
@@ -35,6 +44,31 @@ impl Localiser {
         Self::Fused(Box::new(Fusion::new(geometry, robot.counts_per_wheel_rad(), options, start, sd)))
     }
 
+    /// Wheels and gyroscope, from a start known to the camera's noise; the camera may come.
+    pub fn inertial(
+        robot: &Robot,
+        geometry: &Geometry,
+        options: FusionOptions,
+        sensor: &ImuModel,
+        start: Pose,
+    ) -> Self {
+        let sd = options.camera_noise;
+        let filter = Inertial::new(geometry, robot.counts_per_wheel_rad(), options, sensor, start, sd);
+        Self::Inertial { filter: Box::new(filter), felt: None }
+    }
+
+    /// What the inertial sensor says at the coming tick; `None` where it is silent, and the wheels tell the heading.
+    pub fn feel(&mut self, reading: Option<Reading>) {
+        if let Self::Inertial { felt, .. } = self {
+            *felt = reading;
+        }
+    }
+
+    /// Whether the wheels slip, where somebody can tell.
+    pub fn slips(&self) -> bool {
+        matches!(self, Self::Inertial { filter, .. } if filter.slipping())
+    }
+
     /// One control tick at time `t` (s): counts, and what the camera delivered, if anything.
     pub fn tick(&mut self, t: f64, counts: &[i64], seen: Option<Pose>) -> Pose {
         match self {
@@ -49,6 +83,16 @@ impl Localiser {
                 }
                 fusion.pose()
             }
+            Self::Inertial { filter, felt } => {
+                match felt.take() {
+                    Some(reading) => filter.predict(t, counts, &reading),
+                    None => filter.predict_by_wheels(t, counts),
+                }
+                if let Some(pose) = seen {
+                    filter.correct(t, pose);
+                }
+                filter.pose()
+            }
         }
     }
 
@@ -57,6 +101,7 @@ impl Localiser {
         match self {
             Self::Odometry { estimate, .. } => *estimate,
             Self::Fused(fusion) => fusion.estimate(),
+            Self::Inertial { filter, .. } => filter.estimate(),
         }
     }
 }

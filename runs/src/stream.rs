@@ -46,6 +46,12 @@ impl Layout {
         Self { command: true, references, counts, duties, measured, camera, ..Self::default() }
     }
 
+    /// With an inertial sensor.
+    #[must_use]
+    pub fn with_imu(self, there: bool) -> Self {
+        Self { gyro: there, acceleration: there, imu_temp: there, ..self }
+    }
+
     pub(super) fn columns(self) -> Vec<Column> {
         let group = |there: bool, group: fn(usize) -> Column| (0..if there { 3 } else { 0 }).map(group);
         let mut columns = vec![Column::Time];

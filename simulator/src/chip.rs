@@ -70,8 +70,8 @@ pub trait Chip: Send {
 }
 
 /// Lines of a robot at rest and ready to drive: no emergency stop, the host in command, radio idle, no ball, the
-/// capacitor empty, encoders at the beginning of a line.
-const READY: [(&str, u32); 9] = [
+/// capacitor empty, encoders at the beginning of a line, no inertial sensor.
+const READY: [(&str, u32); 11] = [
     ("emergency_stop", 0),
     ("host_select", 1),
     ("radio_rx", 1),
@@ -81,6 +81,8 @@ const READY: [(&str, u32); 9] = [
     ("encoder_a", 0),
     ("encoder_b", 0),
     ("encoder_index", 0),
+    ("imu_miso", 1),
+    ("imu_ready", 1),
 ];
 
 /// Puts a chip into a robot at rest, ready to drive.

@@ -12,6 +12,7 @@ use fixed_kin::registers::{
     self as map, SNAPSHOT_FAULTS, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_STATUS, SNAPSHOT_TIME,
     SNAPSHOT_WORDS, STATUS_ARMED, TICK_PERIOD,
 };
+use model::imu::Motion;
 use std::fmt;
 
 const STATUS_WORD: usize = (SNAPSHOT_STATUS.offset - SNAPSHOT_SEQUENCE.offset) as usize / 4;
@@ -78,6 +79,9 @@ impl<F: Fpga> Registers for Traced<F> {
 }
 
 impl<F: Fpga> Fpga for Traced<F> {
+    fn feel(&mut self, motion: &Motion, clock_hz: f64) {
+        self.inner.feel(motion, clock_hz);
+    }
     fn kind(&self) -> Kind {
         self.inner.kind()
     }

@@ -11,6 +11,7 @@ pub mod cross_check;
 pub mod eye;
 pub mod fpga;
 pub mod gateware;
+pub mod imu;
 pub mod replay;
 pub mod virtual_card;
 pub mod wave;

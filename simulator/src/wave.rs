@@ -152,6 +152,8 @@ impl Stage {
         core.host_select.next = !slave;
         core.robot_number.next = u64::from(ROBOT).to_bits();
         core.radio_rx.next = true;
+        core.imu_miso.next = true;
+        core.imu_ready.next = true;
         let pins = pins();
         let shown = vec![None; pins.len()];
         Self { core, clock: 0, bridge: false, pins, shown, changes: String::new() }
@@ -185,6 +187,11 @@ impl Stage {
             "ball_sensor" => bit(core.ball_sensor.val()),
             "radio_rx" => bit(core.radio_rx.val()),
             "host_select" => bit(core.host_select.val()),
+            "imu_cs_n" => bit(core.imu_cs_n.val()),
+            "imu_sclk" => bit(core.imu_sclk.val()),
+            "imu_mosi" => bit(core.imu_mosi.val()),
+            "imu_miso" => bit(core.imu_miso.val()),
+            "imu_ready" => bit(core.imu_ready.val()),
             "robot_number" => core.robot_number.val().index() as u32,
             _ => return None,
         })

@@ -11,14 +11,16 @@ module bench;
     wire ready_n, int_n, kicker_charge_n, kicker_trigger_n, kicker_discharge;
     wire [7:0] led_n;
     wire [3:0] dir, enable_n, pwm;
-    wire [24:0] outputs = {ready_n, int_n, kicker_charge_n, kicker_trigger_n, kicker_discharge, led_n, dir, enable_n, pwm};
+    wire imu_cs_n, imu_sclk, imu_mosi;
+    wire [27:0] outputs = {imu_cs_n, imu_sclk, imu_mosi, ready_n, int_n, kicker_charge_n, kicker_trigger_n, kicker_discharge, led_n, dir, enable_n, pwm};
 
     rac4i65 chip (
         .lclk(lclk), .synclk(synclk), .ads_n(ads_n), .blast_n(blast_n), .lw_r(lw_r), .ready_n(ready_n), .int_n(int_n),
         .lad(lad), .led_n(led_n), .dir(dir), .enable_n(enable_n), .encoder_a(open[3:0]), .encoder_b(open[7:4]),
         .encoder_index(open[11:8]), .pwm(pwm), .kicker_charge_n(kicker_charge_n), .kicker_trigger_n(kicker_trigger_n),
         .kicker_discharge(kicker_discharge), .kicker_full(open[12]), .emergency_stop(open[13]),
-        .ball_sensor(open[14]), .radio_rx(open[15]), .host_select(open[16]), .robot_number(open[20:17])
+        .ball_sensor(open[14]), .radio_rx(open[15]), .host_select(open[16]), .robot_number(open[20:17]),
+        .imu_cs_n(imu_cs_n), .imu_sclk(imu_sclk), .imu_mosi(imu_mosi), .imu_miso(open[21]), .imu_ready(open[12])
     );
     always #15 lclk = ~lclk;
     always #10 synclk = ~synclk;

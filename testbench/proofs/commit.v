@@ -8,7 +8,7 @@ reg formal_set_points = 0, formal_configuration = 0;  // accepted, and nothing s
 reg formal_set_points_then, formal_configuration_then;
 reg [31:0] formal_sum = 32'h52414353;
 reg [6:0] formal_staged_set_points = 0, formal_staged_configuration = 0;
-wire formal_right = data == formal_sum;
+wire formal_right = checksum == formal_sum;
 wire formal_accept_set_points =
     commit_set_points && formal_right && formal_staged_set_points == 4 && formal_staged_configuration == 0;
 wire formal_accept_configuration =

@@ -4,7 +4,7 @@ localparam signed [40:0] FORMAL_MAX = 41'sh1FFFFFFF;
 localparam signed [40:0] FORMAL_MIN = -41'sh20000000;
 wire signed [32:0] formal_p = {p_q[31], p_q};
 wire signed [32:0] formal_addend = {addend[31], addend};
-wire signed [32:0] formal_sum = negate ? formal_p - formal_addend : formal_p + formal_addend;
+wire signed [32:0] formal_sum = negate_q ? formal_p - formal_addend : formal_p + formal_addend;
 wire signed [40:0] formal_wide = guard_8_q ? {p_q[31], p_q, lo_q[31:24]} : {{7{p_q[31]}}, p_q, lo_q[31:30]};
 wire formal_word_a = a[31:29] == 3'b000 || a[31:29] == 3'b111;
 

@@ -7,21 +7,28 @@ wire signed [33:0] formal_a = $signed(accumulator_q);
 wire signed [33:0] formal_b = $signed(word);
 wire signed [33:0] formal_exact = subtracting ? formal_a - formal_b : formal_a + formal_b;
 wire formal_narrow = accumulator_q[31] == accumulator_q[30] && word[31] == word[30];
-reg formal_meets = 0;
+// The sum stands a clock later, and is the accumulator's after that clock, unless the instruction there loads it.
+reg formal_meets = 0, formal_was_narrow = 0;
+reg signed [33:0] formal_was;
+wire formal_loads = valid_q && (op == 1 || op == 2 || op == 9 || op == 10 || op == 12 || op == 22 || op == 23);
 reg [31:0] formal_written;
 always @(posedge clock) begin
     formal_meets <= memory_write_enable && memory_write_address == bus_address;
     formal_written <= memory_write_data;
+    formal_was_narrow <= formal_narrow;
+    formal_was <= formal_exact;
 end
 
 always @(*) begin
     if (formal_meets) assert (bus_read_data == formal_written);
     else assert (bus_read_data == mirror_read_data);
-    if (formal_narrow) assert ($signed(saturated)
-        == (formal_exact > FORMAL_MAX ? FORMAL_MAX : formal_exact < FORMAL_MIN ? FORMAL_MIN : formal_exact));
-    if (valid_q && op == 3) assert (!subtracting && accumulator_d == saturated);
-    if (valid_q && op == 4) assert (subtracting && accumulator_d == saturated);
+    if (formal_was_narrow) assert ($signed(saturated)
+        == (formal_was > FORMAL_MAX ? FORMAL_MAX : formal_was < FORMAL_MIN ? FORMAL_MIN : formal_was));
+    assert (finishing_q + saturates_q + cuts_16_q + cuts_24_q <= 3'd1);
+    if (saturates_q && !formal_loads) assert (accumulator_d == saturated);
+    if (valid_q && op == 3) assert (!subtracting && saturates_d);
+    if (valid_q && op == 4) assert (subtracting && saturates_d);
     if (bus_write) assert (bus_write_taken == !bus_blocked);
     if (bus_write_taken) assert (memory_write_enable && memory_write_address == bus_address);
-    if (storing) assert (bus_blocked && memory_write_data == accumulator_q);
+    if (storing_q) assert (bus_blocked && memory_write_data == accumulator_q);
 end

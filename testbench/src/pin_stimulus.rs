@@ -90,7 +90,8 @@ impl Stimulus {
         let [ads, blast, lw_r, lad, drive] = bus;
         let ball = u32::from(self.random.random_range(0..100) == 0);
         let index = self.random.random_range(0..16);
-        let full = line(1) >> 3 & 1;
+        // Long enough without for the line's filter, and with.
+        let full = ((self.rows.len() / self.width) >> 12) as u32 & 1;
         let values = [ads, blast, lw_r, lad, drive, line(0), line(1), index, self.stop, ball, 1, line(0) & 1, full];
         let mut row = vec![0; self.width];
         for (column, value) in self.columns.iter().zip(values) {

@@ -27,6 +27,10 @@ fn drive(fpga: &mut dyn Fpga, settings: &Settings, rate_hz: f64, ticks: usize) -
     let mut board = Board::new(fpga);
     board.identify().unwrap();
     board.configure(&scale, settings).unwrap();
+    // Nobody is on the sensor's lines, which are pulled up: as dead as can be, and read at the slowest rate.
+    let reads = u32::from(settings.set_point_mode == SetPointMode::Twist);
+    let control = map::IMU_ENABLE.place(reads) | map::IMU_HALF.place(3) | map::IMU_FIRST.place(0x1D);
+    board.bus.write(map::IMU_CONTROL.offset, control).unwrap();
     board.bus.advance(&[0.0; AXES]).unwrap();
     board.arm().unwrap();
     board.bus.advance(&[0.0; AXES]).unwrap();
@@ -59,8 +63,12 @@ fn drive(fpga: &mut dyn Fpga, settings: &Settings, rate_hz: f64, ticks: usize) -
             *position += speed;
         }
         board.bus.advance(&positions).unwrap();
-        let mut snapshot = vec![0; map::SNAPSHOT_WORDS];
-        board.bus.read_block(map::SNAPSHOT_SEQUENCE.offset, &mut snapshot).unwrap();
+        let mut snapshot = vec![0; map::SNAPSHOT_WORDS_WITH_IMU];
+        let (before, imu) = snapshot.split_at_mut(map::SNAPSHOT_WORDS);
+        before[0] = board.bus.read(map::SNAPSHOT_SEQUENCE.offset).unwrap();
+        board.bus.read_block(map::SNAPSHOT_IMU.offset, imu).unwrap();
+        board.bus.read_block(map::SNAPSHOT_STATUS.offset, &mut before[1..]).unwrap();
+        assert_eq!(before[0], before[map::SNAPSHOT_WORDS - 1], "torn snapshot");
         for private in [0, 2, map::SNAPSHOT_WORDS - 1] {
             snapshot[private] = 0;
         }

@@ -10,10 +10,10 @@ use simulator::fpga::Verilog;
 
 const STEPS: usize = 60_000;
 
-/// Words that move by themselves in the chip: time, interrupts of ticks, and snapshots of ticks that the card has not seen.
+/// Words that move by themselves in the chip: time, interrupts of ticks, the sensor's line, and snapshots of ticks that the card has not seen.
 fn moves(offset: u16) -> bool {
-    [map::TIME.offset, map::INTERRUPT_STATUS.offset].contains(&offset)
-        || (map::SNAPSHOT_SEQUENCE.offset..=map::SNAPSHOT_SEQUENCE_END.offset).contains(&offset)
+    [map::TIME.offset, map::INTERRUPT_STATUS.offset, map::IMU_STATUS.offset].contains(&offset)
+        || (map::SNAPSHOT_SEQUENCE.offset..=map::SNAPSHOT_IMU.at(7)).contains(&offset)
 }
 
 fn offset(random: &mut ChaCha8Rng) -> u16 {

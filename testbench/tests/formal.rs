@@ -36,7 +36,7 @@ macro_rules! proofs {
     };
 }
 
-proofs!(pwm safety gate monitor kicker snapshot commit bus registers timebase radio receiver sequencer multiplier divider);
+proofs!(pwm safety gate monitor kicker snapshot commit bus registers timebase imu_spi radio receiver sequencer multiplier divider);
 
 const COUNTER: &str = "module counter (\n    input wire clock,\n    output reg [3:0] q\n);\n    initial q = 0;\n\
     \x20   always @(posedge clock) q <= q == 9 ? 0 : q + 1;\nendmodule\n";

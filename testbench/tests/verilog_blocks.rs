@@ -2,7 +2,7 @@
 //! operation by operation; and broken blocks, which must be caught.
 
 use fixed_kin::word::{WORD_MAX, WORD_MIN, divide, multiply};
-use fixed_kin::{clock_monitor, encoder, interrupt, kicker, pwm, radio, safety, stall};
+use fixed_kin::{clock_monitor, encoder, imu_spi, interrupt, kicker, pwm, radio, safety, stall};
 use hdl::blocks;
 use hdl::blocks::divider::DIVISION_STEPS;
 use hdl::blocks::multiplier::SCALES;
@@ -76,6 +76,7 @@ equals_its_twin!(encoder_equals_its_twin, encoder, blocks::encoder::Encoder, enc
 equals_its_twin!(safety_equals_its_twin, safety, blocks::safety::Safety, safety::Safety);
 equals_its_twin!(pwm_equals_its_twin, pwm, blocks::pwm::Pwm, pwm::Pwm);
 equals_its_twin!(stall_equals_its_twin, stall, blocks::stall::Stall, stall::Stall);
+equals_its_twin!(imu_spi_equals_its_twin, imu_spi, blocks::imu_spi::ImuSpi, imu_spi::ImuSpi);
 equals_its_twin!(interrupt_equals_its_twin, interrupt, blocks::interrupt::Interrupt, interrupt::Interrupt);
 equals_its_twin!(kicker_equals_its_twin, kicker, blocks::kicker::Kicker, kicker::Kicker);
 
@@ -187,6 +188,17 @@ fn a_stall_detector_that_forgets_nothing_is_caught() {
     let inputs = stimulus::stall::stimulus(11, 200_000);
     let mut twin = stall::Stall::default();
     let difference = first_difference("stall", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
+    assert!(difference.is_some());
+}
+
+/// See [`a_broken_pwm_is_caught`]: a reader of the sensor that stores a word before its last bit is in.
+#[test]
+fn a_word_that_is_not_whole_is_caught() {
+    let (verilog, ports) = compile("imu_spi", blocks::imu_spi::ImuSpi::default());
+    let broken = mutate(&verilog, "word_end = 5'b11110", "word_end = 5'b11100");
+    let inputs = stimulus::imu_spi::stimulus(11, 200_000);
+    let mut twin = imu_spi::ImuSpi::default();
+    let difference = first_difference("imu_spi", &broken, &ports, &inputs, |inputs| twin.clock(inputs));
     assert!(difference.is_some());
 }
 

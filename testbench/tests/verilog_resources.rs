@@ -7,6 +7,7 @@ use hdl::blocks::core::Core;
 use hdl::blocks::decoder::Decoder;
 use hdl::blocks::divider::Divider;
 use hdl::blocks::encoder::Encoder;
+use hdl::blocks::imu_spi::ImuSpi;
 use hdl::blocks::interrupt::Interrupt;
 use hdl::blocks::kicker::Kicker;
 use hdl::blocks::local_bus::LocalBus;
@@ -73,6 +74,11 @@ fn check<B: Block>(name: &str, mut block: B, luts: usize, flip_flops: usize) {
 }
 
 #[test]
+fn imu_spi() {
+    check("imu_spi", ImuSpi::default(), 120, 90);
+}
+
+#[test]
 fn encoder() {
     check("encoder", Encoder::default(), 100, 150);
     check("stall", Stall::default(), 40, 10);
@@ -104,7 +110,7 @@ fn arithmetic() {
     check("multiplier", Multiplier::default(), 330, 120);
     check("divider", Divider::default(), 260, 130);
     check("trigonometry", Trigonometry::default(), 60, 35);
-    check("sequencer", Sequencer::new(&control_tick()), 1_200, 350);
+    check("sequencer", Sequencer::new(&control_tick()), 1_200, 450);
 }
 
 #[test]

@@ -13,7 +13,8 @@ use super::constraints::Constraints;
 use super::logic::Logic;
 use super::nets::{Nets, Part};
 use super::pack::Packed;
-use super::timing::{Graph, Report, delays};
+use super::reach::Reach;
+use super::timing::{Graph, Report};
 use super::{Progress, Stage};
 use crate::device::{Device, PadSite};
 
@@ -42,7 +43,7 @@ impl Placement {
         let first = grid::first(design.packed)?;
         let memories = (0..design.logic.memories.len()).collect();
         let mut placement = Self { columns: first, memories, pads };
-        anneal::anneal(design, &mut placement, seed, progress);
+        anneal::anneal(design, &mut placement, &Reach::of(device), seed, progress);
         Ok(placement)
     }
 
@@ -65,14 +66,11 @@ impl Placement {
 
     /// Wire delays from distances, for every connection.
     #[must_use]
-    pub fn estimate(&self, nets: &Nets) -> Vec<u32> {
+    pub fn estimate(&self, nets: &Nets, reach: &Reach) -> Vec<u32> {
         let mut wires = Vec::new();
         for routed in &nets.general {
             let from = self.at(routed.source.part);
-            wires.extend(routed.sinks.iter().map(|sink| {
-                let to = self.at(sink.part);
-                delays::estimate(from.0.abs_diff(to.0).into(), from.1.abs_diff(to.1).into())
-            }));
+            wires.extend(routed.sinks.iter().map(|sink| reach.delay(from, self.at(sink.part))));
         }
         wires
     }

@@ -8,7 +8,6 @@
 //! seven gates in series from where a net is driven into single-length wires, nor join more than fifteen such
 //! wires (counted in 22 files of the card's maker). Here the limits are [`GATES`] and [`JOINED`].
 
-mod fabric;
 mod rules;
 mod search;
 mod terminals;
@@ -20,16 +19,16 @@ pub(crate) use terminals::element;
 pub use tree::{Branch, Tree};
 
 use super::FlowError;
+use super::fabric::Fabric;
+pub use super::fabric::GATES;
 use super::nets::Routed;
 use super::place::{Design, Placement, weights};
+use super::reach::Reach;
 use super::timing::Report;
 use super::{Progress, Stage};
 use crate::device::{Device, WireId};
-use fabric::Fabric;
 use search::{Congestion, Search};
 
-/// Most pass gates in series.
-pub const GATES: u8 = 6;
 /// Most single-length wires joined by pass gates.
 pub const JOINED: u8 = 15;
 /// Rounds after which a design counts as not routable.
@@ -76,7 +75,7 @@ impl Routing {
         search.reserve(reserved);
         let clocks = Self::clocks(device, design, &terminals, &mut search)?;
         let mut general = vec![Tree::default(); terminals.general.len()];
-        let mut delays = placement.estimate(design.nets);
+        let mut delays = placement.estimate(design.nets, &Reach::of(device));
         let mut order: Vec<usize> = (0..general.len()).collect();
         order.sort_by_key(|net| (std::cmp::Reverse(terminals.general[*net].sinks.len()), *net));
         for round in 0..ROUNDS {

@@ -13,6 +13,7 @@
 mod armed;
 mod controller;
 mod fault;
+mod heading;
 mod kick;
 mod outcome;
 mod plan;
@@ -30,6 +31,7 @@ pub use plan::Plan;
 pub use session::Session;
 pub use source::{NoSource, PoseSource};
 
+use crate::imu::ImuError;
 use crate::{BoardError, ScaleError};
 use runs::geometry::GeometryError;
 
@@ -45,4 +47,7 @@ pub enum DriveError {
     /// The card is not ready.
     #[error(transparent)]
     Board(#[from] BoardError),
+    /// The inertial sensor cannot be used.
+    #[error(transparent)]
+    Imu(#[from] ImuError),
 }

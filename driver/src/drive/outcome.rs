@@ -2,6 +2,7 @@
 
 use super::Fault;
 use crate::Standing;
+use crate::imu::Imu;
 use crate::realtime::Latency;
 use model::trajectory::Arrival;
 use runs::frames::Pose;
@@ -49,6 +50,12 @@ pub struct Driven {
     pub silence: Duration,
     /// When the pose source fell silent for good, s; it may have begun so.
     pub source_gone: Option<f64>,
+    /// The inertial sensor as it was found, where the robot has one.
+    pub imu: Option<Imu>,
+    /// When the inertial sensor fell silent for good, s, where the robot has one.
+    pub imu_gone: Option<f64>,
+    /// Times that wheels and inertial sensor began to disagree: slip.
+    pub slips: u64,
     /// Poses that came.
     pub poses: u64,
 }

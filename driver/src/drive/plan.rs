@@ -1,6 +1,7 @@
 //! What to drive, and what the controller believes of the robot.
 
 use super::{Control, DriveError};
+use crate::imu::Imu;
 use crate::{Scale, Settings};
 use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
@@ -58,6 +59,18 @@ impl Plan {
         robot.camera_latency_s = (robot.camera_latency_s + latency).max(0.0);
         robot.effects.retain(|effect| effect.name != "camera-latency");
         robot
+    }
+
+    /// What tells the controller where the robot is, with an inertial sensor if the heading follows it.
+    ///
+    /// # Errors
+    /// As [`Self::localiser`].
+    pub fn localiser_with(&self, imu: Option<&Imu>) -> Result<Localiser, GeometryError> {
+        let Some(imu) = imu.filter(|imu| imu.steers()) else { return self.localiser() };
+        let robot = self.believed();
+        let geometry = robot.geometry()?;
+        let options = FusionOptions::of(&robot).uncalibrated();
+        Ok(Localiser::inertial(&robot, &geometry, options, &imu.model(robot.control_rate_hz), self.start))
     }
 
     /// What tells the controller where the robot is.

@@ -1,5 +1,6 @@
 //! A drive tick by tick, for whoever keeps the time.
 
+use super::heading::Feel;
 use super::watch::Watch;
 use super::{Armed, DriveError, Driven, Ending, Fault, Plan, PoseSource, Steer};
 use crate::realtime::{Clock, Latency, Timer};
@@ -48,6 +49,13 @@ impl<R: Registers, S: Steer> Session<R, S> {
         board.configuration_in_force(&scale, || {
             timer.wait(clock);
         })?;
+        if let Some(mount) = &plan.robot.imu {
+            let imu = board.start_imu(mount, scale.clock_hz, clock)?;
+            state.localiser = plan.localiser_with(Some(&imu))?;
+            state.feel = Some(Feel::new(imu));
+            state.driven.imu = Some(imu);
+            timer = Timer::new(Duration::from_secs_f64(scale.tick_s()), clock);
+        }
         let (mut armed, stood) = Armed::new(board)?;
         state.driven.stood = stood;
         let first = armed.snapshot()?;
@@ -126,6 +134,7 @@ struct State<S> {
     limit_s: f64,
     steer: S,
     localiser: Localiser,
+    feel: Option<Feel>,
     watch: Watch,
     before: Snapshot,
     first: u32,
@@ -146,6 +155,7 @@ impl<S: Steer> State<S> {
             limit_s: plan.limit_s,
             steer,
             localiser: plan.localiser()?,
+            feel: None,
             watch: Watch::new(&plan.believed(), scale),
             before: Snapshot::default(),
             first: 0,
@@ -170,6 +180,9 @@ impl<S: Steer> State<S> {
                 latency: Latency::new(),
                 silence: Duration::ZERO,
                 source_gone: None,
+                imu: None,
+                imu_gone: None,
+                slips: 0,
                 poses: 0,
             },
         })
@@ -179,7 +192,14 @@ impl<S: Steer> State<S> {
     fn look<R: Registers>(&mut self, armed: &mut Armed<R>, scale: &Scale) -> Result<(Snapshot, u32), Fault> {
         let mut doubt = None;
         for _ in 0..2 {
-            let now = armed.snapshot()?;
+            let now = match &mut self.feel {
+                None => armed.snapshot()?,
+                Some(feel) => {
+                    let (now, words) = armed.snapshot_with_imu()?;
+                    feel.see(&words, now.sequence);
+                    now
+                }
+            };
             let ticks = now.sequence.wrapping_sub(self.before.sequence);
             // The snapshot of a tick before arming shows a card at rest.
             let fine = if !now.status.armed && ticks > 0 {
@@ -229,16 +249,28 @@ impl<S: Steer> State<S> {
 
         let seen = source.arrived(t);
         self.note_source(t, seen);
+        let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
+        if let Some(feel) = &mut self.feel {
+            self.localiser.feel(feel.corrected());
+            self.driven.imu_gone = feel.gone(t);
+        }
+        let slipped = self.localiser.slips();
         let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
+        self.driven.slips += u64::from(self.localiser.slips() && !slipped);
         self.driven.pose = pose;
         source.believed(t, pose);
         let in_force = self.command;
-        let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
         let wanted = self.steer.command(pose, elapsed);
         self.command = wanted.unwrap_or_default();
+        if let Some(feel) = &mut self.feel {
+            self.command.omega = feel.steer(wanted, elapsed);
+        }
         self.commit(armed, scale, host, now.faults)?;
         if let Some(recording) = recording {
-            recording.push(Sample::of(t, in_force, &now, self.total, scale, f64::NAN).with_camera(seen));
+            let felt = self.feel.as_ref().and_then(Feel::reading);
+            recording.push(
+                Sample::of(t, in_force, &now, self.total, scale, f64::NAN).with_camera(seen).with_imu(felt.as_ref()),
+            );
         }
         self.watch.look(&now, &self.total, scale, ticks, host)?;
 

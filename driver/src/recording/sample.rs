@@ -5,6 +5,7 @@ use fixed_kin::AXES;
 use fixed_kin::control::SetPointMode;
 use fixed_kin::format::{Format, Speed};
 use fixed_kin::recording::{RecordedWords, SetPointWords};
+use model::imu::Reading;
 use runs::Tick;
 use runs::frames::{Pose, Twist, wrap_angle};
 use runs::robot::Robot;
@@ -37,6 +38,8 @@ pub struct Sample {
     pub supply_v: f64,
     /// Camera pose that came at this tick.
     pub camera: Option<Pose>,
+    /// What the inertial sensor said, bias included.
+    pub imu: Option<Reading>,
 }
 
 impl Sample {
@@ -54,6 +57,7 @@ impl Sample {
             measured: seen.speeds.map(|word| rounded(scale.speed(word), DECIMALS)),
             supply_v,
             camera: None,
+            imu: None,
         }
     }
 
@@ -63,6 +67,18 @@ impl Sample {
         self.camera = seen.map(|pose| {
             let [x, y, theta] = [pose.x, pose.y, wrap_angle(pose.theta)].map(|v| rounded(v, CAMERA_DECIMALS));
             Pose::new(x, y, theta)
+        });
+        self
+    }
+
+    /// With what the inertial sensor said.
+    #[must_use]
+    pub fn with_imu(mut self, felt: Option<&Reading>) -> Self {
+        self.imu = felt.map(|reading| Reading {
+            gyro: reading.gyro.map(|v| rounded(v, DECIMALS)),
+            acceleration: reading.acceleration.map(|v| rounded(v, DECIMALS)),
+            temperature_c: rounded(reading.temperature_c, CAMERA_DECIMALS),
+            ..*reading
         });
         self
     }
@@ -79,6 +95,9 @@ impl Sample {
             measured: &self.measured[..wheels],
             supply_v: self.supply_v,
             camera: self.camera,
+            gyro: self.imu.map_or([f64::NAN; 3], |imu| imu.gyro),
+            acceleration: self.imu.map_or([f64::NAN; 3], |imu| imu.acceleration),
+            imu_temp: self.imu.map_or(f64::NAN, |imu| imu.temperature_c),
             ..Tick::default()
         }
     }

@@ -87,8 +87,11 @@ pub const INTERRUPT_DISARMED: Field = bit("disarmed", 1, "the outputs went off, 
 /// Bits of [`INTERRUPT_ENABLE`](super::INTERRUPT_ENABLE) and [`INTERRUPT_STATUS`](super::INTERRUPT_STATUS).
 pub const INTERRUPT_FIELDS: [Field; 2] = [INTERRUPT_TICK, INTERRUPT_DISARMED];
 
+/// The reader of an inertial sensor.
+pub const BLOCKS_IMU: Field = bit("imu", 20, "reader of an inertial sensor over SPI");
+
 /// Fields of [`BLOCKS`](super::BLOCKS).
-pub const BLOCK_FIELDS: [Field; 11] = [
+pub const BLOCK_FIELDS: [Field; 12] = [
     bits("encoders", 0, 4, "quadrature counters with index capture and stall detection"),
     bits("drives", 4, 4, "PWM generators"),
     bits("loops", 8, 4, "PI speed loops with feed-forward"),
@@ -100,11 +103,12 @@ pub const BLOCK_FIELDS: [Field; 11] = [
     bit("clock-monitor", 17, "monitor on the 50 MHz crystal"),
     bit("interrupt", 18, "control-tick interrupt"),
     bit("radio", 19, "radio input"),
+    BLOCKS_IMU,
 ];
 
 /// Value of [`BLOCKS`](super::BLOCKS).
 pub const BLOCKS_VALUE: u32 = {
-    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1, 1];
+    let counts = [AXES as u32, AXES as u32, AXES as u32, 1, 1, 1, 1, 1, 1, 1, 1, 1];
     let mut value = 0;
     let mut field = 0;
     while field < BLOCK_FIELDS.len() {

@@ -12,6 +12,7 @@ use super::{Access, Field, Group, Kind, Register, Target, VERSION, Value};
 use crate::AXES;
 use crate::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use crate::format::Format;
+use crate::imu_spi::SNAPSHOT_IMU_WORDS;
 use crate::safety::{ARM_FIRST, ARM_SECOND};
 use crate::word::WORD_BITS;
 
@@ -47,6 +48,8 @@ pub const DEFAULT_STALL_WINDOW: u32 = 200;
 pub const KICKER_FIRE_WORD: u32 = u32::from_be_bytes(*b"KICK");
 /// Words of a snapshot, the two sequence numbers included.
 pub const SNAPSHOT_WORDS: usize = 24;
+/// Words of a snapshot with those of the inertial sensor, which stand after the second sequence number.
+pub const SNAPSHOT_WORDS_WITH_IMU: usize = SNAPSHOT_WORDS + SNAPSHOT_IMU_WORDS;
 
 const fn register(
     name: &'static str,
@@ -514,6 +517,64 @@ pub const RADIO_DROPPED: Field = bits(
     "frames with a wrong CRC, length or version, cut short, run over, or repeated; not those for other robots",
 );
 
+/// Reading of the inertial sensor.
+pub const IMU_CONTROL: Register = register(
+    "imu_control",
+    0x0A4,
+    Access::LockedWhileArmed,
+    Kind::Fields(&[IMU_ENABLE, IMU_MODE_3, IMU_HALF, IMU_FIRST]),
+    0,
+    "how the inertial sensor is read; the count of bytes is 14, most significant bit first, and what they mean is the \
+     driver's table of sensors",
+);
+/// Read at every tick.
+pub const IMU_ENABLE: Field = bit(
+    "enable",
+    0,
+    "1: read 14 bytes from register `first` on at every control tick; 0: the line is quiet but for `imu_access`",
+);
+/// SPI mode.
+pub const IMU_MODE_3: Field = bit("mode-3", 1, "SPI mode, 1: mode 3, the clock rests high; 0: mode 0, it rests low");
+/// Half a period of the line's clock.
+pub const IMU_HALF: Field = bits(
+    "half",
+    2,
+    2,
+    "half a period of the line's clock in clocks, less one: 0 to 3 are 16.7, 8.3, 5.6, 4.2 MHz at the nominal clock",
+);
+/// First register of a burst.
+pub const IMU_FIRST: Field = bits("first", 4, 7, "first register of the 14 bytes; the read flag is put before it");
+/// One access to a register of the sensor.
+pub const IMU_ACCESS: Register = register(
+    "imu_access",
+    0x0A8,
+    Access::WriteOnly,
+    Kind::Fields(&[IMU_DATA, IMU_REGISTER, IMU_READ]),
+    0,
+    "16 bits to the inertial sensor, highest first, at most 136 clocks; nothing is sent while `imu_control` enables \
+     reading or an access is on its way",
+);
+/// Data of an access.
+pub const IMU_DATA: Field = bits("data", 0, 8, "byte for the register; any value for a read");
+/// Register of an access.
+pub const IMU_REGISTER: Field = bits("register", 8, 7, "register of the sensor");
+/// Direction of an access.
+pub const IMU_READ: Field = bit("read", 15, "1: read; 0: write");
+/// State of the line to the sensor.
+pub const IMU_STATUS: Register = register(
+    "imu_status",
+    0x0AC,
+    Access::ReadOnly,
+    Kind::Fields(&[IMU_VALUE, IMU_BUSY]),
+    0,
+    "answer to the last access; ff where no sensor answers, since the line is pulled up",
+)
+.starts(0, 0x1FF);
+/// Byte that the sensor sent.
+pub const IMU_VALUE: Field = bits("value", 0, 8, "the last 8 bits from the sensor, whole when `busy` is 0");
+/// The line is busy.
+pub const IMU_BUSY: Field = bit("busy", 8, "an access or a burst is on its way");
+
 /// Staged configuration.
 pub const CONFIGURATION: Register = array(
     "configuration",
@@ -648,6 +709,18 @@ pub const SNAPSHOT_SEQUENCE_END: Register = array(
     "equals `snapshot_sequence` in a coherent snapshot; reading it releases the latch",
 )
 .starts(0, u32::MAX);
+/// Snapshot: inertial sensor.
+pub const SNAPSHOT_IMU: Register = array(
+    "snapshot_imu",
+    0x860,
+    SNAPSHOT_IMU_WORDS,
+    Access::ReadOnly,
+    Kind::Unsigned(16),
+    "reading of the inertial sensor that began with the tick, to be read before `snapshot_sequence_end`: first the clocks \
+     from the last rise of the data-ready line to the tick, 65535 where none came within 65534 or reading is off, when \
+     the other words mean nothing; then seven words of two bytes, the first byte in bits 15:8",
+)
+.starts(0, 0xFFFF);
 
 /// All registers, by offset.
 pub const REGISTERS: &[&Register] = &[
@@ -692,6 +765,9 @@ pub const REGISTERS: &[&Register] = &[
     &INTERRUPT_ENABLE,
     &INTERRUPT_STATUS,
     &RADIO,
+    &IMU_CONTROL,
+    &IMU_ACCESS,
+    &IMU_STATUS,
     &CONFIGURATION,
     &ACTIVE_CONFIGURATION,
     &SET_POINTS,
@@ -708,4 +784,5 @@ pub const REGISTERS: &[&Register] = &[
     &SNAPSHOT_DUTY,
     &SNAPSHOT_POSE,
     &SNAPSHOT_SEQUENCE_END,
+    &SNAPSHOT_IMU,
 ];

@@ -28,7 +28,7 @@ pub use map::*;
 pub use rules::*;
 
 /// Version of this map: major in the high half, minor in the low half. The driver refuses another major.
-pub const VERSION: u32 = 0x0002_0002;
+pub const VERSION: u32 = 0x0002_0003;
 
 /// Who may do what with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -31,8 +31,10 @@ pub struct Commit {
     pub commit_configuration: Signal<In, Bit>,
     /// Word address of the write.
     pub address: Signal<In, Bits<14>>,
-    /// Its data; the checksum in a commit.
+    /// Its data.
     pub data: Signal<In, Bits<32>>,
+    /// The checksum, in a commit.
+    pub checksum: Signal<In, Bits<32>>,
     /// A control tick starts.
     pub tick: Signal<In, Bit>,
 
@@ -98,7 +100,7 @@ impl Logic for Commit {
             ^ self.data.val()
             ^ bit_cast::<32, 14>(self.address.val());
         self.committing.next = self.commit_set_points.val() | self.commit_configuration.val();
-        self.sum_right.next = self.data.val() == self.sum.q.val();
+        self.sum_right.next = self.checksum.val() == self.sum.q.val();
         self.right.next = false;
         if self.commit_set_points.val() {
             self.right.next = self.sum_right.val()

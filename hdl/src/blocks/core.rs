@@ -4,7 +4,7 @@
 //!  radio ─┐
 //!  local bus ─┬─ register file ── safety, kicker, timebase
 //!             ├─ commit ───────── banks of set points and configuration
-//!             └─ memory of the sequencer ── snapshot
+//!             └─ memory of the sequencer ── snapshot ── inertial sensor
 //!  encoders ─┬► sequencer (speed, kinematics, PI, pose) ──► PWM
 //!            └► stall detectors ──► safety
 //! ```
@@ -16,6 +16,8 @@
 //! capacitor is discharged, active high as an unconfigured pin is, whenever that gate is shut, unless
 //! the host asked to hold the charge and neither the emergency stop nor a dead clock overrules it.
 //!
+//! A snapshot is done when the program has ended and the inertial sensor, where it is read, has sent its bytes.
+//!
 //! Radio and host share one write path. The radio's words go through in clocks that the bus does not claim;
 //! while the radio commands, the host's writes reach only `arm` and `radio`. Reads are always the host's.
 
@@ -23,6 +25,7 @@ use crate::blocks::clock_monitor::ClockMonitor;
 use crate::blocks::commit::Commit;
 use crate::blocks::decoder::Decoder;
 use crate::blocks::encoder::Encoder;
+use crate::blocks::imu_spi::ImuSpi;
 use crate::blocks::interrupt::Interrupt;
 use crate::blocks::kicker::Kicker;
 use crate::blocks::local_bus::LocalBus;
@@ -99,6 +102,16 @@ pub struct Core {
     pub host_select: Signal<In, Bit>,
     /// Straps: number of the robot, open = 15.
     pub robot_number: Signal<In, Bits<4>>,
+    /// Chip select of the inertial sensor.
+    pub imu_cs_n: Signal<Out, Bit>,
+    /// Clock of its line.
+    pub imu_sclk: Signal<Out, Bit>,
+    /// Line to the sensor.
+    pub imu_mosi: Signal<Out, Bit>,
+    /// Line from the sensor, open = high.
+    pub imu_miso: Signal<In, Bit>,
+    /// Data-ready line of the sensor, active high.
+    pub imu_ready: Signal<In, Bit>,
 
     bus: LocalBus,
     registers: RegisterFile,
@@ -113,6 +126,7 @@ pub struct Core {
     trigonometry: Trigonometry,
     interrupt: Interrupt,
     radio: Radio,
+    imu: ImuSpi,
     encoders: [Encoder; 4],
     stalls: [Stall; 4],
     drives: [Pwm; 4],
@@ -124,6 +138,8 @@ pub struct Core {
     reverse: DFF<Bit>,
     read_page: DFF<Bit>,
     read_memory: DFF<Bit>,
+    read_imu: DFF<Bit>,
+    finished: DFF<Bit>,
     read_q: DFF<Bits<32>>,
     stop_sync: DFF<Bit>,
     stop_live: DFF<Bit>,
@@ -133,6 +149,7 @@ pub struct Core {
     dead_live: DFF<Bit>,
 
     tick: Signal<Local, Bit>,
+    snapshot_done: Signal<Local, Bit>,
     alive: Signal<Local, Bit>,
     radio_turn: Signal<Local, Bit>,
     address: Signal<Local, Bits<14>>,
@@ -165,7 +182,7 @@ pub struct Core {
     three_quarters: Signal<Local, Bits<13>>,
     shut: Signal<Local, Bit>,
     holds: Signal<Local, Bit>,
-    line: Signal<Local, Bits<16>>,
+    line: DFF<Bits<16>>,
     compare: Signal<Local, Bits<13>>,
     pwm_pins: Signal<Local, Bits<4>>,
     dir_pins: Signal<Local, Bits<4>>,
@@ -207,9 +224,12 @@ impl Logic for Core {
             status_at_tick,
             faults_at_tick,
             now,
+            line,
             reverse,
             read_page,
             read_memory,
+            read_imu,
+            finished,
             read_q,
             stop_sync,
             stop_live,
@@ -234,7 +254,8 @@ impl Logic for Core {
             sequencer,
             trigonometry,
             interrupt,
-            radio
+            radio,
+            imu
         );
         for i in 0..4 {
             self.encoders[i].clock.next = self.lclk.val();
@@ -252,7 +273,8 @@ impl Logic for Core {
         self.lad_out.next = self.bus.lad_out.val();
         self.lad_drive.next = self.bus.lad_drive.val();
         self.ready_n.next = self.bus.ready_n.val();
-        self.interrupt.done.next = self.sequencer.done.val();
+        self.snapshot_done.next = (self.sequencer.done.val() | self.finished.q.val()) & !self.imu.reading.val();
+        self.interrupt.done.next = self.snapshot_done.val();
         self.interrupt.armed.next = self.safety.armed.val();
         self.interrupt.enable.next = self.registers.interrupt_enable.val();
         self.interrupt.clear.next = self.registers.clear_interrupt.val();
@@ -283,7 +305,8 @@ impl Logic for Core {
         self.sequencer.set_point_bank.next = self.commit.set_point_bank.val();
         self.sequencer.snapshot_bank.next = self.snapshot.write_bank.val();
         self.snapshot.tick.next = self.tick.val();
-        self.snapshot.done.next = self.sequencer.done.val();
+        self.snapshot.done.next = self.snapshot_done.val();
+        self.finished.d.next = (self.sequencer.done.val() | self.finished.q.val()) & self.imu.reading.val();
         if self.tick.val() {
             self.status_at_tick.d.next = self.status.val() & self.live_status.val();
             self.clear_at_tick.d.next = self.registers.index_clear.val();
@@ -327,7 +350,7 @@ impl Logic for Core {
         self.blocked.next = self.staging.val() & self.sequencer.bus_blocked.val();
         self.radio.taken.next = self.radio_turn.val() & !self.blocked.val();
         self.radio.select_write.next = self.registers.select_radio.val();
-        self.radio.select.next = self.write_data.val().get_bit(0);
+        self.radio.select.next = self.registers.written.val().get_bit(0);
         self.sequencer.bus_address.next = self.decoder.memory_address.val();
         self.sequencer.bus_write_data.next = self.staged.val();
         self.sequencer.bus_write.next =
@@ -338,6 +361,7 @@ impl Logic for Core {
             self.decoder.stages_configuration.val() & self.sequencer.bus_write_taken.val();
         self.commit.address.next = self.address.val();
         self.commit.data.next = self.write_data.val();
+        self.commit.checksum.next = self.registers.written.val();
         self.commit.commit_set_points.next = self.registers.commit_set_points.val();
         self.commit.commit_configuration.next = self.registers.commit_configuration.val();
         self.commit.tick.next = self.tick.val();
@@ -345,6 +369,7 @@ impl Logic for Core {
         // Reads: the word is there one clock after the strobe, in the register one later.
         self.read_page.d.next = self.decoder.in_registers.val();
         self.read_memory.d.next = self.decoder.in_memory.val();
+        self.read_imu.d.next = self.decoder.in_imu.val();
         self.read_q.d.next = self.zero.val();
         if self.read_page.q.val() {
             self.read_q.d.next = self.registers.read_data.val();
@@ -352,7 +377,27 @@ impl Logic for Core {
         if self.read_memory.q.val() {
             self.read_q.d.next = self.sequencer.bus_read_data.val();
         }
+        if self.read_imu.q.val() {
+            self.read_q.d.next = bit_cast::<32, 16>(self.imu.read_data.val());
+        }
         self.bus.read_data.next = self.read_q.q.val();
+
+        // Inertial sensor.
+        self.imu.tick.next = self.tick.val();
+        self.imu.bank.next = self.snapshot.write_bank.val();
+        self.imu.enable.next = self.registers.imu_control.val().get_bit(0);
+        self.imu.idle_high.next = self.registers.imu_control.val().get_bit(1);
+        self.imu.half.next = self.registers.imu_control.val().get_bits::<2>(2);
+        self.imu.first.next = self.registers.imu_control.val().get_bits::<7>(4);
+        self.imu.access.next = self.registers.imu_access.val();
+        self.imu.command.next = self.registers.written.val().get_bits::<16>(0);
+        self.imu.miso.next = self.imu_miso.val();
+        self.imu.ready.next = self.imu_ready.val();
+        self.imu.read_bank.next = self.snapshot.read_bank.val();
+        self.imu.read_word.next = self.index.val().get_bits::<3>(0);
+        self.imu_cs_n.next = self.imu.cs_n.val();
+        self.imu_sclk.next = self.imu.sclk.val();
+        self.imu_mosi.next = self.imu.mosi.val();
 
         // Encoders.
         for i in 0..4 {
@@ -438,9 +483,9 @@ impl Logic for Core {
                 self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(3);
             }
         }
-        self.line.next = self.count.val();
+        self.line.d.next = self.count.val();
         if self.direction.val() {
-            self.line.next = self.count.val() - self.one_16.val();
+            self.line.d.next = self.count.val() - self.one_16.val();
         }
         match self.sequencer.input_port.val().index() {
             0 => {
@@ -450,7 +495,7 @@ impl Logic for Core {
                 self.sequencer.input_data.next = bit_cast::<32, 24>(self.edge_time.val());
             } // EdgeTime
             2 => {
-                self.sequencer.input_data.next = bit_cast::<32, 16>(self.line.val());
+                self.sequencer.input_data.next = bit_cast::<32, 16>(self.line.q.val());
             } // Line
             3 => {
                 self.sequencer.input_data.next = bit_cast::<32, 24>(self.now.q.val());
@@ -576,7 +621,7 @@ impl Logic for Core {
         // Safety and kicker.
         self.safety.emergency_stop.next = self.emergency_stop.val();
         self.safety.arm_write.next = self.registers.arm_write.val();
-        self.safety.arm_data.next = self.write_data.val();
+        self.safety.arm_data.next = self.registers.written.val();
         self.safety.pet.next = self.commit.pet.val();
         self.safety.watchdog_timeout.next = self.registers.watchdog_timeout.val();
         self.safety.encoder_fault.next = self.masked_errors.val() != self.none.val();
@@ -615,6 +660,8 @@ impl Logic for Core {
         self.registers.radio.next = bit_cast::<24, 1>(self.radio.selected.val().into())
             | (bit_cast::<24, 8>(self.radio.accepted.val()) << 8)
             | (bit_cast::<24, 8>(self.radio.dropped.val()) << 16);
+        self.registers.imu_status.next =
+            bit_cast::<9, 8>(self.imu.value.val()) | (bit_cast::<9, 1>(self.imu.busy.val().into()) << 8);
         self.registers.armed.next = self.safety.armed.val();
         self.registers.clock_count.next = self.timebase.clock_count.val();
         self.registers.faults.next = self.safety.faults.val();

@@ -6,7 +6,7 @@
 //! | 400, 500 | configuration: staged bank, bank in force | 52 |
 //! | 600, 640 | set points: staged bank, bank in force | 4 |
 //! | 770, 790 | index positions, integrators | 4 |
-//! | 800 | snapshot: bank the reader holds | 24 |
+//! | 800 | snapshot: bank the reader holds; the last 8 stand in the reader of the inertial sensor | 24, 8 |
 //!
 //! Anything else is reserved: reads zero, writes nothing.
 
@@ -16,7 +16,7 @@ use fixed_kin::AXES;
 use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use fixed_kin::registers::{
     ACTIVE_CONFIGURATION, ACTIVE_SET_POINTS, CONFIGURATION, INDEX_POSITION, INTEGRALS, Register, SET_POINTS,
-    SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
+    SNAPSHOT_IMU, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
 };
 use rust_hdl::prelude::*;
 
@@ -45,6 +45,8 @@ pub struct Decoder {
     pub in_registers: Signal<Out, Bit>,
     /// In the memory, at `memory_address`.
     pub in_memory: Signal<Out, Bit>,
+    /// A word of the inertial sensor.
+    pub in_imu: Signal<Out, Bit>,
     /// Address in the sequencer's memory.
     pub memory_address: Signal<Out, Bits<8>>,
     /// A write would stage a set point.
@@ -85,6 +87,7 @@ pub struct Decoder {
     integrals_end: Literal<6, { index(&INTEGRALS) + AXES as u64 }>,
     snapshot_end: Literal<6, { SNAPSHOT_WORDS as u64 }>,
     first: Literal<6, 0>,
+    imu_row: Literal<3, { index(&SNAPSHOT_IMU) / 8 }>,
     last: Literal<6, { index(&SNAPSHOT_SEQUENCE_END) }>,
 }
 
@@ -100,6 +103,7 @@ impl Logic for Decoder {
 
         self.in_registers.next = self.page.val() == self.page_registers.val();
         self.in_memory.next = false;
+        self.in_imu.next = false;
         self.stages_set_point.next = false;
         self.stages_configuration.next = false;
         self.snapshot_first.next = false;
@@ -143,6 +147,7 @@ impl Logic for Decoder {
         }
         if self.page.val() == self.page_snapshot.val() {
             self.in_memory.next = self.index.val() < self.snapshot_end.val();
+            self.in_imu.next = self.index.val().get_bits::<3>(3) == self.imu_row.val();
             self.snapshot_first.next = self.index.val() == self.first.val();
             self.snapshot_last.next = self.index.val() == self.last.val();
             self.base.next = self.place.address.val();

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! `quotient` = `fixed_kin::word::divide(numerator, denominator)` for |numerator| < 2²⁴: one step to
-//! see an overflow, 32 for the bits. `start` is taken while `busy` is low; `quotient` is valid from
+//! see an overflow, 32 for the bits, one to clip and one for the sign. `start` is taken while `busy` is low; `quotient` is valid from
 //! the clock in which `busy` falls, until the next start. It works while the sequencer goes on.
 
 use crate::primitives::Literal;
@@ -13,7 +13,7 @@ use fixed_kin::word::WORD_MAX;
 use rust_hdl::prelude::*;
 
 /// Clocks that `busy` is high.
-pub const DIVISION_STEPS: u32 = 33;
+pub const DIVISION_STEPS: u32 = 35;
 
 /// See the module.
 #[derive(LogicBlock, Default)]
@@ -48,6 +48,7 @@ pub struct Divider {
 
     no_steps: Literal<6, 0>,
     one_step: Literal<6, 1>,
+    two_steps: Literal<6, 2>,
     all_steps: Literal<6, { DIVISION_STEPS as u64 }>,
     zero_25: Literal<25, 0>,
     zero: Literal<32, 0>,
@@ -73,10 +74,21 @@ impl Logic for Divider {
             self.magnitude.next = self.zero_25.val() - self.numerator.val().get_bits::<25>(0);
         }
 
+        self.bits_top.next = self.bits.q.val().get_bits::<3>(29);
+        self.clipped.next = self.bits.q.val();
+        if self.overflow.q.val() | (self.bits_top.val() != self.three_clear.val()) {
+            self.clipped.next = self.word_max.val();
+        }
         if self.running.val() {
             self.steps.d.next = self.steps.q.val() - self.one_step.val();
             self.checking.d.next = false;
-            if self.checking.q.val() {
+            if self.steps.q.val() == self.two_steps.val() {
+                self.bits.d.next = self.clipped.val();
+            } else if self.steps.q.val() == self.one_step.val() {
+                if self.negative.q.val() {
+                    self.bits.d.next = self.zero.val() - self.bits.q.val();
+                }
+            } else if self.checking.q.val() {
                 self.overflow.d.next = !self.difference.val().get_bit(25);
             } else if self.difference.val().get_bit(25) {
                 self.remainder.d.next = self.minuend.val();
@@ -95,14 +107,6 @@ impl Logic for Divider {
             self.steps.d.next = self.all_steps.val();
         }
 
-        self.bits_top.next = self.bits.q.val().get_bits::<3>(29);
-        self.clipped.next = self.bits.q.val();
-        if self.overflow.q.val() | (self.bits_top.val() != self.three_clear.val()) {
-            self.clipped.next = self.word_max.val();
-        }
-        self.quotient.next = self.clipped.val();
-        if self.negative.q.val() {
-            self.quotient.next = self.zero.val() - self.clipped.val();
-        }
+        self.quotient.next = self.bits.q.val();
     }
 }

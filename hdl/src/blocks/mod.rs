@@ -7,6 +7,7 @@ pub mod crc;
 pub mod decoder;
 pub mod divider;
 pub mod encoder;
+pub mod imu_spi;
 pub mod interrupt;
 pub mod kicker;
 pub mod local_bus;

@@ -44,11 +44,12 @@ pub struct Multiplier {
     lo: DFF<Bits<32>>,
     operand: DFF<Bits<32>>,
     steps: DFF<Bits<4>>,
-    last_bit: DFF<Bit>,
+    negate: DFF<Bit>,
+    twice: DFF<Bit>,
+    nothing: DFF<Bit>,
     guard_8: DFF<Bit>,
 
     addend: Signal<Local, Bits<32>>,
-    negate: Signal<Local, Bit>,
     left: Signal<Local, Bits<32>>,
     raw_sum: Signal<Local, Bits<32>>,
     sum: Signal<Local, Bits<32>>,
@@ -61,6 +62,10 @@ pub struct Multiplier {
     top_5: Signal<Local, Bits<5>>,
 
     zero: Literal<32, 0>,
+    digit_zero: Literal<3, 0>,
+    digit_plus_two: Literal<3, 3>,
+    digit_minus_two: Literal<3, 4>,
+    digit_minus_zero: Literal<3, 7>,
     no_steps: Literal<4, 0>,
     one_step: Literal<4, 1>,
     steps_coefficient: Literal<4, { Scale::COEFFICIENT.digits as u64 }>,
@@ -84,50 +89,36 @@ pub struct Multiplier {
 impl Logic for Multiplier {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, p, lo, operand, steps, last_bit, guard_8);
+        dff_setup!(self, clock, p, lo, operand, steps, negate, twice, nothing, guard_8);
 
         self.running.next = self.steps.q.val() != self.no_steps.val();
         self.busy.next = self.running.val();
 
-        // Booth digit: the low two bits of the operand and the one that went before.
-        self.digit.next = bit_cast::<3, 2>(self.lo.q.val().get_bits::<2>(0)) << 1;
-        if self.last_bit.q.val() {
-            self.digit.next = (bit_cast::<3, 2>(self.lo.q.val().get_bits::<2>(0)) << 1) | 1;
+        // The next Booth digit, two bits of the operand and the one that went before, a clock ahead.
+        self.digit.next = self.lo.q.val().get_bits::<3>(1);
+        if !self.running.val() {
+            self.digit.next = bit_cast::<3, 2>(self.b.val().get_bits::<2>(0)) << 1;
         }
+        self.negate.d.next = self.digit.val().get_bit(2);
+        self.twice.d.next =
+            (self.digit.val() == self.digit_plus_two.val()) | (self.digit.val() == self.digit_minus_two.val());
+        self.nothing.d.next =
+            (self.digit.val() == self.digit_zero.val()) | (self.digit.val() == self.digit_minus_zero.val());
         self.addend.next = self.operand.q.val();
-        self.negate.next = false;
-        match self.digit.val().index() {
-            0 => {
-                self.addend.next = self.zero.val();
-            }
-            3 => {
-                self.addend.next = self.operand.q.val() << 1;
-            }
-            4 => {
-                self.addend.next = self.operand.q.val() << 1;
-                self.negate.next = true;
-            }
-            5 => {
-                self.negate.next = true;
-            }
-            6 => {
-                self.negate.next = true;
-            }
-            7 => {
-                self.addend.next = self.zero.val();
-            }
-            _ => {
-                self.addend.next = self.operand.q.val();
-            }
+        if self.twice.q.val() {
+            self.addend.next = self.operand.q.val() << 1;
+        }
+        if self.nothing.q.val() {
+            self.addend.next = self.zero.val();
         }
         // p − a = ¬(¬p + a), as in the sequencer: one carry chain for both ways.
         self.left.next = self.p.q.val();
-        if self.negate.val() {
+        if self.negate.q.val() {
             self.left.next = !self.p.q.val();
         }
         self.raw_sum.next = self.left.val() + self.addend.val();
         self.sum.next = self.raw_sum.val();
-        if self.negate.val() {
+        if self.negate.q.val() {
             self.sum.next = !self.raw_sum.val();
         }
         self.shifted.next = self.sum.val() >> 2;
@@ -139,11 +130,9 @@ impl Logic for Multiplier {
                 self.p.d.next = self.shifted.val() | self.sign_extension.val();
             }
             self.lo.d.next = (self.lo.q.val() >> 2) | (bit_cast::<32, 2>(self.sum.val().get_bits::<2>(0)) << 30);
-            self.last_bit.d.next = self.lo.q.val().get_bit(1);
         } else if self.start.val() {
             self.operand.d.next = self.a.val();
             self.lo.d.next = self.b.val();
-            self.last_bit.d.next = false;
             self.guard_8.d.next = false;
             match self.scale.val().index() {
                 0 => {

@@ -3,7 +3,7 @@
 //! | access | rule |
 //! |---|---|
 //! | locked while armed | a write while `armed` is ignored |
-//! | write only | a strobe in the clock of the write, with `data` |
+//! | write only | a strobe in the clock after the write, with `written` |
 //! | read | `read_data` one clock after `address` |
 //!
 //! The case labels are word addresses of `fixed_kin::registers`; a test walks all of them.
@@ -27,6 +27,8 @@ pub struct RegisterFile {
     pub write: Signal<In, Bit>,
     /// What is written.
     pub data: Signal<In, Bits<32>>,
+    /// What was written in the last clock.
+    pub written: Signal<Out, Bits<32>>,
     /// The word at `address` of the last clock.
     pub read_data: Signal<Out, Bits<32>>,
     /// Outputs may be on.
@@ -60,6 +62,8 @@ pub struct RegisterFile {
     pub interrupt_status: Signal<In, Bits<2>>,
     /// Live `radio`.
     pub radio: Signal<In, Bits<24>>,
+    /// Live `imu_status`.
+    pub imu_status: Signal<In, Bits<9>>,
 
     /// `tick_period`.
     pub tick_period: Signal<Out, Bits<24>>,
@@ -107,6 +111,10 @@ pub struct RegisterFile {
     pub clear_interrupt: Signal<Out, Bits<2>>,
     /// `radio` is written.
     pub select_radio: Signal<Out, Bit>,
+    /// `imu_control`.
+    pub imu_control: Signal<Out, Bits<11>>,
+    /// `imu_access` is written.
+    pub imu_access: Signal<Out, Bit>,
     /// `arm` is written.
     pub arm_write: Signal<Out, Bit>,
     /// `faults` is written: the bits to clear.
@@ -140,7 +148,11 @@ pub struct RegisterFile {
     stall_compare_q: DFF<Bits<13>>,
     interrupt_enable_q: DFF<Bits<2>>,
     index_clear_q: DFF<Bits<4>>,
+    imu_control_q: DFF<Bits<11>>,
     read_q: DFF<Bits<32>>,
+    writing: DFF<Bit>,
+    place: DFF<Bits<6>>,
+    word: DFF<Bits<32>>,
 
     unlocked: Signal<Local, Bit>,
 
@@ -189,13 +201,18 @@ impl Logic for RegisterFile {
             stall_compare_q,
             interrupt_enable_q,
             index_clear_q,
-            read_q
+            imu_control_q,
+            read_q,
+            writing,
+            place,
+            word
         );
 
         self.unlocked.next = !self.armed.val();
         self.tick_period_written.next = false;
         self.arm_write.next = false;
         self.select_radio.next = false;
+        self.imu_access.next = false;
         self.clear_faults.next = self.no_faults.val();
         self.clear_kicker.next = false;
         self.commit_set_points.next = false;
@@ -205,45 +222,50 @@ impl Logic for RegisterFile {
         self.clear_stall.next = self.no_axes.val();
         self.index_arm.next = self.no_axes.val();
         self.clear_interrupt.next = self.no_causes.val();
-        if self.write.val() {
-            match self.address.val().index() {
+        // A write acts in the clock after, which keeps the decoding of address and strobe out of its paths.
+        self.writing.d.next = self.write.val();
+        self.place.d.next = self.address.val();
+        self.word.d.next = self.data.val();
+        self.written.next = self.word.q.val();
+        if self.writing.q.val() {
+            match self.place.q.val().index() {
                 8 => {
                     if self.unlocked.val() {
-                        self.tick_period_q.d.next = self.data.val().get_bits::<24>(0);
+                        self.tick_period_q.d.next = self.word.q.val().get_bits::<24>(0);
                         self.tick_period_written.next = true;
                     }
                 } // TICK_PERIOD
                 9 => {
                     if self.unlocked.val() {
-                        self.mode_q.d.next = self.data.val().get_bits::<4>(0);
+                        self.mode_q.d.next = self.word.q.val().get_bits::<4>(0);
                     }
                 } // MODE
                 10 => {
                     if self.unlocked.val() {
-                        self.encoder_filter_q.d.next = self.data.val().get_bits::<4>(0);
+                        self.encoder_filter_q.d.next = self.word.q.val().get_bits::<4>(0);
                     }
                 } // ENCODER_FILTER
                 11 => {
                     if self.unlocked.val() {
-                        self.pwm_period_q.d.next = self.data.val().get_bits::<13>(0);
+                        self.pwm_period_q.d.next = self.word.q.val().get_bits::<13>(0);
                     }
                 } // PWM_PERIOD
                 12 => {
                     if self.unlocked.val() {
-                        self.pwm_blanking_q.d.next = self.data.val().get_bits::<10>(0);
+                        self.pwm_blanking_q.d.next = self.word.q.val().get_bits::<10>(0);
                     }
                 } // PWM_BLANKING
                 13 => {
                     if self.unlocked.val() {
-                        self.watchdog_timeout_q.d.next = self.data.val().get_bits::<24>(0);
+                        self.watchdog_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
                     }
                 } // WATCHDOG_TIMEOUT
                 14 => {
                     self.arm_write.next = true;
                 } // ARM
                 15 => {
-                    self.clear_faults.next = self.data.val().get_bits::<8>(0);
-                    self.clear_kicker.next = self.data.val() != self.zero.val();
+                    self.clear_faults.next = self.word.q.val().get_bits::<8>(0);
+                    self.clear_kicker.next = self.word.q.val() != self.zero.val();
                 } // FAULTS
                 18 => {
                     self.commit_set_points.next = true;
@@ -252,72 +274,80 @@ impl Logic for RegisterFile {
                     self.commit_configuration.next = true;
                 } // COMMIT_CONFIGURATION
                 21 => {
-                    self.clear_encoder_error.next = self.data.val().get_bits::<4>(0);
+                    self.clear_encoder_error.next = self.word.q.val().get_bits::<4>(0);
                 } // ENCODER_ERROR
                 23 => {
                     if self.unlocked.val() {
-                        self.encoder_fault_mask_q.d.next = self.data.val().get_bits::<4>(0);
+                        self.encoder_fault_mask_q.d.next = self.word.q.val().get_bits::<4>(0);
                     }
                 } // ENCODER_FAULT_MASK
                 24 => {
-                    self.kicker_control_q.d.next = self.data.val().get_bits::<4>(0);
+                    self.kicker_control_q.d.next = self.word.q.val().get_bits::<4>(0);
                 } // KICKER_CONTROL
                 25 => {
-                    self.fire.next = self.data.val() == self.fire_word.val();
+                    self.fire.next = self.word.q.val() == self.fire_word.val();
                 } // KICKER_FIRE
                 26 => {
-                    self.kicker_pulse_q.d.next = self.data.val().get_bits::<14>(0);
+                    self.kicker_pulse_q.d.next = self.word.q.val().get_bits::<14>(0);
                 } // KICKER_PULSE
                 27 => {
                     if self.unlocked.val() {
-                        self.kicker_lockout_q.d.next = self.data.val().get_bits::<20>(0);
+                        self.kicker_lockout_q.d.next = self.word.q.val().get_bits::<20>(0);
                     }
                 } // KICKER_LOCKOUT
                 28 => {
                     if self.unlocked.val() {
-                        self.kicker_charge_timeout_q.d.next = self.data.val().get_bits::<24>(0);
+                        self.kicker_charge_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
                     }
                 } // KICKER_CHARGE_TIMEOUT
                 30 => {
                     if self.unlocked.val() {
-                        self.clocks_per_microsecond_q.d.next = self.data.val().get_bits::<6>(0);
+                        self.clocks_per_microsecond_q.d.next = self.word.q.val().get_bits::<6>(0);
                     }
                 } // CLOCKS_PER_MICROSECOND
                 31 => {
-                    self.leds_q.d.next = self.data.val().get_bits::<8>(0);
+                    self.leds_q.d.next = self.word.q.val().get_bits::<8>(0);
                 } // LEDS
                 32 => {
                     if self.unlocked.val() {
-                        self.set_point_timeout_q.d.next = self.data.val().get_bits::<16>(0);
+                        self.set_point_timeout_q.d.next = self.word.q.val().get_bits::<16>(0);
                     }
                 } // SET_POINT_TIMEOUT
                 33 => {
                     if self.unlocked.val() {
-                        self.stall_window_q.d.next = self.data.val().get_bits::<16>(0);
+                        self.stall_window_q.d.next = self.word.q.val().get_bits::<16>(0);
                     }
                 } // STALL_WINDOW
                 34 => {
                     if self.unlocked.val() {
-                        self.stall_compare_q.d.next = self.data.val().get_bits::<13>(0);
+                        self.stall_compare_q.d.next = self.word.q.val().get_bits::<13>(0);
                     }
                 } // STALL_COMPARE
                 35 => {
-                    self.clear_stall.next = self.data.val().get_bits::<4>(0);
+                    self.clear_stall.next = self.word.q.val().get_bits::<4>(0);
                 } // STALL
                 36 => {
-                    self.index_arm.next = self.data.val().get_bits::<4>(0);
-                    self.index_clear_q.d.next = (self.index_clear_q.q.val() & !self.data.val().get_bits::<4>(0))
-                        | (self.data.val().get_bits::<4>(4) & self.data.val().get_bits::<4>(0));
+                    self.index_arm.next = self.word.q.val().get_bits::<4>(0);
+                    self.index_clear_q.d.next = (self.index_clear_q.q.val() & !self.word.q.val().get_bits::<4>(0))
+                        | (self.word.q.val().get_bits::<4>(4) & self.word.q.val().get_bits::<4>(0));
                 } // INDEX_ARM
                 38 => {
-                    self.interrupt_enable_q.d.next = self.data.val().get_bits::<2>(0);
+                    self.interrupt_enable_q.d.next = self.word.q.val().get_bits::<2>(0);
                 } // INTERRUPT_ENABLE
                 39 => {
-                    self.clear_interrupt.next = self.data.val().get_bits::<2>(0);
+                    self.clear_interrupt.next = self.word.q.val().get_bits::<2>(0);
                 } // INTERRUPT_STATUS
                 40 => {
                     self.select_radio.next = true;
                 } // RADIO
+                41 => {
+                    if self.unlocked.val() {
+                        self.imu_control_q.d.next = self.word.q.val().get_bits::<11>(0);
+                    }
+                } // IMU_CONTROL
+                42 => {
+                    self.imu_access.next = true;
+                } // IMU_ACCESS
                 _ => {
                     self.fire.next = false;
                 }
@@ -433,6 +463,12 @@ impl Logic for RegisterFile {
             40 => {
                 self.read_q.d.next = bit_cast::<32, 24>(self.radio.val());
             }
+            41 => {
+                self.read_q.d.next = bit_cast::<32, 11>(self.imu_control_q.q.val());
+            }
+            43 => {
+                self.read_q.d.next = bit_cast::<32, 9>(self.imu_status.val());
+            }
             _ => {
                 self.read_q.d.next = self.zero.val();
             }
@@ -457,5 +493,6 @@ impl Logic for RegisterFile {
         self.stall_compare.next = self.stall_compare_q.q.val();
         self.interrupt_enable.next = self.interrupt_enable_q.q.val();
         self.index_clear.next = self.index_clear_q.q.val();
+        self.imu_control.next = self.imu_control_q.q.val();
     }
 }

@@ -1,14 +1,17 @@
 //! The sequencer: runs the program of `hdl::program` once per control tick.
 //!
 //! ```text
-//!   fetch                read                 execute
-//!   ┌─────────┐ instr  ┌────────┐   word    ┌────────────────┐
-//!   │ program │──────► │ memory │ ────────► │ acc ± word     │──► acc ──► memory write, output
-//!   └─────────┘        └────────┘           │ × (serial)     │
-//!     ▲ pc               ▲ address          └────────────────┘
+//!   fetch                read                 execute                 finish
+//!   ┌─────────┐ instr  ┌────────┐   word    ┌──────────────┐ total ┌──────────┐
+//!   │ program │──────► │ memory │ ────────► │ acc ± word   │─────► │ saturate │──► acc
+//!   └─────────┘        │ inputs │ ─┐        │ × ÷ (serial) │       │ store    │──► memory
+//!     ▲ pc             └────────┘  └──────► │ load ► acc   │       └──────────┘
+//!                        ▲ address          └──────────────┘
 //! ```
 //!
-//! One instruction a clock; a taken branch kills the instruction behind it. Multiplication and division
+//! One instruction a clock; a taken branch kills the instruction after it. A sum stands in `total` after its
+//! clock and in the accumulator one clock later, saturated or cut; a store writes in its second clock what the
+//! accumulator then holds. What this asks of a program, its assembler knows. Multiplication and division
 //! run beside the program, until their result is asked for; the program takes every product before it
 //! starts the next. A second copy of the memory, written together with the first, serves the bus,
 //! which may also write where the program does not write in the same clock. A bus that reads a word in the
@@ -44,7 +47,7 @@ pub struct Sequencer {
     /// Bank the snapshot is written to, 0 to 2.
     pub snapshot_bank: Signal<In, Bits<2>>,
 
-    /// Input port that the program asks for, an `InputPort`.
+    /// Input port that the instruction being read may ask for, an `InputPort`.
     pub input_port: Signal<Out, Bits<5>>,
     /// The axis the program is at.
     pub axis: Signal<Out, Bits<2>>,
@@ -81,6 +84,20 @@ pub struct Sequencer {
     pc: DFF<Bits<9>>,
     instruction: DFF<Bits<16>>,
     subtracts: DFF<Bit>,
+    jumps: DFF<Bit>,
+    jumps_by_zero: DFF<Bit>,
+    jumps_by_sign: DFF<Bit>,
+    jumps_by_axis: DFF<Bit>,
+    jumps_if_not: DFF<Bit>,
+    input_word: DFF<Bits<32>>,
+    total: DFF<Bits<32>>,
+    total_negated: DFF<Bit>,
+    finishing: DFF<Bit>,
+    saturates: DFF<Bit>,
+    cuts_16: DFF<Bit>,
+    cuts_24: DFF<Bit>,
+    storing: DFF<Bit>,
+    store_address: DFF<Bits<8>>,
     valid: DFF<Bit>,
     accumulator: DFF<Bits<32>>,
     axis_number: DFF<Bits<2>>,
@@ -88,21 +105,24 @@ pub struct Sequencer {
     pc_next: Signal<Local, Bits<9>>,
     stall: Signal<Local, Bit>,
     branch: Signal<Local, Bit>,
-    storing: Signal<Local, Bit>,
     read_instruction: Signal<Local, Bits<16>>,
     read_op: Signal<Local, Bits<5>>,
     read_subtracts: Signal<Local, Bit>,
+    read_jumps: Signal<Local, Bit>,
+    read_jumps_by_zero: Signal<Local, Bit>,
+    read_jumps_by_sign: Signal<Local, Bit>,
+    read_jumps_by_axis: Signal<Local, Bit>,
+    read_jumps_if_not: Signal<Local, Bit>,
+    nothing: Signal<Local, Bit>,
     read_address: Signal<Local, Bits<8>>,
     read_bank: Signal<Local, Bits<8>>,
     write_address: Signal<Local, Bits<8>>,
-    store_address: Signal<Local, Bits<8>>,
     bus_hits: DFF<Bit>,
     bus_written: DFF<Bits<32>>,
     op: Signal<Local, Bits<5>>,
     word: Signal<Local, Bits<32>>,
     subtracting: Signal<Local, Bit>,
     left: Signal<Local, Bits<32>>,
-    raw_sum: Signal<Local, Bits<32>>,
     sum: Signal<Local, Bits<32>>,
     sum_top: Signal<Local, Bits<3>>,
     saturated: Signal<Local, Bits<32>>,
@@ -144,7 +164,9 @@ impl Logic for Sequencer {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, active, pc, instruction, subtracts, valid, accumulator, axis_number);
-        dff_setup!(self, clock, bus_hits, bus_written);
+        dff_setup!(self, clock, jumps, jumps_by_zero, jumps_by_sign, jumps_by_axis, jumps_if_not);
+        dff_setup!(self, clock, bus_hits, bus_written, input_word, total, total_negated);
+        dff_setup!(self, clock, finishing, saturates, cuts_16, cuts_24, storing, store_address);
         clock!(self, clock, rom, memory, mirror, multiplier, divider);
 
         // Read stage: the instruction at pc, its word is there one clock later.
@@ -166,16 +188,24 @@ impl Logic for Sequencer {
         // Execute stage.
         self.op.next = self.instruction.q.val().get_bits::<5>(11);
         self.word.next = self.memory.read_data.val();
-        self.storing.next = false;
-        self.branch.next = false;
+        self.storing.d.next = false;
+        self.finishing.d.next = false;
+        self.saturates.d.next = false;
+        self.cuts_16.d.next = false;
+        self.cuts_24.d.next = false;
         self.stall.next = false;
         self.done.next = false;
         self.output_strobe.next = false;
         self.multiplier.start.next = false;
         self.divider.start.next = false;
-        // Decoded a clock ahead, so that it does not stand before the carry chain.
+        // Decoded a clock ahead, so that it does not stand before the carry chain, nor before the next address.
         self.read_op.next = self.read_instruction.val().get_bits::<5>(11);
         self.read_subtracts.next = false;
+        self.read_jumps.next = false;
+        self.read_jumps_by_zero.next = false;
+        self.read_jumps_by_sign.next = false;
+        self.read_jumps_by_axis.next = false;
+        self.read_jumps_if_not.next = false;
         match self.read_op.val().index() {
             4 => {
                 self.read_subtracts.next = true;
@@ -188,24 +218,51 @@ impl Logic for Sequencer {
             } // Subtract24
             8 => {
                 self.read_subtracts.next = true;
-            } // Minimum
-            9 => {
-                self.read_subtracts.next = true;
-            } // Maximum
+            } // Compare
+            14 => {
+                self.read_jumps.next = true;
+            } // Jump
+            15 => {
+                self.read_jumps_by_zero.next = true;
+            } // JumpZero
+            16 => {
+                self.read_jumps_by_zero.next = true;
+                self.read_jumps_if_not.next = true;
+            } // JumpNotZero
+            17 => {
+                self.read_jumps_by_sign.next = true;
+            } // JumpNegative
+            18 => {
+                self.read_jumps_by_sign.next = true;
+                self.read_jumps_if_not.next = true;
+            } // JumpNotNegative
+            19 => {
+                self.read_jumps_by_axis.next = true;
+            } // NextAxis
             _ => {
                 self.read_subtracts.next = false;
             }
         }
+        self.nothing.next = self.accumulator.q.val() == self.zero.val();
+        self.branch.next = self.valid.q.val()
+            & (self.jumps.q.val()
+                | (self.jumps_by_zero.q.val() & (self.nothing.val() != self.jumps_if_not.q.val()))
+                | (self.jumps_by_sign.q.val() & (self.accumulator.q.val().get_bit(31) != self.jumps_if_not.q.val()))
+                | (self.jumps_by_axis.q.val() & (self.axis_number.q.val() != self.last_axis.val())));
         self.subtracting.next = self.subtracts.q.val();
         // a − b = ¬(¬a + b): both ways share one carry chain, with no second one to negate b.
         self.left.next = self.accumulator.q.val();
         if self.subtracting.val() {
             self.left.next = !self.accumulator.q.val();
         }
-        self.raw_sum.next = self.left.val() + self.word.val();
-        self.sum.next = self.raw_sum.val();
-        if self.subtracting.val() {
-            self.sum.next = !self.raw_sum.val();
+        self.total.d.next = self.left.val() + self.word.val();
+        self.total_negated.d.next = self.subtracting.val();
+        self.input_word.d.next = self.input_data.val();
+
+        // Finish stage: the sum of the clock before.
+        self.sum.next = self.total.q.val();
+        if self.total_negated.q.val() {
+            self.sum.next = !self.total.q.val();
         }
         self.sum_top.next = self.sum.val().get_bits::<3>(29);
         self.saturated.next = self.sum.val();
@@ -222,6 +279,19 @@ impl Logic for Sequencer {
         self.immediate.next = bit_cast::<32, 8>(self.instruction.q.val().get_bits::<8>(0));
         if self.instruction.q.val().get_bit(7) {
             self.immediate.next = bit_cast::<32, 8>(self.instruction.q.val().get_bits::<8>(0)) | self.sign_of_8.val();
+        }
+
+        if self.finishing.q.val() {
+            self.accumulator.d.next = self.sum.val();
+        }
+        if self.saturates.q.val() {
+            self.accumulator.d.next = self.saturated.val();
+        }
+        if self.cuts_16.q.val() {
+            self.accumulator.d.next = self.low_16.val();
+        }
+        if self.cuts_24.q.val() {
+            self.accumulator.d.next = self.sum.val() & self.mask_24.val();
         }
 
         self.multiplier.a.next = self.word.val();
@@ -242,63 +312,42 @@ impl Logic for Sequencer {
                         self.accumulator.d.next = self.immediate.val();
                     } // Immediate
                     3 => {
-                        self.accumulator.d.next = self.saturated.val();
+                        self.saturates.d.next = true;
                     } // Add
                     4 => {
-                        self.accumulator.d.next = self.saturated.val();
+                        self.saturates.d.next = true;
                     } // Subtract
                     5 => {
-                        self.accumulator.d.next = self.sum.val();
+                        self.finishing.d.next = true;
                     } // AddWrapping
                     6 => {
-                        self.accumulator.d.next = self.low_16.val();
+                        self.cuts_16.d.next = true;
                     } // Subtract16
                     7 => {
-                        self.accumulator.d.next = self.sum.val() & self.mask_24.val();
+                        self.cuts_24.d.next = true;
                     } // Subtract24
-                    8 => {
-                        if !self.sum.val().get_bit(31) {
-                            self.accumulator.d.next = self.word.val();
-                        }
-                    } // Minimum
                     9 => {
-                        if self.sum.val().get_bit(31) {
+                        if self.sum.val().get_bit(31) == self.instruction.q.val().get_bit(9) {
                             self.accumulator.d.next = self.word.val();
                         }
-                    } // Maximum
+                    } // LoadIf
                     10 => {
                         self.accumulator.d.next = self.accumulator.q.val() ^ self.word.val();
                     } // Xor
                     11 => {
-                        self.storing.next = true;
+                        self.storing.d.next = true;
                     } // Store
                     12 => {
-                        self.accumulator.d.next = self.input_data.val();
+                        self.accumulator.d.next = self.input_word.q.val();
                     } // Input
                     13 => {
                         self.output_strobe.next = true;
                     } // Output
-                    14 => {
-                        self.branch.next = true;
-                    } // Jump
-                    15 => {
-                        self.branch.next = self.accumulator.q.val() == self.zero.val();
-                    } // JumpZero
-                    16 => {
-                        self.branch.next = self.accumulator.q.val() != self.zero.val();
-                    } // JumpNotZero
-                    17 => {
-                        self.branch.next = self.accumulator.q.val().get_bit(31);
-                    } // JumpNegative
-                    18 => {
-                        self.branch.next = !self.accumulator.q.val().get_bit(31);
-                    } // JumpNotNegative
                     19 => {
                         if self.axis_number.q.val() == self.last_axis.val() {
                             self.axis_number.d.next = self.first_axis.val();
                         } else {
                             self.axis_number.d.next = self.axis_number.q.val() + self.one_axis.val();
-                            self.branch.next = true;
                         }
                     } // NextAxis
                     20 => {
@@ -316,26 +365,35 @@ impl Logic for Sequencer {
                         self.stall.next = self.multiplier.busy.val();
                     } // Product
                     _ => {
-                        self.accumulator.d.next = self.accumulator.q.val();
-                    }
+                        self.stall.next = false;
+                    } // Nop, Compare
                 }
             }
         }
 
         // Pipe control.
-        self.pc_next.next = self.pc.q.val();
         if self.active.q.val() & !self.stall.val() {
-            self.pc_next.next = self.pc.q.val() + self.one_pc.val();
             self.instruction.d.next = self.read_instruction.val();
             self.subtracts.d.next = self.read_subtracts.val();
+            self.jumps.d.next = self.read_jumps.val();
+            self.jumps_by_zero.d.next = self.read_jumps_by_zero.val();
+            self.jumps_by_sign.d.next = self.read_jumps_by_sign.val();
+            self.jumps_by_axis.d.next = self.read_jumps_by_axis.val();
+            self.jumps_if_not.d.next = self.read_jumps_if_not.val();
             self.valid.d.next = true;
+        }
+        self.pc_next.next = self.pc.q.val() + self.one_pc.val();
+        if self.stall.val() {
+            self.pc_next.next = self.pc.q.val();
         }
         if self.branch.val() {
             self.pc_next.next = self.instruction.q.val().get_bits::<9>(0);
             self.valid.d.next = false;
         }
-        if self.done.val() {
+        if !self.active.q.val() {
             self.pc_next.next = self.start_pc.val();
+        }
+        if self.done.val() {
             self.valid.d.next = false;
             self.active.d.next = false;
         }
@@ -354,17 +412,17 @@ impl Logic for Sequencer {
         }
         self.place.word.next = self.write_address.val().get_bits::<5>(0);
         self.place.bank.next = self.snapshot_bank.val();
-        self.store_address.next = self.write_address.val();
+        self.store_address.d.next = self.write_address.val();
         if self.write_address.val().get_bits::<2>(6) == self.region_3.val() {
-            self.store_address.next = self.place.address.val();
+            self.store_address.d.next = self.place.address.val();
         }
         self.memory.write_address.next = self.bus_address.val();
         self.memory.write_data.next = self.bus_write_data.val();
-        if self.storing.val() {
-            self.memory.write_address.next = self.store_address.val();
+        if self.storing.q.val() {
+            self.memory.write_address.next = self.store_address.q.val();
             self.memory.write_data.next = self.accumulator.q.val();
         }
-        self.memory.write_enable.next = self.storing.val() | self.bus_write.val();
+        self.memory.write_enable.next = self.storing.q.val() | self.bus_write.val();
         self.mirror.write_address.next = self.memory.write_address.val();
         self.mirror.write_data.next = self.memory.write_data.val();
         self.mirror.write_enable.next = self.memory.write_enable.val();
@@ -377,10 +435,10 @@ impl Logic for Sequencer {
         if self.bus_hits.q.val() {
             self.bus_read_data.next = self.bus_written.q.val();
         }
-        self.bus_blocked.next = self.storing.val();
-        self.bus_write_taken.next = self.bus_write.val() & !self.storing.val();
+        self.bus_blocked.next = self.storing.q.val();
+        self.bus_write_taken.next = self.bus_write.val() & !self.storing.q.val();
 
-        self.input_port.next = self.instruction.q.val().get_bits::<5>(0);
+        self.input_port.next = self.read_instruction.val().get_bits::<5>(0);
         self.axis.next = self.axis_number.q.val();
         self.output_port.next = self.instruction.q.val().get_bits::<2>(0);
         self.output_data.next = self.accumulator.q.val();

@@ -10,7 +10,7 @@ macro_rules! sources {
 }
 
 const SOURCES: &[(&str, &str)] = sources!(
-    core local_bus decoder register_file commit snapshot snapshot_address timebase interrupt safety clock_monitor encoder stall
+    core local_bus decoder register_file commit snapshot snapshot_address timebase interrupt safety clock_monitor encoder stall imu_spi
     sequencer multiplier divider trigonometry pwm kicker radio serial_receiver crc serial_host
 );
 

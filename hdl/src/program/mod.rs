@@ -3,10 +3,12 @@
 //! One file a part, each the gateware twin of a function of `fixed-kin`. The sequencer is an
 //! accumulator machine on one memory; this module is its instruction set and assembler.
 //!
-//! An instruction has 16 bits: operation in 15:11, bit 10 = "add the axis number to the address",
-//! address or immediate in 7:0, branch target in 8:0. Every instruction takes one clock, but: a taken
-//! branch two, a product 2 + digits and a quotient 34 from their start, less what is done in between.
-//! So the parts of the tick are woven: a product is started, something else done, then it is asked for.
+//! An instruction has 16 bits: operation in 15:11, bit 10 = "add the axis number to the address", bit 9 the
+//! condition of a [`Op::LoadIf`], address or immediate in 7:0, branch target in 8:0. Every instruction takes one
+//! clock, but: a taken branch two, a product 2 + digits and a quotient 36 from their start, less what is done in
+//! between. So the parts of the tick are woven: a product is started, something else done, then it is asked for.
+//! A sum stands in the accumulator a clock late and a stored word in the memory another clock later; only a
+//! store may come at once. Where the program asks sooner, the assembler puts a [`Op::Nop`].
 
 mod kinematics;
 pub mod layout;
@@ -41,10 +43,10 @@ pub enum Op {
     Subtract16,
     /// acc = low 24 bits of acc − m.
     Subtract24,
-    /// acc = min(acc, m).
-    Minimum,
-    /// acc = max(acc, m).
-    Maximum,
+    /// Tells the next [`Op::LoadIf`] whether acc < m.
+    Compare,
+    /// acc = m, where the compare before said "less" and bit 9 is set, or neither.
+    LoadIf,
     /// acc = acc ^ m.
     Xor,
     /// m = acc.
@@ -152,7 +154,11 @@ struct Assembler {
     targets: Vec<(usize, Label)>,
     places: HashMap<Label, usize>,
     labels: usize,
+    asides: Vec<Aside>,
 }
+
+/// A piece of program that stands after the rest.
+type Aside = Box<dyn FnOnce(&mut Assembler)>;
 
 impl Assembler {
     fn label(&mut self) -> Label {
@@ -165,8 +171,37 @@ impl Assembler {
     }
 
     fn op(&mut self, op: Op, cell: Cell) -> &mut Self {
-        self.words.push((op, cell.encode()));
+        self.push(op, cell.encode())
+    }
+
+    /// Appends an instruction, after as long a wait as those before it ask for. Over a taken branch none is asked
+    /// for: it takes a clock more than any wait.
+    fn push(&mut self, op: Op, operand: u16) -> &mut Self {
+        let waits = |(distance, (before, written)): (usize, &(Op, u16))| {
+            let sum = distance == 0 && before.is_sum() && op.reads_accumulator();
+            let word = *before == Op::Store && op.reads_memory() && layout::overlap(*written, operand);
+            if sum {
+                1
+            } else if word {
+                2 - distance
+            } else {
+                0
+            }
+        };
+        let wait = self.words.iter().rev().take(2).enumerate().map(waits).max().unwrap_or(0);
+        self.words.extend(std::iter::repeat_n((Op::Nop, 0), wait));
+        self.words.push((op, operand));
         self
+    }
+
+    /// acc = min(acc, cell).
+    fn minimum(&mut self, cell: Cell) -> &mut Self {
+        self.op(Op::Compare, cell).push(Op::LoadIf, cell.encode())
+    }
+
+    /// acc = max(acc, cell).
+    fn maximum(&mut self, cell: Cell) -> &mut Self {
+        self.op(Op::Compare, cell).push(Op::LoadIf, cell.encode() | LESS)
     }
 
     fn load(&mut self, cell: Cell) -> &mut Self {
@@ -178,8 +213,7 @@ impl Assembler {
     }
 
     fn immediate(&mut self, value: i8) -> &mut Self {
-        self.words.push((Op::Immediate, u16::from(value as u8)));
-        self
+        self.push(Op::Immediate, u16::from(value as u8))
     }
 
     /// acc = −cell.
@@ -188,55 +222,81 @@ impl Assembler {
     }
 
     fn input(&mut self, port: InputPort) -> &mut Self {
-        self.words.push((Op::Input, port as u16));
-        self
+        self.push(Op::Input, port as u16)
     }
 
     fn output(&mut self, port: OutputPort) -> &mut Self {
-        self.words.push((Op::Output, port as u16));
-        self
+        self.push(Op::Output, port as u16)
     }
 
     fn product(&mut self) -> &mut Self {
-        self.words.push((Op::Product, 0));
-        self
+        self.push(Op::Product, 0)
     }
 
     fn quotient(&mut self) -> &mut Self {
-        self.words.push((Op::Quotient, 0));
-        self
+        self.push(Op::Quotient, 0)
     }
 
     fn jump(&mut self, op: Op, target: Label) -> &mut Self {
-        self.targets.push((self.words.len(), target));
-        self.words.push((op, 0));
+        self.push(op, 0);
+        self.targets.push((self.words.len() - 1, target));
         self
     }
 
     fn halt(&mut self) {
-        self.words.push((Op::Halt, 0));
+        self.push(Op::Halt, 0);
+    }
+
+    /// Puts a piece that is reached by `label` and goes back to `back` out of the way of the program's longest path.
+    fn aside(&mut self, label: Label, back: Label, write: impl FnOnce(&mut Self) -> &mut Self + 'static) {
+        self.asides.push(Box::new(move |p| {
+            p.here(label);
+            write(p).jump(Op::Jump, back);
+        }));
     }
 
     /// Resolves labels and encodes.
     ///
     /// # Panics
-    /// If the program is too long or reads a word in the clock in which it is written: mistakes in
-    /// the program, found when the gateware is built.
+    /// If the program is too long: a mistake in the program, found when the gateware is built.
     fn finish(mut self) -> Vec<u16> {
+        for aside in std::mem::take(&mut self.asides) {
+            aside(&mut self);
+        }
         assert!(self.words.len() <= PROGRAM_WORDS, "{} instructions do not fit", self.words.len());
         for (at, label) in &self.targets {
             self.words[*at].1 = self.places[label] as u16;
-        }
-        for (at, pair) in self.words.windows(2).enumerate() {
-            let [(first, written), (second, read)] = [pair[0], pair[1]];
-            let clash = first == Op::Store && second.reads_memory() && layout::overlap(written, read);
-            assert!(!clash, "instruction {} reads the word that {at} is writing", at + 1);
         }
         self.words.iter().map(|(op, operand)| (*op as u16) << 11 | operand).collect()
     }
 }
 
+/// In a [`Op::LoadIf`]: load where the compare said "less".
+const LESS: u16 = 1 << 9;
+
 impl Op {
+    /// Its result is in the accumulator a clock late.
+    fn is_sum(self) -> bool {
+        matches!(self, Self::Add | Self::Subtract | Self::AddWrapping | Self::Subtract16 | Self::Subtract24)
+    }
+
+    /// Reads the accumulator in its first clock.
+    fn reads_accumulator(self) -> bool {
+        !matches!(
+            self,
+            Self::Nop
+                | Self::Load
+                | Self::Immediate
+                | Self::Store
+                | Self::Input
+                | Self::Jump
+                | Self::NextAxis
+                | Self::Halt
+                | Self::Quotient
+                | Self::Product
+        )
+    }
+
     fn reads_memory(self) -> bool {
         use Op::{
             Halt, Immediate, Input, Jump, JumpNegative, JumpNotNegative, JumpNotZero, JumpZero, NextAxis, Nop, Output,
@@ -270,7 +330,7 @@ pub fn control_tick() -> Vec<u16> {
     program.here(axis);
     speed::count(&mut program);
     odometry::start(&mut program, 0);
-    speed::publish(&mut program);
+    speed::index(&mut program);
     odometry::add(&mut program, 0);
     odometry::start(&mut program, 1);
     speed::start(&mut program);
@@ -305,22 +365,36 @@ mod tests {
     fn fits_its_memory_and_ends() {
         let program = control_tick();
         assert!(program.len() <= PROGRAM_WORDS, "{}", program.len());
-        assert_eq!(program.last(), Some(&((Op::Halt as u16) << 11)));
+        assert_eq!(program.iter().filter(|word| **word == (Op::Halt as u16) << 11).count(), 1);
+        let last = program.last().map(|word| word >> 11);
+        assert!(last == Some(Op::Halt as u16) || last == Some(Op::Jump as u16), "{last:?}");
+    }
+
+    fn assembled(write: impl Fn(&mut Assembler) -> &mut Assembler) -> Vec<Op> {
+        let mut program = Assembler::default();
+        write(&mut program);
+        program.words.into_iter().map(|(op, _)| op).collect()
     }
 
     #[test]
-    #[should_panic(expected = "reads the word")]
-    fn a_hazard_is_refused() {
-        let mut program = Assembler::default();
-        program.store(layout::SEQUENCE).load(layout::SEQUENCE).halt();
-        let _ = program.finish();
+    fn a_sum_is_waited_for_but_by_a_store() {
+        let used = assembled(|p| p.op(Op::Add, layout::SUM).op(Op::Add, layout::DUTY));
+        assert_eq!(used, [Op::Add, Op::Nop, Op::Add]);
+        let stored = assembled(|p| p.op(Op::Add, layout::SUM).store(layout::DUTY).load(layout::SUM));
+        assert_eq!(stored, [Op::Add, Op::Store, Op::Load]);
+        let loaded = assembled(|p| p.load(layout::SUM).op(Op::Add, layout::DUTY));
+        assert_eq!(loaded, [Op::Load, Op::Add]);
     }
 
     #[test]
-    #[should_panic(expected = "reads the word")]
-    fn a_hazard_behind_an_axis_number_is_refused() {
-        let mut program = Assembler::default();
-        program.store(layout::SPEED).load(layout::SPEED.word(3)).halt();
-        let _ = program.finish();
+    fn a_word_is_read_two_clocks_after_its_store() {
+        let next = assembled(|p| p.store(layout::SEQUENCE).load(layout::SEQUENCE));
+        assert_eq!(next, [Op::Store, Op::Nop, Op::Nop, Op::Load]);
+        let later = assembled(|p| p.store(layout::SEQUENCE).immediate(0).load(layout::SEQUENCE));
+        assert_eq!(later, [Op::Store, Op::Immediate, Op::Nop, Op::Load]);
+        let other = assembled(|p| p.store(layout::SEQUENCE).load(layout::SUM));
+        assert_eq!(other, [Op::Store, Op::Load]);
+        let some_axis = assembled(|p| p.store(layout::SPEED).load(layout::SPEED.word(3)));
+        assert_eq!(some_axis, [Op::Store, Op::Nop, Op::Nop, Op::Load]);
     }
 }

@@ -2,8 +2,7 @@
 //! other work while the multiplier runs.
 
 use super::layout::{
-    DUTY, ERROR, FORWARD, INTEGRAL, KFF, KI, KP, LOWER, NEW_INTEGRAL, PROPORTIONAL, REFERENCE, SNAPSHOT_DUTY, SPEED,
-    SUM, UPPER,
+    DUTY, ERROR, FORWARD, INTEGRAL, KFF, KI, KP, LOWER, NEW_INTEGRAL, PROPORTIONAL, REFERENCE, SPEED, SUM, UPPER,
 };
 use super::{Assembler, InputPort, Op, odometry};
 
@@ -15,30 +14,29 @@ pub(super) fn take_feed_forward(p: &mut Assembler) {
     p.product().store(FORWARD);
 }
 
-/// The duty; the third row of the odometry is started on the way, and done when this ends.
+/// The duty; the third row of the odometry is started on the way.
 pub(super) fn step(p: &mut Assembler) {
-    let [off, outside, accept, done] = [(); 4].map(|()| p.label());
+    let [off, accept, done] = [(); 3].map(|()| p.label());
     p.load(REFERENCE).op(Op::Subtract, SPEED).store(ERROR);
     p.load(KP).op(Op::MultiplyWide, ERROR);
     p.input(InputPort::Armed).jump(Op::JumpZero, off);
-    p.product().op(Op::Add, FORWARD).store(PROPORTIONAL);
-    p.load(KI).op(Op::MultiplyFine, ERROR).product().op(Op::Add, INTEGRAL).store(NEW_INTEGRAL);
+    p.product().store(PROPORTIONAL);
+    p.load(KI).op(Op::MultiplyFine, ERROR);
+    p.load(PROPORTIONAL).op(Op::Add, FORWARD).store(PROPORTIONAL);
+    p.product().op(Op::Add, INTEGRAL).store(NEW_INTEGRAL);
     odometry::start(p, 2);
     p.load(NEW_INTEGRAL).op(Op::Add, PROPORTIONAL).store(SUM);
-    p.op(Op::Minimum, UPPER).op(Op::Maximum, LOWER).store(DUTY);
-    p.op(Op::Subtract, SUM).jump(Op::JumpNotZero, outside);
-    p.here(accept);
-    p.load(NEW_INTEGRAL).store(INTEGRAL).jump(Op::Jump, done);
-    p.here(outside);
+    p.minimum(UPPER).maximum(LOWER).store(DUTY);
+    p.op(Op::Subtract, SUM).jump(Op::JumpZero, accept);
     // Signs of sum and error differ: the error drives back inside.
     p.load(SUM).op(Op::Xor, ERROR).jump(Op::JumpNegative, accept);
     p.load(PROPORTIONAL).op(Op::Add, INTEGRAL);
-    p.op(Op::Minimum, UPPER).op(Op::Maximum, LOWER).store(DUTY).jump(Op::Jump, done);
-    p.here(off);
-    p.product();
-    odometry::start(p, 2);
-    p.immediate(0).store(DUTY).store(INTEGRAL);
+    p.minimum(UPPER).maximum(LOWER).store(DUTY);
     p.here(done);
-    odometry::add(p, 2);
-    p.load(DUTY).store(SNAPSHOT_DUTY);
+    p.aside(accept, done, |p| p.load(NEW_INTEGRAL).store(INTEGRAL));
+    p.aside(off, done, |p| {
+        p.product();
+        odometry::start(p, 2);
+        p.immediate(0).store(DUTY).store(INTEGRAL)
+    });
 }

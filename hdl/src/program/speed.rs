@@ -9,6 +9,7 @@ use super::{Assembler, InputPort, Op};
 
 /// What the quotient means.
 const PLAIN: i8 = 0;
+/// Also the count that is divided.
 const BOUND: i8 = 1;
 const STILL: i8 = -1;
 
@@ -18,17 +19,20 @@ pub(super) fn count(p: &mut Assembler) {
     p.op(Op::AddWrapping, COUNT).store(COUNT);
 }
 
-/// A captured index, and the counts from the place that is zero.
-pub(super) fn publish(p: &mut Assembler) {
-    let publish = p.label();
-    p.input(InputPort::IndexEvent).jump(Op::JumpZero, publish);
+/// A captured index, and where the counts are zero.
+pub(super) fn index(p: &mut Assembler) {
+    let done = p.label();
+    p.input(InputPort::IndexEvent).jump(Op::JumpZero, done);
     p.input(InputPort::IndexCount).op(Op::Subtract16, COUNT).op(Op::AddWrapping, COUNT).store(SCRATCH);
     p.op(Op::AddWrapping, HOME).store(INDEX_POSITION);
-    p.input(InputPort::IndexClear).jump(Op::JumpZero, publish);
-    // −x = ~x + 1: a plain difference would saturate.
-    p.load(SCRATCH).op(Op::Xor, ALL_ONES).store(SCRATCH);
-    p.immediate(1).op(Op::AddWrapping, SCRATCH).store(HOME);
-    p.here(publish);
+    p.input(InputPort::IndexClear).jump(Op::JumpZero, done);
+    // −x = ~(x − 1): a plain difference would saturate.
+    p.load(SCRATCH).op(Op::AddWrapping, ALL_ONES).op(Op::Xor, ALL_ONES).store(HOME);
+    p.here(done);
+}
+
+/// The counts from the place that is zero.
+pub(super) fn publish(p: &mut Assembler) {
     p.load(COUNT).op(Op::AddWrapping, HOME).store(SNAPSHOT_COUNT);
 }
 
@@ -41,8 +45,7 @@ pub(super) fn start(p: &mut Assembler) {
     p.load(DIFFERENCE).op(Op::Divide, DENOMINATOR).jump(Op::Jump, plain);
 
     p.here(by_time);
-    p.input(InputPort::EdgeTime).op(Op::Subtract24, EDGE_TIME).jump(Op::JumpZero, no_edge);
-    p.store(DENOMINATOR);
+    p.input(InputPort::EdgeTime).op(Op::Subtract24, EDGE_TIME).store(DENOMINATOR).jump(Op::JumpZero, no_edge);
     p.load(LINE).jump(Op::JumpNegative, first);
     p.input(InputPort::Line).op(Op::Subtract16, LINE).op(Op::Divide, DENOMINATOR);
     p.jump(Op::Jump, remember);
@@ -55,33 +58,29 @@ pub(super) fn start(p: &mut Assembler) {
     p.here(plain);
     p.immediate(PLAIN).jump(Op::Jump, case);
 
+    // A negative line: the next edge has no partner.
+    p.aside(still, case, |p| p.immediate(STILL).store(LINE));
+
     p.here(no_edge);
     p.load(LINE).jump(Op::JumpNegative, still);
     p.input(InputPort::Now).op(Op::Subtract24, EDGE_TIME).store(DENOMINATOR);
     p.op(Op::Subtract, TIMEOUT).jump(Op::JumpNotNegative, still);
-    p.immediate(1).op(Op::Divide, DENOMINATOR);
-    p.immediate(BOUND).jump(Op::Jump, case);
-    p.here(still);
-    // A negative line: the next edge has no partner.
-    p.immediate(STILL).store(LINE);
-
+    // What is divided is also the case.
+    p.immediate(BOUND).op(Op::Divide, DENOMINATOR);
     p.here(case);
     p.store(CASE);
 }
 
 /// The quotient, or the last speed within ± the quotient, or zero.
 pub(super) fn finish(p: &mut Assembler) {
-    let [plain, still, falling, done] = [(); 4].map(|()| p.label());
+    let [plain, still, rising, done] = [(); 4].map(|()| p.label());
     p.load(CASE).jump(Op::JumpZero, plain).jump(Op::JumpNegative, still);
     p.quotient().store(SCRATCH);
-    p.load(SPEED).jump(Op::JumpNegative, falling);
-    p.op(Op::Minimum, SCRATCH).jump(Op::Jump, done);
-    p.here(falling);
-    p.negated(SCRATCH).op(Op::Maximum, SPEED).jump(Op::Jump, done);
-    p.here(still);
-    p.immediate(0).jump(Op::Jump, done);
-    p.here(plain);
-    p.quotient();
+    p.load(SPEED).jump(Op::JumpNotNegative, rising);
+    p.negated(SCRATCH).maximum(SPEED);
     p.here(done);
     p.store(SPEED).store(SNAPSHOT_SPEED);
+    p.aside(rising, done, |p| p.minimum(SCRATCH));
+    p.aside(still, done, |p| p.immediate(0));
+    p.aside(plain, done, |p| p.quotient());
 }

@@ -7,6 +7,7 @@
 pub mod clock_monitor;
 pub mod control;
 pub mod encoder;
+pub mod imu_spi;
 pub mod interrupt;
 pub mod kicker;
 pub mod pwm;

@@ -22,7 +22,7 @@ impl Record<'_> {
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Failure::about(folder, error))?;
         }
-        let layout = Layout::of_robot(robot.wheel_count(), camera);
+        let layout = Layout::of_robot(robot.wheel_count(), camera).with_imu(robot.imu.is_some());
         let recording = Recording::start_of(file, layout, self.target.existing(), Some(&robot.to_toml()));
         recording.map(Some).map_err(Failure::data)
     }

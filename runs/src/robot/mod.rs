@@ -3,6 +3,7 @@
 mod edit;
 mod effect;
 mod fields;
+mod imu;
 mod layout;
 mod parse;
 mod section;
@@ -12,6 +13,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 pub use effect::{Effect, EffectParameter};
+pub use imu::{Axis, ImuMount, SensorName};
 
 use crate::error::InputError;
 use crate::geometry::{Geometry, GeometryError, Wheel, rac_wheels};
@@ -59,6 +61,8 @@ pub struct Robot {
     pub motor: MotorParameters,
     /// The speed loop of every axis; both gains 0 where the file says nothing of one.
     pub pi: PiParameters,
+    /// The inertial sensor, where there is one.
+    pub imu: Option<ImuMount>,
     /// Effects beyond the nominal model, in the order of the file.
     pub effects: Vec<Effect>,
     /// What the file says beside: (table, key, value), kept and ignored. A key that resembles one of ours
@@ -170,6 +174,7 @@ impl Robot {
                 friction_torque: 0.00015,
             },
             pi: PiParameters { kp: 0.15, ki: 0.8, arithmetic: None, registers: Vec::new() },
+            imu: None,
             effects: Vec::new(),
             other: Vec::new(),
             missing: Vec::new(),

@@ -6,7 +6,7 @@ use toml::de::DeTable;
 use super::fields::{BODY, FIELDS, Range, SYNONYMS};
 use super::layout::layout;
 use super::section::{Section, Source, number, whole};
-use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support, WHEELS};
+use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support, WHEELS, imu};
 use crate::error::InputError;
 
 /// Keys beside [`FIELDS`].
@@ -20,6 +20,7 @@ const OTHER_KEYS: &[(&str, &str)] = &[
     ("", "pi"),
     ("", "wheel"),
     ("", "effect"),
+    ("", "imu"),
     ("pi", "arithmetic"),
     ("pi", "registers"),
 ];
@@ -99,6 +100,11 @@ pub(super) fn robot(text: &str, path: &Path, whole: bool) -> Result<Robot, Input
     robot.camera_noise = top.numbers("camera_noise", Range::NotNegative(1e2))?;
     if let Some(pi) = &pi {
         read_pi_extras(pi, &mut robot)?;
+    }
+    if top.table.contains_key("imu") {
+        let imu = top.section("imu")?;
+        imu.known(&imu::KEYS, &mut robot.other)?;
+        robot.imu = Some(imu::ImuMount::read(&imu)?);
     }
     robot.effects = effects(&top)?;
     if robot.missing.iter().any(|m| m == WHEELS) {

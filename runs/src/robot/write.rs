@@ -47,6 +47,11 @@ pub(super) fn robot(robot: &Robot) -> String {
         let words = robot.pi.registers.iter();
         line(&mut out, "registers", inline(words.map(|(name, word)| (name.clone(), word.to_string()))));
     }
+    if let Some(imu) = &robot.imu {
+        out.push_str("\n[imu]\n");
+        imu.lines().into_iter().for_each(|(key, value)| line(&mut out, key, value));
+        others(&mut out, robot, "imu");
+    }
     if let Layout::Wheels(wheels) = &robot.layout {
         for w in wheels {
             out.push_str("\n[[wheel]]\n");

@@ -5,6 +5,7 @@ use super::{Control, LoopError, VirtualRobot, whole_tick_clock_hz};
 use crate::fpga::Fpga;
 use driver::Board;
 use driver::drive::{Ending, Plan, PoseSource};
+use driver::imu::Imu;
 use driver::realtime::Clock;
 use driver::recording::{Recording, logged_robot};
 use fixed_kin::AXES;
@@ -138,7 +139,8 @@ impl Drive {
             robot = robot.watched_by(camera, self.seed);
         }
         let wheels = self.believed.wheel_count();
-        let memory = MemoryStream::new(Layout::of_robot(wheels, self.camera.is_some()));
+        let memory =
+            MemoryStream::new(Layout::of_robot(wheels, self.camera.is_some()).with_imu(self.believed.imu.is_some()));
         let mut recording = Recording::onto(Box::new(memory.clone()), Path::new("run"), wheels)?;
         recording.wait_where_full();
 
@@ -162,7 +164,7 @@ impl Drive {
             robot: logged_robot(&plan.believed(), &scale, &plan.settings),
             report: TrajectoryReport::new(self.start, &self.set_points, &driven.arrivals, &track, REACHED_M),
             wheel_speeds: (0..wheels).map(speeds).collect(),
-            believed: believed(plan.localiser()?, &run),
+            believed: believed(plan.localiser_with(driven.imu.as_ref())?, driven.imu.as_ref(), &run),
             track,
             ending: driven.ending,
             run,
@@ -183,12 +185,13 @@ impl Drive {
 }
 
 /// Where the controller believed the robot to be, from what it logged.
-fn believed(mut localiser: Localiser, run: &Run) -> Vec<Pose> {
+fn believed(mut localiser: Localiser, imu: Option<&Imu>, run: &Run) -> Vec<Pose> {
     let mut camera = run.camera.iter().peekable();
     let pose = |(tick, t): (usize, &f64)| {
         let mut counts = [0; AXES];
         counts.iter_mut().zip(&run.counts).for_each(|(count, column)| *count = column[tick]);
         let seen = camera.next_if(|sample| sample.tick == tick).map(|sample| sample.pose);
+        localiser.feel(imu.and_then(|imu| imu.logged(run, tick)));
         localiser.tick(*t, &counts[..run.counts.len()], seen)
     };
     run.t.iter().enumerate().map(pose).collect()

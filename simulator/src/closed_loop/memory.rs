@@ -21,6 +21,9 @@ impl MemoryStream {
             measured: columns(layout.measured),
             supply_v: layout.supply.then(Vec::new),
             has_camera: layout.camera,
+            gyro: layout.gyro.then(Default::default),
+            acceleration: layout.acceleration.then(Default::default),
+            imu_temp: layout.imu_temp.then(Vec::new),
             ..Run::default()
         })))
     }
@@ -53,6 +56,13 @@ impl RunStream for MemoryStream {
             [(&mut run.reference, tick.reference), (&mut run.duty, tick.duty), (&mut run.measured, tick.measured)]
         {
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(*value));
+        }
+        let felt = [(&mut run.gyro, tick.gyro), (&mut run.acceleration, tick.acceleration)];
+        for (column, value) in felt.into_iter().flat_map(|(group, values)| group.iter_mut().flatten().zip(values)) {
+            column.push(value);
+        }
+        if let Some(temperature) = &mut run.imu_temp {
+            temperature.push(tick.imu_temp);
         }
         if let Some(supply) = &mut run.supply_v {
             supply.push(tick.supply_v);

@@ -1,10 +1,12 @@
 //! Motors, body, camera and an FPGA, tick by tick, as the driver sees them: registers, a clock, a pose source.
 
 use crate::fpga::{Fpga, FpgaError};
+use crate::imu::Chassis;
 use driver::drive::PoseSource;
 use driver::realtime::Clock;
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
+use fixed_kin::registers::NOMINAL_CLOCK_HZ;
 use model::camera::{Camera, CameraModel};
 use model::plant::Plant;
 use runs::frames::{Pose, Twist};
@@ -43,6 +45,7 @@ struct Inside<F> {
     camera: Option<Camera>,
     /// Length of a control period, and the same in s.
     period: Duration,
+    chassis: Chassis,
     period_s: f64,
     /// Control periods so far.
     now: Duration,
@@ -59,6 +62,7 @@ impl<F: Fpga> VirtualRobot<F> {
             supply_v,
             camera: None,
             period,
+            chassis: Chassis::default(),
             period_s: period.as_secs_f64(),
             now: Duration::ZERO,
             history: Vec::new(),
@@ -137,6 +141,8 @@ impl<F: Fpga> Inside<F> {
         for (position, now) in positions.iter_mut().zip(self.plant.encoder_after()) {
             *position = *now;
         }
+        let motion = self.chassis.motion(&self.plant, self.period_s);
+        self.fpga.feel(&motion, NOMINAL_CLOCK_HZ.into());
         self.fpga.advance(&positions)?;
         let duty = self.fpga.duties()?;
         self.plant.step(&duty, self.supply_v, self.period_s);

@@ -2,11 +2,13 @@
 
 use super::edges::Counter;
 use super::{Fpga, FpgaError, Kind};
+use crate::imu::VirtualImu;
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::control::TickOutputs;
 use fixed_kin::registers::PWM_PERIOD;
+use model::imu::Motion;
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -15,8 +17,9 @@ pub struct BitTrue {
     counters: [Counter; AXES],
     quiet: u32,
     outputs: TickOutputs,
-    /// Pins other than the encoders.
+    /// Pins other than the encoders and the inertial sensor's.
     pub pins: Pins,
+    imu: Option<VirtualImu>,
 }
 
 impl Default for BitTrue {
@@ -35,7 +38,20 @@ impl BitTrue {
             quiet: 0,
             outputs: TickOutputs::default(),
             pins: Pins::default(),
+            imu: None,
         }
+    }
+
+    /// With an inertial sensor on its pins.
+    #[must_use]
+    pub fn with_imu(mut self, sensor: VirtualImu) -> Self {
+        self.imu = Some(sensor);
+        self
+    }
+
+    /// The sensor on its pins.
+    pub fn imu(&mut self) -> Option<&mut VirtualImu> {
+        self.imu.as_mut()
     }
 
     /// The same with encoders that stand still for some clocks after each tick, as before pin-level
@@ -53,6 +69,12 @@ impl Registers for BitTrue {
     }
     fn write(&mut self, offset: u16, data: u32) -> Result<(), BusError> {
         self.card.write(offset, data);
+        let port = self.card.imu();
+        if let Some(sensor) = &mut self.imu
+            && let Some(command) = port.take()
+        {
+            port.answer(sensor.access(command));
+        }
         Ok(())
     }
     fn read_block(&mut self, offset: u16, words: &mut [u32]) -> Result<(), BusError> {
@@ -74,8 +96,17 @@ impl Fpga for BitTrue {
             super::check_motion(axis, counter.position, to, period, self.quiet, filter)?;
             self.pins.encoders[axis] = counter.advance(to, now, period, self.quiet, filter);
         }
+        if let (Some(sensor), Some(first)) = (&self.imu, self.card.imu_reads()) {
+            self.pins.imu = sensor.sample(first);
+        }
         self.outputs = self.card.tick(&self.pins);
         Ok(())
+    }
+
+    fn feel(&mut self, motion: &Motion, clock_hz: f64) {
+        if let Some(sensor) = &mut self.imu {
+            sensor.feel(motion, clock_hz);
+        }
     }
 
     fn quiet_clocks(&self) -> u32 {

@@ -2,6 +2,7 @@
 
 use super::{Fpga, FpgaError, Kind};
 use fixed_kin::AXES;
+use model::imu::Motion;
 
 macro_rules! forward {
     ($($fpga:ty),*) => {$(
@@ -11,6 +12,9 @@ macro_rules! forward {
             }
             fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
                 (**self).advance(positions)
+            }
+            fn feel(&mut self, motion: &Motion, clock_hz: f64) {
+                (**self).feel(motion, clock_hz);
             }
             fn quiet_clocks(&self) -> u32 {
                 (**self).quiet_clocks()

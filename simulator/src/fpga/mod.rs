@@ -31,6 +31,7 @@ use fixed_kin::modulation::{Modulation, modulate};
 use fixed_kin::registers::{
     PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_ARMED,
 };
+use model::imu::Motion;
 use std::fmt;
 use std::str::FromStr;
 
@@ -89,6 +90,9 @@ pub trait Fpga: Registers {
     /// # Errors
     /// [`FpgaError`] where the simulation fails or an encoder moves too fast.
     fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError>;
+
+    /// How the chassis moves in the coming period, for an inertial sensor on the pins, if there is one.
+    fn feel(&mut self, _motion: &Motion, _clock_hz: f64) {}
 
     /// Clocks at the start of a period in which encoders stand still.
     fn quiet_clocks(&self) -> u32;

@@ -36,6 +36,8 @@ impl RustHdl {
         core.emergency_stop.next = false;
         core.host_select.next = true;
         core.radio_rx.next = true;
+        core.imu_miso.next = true;
+        core.imu_ready.next = true;
         Self(PinLevel::new(Kind::RustHdl, Simulated { core, clock: 0, scheduled: VecDeque::new() }))
     }
 }

@@ -88,6 +88,10 @@ impl Live for BitTrueLive {
             let duties = self.fpga.duties()?;
             machine.step(&duties, f64::from(period) / clock_hz);
             self.fpga.pins.encoder_errors = machine.illegal_steps();
+            if let Some(sensor) = machine.take_imu() {
+                self.fpga = std::mem::take(&mut self.fpga).with_imu(sensor);
+            }
+            self.fpga.feel(&machine.motion(), clock_hz);
             if let Err(error) = self.fpga.advance(&machine.positions()) {
                 self.failed = Some(error.to_string());
                 return Err(error);

@@ -1,10 +1,15 @@
 //! Motors, wheels and body behind the card's connector.
 
 use super::Wiring;
+use crate::imu::{Chassis, VirtualImu};
 use fixed_kin::AXES;
+use model::imu::Motion;
 use model::plant::Plant;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
+
+/// Seed of the inertial sensor's tolerances and noise.
+const IMU_SEED: u64 = 1;
 
 /// A robot that is there whether or not the FPGA is configured.
 #[derive(Clone, Debug)]
@@ -15,6 +20,9 @@ pub struct Machine {
     origin: [f64; AXES],
     /// Encoder positions before the last step.
     before: [f64; AXES],
+    chassis: Chassis,
+    imu: Option<VirtualImu>,
+    motion: Motion,
     /// Encoder cables.
     pub wiring: [Wiring; AXES],
 }
@@ -30,6 +38,9 @@ impl Machine {
             supply_v: robot.supply_v,
             origin: [0.0; AXES],
             before: [0.0; AXES],
+            chassis: Chassis::default(),
+            imu: VirtualImu::of_robot(robot, IMU_SEED),
+            motion: Motion::default(),
             wiring: [Wiring::Whole; AXES],
         })
     }
@@ -44,6 +55,18 @@ impl Machine {
     pub fn step(&mut self, duty: &[f64; AXES], time_s: f64) {
         self.before = self.encoders();
         self.plant.step(duty, self.supply_v, time_s);
+        self.motion = self.chassis.motion(&self.plant, time_s);
+    }
+
+    /// The inertial sensor, once: it goes to the FPGA that reads it.
+    pub fn take_imu(&mut self) -> Option<VirtualImu> {
+        self.imu.take()
+    }
+
+    /// How the chassis moved in the last step.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        self.motion
     }
 
     /// A new counter starts here.

@@ -74,6 +74,7 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_trigonometry",
             "rac4i65_core_interrupt",
             "rac4i65_core_radio",
+            "rac4i65_core_imu",
         ],
         mutants: &[
             mutant("two masters", "radio_turn = radio_offer & ~bus_claims", "radio_turn = radio_offer"),
@@ -201,7 +202,7 @@ pub const PROOFS: &[Proof] = &[
     Proof {
         mutants: &[
             mutant("no lock", "unlocked = ~armed", "unlocked = 1'b1"),
-            mutant("any word fires", "fire = data == fire_word", "fire = 1'b1"),
+            mutant("any word fires", "fire = word_q == fire_word", "fire = 1'b1"),
         ],
         ..proof(
             "registers",
@@ -221,6 +222,37 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_timebase",
             "25 to 34 clocks between microseconds whatever the register says, at least 1000 between ticks",
             include_str!("../../proofs/timebase.v"),
+        )
+    },
+    Proof {
+        cut: &["rac4i65_core_imu_words"],
+        mutants: &[
+            mutant(
+                "waits for the sensor",
+                "edge_now = run_q & (phase_q == half)",
+                "edge_now = run_q & (phase_q == half) & miso",
+            ),
+            mutant(
+                "reads although it is off",
+                "begins_burst = starts_q & live_q & ~run_q",
+                "begins_burst = starts_q & ~run_q",
+            ),
+            mutant(
+                "the host breaks in",
+                "begins_access = access & ~enable & ~live_q & ~run_q",
+                "begins_access = access & ~run_q",
+            ),
+            mutant("starts in the middle of an access", "live_d = enable & (live_q | ~run_q)", "live_d = enable"),
+            mutant("a word that is not whole", "word_end = 5'b11110", "word_end = 5'b11100"),
+            mutant("rests at the wrong level", "clock_high_d = idle_high;", "clock_high_d = 1'b0;"),
+        ],
+        ..proof(
+            "imu_spi",
+            "rac4i65_core_imu",
+            "every tick has its burst if reading is on and none if it is off, over 970 clocks after the tick whatever the sensor \
+             sends; whole words only, in the tick's bank; the line's clock rests while nobody is selected; an access takes at \
+             most 136 clocks and no burst meets it",
+            include_str!("../../proofs/imu_spi.v"),
         )
     },
     Proof {
@@ -267,7 +299,11 @@ pub const PROOFS: &[Proof] = &[
         ],
         mutants: &[
             mutant("clamps one way", "(sum_top != three_clear) & (sum_top != three_set)", "sum_top == 3'b001"),
-            mutant("loses a write of the bus", "bus_write_taken = bus_write & ~storing", "bus_write_taken = bus_write"),
+            mutant(
+                "loses a write of the bus",
+                "bus_write_taken = bus_write & ~storing_q",
+                "bus_write_taken = bus_write",
+            ),
             mutant("a read that meets a write", "if (bus_hits_q) begin", "if (1'b0) begin"),
         ],
         ..proof(

@@ -4,6 +4,7 @@ use super::grid::{COLUMNS, FREE, Grid, MEMORY_SITES, ROWS, Site};
 use super::{Design, Placement};
 use crate::flow::Progress;
 use crate::flow::nets::Part;
+use crate::flow::reach::Reach;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -11,9 +12,9 @@ use rand_chacha::ChaCha8Rng;
 const MOVES: usize = 30;
 /// A net of more pins is everywhere anyway and does not count.
 const WIDEST: usize = 400;
-/// What a unit of wire length weighs against a unit of critical distance.
+/// What a unit of wire length weighs against 256 ps of a critical connection.
 const LENGTH: i64 = 96;
-/// What a critical connection's distance weighs: this times its weight (0..=255), over 64.
+/// What 256 ps of a critical connection weigh: this times its weight (0..=255), over 64.
 const TIME: i64 = 160;
 
 /// A net as the placer sees it: movable parts and their weights.
@@ -28,6 +29,7 @@ struct PlacedNet {
 
 struct Annealer<'a, 'b> {
     design: &'a Design<'b>,
+    reach: &'a Reach,
     placement: &'a mut Placement,
     grid: Grid,
     nets: Vec<PlacedNet>,
@@ -43,8 +45,14 @@ struct Annealer<'a, 'b> {
 }
 
 /// Anneals a placement.
-pub(super) fn anneal(design: &Design<'_>, placement: &mut Placement, seed: u64, progress: &mut Progress<'_>) {
-    let mut annealer = Annealer::new(design, placement, seed);
+pub(super) fn anneal(
+    design: &Design<'_>,
+    placement: &mut Placement,
+    reach: &Reach,
+    seed: u64,
+    progress: &mut Progress<'_>,
+) {
+    let mut annealer = Annealer::new(design, placement, reach, seed);
     let parts = annealer.nets_of.len();
     if parts == 0 {
         return;
@@ -122,7 +130,7 @@ fn logarithms() -> Vec<i64> {
 }
 
 impl<'a, 'b> Annealer<'a, 'b> {
-    fn new(design: &'a Design<'b>, placement: &'a mut Placement, seed: u64) -> Self {
+    fn new(design: &'a Design<'b>, placement: &'a mut Placement, reach: &'a Reach, seed: u64) -> Self {
         let mut grid = Grid::new();
         for (column, site) in placement.columns.iter().enumerate() {
             Grid::run(*site, design.packed.columns[column].slices.len()).for_each(|site| grid.set(site, column as u32));
@@ -153,12 +161,25 @@ impl<'a, 'b> Annealer<'a, 'b> {
         nets_of.iter_mut().for_each(Vec::dedup);
         let (costs, stamp) = (vec![0; nets.len()], vec![0; nets.len()]);
         let random = ChaCha8Rng::seed_from_u64(seed);
-        Self { design, placement, grid, nets, nets_of, costs, weights: Vec::new(), stamp, now: 0, random, power: 2 }
+        Self {
+            design,
+            reach,
+            placement,
+            grid,
+            nets,
+            nets_of,
+            costs,
+            weights: Vec::new(),
+            stamp,
+            now: 0,
+            random,
+            power: 2,
+        }
     }
 
     /// New weights from the present placement's timing, and all costs anew.
     fn recount(&mut self) {
-        self.weights = self.design.weights(&self.placement.estimate(self.design.nets), self.power);
+        self.weights = self.design.weights(&self.placement.estimate(self.design.nets, self.reach), self.power);
         for net in 0..self.nets.len() {
             self.costs[net] = self.cost(net);
         }
@@ -173,11 +194,10 @@ impl<'a, 'b> Annealer<'a, 'b> {
             let at = self.placement.at(*sink);
             low = (low.0.min(at.0), low.1.min(at.1));
             high = (high.0.max(at.0), high.1.max(at.1));
-            let distance = i64::from(from.0.abs_diff(at.0)) + i64::from(from.1.abs_diff(at.1));
-            time += distance * i64::from(self.weights[net.first + offset]);
+            time += i64::from(self.reach.delay(from, at)) * i64::from(self.weights[net.first + offset]);
         }
         let length = i64::from(high.0 - low.0) + i64::from(high.1 - low.1);
-        length * net.factor * LENGTH / 64 + time * TIME / 64
+        length * net.factor * LENGTH / 64 + time * TIME / 16_384
     }
 
     /// A temperature at which most moves are taken: twice the mean change of random moves.

@@ -1,10 +1,10 @@
 //! The search for the cheapest way from a net's tree to its next sink.
 
-use super::fabric::{Fabric, Way};
 use super::terminals::Ends;
 use super::tree::{Branch, Tree};
 use super::{GATES, JOINED, at};
 use crate::device::{Device, PipId, WireFamily, WireId};
+use crate::flow::fabric::{Fabric, Way};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

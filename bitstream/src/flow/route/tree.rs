@@ -1,9 +1,9 @@
 //! A routed net.
 
 use super::at;
-use super::fabric::Fabric;
 use super::terminals::Ends;
 use crate::device::{PipId, WireId};
+use crate::flow::fabric::Fabric;
 use std::collections::BTreeMap;
 
 /// A switch of a net, from a wire of the tree to a new one.

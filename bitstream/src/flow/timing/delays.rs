@@ -77,11 +77,3 @@ pub fn wire(family: WireFamily) -> u32 {
         WireFamily::Output | WireFamily::Other | WireFamily::ClockRoot | WireFamily::ClockLeaf => 0,
     }
 }
-
-/// What a connection over this many columns and rows takes, before it is routed: output multiplexer, input
-/// multiplexer, and a hex wire each six cells with singles for the rest.
-#[must_use]
-pub fn estimate(columns: u32, rows: u32) -> u32 {
-    let along = |cells: u32| cells / 6 * wire(WireFamily::Hex) + cells % 6 * 220;
-    2 * wire(WireFamily::Input) + wire(WireFamily::SingleBuffer) + 180 + along(columns) + along(rows)
-}

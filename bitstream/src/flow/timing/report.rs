@@ -1,5 +1,6 @@
 //! Arrival times, slack, and the worst paths.
 
+use super::delays::{CLOCK_SKEW, MEMORY_TO_OUTPUT};
 use super::graph::{Arc, End, From, Graph};
 use crate::flow::netlist::Net;
 
@@ -44,6 +45,8 @@ pub struct DomainReport {
     pub period: u32,
     /// The worst paths, worst first, one for each end.
     pub worst: Vec<TimedPath>,
+    /// The slowest of those that begin and end inside the device, with the whole period to pass.
+    pub inside: Option<TimedPath>,
 }
 
 /// Timing of a design.
@@ -61,9 +64,15 @@ struct Arrivals {
 }
 
 impl Report {
-    /// Analyses the graph with these wire delays, ps per connection.
+    /// Analyses the graph with these wire delays, ps per connection; tells the ten worst paths of each domain.
     #[must_use]
     pub fn of(graph: &Graph, wires: &[u32]) -> Self {
+        Self::with_paths(graph, wires, 10)
+    }
+
+    /// The same with so many paths.
+    #[must_use]
+    pub fn with_paths(graph: &Graph, wires: &[u32], paths: usize) -> Self {
         let domains = graph.clocks.len();
         let arrivals = arrive(graph, wires);
         let (mut criticality, mut reports) = (vec![0_u16; wires.len()], Vec::new());
@@ -98,9 +107,19 @@ impl Report {
             }
             graph.ends.iter().filter(|end| end.clock as usize == domain).for_each(|end| share(end.arc, end.due.into()));
             ends.sort_unstable();
-            let worst = ends.iter().take(10).map(|(_, delay, at)| path(graph, wires, times, &graph.ends[*at], *delay));
+            let worst =
+                ends.iter().take(paths).map(|(_, delay, at)| path(graph, wires, times, &graph.ends[*at], *delay));
+            let whole = |at: usize| i64::from(graph.ends[at].due) == period - i64::from(CLOCK_SKEW);
+            let inside = ends
+                .iter()
+                .map(|(_, delay, at)| (*delay, *at))
+                .filter(|(_, at)| whole(*at))
+                .map(|(delay, at)| path(graph, wires, times, &graph.ends[at], delay))
+                // Inputs begin later than any register.
+                .find(|path| path.steps.first().is_some_and(|step| step.driven <= MEMORY_TO_OUTPUT));
             let clock = &graph.clocks[domain];
-            reports.push(DomainReport { port: clock.port.clone(), period: clock.period, worst: worst.collect() });
+            let worst = worst.collect();
+            reports.push(DomainReport { port: clock.port.clone(), period: clock.period, worst, inside });
         }
         Self { domains: reports, criticality }
     }

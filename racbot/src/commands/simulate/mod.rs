@@ -18,7 +18,8 @@ use runs::error::InputError;
 use serde_json::{Value, json};
 use simulator::closed_loop::picture::{Curve, speeds, trajectory};
 use simulator::closed_loop::{Control, Drive, Driven, Ending};
-use simulator::fpga::{BitTrue, Kind};
+use simulator::fpga::{BitTrue, Fpga, Kind};
+use simulator::imu::VirtualImu;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -203,7 +204,9 @@ impl Options {
                 deviations: Deviations::default(),
                 ..drive.clone()
             };
-            ideal.run(BitTrue::new(), |_| {}).map_err(|error| self.about_robot(error))
+            let card = VirtualImu::of_robot(&believed, self.seed)
+                .map_or_else(BitTrue::new, |imu| BitTrue::new().with_imu(imu));
+            ideal.run(card, |_| {}).map_err(|error| self.about_robot(error))
         });
         let answer = self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) });
         self.save(&files, &drive, &timed.driven, ideal.transpose()?.as_ref(), &answer.text)?;
@@ -225,7 +228,12 @@ impl Options {
 
     fn timed(&self, drive: &Drive) -> Result<Timed, Failure> {
         let progress = Progress::new(format!("driving over {}", self.fpga.kind()), (drive.limit_s * 1e3) as u64);
-        let fpga = self.fpga.open()?;
+        // Only the bit-true model has a sensor on its pins.
+        let sensor = VirtualImu::of_robot(&drive.believed, self.seed).filter(|_| self.fpga.kind() == Kind::BitTrue);
+        let fpga: Box<dyn Fpga> = match sensor {
+            Some(sensor) => Box::new(BitTrue::new().with_imu(sensor)),
+            None => self.fpga.open()?,
+        };
         let begun = Instant::now();
         let driven = drive.run(fpga, |t| progress.at((t * 1e3) as u64)).map_err(|error| self.about_robot(error))?;
         let times_real_time = driven.track.len() as f64 * drive.believed.tick_s() / begun.elapsed().as_secs_f64();

@@ -3,6 +3,9 @@
 use crate::device::{Device, PipId, PipKind, WireFamily, WireId};
 use crate::flow::timing::delays;
 
+/// Most pass gates in series.
+pub const GATES: u8 = 6;
+
 /// What kind of way an arc is.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Way {
