@@ -347,7 +347,7 @@ mod tests {
     fn every_port_has_its_width() {
         let ports = Board::mesa_4i65_7i30().check().unwrap();
         let width = |name: &str| ports.iter().find(|(port, _)| port == name).unwrap().1;
-        assert_eq!(ports.len(), 24);
+        assert_eq!(ports.len(), 29);
         assert_eq!((width("lad"), width("led_n"), width("pwm"), width("lclk")), (Some(32), Some(8), Some(4), None));
     }
 
