@@ -206,9 +206,9 @@ fn a_core_that_does_not_fit_the_board_is_named() {
 fn the_constraints_place_every_pin_once_with_its_buffer() {
     let text = ucf::ucf(&Board::mesa_4i65_7i30(), "rac4i65").unwrap();
     let places: Vec<_> = text.lines().filter_map(|l| l.split("LOC = \"").nth(1)?.split('"').next()).collect();
-    // 7 control and clock pins, 32 LAD, 8 LEDs, 24 on P1, 12 on P3.
-    assert_eq!(places.len(), 83);
-    assert_eq!(places.iter().collect::<BTreeSet<_>>().len(), 83);
+    // 7 control and clock pins, 32 LAD, 8 LEDs, 24 on P1, 12 on P3, 5 on P4.
+    assert_eq!(places.len(), 88);
+    assert_eq!(places.iter().collect::<BTreeSet<_>>().len(), 88);
     for line in [
         "NET \"lad<0>\" LOC = \"P153\" | IOSTANDARD = LVTTL | DRIVE = 8 | SLEW = FAST;",
         "NET \"led_n<7>\" LOC = \"P95\" | IOSTANDARD = LVTTL | DRIVE = 24 | SLEW = SLOW;",

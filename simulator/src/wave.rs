@@ -342,7 +342,7 @@ mod tests {
     fn every_pin_of_the_board_is_shown() {
         let mut stage = Stage::new(false);
         stage.bridge = true;
-        assert_eq!(stage.pins.len(), 24);
+        assert_eq!(stage.pins.len(), 29);
         for (name, _) in &stage.pins {
             assert!(stage.level(name).is_some(), "{name} has no level; add it to Stage::level");
         }
