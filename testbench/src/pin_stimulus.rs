@@ -67,6 +67,8 @@ impl Stimulus {
         stimulus.commit(&map::CONFIGURATION, &map::COMMIT_CONFIGURATION);
         stimulus.commit(&map::SET_POINTS, &map::COMMIT_SET_POINTS);
         stimulus.arm();
+        // The charger's turn: after a first kick the capacitor rests longer than all this.
+        stimulus.idle(2_048);
         while stimulus.rows.len() < clocks * stimulus.width {
             stimulus.any();
         }
@@ -91,7 +93,7 @@ impl Stimulus {
         let ball = u32::from(self.random.random_range(0..100) == 0);
         let index = self.random.random_range(0..16);
         // Long enough without for the line's filter, and with.
-        let full = ((self.rows.len() / self.width) >> 12) as u32 & 1;
+        let full = ((self.rows.len() / self.width) >> 10) as u32 & 1;
         let values = [ads, blast, lw_r, lad, drive, line(0), line(1), index, self.stop, ball, 1, line(0) & 1, full];
         let mut row = vec![0; self.width];
         for (column, value) in self.columns.iter().zip(values) {
