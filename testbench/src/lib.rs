@@ -2,6 +2,7 @@
 
 pub mod blind;
 pub mod blinker;
+pub mod equivalence;
 pub mod faults;
 pub mod formal;
 pub mod netlist;
