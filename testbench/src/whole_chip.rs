@@ -23,7 +23,7 @@ pub const PERIOD: u32 = map::MIN_TICK_PERIOD;
 /// Clocks after a tick in which encoders stand still: the host still reads the snapshot of the tick before.
 const QUIET: u32 = 150;
 /// Clocks after a tick in which the program has ended.
-const PROGRAM: u64 = 970;
+const PROGRAM: u64 = 985;
 /// Clocks after a tick at rest at which an index rises, and falls.
 const INDEX: [u64; 2] = [700, 800];
 
