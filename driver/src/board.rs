@@ -354,17 +354,14 @@ impl<R: Registers> Board<R> {
     /// # Errors
     /// As [`Self::snapshot`].
     pub fn snapshot_with_imu(&mut self) -> Result<(Snapshot, [u16; SNAPSHOT_IMU_WORDS]), BoardError> {
-        let (mut words, mut imu) = ([0; map::SNAPSHOT_WORDS], [0; SNAPSHOT_IMU_WORDS]);
-        for _ in 0..TRIES {
+        let mut imu = [0; SNAPSHOT_IMU_WORDS];
+        let snapshot = self.coherent(|bus, words| {
             // The last word of the snapshot releases it: the sensor's words come before.
-            words[0] = self.bus.read(map::SNAPSHOT_SEQUENCE.offset)?;
-            self.bus.read_block(map::SNAPSHOT_IMU.offset, &mut imu)?;
-            self.bus.read_block(map::SNAPSHOT_SEQUENCE.offset + 4, &mut words[1..])?;
-            if words[0] == words[map::SNAPSHOT_WORDS - 1] {
-                return Ok((Snapshot::of(&words), imu.map(|word| word as u16)));
-            }
-        }
-        Err(BoardError::Snapshot(TRIES))
+            words[0] = bus.read(map::SNAPSHOT_SEQUENCE.offset)?;
+            bus.read_block(map::SNAPSHOT_IMU.offset, &mut imu)?;
+            bus.read_block(map::SNAPSHOT_SEQUENCE.offset + 4, &mut words[1..])
+        })?;
+        Ok((snapshot, imu.map(|word| word as u16)))
     }
 
     /// A coherent snapshot of the last control tick. 24 words over the bus.
@@ -372,9 +369,17 @@ impl<R: Registers> Board<R> {
     /// # Errors
     /// [`BoardError::Snapshot`] where the sequence numbers never agree.
     pub fn snapshot(&mut self) -> Result<Snapshot, BoardError> {
+        self.coherent(|bus, words| bus.read_block(map::SNAPSHOT_SEQUENCE.offset, words))
+    }
+
+    /// A snapshot whose first and last word agree.
+    fn coherent(
+        &mut self,
+        mut read: impl FnMut(&mut R, &mut [u32; map::SNAPSHOT_WORDS]) -> Result<(), BusError>,
+    ) -> Result<Snapshot, BoardError> {
         let mut words = [0; map::SNAPSHOT_WORDS];
         for _ in 0..TRIES {
-            self.bus.read_block(map::SNAPSHOT_SEQUENCE.offset, &mut words)?;
+            read(&mut self.bus, &mut words)?;
             if words[0] == words[map::SNAPSHOT_WORDS - 1] {
                 return Ok(Snapshot::of(&words));
             }

@@ -203,7 +203,7 @@ impl Walk {
         if d.omega.abs() > SMALL_RAD {
             return Self::from(displacement(d));
         }
-        let (a, b) = chord(d.omega);
+        let (a, b) = small_chord(d.omega);
         let pose = Pose::new(a * d.vx - b * d.vy, b * d.vx + a * d.vy, d.omega);
         Self { pose, cos: 1.0 - d.omega * b, sin: d.omega * a }
     }

@@ -1,6 +1,6 @@
 //! The inertial sensor in the loop: its readings, its silence, and the heading's rate controlled on it.
 
-use crate::imu::{FROZEN_READINGS, Imu, Words};
+use crate::imu::{FROZEN_READINGS, Imu, Repeats, Words};
 use model::imu::Reading;
 use runs::frames::Twist;
 
@@ -18,9 +18,8 @@ const SILENT: usize = 20;
 #[derive(Clone, Debug)]
 pub(super) struct Feel {
     imu: Imu,
-    last: Words,
+    repeats: Repeats,
     sequence: Option<u32>,
-    equal: usize,
     silent: usize,
     reading: Option<Reading>,
     gone: Option<f64>,
@@ -29,8 +28,7 @@ pub(super) struct Feel {
 
 impl Feel {
     pub(super) fn new(imu: Imu) -> Self {
-        let (last, sequence) = (Words::default(), None);
-        Self { imu, last, sequence, equal: 0, silent: 0, reading: None, gone: None, correction: 0.0 }
+        Self { imu, repeats: Repeats::default(), sequence: None, silent: 0, reading: None, gone: None, correction: 0.0 }
     }
 
     /// Words of a snapshot; the same tick may be seen twice.
@@ -38,9 +36,8 @@ impl Feel {
         if self.sequence.replace(sequence) == Some(sequence) {
             return;
         }
-        self.equal = if words[1..] == self.last[1..] { self.equal + 1 } else { 0 };
-        self.last = *words;
-        self.reading = self.imu.reading(words).filter(|_| self.equal < FROZEN_READINGS);
+        let equal = self.repeats.see(words);
+        self.reading = self.imu.reading(words).filter(|_| equal < FROZEN_READINGS);
         self.silent = if self.reading.is_some() { 0 } else { self.silent + 1 };
     }
 

@@ -41,6 +41,22 @@ const REST_SCATTER: f64 = 0.02;
 /// Equal readings, one after the other, of a sensor that hangs. Noise is three units: chance makes 14 equal bytes
 /// twice in a row less than once in 10⁴, eight times never.
 pub const FROZEN_READINGS: usize = 8;
+/// Counts equal readings, one after the other.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Repeats {
+    last: Words,
+    equal: usize,
+}
+
+impl Repeats {
+    /// How often these words have come again; their age may differ.
+    pub(crate) fn see(&mut self, words: &Words) -> usize {
+        self.equal = if words[1..] == self.last[1..] { self.equal + 1 } else { 0 };
+        self.last = *words;
+        self.equal
+    }
+}
+
 /// Looks at an access that should be over after 136 clocks.
 const LOOKS: u32 = 1_000;
 
@@ -157,8 +173,7 @@ struct Rest {
     readings: usize,
     gyro: [[f64; 2]; 3],
     acceleration: [f64; 3],
-    last: Words,
-    equal: usize,
+    repeats: Repeats,
     silent: usize,
 }
 
@@ -168,11 +183,10 @@ impl Rest {
             self.silent += 1;
             return if self.silent > FROZEN_READINGS { Err(ImuError::NotReady) } else { Ok(()) };
         };
-        self.equal = if words[1..] == self.last[1..] { self.equal + 1 } else { 0 };
-        if self.equal >= FROZEN_READINGS {
-            return Err(ImuError::Frozen(self.equal));
+        let equal = self.repeats.see(words);
+        if equal >= FROZEN_READINGS {
+            return Err(ImuError::Frozen(equal));
         }
-        self.last = *words;
         self.readings += 1;
         for (axis, sums) in self.gyro.iter_mut().enumerate() {
             let rate = reading.gyro[axis];

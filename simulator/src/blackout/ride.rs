@@ -4,11 +4,12 @@ use super::{Now, Senses};
 use crate::closed_loop::VirtualRobot;
 use crate::eye::SharedEye;
 use crate::fpga::Fpga;
+use crate::imu::Chassis;
 use driver::drive::PoseSource;
 use model::fusion::FusionOptions;
 use model::imu::{Imu, ImuModel, Motion};
 use model::inertial::Inertial;
-use runs::frames::{Pose, Twist, wrap_angle};
+use runs::frames::{Pose, wrap_angle};
 use runs::robot::Robot;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -26,7 +27,7 @@ pub struct OnBoard<F> {
     robot: VirtualRobot<F>,
     filter: Inertial,
     imu: Imu,
-    before: Twist,
+    chassis: Chassis,
     tick: u64,
     period: f64,
     eye: Option<SharedEye>,
@@ -56,32 +57,21 @@ impl<F: Fpga> OnBoard<F> {
         let mut imu = Imu::new(sensor, 3);
         // A second of rest before the start shows the gyroscope's bias.
         let period = 1.0 / model.control_rate_hz;
-        let counts = robot.with_plant(model::plant::Plant::counts);
+        let mut chassis = Chassis::default();
+        let counts = robot.with_plant(|plant| {
+            chassis.motion(plant, period);
+            plant.counts()
+        });
         for k in 0..1000 {
             filter.predict((f64::from(k) - 1000.0) * period, &counts, &imu.read(&Motion::default()));
         }
         let eye = (senses == Senses::Camera).then_some(eye);
-        Self { robot, filter, imu, before: Twist::default(), tick: 0, period, eye, senses, since: now.t, end }
+        Self { robot, filter, imu, chassis, tick: 0, period, eye, senses, since: now.t, end }
     }
 
     fn motion(&mut self) -> (Motion, Vec<i64>, Pose) {
-        let (now, counts, pose, speeds) = self.robot.with_plant(|plant| {
-            let speeds = plant.wheel_speeds().map(f64::abs).sum::<f64>() / plant.wheel_speeds().count().max(1) as f64;
-            (plant.twist(), plant.counts(), plant.pose(), speeds)
-        });
-        let rate = |a: f64, b: f64| (a - b) / self.period;
-        let motion = Motion {
-            omega: [0.0, 0.0, now.omega],
-            omega_rate: [0.0, 0.0, rate(now.omega, self.before.omega)],
-            acceleration: [
-                rate(now.vx, self.before.vx) - now.omega * now.vy,
-                rate(now.vy, self.before.vy) + now.omega * now.vx,
-                0.0,
-            ],
-            wheel_speed: speeds,
-        };
-        self.before = now;
-        (motion, counts, pose)
+        let (chassis, period) = (&mut self.chassis, self.period);
+        self.robot.with_plant(|plant| (chassis.motion(plant, period), plant.counts(), plant.pose()))
     }
 }
 

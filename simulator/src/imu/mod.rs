@@ -236,10 +236,7 @@ impl VirtualImu {
     /// One access as the 16 bits on the line have it; what the sensor sends in its second byte.
     pub fn access(&mut self, command: u16) -> u8 {
         let (register, value) = ((command >> 8) as u8 & 0x7F, command as u8);
-        if command & 0x8000 != 0 {
-            return self.byte(register);
-        }
-        if self.is_silent() {
+        if command & 0x8000 != 0 || self.is_silent() {
             return self.byte(register);
         }
         match register {

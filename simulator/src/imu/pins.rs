@@ -49,7 +49,7 @@ impl SpiPins {
         if self.bits <= 16 {
             self.heard = self.heard << 1 | u16::from(mosi);
         }
-        if self.bits.is_multiple_of(8) && self.bits >= 8 {
+        if self.bits.is_multiple_of(8) {
             let command = if self.bits == 8 { self.heard as u8 } else { (self.heard >> 8) as u8 };
             let register = (command & 0x7F).wrapping_add((self.bits / 8 - 1) as u8);
             self.sending = if command & 0x80 != 0 { self.sensor.byte(register) } else { 0 };
