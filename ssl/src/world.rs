@@ -164,7 +164,7 @@ impl Robots for World {
         let robot = self.robots.get(&(team, id))?;
         let state = State {
             ball: robot.has_ball(),
-            fault: robot.fault().map(str::to_owned),
+            fault: robot.fault(),
             fastest_kick: robot.kind().fastest_kick,
             dribbler: true,
         };
