@@ -249,8 +249,9 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     let mut thresholds = options.thresholds.clone();
-    let motion_link = MotionLink::new(&pieces, noise, window_s);
-    let has_motion = !motion_link.is_empty() && robot.support == Support::Floor;
+    let motion_link = MotionLink::new(&pieces, noise, window_s).felt(&start.motion(None));
+    let has_motion =
+        (!motion_link.is_empty() || motion_link.inertial.is_some()) && robot.support == Support::Floor;
     let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
     start = data.state(&set.robot);
     let nominal = start.clone();
@@ -273,7 +274,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         seen = Some(motion_link.residuals(&outcome.written.motion(None)));
         start = study.take(outcome, Link::Motion, start.active.len());
         start.active.iter_mut().for_each(|a| a.given = true);
-    } else {
+    }
+    if !data.has_camera() {
         remarks.push(missing(set));
     }
     options.reached(Stage::MotionStudied);
@@ -420,7 +422,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let idle = |n: &Named| {
             let link = measured.links.iter().find(|l| l.link == n.link);
             matches!(n.evidence, Evidence::Test { .. })
-                && matches!(n.link, Link::Motion | Link::Drive)
+                && n.link.is_fitted()
                 && link.is_some_and(|l| l.after >= FALLS * l.before)
         };
         if !named.iter().any(idle) {
@@ -443,8 +445,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         }
     }
     named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    let Measured { mut links, motion: motion_plots, drive, mut driven, steps, .. } = measured;
-    let mut located = Vec::new();
+    let Measured { mut links, motion: motion_plots, drive, mut driven, steps, felt, .. } = measured;
+    let mut located = crate::locate::inertial(&felt);
     if let Some(plots) = &motion_plots {
         located.extend(crate::locate::motion(&motion_link, &plots[0]));
     }
@@ -463,19 +465,19 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     if links.is_empty() && weightless.is_empty() {
         return Err(GapError::NothingToCompare);
     }
-    let whole = has_motion.then(|| {
+    let whole = data.has_camera().then(|| {
         let uncut = MotionLink::new(&pieces, noise, f64::INFINITY).first(SHOWN);
         let now = data.state(&robot_with);
         [uncut.residuals(&nominal.motion(None)), uncut.residuals(&now.motion(None))]
     });
-    if has_motion {
+    if data.has_camera() {
         driven.seen = Driven::seen(&pieces, SHOWN);
     }
     // What slides drives no body as Newton has it: the name says so already.
     let slides = |l: &LinkGap| l.link == Link::Drive && named.iter().any(|n: &Named| n.name == "wheel-slip");
     let mut remains = Vec::new();
     for l in links.iter().filter(|l| !slides(l)) {
-        match gaps::remains(l, &located) {
+        match gaps::remains(l, &located, &felt) {
             _ if odd.is_some() => {}
             Some(Remains::Open(structure)) if !unexplained.iter().any(|u| u.link == l.link) => {
                 unexplained.push(Leftover { link: l.link, structure });
@@ -511,6 +513,10 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         thresholds: &thresholds,
         catalogue: &catalogue,
     };
+    // Without a sensor nobody asked for its effects.
+    let shows = |e: &dyn Effect| {
+        !e.link().is_inertial() || motion_link.inertial.as_ref().is_some_and(|sensor| sensor.shows(e))
+    };
     let next_experiment = match verdict {
         Verdict::Ambiguous | Verdict::MissingEffect => crate::experiment::propose(&known, &alternatives),
         _ => None,
@@ -527,7 +533,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         limits,
         robot_text: text,
         robot: robot_with,
-        tried: catalogue.iter().filter(|e| !e.probe()).map(|e| e.name().to_owned()).collect(),
+        tried: catalogue.iter().filter(|e| !e.probe() && shows(e.as_ref())).map(|e| e.name().to_owned()).collect(),
         whole,
         waterfall,
         name: set.folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),

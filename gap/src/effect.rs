@@ -22,9 +22,23 @@ pub enum Link {
     Drive,
     /// Encoders → camera.
     Motion,
+    /// Encoders → gyroscope.
+    Gyroscope,
+    /// Encoders → accelerometer.
+    Accelerometer,
 }
 
 impl Link {
+    /// Whether parameters are fitted on it; the others are replayed.
+    pub fn is_fitted(self) -> bool {
+        matches!(self, Self::Motion | Self::Drive) || self.is_inertial()
+    }
+
+    /// Whether it ends in the inertial sensor: fitted with the motion link, for the same wheels.
+    pub fn is_inertial(self) -> bool {
+        matches!(self, Self::Gyroscope | Self::Accelerometer)
+    }
+
     /// Name in reports and in `gap.json`.
     pub fn name(self) -> &'static str {
         match self {
@@ -33,6 +47,8 @@ impl Link {
             Self::Controller => "controller",
             Self::Drive => "drive",
             Self::Motion => "motion",
+            Self::Gyroscope => "gyroscope",
+            Self::Accelerometer => "accelerometer",
         }
     }
 }
@@ -166,7 +182,7 @@ pub trait Effect: Send + Sync {
     /// Relative standard deviation of its parameters from what its law leaves out.
     fn law_uncertainty(&self) -> f64 {
         // Geometry holds to the width of a contact, laws of friction and motors less well.
-        if self.link() == Link::Motion { 0.005 } else { 0.015 }
+        if matches!(self.link(), Link::Drive) { 0.015 } else { 0.005 }
     }
     /// Whether its parameters are the recording's, not the robot's: a file that carries it declares that they are fitted
     /// anew for the runs at hand.

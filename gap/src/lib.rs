@@ -25,6 +25,7 @@ pub mod evidence;
 pub mod exact;
 pub mod experiment;
 pub mod gram;
+pub mod inertial;
 mod leftover;
 mod limits;
 mod locate;

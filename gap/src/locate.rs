@@ -3,6 +3,7 @@
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::Link;
 use crate::exact::ExactLink;
+use crate::inertial::Fit;
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::statistics::rms;
 
@@ -49,6 +50,23 @@ pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Loca
             (excess > WORTH).then(|| Located { link: Link::Motion, signal: names[i].to_owned(), excess, place })
         })
         .collect()
+}
+
+/// The links to the inertial sensor: each axis.
+pub(crate) fn inertial(fits: &[Fit]) -> Vec<Located> {
+    let of = |f: &Fit| {
+        let (run, t, worst) = f.worst;
+        let place = format!(
+            "{} is off by {:.4} {} (floor {:.4}), most in run {} at {t:.1} s ({worst:.1} floors)",
+            f.channel.column(),
+            f.rms,
+            f.channel.unit(),
+            f.floor,
+            run + 1
+        );
+        Located { link: f.channel.link(), signal: f.channel.column().to_owned(), excess: f.floors, place }
+    };
+    fits.iter().filter(|f| f.floors > WORTH).map(of).collect()
 }
 
 /// The drive link: each wheel, by direction, speed and time.

@@ -268,7 +268,9 @@ impl<'a> Pieces<'a> {
     fn derive(&self, index: usize) -> Segment {
         let p = &self.all[index];
         let log = &self.logs[p.run];
-        let part = log.part(p.rows.clone(), COLUMNS);
+        let layout = log.layout();
+        let sensors = layout.gyro.is_some() || layout.acceleration.is_some();
+        let part = log.part(p.rows.clone(), Columns { sensors, ..COLUMNS });
         let seen = log.camera();
         let at = |tick: usize| seen.partition_point(|f| f.tick < tick);
         let frames = at(p.rows.start)..at(p.rows.end);

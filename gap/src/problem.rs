@@ -76,6 +76,12 @@ impl Problem<'_> {
             Self::Drive(link) => link.sizes,
         };
         let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);
+        if let Self::Motion(MotionLink { inertial: Some(link), .. }) = self {
+            // One regression for all that the wheels are seen by.
+            let felt = catalogue.iter().filter(|e| link.shows(e.as_ref())).cloned().collect::<Vec<_>>();
+            let felt = crate::candidates::candidates_in(state, &felt, Link::Gyroscope, &sizes);
+            all.extend(felt.into_iter().map(|a| Active { link: self.link(), ..a }));
+        }
         if matches!(self, Self::Motion(link) if !link.pieces.have_duties()) {
             // What lags by its mass: where no drive is compared, nobody vouches for a mass.
             all.retain(|a| a.effect.name() != "wheel-creep");

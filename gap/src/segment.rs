@@ -5,6 +5,7 @@ use runs::geometry::Geometry;
 use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
+use crate::inertial::Felt;
 use crate::thresholds;
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
@@ -48,6 +49,8 @@ pub struct Segment {
     pub frames: Vec<Frame>,
     /// Frozen camera frames that were left out.
     pub frozen: usize,
+    /// What an inertial sensor felt, if the log has one beside its encoders.
+    pub felt: Option<Felt>,
     /// Whether a camera fixes heading and position.
     pub has_world: bool,
     /// The ticks that are looked at; those before and behind belong to its neighbours in the log and are here for what
@@ -166,6 +169,15 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
             if w.is_empty() { Twist::default() } else { geometry.twist(&w) }
         })
         .collect();
+    if !s.angle.is_empty() && (part.gyro.is_some() || part.acceleration.is_some()) {
+        let mut turned = vec![0.0; n];
+        let turn = |k: usize| {
+            turned.iter_mut().zip(&s.angle).for_each(|(turned, a)| *turned = a[k + 1] - a[k]);
+            geometry.twist(&turned).omega
+        };
+        let turn: Vec<f64> = (0..s.t.len() - 1).map(turn).collect();
+        s.felt = Felt::of(part, &turn);
+    }
     s.drop_frozen();
     let frames = if place.cut == [false; 2] { s.frames.len() } else { place.stretch_frames };
     s.has_world = frames >= 4 && !s.frames.is_empty();
@@ -326,7 +338,7 @@ fn held(values: &[f64], first: f64) -> Vec<f64> {
 }
 
 /// Derivative at each tick from a Hann-weighted mean of the increments around it.
-fn smooth_speed(t: &[f64], angle: &[f64]) -> Vec<f64> {
+pub(crate) fn smooth_speed(t: &[f64], angle: &[f64]) -> Vec<f64> {
     let n = t.len();
     let tick = (t[n - 1] - t[0]) / (n - 1) as f64;
     let half = ((0.5 * SMOOTHING_S / tick).round() as usize).max(1);

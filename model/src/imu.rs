@@ -1,5 +1,13 @@
 //! A 6-axis inertial sensor as a simulated sensor: what its registers say of how the robot moves.
 
+mod chassis;
+mod deviations;
+
+pub use chassis::Chassis;
+pub use deviations::ImuDeviations;
+
+use std::collections::VecDeque;
+
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -99,6 +107,19 @@ pub struct Motion {
     pub wheel_speed: f64,
 }
 
+impl Motion {
+    /// The motion a share of the way to another one.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let mix = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[i] + share * (b[i] - a[i]));
+        Self {
+            omega: mix(self.omega, other.omega),
+            omega_rate: mix(self.omega_rate, other.omega_rate),
+            acceleration: mix(self.acceleration, other.acceleration),
+            wheel_speed: self.wheel_speed + share * (other.wheel_speed - self.wheel_speed),
+        }
+    }
+}
+
 /// A reading in SI units, as the driver makes them of registers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reading {
@@ -121,6 +142,9 @@ pub struct Imu {
     accelerometer: Part,
     time: f64,
     phase: f64,
+    deviations: ImuDeviations,
+    /// What the chassis did in the last periods, newest first, as far back as readings are late.
+    felt: VecDeque<Motion>,
 }
 
 #[derive(Debug, Clone)]
@@ -138,11 +162,43 @@ impl Imu {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let gyro = Part::new(model.gyro, &mut rng);
         let accelerometer = Part::new(model.accelerometer, &mut rng);
-        Self { model, rng, gyro, accelerometer, time: 0.0, phase: 0.0 }
+        let deviations = ImuDeviations::default();
+        Self { model, rng, gyro, accelerometer, time: 0.0, phase: 0.0, deviations, felt: VecDeque::new() }
+    }
+
+    /// The same part with what a robot's file says of it.
+    #[must_use]
+    pub fn with_deviations(mut self, deviations: &ImuDeviations) -> Self {
+        let turned = Rotation3::from_scaled_axis(Vector3::from(deviations.turned_rad)).inverse();
+        for part in [&mut self.gyro, &mut self.accelerometer] {
+            part.turned *= turned;
+        }
+        self.gyro.bias += Vector3::from(deviations.gyro_bias);
+        self.gyro.scale = self.gyro.scale.map(|s| (1.0 + s) * (1.0 + deviations.gyro_scale) - 1.0);
+        self.model.place.iter_mut().zip(deviations.moved_m).for_each(|(place, by)| *place += by);
+        self.deviations = *deviations;
+        self
+    }
+
+    /// The same part with noise of its own.
+    #[must_use]
+    pub fn with_noise(mut self, seed: u64) -> Self {
+        self.rng = ChaCha8Rng::seed_from_u64(seed);
+        self
+    }
+
+    /// What the chassis did when what is read now was measured.
+    fn delayed(&mut self, motion: &Motion) -> Motion {
+        let age = (self.deviations.latency_s * self.model.rate_hz).max(0.0);
+        self.felt.push_front(*motion);
+        self.felt.truncate(age as usize + 2);
+        let at = |k: usize| self.felt.get(k).or(self.felt.back()).copied().unwrap_or(*motion);
+        at(age as usize).towards(&at(age as usize + 1), age.fract())
     }
 
     /// The next reading, one period after the last.
     pub fn read(&mut self, motion: &Motion) -> Reading {
+        let motion = &self.delayed(motion);
         let dt = 1.0 / self.model.rate_hz;
         self.time += dt;
         self.phase += motion.wheel_speed * self.model.rollers * dt;

@@ -2,6 +2,7 @@
 
 use crate::camera::{Camera, CameraModel};
 use crate::effects::{Applied, ControlDeviations};
+use crate::imu::{Chassis, Imu, ImuModel};
 use crate::localisation::Localiser;
 use crate::pi::SpeedLoop;
 use crate::plant::{Contact, Plant};
@@ -10,6 +11,9 @@ use runs::frames::{Pose, Twist};
 use runs::geometry::{Geometry, GeometryError};
 use runs::robot::Robot;
 use runs::{CameraSample, Run};
+
+/// Tells the sensor's noise from the camera's, which has the same seed.
+const IMU_NOISE: u64 = 0x696d_7500;
 
 /// A robot that is driven by body twists and keeps a log of everything a real one would.
 ///
@@ -21,6 +25,7 @@ pub struct VirtualRobot {
     loops: Vec<SpeedLoop>,
     control: ControlDeviations,
     camera: Camera,
+    imu: Option<(Imu, Chassis)>,
     log: Run,
 }
 
@@ -47,7 +52,15 @@ impl VirtualRobot {
     pub fn of(applied: &Applied, start: Pose, seed: u64) -> Result<Self, GeometryError> {
         let robot = &applied.robot;
         let n = robot.wheel_count();
+        let imu = robot.imu.map(|mount| {
+            let model = ImuModel { place: mount.place_m, ..ImuModel::icm_42688_p(robot.control_rate_hz) };
+            let sensor = Imu::new(model, applied.imu.part).with_deviations(&applied.imu);
+            (sensor.with_noise(seed ^ IMU_NOISE), Chassis::default())
+        });
         let log = Run {
+            gyro: imu.is_some().then(Default::default),
+            acceleration: imu.is_some().then(Default::default),
+            imu_temp: imu.is_some().then(Vec::new),
             name: "run".to_owned(),
             command: Some(Default::default()),
             reference: vec![Vec::new(); n],
@@ -64,6 +77,7 @@ impl VirtualRobot {
             control: applied.control.clone(),
             camera: Camera::new(applied.camera, seed),
             robot: robot.clone(),
+            imu,
             log,
         })
     }
@@ -106,6 +120,7 @@ impl VirtualRobot {
     pub fn tick(&mut self, command: Twist, believed: &Geometry) {
         let counts = self.plant.counts();
         let tick = self.log.len();
+        self.feel();
         let mut acting = command;
         if let Some([vx, vy, w]) = &mut self.log.command {
             vx.push(command.vx);
@@ -129,6 +144,17 @@ impl VirtualRobot {
         }
         self.log.t.push(self.log.t.len() as f64 * self.robot.tick_s());
         self.plant.step(&duties, self.robot.supply_v, self.robot.tick_s());
+    }
+
+    /// Reads the inertial sensor, in the body's axes.
+    fn feel(&mut self) {
+        let Some((sensor, chassis)) = &mut self.imu else { return };
+        let reading = sensor.read(&chassis.motion(&self.plant, self.robot.tick_s()));
+        let triples = [(&mut self.log.gyro, reading.gyro), (&mut self.log.acceleration, reading.acceleration)];
+        for (columns, values) in triples {
+            columns.iter_mut().flatten().zip(values).for_each(|(column, value)| column.push(value));
+        }
+        self.log.imu_temp.iter_mut().for_each(|column| column.push(reading.temperature_c));
     }
 
     /// Drives `twist` for `seconds`, reached and left with limited acceleration: covers `twist` ×

@@ -6,6 +6,7 @@ use super::{Located, Named};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Link, Sizes};
 use crate::exact::ExactLink;
+use crate::inertial::{self, Fit};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::pieces::Pieces;
 use crate::thresholds::ROLLING_LOSES;
@@ -48,6 +49,18 @@ pub(super) fn motion_gap([before, after]: [f64; 2], noise: [f64; 3], plots: &[Ve
         rms: (0..3).map(|i| [rms(0, i), rms(1, i)]).collect(),
         units: vec!["m", "m", "rad"],
         signals: 3,
+    }
+}
+
+pub(super) fn inertial_gap(link: Link, before: &[Fit], after: &[Fit]) -> LinkGap {
+    LinkGap {
+        link,
+        before: inertial::overall(before),
+        after: inertial::overall(after),
+        floor: after.iter().map(|f| f.floor).collect(),
+        rms: before.iter().zip(after).map(|(a, b)| [a.rms, b.rms]).collect(),
+        units: after.iter().map(|f| f.channel.unit()).collect(),
+        signals: after.len(),
     }
 }
 
@@ -136,8 +149,8 @@ const WORTH: f64 = 1.5;
 const EXPLAINED: f64 = 0.5;
 
 /// What to say of a link of motion or drive on which more than noise is left.
-pub(super) fn remains(link: &LinkGap, located: &[Located]) -> Option<Remains> {
-    if !matches!(link.link, Link::Motion | Link::Drive) || link.after < WORTH {
+pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit]) -> Option<Remains> {
+    if !link.link.is_fitted() || link.after < WORTH {
         return None;
     }
     let open = |rms: f64| (rms * rms - 1.0).max(0.0);
@@ -146,27 +159,30 @@ pub(super) fn remains(link: &LinkGap, located: &[Located]) -> Option<Remains> {
         let left = |i: &usize| link.rms[*i][1] / link.floor[*i].max(1e-300);
         left(a).total_cmp(&left(b))
     })?;
-    let names = |i: usize| {
-        if link.link == Link::Motion { ["cam_x", "cam_y", "cam_theta"][i].to_owned() } else { format!("enc_{}", i + 1) }
+    let names = |i: usize| match link.link {
+        Link::Motion => ["cam_x", "cam_y", "cam_theta"][i].to_owned(),
+        Link::Gyroscope | Link::Accelerometer => felt.iter().filter(|f| f.channel.link() == link.link).nth(i)
+            .map_or_else(String::new, |f| f.channel.column().to_owned()),
+        _ => format!("enc_{}", i + 1),
     };
     let place =
         located.iter().find(|l| l.link == link.link && l.signal == names(worst)).map_or_else(String::new, |l| {
             l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
         });
-    let unit = if link.units[worst] == "m" {
-        ("mm", 1e3)
-    } else if link.units[worst] == "Nm" {
-        ("mNm", 1e3)
-    } else {
-        ("mrad", 1e3)
+    let unit = match link.units[worst] {
+        "m" => "mm",
+        "Nm" => "mNm",
+        "rad/s" => "mrad/s",
+        "m/s²" => "mm/s²",
+        _ => "mrad",
     };
     let sentence = format!(
         "{:.1} noise floors remain on the {} link ({} {:.2} {} RMS{place}), which no effect of the catalogue explains",
         link.after,
         link.link.name(),
         names(worst),
-        unit.1 * link.rms[worst][1],
-        unit.0,
+        1e3 * link.rms[worst][1],
+        unit,
     );
     let explained = open(link.after) < (1.0 - EXPLAINED) * open(link.before);
     Some(if link.after >= FAR && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
@@ -216,7 +232,7 @@ pub(super) fn waterfall(
     let mut out = vec![("nominal model".to_owned(), before)];
     let mut now: Vec<LinkGap> = links.to_vec();
     now.iter_mut().for_each(|l| l.after = l.before);
-    for n in named.iter().filter(|n| !matches!(n.link, Link::Motion | Link::Drive)) {
+    for n in named.iter().filter(|n| !n.link.is_fitted()) {
         for (slot, l) in now.iter_mut().zip(links).filter(|(slot, _)| slot.link == n.link) {
             slot.after = l.after;
         }

@@ -11,6 +11,8 @@ use super::study::rms;
 use super::{Driven, LinkGap, Misses, gaps};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link};
+use crate::gram::Gram;
+use crate::inertial::{self, Fit, InertialLink};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::pieces::Pieces;
 use crate::problem::Problem;
@@ -23,7 +25,7 @@ const FAR_AMISS: f64 = 2.0;
 pub(super) struct Data<'a> {
     pub(super) pieces: &'a Pieces<'a>,
     pub(super) motion: &'a MotionLink<'a>,
-    /// Whether the motion link is compared at all.
+    /// Whether the motion of the wheels is compared at all, with a camera or an inertial sensor.
     pub(super) has_motion: bool,
     pub(super) logs: &'a [Log<'a>],
     pub(super) catalogue: &'a [Arc<dyn Effect>],
@@ -50,6 +52,8 @@ pub(super) struct Measured {
     /// Motion residuals, nominal and written.
     pub(super) motion: Option<[Vec<WindowResiduals>; 2]>,
     pub(super) drive: Option<MeasuredDrive>,
+    /// Axes of the inertial sensor under the nominal model.
+    pub(super) felt: Vec<Fit>,
     /// Share of the link's squared gap that goes with each effect of the file, by name.
     pub(super) gains: Vec<(String, f64)>,
     /// RMS of motion and drive in floors after each effect of the file, in its order.
@@ -58,6 +62,11 @@ pub(super) struct Measured {
 }
 
 impl<'a> Data<'a> {
+    /// Whether a camera sees that motion.
+    pub(super) fn has_camera(&self) -> bool {
+        self.has_motion && !self.motion.is_empty()
+    }
+
     /// The state that a robot's file describes, with what it declares the recording's own fitted.
     pub(super) fn state(&self, robot: &Robot) -> State {
         let state = State { robot: completed(robot, self.logs), active: given(robot, self.catalogue) };
@@ -120,17 +129,36 @@ impl<'a> Data<'a> {
             links: Vec::new(),
             motion: None,
             drive: None,
+            felt: Vec::new(),
             gains: Vec::new(),
             steps: Vec::new(),
             driven: Driven::default(),
         };
-        let motion = Problem::Motion(self.motion);
-        if self.has_motion {
+        let seen = |state: &State| {
+            let (square, n) = Gram::new(self.motion.linearise_camera(&state.motion(None), &[])).plain();
+            (square / n.max(1.0)).sqrt()
+        };
+        if self.has_camera() {
             let plots = [self.motion.residuals(&before.motion(None)), self.motion.residuals(&after.motion(None))];
-            let figures = [rms(&motion, &before), rms(&motion, &after)];
+            let figures = [seen(&before), seen(&after)];
             out.links.push(gaps::motion_gap(figures, self.motion.noise, &plots));
             out.driven.frames = Driven::at_frames(self.pieces, &plots[0]);
             out.motion = Some(plots);
+        }
+        // As the drive's, its floors are those that the written model leaves.
+        let felt = self.motion.inertial.as_ref().filter(|_| self.has_motion);
+        let felt = felt.and_then(|_| InertialLink::new(self.pieces, &after.motion(None)));
+        let sensor = |state: &State| -> Vec<(Link, Vec<Fit>)> {
+            let links = felt.iter().flat_map(|felt| {
+                let model = state.motion(None);
+                let links = [Link::Gyroscope, Link::Accelerometer].into_iter().filter(|link| felt.has(*link));
+                links.map(|link| (link, felt.fits(&model, link))).collect::<Vec<_>>()
+            });
+            links.collect()
+        };
+        for ((_, before), (link, after)) in sensor(&before).into_iter().zip(sensor(&after)) {
+            out.links.push(gaps::inertial_gap(link, &before, &after));
+            out.felt.extend(before);
         }
         let mut drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
         if let Some(Drive { link, .. }) = &mut drive {
@@ -146,9 +174,10 @@ impl<'a> Data<'a> {
             out.drive = Some(MeasuredDrive { plots, floor });
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
-            let motion = self.has_motion.then(|| (Link::Motion, rms(&motion, state)));
+            let motion = self.has_camera().then(|| (Link::Motion, seen(state)));
+            let felt = sensor(state).into_iter().map(|(link, fits)| (link, inertial::overall(&fits)));
             let drive = drive.as_ref().map(|d| (Link::Drive, rms(&Problem::Drive(&d.link), state)));
-            motion.into_iter().chain(drive).collect()
+            motion.into_iter().chain(felt).chain(drive).collect()
         };
         let mut sofar = after.clone();
         sofar.active.retain(|a| !is_new(a));

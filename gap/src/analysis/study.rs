@@ -152,7 +152,7 @@ pub(super) fn study(
         named.push(Named {
             name: active.effect.name().to_owned(),
             equation: active.effect.equation().to_owned(),
-            link: problem.link(),
+            link: shown_on(active, problem),
             wheels: material_wheels(active),
             parameters: estimate.parameters.iter().cloned().chain(fixed).collect(),
             // Known when the file is written and read again.
@@ -171,6 +171,17 @@ pub(super) fn study(
         ambiguous,
         leftovers,
         refused,
+    }
+}
+
+/// The link that an effect shows on.
+fn shown_on(active: &Active, problem: &Problem) -> Link {
+    let on_place = active.form.free.iter().all(|p| p.name.ends_with("_m") || p.name == "z_rad");
+    match active.effect.link() {
+        // Place and heading of a sensor are the accelerometer's to tell.
+        Link::Gyroscope if on_place && active.effect.also() == Some(Link::Accelerometer) => Link::Accelerometer,
+        link if link.is_inertial() => link,
+        _ => problem.link(),
     }
 }
 

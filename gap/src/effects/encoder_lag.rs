@@ -34,6 +34,7 @@ impl Effect for EncoderLag {
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         model.latency_s -= values.get("latency_s");
+        model.encoder_lag_s += values.get("latency_s");
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

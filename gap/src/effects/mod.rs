@@ -22,7 +22,11 @@ mod fits;
 mod floor_tilt;
 mod gear_backlash;
 mod gear_efficiency;
+mod gyro_bias;
+mod gyro_scale;
 mod heading_drag;
+mod imu_latency;
+mod imu_mount;
 mod lens_distortion;
 mod marker_heading;
 mod marker_offset;
@@ -76,6 +80,10 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(marker_heading::MarkerHeading),
         Box::new(marker_offset::MarkerOffset),
         Box::new(lens_distortion::LensDistortion),
+        Box::new(gyro_scale::GyroScale),
+        Box::new(gyro_bias::GyroBias),
+        Box::new(imu_latency::ImuLatency),
+        Box::new(imu_mount::ImuMount),
         Box::new(coulomb_friction::CoulombFriction),
         Box::new(viscous_friction::ViscousFriction),
         Box::new(stribeck_friction::StribeckFriction),
@@ -129,7 +137,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 27] = [
+    const NAMES: [(&str, &[&str]); 31] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -143,6 +151,10 @@ mod tests {
         ("rotor-inertia", &["scale"]),
         ("wheel-angle", &["angle_#_rad"]),
         ("encoder-loss", &["loss_#"]),
+        ("gyro-scale", &["scale"]),
+        ("gyro-bias", &["x_rad_s", "y_rad_s", "z_rad_s"]),
+        ("imu-latency", &["latency_s"]),
+        ("imu-mount", &["x_rad", "y_rad", "z_rad", "x_m", "y_m"]),
         ("camera-latency", &["latency_s"]),
         ("actuation-latency", &["latency_s"]),
         ("marker-heading", &["angle_rad"]),

@@ -15,9 +15,11 @@ use runs::frames::{Pose, Walk};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::Robot;
 
+use crate::inertial::Sensor;
 use crate::segment::Segment;
 use crate::values::Values;
 
+pub(crate) use track::Path;
 pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
@@ -41,6 +43,10 @@ pub struct MotionModel {
     pub angles: Vec<AngleChange>,
     /// What the camera does to a pose of the marker, in this order.
     pub observe: Vec<Observe>,
+    /// The inertial sensor.
+    pub sensor: Sensor,
+    /// Age of the counts at their tick, s.
+    pub encoder_lag_s: f64,
     /// Drift of the camera's origin, m/s.
     pub drift: [f64; 2],
     /// Seconds by which the camera's clock runs ahead per second of a run.
@@ -85,6 +91,8 @@ impl MotionModel {
             marker: Pose::default(),
             angles: Vec::new(),
             observe: Vec::new(),
+            sensor: Sensor::of(robot),
+            encoder_lag_s: 0.0,
             drift: [0.0; 2],
             clock_drift: 0.0,
             clock_offset_s: Vec::new(),

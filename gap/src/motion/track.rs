@@ -11,7 +11,7 @@ use super::MotionModel;
 use crate::segment::{Frame, Segment};
 
 /// Turns of the wheels of a segment under one model, and where they take the body.
-pub(super) struct Path<'a> {
+pub(crate) struct Path<'a> {
     model: &'a MotionModel,
     segment: &'a Segment,
     /// Wheel angles with all changes.
@@ -24,7 +24,7 @@ pub(super) struct Path<'a> {
 
 impl<'a> Path<'a> {
     /// Of a model on a segment; `None` where the wheels cannot drive the robot.
-    pub(super) fn new(model: &'a MotionModel, segment: &'a Segment) -> Option<Self> {
+    pub(crate) fn new(model: &'a MotionModel, segment: &'a Segment) -> Option<Self> {
         let columns = model.columns()?;
         let angles = model.angles(segment);
         let turned = Cow::Owned(turned(&angles));
@@ -32,7 +32,7 @@ impl<'a> Path<'a> {
     }
 
     /// Of another model on the same segment.
-    pub(super) fn of<'b>(&'b self, model: &'b MotionModel) -> Option<Path<'b>> {
+    pub(crate) fn of<'b>(&'b self, model: &'b MotionModel) -> Option<Path<'b>> {
         let columns = model.columns()?;
         let (known, all) = (&self.model.origins, &model.origins);
         let is_more =
@@ -64,6 +64,21 @@ impl<'a> Path<'a> {
         matches!(self.turned, Cow::Borrowed(_))
             && self.clock() == other.clock()
             && self.columns.len() == other.columns.len()
+    }
+
+    /// Body displacement per wheel angle.
+    pub(crate) fn columns(&self) -> &[[f64; 3]] {
+        &self.columns
+    }
+
+    /// What the wheels turn from each tick to the next, rad, `[tick][wheel]`, flat.
+    pub(crate) fn turned(&self) -> &[f64] {
+        &self.turned
+    }
+
+    /// Wheel angles, rad, `[wheel][tick]`.
+    pub(crate) fn angles(&self) -> &[Vec<f64>] {
+        &self.angles
     }
 
     /// Latency, drift, offset in this run and delay by speed of the camera's clock.

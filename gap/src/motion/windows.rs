@@ -10,6 +10,7 @@ use runs::frames::{Pose, Walk, wrap_angle};
 use super::MotionModel;
 use super::track::{LANES, Path};
 use crate::gram::Cluster;
+use crate::inertial::InertialLink;
 use crate::pieces::Pieces;
 use crate::segment::{Frame, Segment};
 
@@ -36,6 +37,8 @@ pub struct MotionLink<'a> {
     pub noise: [f64; 3],
     /// Length of a window, s.
     pub window_s: f64,
+    /// What an inertial sensor felt meanwhile, if the logs have it.
+    pub inertial: Option<InertialLink<'a>>,
     windows: Vec<Window>,
 }
 
@@ -82,7 +85,14 @@ impl<'a> MotionLink<'a> {
                 }
             }
         }
-        Self { pieces, noise, window_s, windows }
+        Self { pieces, noise, window_s, inertial: None, windows }
+    }
+
+    /// With what an inertial sensor felt, its floors taken about a model.
+    #[must_use]
+    pub fn felt(mut self, model: &MotionModel) -> Self {
+        self.inertial = InertialLink::new(self.pieces, model);
+        self
     }
 
     /// No more than the first windows.
@@ -107,7 +117,7 @@ impl<'a> MotionLink<'a> {
         self.windows.len()
     }
 
-    /// Whether there is nothing to compare.
+    /// Whether there is nothing of a camera to compare.
     pub fn is_empty(&self) -> bool {
         self.windows.is_empty()
     }
@@ -195,10 +205,21 @@ impl<'a> MotionLink<'a> {
         WindowResiduals { run: s.run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
     }
 
+    /// Linearises camera and inertial sensor together: see [`MotionLink::linearise_camera`].
+    pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
+        let mut clusters = self.linearise_camera(model, sides);
+        clusters.extend(self.inertial.iter().flat_map(|link| link.linearise(model, sides)));
+        clusters
+    }
+
     /// Linearises: residuals and the derivatives of the prediction along each pair of models (low or
     /// `None` for the model itself, high, step between them), start poses projected out. A cluster is
     /// a window, or several in long logs.
-    pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
+    pub fn linearise_camera(
+        &self,
+        model: &MotionModel,
+        sides: &[(Option<MotionModel>, MotionModel, f64)],
+    ) -> Vec<Cluster> {
         let base = self.residuals(model);
         if base.is_empty() {
             return Vec::new();

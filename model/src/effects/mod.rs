@@ -16,6 +16,7 @@ use rand_distr::{Distribution, StandardNormal};
 pub use control::ControlDeviations;
 
 use crate::camera::CameraModel;
+use crate::imu::ImuDeviations;
 use crate::plant::{Contact, Deviations, Plant};
 use runs::Run;
 use runs::geometry::GeometryError;
@@ -32,6 +33,8 @@ pub struct Applied {
     pub deviations: Deviations,
     /// What the overhead camera is like, with its effects.
     pub camera: CameraModel,
+    /// What the inertial sensor is like, where the robot has one.
+    pub imu: ImuDeviations,
     /// The controller.
     pub control: ControlDeviations,
     /// Standard deviation of a camera stamp about its capture time, s.
@@ -48,6 +51,7 @@ impl Applied {
             contact: Contact::Rolling,
             deviations: Deviations::default(),
             camera: CameraModel::of(robot),
+            imu: ImuDeviations::default(),
             control: ControlDeviations::default(),
             stamp_jitter_s: 0.0,
             unsupported: Vec::new(),
@@ -60,6 +64,7 @@ impl Applied {
                 || geometry::apply(effect, &mut applied.robot)
                 || plant::apply(effect, &mut applied)
                 || camera::apply(effect, &mut applied.camera)
+                || applied.imu.apply(effect)
                 || control::apply(effect, robot.wheel_count(), &mut applied.control);
             if !known {
                 applied.unsupported.push(effect.name.clone());

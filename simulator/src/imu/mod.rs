@@ -7,13 +7,13 @@
 //!
 //! The register map is written here from the sheet and not taken from the driver, so that a slip in one shows.
 
-mod motion;
 mod pins;
 
-pub use motion::Chassis;
+pub use model::imu::Chassis;
 pub use pins::SpiPins;
 
 use fixed_kin::imu_spi::{NO_AGE, Sample, WORDS};
+use model::effects::Applied;
 use model::imu::{Imu, ImuModel, Motion, Reading};
 use model::plant::GRAVITY;
 use runs::robot::{Axis, Robot};
@@ -126,12 +126,13 @@ impl VirtualImu {
         sensor
     }
 
-    /// The sensor that a robot says it has, mounted as it says.
+    /// The sensor that a robot says it has, mounted as it says but for the effects in the robot's file.
     #[must_use]
     pub fn of_robot(robot: &Robot, seed: u64) -> Option<Self> {
         let mount = robot.imu?;
         let model = ImuModel { place: mount.place_m, ..ImuModel::icm_42688_p(robot.control_rate_hz) };
         let mut sensor = Self { axes: mount.axes, ..Self::of(model, seed) };
+        sensor.part = sensor.part.with_deviations(&Applied::of(robot).imu);
         if &*mount.sensor == "icm-42605" {
             sensor.fault = Some(ImuFault::OtherType);
         }

@@ -1,7 +1,7 @@
 //! What a chassis does, for a sensor on it.
 
-use model::imu::Motion;
-use model::plant::Plant;
+use super::Motion;
+use crate::plant::Plant;
 use runs::frames::Twist;
 
 /// A robot's chassis, looked at once a control period.

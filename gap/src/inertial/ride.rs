@@ -1,0 +1,98 @@
+//! What a model's wheels say that an inertial sensor on the body goes through.
+
+use super::Sensor;
+use crate::motion::{MotionModel, Path};
+use crate::segment::{Segment, smooth_speed};
+
+/// Sums along a segment under one model, at every tick.
+pub(super) struct Ride<'a> {
+    segment: &'a Segment,
+    /// Heading from the first tick, rad.
+    heading: Vec<f64>,
+    /// Speed and its sums; empty where no accelerometer asks.
+    moved: Vec<Moved>,
+}
+
+/// Speed of the body and what turning adds to its acceleration, summed from the first tick.
+#[derive(Debug, Clone, Copy, Default)]
+struct Moved {
+    velocity: [f64; 2],
+    omega: f64,
+    /// ∫ ω v, m/s.
+    across: [f64; 2],
+    /// ∫ ω², rad²/s.
+    outwards: f64,
+}
+
+impl<'a> Ride<'a> {
+    pub(super) fn new(path: &Path, model: &MotionModel, segment: &'a Segment, forces: bool) -> Self {
+        let columns = path.columns();
+        let mut heading = Vec::with_capacity(segment.t.len());
+        let mut sum = 0.0;
+        heading.push(sum);
+        for turned in path.turned().chunks_exact(columns.len()) {
+            sum += turned.iter().zip(columns).map(|(x, c)| x * c[2]).sum::<f64>();
+            heading.push(sum);
+        }
+        let moved = if forces { Self::moved(path, model, segment) } else { Vec::new() };
+        Self { segment, heading, moved }
+    }
+
+    fn moved(path: &Path, model: &MotionModel, segment: &Segment) -> Vec<Moved> {
+        let changed: Vec<Vec<f64>>;
+        let speed = if model.angles.is_empty() {
+            &segment.speed
+        } else {
+            changed = path.angles().iter().map(|a| smooth_speed(&segment.t, a)).collect();
+            &changed
+        };
+        let columns = path.columns();
+        let mut out: Vec<Moved> = Vec::with_capacity(segment.t.len());
+        for k in 0..segment.t.len() {
+            let mut twist = [0.0; 3];
+            for (column, speed) in columns.iter().zip(speed) {
+                twist.iter_mut().zip(column).for_each(|(sum, c)| *sum += c * speed[k]);
+            }
+            let [x, y, omega] = twist;
+            let before = out.last().copied().unwrap_or_default();
+            let dt = if k > 0 { segment.t[k] - segment.t[k - 1] } else { 0.0 };
+            let mean = |a: f64, b: f64| 0.5 * dt * (a + b);
+            let across = [0, 1].map(|i| {
+                before.across[i] + mean(omega * twist[i], before.omega * before.velocity[i])
+            });
+            let outwards = before.outwards + mean(omega * omega, before.omega * before.omega);
+            out.push(Moved { velocity: [x, y], omega, across, outwards });
+        }
+        out
+    }
+
+    /// What the axes of a sensor gain from tick `from` to tick `to` at their stamps: turns of the gyroscope, rad, and
+    /// speeds of the accelerometer without gravity, m/s.
+    pub(super) fn gained(&self, sensor: &Sensor, delay_s: f64, from: usize, to: usize) -> [f64; 6] {
+        let t = &self.segment.t;
+        let lasted = t[to] - t[from];
+        let at = [from, to].map(|k| self.place(t[k] - delay_s));
+        let of = |get: &dyn Fn(usize) -> f64| {
+            let [a, b] = at.map(|(k, share)| get(k) + share * (get(k + 1) - get(k)));
+            b - a
+        };
+        let turned = sensor.seen([0.0, 0.0, of(&|k| self.heading[k])]);
+        let gyro = [0, 1, 2].map(|i| (1.0 + sensor.gyro_scale) * turned[i] + sensor.gyro_bias[i] * lasted);
+        if self.moved.is_empty() {
+            return [gyro[0], gyro[1], gyro[2], 0.0, 0.0, 0.0];
+        }
+        let m = |get: fn(&Moved) -> f64| of(&|k| get(&self.moved[k]));
+        let ([px, py], spun, outwards) = (sensor.place_m, m(|m| m.omega), m(|m| m.outwards));
+        let x = m(|m| m.velocity[0]) - m(|m| m.across[1]) - px * outwards - py * spun;
+        let y = m(|m| m.velocity[1]) + m(|m| m.across[0]) - py * outwards + px * spun;
+        let force = sensor.seen([x, y, 0.0]);
+        [gyro[0], gyro[1], gyro[2], force[0], force[1], force[2]]
+    }
+
+    /// The interval of ticks round a time, and how far in it.
+    fn place(&self, time: f64) -> (usize, f64) {
+        let t = &self.segment.t;
+        let k = self.segment.tick_at(time);
+        (k, ((time - t[k]) / (t[k + 1] - t[k])).clamp(0.0, 1.0))
+    }
+}
