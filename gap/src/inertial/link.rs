@@ -27,6 +27,9 @@ const FEWEST: usize = 4;
 const WANDERS: f64 = 0.002_4;
 /// Share of the turn by each wheel that its contact is not known to: the width of a contact, as for geometry elsewhere.
 const CONTACT: f64 = 0.005;
+/// What a data sheet leaves open of a good sensor (ICM-42688-P, typical, and 0.5° of soldering), which is no gap: relative
+/// scale, and angle of an axis, rad.
+const TOLERANCE: [f64; 2] = [0.005, 0.008_7];
 /// Increments with turning wheels from which the floor is taken of these alone.
 const ENOUGH: usize = 40;
 /// Clusters at most; beyond, neighbouring windows count as one.
@@ -139,7 +142,8 @@ impl<'a> InertialLink<'a> {
     fn measure_floors(&mut self, model: &MotionModel) -> Option<()> {
         let forces = self.has(Link::Accelerometer);
         let columns = model.columns()?;
-        let mut contacts: Vec<Vec<f64>> = Vec::with_capacity(self.windows.len());
+        // What is left open of each increment of each axis.
+        let mut open: Vec<Vec<[f64; 6]>> = Vec::with_capacity(self.windows.len());
         // Second differences of what is left, where wheels turned and elsewhere.
         let mut seconds: Vec<[Vec<f64>; 2]> = vec![Default::default(); self.channels.len()];
         for range in self.by_segment() {
@@ -153,8 +157,8 @@ impl<'a> InertialLink<'a> {
                     parts.sum::<f64>().sqrt()
                 };
                 let steps = w.nodes.len() - 1;
-                contacts.push((0..steps).map(contact).collect());
                 let predicted = w.predicted(&ride, model);
+                open.push((0..steps).map(|k| left_open(&predicted[k], contact(k))).collect());
                 for a in &w.axes {
                     let left: Vec<f64> = (0..steps).map(|k| a.measured[k] - predicted[k][a.channel.0]).collect();
                     let slot = self.channels.iter().position(|c| *c == a.channel)?;
@@ -176,14 +180,13 @@ impl<'a> InertialLink<'a> {
         let robot = self.pieces.robot();
         let count = columns.iter().map(|c| (c[2] / robot.counts_per_wheel_rad()).powi(2)).sum::<f64>().sqrt();
         let roll = columns.iter().map(|c| c[0].hypot(c[1]) / robot.counts_per_wheel_rad()).fold(0.0, f64::max);
-        for (w, contacts) in self.windows.iter_mut().zip(contacts) {
+        for (w, open) in self.windows.iter_mut().zip(open) {
             for a in &mut w.axes {
                 let slot = self.channels.iter().position(|c| *c == a.channel)?;
                 // A log without noise still has counts, of which either node has a part.
                 let least = if a.channel.link() == Link::Gyroscope { count } else { roll / NODES_S } / 6.0_f64.sqrt();
                 let floor = scatter[slot].max(least);
-                let of = |c: &f64| if a.channel == Channel(2) { floor.hypot(*c) } else { floor };
-                a.sigma = contacts.iter().map(of).collect();
+                a.sigma = open.iter().map(|open| floor.hypot(open[a.channel.0])).collect();
             }
         }
         Some(())
@@ -281,6 +284,14 @@ impl<'a> InertialLink<'a> {
         };
         self.channels.iter().filter(|c| c.link() == link).map(fit).collect()
     }
+}
+
+/// What an increment may be off by without a gap, by the wheels' contacts and a good sensor's tolerances.
+fn left_open(gained: &[f64; 6], contact: f64) -> [f64; 6] {
+    let [scale, angle] = TOLERANCE;
+    let [x, y] = [gained[3], gained[4]];
+    let across = angle * gained[2];
+    [across, across, contact.hypot(scale * gained[2]), (scale * x).hypot(angle * y), (scale * y).hypot(angle * x), 0.0]
 }
 
 /// Root mean square of the residuals of all axes, in floors.
