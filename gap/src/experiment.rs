@@ -235,6 +235,9 @@ fn log(robot: &Robot, mut run: Run, like: &Pieces) -> Option<Log<'static>> {
     if !like.have_duties() {
         run.duty.clear();
     }
+    if !like.have_sensor() {
+        (run.gyro, run.acceleration, run.imu_temp) = (None, None, None);
+    }
     run.check(robot, Path::new("simulated")).ok()?;
     Some(Log::from(Cow::Owned(run)))
 }
@@ -249,9 +252,9 @@ fn on_link<T>(
 ) -> Option<T> {
     match link {
         Link::Motion => {
-            let motion = MotionLink::new(pieces, findings.noise.0, findings.window_s);
+            let motion = MotionLink::new(pieces, findings.noise.0, findings.window_s).felt(&state.motion(None));
             let lifted = state.robot.support == runs::robot::Support::Blocks;
-            (!motion.is_empty() && !lifted).then(|| ask(&Problem::Motion(&motion)))
+            ((!motion.is_empty() || motion.inertial.is_some()) && !lifted).then(|| ask(&Problem::Motion(&motion)))
         }
         Link::Drive => {
             let mut drive = DriveLink::new(pieces, &state.drive(None))?;

@@ -151,6 +151,11 @@ impl<'a> Pieces<'a> {
         self.logs.iter().any(|log| !log.camera().is_empty())
     }
 
+    /// Whether any log has an inertial sensor.
+    pub fn have_sensor(&self) -> bool {
+        self.logs.iter().any(|log| log.layout().gyro.is_some() || log.layout().acceleration.is_some())
+    }
+
     /// Whether any log has duties.
     pub fn have_duties(&self) -> bool {
         self.logs.iter().any(|log| !log.layout().duty.is_empty())

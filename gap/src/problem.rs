@@ -69,6 +69,11 @@ impl Problem<'_> {
         }
     }
 
+    /// Whether an inertial sensor takes part.
+    pub fn is_felt(&self) -> bool {
+        matches!(self, Self::Motion(link) if link.inertial.is_some())
+    }
+
     /// The link's candidates: every form of every effect fitted there, in the sizes of its logs.
     pub fn candidates(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         let sizes = match self {

@@ -187,6 +187,18 @@ impl Imu {
         self
     }
 
+    /// The truth of the gyroscope, its deviations and tolerances together: relative scales, biases at the temperature of
+    /// reference (rad/s), and its turn on the body, a rotation vector (rad).
+    pub fn gyro_errors(&self) -> [[f64; 3]; 3] {
+        let Part { scale, bias, turned, .. } = &self.gyro;
+        [(*scale).into(), (*bias).into(), turned.inverse().scaled_axis().into()]
+    }
+
+    /// The turn of the accelerometer on the body, a rotation vector, rad, tolerance included.
+    pub fn accelerometer_turn(&self) -> [f64; 3] {
+        self.accelerometer.turned.inverse().scaled_axis().into()
+    }
+
     /// What the chassis did when what is read now was measured.
     fn delayed(&mut self, motion: &Motion) -> Motion {
         let age = (self.deviations.latency_s * self.model.rate_hz).max(0.0);

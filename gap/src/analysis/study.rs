@@ -318,6 +318,8 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
     let usual = |p: &Parameter| match problem.link() {
         Link::Drive if p.material.is_finite() => bench.held_share() * p.material,
+        // A wheel that creeps under load leads the body, as if it were read later, by some tenths of a millisecond.
+        Link::Motion if problem.is_felt() && p.name == "latency_s" => bench.held_share() * p.material,
         _ => 0.0,
     };
     let mut out = Vec::new();

@@ -5,7 +5,7 @@ use model::manoeuvre::{Manoeuvre, simulate};
 use plot::{Axis, Color, Figure, Panel, Series};
 use runs::Run;
 use runs::frames::{Pose, wrap_angle};
-use runs::robot::{Effect as Written, EffectParameter, Robot};
+use runs::robot::{Effect as Written, EffectParameter, ImuMount, Robot, SensorName};
 
 use crate::effect::{Effect, Form, Link};
 use crate::report::{short, unit};
@@ -74,6 +74,16 @@ fn signals(run: &Run, robot: &Robot, link: Link) -> Vec<Signal> {
             over("heading seen".to_owned(), "°", 20.0, heading),
         ];
     }
+    if link.is_inertial() {
+        let axes = |columns: &Option<[Vec<f64>; 3]>| columns.iter().flatten().map(|c| column(c)).collect::<Vec<_>>();
+        let named = |points: Vec<Vec<[f64; 2]>>, what: &str, unit, least| {
+            let signal = |(points, axis)| over(format!("{what}_{axis}"), unit, least, points);
+            points.into_iter().zip(["x", "y", "z"]).map(signal).collect::<Vec<_>>()
+        };
+        let mut all = named(axes(&run.gyro), "gyro", "rad/s", 0.5);
+        all.extend(named(axes(&run.acceleration), "acc", "m/s²", 0.3).into_iter().take(2));
+        return all;
+    }
     let wheels = 0..run.duty.len();
     if link == Link::Command {
         let steps = |i: usize| run.t.iter().zip(&run.reference[i]).map(|(t, v)| [*t, *v]).collect();
@@ -103,8 +113,9 @@ fn change(nominal: &Signal, changed: &Signal) -> (f64, usize) {
     ((differences.iter().sum::<f64>() / size.max(nominal.least.powi(2) * n as f64)).sqrt(), largest)
 }
 
-fn run(manoeuvre: Manoeuvre, values: &[(String, f64)], name: &str) -> Option<Run> {
-    let robot = Robot::racbot();
+fn run(manoeuvre: Manoeuvre, values: &[(String, f64)], name: &str, link: Link) -> Option<Run> {
+    let imu = SensorName::new("icm-42688-p").filter(|_| link.is_inertial()).map(ImuMount::upright);
+    let robot = Robot { imu, ..Robot::racbot() };
     let parameters = values.iter().map(|(name, value)| {
         let parameter = EffectParameter { value: *value, ..EffectParameter::default() };
         (name.clone(), parameter)
@@ -150,15 +161,15 @@ pub(super) fn picture(name: &str, link: Link, effect: Option<&dyn Effect>) -> Op
         }
     };
     let robot = Robot::racbot();
-    let drives = if link == Link::Motion { &DRIVES[..DRIVES.len() - 1] } else { &DRIVES[..] };
+    let drives = if link == Link::Motion || link.is_inertial() { &DRIVES[..DRIVES.len() - 1] } else { &DRIVES[..] };
     // What comes late lies on the same path.
     let late = ["latency", "lag"].iter().any(|part| name.contains(part));
     let nominal: Vec<Vec<Signal>> =
-        drives.iter().filter_map(|m| Some(signals(&run(*m, &[], "")?, &robot, link))).collect();
+        drives.iter().filter_map(|m| Some(signals(&run(*m, &[], "", link)?, &robot, link))).collect();
     let mut best: Option<(f64, Signal, usize, usize, usize)> = None;
     for (size, values) in sizes.iter().enumerate() {
         for (drive, manoeuvre) in drives.iter().enumerate() {
-            let Some(run) = run(*manoeuvre, values, name) else { continue };
+            let Some(run) = run(*manoeuvre, values, name, link) else { continue };
             for (number, changed) in signals(&run, &robot, link).into_iter().enumerate() {
                 let (share, _) = change(&nominal[drive][number], &changed);
                 if share.is_finite() && !(late && changed.map) && best.as_ref().is_none_or(|b| share > b.0) {

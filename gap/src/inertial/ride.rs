@@ -4,13 +4,17 @@ use super::Sensor;
 use crate::motion::{MotionModel, Path};
 use crate::segment::{Segment, smooth_speed};
 
+/// Distance of the sums that an accelerometer needs, s: short against the smoothing of the wheels' speeds.
+const SUMMED_S: f64 = 0.005;
+
 /// Sums along a segment under one model, at every tick.
 pub(super) struct Ride<'a> {
     segment: &'a Segment,
     /// Heading from the first tick, rad.
     heading: Vec<f64>,
-    /// Speed and its sums; empty where no accelerometer asks.
+    /// Speed and its sums at every so many ticks; empty where no accelerometer asks.
     moved: Vec<Moved>,
+    every: usize,
 }
 
 /// Speed of the body and what turning adds to its acceleration, summed from the first tick.
@@ -34,11 +38,13 @@ impl<'a> Ride<'a> {
             sum += turned.iter().zip(columns).map(|(x, c)| x * c[2]).sum::<f64>();
             heading.push(sum);
         }
-        let moved = if forces { Self::moved(path, model, segment) } else { Vec::new() };
-        Self { segment, heading, moved }
+        let tick = (segment.t[segment.t.len() - 1] - segment.t[0]) / (segment.t.len() - 1) as f64;
+        let every = ((SUMMED_S / tick) as usize).max(1);
+        let moved = if forces { Self::moved(path, model, segment, every) } else { Vec::new() };
+        Self { segment, heading, moved, every }
     }
 
-    fn moved(path: &Path, model: &MotionModel, segment: &Segment) -> Vec<Moved> {
+    fn moved(path: &Path, model: &MotionModel, segment: &Segment, every: usize) -> Vec<Moved> {
         let changed: Vec<Vec<f64>>;
         let speed = if model.angles.is_empty() {
             &segment.speed
@@ -47,15 +53,15 @@ impl<'a> Ride<'a> {
             &changed
         };
         let columns = path.columns();
-        let mut out: Vec<Moved> = Vec::with_capacity(segment.t.len());
-        for k in 0..segment.t.len() {
+        let mut out: Vec<Moved> = Vec::with_capacity(segment.t.len() / every + 1);
+        for k in (0..segment.t.len()).step_by(every) {
             let mut twist = [0.0; 3];
             for (column, speed) in columns.iter().zip(speed) {
                 twist.iter_mut().zip(column).for_each(|(sum, c)| *sum += c * speed[k]);
             }
             let [x, y, omega] = twist;
             let before = out.last().copied().unwrap_or_default();
-            let dt = if k > 0 { segment.t[k] - segment.t[k - 1] } else { 0.0 };
+            let dt = if k > 0 { segment.t[k] - segment.t[k - every] } else { 0.0 };
             let mean = |a: f64, b: f64| 0.5 * dt * (a + b);
             let across = [0, 1].map(|i| {
                 before.across[i] + mean(omega * twist[i], before.omega * before.velocity[i])
@@ -71,17 +77,20 @@ impl<'a> Ride<'a> {
     pub(super) fn gained(&self, sensor: &Sensor, delay_s: f64, from: usize, to: usize) -> [f64; 6] {
         let t = &self.segment.t;
         let lasted = t[to] - t[from];
-        let at = [from, to].map(|k| self.place(t[k] - delay_s));
-        let of = |get: &dyn Fn(usize) -> f64| {
-            let [a, b] = at.map(|(k, share)| get(k) + share * (get(k + 1) - get(k)));
-            b - a
-        };
-        let turned = sensor.seen([0.0, 0.0, of(&|k| self.heading[k])]);
+        let [from, to] = [from, to].map(|k| t[k] - delay_s);
+        let turned = sensor.seen([0.0, 0.0, self.heading_at(to) - self.heading_at(from)]);
         let gyro = [0, 1, 2].map(|i| (1.0 + sensor.gyro_scale) * turned[i] + sensor.gyro_bias[i] * lasted);
-        if self.moved.is_empty() {
+        if self.moved.len() < 2 {
             return [gyro[0], gyro[1], gyro[2], 0.0, 0.0, 0.0];
         }
-        let m = |get: fn(&Moved) -> f64| of(&|k| get(&self.moved[k]));
+        let at = [from, to].map(|time| self.moved_place(time));
+        let m = |get: fn(&Moved) -> f64| {
+            let [a, b] = at.map(|(j, share)| {
+                let [a, b] = [j, j + 1].map(|j| get(&self.moved[j]));
+                a + share * (b - a)
+            });
+            b - a
+        };
         let ([px, py], spun, outwards) = (sensor.place_m, m(|m| m.omega), m(|m| m.outwards));
         let x = m(|m| m.velocity[0]) - m(|m| m.across[1]) - px * outwards - py * spun;
         let y = m(|m| m.velocity[1]) + m(|m| m.across[0]) - py * outwards + px * spun;
@@ -89,10 +98,18 @@ impl<'a> Ride<'a> {
         [gyro[0], gyro[1], gyro[2], force[0], force[1], force[2]]
     }
 
-    /// The interval of ticks round a time, and how far in it.
-    fn place(&self, time: f64) -> (usize, f64) {
+    fn heading_at(&self, time: f64) -> f64 {
         let t = &self.segment.t;
         let k = self.segment.tick_at(time);
-        (k, ((time - t[k]) / (t[k + 1] - t[k])).clamp(0.0, 1.0))
+        let share = ((time - t[k]) / (t[k + 1] - t[k])).clamp(0.0, 1.0);
+        self.heading[k] + share * (self.heading[k + 1] - self.heading[k])
+    }
+
+    /// The sums round a time, and how far between them.
+    fn moved_place(&self, time: f64) -> (usize, f64) {
+        let t = &self.segment.t;
+        let j = (self.segment.tick_at(time) / self.every).min(self.moved.len() - 2);
+        let [a, b] = [j, j + 1].map(|j| t[j * self.every]);
+        (j, ((time - a) / (b - a)).clamp(0.0, 1.0))
     }
 }

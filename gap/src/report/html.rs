@@ -172,6 +172,7 @@ fn waterfall(page: &mut Page, a: &Analysis) {
 fn signal(link: &str, i: usize) -> String {
     match link {
         "motion" => ["x", "y", "heading"].get(i).copied().unwrap_or("").to_owned(),
+        "gyroscope" | "accelerometer" => ["x", "y", "z"].get(i).copied().unwrap_or("").to_owned(),
         "timing" => "camera stamps".to_owned(),
         "command" => format!("set point {}", i + 1),
         "controller" => format!("duty {}", i + 1),

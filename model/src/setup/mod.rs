@@ -6,6 +6,7 @@
 
 mod camera;
 mod drive;
+mod inertial;
 mod orders;
 mod samples;
 mod time;
@@ -67,6 +68,7 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     }
     let mut found = drive::mistakes(&robot, &set.logs);
     found.extend(camera::mistakes(&robot, &set.logs, &found));
+    found.extend(inertial::mistakes(&robot, &set.logs, &found));
     found
 }
 

@@ -196,7 +196,7 @@ impl Options {
         let hidden = actual != believed;
         let files = self.files(&out);
         self.target.check_free([&files[0], &files[2], &files[3], &files[4]])?;
-        let timed = self.timed(&drive)?;
+        let timed = self.timed(&drive, &Robot { effects: actual.effects.clone(), ..believed.clone() })?;
         let ideal = (hidden || !actual.effects.is_empty()).then(|| {
             let ideal = Drive {
                 actual: believed.clone(),
@@ -204,7 +204,8 @@ impl Options {
                 deviations: Deviations::default(),
                 ..drive.clone()
             };
-            let card = VirtualImu::of_robot(&believed, self.seed)
+            let nominal = Robot { effects: Vec::new(), ..believed.clone() };
+            let card = VirtualImu::of_robot(&nominal, self.seed)
                 .map_or_else(BitTrue::new, |imu| BitTrue::new().with_imu(imu));
             ideal.run(card, |_| {}).map_err(|error| self.about_robot(error))
         });
@@ -226,10 +227,11 @@ impl Options {
         }
     }
 
-    fn timed(&self, drive: &Drive) -> Result<Timed, Failure> {
+    /// Drives with the sensor of a robot with effects.
+    fn timed(&self, drive: &Drive, felt: &Robot) -> Result<Timed, Failure> {
         let progress = Progress::new(format!("driving over {}", self.fpga.kind()), (drive.limit_s * 1e3) as u64);
         // Only the bit-true model has a sensor on its pins.
-        let sensor = VirtualImu::of_robot(&drive.believed, self.seed).filter(|_| self.fpga.kind() == Kind::BitTrue);
+        let sensor = VirtualImu::of_robot(felt, self.seed).filter(|_| self.fpga.kind() == Kind::BitTrue);
         let fpga: Box<dyn Fpga> = match sensor {
             Some(sensor) => Box::new(BitTrue::new().with_imu(sensor)),
             None => self.fpga.open()?,

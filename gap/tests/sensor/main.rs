@@ -1,0 +1,154 @@
+//! The links to an inertial sensor: its effects named, twins of the wheels and the camera parted, and a log without a
+//! sensor judged as if there were no such links.
+
+#[allow(dead_code, reason = "shared with the bench of detection limits")]
+mod felt;
+
+use felt::{blind, done, estimate, names, numb, sensor, set, truth};
+use gap::effect::Link;
+use gap::{Analysis, Verdict, undo};
+use model::manoeuvre::Manoeuvre::{Chirp, Spin, Star};
+use runs::DataSet;
+use runs::robot::Robot;
+
+fn holds(a: &Analysis, parameter: &str, truth: f64) {
+    let (found, [low, high]) = estimate(a, parameter);
+    assert!((low..=high).contains(&truth), "{parameter}: {found} ({low} to {high}), true {truth}");
+}
+
+fn link(a: &Analysis, link: Link) -> [f64; 2] {
+    a.links.iter().find(|l| l.link == link).map_or([f64::NAN; 2], |l| [l.before, l.after])
+}
+
+#[test]
+fn a_scale_is_named_written_read_again_and_undone() {
+    let hidden = truth(&[("gyro-scale", &[("scale", -0.04)])], 3);
+    let data = set(&hidden, &[Spin, Chirp], 3);
+    let a = done(&data);
+    assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["gyro-scale"]), "{}", a.terminal_summary());
+    holds(&a, "scale", sensor(&hidden).gyro_errors()[0][2]);
+    let [before, after] = link(&a, Link::Gyroscope);
+    assert!(before > 1.8 && after < 1.3, "{before} {after}");
+    assert_eq!(a.effects[0].link, Link::Gyroscope);
+
+    let folder = tempfile::tempdir().unwrap();
+    a.write(folder.path()).unwrap();
+    let robot = Robot::load(folder.path().join("robot.toml")).unwrap();
+    let again = done(&DataSet { robot: robot.clone(), ..data });
+    assert_eq!((again.verdict, names(&again)), (Verdict::Agrees, vec![]), "{}", again.terminal_summary());
+    let [now, _] = link(&again, Link::Gyroscope);
+    assert!((now - after).abs() < 1e-9, "{now} {after}");
+    assert_eq!(undo(&robot, "gyro-scale").unwrap().effects, []);
+    assert!(a.terminal_summary().contains("gyroscope") && a.html().contains("gyro"));
+}
+
+#[test]
+fn a_bias_is_named() {
+    let hidden = truth(&[("gyro-bias", &[("x_rad_s", 0.05), ("z_rad_s", -0.06)])], 4);
+    let a = done(&set(&hidden, &[Spin, Chirp], 4));
+    assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["gyro-bias"]), "{}", a.terminal_summary());
+    let bias = sensor(&hidden).gyro_errors()[1];
+    holds(&a, "x_rad_s", bias[0]);
+    holds(&a, "z_rad_s", bias[2]);
+}
+
+#[test]
+fn late_readings_are_named() {
+    let a = done(&set(&truth(&[("imu-latency", &[("latency_s", 0.012)])], 5), &[Spin, Chirp], 5));
+    assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["imu-latency"]), "{}", a.terminal_summary());
+    holds(&a, "latency_s", 0.012);
+}
+
+#[test]
+fn a_turned_sensor_elsewhere_is_named_with_angles_and_place() {
+    let mount = [("x_rad", 0.06), ("y_rad", -0.05), ("z_rad", -0.06), ("x_m", 0.02), ("y_m", -0.015)];
+    let hidden = truth(&[("imu-mount", &mount)], 7);
+    let a = done(&set(&hidden, &[Spin, Chirp], 7));
+    assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["imu-mount"]), "{}", a.terminal_summary());
+    let sensor = sensor(&hidden);
+    let [_, _, turned] = sensor.gyro_errors();
+    holds(&a, "x_rad", turned[0]);
+    holds(&a, "y_rad", turned[1]);
+    holds(&a, "z_rad", sensor.accelerometer_turn()[2]);
+    holds(&a, "x_m", 0.02);
+    holds(&a, "y_m", -0.015);
+    let [before, after] = link(&a, Link::Accelerometer);
+    assert!(before > 4.0 && after < 1.3, "{before} {after}");
+}
+
+#[test]
+fn old_counts_are_told_from_old_frames() {
+    let data = set(&truth(&[("encoder-lag", &[("latency_s", 0.02)])], 8), &[Spin, Chirp], 8);
+    let without = done(&numb(data.clone()));
+    assert_eq!(without.verdict, Verdict::Ambiguous, "{}", without.terminal_summary());
+    assert!(without.alternatives.iter().any(|s| s.contains(&"camera-latency".to_owned())), "{:?}", without.alternatives);
+    let with = done(&data);
+    assert_eq!((with.verdict, names(&with)), (Verdict::MissingEffect, vec!["encoder-lag"]), "{}", with.terminal_summary());
+    assert_eq!(with.alternatives, Vec::<Vec<String>>::new());
+    holds(&with, "latency_s", 0.02);
+}
+
+#[test]
+fn without_a_camera_the_gyroscope_tells_the_body_radius() {
+    let data = blind(set(&truth(&[("body-radius", &[("scale", 0.04)])], 9), &[Spin, Chirp, Star], 9));
+    let with = done(&data);
+    // Larger wheels turn it less, too; that they also drive it further, no camera tells.
+    assert_eq!(with.verdict, Verdict::Ambiguous, "{}", with.terminal_summary());
+    assert_eq!(names(&with)[0], "body-radius", "{}", with.terminal_summary());
+    assert!(with.alternatives.iter().any(|s| s.contains(&"wheel-radius-common".to_owned())), "{:?}", with.alternatives);
+    let without = done(&numb(data));
+    assert_eq!(names(&without), Vec::<&str>::new(), "{}", without.terminal_summary());
+}
+
+#[test]
+fn parts_within_their_tolerances_are_not_named() {
+    for part in [11, 12] {
+        let a = done(&set(&truth(&[], part), &[Spin, Chirp], part));
+        assert_eq!((a.verdict, names(&a)), (Verdict::Agrees, vec![]), "{part}: {}", a.terminal_summary());
+        assert!(a.limits.iter().any(|l| l.name == "gyro-scale") && a.tried.contains(&"imu-mount".to_owned()));
+    }
+}
+
+#[test]
+fn a_slow_sensor_with_holes_a_narrow_range_and_a_walking_bias_names_what_is_there_alone() {
+    let spoil = |mut data: DataSet| {
+        for run in &mut data.runs {
+            let n = run.t.len();
+            for axis in run.gyro.iter_mut().flatten() {
+                for k in 0..n {
+                    // A narrow range, a bias that walks, and a bus that is silent for 0.2 s of every 2 s.
+                    axis[k] = (axis[k] + 2e-3 * run.t[k] / run.t[n - 1]).clamp(-4.0, 4.0);
+                    if k % 2000 < 200 {
+                        axis[k] = f64::NAN;
+                    }
+                }
+            }
+            for axis in run.gyro.iter_mut().chain(&mut run.acceleration).flatten() {
+                for k in 0..n {
+                    // Read at 125 Hz, held between.
+                    axis[k] = axis[k - k % 8];
+                }
+            }
+        }
+        data
+    };
+    let clean = done(&spoil(set(&truth(&[], 13), &[Spin, Chirp], 13)));
+    assert_eq!(names(&clean), Vec::<&str>::new(), "{}", clean.terminal_summary());
+    let hidden = truth(&[("gyro-scale", &[("scale", 0.06)])], 13);
+    let a = done(&spoil(set(&hidden, &[Spin, Chirp], 13)));
+    assert_eq!(names(&a), ["gyro-scale"], "{}", a.terminal_summary());
+    holds(&a, "scale", sensor(&hidden).gyro_errors()[0][2]);
+}
+
+#[test]
+fn a_log_without_a_sensor_is_judged_as_if_there_were_no_such_link() {
+    let data = numb(set(&truth(&[("wheel-skew", &[("skew_1_rad", 0.06)])], 1), &[Spin, Chirp], 1));
+    let of = |robot: Robot| {
+        let a = done(&DataSet { robot, ..data.clone() });
+        (a.to_json().to_string(), a.terminal_summary())
+    };
+    let (json, text) = of(felt::robot());
+    let (plain, plainly) = of(Robot::racbot());
+    assert!(json == plain && text == plainly);
+    assert!(!json.contains("gyro") && !json.contains("imu") && !text.contains("gyro"), "{text}");
+}
