@@ -47,7 +47,7 @@ impl Packed {
         }));
         let mut packer = Packer { logic, columns, left: (0..logic.flip_flops.len()).collect() };
         packer.attach();
-        fill::fill(&mut packer);
+        fill::fill(&mut packer, super::SLICES);
         let packed = Self { columns: packer.columns };
         let (used, there) = (packed.slices().count(), super::SLICES);
         if used > there {
