@@ -1,4 +1,4 @@
-//! Units, signs and axes of an inertial sensor: its turns beside those of the wheels, and gravity at rest.
+//! Units, signs and axes of an inertial sensor: its turns beside those of the wheels, and gravity.
 
 use std::f64::consts::PI;
 
@@ -16,10 +16,8 @@ const MOST: usize = 4000;
 const ENOUGH_RAD: f64 = 1.0;
 /// Share of an axis' squares that must follow from the wheels before anything is said of it.
 const FOLLOWS: f64 = 0.8;
-/// Stretches at rest that gravity is taken from.
-const RESTS: usize = 3;
-/// Turn of the fastest wheel in a stretch, rad, up to which the robot rests.
-const REST_RAD: f64 = 0.01;
+/// Stretches that gravity is taken from: starts and stops make out nothing of their median.
+const FEWEST: usize = 10;
 /// Share of gravity that the axis along it has at least.
 const UPRIGHT: f64 = 0.9;
 
@@ -28,9 +26,8 @@ const ACCELERATION: [&str; 3] = ["acc_x", "acc_y", "acc_z"];
 
 /// What wheels and sensor did in a stretch.
 struct Stretch {
-    /// Turn by the wheels, rad, and of the fastest of them.
+    /// Turn by the wheels, rad.
     turn: f64,
-    fastest: f64,
     /// Mean of each axis, as logged; NaN where one has no sample.
     gyro: [f64; 3],
     acceleration: [f64; 3],
@@ -72,7 +69,6 @@ fn stretches(robot: &Robot, log: &Log) -> Vec<Stretch> {
             let lasted = run.t[next] - run.t[first];
             out.push(Stretch {
                 turn: geometry.twist(&turned).omega,
-                fastest: turned.iter().map(|x| x.abs()).fold(0.0, f64::max),
                 gyro: mean(&run.gyro).map(|rate| rate * lasted),
                 acceleration: mean(&run.acceleration),
             });
@@ -136,12 +132,16 @@ fn turns(stretches: &[Stretch]) -> Vec<Mistake> {
 }
 
 fn gravity(stretches: &[Stretch]) -> Vec<Mistake> {
-    let rests = stretches.iter().filter(|s| s.fastest < REST_RAD && s.acceleration.iter().all(|x| x.is_finite()));
-    let rests: Vec<&Stretch> = rests.collect();
-    if rests.len() < RESTS {
+    let whole = stretches.iter().filter(|s| s.acceleration.iter().all(|x| x.is_finite()));
+    let whole: Vec<&Stretch> = whole.collect();
+    if whole.len() < FEWEST {
         return Vec::new();
     }
-    let mean = [0, 1, 2].map(|i| rests.iter().map(|s| s.acceleration[i]).sum::<f64>() / rests.len() as f64);
+    let mean = [0, 1, 2].map(|i| {
+        let mut axis: Vec<f64> = whole.iter().map(|s| s.acceleration[i]).collect();
+        let middle = axis.len() / 2;
+        *axis.select_nth_unstable_by(middle, f64::total_cmp).1
+    });
     let norm = mean.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut found = Vec::new();
     let Some(axis) = (0..3).find(|i| mean[*i].abs() > UPRIGHT * norm) else { return found };
@@ -150,7 +150,7 @@ fn gravity(stretches: &[Stretch]) -> Vec<Mistake> {
     let units = [(1.0, "g", "9.80665"), (1000.0, "thousandths of g", "0.00980665")];
     let unit = units.iter().find(|(of, ..)| near(norm, *of));
     if let Some((_, unit, factor)) = unit {
-        let what = format!("it is {} at rest, where gravity is 9.81 m/s²: {unit}", short(mean[axis]));
+        let what = format!("it is {} most of the time, where gravity is 9.81 m/s²: {unit}", short(mean[axis]));
         let remedy = format!("write m/s² (acc_x, acc_y and acc_z times {factor}), or name the unit to `racbot convert`");
         found.push(Mistake::new("acc-unit", column, what, remedy));
     }
@@ -158,11 +158,11 @@ fn gravity(stretches: &[Stretch]) -> Vec<Mistake> {
         return found;
     }
     if axis != 2 {
-        let what = format!("gravity is along it at rest ({} of {})", short(mean[axis]), short(norm));
+        let what = format!("gravity is along it ({} of {})", short(mean[axis]), short(norm));
         let remedy = "swap the columns so that acc_z points up, or mend [imu] axes where the card reads the sensor";
         found.push(Mistake::new("acc-axes", column, what, remedy.to_owned()));
     } else if mean[2] < 0.0 {
-        let what = format!("it is {} at rest: the force that holds the robot points up", short(mean[2]));
+        let what = format!("it is {} most of the time: the force that holds the robot points up", short(mean[2]));
         let remedy = "change the signs of all three, or, if the sensor lies upside down, those of acc_z and of one other";
         found.push(Mistake::new("acc-sign", column, what, remedy.to_owned()));
     }
