@@ -9,7 +9,7 @@ use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
 use super::track::{LANES, Path};
-use crate::gram::Cluster;
+use crate::normal_equations::Cluster;
 use crate::pieces::Pieces;
 use crate::segment::{Frame, Segment};
 

@@ -97,7 +97,7 @@ fn drive(
         .and_then(|l| l.floor.get(wheel).copied())
         .unwrap_or(1.0);
     let used = (0..before.torque.len()).filter(|b| before.weights[*b][wheel] > 0.0 && *b < after.torque.len());
-    let found: Vec<(usize, Moment)> = used.map(|b| (b, a.driven.bumps[b][wheel])).collect();
+    let found: Vec<(usize, Moment)> = used.map(|b| (b, a.driven.test_functions[b][wheel])).collect();
     let median = crate::statistics::median(&mut found.iter().map(|f| f.1.speed.abs()).collect::<Vec<_>>());
     let sample = |(b, at): (usize, Moment)| Sample {
         before: before.torque[b][wheel] / floor,

@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::gram::{Gram, Totals, solve};
+use crate::normal_equations::{NormalEquations, Totals, solve};
 
 /// A penalised least-squares problem over all columns of a linearisation.
-pub struct Ridge<'a> {
-    gram: &'a Gram,
+pub struct Penalised<'a> {
+    equations: &'a NormalEquations,
     /// Variance the residuals really have, in units of the assumed noise.
     variance: f64,
     totals: Arc<Totals>,
@@ -21,7 +21,7 @@ pub struct Ridge<'a> {
 
 /// A fit.
 #[derive(Debug, Clone)]
-pub struct RidgeFit {
+pub struct PenalisedFit {
     /// Step along each column of the linearisation, 0 for those left out.
     pub step: DVector<f64>,
     /// Sum of squares left, in units of the variance.
@@ -43,10 +43,10 @@ pub enum Role {
     At(f64),
 }
 
-impl<'a> Ridge<'a> {
+impl<'a> Penalised<'a> {
     /// Sums over the clusters once.
-    pub fn new(gram: &'a Gram, variance: f64) -> Self {
-        Self { gram, variance, totals: gram.totals() }
+    pub fn new(equations: &'a NormalEquations, variance: f64) -> Self {
+        Self { equations, variance, totals: equations.totals() }
     }
 
     /// What the data say of one column: its sum of squares.
@@ -55,13 +55,13 @@ impl<'a> Ridge<'a> {
     }
 
     /// The best step with these roles.
-    pub fn fit(&self, roles: &[Role]) -> RidgeFit {
+    pub fn fit(&self, roles: &[Role]) -> PenalisedFit {
         let (step, columns) = self.solve(&self.totals.jj, &self.totals.jr, roles);
         self.rated(step, &columns, roles)
     }
 
     /// The best step with these roles in which no free column leaves its limits.
-    pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> RidgeFit {
+    pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         loop {
             let fit = self.fit(&roles);
@@ -84,17 +84,17 @@ impl<'a> Ridge<'a> {
     }
 
     /// How well the other columns do in place of one, whatever the data say.
-    pub fn explain(&self, column: usize, roles: &[Role]) -> RidgeFit {
+    pub fn explain(&self, column: usize, roles: &[Role]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         roles[column] = if let Role::Held(..) = roles[column] { roles[column] } else { Role::Out };
         let jj = &self.totals.jj;
         let totals =
             Totals { jr: jj.column(column).into_owned(), rr: jj[(column, column)], jj: jj.clone(), folds: Vec::new() };
-        let wanted = Self { gram: self.gram, variance: self.variance, totals: Arc::new(totals) };
+        let wanted = Self { equations: self.equations, variance: self.variance, totals: Arc::new(totals) };
         wanted.fit(&roles)
     }
 
-    fn rated(&self, step: DVector<f64>, columns: &[usize], roles: &[Role]) -> RidgeFit {
+    fn rated(&self, step: DVector<f64>, columns: &[usize], roles: &[Role]) -> PenalisedFit {
         let mut linear = 0.0;
         let mut square = 0.0;
         for &p in columns {
@@ -104,18 +104,19 @@ impl<'a> Ridge<'a> {
             }
         }
         let penalty = penalty(&step, roles);
-        RidgeFit { loss: (self.totals.rr - 2.0 * linear + square) / self.variance, step, penalty }
+        PenalisedFit { loss: (self.totals.rr - 2.0 * linear + square) / self.variance, step, penalty }
     }
 
     /// Held-out sum of squares of each cluster, in units of the assumed noise (not the variance).
     pub fn held_out(&self, roles: &[Role]) -> Vec<f64> {
-        let mut out: Vec<f64> = self.gram.clusters.iter().map(|c| c.rr).collect();
+        let mut out: Vec<f64> = self.equations.clusters.iter().map(|c| c.rr).collect();
         if self.totals.folds.len() < 2 {
             return out;
         }
         for (fold, jj, jr) in &self.totals.folds {
             let (step, columns) = self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles);
-            for (i, c) in self.gram.clusters.iter().enumerate().filter(|(i, _)| self.gram.folds[*i] == *fold) {
+            for (i, c) in self.equations.clusters.iter().enumerate().filter(|(i, _)| self.equations.folds[*i] == *fold)
+            {
                 let (mut linear, mut square) = (0.0, 0.0);
                 for &p in &columns {
                     linear += step[p] * c.jr[p];
@@ -171,20 +172,20 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::*;
-    use crate::gram::Cluster;
+    use crate::normal_equations::Cluster;
 
     /// Two columns that overlap, and residuals that are 3 of the first and 1 of the second.
-    fn gram() -> Gram {
+    fn equations() -> NormalEquations {
         let columns = DMatrix::from_fn(30, 2, |r, c| if c == 0 { 1.0 } else { f64::from(u8::from(r < 15)) });
         let residual = &columns * DVector::from_column_slice(&[3.0, 1.0]);
-        Gram::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)])
+        NormalEquations::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)])
     }
 
     #[test]
     fn what_is_taken_along_is_not_fitted_but_counted() {
-        let gram = gram();
-        let ridge = Ridge::new(&gram, 1.0);
-        let fit = ridge.fit(&[Role::At(2.0), Role::Free]);
+        let equations = equations();
+        let penalised = Penalised::new(&equations, 1.0);
+        let fit = penalised.fit(&[Role::At(2.0), Role::Free]);
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
         // What is left is 1 where the second column is 0.
         assert!((fit.loss - 15.0).abs() < 1e-6, "{}", fit.loss);
@@ -192,12 +193,12 @@ mod tests {
 
     #[test]
     fn no_free_step_leaves_its_limits() {
-        let gram = gram();
-        let ridge = Ridge::new(&gram, 1.0);
+        let equations = equations();
+        let penalised = Penalised::new(&equations, 1.0);
         let roles = [Role::Free, Role::Free];
-        let fit = ridge.fit_within(&roles, &[[-2.0, 2.0], [-9.0, 9.0]]);
+        let fit = penalised.fit_within(&roles, &[[-2.0, 2.0], [-9.0, 9.0]]);
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
-        let free = ridge.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
+        let free = penalised.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
         assert!((free.step[0] - 3.0).abs() < 1e-6 && (free.step[1] - 1.0).abs() < 1e-6, "{}", free.step);
     }
 }

@@ -105,7 +105,7 @@ pub struct Solution {
 
 /// Linearised residuals of a link.
 #[derive(Debug, Clone)]
-pub struct Gram {
+pub struct NormalEquations {
     /// Its clusters.
     pub clusters: Vec<Cluster>,
     /// Group of each cluster for leaving out: the run, or a block of a single run.
@@ -128,11 +128,11 @@ pub struct Totals {
 
 /// Blocks a single run is cut into.
 const BLOCKS: usize = 4;
-/// Ridge in units of a column's own information: keeps exact twins solvable without moving
+/// Regularisation in units of a column's own information: keeps exact twins solvable without moving
 /// anything measurable.
-const RIDGE: f64 = 1e-9;
+const REGULARISATION: f64 = 1e-9;
 
-impl Gram {
+impl NormalEquations {
     /// Sets up folds: leave one run out, or blocks of a single run.
     pub fn new(clusters: Vec<Cluster>) -> Self {
         let clusters: Vec<Cluster> = clusters.into_iter().map(Cluster::robust).collect();
@@ -288,16 +288,16 @@ impl Gram {
     }
 }
 
-/// Solves A·x = b for a positive semidefinite A scaled to a unit diagonal, with a tiny ridge.
+/// Solves A·x = b for a positive semidefinite A scaled to a unit diagonal, with a tiny regularisation.
 pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let m = b.len();
     let scale: Vec<f64> = (0..m).map(|i| if a[(i, i)] > 1e-300 { a[(i, i)].sqrt() } else { 0.0 }).collect();
     let scaled = DMatrix::from_fn(m, m, |i, j| {
-        let unit = if i == j { 1.0 + RIDGE } else { 0.0 };
+        let unit = if i == j { 1.0 + REGULARISATION } else { 0.0 };
         if scale[i] == 0.0 || scale[j] == 0.0 {
             return unit;
         }
-        a[(i, j)] / (scale[i] * scale[j]) + if i == j { RIDGE } else { 0.0 }
+        a[(i, j)] / (scale[i] * scale[j]) + if i == j { REGULARISATION } else { 0.0 }
     });
     let rhs = DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { b[i] / scale[i] });
     let x = match scaled.clone().cholesky() {
@@ -307,11 +307,13 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { x[i] / scale[i] })
 }
 
-/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny ridge on the way; `None` if it has none.
+/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny regularisation on the way; `None` if it has
+/// none.
 pub(crate) fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let m = a.nrows();
     let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
-    let unit = DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { RIDGE } else { 0.0 });
+    let unit =
+        DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { REGULARISATION } else { 0.0 });
     Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
 }
 
@@ -326,7 +328,7 @@ fn inverse_root(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let eigen = scaled.symmetric_eigen();
     let mut root = eigen.eigenvectors.clone();
     for (j, value) in eigen.eigenvalues.iter().enumerate() {
-        let factor = 1.0 / value.max(RIDGE).sqrt();
+        let factor = 1.0 / value.max(REGULARISATION).sqrt();
         root.column_mut(j).scale_mut(factor);
     }
     for i in 0..m {
@@ -345,11 +347,12 @@ mod tests {
         let column = DMatrix::from_fn(n, 1, |r, _| 1.0 + (r % 3) as f64);
         let noise = DVector::from_fn(n, |r, _| if r % 2 == 0 { 1.0 } else { -1.0 });
         for (size, step) in [(0.0, 0.0), (0.5, 0.5), (20.0, 20.0), (20.0, 0.0), (20.0, 15.0)] {
-            let gram =
-                |residual: &DVector<f64>| Gram::new(vec![Cluster::new(0, 0.0, n as f64, residual, &column)]).loss();
+            let equations = |residual: &DVector<f64>| {
+                NormalEquations::new(vec![Cluster::new(0, 0.0, n as f64, residual, &column)]).loss()
+            };
             let before = &noise + column.column(0) * size;
-            let after = gram(&(&before - column.column(0) * step));
-            let moved = Gram::new(vec![Cluster::new(0, 0.0, n as f64, &before, &column)]);
+            let after = equations(&(&before - column.column(0) * step));
+            let moved = NormalEquations::new(vec![Cluster::new(0, 0.0, n as f64, &before, &column)]);
             let found = moved.loss_after(&DVector::from_element(1, step));
             assert!((found - after).abs() < 1e-9 * after, "{size} {step}: {found} {after}");
         }
