@@ -21,10 +21,10 @@ use crate::effect::{Effect, Link};
 use crate::motion::MotionLink;
 use crate::options::Thresholds;
 use crate::pieces::{PIECE, Pieces, segments};
-use crate::prior::Role;
 use crate::problem::{Linear, Owner, Problem};
 use crate::select::{self, Design};
 use crate::state::{Active, State};
+use estimation::prior::Role;
 
 /// Standard deviations between hypotheses that count as told apart.
 const SIGMAS: f64 = 5.0;
@@ -220,7 +220,7 @@ impl Question<'_> {
                 }
             }
             let mixed = part(&theirs, &columns) * &size;
-            total - mixed.dot(&crate::normal_equations::solve(&information, &mixed))
+            total - mixed.dot(&estimation::normal_equations::solve(&information, &mixed))
         });
         nearest.fold(f64::INFINITY, f64::min).max(0.0).sqrt()
     }

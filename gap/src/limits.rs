@@ -3,9 +3,9 @@
 use crate::analysis::Limit;
 use crate::effect::{Link, Parameter};
 use crate::options::Thresholds;
-use crate::prior::Role;
 use crate::problem::Owner;
 use crate::select::{Design, STRONG};
+use estimation::prior::Role;
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::drive::{DriveLink, DriveModel, Side};
 use crate::effect::{Effect, Link, Parameter, Sizes};
 use crate::motion::{MotionLink, MotionModel};
-use crate::normal_equations::{Cluster, NormalEquations};
 use crate::state::{Active, State};
+use estimation::normal_equations::{Cluster, NormalEquations};
 
 /// A link of a data set that can be linearised about any state.
 pub enum Problem<'a> {
@@ -227,7 +227,7 @@ impl Problem<'_> {
             if columns.is_empty() {
                 break;
             }
-            let step = linear.equations.solve(&columns).step;
+            let step = linear.equations.solve(&columns);
             let mut accepted = false;
             let mut largest = 0.0_f64;
             for halving in 0..5 {

@@ -14,11 +14,11 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
-use crate::normal_equations::NormalEquations;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::{AS_WELL, FAR_LEFT, FROM_NOISE, UNDECIDED, decided};
+use estimation::normal_equations::NormalEquations;
 
 use gates::Gates;
 use join::join;

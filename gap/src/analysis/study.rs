@@ -339,13 +339,13 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
 /// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
 /// what is the same in all of them. `left_out` are the estimates without one run each.
 fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
-    let of_common = model::fit::t_quantile_975(usize::MAX) * common.sqrt();
+    let of_common = estimation::statistics::t_quantile_975(usize::MAX) * common.sqrt();
     of_common.hypot(half_scatter(variance, df, left_out))
 }
 
 /// The same of what scatters alone.
 fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
-    let by_clusters = model::fit::t_quantile_975(df) * variance.sqrt();
+    let by_clusters = estimation::statistics::t_quantile_975(df) * variance.sqrt();
     let runs = left_out.len();
     if runs < 3 {
         return by_clusters;
@@ -355,8 +355,8 @@ fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
     // The jackknife's variance.
     let by_runs = free / runs as f64 * left_out.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
     let chi2 = by_runs / variance.max(1e-300) * free;
-    if crate::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
-        by_clusters.max(model::fit::t_quantile_975(runs - 1) * by_runs.sqrt())
+    if estimation::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
+        by_clusters.max(estimation::statistics::t_quantile_975(runs - 1) * by_runs.sqrt())
     } else {
         by_clusters
     }
@@ -447,7 +447,7 @@ mod tests {
     #[test]
     fn intervals_are_as_wide_as_runs_differ() {
         // Runs that agree as clusters have it.
-        let t = model::fit::t_quantile_975(100);
+        let t = estimation::statistics::t_quantile_975(100);
         assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
         // Leave-one-out estimates three cluster deviations apart.
         let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);

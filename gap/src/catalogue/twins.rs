@@ -92,7 +92,7 @@ mod tests {
                     let information = DMatrix::from_fn(theirs.len(), theirs.len(), |i, j| jj[(theirs[i], theirs[j])]);
                     let done = |column: &usize| {
                         let mixed = DVector::from_fn(theirs.len(), |i, _| jj[(theirs[i], *column)]);
-                        mixed.dot(&crate::normal_equations::solve(&information, &mixed)) / jj[(*column, *column)]
+                        mixed.dot(&estimation::normal_equations::solve(&information, &mixed)) / jj[(*column, *column)]
                     };
                     let names: &mut Vec<String> = found.entry(name).or_default();
                     if own.iter().all(|column| done(column) > ALIKE) && !names.contains(&other) {

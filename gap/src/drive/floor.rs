@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{DriveLink, DriveResiduals, smooth_sign};
-use crate::normal_equations::solve;
 use crate::thresholds;
+use estimation::normal_equations::solve;
 
 /// Torque below which no drive is predicted, Nm as a share of what the motors reach in the logs.
 const LEAST: f64 = 0.001;
@@ -125,5 +125,5 @@ pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Ve
 
 fn neighbours(residuals: &DriveResiduals, wheel: usize) -> f64 {
     let mut differences: Vec<f64> = residuals.torque.windows(5).map(|w| (w[4][wheel] - w[0][wheel]).abs()).collect();
-    crate::statistics::median(&mut differences) / (0.6745 * 2.0_f64.sqrt())
+    estimation::statistics::median(&mut differences) / (0.6745 * 2.0_f64.sqrt())
 }

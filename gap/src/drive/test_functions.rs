@@ -10,10 +10,10 @@ use super::columns::{Column, Columns, Side};
 use super::forces::Base;
 use super::{DriveModel, Mechanics};
 use crate::effect::Sizes;
-use crate::normal_equations::Cluster;
 use crate::pieces::Pieces;
 use crate::segment::Segment;
 use crate::thresholds;
+use estimation::normal_equations::Cluster;
 
 /// Length of a test function, s, and in ticks at least.
 const TEST_FUNCTION_S: f64 = 0.12;
@@ -138,7 +138,7 @@ impl<'a> DriveLink<'a> {
         let counted = torques.iter().enumerate().flat_map(|(i, wheel)| {
             wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
         });
-        crate::statistics::rms(counted)
+        estimation::statistics::rms(counted)
     }
 
     /// Leaves out test functions in which a wheel slips by what the motion link found: Newton's law in wheel

@@ -99,7 +99,7 @@ fn between(model: &DriveModel, segment: &Segment, wheel: usize, half: f64) -> Ve
             g * (axis.torque_constant * volts / axis.resistance - axis.friction * segment.sign[wheel][k])
         })
         .collect();
-    let usual = crate::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
+    let usual = estimation::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
     let rotor = model.moves_in_play(wheel);
     let (mut place, mut speed) = (0.0_f64, 0.0_f64);
     (0..n)

@@ -135,7 +135,7 @@ impl Series {
                     t: left.test_functions.iter().map(|b| places[*b].1).collect(),
                     sign: left.test_functions.iter().map(|b| places[*b].2[i]).collect(),
                     done: left.test_functions.iter().map(|b| done[*b][i]).collect(),
-                    scatter: 1.4826 * crate::statistics::median(&mut sizes),
+                    scatter: 1.4826 * estimation::statistics::median(&mut sizes),
                     torque: left.torque.clone(),
                 })
             })

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{FALSE_ALARM, Series, Structure, Wheel};
-use crate::statistics::{chi2_upper, median};
+use estimation::statistics::{chi2_upper, median};
 
 /// Lowest frequency looked at, Hz: below, the drive itself is the spectrum.
 const LOWEST_HZ: f64 = 0.4;

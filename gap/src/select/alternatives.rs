@@ -1,7 +1,6 @@
 //! What a named effect cannot be told from, how sure it is, and the figures of its link.
 
-use nalgebra::DMatrix;
-use rand::{RngExt, SeedableRng};
+use estimation::normal_equations::Cluster;
 use rayon::prelude::*;
 
 use super::{ALIKE, DOUBTFUL, Design, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
@@ -23,34 +22,8 @@ pub fn figures(design: &Design) -> (f64, f64) {
 pub fn sign_flip(linear: &Linear, candidate: usize) -> f64 {
     let columns = linear.of_candidate(candidate);
     let clusters = &linear.equations.clusters;
-    let m = columns.len();
-    let mut spread = DMatrix::<f64>::zeros(m, m);
-    let scores: Vec<nalgebra::DVector<f64>> = clusters
-        .iter()
-        .map(|c| {
-            let u = nalgebra::DVector::from_fn(m, |p, _| c.jr[columns[p]]);
-            spread += &u * u.transpose();
-            u
-        })
-        .collect();
-    let Some(inverse) = crate::normal_equations::inverse(&spread) else { return 1.0 };
-    let statistic = |signs: &mut dyn FnMut() -> f64| {
-        let mut sum = nalgebra::DVector::<f64>::zeros(m);
-        for u in &scores {
-            sum.axpy(signs(), u, 1.0);
-        }
-        (sum.transpose() * &inverse * &sum)[0]
-    };
-    let observed = statistic(&mut || 1.0);
-    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(20_051_123);
-    let flips = 4999;
-    let reached = (0..flips)
-        .filter(|_| {
-            let mut sign = || if rng.random::<bool>() { 1.0 } else { -1.0 };
-            statistic(&mut sign) >= observed
-        })
-        .count();
-    (reached + 1) as f64 / f64::from(flips + 1)
+    let score = |c: &Cluster| nalgebra::DVector::from_fn(columns.len(), |p, _| c.jr[columns[p]]);
+    estimation::sign_flips::p_value(&clusters.iter().map(score).collect::<Vec<_>>())
 }
 
 /// What explains as much as an active effect when that is taken out.

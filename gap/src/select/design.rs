@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use super::ALIKE;
 use crate::options::Thresholds;
-use crate::prior::{Penalised, PenalisedFit, Role};
 use crate::problem::{Linear, Owner, Problem};
 use crate::state::{Active, State};
+use estimation::prior::{Penalised, PenalisedFit, Role};
 
 /// Standard deviations of the named effects' laws that another effect must explain more than.
 const LAW_SIGMAS: f64 = 2.0;
@@ -169,7 +169,7 @@ impl Design {
                 continue;
             }
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            if b.dot(&crate::normal_equations::solve(&a, &b)) > ALIKE * jj[(c, c)] {
+            if b.dot(&estimation::normal_equations::solve(&a, &b)) > ALIKE * jj[(c, c)] {
                 self.narrow[c] = Role::Out;
             }
         }
@@ -238,7 +238,7 @@ impl Design {
         let b = nalgebra::DVector::from_fn(others.len(), |i, _| {
             columns.iter().zip(&p).map(|(c, x)| jj[(others[i], *c)] * x).sum::<f64>()
         });
-        let done = b.dot(&crate::normal_equations::solve(&a, &b)).clamp(0.0, size2.max(0.0));
+        let done = b.dot(&estimation::normal_equations::solve(&a, &b)).clamp(0.0, size2.max(0.0));
         [size2 / self.variance, (size2 - done) / self.variance]
     }
 
@@ -263,8 +263,8 @@ impl Design {
         let named: Vec<usize> = self.linear.active().into_iter().filter(|c| *c != column).collect();
         let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
         let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], column)]);
-        let x = crate::normal_equations::solve(&a, &b);
-        let of = |k: &crate::normal_equations::Cluster| {
+        let x = estimation::normal_equations::solve(&a, &b);
+        let of = |k: &estimation::normal_equations::Cluster| {
             let twice = 2.0 * named.iter().enumerate().map(|(i, c)| x[i] * k.jj[(*c, column)]).sum::<f64>();
             k.jj[(column, column)] - twice + square(&k.jj, &named, x.as_slice())
         };
@@ -298,7 +298,7 @@ impl Design {
         let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
         let alike = |c: usize| {
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            b.dot(&crate::normal_equations::solve(&a, &b)) > TWIN * jj[(c, c)]
+            b.dot(&estimation::normal_equations::solve(&a, &b)) > TWIN * jj[(c, c)]
         };
         let role = |(c, r): (usize, &Role)| match r {
             Role::Held(..) if bare || alike(c) => Role::Out,
@@ -541,61 +541,16 @@ impl Design {
     pub fn missed(&self, roles: &[Role], directions: f64) -> Vec<f64> {
         let (square, n) = self.linear.equations.plain();
         let excess = (square - n).max(0.0) / directions;
-        let used: Vec<usize> =
-            (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.linear.equations.tells(*i)).collect();
-        let jj = self.linear.equations.information();
-        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
-        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
-            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
-        });
-        let inverse = crate::normal_equations::inverse(&own);
-        let mut out = vec![0.0; roles.len()];
-        for (p, c) in used.iter().enumerate() {
-            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| excess * inverse[(p, p)]);
-        }
-        out
+        self.penalised()
+            .inverse_diagonal(roles)
+            .into_iter()
+            .map(|x| if x.is_finite() { excess * x } else { x })
+            .collect()
     }
 
-    /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
-    /// observations, nowhere below what the residual variance explains.
+    /// Covariance of the freed columns: see [`Penalised::covariance`].
     pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
-        let equations = &self.linear.equations;
-        let m = roles.len();
-        let columns: Vec<usize> = (0..m).filter(|i| roles[*i] != Role::Out && equations.tells(*i)).collect();
-        let k = columns.len();
-        let whole = equations.information();
-        let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
-        let mut meat = DMatrix::zeros(k, k);
-        let g = equations.clusters.len() as f64;
-        for c in &equations.clusters {
-            let left = &c.jr - c.jj.times(&fit.step);
-            let score = nalgebra::DVector::from_fn(k, |p, _| left[columns[p]]);
-            meat.ger(1.0, &score, &score, 1.0);
-        }
-        let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
-        meat *= g / (g - free).max(1.0);
-        let mut plain = jj.clone() * self.variance;
-        for (p, c) in columns.iter().enumerate() {
-            if let Role::Held(sd, _) = roles[*c] {
-                let weight = self.variance / (sd * sd);
-                jj[(p, p)] += weight;
-                meat[(p, p)] += weight * self.variance;
-                plain[(p, p)] += weight * self.variance;
-            }
-        }
-        let Some(inverse) = crate::normal_equations::inverse(&jj) else {
-            return DMatrix::from_element(m, m, f64::INFINITY);
-        };
-        let robust = &inverse * meat * &inverse;
-        let plain = &inverse * plain * &inverse;
-        let mut out = DMatrix::zeros(m, m);
-        for p in 0..k {
-            for q in 0..k {
-                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
-                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
-            }
-        }
-        out
+        self.penalised().covariance(roles, fit)
     }
 }
 

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
 use crate::effect::Link;
 use crate::options::Thresholds;
-use crate::prior::{Penalised, Role};
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::decided;
+use estimation::prior::{Penalised, Role};
 
 /// Effects at most.
 const MOST: usize = 8;
@@ -129,8 +129,8 @@ fn best(
         .collect();
     let base = shared(&penalised, &roles_with(&[]), &nuisance);
     let by_parts = in_parts(&linear.equations, PARTS);
-    let ridge_parts = Penalised::new(&by_parts, 1.0);
-    let base_parts = ridge_parts.held_out(&roles_with(&[]));
+    let penalised_parts = Penalised::new(&by_parts, 1.0);
+    let base_parts = penalised_parts.held_out(&roles_with(&[]));
     let total: f64 = base.iter().sum();
     let promises: Vec<Promise> = (0..candidates.len())
         .into_par_iter()
@@ -148,7 +148,7 @@ fn best(
                 return None;
             }
             let (without, with) = if a.effect.nuisance() {
-                (&base_parts, ridge_parts.held_out(&roles))
+                (&base_parts, penalised_parts.held_out(&roles))
             } else {
                 (&base, shared(&penalised, &roles, &nuisance))
             };

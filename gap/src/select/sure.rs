@@ -30,7 +30,8 @@ fn estimates_of(
         let value = active.effect.period(&p.name).map_or(value, |period| value.rem_euclid(period));
         let sd = column.map_or(0.0, |c| covariance[(c, c)].max(0.0).sqrt());
         // The effect's own law is not known to better than that.
-        let half = (model::fit::t_quantile_975(df) * sd).hypot(2.0 * active.effect.law_uncertainty() * value);
+        let half =
+            (estimation::statistics::t_quantile_975(df) * sd).hypot(2.0 * active.effect.law_uncertainty() * value);
         Estimate {
             name: p.name.clone(),
             value,

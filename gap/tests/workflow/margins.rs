@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::common::{RICH, cut, names, simulate, with};
+use estimation::prior::Role;
 use gap::effect::{Effect, Link};
 use gap::motion::MotionLink;
 use gap::options::Thresholds;
 use gap::pieces::{PIECE, segments};
-use gap::prior::Role;
 use gap::problem::{Owner, Problem};
 use gap::select::{Design, candidates};
 use gap::state::State;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::normal_equations::{NormalEquations, Totals, solve};
+use crate::normal_equations::{NormalEquations, Totals, inverse, solve};
 
 /// A penalised least-squares problem over all columns of a linearisation.
 pub struct Penalised<'a> {
@@ -130,6 +130,67 @@ impl<'a> Penalised<'a> {
         out
     }
 
+    /// Columns that take part and that the data say something of.
+    fn used(&self, roles: &[Role]) -> Vec<usize> {
+        (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.equations.tells(*i)).collect()
+    }
+
+    /// Diagonal of (JᵀJ + priors)⁻¹, 0 for columns that take no part, infinite where there is no inverse.
+    pub fn inverse_diagonal(&self, roles: &[Role]) -> Vec<f64> {
+        let used = self.used(roles);
+        let jj = &self.totals.jj;
+        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
+        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
+            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
+        });
+        let inverse = inverse(&own);
+        let mut out = vec![0.0; roles.len()];
+        for (p, c) in used.iter().enumerate() {
+            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(p, p)]);
+        }
+        out
+    }
+
+    /// Covariance of all columns, 0 for those that take no part: cluster-robust (the sandwich, small-sample corrected),
+    /// priors as pseudo observations, no variance below what the residual variance explains.
+    pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
+        let equations = self.equations;
+        let m = roles.len();
+        let columns = self.used(roles);
+        let k = columns.len();
+        let whole = &self.totals.jj;
+        let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
+        let mut meat = DMatrix::zeros(k, k);
+        let g = equations.clusters.len() as f64;
+        for c in &equations.clusters {
+            let left = &c.jr - c.jj.times(&fit.step);
+            let score = DVector::from_fn(k, |p, _| left[columns[p]]);
+            meat.ger(1.0, &score, &score, 1.0);
+        }
+        let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
+        meat *= g / (g - free).max(1.0);
+        let mut plain = jj.clone() * self.variance;
+        for (p, c) in columns.iter().enumerate() {
+            if let Role::Held(sd, _) = roles[*c] {
+                let weight = self.variance / (sd * sd);
+                jj[(p, p)] += weight;
+                meat[(p, p)] += weight * self.variance;
+                plain[(p, p)] += weight * self.variance;
+            }
+        }
+        let Some(inverse) = inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
+        let robust = &inverse * meat * &inverse;
+        let plain = &inverse * plain * &inverse;
+        let mut out = DMatrix::zeros(m, m);
+        for p in 0..k {
+            for q in 0..k {
+                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
+                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
+            }
+        }
+        out
+    }
+
     fn solve(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
         let used = |i: &usize| roles[*i] != Role::Out && self.totals.jj[(*i, *i)] > 0.0;
         let (taken, columns): (Vec<usize>, Vec<usize>) =
@@ -200,5 +261,44 @@ mod tests {
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
         let free = penalised.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
         assert!((free.step[0] - 3.0).abs() < 1e-6 && (free.step[1] - 1.0).abs() < 1e-6, "{}", free.step);
+    }
+
+    /// Clusters of residuals that are wrong together: the sandwich sees it, the plain covariance does not.
+    #[test]
+    fn a_covariance_knows_that_a_cluster_is_one_observation() {
+        let ones = DMatrix::from_element(10, 1, 1.0);
+        // Ten clusters of ten equal residuals, +1 and -1 in turn: the mean of ten draws, not of a hundred.
+        let clusters = (0..10)
+            .map(|i| if i % 2 == 0 { 1.0 } else { -1.0 })
+            .map(|r| Cluster::new(0, 0.0, 10.0, &DVector::from_element(10, r), &ones));
+        let equations = NormalEquations::new(clusters.collect());
+        let penalised = Penalised::new(&equations, 1.0);
+        for (role, expected) in [
+            // 10 scores of 10² over 100², times 10/9.
+            (Role::Free, 1.0 / 9.0),
+            // A prior as informative as the data halves the inverse: (1000·10/10 + 100)/200².
+            (Role::Held(0.1, 0.0), 1100.0 / 40_000.0),
+            // No part, no variance.
+            (Role::Out, 0.0),
+        ] {
+            let roles = [role];
+            let found = penalised.covariance(&roles, &penalised.fit(&roles))[(0, 0)];
+            assert!((found - expected).abs() < 1e-6, "{role:?}: {found} for {expected}");
+        }
+        let halved = penalised.inverse_diagonal(&[Role::Held(0.1, 0.0)])[0];
+        assert!((halved - 1.0 / 200.0).abs() < 1e-9, "{halved}");
+    }
+
+    #[test]
+    fn each_fold_is_predicted_by_the_others() {
+        let ones = DMatrix::from_element(4, 1, 1.0);
+        let run = |run: usize, r: f64| Cluster::new(run, 0.0, 1e3, &DVector::from_element(4, r), &ones);
+        let equations = NormalEquations::new(vec![run(0, 1.0), run(1, 2.0), run(2, 6.0)]);
+        let penalised = Penalised::new(&equations, 1.0);
+        // Means of the others: 4, 3.5, 1.5; four residuals each.
+        let expected = [4.0 * 9.0, 4.0 * 2.25, 4.0 * 20.25];
+        for (found, expected) in penalised.held_out(&[Role::Free]).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-5, "{found} for {expected}");
+        }
     }
 }

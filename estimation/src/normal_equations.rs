@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::symmetric::Symmetric;
+use crate::Symmetric;
 
 /// One cluster: residuals that may be correlated with each other, but not with other clusters.
 #[derive(Debug, Clone)]
@@ -92,18 +92,7 @@ fn huber(square: f64, limit: f64) -> f64 {
     if square > limit && limit > 0.0 { 2.0 * (limit * square).sqrt() - limit } else { square }
 }
 
-/// A least-squares fit of some columns.
-#[derive(Debug, Clone)]
-pub struct Solution {
-    /// The columns.
-    pub columns: Vec<usize>,
-    /// Step along each.
-    pub step: DVector<f64>,
-    /// Sum of squares left.
-    pub loss: f64,
-}
-
-/// Linearised residuals of a link.
+/// Linearised residuals, condensed.
 #[derive(Debug, Clone)]
 pub struct NormalEquations {
     /// Its clusters.
@@ -205,13 +194,11 @@ impl NormalEquations {
         self.clusters.iter().map(|c| c.n).sum()
     }
 
-    /// JᵀJ and Jᵀr of some columns over the clusters that `keep` wants.
-    fn sums(&self, columns: &[usize], keep: impl Fn(usize) -> bool) -> (DMatrix<f64>, DVector<f64>, f64) {
+    /// Fits some columns to all clusters: the step along each.
+    pub fn solve(&self, columns: &[usize]) -> DVector<f64> {
         let m = columns.len();
-        let (mut a, mut b, mut s) = (DMatrix::zeros(m, m), DVector::zeros(m), 0.0);
-        for (i, c) in self.clusters.iter().enumerate().filter(|(i, _)| keep(*i)) {
-            let _ = i;
-            s += c.rr;
+        let (mut a, mut b) = (DMatrix::zeros(m, m), DVector::zeros(m));
+        for c in &self.clusters {
             for (p, jp) in columns.iter().enumerate() {
                 b[p] += c.jr[*jp];
                 for (q, jq) in columns.iter().enumerate() {
@@ -219,72 +206,7 @@ impl NormalEquations {
                 }
             }
         }
-        (a, b, s)
-    }
-
-    /// Fits some columns to all clusters.
-    pub fn solve(&self, columns: &[usize]) -> Solution {
-        let (a, b, s) = self.sums(columns, |_| true);
-        let step = solve(&a, &b);
-        let loss = s - 2.0 * b.dot(&step) + (step.transpose() * &a * &step)[0];
-        Solution { columns: columns.to_vec(), step, loss }
-    }
-
-    /// Sum of squares of held-out residuals per cluster: each fold predicted from a fit on the others.
-    pub fn held_out(&self, columns: &[usize]) -> Vec<f64> {
-        let mut out: Vec<f64> = self.clusters.iter().map(|c| c.rr).collect();
-        if columns.is_empty() {
-            return out;
-        }
-        let (a, b, _) = self.sums(columns, |_| true);
-        let mut folds: Vec<usize> = self.folds.clone();
-        folds.sort_unstable();
-        folds.dedup();
-        if folds.len() < 2 {
-            return out;
-        }
-        for fold in folds {
-            let (af, bf, _) = self.sums(columns, |i| self.folds[i] == fold);
-            let step = solve(&(&a - af), &(&b - bf));
-            for (i, c) in self.clusters.iter().enumerate().filter(|(i, _)| self.folds[*i] == fold) {
-                let (mut linear, mut square) = (0.0, 0.0);
-                for (p, jp) in columns.iter().enumerate() {
-                    linear += step[p] * c.jr[*jp];
-                    for (q, jq) in columns.iter().enumerate() {
-                        square += step[p] * step[q] * c.jj[(*jp, *jq)];
-                    }
-                }
-                out[i] = c.rr - 2.0 * linear + square;
-            }
-        }
-        out
-    }
-
-    /// Covariance of a solution, robust against correlation within clusters, small-sample
-    /// corrected, and nowhere below what the residual variance alone explains.
-    pub fn covariance(&self, solution: &Solution) -> DMatrix<f64> {
-        let columns = &solution.columns;
-        let m = columns.len();
-        let (a, _, _) = self.sums(columns, |_| true);
-        let Some(root) = inverse_root(&a) else { return DMatrix::from_diagonal_element(m, m, f64::INFINITY) };
-        let mut spread = DMatrix::zeros(m, m);
-        for c in &self.clusters {
-            let mut score = DVector::zeros(m);
-            for (p, jp) in columns.iter().enumerate() {
-                score[p] = c.jr[*jp]
-                    - columns.iter().enumerate().map(|(q, jq)| c.jj[(*jp, *jq)] * solution.step[q]).sum::<f64>();
-            }
-            let white = root.transpose() * score;
-            spread += &white * white.transpose();
-        }
-        let g = self.clusters.len() as f64;
-        let small = g / (g - m as f64).max(1.0);
-        let variance = solution.loss / (self.n() - m as f64).max(1.0);
-        let mut eigen = (spread * small).symmetric_eigen();
-        for value in eigen.eigenvalues.iter_mut() {
-            *value = value.max(variance);
-        }
-        &root * eigen.recompose() * root.transpose()
+        solve(&a, &b)
     }
 }
 
@@ -309,32 +231,12 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
 
 /// Inverse of a positive matrix, scaled to a unit diagonal with a tiny regularisation on the way; `None` if it has
 /// none.
-pub(crate) fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let m = a.nrows();
     let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
     let unit =
         DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { REGULARISATION } else { 0.0 });
     Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
-}
-
-/// W with W·Wᵀ = A⁻¹.
-fn inverse_root(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let m = a.nrows();
-    let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt()).collect();
-    if scale.iter().any(|s| !(*s > 0.0 && s.is_finite())) {
-        return None;
-    }
-    let scaled = DMatrix::from_fn(m, m, |i, j| a[(i, j)] / (scale[i] * scale[j]));
-    let eigen = scaled.symmetric_eigen();
-    let mut root = eigen.eigenvectors.clone();
-    for (j, value) in eigen.eigenvalues.iter().enumerate() {
-        let factor = 1.0 / value.max(REGULARISATION).sqrt();
-        root.column_mut(j).scale_mut(factor);
-    }
-    for i in 0..m {
-        root.row_mut(i).scale_mut(1.0 / scale[i]);
-    }
-    Some(root)
 }
 
 #[cfg(test)]
