@@ -579,7 +579,7 @@ impl Misses {
     fn new(windows: Option<&Vec<WindowResiduals>>, far: f64) -> Self {
         let is_far = |w: &&WindowResiduals| {
             let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
-            crate::statistics::rms(used.flat_map(|(r, _)| *r)) > far
+            estimation::statistics::rms(used.flat_map(|(r, _)| *r)) > far
         };
         let place = |w: &WindowResiduals| Some((w.run, w.t.first()? - 0.3, w.t.last()? + 0.3));
         Self(windows.into_iter().flatten().filter(is_far).filter_map(place).collect())

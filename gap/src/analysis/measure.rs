@@ -141,7 +141,7 @@ impl<'a> Data<'a> {
             let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
             let plots = [nominally, drive.residuals.clone()];
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
-            out.driven.bumps = Driven::at_bumps(&drive.link);
+            out.driven.test_functions = Driven::at_test_functions(&drive.link);
             let floor = drive.link.noise.clone();
             out.drive = Some(MeasuredDrive { plots, floor });
         }
