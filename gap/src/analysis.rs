@@ -250,8 +250,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     }
     let mut thresholds = options.thresholds.clone();
     let motion_link = MotionLink::new(&pieces, noise, window_s).felt(&start.motion(None));
-    let has_motion =
-        (!motion_link.is_empty() || motion_link.inertial.is_some()) && robot.support == Support::Floor;
+    let has_motion = (!motion_link.is_empty() || motion_link.inertial.is_some()) && robot.support == Support::Floor;
     let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
     start = data.state(&set.robot);
     let nominal = start.clone();
@@ -514,9 +513,8 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         catalogue: &catalogue,
     };
     // Without a sensor nobody asked for its effects.
-    let shows = |e: &dyn Effect| {
-        !e.link().is_inertial() || motion_link.inertial.as_ref().is_some_and(|sensor| sensor.shows(e))
-    };
+    let shows =
+        |e: &dyn Effect| !e.link().is_inertial() || motion_link.inertial.as_ref().is_some_and(|sensor| sensor.shows(e));
     let next_experiment = match verdict {
         Verdict::Ambiguous | Verdict::MissingEffect => crate::experiment::propose(&known, &alternatives),
         _ => None,
@@ -585,7 +583,7 @@ impl Misses {
     fn new(windows: Option<&Vec<WindowResiduals>>, far: f64) -> Self {
         let is_far = |w: &&WindowResiduals| {
             let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
-            crate::statistics::rms(used.flat_map(|(r, _)| *r)) > far
+            estimation::statistics::rms(used.flat_map(|(r, _)| *r)) > far
         };
         let place = |w: &WindowResiduals| Some((w.run, w.t.first()? - 0.3, w.t.last()? + 0.3));
         Self(windows.into_iter().flatten().filter(is_far).filter_map(place).collect())

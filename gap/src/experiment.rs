@@ -22,9 +22,9 @@ use crate::motion::MotionLink;
 use crate::options::Thresholds;
 use crate::pieces::{PIECE, Pieces, segments};
 use crate::problem::{Linear, Owner, Problem};
-use crate::ridge::Role;
-use crate::select::{self, Bench};
+use crate::select::{self, Design};
 use crate::state::{Active, State};
+use estimation::prior::Role;
 
 /// Standard deviations between hypotheses that count as told apart.
 const SIGMAS: f64 = 5.0;
@@ -32,7 +32,7 @@ const SIGMAS: f64 = 5.0;
 const MOST_TIMES: usize = 6;
 /// Sets that are looked at.
 const MOST_SETS: usize = 3;
-/// Combinations of forms of two rivals that are tried.
+/// Combinations of forms of two alternatives that are tried.
 const MOST_PAIRS: usize = 120;
 
 /// A proposal.
@@ -66,7 +66,7 @@ pub(crate) struct Findings<'a> {
     pub active: &'a [Active],
     /// The logs.
     pub pieces: &'a Pieces<'a>,
-    /// Camera noise, and that of a bump of the drive, Nm.
+    /// Camera noise, and that of a test function of the drive, Nm.
     pub noise: ([f64; 3], &'a [f64]),
     /// Windows of the motion link, s.
     pub window_s: f64,
@@ -136,17 +136,17 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
         // Switched on as found; all others start from 0.
         candidates[index].values = own.values.clone();
     }
-    let rivals = hypotheses(&candidates, &set[1..]);
-    if rivals.is_empty() {
+    let alternatives = hypotheses(&candidates, &set[1..]);
+    if alternatives.is_empty() {
         return Vec::new();
     }
-    let Some(bench) = on_link(findings, findings.pieces, &state, link, |problem| {
-        Bench::new(problem, &state, &candidates, findings.thresholds)
+    let Some(design) = on_link(findings, findings.pieces, &state, link, |problem| {
+        Design::new(problem, &state, &candidates, findings.thresholds)
     }) else {
         return Vec::new();
     };
-    let question = Question { own, index, bench: &bench, rivals: &rivals };
-    let old = information(&bench.linear);
+    let question = Question { own, index, design: &design, alternatives: &alternatives };
+    let old = information(&design.linear);
     let before = question.sigmas(&old);
     let applied = Applied::of(findings.found);
     Manoeuvre::ALL
@@ -186,30 +186,30 @@ struct Question<'a> {
     own: &'a Active,
     /// Its place among the candidates.
     index: usize,
-    bench: &'a Bench,
-    rivals: &'a [Vec<usize>],
+    design: &'a Design,
+    alternatives: &'a [Vec<usize>],
 }
 
 impl Question<'_> {
-    /// Standard deviations between the effect as found and the best that rivals can do, with the help
+    /// Standard deviations between the effect as found and the best that alternatives can do, with the help
     /// of everything that is held near zero, where JᵀJ of all columns is `jj`.
     fn sigmas(&self, jj: &DMatrix<f64>) -> f64 {
         let name = self.own.effect.name();
-        let columns = self.bench.linear.of_candidate(self.index);
+        let columns = self.design.linear.of_candidate(self.index);
         let size = if self.own.switched() {
             DVector::from_element(columns.len(), 1.0)
         } else {
             DVector::from_vec(self.own.parameters())
         };
-        let variance = self.bench.variance;
+        let variance = self.design.variance;
         let part = |r: &[usize], c: &[usize]| DMatrix::from_fn(r.len(), c.len(), |i, j| jj[(r[i], c[j])] / variance);
         let total = (size.transpose() * part(&columns, &columns) * &size)[0];
-        let nearest = self.rivals.iter().map(|rival| {
-            let roles = self.bench.freeing(rival);
+        let nearest = self.alternatives.iter().map(|alternative| {
+            let roles = self.design.freeing(alternative);
             let theirs: Vec<usize> = (0..roles.len())
                 .filter(|i| roles[*i] != Role::Out && jj[(*i, *i)] > 0.0)
-                .filter(|i| match self.bench.linear.owners[*i] {
-                    Owner::Candidate(c, _) => self.bench.candidates[c].effect.name() != name,
+                .filter(|i| match self.design.linear.owners[*i] {
+                    Owner::Candidate(c, _) => self.design.candidates[c].effect.name() != name,
                     _ => true,
                 })
                 .collect();
@@ -220,7 +220,7 @@ impl Question<'_> {
                 }
             }
             let mixed = part(&theirs, &columns) * &size;
-            total - mixed.dot(&crate::gram::solve(&information, &mixed))
+            total - mixed.dot(&estimation::normal_equations::solve(&information, &mixed))
         });
         nearest.fold(f64::INFINITY, f64::min).max(0.0).sqrt()
     }
@@ -268,13 +268,13 @@ fn on_link<T>(
 
 /// JᵀJ of all columns.
 fn information(linear: &Linear) -> DMatrix<f64> {
-    linear.gram.information()
+    linear.equations.information()
 }
 
-/// Ways in which the rivals may mimic the named effect: one form of each.
-fn hypotheses(candidates: &[Active], rivals: &[String]) -> Vec<Vec<usize>> {
+/// Ways in which the alternatives may mimic the named effect: one form of each.
+fn hypotheses(candidates: &[Active], alternatives: &[String]) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = vec![Vec::new()];
-    for name in rivals {
+    for name in alternatives {
         let forms: Vec<usize> = (0..candidates.len()).filter(|c| candidates[*c].effect.name() == name).collect();
         out = out.iter().flat_map(|h| forms.iter().map(|f| [h.clone(), vec![*f]].concat())).take(MOST_PAIRS).collect();
     }

@@ -4,15 +4,15 @@ use crate::analysis::Limit;
 use crate::effect::{Link, Parameter};
 use crate::options::Thresholds;
 use crate::problem::Owner;
-use crate::ridge::Role;
-use crate::select::{Bench, STRONG};
+use crate::select::{Design, STRONG};
+use estimation::prior::Role;
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;
 
 /// What an effect must pass to be named, as sizes.
 struct Gates<'a> {
-    bench: &'a Bench,
+    design: &'a Design,
     thresholds: &'a Thresholds,
     link: Link,
     /// Held-out sum of squares with what is named, and what of it is more than noise.
@@ -25,9 +25,9 @@ impl Gates<'_> {
     /// Least size of an estimate that passes: in the objective, in materiality, and on held-out runs.
     fn least(&self, column: usize, roles: &[Role], free: usize, margin: f64) -> f64 {
         let t = self.thresholds;
-        let per_square = self.bench.gain_per_square(column, roles);
+        let per_square = self.design.gain_per_square(column, roles);
         let by_gain = |gain: f64| ((gain + t.cost(free)) / per_square).sqrt();
-        let information = self.bench.information_beside_named(column);
+        let information = self.design.information_beside_named(column);
         let sum: f64 = information.iter().sum();
         let squares: f64 = information.iter().map(|i| i * i).sum();
         // The effect adds to the total that it must be a share of.
@@ -38,7 +38,7 @@ impl Gates<'_> {
         // Gains of clusters scatter by what the effect does there, and by noise.
         let by_t = |needed: f64| {
             let room = sum * sum - needed * needed * squares;
-            if room > 0.0 { 2.0 * needed * (self.bench.variance * sum / room).sqrt() } else { f64::INFINITY }
+            if room > 0.0 { 2.0 * needed * (self.design.variance * sum / room).sqrt() } else { f64::INFINITY }
         };
         let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(STRONG)));
         by_gain(t.gain).max(margin).max(by_share).max(by_run)
@@ -47,12 +47,12 @@ impl Gates<'_> {
 
 /// The limits of every effect of a link, those found included: nine of ten such data sets in which an effect has this
 /// size, beside what is named already, would have it named.
-pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresholds) -> Vec<Limit> {
+pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thresholds) -> Vec<Limit> {
     let mut out: Vec<Limit> = Vec::new();
-    let total: f64 = bench.held_out(None).iter().sum();
-    let excess = (total - bench.linear.gram.n()).max(0.0);
-    let left_by_laws = bench.left_by_laws();
-    let gates = Gates { bench, thresholds, link, total, excess, left_by_laws };
+    let total: f64 = design.held_out(None).iter().sum();
+    let excess = (total - design.linear.equations.n()).max(0.0);
+    let left_by_laws = design.left_by_laws();
+    let gates = Gates { design, thresholds, link, total, excess, left_by_laws };
     let mut add = |name: &str, p: &Parameter, unit: f64, estimate: f64, sd: f64, least: f64| {
         let limit = unit * (least + NINE_OF_TEN * sd);
         let known = out.iter().any(|l| l.name == name && l.parameter == p.name);
@@ -70,35 +70,35 @@ pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresh
         }
     };
     // What is named has a limit, too: that of its own columns.
-    let roles = bench.estimating();
-    let fit = bench.fit_roles(&roles);
-    let covariance = bench.covariance(&roles, &fit);
-    let named: Vec<usize> = (from..bench.state.active.len()).filter(|i| bench.state.active[*i].worth()).collect();
-    for (column, owner) in bench.linear.owners.iter().enumerate() {
+    let roles = design.estimating();
+    let fit = design.fit_roles(&roles);
+    let covariance = design.covariance(&roles, &fit);
+    let named: Vec<usize> = (from..design.state.active.len()).filter(|i| design.state.active[*i].worth()).collect();
+    for (column, owner) in design.linear.owners.iter().enumerate() {
         let Owner::Active(index, j) = *owner else { continue };
-        let active = &bench.state.active[index];
+        let active = &design.state.active[index];
         let p = &active.form.free[j];
         if index < from || active.effect.probe() || !p.material.is_finite() || p.below.is_some() {
             continue;
         }
         let sd = covariance[(column, column)].max(0.0).sqrt();
-        let mut without = bench.roles();
+        let mut without = design.roles();
         without[column] = Role::Held(thresholds.held_share * p.material, 0.0);
         let least = gates.least(column, &without, active.form.free.len(), p.material);
         add(active.effect.name(), p, 1.0, active.values.get(&p.name), sd, least);
     }
-    for (c, candidate) in bench.candidates.iter().enumerate() {
-        let wheels = bench.state.robot.wheel_count();
-        let known = bench.state.active.iter().any(|a| a.effect.name() == candidate.effect.name());
+    for (c, candidate) in design.candidates.iter().enumerate() {
+        let wheels = design.state.robot.wheel_count();
+        let known = design.state.active.iter().any(|a| a.effect.name() == candidate.effect.name());
         // Beside its twin it has no size of its own.
-        let twin = || named.iter().any(|i| bench.is_twin(c, *i));
+        let twin = || named.iter().any(|i| design.is_twin(c, *i));
         if known || candidate.effect.probe() || candidate.form.free.len() > wheels.max(3) || twin() {
             continue;
         }
-        let roles = bench.freeing(&[c]);
-        let fit = bench.fit(&[c]);
-        let covariance = bench.covariance(&roles, &fit);
-        let columns = bench.linear.of_candidate(c);
+        let roles = design.freeing(&[c]);
+        let fit = design.fit(&[c]);
+        let covariance = design.covariance(&roles, &fit);
+        let columns = design.linear.of_candidate(c);
         for (j, p) in
             candidate.form.free.iter().enumerate().filter(|(_, p)| p.material.is_finite() && p.below.is_none())
         {
@@ -106,8 +106,8 @@ pub(crate) fn limits(link: Link, bench: &Bench, from: usize, thresholds: &Thresh
             let sd = covariance[(column, column)].max(0.0).sqrt();
             // The column of an effect that is switched on stands for its start value.
             let unit = if candidate.switched() { p.start.unwrap_or(1.0).abs() } else { 1.0 };
-            let margin = (p.material / unit).max(bench.margin(c, j));
-            let least = gates.least(column, &bench.roles(), candidate.form.free.len(), margin);
+            let margin = (p.material / unit).max(design.margin(c, j));
+            let least = gates.least(column, &design.roles(), candidate.form.free.len(), margin);
             add(candidate.effect.name(), p, unit, fit.step[column], sd, least);
         }
     }

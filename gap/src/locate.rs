@@ -5,7 +5,7 @@ use crate::effect::Link;
 use crate::exact::ExactLink;
 use crate::inertial::Fit;
 use crate::motion::{MotionLink, WindowResiduals};
-use crate::statistics::rms;
+use estimation::statistics::rms;
 
 /// Where the model and the data part.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64],
             };
             let (ahead, back) = (mean(&|b| speed[b] > 0.0), mean(&|b| speed[b] < 0.0));
             let mut fast: Vec<f64> = used.iter().map(|(b, _)| speed[*b].abs()).collect();
-            let middle = crate::statistics::median(&mut fast);
+            let middle = estimation::statistics::median(&mut fast);
             let along = |keep: &dyn Fn(usize) -> bool| {
                 let part: Vec<f64> = used.iter().filter(|(b, _)| keep(*b)).map(|(b, t)| t * speed[*b].signum()).collect();
                 if part.is_empty() { 0.0 } else { 1e3 * part.iter().sum::<f64>() / part.len() as f64 }

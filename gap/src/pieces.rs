@@ -22,7 +22,7 @@ const FEWEST: usize = 8;
 /// Ticks of a piece of a long stretch; one that is a quarter longer is not cut.
 pub const PIECE: usize = 1 << 16;
 /// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
-/// and behind: a window of camera frames, a bump.
+/// and behind: a window of camera frames, a test function.
 const BEFORE: usize = 1 << 12;
 const BEHIND: usize = 1 << 12;
 /// Segments, in pieces' lengths, that are kept once they are derived; of the others only the last ones.

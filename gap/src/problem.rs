@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::drive::{DriveLink, DriveModel, Side};
 use crate::effect::{Effect, Link, Parameter, Sizes};
-use crate::gram::{Cluster, Gram};
 use crate::motion::{MotionLink, MotionModel};
 use crate::state::{Active, State};
+use estimation::normal_equations::{Cluster, NormalEquations};
 
 /// A link of a data set that can be linearised about any state.
 pub enum Problem<'a> {
@@ -31,7 +31,7 @@ pub enum Owner {
 /// A linearisation.
 pub struct Linear {
     /// Condensed residuals and columns.
-    pub gram: Gram,
+    pub equations: NormalEquations,
     /// Owner of each column.
     pub owners: Vec<Owner>,
 }
@@ -178,7 +178,7 @@ impl Problem<'_> {
         } else {
             clusters.into_iter().map(|c| c.spread(&column_of)).collect()
         };
-        Linear { gram: Gram::new(clusters), owners }
+        Linear { equations: NormalEquations::new(clusters), owners }
     }
 
     /// All of a state that is no load in proportion to its parameters, and so changes what loads do.
@@ -221,12 +221,12 @@ impl Problem<'_> {
     }
 
     /// Residuals alone.
-    pub fn linearise_nothing(&self, state: &State) -> Gram {
+    pub fn linearise_nothing(&self, state: &State) -> NormalEquations {
         let clusters = match self {
             Self::Motion(link) => link.linearise(&state.motion(None), &[]),
             Self::Drive(link) => link.linearise(&state.drive(None), &[]),
         };
-        Gram::new(clusters)
+        NormalEquations::new(clusters)
     }
 
     /// Fits the active effects of this link by Gauss-Newton, in place; the loss reached.
@@ -238,7 +238,7 @@ impl Problem<'_> {
             if columns.is_empty() {
                 break;
             }
-            let step = linear.gram.solve(&columns).step;
+            let step = linear.equations.solve(&columns);
             let mut accepted = false;
             let mut largest = 0.0_f64;
             for halving in 0..5 {

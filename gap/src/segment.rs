@@ -56,7 +56,8 @@ pub struct Segment {
     /// The ticks that are looked at; those before and behind belong to its neighbours in the log and are here for what
     /// reaches over.
     pub own: std::ops::Range<usize>,
-    /// Times from which and before which its own ticks, windows and bumps begin, s; infinite at the ends of a stretch.
+    /// Times from which and before which its own ticks, windows and test functions begin, s; infinite at the ends of a
+    /// stretch.
     pub span: [f64; 2],
     /// First and last time of the stretch without gaps that it is cut from, s.
     pub stretch: [f64; 2],

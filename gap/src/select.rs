@@ -1,10 +1,10 @@
 //! Selection: which effects must be named for a link, and which are there but immaterial.
 
-mod bench;
+mod alternatives;
+mod design;
 mod gates;
 mod join;
 mod plain;
-mod rivals;
 mod sure;
 mod undecided;
 
@@ -14,20 +14,20 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
-use crate::gram::Gram;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::{AS_WELL, FAR_LEFT, FROM_NOISE, UNDECIDED, decided};
+use estimation::normal_equations::NormalEquations;
 
 use gates::Gates;
 use join::join;
 
 pub use crate::candidates::candidates;
 pub use crate::state::is_material;
-pub use bench::{Bench, Trial};
+pub use alternatives::{Alternatives, alternatives, figures, sign_flip};
+pub use design::{Design, Trial};
 pub(crate) use plain::{held_out, plain};
-pub use rivals::{Rivals, figures, rivals, sign_flip};
 pub use sure::estimates;
 pub(crate) use undecided::undecided;
 
@@ -51,7 +51,7 @@ pub struct Selection {
     /// The state with the named (and the freed immaterial) effects.
     pub state: State,
     /// Linearised about it.
-    pub bench: Bench,
+    pub design: Design,
     /// Sum of squares left, in units of the assumed noise.
     pub loss: f64,
     /// Penalty of what is held near zero, and cost of what is named.
@@ -64,7 +64,7 @@ impl Selection {
     /// Difference of the objectives of two selections, under one variance; negative if this is
     /// the better one.
     fn against(&self, other: &Self) -> f64 {
-        let variance = self.bench.variance.min(other.bench.variance);
+        let variance = self.design.variance.min(other.design.variance);
         (self.loss - other.loss) / variance + self.costs - other.costs
     }
 }
@@ -92,7 +92,7 @@ pub fn select(
 
 /// RMS of the residuals in units of the noise.
 fn raw(found: &Selection) -> f64 {
-    let (square, n) = found.bench.linear.gram.plain();
+    let (square, n) = found.design.linear.equations.plain();
     (square / n.max(1.0)).sqrt()
 }
 
@@ -116,8 +116,8 @@ fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], 
     let best = if known.is_empty() {
         first(problem, start, all, thresholds)
     } else {
-        let bench = beginning(problem, start, known, all, thresholds);
-        forward(problem, bench, from, all, thresholds)
+        let design = beginning(problem, start, known, all, thresholds);
+        forward(problem, design, from, all, thresholds)
     };
     let best = backward(problem, best, from, all, thresholds);
     let (best, swapped) = swap(problem, best, from, all, thresholds);
@@ -129,7 +129,7 @@ fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], 
 /// The best of a greedy search and of one that begins with a pair or triple.
 fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Thresholds) -> Selection {
     let from = start.active.len();
-    let first = Bench::new(problem, start, all, thresholds);
+    let first = Design::new(problem, start, all, thresholds);
     // A pair or triple that a greedy search may miss, from the first linearisation.
     let subset: Vec<Active> = short_subset(&first, thresholds).map_or_else(Vec::new, |s| {
         let fit = first.fit(&s);
@@ -143,16 +143,16 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
         return best;
     }
     let larger = subset.len() > greedy.len();
-    let bench = beginning(problem, start, &subset, all, thresholds);
-    let other = forward(problem, bench, from, all, thresholds);
+    let design = beginning(problem, start, &subset, all, thresholds);
+    let other = forward(problem, design, from, all, thresholds);
     // What is larger must also stand on the held-out runs, every part of it beside the others.
     let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
     if better && stands() && !problem.runs_away(&other.state, &best.state) { other } else { best }
 }
 
-/// The bench from which effects that are given go on.
-fn beginning(problem: &Problem, start: &State, given: &[Active], all: &[Active], thresholds: &Thresholds) -> Bench {
+/// The design from which effects that are given go on.
+fn beginning(problem: &Problem, start: &State, given: &[Active], all: &[Active], thresholds: &Thresholds) -> Design {
     let mut state = start.clone();
     state.active.extend_from_slice(given);
     settle(problem, &mut state, all, thresholds)
@@ -162,13 +162,13 @@ fn beginning(problem: &Problem, start: &State, given: &[Active], all: &[Active],
 fn admitted(problem: &Problem, found: &Selection, index: usize, all: &[Active], thresholds: &Thresholds) -> bool {
     let mut without = found.state.clone();
     let own = without.active.remove(index);
-    let bench = Bench::new(problem, &without, all, thresholds);
+    let design = Design::new(problem, &without, all, thresholds);
     let is_own = |t: &Trial| {
-        let c = &bench.candidates[t.candidate];
+        let c = &design.candidates[t.candidate];
         c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
     };
-    let gates = Gates::new(problem.link(), &bench, thresholds);
-    bench.trials(thresholds).iter().any(|t| is_own(t) && t.gain >= thresholds.gain && gates.pass(t))
+    let gates = Gates::new(problem.link(), &design, thresholds);
+    design.trials(thresholds).iter().any(|t| is_own(t) && t.gain >= thresholds.gain && gates.pass(t))
 }
 
 /// The one effect that explains most where nothing may be adjusted but what is tiny: for a gap that matters
@@ -181,19 +181,19 @@ pub fn single(
 ) -> Option<Selection> {
     let all = problem.candidates(start, catalogue);
     let narrow = thresholds.narrow();
-    let bench = Bench::new(problem, start, &all, &narrow);
-    let best = next(problem.link(), &bench, &narrow, &[])?;
+    let design = Design::new(problem, start, &all, &narrow);
+    let best = next(problem.link(), &design, &narrow, &[])?;
     // A little of something else may explain as much; then what is large enough to have a name stands for both.
     let mut refused = Vec::new();
     let mut material = Some(best.clone());
     while let Some(t) = material.as_ref().filter(|t| !t.material) {
         refused.push(t.candidate);
-        material = next(problem.link(), &bench, &narrow, &refused);
+        material = next(problem.link(), &design, &narrow, &refused);
     }
     let as_good = |t: &Trial| !t.beyond && t.gain >= best.gain - narrow.tie(best.gain);
     let best = material.filter(as_good)?;
     let mut state = start.clone();
-    state.active.push(placed(&bench.candidates[best.candidate], &best.values));
+    state.active.push(placed(&design.candidates[best.candidate], &best.values));
     // Estimated as it was found: a margin of what is not named would be as wide as the effect.
     let settled = settle(problem, &mut state, &all, &narrow);
     let found = finish(state, settled, start.active.len(), &narrow);
@@ -216,22 +216,22 @@ fn swap(
         let mut without = best.state.clone();
         let own = without.active.remove(index);
         let rank = |name: &str| all.iter().position(|c| c.effect.name() == name).unwrap_or(usize::MAX);
-        let bench = Bench::new(problem, &without, all, thresholds);
-        let trials = bench.trials(thresholds);
+        let design = Design::new(problem, &without, all, thresholds);
+        let trials = design.trials(thresholds);
         let gain_of_own = trials
             .iter()
-            .filter(|t| bench.candidates[t.candidate].effect.name() == own.effect.name())
+            .filter(|t| design.candidates[t.candidate].effect.name() == own.effect.name())
             .map(|t| t.gain)
             .fold(0.0, f64::max);
         // Laws that leave much above the noise are not exact enough to decide by little.
-        let (square, n) = best.bench.linear.gram.plain();
-        let open = UNDECIDED * (square - n).max(0.0) / best.bench.variance;
+        let (square, n) = best.design.linear.equations.plain();
+        let open = UNDECIDED * (square - n).max(0.0) / best.design.variance;
         let far = raw(&best) > FAR_LEFT && problem.link() == Link::Drive;
         let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
         let most = if far { 8 } else { 3 };
         let mut tried: Vec<&str> = vec![own.effect.name()];
         for t in &trials {
-            let candidate = &bench.candidates[t.candidate];
+            let candidate = &design.candidates[t.candidate];
             let name = candidate.effect.name();
             if t.gain < gain_of_own - tie.max(12.0 + 0.1 * gain_of_own.abs()) || tried.len() > most {
                 break;
@@ -243,18 +243,18 @@ fn swap(
             let mut state = without.clone();
             state.active.insert(index, placed(candidate, &t.values));
             let settled = settle(problem, &mut state, all, thresholds);
-            let rival = finish(state, settled, from, thresholds);
+            let alternative = finish(state, settled, from, thresholds);
             let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
-            // What leaves far more than another law of no more parameters is not chosen, however it looks with everything
-            // else adjusted.
+            // What leaves far more than another law of no more parameters is not chosen, however it looks with
+            // everything else adjusted.
             let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];
-            if fewer <= more && leaves_far_more(problem, &rival, &best) {
+            if fewer <= more && leaves_far_more(problem, &alternative, &best) {
                 continue;
             }
-            let clear = more <= fewer && leaves_far_more(problem, &best, &rival);
+            let clear = more <= fewer && leaves_far_more(problem, &best, &alternative);
             let needed = if simpler || clear { tie } else { -tie };
-            if rival.against(&best) < needed && !problem.runs_away(&rival.state, &without) {
-                best = rival;
+            if alternative.against(&best) < needed && !problem.runs_away(&alternative.state, &without) {
+                best = alternative;
                 changed = true;
                 break;
             }
@@ -264,12 +264,12 @@ fn swap(
 }
 
 /// The best pair or triple by the linear objective.
-fn short_subset(bench: &Bench, thresholds: &Thresholds) -> Option<Vec<usize>> {
-    let trials = bench.trials(thresholds);
+fn short_subset(design: &Design, thresholds: &Thresholds) -> Option<Vec<usize>> {
+    let trials = design.trials(thresholds);
     let mut list: Vec<usize> = Vec::new();
     for t in trials.iter().filter(|t| t.gain > 0.0) {
-        let name = bench.candidates[t.candidate].effect.name();
-        if list.iter().filter(|c| bench.candidates[**c].effect.name() == name).count() < 2 {
+        let name = design.candidates[t.candidate].effect.name();
+        if list.iter().filter(|c| design.candidates[**c].effect.name() == name).count() < 2 {
             list.push(t.candidate);
         }
         if list.len() == SHORT_LIST {
@@ -287,44 +287,44 @@ fn short_subset(bench: &Bench, thresholds: &Thresholds) -> Option<Vec<usize>> {
     }
     let distinct = |s: &Vec<usize>| {
         s.iter().enumerate().all(|(i, a)| {
-            s.iter().skip(i + 1).all(|b| bench.candidates[*a].effect.name() != bench.candidates[*b].effect.name())
+            s.iter().skip(i + 1).all(|b| design.candidates[*a].effect.name() != design.candidates[*b].effect.name())
         })
     };
     let rated: Vec<(f64, Vec<usize>)> = subsets
         .into_par_iter()
         .filter(distinct)
         .filter_map(|s| {
-            let fit = bench.fit(&s);
+            let fit = design.fit(&s);
             let sound = s.iter().all(|c| {
-                let v = bench.values(&fit, *c);
-                bench.within_bounds(*c, &v, &fit) && bench.material(*c, &v)
+                let v = design.values(&fit, *c);
+                design.within_bounds(*c, &v, &fit) && design.material(*c, &v)
             });
-            sound.then(|| (bench.objective(&fit, &s, thresholds), s))
+            sound.then(|| (design.objective(&fit, &s, thresholds), s))
         })
         .collect();
     rated.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|r| r.1)
 }
 
-/// Adds effects one after the other to those of a bench, those before `from` not its own.
-fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
-    let mut state = bench.state.clone();
+/// Adds effects one after the other to those of a design, those before `from` not its own.
+fn forward(problem: &Problem, mut design: Design, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
+    let mut state = design.state.clone();
     let mut refused: Vec<usize> = Vec::new();
     let mut beyond: Vec<usize> = Vec::new();
     loop {
         while state.active.len() - from < MOST {
-            let Some(next) = next(problem.link(), &bench, thresholds, &refused) else { break };
-            let mut active = placed(&bench.candidates[next.candidate], &next.values);
+            let Some(next) = next(problem.link(), &design, thresholds, &refused) else { break };
+            let mut active = placed(&design.candidates[next.candidate], &next.values);
             active.immaterial = !next.material;
             let mut larger = state.clone();
             // A richer form of the same effect takes its place.
             larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
             larger.active.push(active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &bench, from, thresholds) || problem.runs_away(&larger, &state) {
+            if !improves(&settled, &design, from, thresholds) || problem.runs_away(&larger, &state) {
                 refused.push(next.candidate);
                 continue;
             }
-            (state, bench) = (larger, settled);
+            (state, design) = (larger, settled);
             if next.beyond {
                 beyond.push(next.candidate);
             }
@@ -339,9 +339,9 @@ fn forward(problem: &Problem, mut bench: Bench, from: usize, all: &[Active], thr
         if let Some(known) = led(&state.active.remove(index)) {
             refused.push(beyond.swap_remove(known));
         }
-        bench = settle(problem, &mut state, all, thresholds);
+        design = settle(problem, &mut state, all, thresholds);
     }
-    finish(state, bench, from, thresholds)
+    finish(state, design, from, thresholds)
 }
 
 /// Whether an effect rests at a bound that is not its absence: what only helps beyond it explains nothing.
@@ -353,11 +353,11 @@ pub(crate) fn stopped(active: &Active) -> bool {
 }
 
 /// Whether a straight line's promise is kept by the fit.
-fn improves(larger: &Bench, smaller: &Bench, from: usize, thresholds: &Thresholds) -> bool {
+fn improves(larger: &Design, smaller: &Design, from: usize, thresholds: &Thresholds) -> bool {
     let variance = larger.variance.min(smaller.variance);
-    let objective = |bench: &Bench| {
-        let fit = bench.standing();
-        bench.linear.gram.loss_after(&fit.step) / variance + fit.penalty + cost(&bench.state, from, thresholds)
+    let objective = |design: &Design| {
+        let fit = design.standing();
+        design.linear.equations.loss_after(&fit.step) / variance + fit.penalty + cost(&design.state, from, thresholds)
     };
     objective(larger) < objective(smaller)
 }
@@ -367,21 +367,27 @@ fn cost(state: &State, from: usize, thresholds: &Thresholds) -> f64 {
     state.active[from..].iter().filter(|a| !a.given).map(|a| thresholds.cost(a.form.free.len())).sum()
 }
 
-fn finish(state: State, bench: Bench, from: usize, thresholds: &Thresholds) -> Selection {
-    let fit = bench.near();
+fn finish(state: State, design: Design, from: usize, thresholds: &Thresholds) -> Selection {
+    let fit = design.near();
     let costs = cost(&state, from, thresholds);
-    Selection { loss: bench.linear.gram.loss_after(&fit.step), costs: fit.penalty + costs, state, bench, bare: false }
+    Selection {
+        loss: design.linear.equations.loss_after(&fit.step),
+        costs: fit.penalty + costs,
+        state,
+        design,
+        bare: false,
+    }
 }
 
 /// A selection in which nothing is adjusted beside what is named.
 fn finish_bare(problem: &Problem, state: State, from: usize, all: &[Active], thresholds: &Thresholds) -> Selection {
-    let bench = Bench::new(problem, &state, all, thresholds);
-    Selection { bare: true, ..finish(state, bench, from, thresholds) }
+    let design = Design::new(problem, &state, all, thresholds);
+    Selection { bare: true, ..finish(state, design, from, thresholds) }
 }
 
 /// The same clusters with parts of the runs as folds.
-fn in_parts(gram: &Gram, parts: usize) -> Gram {
-    gram.with_folds(|i| i % parts)
+fn in_parts(equations: &NormalEquations, parts: usize) -> NormalEquations {
+    equations.with_folds(|i| i % parts)
 }
 
 /// A selection with some of its own effects taken out, the others fitted anew.
@@ -403,8 +409,8 @@ pub(crate) fn without(
         problem.fit(&mut state);
         return finish_bare(problem, state, from, all, thresholds);
     }
-    let bench = settle(problem, &mut state, all, thresholds);
-    finish(state, bench, from, thresholds)
+    let design = settle(problem, &mut state, all, thresholds);
+    finish(state, design, from, thresholds)
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {
@@ -416,34 +422,34 @@ fn placed(candidate: &Active, values: &[f64]) -> Active {
 }
 
 /// Refits the active effects together with everything held near zero.
-fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thresholds) -> Bench {
+fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thresholds) -> Design {
     problem.fit(state);
-    let mut bench = Bench::new(problem, state, all, thresholds);
+    let mut design = Design::new(problem, state, all, thresholds);
     for _ in 1..ROUNDS {
-        let fit = bench.base();
-        let Some(next) = stepped(problem, &bench, &fit.step, all, thresholds) else { break };
+        let fit = design.base();
+        let Some(next) = stepped(problem, &design, &fit.step, all, thresholds) else { break };
         *state = next.state.clone();
-        bench = next;
+        design = next;
     }
-    bench
+    design
 }
 
-/// The bench after a step of the named effects, or the half or a quarter of it, that does better; `None` if none
+/// The design after a step of the named effects, or the half or a quarter of it, that does better; `None` if none
 /// does, or the step is too small to matter.
 fn stepped(
     problem: &Problem,
-    bench: &Bench,
+    design: &Design,
     step: &DVector<f64>,
     all: &[Active],
     thresholds: &Thresholds,
-) -> Option<Bench> {
+) -> Option<Design> {
     for part in [1.0, 0.5, 0.25] {
         let mut largest = 0.0_f64;
-        let mut trial = bench.state.clone();
-        for (j, owner) in bench.linear.owners.iter().enumerate() {
+        let mut trial = design.state.clone();
+        for (j, owner) in design.linear.owners.iter().enumerate() {
             let Owner::Active(index, parameter) = owner else { continue };
-            let p = &bench.state.active[*index].form.free[*parameter];
-            let now = bench.state.active[*index].values.get(&p.name);
+            let p = &design.state.active[*index].form.free[*parameter];
+            let now = design.state.active[*index].values.get(&p.name);
             let next = (now + part * step[j]).clamp(p.bounds[0], p.bounds[1]);
             largest = largest.max((next - now).abs() / p.scale);
             trial.active[*index].values.set(&p.name, next);
@@ -451,13 +457,13 @@ fn stepped(
         if largest < 0.02 {
             return None;
         }
-        let next = Bench::new(problem, &trial, all, thresholds);
-        let variance = bench.variance.min(next.variance);
-        let standing = |b: &Bench| {
+        let next = Design::new(problem, &trial, all, thresholds);
+        let variance = design.variance.min(next.variance);
+        let standing = |b: &Design| {
             let fit = b.standing();
-            b.linear.gram.loss_after(&fit.step) / variance + fit.penalty
+            b.linear.equations.loss_after(&fit.step) / variance + fit.penalty
         };
-        if standing(&next) < standing(bench) {
+        if standing(&next) < standing(design) {
             return Some(next);
         }
     }
@@ -465,14 +471,14 @@ fn stepped(
 }
 
 /// The next effect to add, if any passes the gates.
-fn next(link: Link, bench: &Bench, thresholds: &Thresholds, refused: &[usize]) -> Option<Trial> {
-    let gates = Gates::new(link, bench, thresholds);
+fn next(link: Link, design: &Design, thresholds: &Thresholds, refused: &[usize]) -> Option<Trial> {
+    let gates = Gates::new(link, design, thresholds);
     // What is too small to be named brings no parameter along that nothing holds.
     let loose = |t: &Trial| {
-        let free = &bench.candidates[t.candidate].form.free;
+        let free = &design.candidates[t.candidate].form.free;
         !t.material && free.iter().any(|p| p.material.is_infinite())
     };
-    let tried = bench.trials(thresholds).into_iter().filter(|t| !refused.contains(&t.candidate)).take(8);
+    let tried = design.trials(thresholds).into_iter().filter(|t| !refused.contains(&t.candidate)).take(8);
     // Where the straight line leads out of bounds its gain is a rough guess.
     let sure = |t: &Trial| !t.beyond || t.gain > 2.0 * STRONG;
     tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && sure(t) && gates.pass(t))
@@ -485,10 +491,10 @@ fn backward(problem: &Problem, mut best: Selection, from: usize, all: &[Active],
         for index in (from..best.state.active.len()).rev() {
             let mut smaller = best.state.clone();
             let removed = smaller.active.remove(index);
-            let mut rivals: Vec<State> = Vec::new();
+            let mut alternatives: Vec<State> = Vec::new();
             // Far from worthwhile in the linear approximation is not worth a refit.
-            if best.bench.loss_without(index, &[], thresholds) < FAR {
-                rivals.push(smaller.clone());
+            if best.design.loss_without(index, &[], thresholds) < FAR {
+                alternatives.push(smaller.clone());
             }
             // Simpler forms of the same effect, from the same values.
             for c in all.iter().filter(|c| c.effect.name() == removed.effect.name()) {
@@ -497,18 +503,18 @@ fn backward(problem: &Problem, mut best: Selection, from: usize, all: &[Active],
                 {
                     let values: Vec<f64> = c.form.free.iter().map(|p| removed.values.get(&p.name)).collect();
                     let keep: Vec<String> = c.form.free.iter().map(|p| p.name.clone()).collect();
-                    if is_material(c, &values) && best.bench.loss_without(index, &keep, thresholds) < FAR {
+                    if is_material(c, &values) && best.design.loss_without(index, &keep, thresholds) < FAR {
                         let mut s = smaller.clone();
                         s.active.push(placed(c, &values));
-                        rivals.push(s);
+                        alternatives.push(s);
                     }
                 }
             }
-            for mut rival in rivals {
-                let bench = settle(problem, &mut rival, all, thresholds);
-                let rival = finish(rival, bench, from, thresholds);
-                if rival.against(&best) < thresholds.slack {
-                    best = rival;
+            for mut alternative in alternatives {
+                let design = settle(problem, &mut alternative, all, thresholds);
+                let alternative = finish(alternative, design, from, thresholds);
+                if alternative.against(&best) < thresholds.slack {
+                    best = alternative;
                     improved = true;
                     break;
                 }

@@ -13,9 +13,9 @@ pub const PEAK_OF_RMS: f64 = 1.75;
 /// grip) must lie above that.
 pub const GRIP: f64 = 0.43;
 
-/// Share of the drive's torque that wheels lose as they roll, which no file of a robot gives and no name is due to: rollers
-/// and contacts of omni wheels lose 0.005 to 0.011 of the load, one to three hundredths of [`GRIP`] (the same engine); on
-/// the simulator, whose truth has both, 2.4 % of it remain on the example set once its skews are named.
+/// Share of the drive's torque that wheels lose as they roll, which no file of a robot gives and no name is due to:
+/// rollers and contacts of omni wheels lose 0.005 to 0.011 of the load, one to three hundredths of [`GRIP`] (the same
+/// engine); on the simulator, whose truth has both, 2.4 % of it remain on the example set once its skews are named.
 pub const ROLLING_LOSES: f64 = 0.02;
 
 /// Speed of a drive in shares of its no-load speed, where no log tells: that of the simulator's manoeuvres.
@@ -24,16 +24,17 @@ pub const USUAL_SPEED: f64 = 0.06;
 /// Speed about 0 within which friction turns round, as a share of the speed of the log: 0.4 rad/s where wheels turn at
 /// 17 (four example sets).
 pub const TURNS_ROUND: f64 = 0.0235;
-/// The same in counts within the smoothing of a speed: below that the sign of a speed is noise. Three of them, on motors
-/// with 12 counts a turn, took slow turning for standing: the dry friction that the file has was then missed near rest,
-/// and named as friction of Stribeck on 4 of 6 simulated controls; with one count, on none.
+/// The same in counts within the smoothing of a speed: below that the sign of a speed is noise. Three of them, on
+/// motors with 12 counts a turn, took slow turning for standing: the dry friction that the file has was then missed
+/// near rest, and named as friction of Stribeck on 4 of 6 simulated controls; with one count, on none.
 pub const TURNS_ROUND_COUNTS: f64 = 1.0;
 /// Speed below which a wheel may stick, in units of the above: tanh(0.9) is 0.7 of the friction.
 pub const STUCK: f64 = 0.9;
-/// Torque of static friction that may have acted in a bump, as its share of the bump in which the wheel may have stuck
-/// times its size, from which the bump says nothing of the wheel: one standard deviation of the noise.
+/// Torque of static friction that may have acted in a test function, as its share of the test function in which the
+/// wheel may have stuck times its size, from which the test function says nothing of the wheel: one standard deviation
+/// of the noise.
 pub const STICKS: f64 = 1.0;
-/// Share of the bumps that must go for that before what is named is looked at again without them.
+/// Share of the test functions that must go for that before what is named is looked at again without them.
 pub const STICKS_OFTEN: f64 = 0.02;
 /// Speed of a contact over which rolling and sliding friction turn round, in the same units at the rim of the wheel.
 pub const SLIDES: f64 = 0.9;
@@ -51,17 +52,18 @@ pub const ROWS_APART: f64 = 1.5;
 pub const FAR_LEFT: f64 = 3.0;
 /// Residuals up to which the outcome of that is as good.
 pub const AS_WELL: f64 = 1.15;
-/// Share of what a law leaves above the noise, beyond that many floors, within which another law is as good: on the same
-/// robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
+/// Share of what a law leaves above the noise, beyond that many floors, within which another law is as good: on the
+/// same robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
 pub const UNDECIDED: f64 = 0.3;
 
 /// Floors from which a law that leaves them is far from the noise beside one that does not: a motor of 12 counts a turn
 /// whose torque constant was 13 % off left 2.0 by viscous friction and 1.1 by the torque constant.
 pub const FROM_NOISE: f64 = 1.5;
 
-/// Whether the floors left of one law speak against it beside those that another one of no more parameters leaves, however
-/// much both explain: far from the noise, where the other is hardly above it. A servo whose torque constant was 17 % off
-/// (500 floors) was explained to 1 % by viscous friction, which left 26 floors where the torque constant left 0.9.
+/// Whether the floors left of one law speak against it beside those that another one of no more parameters leaves,
+/// however much both explain: far from the noise, where the other is hardly above it. A servo whose torque constant was
+/// 17 % off (500 floors) was explained to 1 % by viscous friction, which left 26 floors where the torque constant left
+/// 0.9.
 pub fn decided(worse: f64, better: f64) -> bool {
     let excess = |floors: f64| (floors * floors - 1.0).max(0.0);
     worse > FROM_NOISE && excess(better) < UNDECIDED * excess(worse)

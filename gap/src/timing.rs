@@ -52,7 +52,7 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
     }
     let evidence = Evidence::Test {
         method: "chi-squared of the stamps' scatter against rounding to ticks",
-        p: crate::statistics::chi2_upper(n * (scatter / floor).powi(2), n).max(f64::MIN_POSITIVE),
+        p: estimation::statistics::chi2_upper(n * (scatter / floor).powi(2), n).max(f64::MIN_POSITIVE),
     };
     let finding =
         named.then(|| Finding { link: Link::Timing, name: "camera-timing", wheels: Vec::new(), parameters, evidence });

@@ -8,8 +8,21 @@ use std::process::Command;
 use testbench::repository;
 
 /// Crates whose files are looked at, by folder.
-const CRATES: [&str; 12] =
-    ["fixed-kin", "runs", "plot", "bitstream", "model", "hdl", "driver", "gap", "simulator", "ssl", "vision", "racbot"];
+const CRATES: [&str; 13] = [
+    "fixed-kin",
+    "runs",
+    "plot",
+    "estimation",
+    "bitstream",
+    "model",
+    "hdl",
+    "driver",
+    "gap",
+    "simulator",
+    "ssl",
+    "vision",
+    "racbot",
+];
 /// Lines after which a file is more than one idea.
 const LONGEST: usize = 800;
 /// Half of all files are at most so long.

@@ -18,13 +18,13 @@ pub struct Moment {
     pub late: bool,
 }
 
-/// What was driven at the frames and bumps of a data set.
+/// What was driven at the frames and test functions of a data set.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Driven {
     /// `[window][frame]`, of the robot.
     pub frames: Vec<Vec<Option<Moment>>>,
-    /// `[bump][wheel]`.
-    pub bumps: Vec<Vec<Moment>>,
+    /// `[test function][wheel]`.
+    pub test_functions: Vec<Vec<Moment>>,
     /// Places at which the camera saw the robot in the first pieces of the runs, m; and the run of each piece.
     pub seen: Vec<(usize, Vec<[f64; 2]>)>,
 }
@@ -57,7 +57,7 @@ impl Driven {
         windows.iter().map(|w| w.t.iter().map(|t| moment(w.run, *t)).collect()).collect()
     }
 
-    pub(super) fn at_bumps(link: &DriveLink) -> Vec<Vec<Moment>> {
+    pub(super) fn at_test_functions(link: &DriveLink) -> Vec<Vec<Moment>> {
         link.at_middles(|s, k| {
             let (from, to) = (k.saturating_sub(AROUND), (k + AROUND).min(s.t.len() - 1));
             let of = |w: &Vec<f64>| Moment { speed: w[k], gain: w[to].abs() - w[from].abs(), late: s.is_late(k) };

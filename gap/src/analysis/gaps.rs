@@ -33,7 +33,7 @@ pub struct LinkGap {
 pub(super) fn motion_gap([before, after]: [f64; 2], noise: [f64; 3], plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
     let rms = |side: usize, i: usize| {
         noise[i]
-            * crate::statistics::rms(
+            * estimation::statistics::rms(
                 plots[side]
                     .iter()
                     .flat_map(|w| w.residuals.iter().zip(&w.weights))
@@ -67,7 +67,7 @@ pub(super) fn inertial_gap(link: Link, before: &[Fit], after: &[Fit]) -> LinkGap
 pub(super) fn drive_gap([before, after]: [f64; 2], floor: &[f64], plots: &[DriveResiduals; 2]) -> LinkGap {
     let rms = |side: usize, i: usize| {
         let d = &plots[side];
-        crate::statistics::rms(d.torque.iter().zip(&d.weights).filter(|(_, w)| w[i] > 0.0).map(|(t, _)| t[i]))
+        estimation::statistics::rms(d.torque.iter().zip(&d.weights).filter(|(_, w)| w[i] > 0.0).map(|(t, _)| t[i]))
     };
     LinkGap {
         link: Link::Drive,
@@ -82,7 +82,7 @@ pub(super) fn drive_gap([before, after]: [f64; 2], floor: &[f64], plots: &[Drive
 
 pub(super) fn exact_gap(link: &ExactLink) -> LinkGap {
     let figure = |e: &[f64]| {
-        crate::statistics::rms(
+        estimation::statistics::rms(
             e.iter().map(|x| if link.link == Link::Timing { x / link.floor } else { 1.0 + x / link.floor }),
         )
     };
@@ -108,8 +108,8 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
 pub(super) const FAR: f64 = 3.0;
-/// What matters within a window of motion, as a share of what its wheels rolled, and of the turn they could have made of
-/// it: 4 mm and 0.02 rad where wheels roll 0.42 m in a second, 8 cm from the centre (four example sets).
+/// What matters within a window of motion, as a share of what its wheels rolled, and of the turn they could have made
+/// of it: 4 mm and 0.02 rad where wheels roll 0.42 m in a second, 8 cm from the centre (four example sets).
 const MATTERS: [f64; 2] = [0.0095, 0.0038];
 
 /// Gap of the motion link that matters, in noise floors.
@@ -131,7 +131,7 @@ pub(super) fn drive_floor(link: &DriveLink, scatter: &[f64]) -> Vec<f64> {
 
 /// The RMS of that floor in units of the scatter.
 pub(super) fn floor_of_scatter(link: &DriveLink, scatter: &[f64]) -> f64 {
-    let rms = |nm: &[f64]| crate::statistics::rms(nm.iter().copied());
+    let rms = |nm: &[f64]| estimation::statistics::rms(nm.iter().copied());
     rms(&drive_floor(link, scatter)) / rms(scatter)
 }
 
@@ -161,7 +161,10 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit]) -> Opti
     })?;
     let names = |i: usize| match link.link {
         Link::Motion => ["cam_x", "cam_y", "cam_theta"][i].to_owned(),
-        Link::Gyroscope | Link::Accelerometer => felt.iter().filter(|f| f.channel.link() == link.link).nth(i)
+        Link::Gyroscope | Link::Accelerometer => felt
+            .iter()
+            .filter(|f| f.channel.link() == link.link)
+            .nth(i)
             .map_or_else(String::new, |f| f.channel.column().to_owned()),
         _ => format!("enc_{}", i + 1),
     };

@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use estimation::normal_equations::NormalEquations;
+
 use runs::Log;
 use runs::robot::Robot;
 
@@ -11,7 +13,6 @@ use super::study::rms;
 use super::{Driven, LinkGap, Misses, gaps};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link};
-use crate::gram::Gram;
 use crate::inertial::{self, Fit, InertialLink};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::pieces::Pieces;
@@ -135,7 +136,7 @@ impl<'a> Data<'a> {
             driven: Driven::default(),
         };
         let seen = |state: &State| {
-            let (square, n) = Gram::new(self.motion.linearise_camera(&state.motion(None), &[])).plain();
+            let (square, n) = NormalEquations::new(self.motion.linearise_camera(&state.motion(None), &[])).plain();
             (square / n.max(1.0)).sqrt()
         };
         if self.has_camera() {
@@ -169,7 +170,7 @@ impl<'a> Data<'a> {
             let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
             let plots = [nominally, drive.residuals.clone()];
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
-            out.driven.bumps = Driven::at_bumps(&drive.link);
+            out.driven.test_functions = Driven::at_test_functions(&drive.link);
             let floor = drive.link.noise.clone();
             out.drive = Some(MeasuredDrive { plots, floor });
         }

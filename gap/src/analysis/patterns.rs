@@ -42,9 +42,9 @@ pub(super) fn ripple_named(
     // Wheels scatter by more than noise: load, speed, slip of the rollers.
     let half = if ripple.wheels.len() > 1 {
         let apart = (ripple.wheels.iter().map(|w| (w.1 - amplitude).powi(2)).sum::<f64>() / (n - 1.0) / n).sqrt();
-        model::fit::t_quantile_975(ripple.wheels.len() - 1) * apart.max(noise)
+        estimation::statistics::t_quantile_975(ripple.wheels.len() - 1) * apart.max(noise)
     } else {
-        model::fit::t_quantile_975(usize::MAX) * noise
+        estimation::statistics::t_quantile_975(usize::MAX) * noise
     };
     let what =
         format!("a line {} times a turn whose phase the wheel's angle fixes (Rayleigh, chi-squared)", ripple.count);

@@ -60,7 +60,7 @@ pub(super) fn chosen(
     let selection = select::select(problem, start, known, catalogue, thresholds);
     let from = start.active.len();
     let open = rms(problem, start);
-    let adjusted = select::figures(&selection.bench).1;
+    let adjusted = select::figures(&selection.design).1;
     let worth = selection.state.active[from..].iter().any(Active::worth);
     let selection = if worth || open <= matters || adjusted >= 0.7 * open {
         selection
@@ -68,7 +68,7 @@ pub(super) fn chosen(
         select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
     };
     // With everything adjusted and named, the prediction is still far from the noise: noise does not decide then.
-    if select::figures(&selection.bench).1 <= OPEN {
+    if select::figures(&selection.design).1 <= OPEN {
         return selection;
     }
     let all = problem.candidates(start, catalogue);
@@ -105,8 +105,8 @@ pub(super) fn study(
     let (selection, mut refused) = admitted(problem, selection, start, &all, thresholds);
     let mut judged = judge(problem, start, selection);
     // What laws of what is named may leave is nothing to explain by small effects.
-    let bench = &judged.selection.bench;
-    let laws = bench.left_by_laws() / bench.linear.gram.plain().1.max(1.0);
+    let design = &judged.selection.design;
+    let laws = design.left_by_laws() / design.linear.equations.plain().1.max(1.0);
     if judged.rms > far
         && judged.rms.powi(2) - 1.0 > laws
         && let Some(several) = several(problem, start, &judged, &all, thresholds)
@@ -128,16 +128,16 @@ pub(super) fn study(
             continue;
         }
         let Some(estimate) = estimates.iter().find(|e| e.index == index) else { continue };
-        let rivals = select::rivals(problem, &selection, index, &all, thresholds);
-        let bench = &selection.bench;
+        let alternatives = select::alternatives(problem, &selection, index, &all, thresholds);
+        let design = &selection.design;
         let twin = |name: &str| {
-            (0..bench.candidates.len()).any(|c| bench.candidates[c].effect.name() == name && bench.is_twin(c, index))
+            (0..design.candidates.len()).any(|c| design.candidates[c].effect.name() == name && design.is_twin(c, index))
         };
         // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
         let counts = |s: &Vec<String>| !selection.bare || matches!(&s[..], [_, other] if twin(other));
         let own: Vec<Vec<String>> =
-            rivals.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
-        ambiguous |= rivals.ambiguous && !own.is_empty();
+            alternatives.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
+        ambiguous |= alternatives.ambiguous && !own.is_empty();
         sets.extend(own);
         let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
         for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all)) {
@@ -163,7 +163,7 @@ pub(super) fn study(
     let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
     Outcome {
         held_out: (square / n.max(1.0)).sqrt(),
-        limits: crate::limits::limits(problem.link(), &selection.bench, from, thresholds),
+        limits: crate::limits::limits(problem.link(), &selection.design, from, thresholds),
         selection,
         written,
         named,
@@ -300,26 +300,26 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.
 fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) -> Vec<Estimate> {
-    let bench = &selection.bench;
-    let roles = bench.judged(bare);
-    let fit = bench.fit_roles(&roles);
-    let covariance = bench.covariance(&roles, &fit);
-    // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of this
-    // cause alone, but it is not known to better than what those would make of it.
-    let beside = bench.estimating();
-    let beside = bench.covariance(&beside, &bench.fit_roles(&beside));
-    let clusters = bench.linear.gram.clusters.len();
-    let left_out = bench.left_out(&roles);
+    let design = &selection.design;
+    let roles = design.judged(bare);
+    let fit = design.fit_roles(&roles);
+    let covariance = design.covariance(&roles, &fit);
+    // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of
+    // this cause alone, but it is not known to better than what those would make of it.
+    let beside = design.estimating();
+    let beside = design.covariance(&beside, &design.fit_roles(&beside));
+    let clusters = design.linear.equations.clusters.len();
+    let left_out = design.left_out(&roles);
     // A floor is what smooth functions of speed, duty and the like leave of each wheel: laws that are missing are such.
     let missed = match problem {
-        Problem::Drive(link) => bench.missed(&roles, Generic::columns_of_wheel(link.noise.len()) as f64),
+        Problem::Drive(link) => design.missed(&roles, Generic::columns_of_wheel(link.noise.len()) as f64),
         Problem::Motion(_) => vec![0.0; roles.len()],
     };
     // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
     let usual = |p: &Parameter| match problem.link() {
-        Link::Drive if p.material.is_finite() => bench.held_share() * p.material,
+        Link::Drive if p.material.is_finite() => design.held_share() * p.material,
         // A wheel that creeps under load leads the body, as if it were read later, by some tenths of a millisecond.
-        Link::Motion if problem.is_felt() && p.name == "latency_s" => bench.held_share() * p.material,
+        Link::Motion if problem.is_felt() && p.name == "latency_s" => design.held_share() * p.material,
         _ => 0.0,
     };
     let mut out = Vec::new();
@@ -329,7 +329,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             continue;
         }
         let parameters = active.form.free.iter().enumerate().map(|(j, p)| {
-            let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
+            let column = design.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
             let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
             let v =
                 active.effect.period(&p.name).map_or(v.clamp(p.bounds[0], p.bounds[1]), |period| v.rem_euclid(period));
@@ -352,13 +352,13 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
 /// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
 /// what is the same in all of them. `left_out` are the estimates without one run each.
 fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
-    let of_common = model::fit::t_quantile_975(usize::MAX) * common.sqrt();
+    let of_common = estimation::statistics::t_quantile_975(usize::MAX) * common.sqrt();
     of_common.hypot(half_scatter(variance, df, left_out))
 }
 
 /// The same of what scatters alone.
 fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
-    let by_clusters = model::fit::t_quantile_975(df) * variance.sqrt();
+    let by_clusters = estimation::statistics::t_quantile_975(df) * variance.sqrt();
     let runs = left_out.len();
     if runs < 3 {
         return by_clusters;
@@ -368,8 +368,8 @@ fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
     // The jackknife's variance.
     let by_runs = free / runs as f64 * left_out.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
     let chi2 = by_runs / variance.max(1e-300) * free;
-    if crate::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
-        by_clusters.max(model::fit::t_quantile_975(runs - 1) * by_runs.sqrt())
+    if estimation::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
+        by_clusters.max(estimation::statistics::t_quantile_975(runs - 1) * by_runs.sqrt())
     } else {
         by_clusters
     }
@@ -418,7 +418,7 @@ fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
         }
         let mut estimates = estimates(problem, &fitted, from, true);
         for e in &mut estimates {
-            // The bench stands at the careful estimates; the fit has gone on from there.
+            // The design stands at the careful estimates; the fit has gone on from there.
             let active = &fitted.state.active[e.index];
             for (name, v, interval) in &mut e.parameters {
                 let new = active.values.get(name);
@@ -460,7 +460,7 @@ mod tests {
     #[test]
     fn intervals_are_as_wide_as_runs_differ() {
         // Runs that agree as clusters have it.
-        let t = model::fit::t_quantile_975(100);
+        let t = estimation::statistics::t_quantile_975(100);
         assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
         // Leave-one-out estimates three cluster deviations apart.
         let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);

@@ -80,7 +80,7 @@ mod tests {
             let candidates: Vec<Active> =
                 problem.candidates(&state, &effects).into_iter().filter(|c| !c.effect.probe()).collect();
             let linear = problem.linearise(&state, &candidates);
-            let jj = linear.gram.information();
+            let jj = linear.equations.information();
             let columns: Vec<Vec<usize>> = (0..candidates.len()).map(|c| linear.of_candidate(c)).collect();
             for (a, own) in columns.iter().enumerate() {
                 for (b, theirs) in columns.iter().enumerate() {
@@ -92,7 +92,7 @@ mod tests {
                     let information = DMatrix::from_fn(theirs.len(), theirs.len(), |i, j| jj[(theirs[i], theirs[j])]);
                     let done = |column: &usize| {
                         let mixed = DVector::from_fn(theirs.len(), |i, _| jj[(theirs[i], *column)]);
-                        mixed.dot(&crate::gram::solve(&information, &mixed)) / jj[(*column, *column)]
+                        mixed.dot(&estimation::normal_equations::solve(&information, &mixed)) / jj[(*column, *column)]
                     };
                     let names: &mut Vec<String> = found.entry(name).or_default();
                     if own.iter().all(|column| done(column) > ALIKE) && !names.contains(&other) {

@@ -20,10 +20,10 @@ pub struct Side {
     pub key: Option<String>,
 }
 
-/// The derivative along a side, one number a bump and wheel.
+/// The derivative along a side, one number a test function and wheel.
 pub(super) type Column = Arc<Vec<f64>>;
 
-/// Derivatives by the first bump of their segment and their key.
+/// Derivatives by the first test function of their segment and their key.
 #[derive(Default)]
 pub(super) struct Columns(Mutex<Kept>);
 
@@ -83,7 +83,8 @@ impl Columns {
     }
 }
 
-/// Linearisations after which a derivative that none of them asked for goes: fits between two of them ask for a few only.
+/// Linearisations after which a derivative that none of them asked for goes: fits between two of them ask for a few
+/// only.
 const LATELY: u64 = 24;
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{DriveLink, DriveResiduals, smooth_sign};
-use crate::gram::solve;
 use crate::thresholds;
+use estimation::normal_equations::solve;
 
 /// Torque below which no drive is predicted, Nm as a share of what the motors reach in the logs.
 const LEAST: f64 = 0.001;
@@ -20,9 +20,9 @@ pub struct Generic {
 
 /// What a generic regression leaves of one wheel's torques.
 pub struct Left {
-    /// The bumps that count.
-    pub bumps: Vec<usize>,
-    /// Torque left, Nm, one a bump.
+    /// The test functions that count.
+    pub test_functions: Vec<usize>,
+    /// Torque left, Nm, one a test function.
     pub torque: Vec<f64>,
     /// Standard deviation, Nm.
     pub scatter: f64,
@@ -73,13 +73,13 @@ impl Generic {
     /// What it leaves of a wheel's torques; `None` where the logs are too short to say.
     pub fn leaves(&self, link: &DriveLink, residuals: &DriveResiduals, wheel: usize) -> Option<Left> {
         let columns: Vec<&Vec<f64>> = self.shared.iter().chain(&self.own[wheel]).collect();
-        let bumps: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[wheel] > 0.0).collect();
-        if bumps.len() < 3 * columns.len() {
+        let test_functions: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[wheel] > 0.0).collect();
+        if test_functions.len() < 3 * columns.len() {
             return None;
         }
         let torque = |b: usize| residuals.torque[b][wheel];
         let m = columns.len();
-        let product = |p: usize, q: usize| bumps.iter().map(|b| columns[p][*b] * columns[q][*b]).sum::<f64>();
+        let product = |p: usize, q: usize| test_functions.iter().map(|b| columns[p][*b] * columns[q][*b]).sum::<f64>();
         let mut square = DMatrix::zeros(m, m);
         for p in 0..m {
             for q in 0..=p {
@@ -87,15 +87,18 @@ impl Generic {
                 square[(q, p)] = square[(p, q)];
             }
         }
-        let x = solve(&square, &DVector::from_fn(m, |p, _| bumps.iter().map(|b| columns[p][*b] * torque(*b)).sum()));
+        let x = solve(
+            &square,
+            &DVector::from_fn(m, |p, _| test_functions.iter().map(|b| columns[p][*b] * torque(*b)).sum()),
+        );
         let fitted = |b: usize| columns.iter().zip(x.iter()).map(|(column, x)| column[b] * x).sum::<f64>();
-        let left: Vec<f64> = bumps.iter().map(|b| torque(*b) - fitted(*b)).collect();
-        let scatter = (left.iter().map(|l| l * l).sum::<f64>() / (bumps.len() - m) as f64).sqrt();
-        Some(Left { bumps, torque: left, scatter })
+        let left: Vec<f64> = test_functions.iter().map(|b| torque(*b) - fitted(*b)).collect();
+        let scatter = (left.iter().map(|l| l * l).sum::<f64>() / (test_functions.len() - m) as f64).sqrt();
+        Some(Left { test_functions, torque: left, scatter })
     }
 }
 
-/// Scatter of the unexplained torque of one bump, Nm, one a wheel, and how many neighbouring bumps
+/// Scatter of the unexplained torque of one test function, Nm, one a wheel, and how many neighbouring test functions
 /// count as one: what a generic regression leaves is noise.
 pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Vec<f64>, f64) {
     let generic = Generic::new(link);
@@ -108,7 +111,7 @@ pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Ve
             continue;
         };
         *slot = slot.max(left.scatter);
-        for (r, pair) in left.bumps.windows(2).enumerate() {
+        for (r, pair) in left.test_functions.windows(2).enumerate() {
             if pair[1] == pair[0] + 1 && link.place(pair[1]).0 == link.place(pair[0]).0 {
                 lagged += left.torque[r] * left.torque[r + 1] / (*slot * *slot);
             }
@@ -122,5 +125,5 @@ pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Ve
 
 fn neighbours(residuals: &DriveResiduals, wheel: usize) -> f64 {
     let mut differences: Vec<f64> = residuals.torque.windows(5).map(|w| (w[4][wheel] - w[0][wheel]).abs()).collect();
-    crate::statistics::median(&mut differences) / (0.6745 * 2.0_f64.sqrt())
+    estimation::statistics::median(&mut differences) / (0.6745 * 2.0_f64.sqrt())
 }

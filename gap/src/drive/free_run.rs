@@ -1,11 +1,12 @@
 //! Free simulation: how far the speeds of a model run away from those of the log.
 //!
 //! Unexplained torques say how much would have to be added to a model at every moment, and a model whose motors give
-//! nothing and whose wheels have nothing to move needs little. Left to itself such a model goes nowhere: its speeds stay
-//! what they were. So what is named must not make the speeds of a free simulation worse.
+//! nothing and whose wheels have nothing to move needs little. Left to itself such a model goes nowhere: its speeds
+//! stay what they were. So what is named must not make the speeds of a free simulation worse.
 //!
 //! With e = simulated − measured speed, M the inertia, D the damping by the motors' back-EMF and r the unexplained
-//! torque, M ė = −r − D e. Loads keep the direction of the measured motion, so that a wheel that stands does not decide.
+//! torque, M ė = −r − D e. Loads keep the direction of the measured motion, so that a wheel that stands does not
+//! decide.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -21,16 +22,16 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
         per_speed * a.encoder_scale
     });
     let damping = DVector::from_iterator(model.axes.len(), damping);
-    // Bumps overlap by half: each stands for that much of the log.
+    // Test functions overlap by half: each stands for that much of the log.
     Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
 }
 
 /// Sum of squares of what a model leaves in the torque of its own inertia, in units of the noise, one for each cluster.
 ///
-/// In the torque of a fixed inertia a robot too heavy to move leaves what was measured and no more, which is less than a
-/// model leaves whose friction nobody told. In its own torque it leaves more the heavier it is, and friction, whatever
-/// its law, does not pass for inertia: over a drive that ends as it begins no function of the speed correlates with the
-/// acceleration. A robot too light is the other way round: what is named must be better in both.
+/// In the torque of a fixed inertia a robot too heavy to move leaves what was measured and no more, which is less than
+/// a model leaves whose friction nobody told. In its own torque it leaves more the heavier it is, and friction,
+/// whatever its law, does not pass for inertia: over a drive that ends as it begins no function of the speed correlates
+/// with the acceleration. A robot too light is the other way round: what is named must be better in both.
 pub fn in_own_torque(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     let residuals = link.residuals_in_own_torque(model)?;
     let mut out: Vec<f64> = Vec::new();

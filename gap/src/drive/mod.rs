@@ -1,15 +1,15 @@
 //! The `drive` link: duty and supply to wheel motion.
 //!
 //! Newton's law in wheel coordinates, solved for wheel acceleration so that its coefficient is 1
-//! (a free coefficient on both sides would let a fit shrink everything), multiplied by bumps of
+//! (a free coefficient on both sides would let a fit shrink everything), multiplied by test functions of
 //! about 120 ms and integrated twice by parts, so that nothing but counts enters. The result is an
-//! unexplained torque per wheel and bump, Nm at the wheel shaft.
+//! unexplained torque per wheel and test function, Nm at the wheel shaft.
 
-mod bumps;
 mod columns;
 mod floor;
 mod forces;
 mod free_run;
+mod test_functions;
 
 use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
@@ -19,11 +19,11 @@ use crate::segment::Segment;
 use crate::values::Values;
 
 pub use crate::segment::smooth_sign;
-pub use bumps::{DriveLink, DriveResiduals};
 pub use columns::Side;
 pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
+pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.
 pub type LoadTerm = Box<dyn Fn(&Instant<'_>, &mut Loads) + Send + Sync>;
@@ -151,8 +151,8 @@ impl DriveModel {
         self.gear_ratio.powi(2) * self.axes[wheel].rotor_inertia
     }
 
-    /// Inertia that moves in the play of a gear, at the wheel's shaft, kg m²: the rotor's, or none where the file gives all
-    /// that turns as one.
+    /// Inertia that moves in the play of a gear, at the wheel's shaft, kg m²: the rotor's, or none where the file gives
+    /// all that turns as one.
     pub fn moves_in_play(&self, wheel: usize) -> f64 {
         let all_in_one = self.support == Support::Blocks && self.axes[wheel].load_inertia == 0.0;
         if all_in_one { 0.0 } else { self.rotor_at_wheel(wheel) }

@@ -33,8 +33,8 @@ impl Effect for GearBacklash {
     }
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
-        // Material is what jerks the encoder as a torque that matters would, within a bump: 0.03 rad at the motor of a
-        // robot of 2.4 kg, tenths of a millimetre on a linear axis of 95 kg.
+        // Material is what jerks the encoder as a torque that matters would, within a test function: 0.03 rad at the
+        // motor of a robot of 2.4 kg, tenths of a millimetre on a linear axis of 95 kg.
         let unit = SHOWS * sizes.drive_nm * robot.gear_ratio / DriveModel::new(robot).felt_inertia();
         let p = |name: String| Parameter::new(name, 0.7 * unit, [0.0, 700.0 * unit], unit);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
@@ -81,8 +81,8 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Square of the time within which a bump of 0.12 s shows a step of the angle (0.0023 s²) times the share of the drive's
-/// torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
+/// Square of the time within which a test function of 0.12 s shows a step of the angle (0.0023 s²) times the share of
+/// the drive's torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
 const SHOWS: f64 = 7.8e-5;
 
 /// Torque, as a share of what is usual, within which the flank that carries is not known where a rotor weighs nothing.
@@ -99,7 +99,7 @@ fn between(model: &DriveModel, segment: &Segment, wheel: usize, half: f64) -> Ve
             g * (axis.torque_constant * volts / axis.resistance - axis.friction * segment.sign[wheel][k])
         })
         .collect();
-    let usual = crate::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
+    let usual = estimation::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
     let rotor = model.moves_in_play(wheel);
     let (mut place, mut speed) = (0.0_f64, 0.0_f64);
     (0..n)
@@ -123,7 +123,8 @@ fn between(model: &DriveModel, segment: &Segment, wheel: usize, half: f64) -> Ve
         .collect()
 }
 
-/// Which flank of the teeth carries, −1 to 1, from the motion alone: the sign of the torque that accelerates the robot at this wheel.
+/// Which flank of the teeth carries, −1 to 1, from the motion alone: the sign of the torque that accelerates the robot
+/// at this wheel.
 fn side(segment: &Segment, inertia: &DMatrix<f64>, wheel: usize) -> Vec<f64> {
     let n = segment.speed.len();
     let momentum: Vec<f64> =

@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use super::ride::Ride;
 use super::{Felt, Integral};
 use crate::effect::{Effect, Link};
-use crate::gram::Cluster;
 use crate::motion::{MotionModel, Path};
 use crate::pieces::Pieces;
 use crate::segment::Segment;
+use estimation::normal_equations::Cluster;
+use estimation::statistics::{median, rms};
 
 /// Distance of two nodes, s: a count of an encoder, which is what the wheels' turn is not known to, is then a
 /// hundredth of the turn of a robot that turns slowly (1 rad/s).
@@ -174,7 +175,7 @@ impl<'a> InertialLink<'a> {
             .map(|[still, moving]| {
                 let mut all = if moving.len() >= ENOUGH { moving } else { [still, moving].concat() };
                 // The median of a normal variable's size is 0.6745, and three neighbours add up to six variances.
-                crate::statistics::median(&mut all) / 0.674_5 / 6.0_f64.sqrt()
+                median(&mut all) / 0.674_5 / 6.0_f64.sqrt()
             })
             .collect();
         let robot = self.pieces.robot();
@@ -262,7 +263,7 @@ impl<'a> InertialLink<'a> {
                     let (white, n) = a.white(&w.t, |k| a.measured[k] - predicted[k][a.channel.0]);
                     let square = white.iter().map(|x| x * x).sum::<f64>();
                     let lasted = w.t[1] - w.t[0];
-                    let floor = crate::statistics::rms(a.sigma.iter().copied()) / lasted;
+                    let floor = rms(a.sigma.iter().copied()) / lasted;
                     let (sum, worst) = &mut sums[a.channel.0];
                     sum[0] += square;
                     sum[1] += n;
@@ -296,7 +297,7 @@ fn left_open(gained: &[f64; 6], contact: f64) -> [f64; 6] {
 
 /// Root mean square of the residuals of all axes, in floors.
 pub fn overall(fits: &[Fit]) -> f64 {
-    crate::statistics::rms(fits.iter().map(|f| f.floors))
+    rms(fits.iter().map(|f| f.floors))
 }
 
 /// Windows of a segment.

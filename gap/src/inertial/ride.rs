@@ -63,9 +63,7 @@ impl<'a> Ride<'a> {
             let before = out.last().copied().unwrap_or_default();
             let dt = if k > 0 { segment.t[k] - segment.t[k - every] } else { 0.0 };
             let mean = |a: f64, b: f64| 0.5 * dt * (a + b);
-            let across = [0, 1].map(|i| {
-                before.across[i] + mean(omega * twist[i], before.omega * before.velocity[i])
-            });
+            let across = [0, 1].map(|i| before.across[i] + mean(omega * twist[i], before.omega * before.velocity[i]));
             let outwards = before.outwards + mean(omega * omega, before.omega * before.omega);
             out.push(Moved { velocity: [x, y], omega, across, outwards });
         }

@@ -32,7 +32,7 @@ impl Integral {
 pub(super) fn integrate(t: &[f64], axes: &[Vec<f64>; 3], turn: &[f64]) -> [Option<Integral>; 3] {
     let fresh = fresh(axes, t.len());
     let mut steps: Vec<f64> = fresh.windows(2).map(|w| t[w[1]] - t[w[0]]).collect();
-    let period = if steps.is_empty() { 0.0 } else { crate::statistics::median(&mut steps) };
+    let period = if steps.is_empty() { 0.0 } else { estimation::statistics::median(&mut steps) };
     let bridged = (BRIDGED_PERIODS * period).max(BRIDGED_S);
     let turned: Vec<f64> = std::iter::once(0.0)
         .chain(turn.iter().scan(0.0, |sum, x| {
@@ -143,7 +143,9 @@ mod tests {
         let short = with(&|k| (300..310).contains(&k).then_some(f64::NAN));
         assert!((short.between(100, 900) - whole.between(100, 900)).abs() < 1e-9);
         let long = with(&|k| (300..400).contains(&k).then_some(f64::NAN));
-        assert!(long.between(100, 900).is_nan() && long.between(100, 299).is_finite() && long.between(401, 900).is_finite());
+        assert!(
+            long.between(100, 900).is_nan() && long.between(100, 299).is_finite() && long.between(401, 900).is_finite()
+        );
         let stuck = with(&|k| (300..400).contains(&k).then_some(1.3));
         assert!(stuck.between(100, 900).is_nan(), "the wheels turned 0.1 rad meanwhile");
         let clipped = with(&|k| (k >= 700).then_some(1.7 + if k % 2 == 0 { 0.0 } else { 0.0 }));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Series, Structure};
-use crate::statistics::median;
+use estimation::statistics::median;
 
 /// Torque of a burst, share of the drive's, ...
 const MATERIAL: f64 = 0.1;

@@ -21,10 +21,10 @@ pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;
 pub(crate) use rattle::rattle;
 
-/// Length of the bumps the torques are averaged over, s: a tenth of a second is over before the
+/// Length of the test functions the torques are averaged over, s: a tenth of a second is over before the
 /// loop has answered, and lines up to 15 Hz pass.
-const BUMP_S: f64 = 0.05;
-/// Torques this near a masked bump are left out, s.
+const TEST_FUNCTION_S: f64 = 0.05;
+/// Torques this near a masked test function are left out, s.
 const MASK_S: f64 = 0.06;
 /// Probability of any false alarm of one kind in a data set.
 const FALSE_ALARM: f64 = 1e-3;
@@ -58,7 +58,7 @@ pub(crate) fn drive(
     sizes: Sizes,
 ) -> Leftover {
     let mut out = Leftover { structures: Vec::new(), ripple: None };
-    let Some(link) = DriveLink::with_bumps(pieces, model, BUMP_S) else { return out };
+    let Some(link) = DriveLink::with_test_functions(pieces, model, TEST_FUNCTION_S) else { return out };
     let Some(residuals) = link.residuals(model) else { return out };
     let generic = Generic::new(&link);
     let near = link.tick_count(MASK_S).max(1);
@@ -72,9 +72,9 @@ pub(crate) fn drive(
                 let part = tick / near;
                 (part.saturating_sub(1)..=part + 1).all(|p| !slips.contains(&(segment, p)))
             };
-            let (bumps, torque) =
-                l.bumps.iter().zip(&l.torque).filter(|(b, _)| rolls(b)).map(|(b, t)| (*b, *t)).unzip();
-            Left { bumps, torque, scatter: l.scatter }
+            let (test_functions, torque) =
+                l.test_functions.iter().zip(&l.torque).filter(|(b, _)| rolls(b)).map(|(b, t)| (*b, *t)).unzip();
+            Left { test_functions, torque, scatter: l.scatter }
         });
         lefts.push(left);
     }
@@ -94,7 +94,7 @@ pub(crate) fn drive(
     out
 }
 
-/// One wheel's torque left, at the times of its bumps.
+/// One wheel's torque left, at the times of its test functions.
 struct Wheel {
     /// Run of each.
     run: Vec<usize>,
@@ -115,7 +115,7 @@ struct Wheel {
 /// All wheels.
 struct Series {
     wheels: Vec<Wheel>,
-    /// Distance of two bumps, s.
+    /// Distance of two test functions, s.
     hop: f64,
 }
 
@@ -130,12 +130,12 @@ impl Series {
                 let left = left.as_ref()?;
                 let mut sizes: Vec<f64> = left.torque.iter().map(|x| x.abs()).collect();
                 Some(Wheel {
-                    run: left.bumps.iter().map(|b| places[*b].0).collect(),
-                    segment: left.bumps.iter().map(|b| at[*b].0).collect(),
-                    t: left.bumps.iter().map(|b| places[*b].1).collect(),
-                    sign: left.bumps.iter().map(|b| places[*b].2[i]).collect(),
-                    done: left.bumps.iter().map(|b| done[*b][i]).collect(),
-                    scatter: 1.4826 * crate::statistics::median(&mut sizes),
+                    run: left.test_functions.iter().map(|b| places[*b].0).collect(),
+                    segment: left.test_functions.iter().map(|b| at[*b].0).collect(),
+                    t: left.test_functions.iter().map(|b| places[*b].1).collect(),
+                    sign: left.test_functions.iter().map(|b| places[*b].2[i]).collect(),
+                    done: left.test_functions.iter().map(|b| done[*b][i]).collect(),
+                    scatter: 1.4826 * estimation::statistics::median(&mut sizes),
                     torque: left.torque.clone(),
                 })
             })

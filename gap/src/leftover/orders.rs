@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 use super::{FALSE_ALARM, Structure};
 use crate::drive::{DriveLink, DriveModel};
 use crate::segment::Segment;
-use crate::statistics::{chi2_upper, median};
+use estimation::statistics::{chi2_upper, median};
 use rayon::prelude::*;
 
 /// Length of a block, s.

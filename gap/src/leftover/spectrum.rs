@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{FALSE_ALARM, Series, Structure, Wheel};
-use crate::statistics::{chi2_upper, median};
+use estimation::statistics::{chi2_upper, median};
 
 /// Lowest frequency looked at, Hz: below, the drive itself is the spectrum.
 const LOWEST_HZ: f64 = 0.4;
@@ -98,7 +98,7 @@ fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64) -> Option<Struc
     })
 }
 
-/// Bumps of every piece of the log of at most [`PIECE_S`]; of a long log pieces here and there.
+/// Test functions of every piece of the log of at most [`PIECE_S`]; of a long log pieces here and there.
 fn pieces(w: &Wheel) -> Vec<Vec<usize>> {
     let mut all: Vec<(usize, f64, Vec<usize>)> = Vec::new();
     for b in 0..w.t.len() {
@@ -119,7 +119,7 @@ fn sums(w: &Wheel, at: &[usize], f: f64, x: impl Fn(usize) -> f64) -> (f64, f64)
     })
 }
 
-/// What averaging over a sin² bump of this length leaves of an oscillation.
+/// What averaging over a sin² test function of this length leaves of an oscillation.
 fn passed(f: f64, length: f64) -> f64 {
     let x = f * length;
     if (x - 1.0).abs() < 1e-6 {

@@ -9,10 +9,10 @@ use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
 use super::track::{LANES, Path};
-use crate::gram::Cluster;
 use crate::inertial::InertialLink;
 use crate::pieces::Pieces;
 use crate::segment::{Frame, Segment};
+use estimation::normal_equations::Cluster;
 
 /// Fewer frames than this fix a start pose but hardly anything else.
 const FEWEST_FRAMES: usize = 4;
@@ -144,7 +144,7 @@ impl<'a> MotionLink<'a> {
         // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
         let out: Vec<Vec<f64>> =
             all.par_iter().map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i)).collect()).collect();
-        let spread = (crate::statistics::median(&mut out.concat()) / MEDIAN_OF_CHI3).max(1.0);
+        let spread = (estimation::statistics::median(&mut out.concat()) / MEDIAN_OF_CHI3).max(1.0);
         let windows = self.windows.par_iter().zip(&tracks).zip(out);
         all.par_iter_mut().zip(windows).for_each(|(w, ((window, track), out))| {
             let weights: Vec<f64> = out.into_iter().map(|out| weight(out / spread)).collect();
@@ -381,7 +381,7 @@ fn apart(residuals: &[[f64; 3]], i: usize) -> f64 {
     let near = &residuals[i.saturating_sub(3)..(i + 4).min(residuals.len())];
     let median = |j: usize| match near {
         [a, b, c, d, e, f, g] => median_of_seven([a[j], b[j], c[j], d[j], e[j], f[j], g[j]]),
-        _ => crate::statistics::median(&mut near.iter().map(|r| r[j]).collect::<Vec<f64>>()),
+        _ => estimation::statistics::median(&mut near.iter().map(|r| r[j]).collect::<Vec<f64>>()),
     };
     norm(&[0, 1, 2].map(|j| residuals[i][j] - median(j)))
 }

@@ -248,7 +248,7 @@ fn residuals(page: &mut Page, a: &Analysis) {
             let points = |d: &crate::drive::DriveResiduals| {
                 let all: Vec<[f64; 2]> = (0..d.torque.len())
                     .filter(|b| d.weights[*b][i] > 0.0)
-                    .map(|b| [a.driven.bumps[b][i].speed, 1e3 * d.torque[b][i]])
+                    .map(|b| [a.driven.test_functions[b][i].speed, 1e3 * d.torque[b][i]])
                     .collect();
                 thin(&all)
             };
@@ -289,7 +289,7 @@ fn statement(page: &mut Page, a: &Analysis) {
     page.heading("How it was decided");
     page.anchor("decided");
     page.text(&format!(
-        "Fixed before fitting: motion is compared in windows of {:.0} s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive in bumps of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.",
+        "Fixed before fitting: motion is compared in windows of {:.0} s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive by test functions of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.",
         a.window_s,
         100.0 * t.held_share,
         t.gain,

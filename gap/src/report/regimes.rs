@@ -3,7 +3,7 @@
 use plot::page::Table;
 
 use crate::analysis::{Analysis, Moment};
-use crate::statistics::rms;
+use estimation::statistics::rms;
 
 /// A residual in units of its floor, and the situation it belongs to.
 struct Sample {
@@ -75,7 +75,7 @@ fn motion(
             }
         }
     }
-    let median = crate::statistics::median(&mut found.iter().map(|f| f.2.speed.abs()).collect::<Vec<_>>());
+    let median = estimation::statistics::median(&mut found.iter().map(|f| f.2.speed.abs()).collect::<Vec<_>>());
     let sample = |(before, after, at): (f64, f64, Moment)| Sample {
         before,
         after,
@@ -97,8 +97,8 @@ fn drive(
         .and_then(|l| l.floor.get(wheel).copied())
         .unwrap_or(1.0);
     let used = (0..before.torque.len()).filter(|b| before.weights[*b][wheel] > 0.0 && *b < after.torque.len());
-    let found: Vec<(usize, Moment)> = used.map(|b| (b, a.driven.bumps[b][wheel])).collect();
-    let median = crate::statistics::median(&mut found.iter().map(|f| f.1.speed.abs()).collect::<Vec<_>>());
+    let found: Vec<(usize, Moment)> = used.map(|b| (b, a.driven.test_functions[b][wheel])).collect();
+    let median = estimation::statistics::median(&mut found.iter().map(|f| f.1.speed.abs()).collect::<Vec<_>>());
     let sample = |(b, at): (usize, Moment)| Sample {
         before: before.torque[b][wheel] / floor,
         after: after.torque[b][wheel] / floor,

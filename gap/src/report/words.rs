@@ -5,15 +5,8 @@ use crate::analysis::{Analysis, Named, Verdict};
 use crate::effect::Link;
 
 /// Links in the order of the signals.
-const CHAIN: [Link; 7] = [
-    Link::Timing,
-    Link::Command,
-    Link::Controller,
-    Link::Drive,
-    Link::Motion,
-    Link::Gyroscope,
-    Link::Accelerometer,
-];
+const CHAIN: [Link; 7] =
+    [Link::Timing, Link::Command, Link::Controller, Link::Drive, Link::Motion, Link::Gyroscope, Link::Accelerometer];
 /// Noise floors up to which a link agrees.
 const AGREES: f64 = 1.3;
 
@@ -84,7 +77,8 @@ pub(super) fn links(a: &Analysis) -> String {
         wanted.map(|l| l.name()).collect()
     };
     // A robot may have no inertial sensor, and then it lacks no signal of one.
-    let missing: Vec<&str> = CHAIN.iter().filter(|l| compared(l).is_none() && !l.is_inertial()).map(|l| l.name()).collect();
+    let missing: Vec<&str> =
+        CHAIN.iter().filter(|l| compared(l).is_none() && !l.is_inertial()).map(|l| l.name()).collect();
     let mut out = match (&of(true)[..], &of(false)[..]) {
         (good, []) => format!("Every link that could be compared agrees: {}.", join(good)),
         ([], bad) => format!("No link agrees as it is: {}.", join(bad)),

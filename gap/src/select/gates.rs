@@ -1,26 +1,26 @@
 //! What an effect must do on held-out data to be named.
 
-use super::{Bench, STRONG, Trial};
+use super::{Design, STRONG, Trial};
 use crate::effect::Link;
 use crate::options::Thresholds;
 
 /// What a candidate must do on data that its fit has not seen.
 pub(super) struct Gates<'a> {
     link: Link,
-    bench: &'a Bench,
+    design: &'a Design,
     thresholds: &'a Thresholds,
     without: Vec<f64>,
     left_by_laws: f64,
 }
 
 impl<'a> Gates<'a> {
-    pub(super) fn new(link: Link, bench: &'a Bench, thresholds: &'a Thresholds) -> Self {
-        Self { link, bench, thresholds, without: bench.held_out(None), left_by_laws: bench.left_by_laws() }
+    pub(super) fn new(link: Link, design: &'a Design, thresholds: &'a Thresholds) -> Self {
+        Self { link, design, thresholds, without: design.held_out(None), left_by_laws: design.left_by_laws() }
     }
 
     pub(super) fn pass(&self, t: &Trial) -> bool {
-        let (bench, thresholds) = (self.bench, self.thresholds);
-        let with = bench.held_out(Some(t.candidate));
+        let (design, thresholds) = (self.design, self.thresholds);
+        let with = design.held_out(Some(t.candidate));
         let strong = t.gain > STRONG;
         if self.closes(&self.without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 }) {
             return true;
@@ -29,7 +29,7 @@ impl<'a> Gates<'a> {
         let harmless: f64 = self.without.iter().zip(&with).map(|(a, b)| a - b).sum();
         strong
             && harmless > -0.01 * self.without.iter().sum::<f64>()
-            && self.closes(&bench.held_out_blocks(None), &bench.held_out_blocks(Some(t.candidate)), 1.0)
+            && self.closes(&design.held_out_blocks(None), &design.held_out_blocks(Some(t.candidate)), 1.0)
     }
 
     /// Whether enough of the held-out loss goes: a share of it, a share of what is more than noise, more than the
@@ -39,7 +39,7 @@ impl<'a> Gates<'a> {
         let differences: Vec<f64> = without.iter().zip(with).map(|(a, b)| a - b).collect();
         let sum: f64 = differences.iter().sum();
         let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
-        let excess = (total - self.bench.linear.gram.n()).max(0.0);
+        let excess = (total - self.design.linear.equations.n()).max(0.0);
         sum >= self.thresholds.share(self.link) * total
             && sum >= self.thresholds.share_of_excess * excess
             && sum >= t_needed * spread

@@ -35,19 +35,19 @@ fn joined(
     thresholds: &Thresholds,
 ) -> Option<Selection> {
     let active = &best.state.active;
-    let bench = &best.bench;
+    let design = &best.design;
     let named: Vec<usize> = (from..active.len()).filter(|i| active[*i].is_named()).collect();
     let pairs = named.iter().enumerate().flat_map(|(i, a)| named[i + 1..].iter().map(move |b| [*a, *b]));
     for [a, b] in pairs {
         let most = active[a].form.free.len() + active[b].form.free.len();
         // What either adds to the other.
-        let added = bench.own_part(a, b).min(bench.own_part(b, a));
+        let added = design.own_part(a, b).min(design.own_part(b, a));
         let fits = |c: &usize| {
             let candidate = &all[*c];
             let named = active.iter().any(|o| o.effect.name() == candidate.effect.name());
             candidate.form.free.len() < most && !named && !candidate.effect.probe() && !candidate.switched()
         };
-        let left = |c: usize| (bench.left_by(c, &[a, b])[1], c);
+        let left = |c: usize| (design.left_by(c, &[a, b])[1], c);
         let mut alike: Vec<(f64, usize)> = (0..all.len()).filter(fits).map(left).collect();
         alike.retain(|(left, _)| *left < DOES_BOTH * added);
         alike.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -56,10 +56,10 @@ fn joined(
             state.active.remove(b);
             state.active[a] = all[c].clone();
             let settled = settle(problem, &mut state, all, thresholds);
-            let rival = finish(state, settled, from, thresholds);
-            let sound = rival.state.active[a].worth() && !stopped(&rival.state.active[a]);
-            if sound && rival.against(best) < DOUBTFUL && !problem.runs_away(&rival.state, &best.state) {
-                return Some(rival);
+            let alternative = finish(state, settled, from, thresholds);
+            let sound = alternative.state.active[a].worth() && !stopped(&alternative.state.active[a]);
+            if sound && alternative.against(best) < DOUBTFUL && !problem.runs_away(&alternative.state, &best.state) {
+                return Some(alternative);
             }
         }
     }

@@ -11,15 +11,16 @@ use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, unde
 use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
-use crate::ridge::{Ridge, Role};
 use crate::state::{Active, State};
 use crate::thresholds::decided;
+use estimation::prior::{Penalised, Role};
 
 /// Effects at most.
 const MOST: usize = 8;
 /// Share of the held-out sum of squares that each parameter of an effect must explain.
 const SHARE: f64 = 0.004;
-/// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as good.
+/// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as
+/// good.
 const AS_GOOD: f64 = 0.97;
 /// Share of what exceeds the noise that all effects together must close, held out.
 const CLOSES: f64 = 0.3;
@@ -104,7 +105,7 @@ fn best(
         .collect();
     let candidates: Vec<Active> = indices.iter().map(|c| all[*c].clone()).collect();
     let linear = problem.linearise(state, &candidates);
-    let ridge = Ridge::new(&linear.gram, 1.0);
+    let penalised = Penalised::new(&linear.equations, 1.0);
     let roles_with = |freed: &[usize]| -> Vec<Role> {
         linear
             .owners
@@ -126,30 +127,30 @@ fn best(
             Owner::Whole(_) => false,
         })
         .collect();
-    let base = shared(&ridge, &roles_with(&[]), &nuisance);
-    let by_parts = in_parts(&linear.gram, PARTS);
-    let ridge_parts = Ridge::new(&by_parts, 1.0);
-    let base_parts = ridge_parts.held_out(&roles_with(&[]));
+    let base = shared(&penalised, &roles_with(&[]), &nuisance);
+    let by_parts = in_parts(&linear.equations, PARTS);
+    let penalised_parts = Penalised::new(&by_parts, 1.0);
+    let base_parts = penalised_parts.held_out(&roles_with(&[]));
     let total: f64 = base.iter().sum();
     let promises: Vec<Promise> = (0..candidates.len())
         .into_par_iter()
         .filter_map(|c| {
             let a = &candidates[c];
             let columns = linear.of_candidate(c);
-            if columns.iter().map(|j| ridge.information(*j)).any(|known| known.is_nan() || known <= 0.0) {
+            if columns.iter().map(|j| penalised.information(*j)).any(|known| known.is_nan() || known <= 0.0) {
                 return None;
             }
             let roles = roles_with(&columns);
-            let fit = ridge.fit(&roles);
+            let fit = penalised.fit(&roles);
             let values: Vec<f64> = columns.iter().map(|j| fit.step[*j]).collect();
             let inside = a.form.free.iter().zip(&values).all(|(p, v)| *v >= p.bounds[0] && *v <= p.bounds[1]);
             if !inside || !(small || is_material(a, &values)) {
                 return None;
             }
             let (without, with) = if a.effect.nuisance() {
-                (&base_parts, ridge_parts.held_out(&roles))
+                (&base_parts, penalised_parts.held_out(&roles))
             } else {
-                (&base, shared(&ridge, &roles, &nuisance))
+                (&base, shared(&penalised, &roles, &nuisance))
             };
             let differences: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
             let sum: f64 = differences.iter().sum();
@@ -168,7 +169,7 @@ fn best(
     let most = promises.iter().map(|p| p.score).fold(0.0, f64::max);
     // What is as good explains as much; a law of the drive does not leave far more, either.
     let laws = problem.link() == Link::Drive;
-    let n: f64 = linear.gram.n();
+    let n: f64 = linear.equations.n();
     let left = |p: &Promise| ((total - p.explains) / n.max(1.0)).max(0.0).sqrt();
     let least = promises.iter().map(left).fold(f64::INFINITY, f64::min);
     let rank = |p: &Promise| (p.parameters, usize::from(all[p.candidate].effect.name() == "encoder-lag"), p.candidate);
@@ -176,10 +177,10 @@ fn best(
 }
 
 /// Held-out losses per cluster, each run predicted from the others; what belongs to a run is fitted on it.
-fn shared(ridge: &Ridge, roles: &[Role], nuisance: &[bool]) -> Vec<f64> {
-    let fit = ridge.fit(roles);
+fn shared(penalised: &Penalised, roles: &[Role], nuisance: &[bool]) -> Vec<f64> {
+    let fit = penalised.fit(roles);
     let fixed = |(c, r): (usize, &Role)| if nuisance[c] && *r == Role::Free { Role::At(fit.step[c]) } else { *r };
-    ridge.held_out(&roles.iter().enumerate().map(fixed).collect::<Vec<_>>())
+    penalised.held_out(&roles.iter().enumerate().map(fixed).collect::<Vec<_>>())
 }
 
 /// Held-out sum of squares of a state whose effects are fitted, and the number of residuals.
@@ -189,9 +190,9 @@ pub(crate) fn held_out(problem: &Problem, state: &State) -> (f64, f64) {
         linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
     let nuisance: Vec<bool> =
         linear.owners.iter().map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance())).collect();
-    let losses = shared(&Ridge::new(&linear.gram, 1.0), &roles, &nuisance);
-    let plain = losses.iter().zip(&linear.gram.clusters).map(|(l, c)| l / c.weight).sum();
-    (plain, linear.gram.plain().1)
+    let losses = shared(&Penalised::new(&linear.equations, 1.0), &roles, &nuisance);
+    let plain = losses.iter().zip(&linear.equations.clusters).map(|(l, c)| l / c.weight).sum();
+    (plain, linear.equations.plain().1)
 }
 
 /// Drops, one by one, effects without which held-out runs are predicted as well.

@@ -2,35 +2,36 @@
 
 use nalgebra::DMatrix;
 
-use super::{Bench, Selection, finish, settle};
+use super::{Design, Selection, finish, settle};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::Active;
 use crate::thresholds::{Estimate, gate};
 
 /// Estimates of an active effect's fitted parameters with 95 % intervals.
-pub fn estimates(bench: &Bench, index: usize) -> Vec<Estimate> {
-    let roles = bench.estimating();
-    let fit = bench.fit_roles(&roles);
-    estimates_of(bench, index, &fit.step, &bench.covariance(&roles, &fit))
+pub fn estimates(design: &Design, index: usize) -> Vec<Estimate> {
+    let roles = design.estimating();
+    let fit = design.fit_roles(&roles);
+    estimates_of(design, index, &fit.step, &design.covariance(&roles, &fit))
 }
 
 fn estimates_of(
-    bench: &Bench,
+    design: &Design,
     index: usize,
     step: &nalgebra::DVector<f64>,
     covariance: &DMatrix<f64>,
 ) -> Vec<Estimate> {
-    let active = &bench.state.active[index];
+    let active = &design.state.active[index];
     let free = &active.form.free;
-    let df = bench.linear.gram.clusters.len().saturating_sub(free.len());
+    let df = design.linear.equations.clusters.len().saturating_sub(free.len());
     let estimate = |(j, p): (usize, &crate::effect::Parameter)| {
-        let column = bench.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
+        let column = design.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
         let value = active.values.get(&p.name) + column.map_or(0.0, |c| step[c]).clamp(-p.scale, p.scale);
         let value = active.effect.period(&p.name).map_or(value, |period| value.rem_euclid(period));
         let sd = column.map_or(0.0, |c| covariance[(c, c)].max(0.0).sqrt());
         // The effect's own law is not known to better than that.
-        let half = (model::fit::t_quantile_975(df) * sd).hypot(2.0 * active.effect.law_uncertainty() * value);
+        let half =
+            (estimation::statistics::t_quantile_975(df) * sd).hypot(2.0 * active.effect.law_uncertainty() * value);
         Estimate {
             name: p.name.clone(),
             value,
@@ -52,12 +53,12 @@ pub(super) fn sure(
     thresholds: &Thresholds,
 ) -> Selection {
     loop {
-        let bench = &found.bench;
-        let roles = bench.estimating();
-        let fit = bench.fit_roles(&roles);
-        let covariance = bench.covariance(&roles, &fit);
+        let design = &found.design;
+        let roles = design.estimating();
+        let fit = design.fit_roles(&roles);
+        let covariance = design.covariance(&roles, &fit);
         let refused = |i: &usize| {
-            found.state.active[*i].worth() && gate(&estimates_of(bench, *i, &fit.step, &covariance), None).is_err()
+            found.state.active[*i].worth() && gate(&estimates_of(design, *i, &fit.step, &covariance), None).is_err()
         };
         let Some(index) = (from..found.state.active.len()).rev().find(refused) else { return found };
         let mut state = found.state.clone();

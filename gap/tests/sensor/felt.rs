@@ -22,9 +22,8 @@ pub(super) fn robot() -> Robot {
 /// The same as it truly is, with one part of the sensor's type.
 pub(super) fn truth(hidden: &[Hidden], part: u64) -> Applied {
     let effect = |(name, parameters): &Hidden| {
-        let parameter = |(n, v): &(&str, f64)| {
-            ((*n).to_owned(), EffectParameter { value: *v, ..EffectParameter::default() })
-        };
+        let parameter =
+            |(n, v): &(&str, f64)| ((*n).to_owned(), EffectParameter { value: *v, ..EffectParameter::default() });
         Effect { name: (*name).to_owned(), parameters: parameters.iter().map(parameter).collect(), ..Effect::default() }
     };
     let mut applied = Applied::of(&Robot { effects: hidden.iter().map(effect).collect(), ..robot() });

@@ -81,9 +81,18 @@ fn old_counts_are_told_from_old_frames() {
     let data = set(&truth(&[("encoder-lag", &[("latency_s", 0.02)])], 8), &[Spin, Chirp], 8);
     let without = done(&numb(data.clone()));
     assert_eq!(without.verdict, Verdict::Ambiguous, "{}", without.terminal_summary());
-    assert!(without.alternatives.iter().any(|s| s.contains(&"camera-latency".to_owned())), "{:?}", without.alternatives);
+    assert!(
+        without.alternatives.iter().any(|s| s.contains(&"camera-latency".to_owned())),
+        "{:?}",
+        without.alternatives
+    );
     let with = done(&data);
-    assert_eq!((with.verdict, names(&with)), (Verdict::MissingEffect, vec!["encoder-lag"]), "{}", with.terminal_summary());
+    assert_eq!(
+        (with.verdict, names(&with)),
+        (Verdict::MissingEffect, vec!["encoder-lag"]),
+        "{}",
+        with.terminal_summary()
+    );
     assert_eq!(with.alternatives, Vec::<Vec<String>>::new());
     holds(&with, "latency_s", 0.02);
 }

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::common::{names, simulate, with};
+use estimation::statistics::rms;
 use gap::drive::{DriveLink, DriveModel};
 use gap::effect::{Effect, Form, Link, Values};
 use gap::pieces::{PIECE, segments};
 use gap::problem::Problem;
 use gap::state::{Active, State};
-use gap::statistics::rms;
 use model::manoeuvre::Manoeuvre;
 use runs::robot::{Robot, Support};
 use runs::{Logs, Run};

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::common::{RICH, cut, names, simulate, with};
+use estimation::prior::Role;
 use gap::effect::{Effect, Link};
 use gap::motion::MotionLink;
 use gap::options::Thresholds;
 use gap::pieces::{PIECE, segments};
 use gap::problem::{Owner, Problem};
-use gap::ridge::Role;
-use gap::select::{Bench, candidates};
+use gap::select::{Design, candidates};
 use gap::state::State;
 use gap::{Options, analyse};
 use runs::robot::Robot;
@@ -43,16 +43,16 @@ fn one_effect_at_many_thresholds_has_one_margin() {
     let catalogue: Vec<Arc<dyn Effect>> = vec![gap::effects::find("encoder-loss").unwrap().into()];
     let all = candidates(&state, &catalogue, Link::Motion);
     let thresholds = Thresholds::default();
-    let bench = Bench::new(&Problem::Motion(&link), &state, &all, &thresholds);
-    let jj = bench.linear.gram.information();
-    let own = |c: &usize| match bench.linear.owners[*c] {
+    let design = Design::new(&Problem::Motion(&link), &state, &all, &thresholds);
+    let jj = design.linear.equations.information();
+    let own = |c: &usize| match design.linear.owners[*c] {
         Owner::Candidate(k, 0) => all[k].form.wheels == [0] && jj[(*c, *c)] > 0.0,
         _ => false,
     };
-    let columns: Vec<usize> = (0..bench.linear.owners.len()).filter(own).collect();
+    let columns: Vec<usize> = (0..design.linear.owners.len()).filter(own).collect();
     // What all thresholds together may do in place of the loss at the third of them, as a variance.
     let of = columns[2];
-    let roles = bench.roles();
+    let roles = design.roles();
     let together: f64 = columns
         .iter()
         .map(|c| match roles[*c] {

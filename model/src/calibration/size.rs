@@ -5,7 +5,8 @@ use serde_json::{Value, json};
 
 use super::KinematicParameter;
 use super::structure::Part;
-use crate::fit::{Fit, t_quantile_975};
+use crate::fit::Fit;
+use estimation::statistics::t_quantile_975;
 
 /// Relative sizes beyond which a fit is no robot.
 const MOST: f64 = 0.5;

@@ -7,16 +7,16 @@
 //! never on the measurement.
 
 mod noise;
-mod statistics;
 mod windows;
 
+use estimation::statistics::t_quantile_975;
+use estimation::truncated::{Truncated, UnknownDirection};
 use nalgebra::{DMatrix, DVector};
 
 use runs::Run;
 use runs::frames::Pose;
 
 pub use noise::{camera_noise, camera_noise_of};
-pub use statistics::t_quantile_975;
 use windows::{Evaluation, Frame, Window};
 
 /// A model that predicts camera poses from the encoders, for any values of its parameters.
@@ -67,15 +67,6 @@ pub enum FitError {
     /// The residuals are not finite at the start.
     #[error("the prediction is not finite; look at the parameters the fit starts from")]
     NotFinite,
-}
-
-/// A direction of the parameter space about which the data say nothing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UnknownDirection {
-    /// Components in units of [`PoseModel::scales`], normalised.
-    pub direction: Vec<f64>,
-    /// Standard deviation along it, in the same units; infinite where nothing is measured at all.
-    pub sd: f64,
 }
 
 /// Outcome of [`fit`].
@@ -142,7 +133,7 @@ pub fn fit(model: &dyn PoseModel, runs: &[Run], start: &[f64], options: &FitOpti
     let mut now = problem.evaluate(&parameters)?;
     for _ in 0..options.most_steps {
         let normal = problem.linearise(&parameters, &now);
-        let step = normal.step(options.unknown_beyond);
+        let step = normal.step();
         // Halve a step that makes things worse: far from the solution the problem is not linear.
         let mut accepted = None;
         for halving in 0..6 {
@@ -163,7 +154,7 @@ pub fn fit(model: &dyn PoseModel, runs: &[Run], start: &[f64], options: &FitOpti
         }
     }
     let normal = problem.linearise(&parameters, &now);
-    let (covariance, unknown) = normal.covariance(options.unknown_beyond, now.reduced_chi2(start.len()));
+    let (covariance, unknown) = normal.covariance(now.reduced_chi2(start.len()));
     let scale = DMatrix::from_diagonal(&DVector::from_column_slice(&problem.scales));
     Ok(Fit {
         names: model.names(),
@@ -204,7 +195,7 @@ pub fn covariance_at(
     let problem = Problem::new(model, runs, options)?;
     let evaluation = problem.evaluate(parameters)?;
     let normal = problem.linearise(parameters, &evaluation);
-    let (covariance, unknown) = normal.covariance(options.unknown_beyond, evaluation.reduced_chi2(parameters.len()));
+    let (covariance, unknown) = normal.covariance(evaluation.reduced_chi2(parameters.len()));
     let scale = DMatrix::from_diagonal(&DVector::from_column_slice(&problem.scales));
     Ok((&scale * covariance * &scale, unknown))
 }
@@ -265,6 +256,7 @@ struct Problem<'a> {
     windows: Vec<Window>,
     noise: [f64; 3],
     scales: Vec<f64>,
+    unknown_beyond: f64,
 }
 
 impl<'a> Problem<'a> {
@@ -274,7 +266,7 @@ impl<'a> Problem<'a> {
             return Err(FitError::NoWindows);
         }
         let noise = options.noise.unwrap_or_else(|| camera_noise(runs));
-        Ok(Self { model, runs, windows, noise, scales: model.scales() })
+        Ok(Self { model, runs, windows, noise, scales: model.scales(), unknown_beyond: options.unknown_beyond })
     }
 
     /// Predicted frames of every run.
@@ -311,18 +303,10 @@ impl<'a> Problem<'a> {
     }
 
     /// The normal equations: those of all windows.
-    fn linearise(&self, parameters: &[f64], at: &Evaluation) -> Normal {
-        let n = parameters.len();
-        let mut normal = Normal {
-            information: DMatrix::zeros(n, n),
-            gradient: DVector::zeros(n),
-            spread: DMatrix::zeros(n, n),
-            windows: self.windows.len(),
-        };
-        for WindowEquations { information, score, .. } in self.equations(parameters, at) {
-            normal.spread += &score * score.transpose();
-            normal.information += information;
-            normal.gradient += score;
+    fn linearise(&self, parameters: &[f64], at: &Evaluation) -> Truncated {
+        let mut normal = Truncated::new(parameters.len(), self.unknown_beyond);
+        for window in self.equations(parameters, at) {
+            normal.add(&window.information, &window.score);
         }
         normal
     }
@@ -336,61 +320,6 @@ impl<'a> Problem<'a> {
             windows: self.windows.len(),
             outliers: at.outliers(),
         }
-    }
-}
-
-struct Normal {
-    information: DMatrix<f64>,
-    gradient: DVector<f64>,
-    /// Sum over windows of score · scoreᵀ.
-    spread: DMatrix<f64>,
-    windows: usize,
-}
-
-impl Normal {
-    /// A basis of the directions that are known, scaled so that the information is 1 along each,
-    /// and the directions that are not.
-    fn whitened(&self, unknown_beyond: f64) -> (DMatrix<f64>, Vec<UnknownDirection>) {
-        let n = self.gradient.len();
-        let eigen = self.information.clone().symmetric_eigen();
-        let (mut known, mut unknown) = (Vec::new(), Vec::new());
-        for (value, v) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            let sd = if *value > 0.0 { value.powf(-0.5) } else { f64::INFINITY };
-            if sd > unknown_beyond {
-                unknown.push(UnknownDirection { direction: v.iter().copied().collect(), sd });
-            } else {
-                known.push(v * sd);
-            }
-        }
-        let basis = if known.is_empty() { DMatrix::zeros(n, 0) } else { DMatrix::from_columns(&known) };
-        (basis, unknown)
-    }
-
-    fn step(&self, unknown_beyond: f64) -> DVector<f64> {
-        let (basis, _) = self.whitened(unknown_beyond);
-        &basis * (basis.transpose() * &self.gradient)
-    }
-
-    fn covariance(&self, unknown_beyond: f64, reduced_chi2: f64) -> (DMatrix<f64>, Vec<UnknownDirection>) {
-        let (basis, unknown) = self.whitened(unknown_beyond);
-        let (windows, n) = (self.windows as f64, self.gradient.len() as f64);
-        let small_sample = windows / (windows - n).max(1.0);
-        // In the whitened basis the noise alone explains the identity. A few windows can agree by
-        // chance, so that no direction is granted less.
-        let mut covariance = DMatrix::zeros(self.gradient.len(), self.gradient.len());
-        if basis.ncols() > 0 {
-            let mut spread = (basis.transpose() * &self.spread * &basis * small_sample).symmetric_eigen();
-            for value in spread.eigenvalues.iter_mut() {
-                *value = value.max(reduced_chi2).max(1.0);
-            }
-            covariance = &basis * spread.recompose() * basis.transpose();
-        }
-        // What is unknown is as uncertain as the limit beyond which it counts as unknown.
-        for u in &unknown {
-            let v = DVector::from_column_slice(&u.direction);
-            covariance += &v * v.transpose() * unknown_beyond.powi(2);
-        }
-        (covariance, unknown)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The camera's noise, from its own frames.
 
-use super::statistics::median;
+use estimation::statistics::median;
 use runs::Run;
 use runs::frames::{Pose, wrap_angle};
 
@@ -46,7 +46,7 @@ pub fn camera_noise_of(runs: impl IntoIterator<Item = Vec<(f64, Pose)>>) -> [f64
     let mut noise = FLOOR;
     for (slot, values) in noise.iter_mut().zip(&mut differences) {
         // Median of |normal| is 0.6745 σ.
-        *slot = slot.max(median(values).unwrap_or(0.0) / 0.6745);
+        *slot = slot.max(median(values) / 0.6745);
     }
     if differences[0].is_empty() { USUAL } else { noise }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
-use super::statistics::median;
+use estimation::statistics::median;
 use runs::Run;
 use runs::frames::{Pose, wrap_angle};
 
@@ -89,7 +89,7 @@ impl Evaluation {
             evaluation.windows.push(Aligned::new(window, relative(window, tracks), observe, noise));
         }
         let mut norms: Vec<f64> = evaluation.windows.iter().flat_map(Aligned::norms).collect();
-        evaluation.spread = (median(&mut norms).unwrap_or(0.0) / MEDIAN_OF_CHI3).max(1.0);
+        evaluation.spread = (median(&mut norms) / MEDIAN_OF_CHI3).max(1.0);
         // Once more with weights, now that it is known what an outlier is.
         for (aligned, window) in evaluation.windows.iter_mut().zip(windows) {
             aligned.weigh(evaluation.spread);

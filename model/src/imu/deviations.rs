@@ -21,14 +21,7 @@ pub struct ImuDeviations {
 
 impl Default for ImuDeviations {
     fn default() -> Self {
-        Self {
-            gyro_scale: 0.0,
-            gyro_bias: [0.0; 3],
-            latency_s: 0.0,
-            turned_rad: [0.0; 3],
-            moved_m: [0.0; 3],
-            part: 1,
-        }
+        Self { gyro_scale: 0.0, gyro_bias: [0.0; 3], latency_s: 0.0, turned_rad: [0.0; 3], moved_m: [0.0; 3], part: 1 }
     }
 }
 

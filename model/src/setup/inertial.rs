@@ -151,7 +151,8 @@ fn gravity(stretches: &[Stretch]) -> Vec<Mistake> {
     let unit = units.iter().find(|(of, ..)| near(norm, *of));
     if let Some((_, unit, factor)) = unit {
         let what = format!("it is {} most of the time, where gravity is 9.81 m/s²: {unit}", short(mean[axis]));
-        let remedy = format!("write m/s² (acc_x, acc_y and acc_z times {factor}), or name the unit to `racbot convert`");
+        let remedy =
+            format!("write m/s² (acc_x, acc_y and acc_z times {factor}), or name the unit to `racbot convert`");
         found.push(Mistake::new("acc-unit", column, what, remedy));
     }
     if unit.is_none() && !near(norm, GRAVITY) {
@@ -163,7 +164,8 @@ fn gravity(stretches: &[Stretch]) -> Vec<Mistake> {
         found.push(Mistake::new("acc-axes", column, what, remedy.to_owned()));
     } else if mean[2] < 0.0 {
         let what = format!("it is {} most of the time: the force that holds the robot points up", short(mean[2]));
-        let remedy = "change the signs of all three, or, if the sensor lies upside down, those of acc_z and of one other";
+        let remedy =
+            "change the signs of all three, or, if the sensor lies upside down, those of acc_z and of one other";
         found.push(Mistake::new("acc-sign", column, what, remedy.to_owned()));
     }
     found

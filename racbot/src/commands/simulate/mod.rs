@@ -205,8 +205,8 @@ impl Options {
                 ..drive.clone()
             };
             let nominal = Robot { effects: Vec::new(), ..believed.clone() };
-            let card = VirtualImu::of_robot(&nominal, self.seed)
-                .map_or_else(BitTrue::new, |imu| BitTrue::new().with_imu(imu));
+            let card =
+                VirtualImu::of_robot(&nominal, self.seed).map_or_else(BitTrue::new, |imu| BitTrue::new().with_imu(imu));
             ideal.run(card, |_| {}).map_err(|error| self.about_robot(error))
         });
         let answer = self.answer(&drive, &timed, &files, &Truth { hidden, not_shown: not_shown(&applied) });

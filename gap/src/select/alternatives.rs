@@ -1,19 +1,19 @@
 //! What a named effect cannot be told from, how sure it is, and the figures of its link.
 
-use nalgebra::DMatrix;
-use rand::{RngExt, SeedableRng};
+use estimation::normal_equations::Cluster;
 use rayon::prelude::*;
 
-use super::{ALIKE, Bench, DOUBTFUL, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
+use super::{ALIKE, DOUBTFUL, Design, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
 use crate::options::Thresholds;
 use crate::problem::{Linear, Problem};
 use crate::state::Active;
 
 /// Held-out RMS of a link in units of its noise, and the same with what is immaterial adjusted.
-pub fn figures(bench: &Bench) -> (f64, f64) {
-    let gram = &bench.linear.gram;
-    let (square, n) = gram.plain();
-    let adjusted: f64 = bench.ridge().held_out(&bench.held).iter().zip(&gram.clusters).map(|(l, c)| l / c.weight).sum();
+pub fn figures(design: &Design) -> (f64, f64) {
+    let equations = &design.linear.equations;
+    let (square, n) = equations.plain();
+    let adjusted: f64 =
+        design.penalised().held_out(&design.held).iter().zip(&equations.clusters).map(|(l, c)| l / c.weight).sum();
     let raw = (square / n.max(1.0)).sqrt();
     (raw, (adjusted / n.max(1.0)).sqrt().min(raw))
 }
@@ -21,44 +21,18 @@ pub fn figures(bench: &Bench) -> (f64, f64) {
 /// Two-sided p-value of an effect by flipping the signs of whole clusters, from a linearisation without it.
 pub fn sign_flip(linear: &Linear, candidate: usize) -> f64 {
     let columns = linear.of_candidate(candidate);
-    let clusters = &linear.gram.clusters;
-    let m = columns.len();
-    let mut spread = DMatrix::<f64>::zeros(m, m);
-    let scores: Vec<nalgebra::DVector<f64>> = clusters
-        .iter()
-        .map(|c| {
-            let u = nalgebra::DVector::from_fn(m, |p, _| c.jr[columns[p]]);
-            spread += &u * u.transpose();
-            u
-        })
-        .collect();
-    let Some(inverse) = crate::gram::inverse(&spread) else { return 1.0 };
-    let statistic = |signs: &mut dyn FnMut() -> f64| {
-        let mut sum = nalgebra::DVector::<f64>::zeros(m);
-        for u in &scores {
-            sum.axpy(signs(), u, 1.0);
-        }
-        (sum.transpose() * &inverse * &sum)[0]
-    };
-    let observed = statistic(&mut || 1.0);
-    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(20_051_123);
-    let flips = 4999;
-    let reached = (0..flips)
-        .filter(|_| {
-            let mut sign = || if rng.random::<bool>() { 1.0 } else { -1.0 };
-            statistic(&mut sign) >= observed
-        })
-        .count();
-    (reached + 1) as f64 / f64::from(flips + 1)
+    let clusters = &linear.equations.clusters;
+    let score = |c: &Cluster| nalgebra::DVector::from_fn(columns.len(), |p, _| c.jr[columns[p]]);
+    estimation::sign_flips::p_value(&clusters.iter().map(score).collect::<Vec<_>>())
 }
 
 /// What explains as much as an active effect when that is taken out.
-pub struct Rivals {
+pub struct Alternatives {
     /// Linearised without the effect.
-    pub bench: Bench,
+    pub design: Design,
     /// Sets of names that do as well, the effect's own among them.
     pub sets: Vec<Vec<String>>,
-    /// Whether a single rival has no more parameters and no convention prefers the named effect.
+    /// Whether a single alternative has no more parameters and no convention prefers the named effect.
     pub ambiguous: bool,
 }
 
@@ -71,39 +45,45 @@ const CONVENTIONS: [(&str, &str); 4] = [
 ];
 
 /// Finds what an effect cannot be told from.
-pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active], thresholds: &Thresholds) -> Rivals {
+pub fn alternatives(
+    problem: &Problem,
+    found: &Selection,
+    index: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Alternatives {
     let mut without = found.state.clone();
     let own = without.active.remove(index);
-    let bench = Bench::new(problem, &without, all, thresholds);
-    let trials = bench.trials(thresholds);
+    let design = Design::new(problem, &without, all, thresholds);
+    let trials = design.trials(thresholds);
     let name = own.effect.name().to_owned();
     let own_gain = trials
         .iter()
-        .filter(|t| bench.candidates[t.candidate].effect.name() == name)
+        .filter(|t| design.candidates[t.candidate].effect.name() == name)
         .map(|t| t.gain)
         .fold(0.0, f64::max);
     // The same signal matters as much under any name.
-    let twin = |c: usize| found.bench.is_twin(c, index);
+    let twin = |c: usize| found.design.is_twin(c, index);
     let mut sets: Vec<Vec<String>> = Vec::new();
     let mut ambiguous = false;
     let mut tried: Vec<String> = vec![name.clone()];
     let mut told: Vec<String> = vec![name.clone()];
     for t in &trials {
-        let candidate = &bench.candidates[t.candidate];
-        let rival_name = candidate.effect.name().to_owned();
+        let candidate = &design.candidates[t.candidate];
+        let alternative_name = candidate.effect.name().to_owned();
         if t.gain < own_gain - 12.0 - 0.05 * own_gain || tried.len() > MOST_TRIED {
             break;
         }
         // An effect has several shapes, and which one is the twin shows only after a fit.
-        let shapes = tried.iter().filter(|n| **n == rival_name).count();
-        if told.contains(&rival_name)
+        let shapes = tried.iter().filter(|n| **n == alternative_name).count();
+        if told.contains(&alternative_name)
             || shapes >= MOST_SHAPES
             || !(t.material || twin(t.candidate))
-            || without.active.iter().any(|a| a.effect.name() == rival_name)
+            || without.active.iter().any(|a| a.effect.name() == alternative_name)
         {
             continue;
         }
-        tried.push(rival_name.clone());
+        tried.push(alternative_name.clone());
         let mut state = without.clone();
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
@@ -111,33 +91,33 @@ pub fn rivals(problem: &Problem, found: &Selection, index: usize, all: &[Active]
         if stopped(&state.active[index]) || problem.runs_away(&state, &without) {
             continue;
         }
-        let rival = finish(state, settled, index, thresholds);
+        let alternative = finish(state, settled, index, thresholds);
         let own_cost = thresholds.cost(own.form.free.len());
-        let rival_cost = thresholds.cost(candidate.form.free.len());
+        let alternative_cost = thresholds.cost(candidate.form.free.len());
         // Without the price of parameters: what the data say.
-        let difference = rival.against(found) + own_cost - rival_cost;
+        let difference = alternative.against(found) + own_cost - alternative_cost;
         let tie = thresholds.tie(own_gain).max(TIED);
-        if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &rival, found) {
+        if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &alternative, found) {
             continue;
         }
         if difference < tie.max(DOUBTFUL) && (twin(t.candidate) || is_material(candidate, &values)) {
-            sets.push(vec![name.clone(), rival_name.clone()]);
-            told.push(rival_name.clone());
-            let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == rival_name);
+            sets.push(vec![name.clone(), alternative_name.clone()]);
+            told.push(alternative_name.clone());
+            let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == alternative_name);
             ambiguous |= difference < tie && candidate.form.free.len() <= own.form.free.len() && !preferred;
         }
     }
-    for other in twins_of_parts(&found.bench, index) {
+    for other in twins_of_parts(&found.design, index) {
         if !told.contains(&other) {
             sets.push(vec![name.clone(), other.clone()]);
             told.push(other);
         }
     }
-    sets.extend(pair_rivals(&bench, &trials, &told, own_gain, thresholds));
-    Rivals { bench, sets, ambiguous }
+    sets.extend(pair_alternatives(&design, &trials, &told, own_gain, thresholds));
+    Alternatives { design, sets, ambiguous }
 }
 
-/// Shapes of one rival, and rivals in all, that are fitted.
+/// Shapes of one alternative, and alternatives in all, that are fitted.
 const MOST_SHAPES: usize = 3;
 const MOST_TRIED: usize = 6;
 
@@ -145,42 +125,42 @@ const MOST_TRIED: usize = 6;
 const TIED: f64 = 6.0;
 
 /// Effects of one wheel that do what an effect of several does on that wheel.
-fn twins_of_parts(bench: &Bench, index: usize) -> Vec<String> {
-    let active = &bench.state.active[index];
-    let parts: Vec<usize> = bench.linear.of_active(index);
+fn twins_of_parts(design: &Design, index: usize) -> Vec<String> {
+    let active = &design.state.active[index];
+    let parts: Vec<usize> = design.linear.of_active(index);
     let material = |j: &usize| active.form.free[*j].is_material(active.values.get(&active.form.free[*j].name));
     if active.form.wheels.len() < 2 || (0..parts.len()).filter(material).count() < 2 {
         return Vec::new();
     }
-    let jj = bench.linear.gram.information();
+    let jj = design.linear.equations.information();
     let alike = |c: usize, j: usize| {
-        let [column] = bench.linear.of_candidate(c)[..] else { return false };
+        let [column] = design.linear.of_candidate(c)[..] else { return false };
         let own = active.values.get(&active.form.free[j].name);
         let size = own * jj[(parts[j], column)] / jj[(column, column)].max(1e-300);
-        let bounds = bench.candidates[c].form.free[0].bounds;
+        let bounds = design.candidates[c].form.free[0].bounds;
         let cos2 = jj[(parts[j], column)].powi(2) / (jj[(parts[j], parts[j])] * jj[(column, column)]).max(1e-300);
         cos2 > ALIKE && size > bounds[0] && size < bounds[1]
     };
-    let twins = (0..bench.candidates.len()).filter(|c| {
-        let candidate = &bench.candidates[*c];
+    let twins = (0..design.candidates.len()).filter(|c| {
+        let candidate = &design.candidates[*c];
         candidate.effect.name() != active.effect.name()
             && !candidate.switched()
             && (0..parts.len()).filter(material).any(|j| alike(*c, j))
     });
-    let mut names: Vec<String> = twins.map(|c| bench.candidates[c].effect.name().to_owned()).collect();
+    let mut names: Vec<String> = twins.map(|c| design.candidates[c].effect.name().to_owned()).collect();
     names.dedup();
     names
 }
 
 /// Two effects that together do what the first of the `told` does, neither of them told already.
-fn pair_rivals(
-    bench: &Bench,
+fn pair_alternatives(
+    design: &Design,
     trials: &[Trial],
     told: &[String],
     own_gain: f64,
     thresholds: &Thresholds,
 ) -> Option<Vec<String>> {
-    let effect = |c: usize| bench.candidates[c].effect.name();
+    let effect = |c: usize| design.candidates[c].effect.name();
     let mut others: Vec<usize> = trials
         .iter()
         .filter(|t| !told.iter().any(|n| n == effect(t.candidate)) && !t.beyond && t.gain > 0.0)
@@ -189,7 +169,7 @@ fn pair_rivals(
         .collect();
     // Of equals the simplest, and what comes first in the catalogue.
     others.sort_unstable();
-    let base = bench.base();
+    let base = design.base();
     let from = base.loss + base.penalty;
     let pairs: Vec<(usize, usize)> =
         others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (*a, *b))).collect();
@@ -197,18 +177,18 @@ fn pair_rivals(
         .into_par_iter()
         .filter(|(a, b)| effect(*a) != effect(*b))
         .filter_map(|(a, b)| {
-            let fit = bench.fit(&[a, b]);
+            let fit = design.fit(&[a, b]);
             let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
             let sound = [a, b].iter().all(|c| {
-                let v = bench.values(&fit, *c);
-                bench.within_bounds(*c, &v, &fit) && bench.material(*c, &v)
+                let v = design.values(&fit, *c);
+                design.within_bounds(*c, &v, &fit) && design.material(*c, &v)
             });
             (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, a, b))
         })
         .collect();
     let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
     let parameters =
-        |g: &&(f64, usize, usize)| bench.candidates[g.1].form.free.len() + bench.candidates[g.2].form.free.len();
+        |g: &&(f64, usize, usize)| design.candidates[g.1].form.free.len() + design.candidates[g.2].form.free.len();
     let (_, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
     Some([&told[0], effect(*a), effect(*b)].map(str::to_owned).to_vec())
 }

@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::gram::{Gram, Totals, solve};
+use crate::normal_equations::{NormalEquations, Totals, inverse, solve};
 
 /// A penalised least-squares problem over all columns of a linearisation.
-pub struct Ridge<'a> {
-    gram: &'a Gram,
+pub struct Penalised<'a> {
+    equations: &'a NormalEquations,
     /// Variance the residuals really have, in units of the assumed noise.
     variance: f64,
     totals: Arc<Totals>,
@@ -21,7 +21,7 @@ pub struct Ridge<'a> {
 
 /// A fit.
 #[derive(Debug, Clone)]
-pub struct RidgeFit {
+pub struct PenalisedFit {
     /// Step along each column of the linearisation, 0 for those left out.
     pub step: DVector<f64>,
     /// Sum of squares left, in units of the variance.
@@ -43,10 +43,10 @@ pub enum Role {
     At(f64),
 }
 
-impl<'a> Ridge<'a> {
+impl<'a> Penalised<'a> {
     /// Sums over the clusters once.
-    pub fn new(gram: &'a Gram, variance: f64) -> Self {
-        Self { gram, variance, totals: gram.totals() }
+    pub fn new(equations: &'a NormalEquations, variance: f64) -> Self {
+        Self { equations, variance, totals: equations.totals() }
     }
 
     /// What the data say of one column: its sum of squares.
@@ -55,13 +55,13 @@ impl<'a> Ridge<'a> {
     }
 
     /// The best step with these roles.
-    pub fn fit(&self, roles: &[Role]) -> RidgeFit {
+    pub fn fit(&self, roles: &[Role]) -> PenalisedFit {
         let (step, columns) = self.solve(&self.totals.jj, &self.totals.jr, roles);
         self.rated(step, &columns, roles)
     }
 
     /// The best step with these roles in which no free column leaves its limits.
-    pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> RidgeFit {
+    pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         loop {
             let fit = self.fit(&roles);
@@ -84,17 +84,17 @@ impl<'a> Ridge<'a> {
     }
 
     /// How well the other columns do in place of one, whatever the data say.
-    pub fn explain(&self, column: usize, roles: &[Role]) -> RidgeFit {
+    pub fn explain(&self, column: usize, roles: &[Role]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         roles[column] = if let Role::Held(..) = roles[column] { roles[column] } else { Role::Out };
         let jj = &self.totals.jj;
         let totals =
             Totals { jr: jj.column(column).into_owned(), rr: jj[(column, column)], jj: jj.clone(), folds: Vec::new() };
-        let wanted = Self { gram: self.gram, variance: self.variance, totals: Arc::new(totals) };
+        let wanted = Self { equations: self.equations, variance: self.variance, totals: Arc::new(totals) };
         wanted.fit(&roles)
     }
 
-    fn rated(&self, step: DVector<f64>, columns: &[usize], roles: &[Role]) -> RidgeFit {
+    fn rated(&self, step: DVector<f64>, columns: &[usize], roles: &[Role]) -> PenalisedFit {
         let mut linear = 0.0;
         let mut square = 0.0;
         for &p in columns {
@@ -104,18 +104,19 @@ impl<'a> Ridge<'a> {
             }
         }
         let penalty = penalty(&step, roles);
-        RidgeFit { loss: (self.totals.rr - 2.0 * linear + square) / self.variance, step, penalty }
+        PenalisedFit { loss: (self.totals.rr - 2.0 * linear + square) / self.variance, step, penalty }
     }
 
     /// Held-out sum of squares of each cluster, in units of the assumed noise (not the variance).
     pub fn held_out(&self, roles: &[Role]) -> Vec<f64> {
-        let mut out: Vec<f64> = self.gram.clusters.iter().map(|c| c.rr).collect();
+        let mut out: Vec<f64> = self.equations.clusters.iter().map(|c| c.rr).collect();
         if self.totals.folds.len() < 2 {
             return out;
         }
         for (fold, jj, jr) in &self.totals.folds {
             let (step, columns) = self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles);
-            for (i, c) in self.gram.clusters.iter().enumerate().filter(|(i, _)| self.gram.folds[*i] == *fold) {
+            for (i, c) in self.equations.clusters.iter().enumerate().filter(|(i, _)| self.equations.folds[*i] == *fold)
+            {
                 let (mut linear, mut square) = (0.0, 0.0);
                 for &p in &columns {
                     linear += step[p] * c.jr[p];
@@ -124,6 +125,67 @@ impl<'a> Ridge<'a> {
                     }
                 }
                 out[i] = c.rr - 2.0 * linear + square;
+            }
+        }
+        out
+    }
+
+    /// Columns that take part and that the data say something of.
+    fn used(&self, roles: &[Role]) -> Vec<usize> {
+        (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.equations.tells(*i)).collect()
+    }
+
+    /// Diagonal of (JᵀJ + priors)⁻¹, 0 for columns that take no part, infinite where there is no inverse.
+    pub fn inverse_diagonal(&self, roles: &[Role]) -> Vec<f64> {
+        let used = self.used(roles);
+        let jj = &self.totals.jj;
+        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
+        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
+            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
+        });
+        let inverse = inverse(&own);
+        let mut out = vec![0.0; roles.len()];
+        for (p, c) in used.iter().enumerate() {
+            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(p, p)]);
+        }
+        out
+    }
+
+    /// Covariance of all columns, 0 for those that take no part: cluster-robust (the sandwich, small-sample corrected),
+    /// priors as pseudo observations, no variance below what the residual variance explains.
+    pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
+        let equations = self.equations;
+        let m = roles.len();
+        let columns = self.used(roles);
+        let k = columns.len();
+        let whole = &self.totals.jj;
+        let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
+        let mut meat = DMatrix::zeros(k, k);
+        let g = equations.clusters.len() as f64;
+        for c in &equations.clusters {
+            let left = &c.jr - c.jj.times(&fit.step);
+            let score = DVector::from_fn(k, |p, _| left[columns[p]]);
+            meat.ger(1.0, &score, &score, 1.0);
+        }
+        let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
+        meat *= g / (g - free).max(1.0);
+        let mut plain = jj.clone() * self.variance;
+        for (p, c) in columns.iter().enumerate() {
+            if let Role::Held(sd, _) = roles[*c] {
+                let weight = self.variance / (sd * sd);
+                jj[(p, p)] += weight;
+                meat[(p, p)] += weight * self.variance;
+                plain[(p, p)] += weight * self.variance;
+            }
+        }
+        let Some(inverse) = inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
+        let robust = &inverse * meat * &inverse;
+        let plain = &inverse * plain * &inverse;
+        let mut out = DMatrix::zeros(m, m);
+        for p in 0..k {
+            for q in 0..k {
+                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
+                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
             }
         }
         out
@@ -171,20 +233,20 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::*;
-    use crate::gram::Cluster;
+    use crate::normal_equations::Cluster;
 
     /// Two columns that overlap, and residuals that are 3 of the first and 1 of the second.
-    fn gram() -> Gram {
+    fn equations() -> NormalEquations {
         let columns = DMatrix::from_fn(30, 2, |r, c| if c == 0 { 1.0 } else { f64::from(u8::from(r < 15)) });
         let residual = &columns * DVector::from_column_slice(&[3.0, 1.0]);
-        Gram::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)])
+        NormalEquations::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)])
     }
 
     #[test]
     fn what_is_taken_along_is_not_fitted_but_counted() {
-        let gram = gram();
-        let ridge = Ridge::new(&gram, 1.0);
-        let fit = ridge.fit(&[Role::At(2.0), Role::Free]);
+        let equations = equations();
+        let penalised = Penalised::new(&equations, 1.0);
+        let fit = penalised.fit(&[Role::At(2.0), Role::Free]);
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
         // What is left is 1 where the second column is 0.
         assert!((fit.loss - 15.0).abs() < 1e-6, "{}", fit.loss);
@@ -192,12 +254,51 @@ mod tests {
 
     #[test]
     fn no_free_step_leaves_its_limits() {
-        let gram = gram();
-        let ridge = Ridge::new(&gram, 1.0);
+        let equations = equations();
+        let penalised = Penalised::new(&equations, 1.0);
         let roles = [Role::Free, Role::Free];
-        let fit = ridge.fit_within(&roles, &[[-2.0, 2.0], [-9.0, 9.0]]);
+        let fit = penalised.fit_within(&roles, &[[-2.0, 2.0], [-9.0, 9.0]]);
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
-        let free = ridge.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
+        let free = penalised.fit_within(&roles, &[[-9.0, 9.0], [-9.0, 9.0]]);
         assert!((free.step[0] - 3.0).abs() < 1e-6 && (free.step[1] - 1.0).abs() < 1e-6, "{}", free.step);
+    }
+
+    /// Clusters of residuals that are wrong together: the sandwich sees it, the plain covariance does not.
+    #[test]
+    fn a_covariance_knows_that_a_cluster_is_one_observation() {
+        let ones = DMatrix::from_element(10, 1, 1.0);
+        // Ten clusters of ten equal residuals, +1 and -1 in turn: the mean of ten draws, not of a hundred.
+        let clusters = (0..10)
+            .map(|i| if i % 2 == 0 { 1.0 } else { -1.0 })
+            .map(|r| Cluster::new(0, 0.0, 10.0, &DVector::from_element(10, r), &ones));
+        let equations = NormalEquations::new(clusters.collect());
+        let penalised = Penalised::new(&equations, 1.0);
+        for (role, expected) in [
+            // 10 scores of 10² over 100², times 10/9.
+            (Role::Free, 1.0 / 9.0),
+            // A prior as informative as the data halves the inverse: (1000·10/10 + 100)/200².
+            (Role::Held(0.1, 0.0), 1100.0 / 40_000.0),
+            // No part, no variance.
+            (Role::Out, 0.0),
+        ] {
+            let roles = [role];
+            let found = penalised.covariance(&roles, &penalised.fit(&roles))[(0, 0)];
+            assert!((found - expected).abs() < 1e-6, "{role:?}: {found} for {expected}");
+        }
+        let halved = penalised.inverse_diagonal(&[Role::Held(0.1, 0.0)])[0];
+        assert!((halved - 1.0 / 200.0).abs() < 1e-9, "{halved}");
+    }
+
+    #[test]
+    fn each_fold_is_predicted_by_the_others() {
+        let ones = DMatrix::from_element(4, 1, 1.0);
+        let run = |run: usize, r: f64| Cluster::new(run, 0.0, 1e3, &DVector::from_element(4, r), &ones);
+        let equations = NormalEquations::new(vec![run(0, 1.0), run(1, 2.0), run(2, 6.0)]);
+        let penalised = Penalised::new(&equations, 1.0);
+        // Means of the others: 4, 3.5, 1.5; four residuals each.
+        let expected = [4.0 * 9.0, 4.0 * 2.25, 4.0 * 20.25];
+        for (found, expected) in penalised.held_out(&[Role::Free]).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-5, "{found} for {expected}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Weak form: bumps, and the unexplained torque of each.
+//! Weak form: test functions, and the unexplained torque of each.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,20 +10,20 @@ use super::columns::{Column, Columns, Side};
 use super::forces::Base;
 use super::{DriveModel, Mechanics};
 use crate::effect::Sizes;
-use crate::gram::Cluster;
 use crate::pieces::Pieces;
 use crate::segment::Segment;
 use crate::thresholds;
+use estimation::normal_equations::Cluster;
 
-/// Length of a bump, s, and in ticks at least.
-const BUMP_S: f64 = 0.12;
+/// Length of a test function, s, and in ticks at least.
+const TEST_FUNCTION_S: f64 = 0.12;
 const FEWEST_TICKS: f64 = 12.0;
-/// Length of a cluster, s, and in bumps at least.
+/// Length of a cluster, s, and in test functions at least.
 const CLUSTER_S: f64 = 1.0;
-const FEWEST_BUMPS: f64 = 8.0;
+const FEWEST_TEST_FUNCTIONS: f64 = 8.0;
 /// Clusters at most; beyond, they are longer.
 const MOST_CLUSTERS: f64 = 400.0;
-/// Share of a bump a wheel may be that slow.
+/// Share of a test function a wheel may be that slow.
 const STUCK_SHARE: f64 = 0.35;
 
 /// The drive link of a data set.
@@ -32,17 +32,17 @@ pub struct DriveLink<'a> {
     pub pieces: &'a Pieces<'a>,
     /// Torque per wheel acceleration of the robot that the link was made with: the unit of residuals.
     inertia: DMatrix<f64>,
-    /// Standard deviation of the unexplained torque of one bump, Nm, one a wheel.
+    /// Standard deviation of the unexplained torque of one test function, Nm, one a wheel.
     pub noise: Vec<f64>,
     /// What torques and speeds are large beside.
     pub sizes: Sizes,
-    bumps: Vec<Bump>,
+    test_functions: Vec<TestFunction>,
     columns: Columns,
 }
 
 /// One test function on one segment.
 #[derive(Debug, Clone)]
-struct Bump {
+struct TestFunction {
     segment: usize,
     /// Where it begins and how long it is, s.
     start: f64,
@@ -52,15 +52,15 @@ struct Bump {
     intervals: usize,
     /// 1 where the wheel turned, 0 where it may have been stuck.
     weights: Vec<f64>,
-    /// Share of the bump in which it may have been stuck, one a wheel.
+    /// Share of the test function in which it may have been stuck, one a wheel.
     stuck: Vec<f64>,
     /// Cluster, unique over all segments.
     cluster: usize,
 }
 
-/// A bump's weights.
+/// A test function's weights.
 struct Shape {
-    /// Of the angles: second differences of the test function, from the bump's first tick.
+    /// Of the angles: second differences of the test function, from the test function's first tick.
     angle: Vec<f64>,
     /// Of the intervals from tick to tick, summing to 1.
     force: Vec<f64>,
@@ -69,27 +69,27 @@ struct Shape {
 /// Unexplained torques.
 #[derive(Debug, Clone)]
 pub struct DriveResiduals {
-    /// Index of the run, one a bump.
+    /// Index of the run, one a test function.
     pub run: Vec<usize>,
-    /// Segment and middle tick of each bump.
+    /// Segment and middle tick of each test function.
     pub at: Vec<(usize, usize)>,
-    /// Torque, Nm, `[bump][wheel]`; what would have to be added to the model.
+    /// Torque, Nm, `[test function][wheel]`; what would have to be added to the model.
     pub torque: Vec<Vec<f64>>,
-    /// Weight, `[bump][wheel]`.
+    /// Weight, `[test function][wheel]`.
     pub weights: Vec<Vec<f64>>,
 }
 
 impl<'a> DriveLink<'a> {
-    /// Lays bumps of the usual length over the segments.
+    /// Lays test functions of the usual length over the segments.
     pub fn new(pieces: &'a Pieces<'a>, nominal: &DriveModel) -> Option<Self> {
-        Self::with_bumps(pieces, nominal, BUMP_S)
+        Self::with_test_functions(pieces, nominal, TEST_FUNCTION_S)
     }
 
-    /// Lays bumps of a length in s over the segments.
-    pub fn with_bumps(pieces: &'a Pieces<'a>, nominal: &DriveModel, bump_s: f64) -> Option<Self> {
+    /// Lays test functions of a length in s over the segments.
+    pub fn with_test_functions(pieces: &'a Pieces<'a>, nominal: &DriveModel, test_function_s: f64) -> Option<Self> {
         let inertia = nominal.mechanics()?.inertia;
         let n = nominal.wheels.len();
-        let mut bumps = Vec::new();
+        let mut test_functions = Vec::new();
         let mut cluster = 0;
         let total = pieces.seconds();
         for (index, s) in pieces.iter().enumerate() {
@@ -98,8 +98,8 @@ impl<'a> DriveLink<'a> {
             }
             let end = s.t[s.t.len() - 1];
             let tick = (end - s.t[0]) / (s.t.len() - 1) as f64;
-            let length = bump_s.max(FEWEST_TICKS * tick);
-            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_BUMPS * length).max(total / MOST_CLUSTERS);
+            let length = test_function_s.max(FEWEST_TICKS * tick);
+            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_TEST_FUNCTIONS * length).max(total / MOST_CLUSTERS);
             // One grid over the whole stretch.
             let mut start = s.t[0];
             if s.span[0].is_finite() {
@@ -112,15 +112,16 @@ impl<'a> DriveLink<'a> {
                     opened = start;
                     cluster += 1;
                 }
-                bumps.extend(Bump::new(&s, index, start, length, cluster, n));
+                test_functions.extend(TestFunction::new(&s, index, start, length, cluster, n));
                 start += 0.5 * length;
             }
         }
-        if bumps.is_empty() {
+        if test_functions.is_empty() {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link = Self { pieces, inertia, noise: vec![1.0; n], sizes, bumps, columns: Columns::default() };
+        let mut link =
+            Self { pieces, inertia, noise: vec![1.0; n], sizes, test_functions, columns: Columns::default() };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         Some(link)
     }
@@ -135,50 +136,50 @@ impl<'a> DriveLink<'a> {
             }
         });
         let counted = torques.iter().enumerate().flat_map(|(i, wheel)| {
-            wheel.iter().zip(&self.bumps).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
+            wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
         });
-        crate::statistics::rms(counted)
+        estimation::statistics::rms(counted)
     }
 
-    /// Leaves out bumps in which a wheel slips by what the motion link found: Newton's law in wheel
+    /// Leaves out test functions in which a wheel slips by what the motion link found: Newton's law in wheel
     /// coordinates needs wheels that roll.
     pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel) {
         if motion.angles.is_empty() {
             return;
         }
         for range in self.by_segment() {
-            let s = self.pieces.get(self.bumps[range.start].segment);
+            let s = self.pieces.get(self.test_functions[range.start].segment);
             let changed = motion.angles(&s);
-            for bump in &mut self.bumps[range] {
-                let end = bump.first + bump.intervals;
+            for test_function in &mut self.test_functions[range] {
+                let end = test_function.first + test_function.intervals;
                 let slips = (0..s.angle.len()).any(|i| {
                     let off = |k: usize| changed[i][k] - s.angle[i][k];
-                    (off(end) - off(bump.first)).abs()
-                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[bump.first])
+                    (off(end) - off(test_function.first)).abs()
+                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[test_function.first])
                 });
                 if slips {
-                    bump.weights.fill(0.0);
+                    test_function.weights.fill(0.0);
                 }
             }
         }
     }
 
     /// Leaves out what a wheel did while it may have stuck to a friction of this model that is not small beside the
-    /// noise: then it is anything up to its size, in either direction. Returns the share of the bumps that went. Where most
-    /// would go, for wheels that hardly ever turn freely, all stay.
+    /// noise: then it is anything up to its size, in either direction. Returns the share of the test functions that
+    /// went. Where most would go, for wheels that hardly ever turn freely, all stay.
     pub fn mask_sticking(&mut self, model: &DriveModel) -> f64 {
-        let Some(first) = self.bumps.first() else { return 0.0 };
+        let Some(first) = self.test_functions.first() else { return 0.0 };
         let friction = model.standing_friction(&self.pieces.get(first.segment));
-        let sticks = |b: &Bump, i: usize| b.stuck[i] * friction[i] > thresholds::STICKS * self.noise[i];
-        let turned = |b: &Bump, i: usize| b.weights[i] > 0.0;
-        let each = || self.bumps.iter().flat_map(|b| (0..b.weights.len()).map(move |i| (b, i)));
+        let sticks = |b: &TestFunction, i: usize| b.stuck[i] * friction[i] > thresholds::STICKS * self.noise[i];
+        let turned = |b: &TestFunction, i: usize| b.weights[i] > 0.0;
+        let each = || self.test_functions.iter().flat_map(|b| (0..b.weights.len()).map(move |i| (b, i)));
         let all = each().filter(|(b, i)| turned(b, *i)).count();
         let gone = each().filter(|(b, i)| turned(b, *i) && sticks(b, *i)).count();
         if gone == 0 || 2 * gone > all {
             return 0.0;
         }
         let noise = &self.noise;
-        for b in &mut self.bumps {
+        for b in &mut self.test_functions {
             for i in 0..b.weights.len() {
                 if b.stuck[i] * friction[i] > thresholds::STICKS * noise[i] {
                     b.weights[i] = 0.0;
@@ -188,55 +189,55 @@ impl<'a> DriveLink<'a> {
         gone as f64 / all as f64
     }
 
-    /// Leaves out bumps at these times (index of the run, s).
+    /// Leaves out test functions at these times (index of the run, s).
     pub fn mask_times(&mut self, out: impl Fn(usize, f64) -> bool) {
         for range in self.by_segment() {
-            let s = self.pieces.get(self.bumps[range.start].segment);
-            for bump in &mut self.bumps[range] {
-                if out(s.run, s.t[bump.middle()]) {
-                    bump.weights.fill(0.0);
+            let s = self.pieces.get(self.test_functions[range.start].segment);
+            for test_function in &mut self.test_functions[range] {
+                if out(s.run, s.t[test_function.middle()]) {
+                    test_function.weights.fill(0.0);
                 }
             }
         }
     }
 
-    /// Segment and middle tick of the bumps that count for no wheel.
+    /// Segment and middle tick of the test functions that count for no wheel.
     pub fn masked(&self) -> Vec<(usize, usize)> {
-        let out = self.bumps.iter().filter(|b| b.weights.iter().all(|w| *w == 0.0));
+        let out = self.test_functions.iter().filter(|b| b.weights.iter().all(|w| *w == 0.0));
         out.map(|b| (b.segment, b.middle())).collect()
     }
 
-    /// Length of a bump, s.
+    /// Length of a test function, s.
     pub fn length(&self) -> f64 {
-        self.first_bump(|s, b| s.t[b.first + b.intervals] - s.t[b.first])
+        self.first_test_function(|s, b| s.t[b.first + b.intervals] - s.t[b.first])
     }
 
     /// Ticks that make up a time.
     pub fn tick_count(&self, seconds: f64) -> usize {
-        self.first_bump(|s, b| {
+        self.first_test_function(|s, b| {
             let length = s.t[b.first + b.intervals] - s.t[b.first];
             (seconds / length.max(1e-9) * b.intervals as f64).ceil()
         }) as usize
     }
 
-    fn first_bump(&self, of: impl Fn(&Segment, &Bump) -> f64) -> f64 {
-        self.bumps.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
+    fn first_test_function(&self, of: impl Fn(&Segment, &TestFunction) -> f64) -> f64 {
+        self.test_functions.first().map_or(0.0, |b| of(&self.pieces.get(b.segment), b))
     }
 
-    /// Number of bumps.
+    /// Number of test functions.
     pub fn len(&self) -> usize {
-        self.bumps.len()
+        self.test_functions.len()
     }
 
     /// Whether there is nothing to compare.
     pub fn is_empty(&self) -> bool {
-        self.bumps.is_empty()
+        self.test_functions.is_empty()
     }
 
-    /// Bumps of each segment.
+    /// Test functions of each segment.
     fn by_segment(&self) -> Vec<Range<usize>> {
         let mut first = 0;
-        self.bumps
+        self.test_functions
             .chunk_by(|a, b| a.segment == b.segment)
             .map(|part| {
                 first += part.len();
@@ -245,13 +246,13 @@ impl<'a> DriveLink<'a> {
             .collect()
     }
 
-    /// The shapes of some bumps of one segment.
+    /// The shapes of some test functions of one segment.
     fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
-        self.bumps[range.clone()].par_iter().map(|b| b.shape(s)).collect()
+        self.test_functions[range.clone()].par_iter().map(|b| b.shape(s)).collect()
     }
 
-    /// Unexplained accelerations of some bumps of one segment by the torques and forces of a model at its ticks, in the
-    /// torque of an inertia, Nm.
+    /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
+    /// ticks, in the torque of an inertia, Nm.
     ///
     /// The equation of motion is solved for the acceleration, which carries the noise; the torques that motors give are
     /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
@@ -268,7 +269,7 @@ impl<'a> DriveLink<'a> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
         let offsets: Vec<Vec<Vec<f64>>> = model.offsets.iter().map(|o| o(model, s)).collect();
-        let out = self.bumps[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
+        let out = self.test_functions[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
                 b.offset(shape, offset, &mechanics, model, &mut a);
@@ -278,8 +279,8 @@ impl<'a> DriveLink<'a> {
         Some(out.collect())
     }
 
-    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a bump; `None` for one
-    /// that changes more.
+    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a test function;
+    /// `None` for one that changes more.
     fn added_part(
         &self,
         model: &DriveModel,
@@ -291,7 +292,7 @@ impl<'a> DriveLink<'a> {
         let offsets = base.offsets_of(model);
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
-        let out = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+        let out = self.test_functions[range.clone()].iter().zip(shapes).map(|(b, shape)| {
             let mean = |row: &Option<Vec<f64>>| row.as_ref().map_or(0.0, |row| dot(&shape.force, &row[b.first..]));
             let mut a = b.accelerated(&loads.iter().map(mean).collect::<Vec<f64>>(), &mechanics, model);
             for offset in &offsets {
@@ -303,11 +304,11 @@ impl<'a> DriveLink<'a> {
         Some(out.collect())
     }
 
-    /// Torques that the measured accelerations take of a model, Nm, one a bump.
+    /// Torques that the measured accelerations take of a model, Nm, one a test function.
     pub fn done(&self, model: &DriveModel) -> Vec<DVector<f64>> {
         let Some(Mechanics { inertia, .. }) = model.mechanics() else { return Vec::new() };
         let part = |range: Range<usize>| {
-            let s = self.pieces.get(self.bumps[range.start].segment);
+            let s = self.pieces.get(self.test_functions[range.start].segment);
             self.measured_part(&s, &range, &self.shapes(&s, &range))
         };
         let measured = self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().concat();
@@ -315,7 +316,7 @@ impl<'a> DriveLink<'a> {
     }
 
     fn measured_part(&self, s: &Segment, range: &Range<usize>, shapes: &[Shape]) -> Vec<DVector<f64>> {
-        let measured = self.bumps[range.clone()].iter().zip(shapes).map(|(b, shape)| {
+        let measured = self.test_functions[range.clone()].iter().zip(shapes).map(|(b, shape)| {
             DVector::from_fn(self.noise.len(), |i, _| {
                 let own = &s.angle[i][b.first..];
                 shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum()
@@ -378,7 +379,7 @@ impl<'a> DriveLink<'a> {
 
     fn residuals_in(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<DriveResiduals> {
         let part = |range: Range<usize>| -> Option<Vec<Vec<f64>>> {
-            let s = self.pieces.get(self.bumps[range.start].segment);
+            let s = self.pieces.get(self.test_functions[range.start].segment);
             let shapes = self.shapes(&s, &range);
             let measured = self.measured_part(&s, &range, &shapes);
             let left = self.unexplained_part(model, &s, &range, &shapes, (&model.forces(&s), inertia), &measured)?;
@@ -386,24 +387,25 @@ impl<'a> DriveLink<'a> {
         };
         let torque: Option<Vec<_>> = self.by_segment().into_par_iter().map(part).collect();
         Some(DriveResiduals {
-            run: self.bumps.iter().map(|b| self.pieces.run(b.segment)).collect(),
-            at: self.bumps.iter().map(|b| (b.segment, b.middle())).collect(),
+            run: self.test_functions.iter().map(|b| self.pieces.run(b.segment)).collect(),
+            at: self.test_functions.iter().map(|b| (b.segment, b.middle())).collect(),
             torque: torque?.concat(),
-            weights: self.bumps.iter().map(|b| b.weights.clone()).collect(),
+            weights: self.test_functions.iter().map(|b| b.weights.clone()).collect(),
         })
     }
 
-    /// Means of several quantities over every bump, `[quantity][bump]`; `of` writes them down for one tick.
+    /// Means of several quantities over every test function, `[quantity][test function]`; `of` writes them down for one
+    /// tick.
     pub fn means(&self, quantities: usize, of: impl Fn(&Segment, usize, &mut [f64]) + Sync) -> Vec<Vec<f64>> {
         let part = |range: Range<usize>| {
-            let s = self.pieces.get(self.bumps[range.start].segment);
+            let s = self.pieces.get(self.test_functions[range.start].segment);
             let shapes = self.shapes(&s, &range);
             let mut values = vec![0.0; quantities * s.t.len()];
             for (k, row) in values.chunks_mut(quantities).enumerate() {
                 of(&s, k, row);
             }
             let mut means = vec![vec![0.0; range.len()]; quantities];
-            for (place, (b, shape)) in self.bumps[range].iter().zip(&shapes).enumerate() {
+            for (place, (b, shape)) in self.test_functions[range].iter().zip(&shapes).enumerate() {
                 for (j, w) in shape.force.iter().enumerate() {
                     let row = &values[(b.first + j) * quantities..][..quantities];
                     means.iter_mut().zip(row).for_each(|(mean, x)| mean[place] += w * x);
@@ -415,28 +417,28 @@ impl<'a> DriveLink<'a> {
         (0..quantities).map(|q| parts.iter().flat_map(|p| &p[q]).copied().collect()).collect()
     }
 
-    /// Something of the middle tick of every bump.
+    /// Something of the middle tick of every test function.
     pub fn at_middles<T: Send>(&self, of: impl Fn(&Segment, usize) -> T + Sync) -> Vec<T> {
         let part = |range: Range<usize>| {
-            let s = self.pieces.get(self.bumps[range.start].segment);
-            self.bumps[range].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
+            let s = self.pieces.get(self.test_functions[range.start].segment);
+            self.test_functions[range].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
         };
         self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
-    /// Weights, `[bump][wheel]`.
-    pub fn weights(&self, bump: usize) -> &[f64] {
-        &self.bumps[bump].weights
+    /// Weights, `[test function][wheel]`.
+    pub fn weights(&self, test_function: usize) -> &[f64] {
+        &self.test_functions[test_function].weights
     }
 
-    /// Cluster of a bump.
-    pub fn cluster(&self, bump: usize) -> usize {
-        self.bumps[bump].cluster
+    /// Cluster of a test function.
+    pub fn cluster(&self, test_function: usize) -> usize {
+        self.test_functions[test_function].cluster
     }
 
-    /// Segment and first tick of a bump.
-    pub fn place(&self, bump: usize) -> (usize, usize) {
-        (self.bumps[bump].segment, self.bumps[bump].first)
+    /// Segment and first tick of a test function.
+    pub fn place(&self, test_function: usize) -> (usize, usize) {
+        (self.test_functions[test_function].segment, self.test_functions[test_function].first)
     }
 
     /// Linearises: residuals and derivatives along each side, per cluster.
@@ -448,7 +450,7 @@ impl<'a> DriveLink<'a> {
         }
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
-            let s = &*self.pieces.get(self.bumps[range.start].segment);
+            let s = &*self.pieces.get(self.test_functions[range.start].segment);
             let shapes = self.shapes(s, &range);
             let measured = self.measured_part(s, &range, &shapes);
             let left = |model: &DriveModel, forces: &[f64]| {
@@ -490,7 +492,7 @@ impl<'a> DriveLink<'a> {
                 })
                 .collect();
             let mut first = 0;
-            for part in self.bumps[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
+            for part in self.test_functions[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
                 let rows = part.len() * n;
                 let own = first * n..first * n + rows;
                 let weights: Vec<f64> =
@@ -511,27 +513,27 @@ impl<'a> DriveLink<'a> {
     }
 }
 
-impl Bump {
+impl TestFunction {
     fn new(s: &Segment, segment: usize, start: f64, length: f64, cluster: usize, wheels: usize) -> Option<Self> {
-        // Ticks strictly inside, and one on either side, where the bump is 0.
+        // Ticks strictly inside, and one on either side, where the test function is 0.
         let first = s.t.partition_point(|t| *t <= start).saturating_sub(1);
         let end = s.t.partition_point(|t| *t < start + length);
         if end >= s.t.len() || end - first < 4 {
             return None;
         }
         let (weights, stuck) = (vec![0.0; wheels], vec![0.0; wheels]);
-        let mut bump = Self { segment, start, length, first, intervals: end - first, weights, stuck, cluster };
-        let force = bump.shape(s).force;
+        let mut test_function = Self { segment, start, length, first, intervals: end - first, weights, stuck, cluster };
+        let force = test_function.shape(s).force;
         if !force.iter().all(|w| w.is_finite()) {
             return None;
         }
-        for (i, (slot, share)) in bump.weights.iter_mut().zip(&mut bump.stuck).enumerate() {
+        for (i, (slot, share)) in test_function.weights.iter_mut().zip(&mut test_function.stuck).enumerate() {
             let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < thresholds::STUCK * s.turning);
             let stuck: f64 = slow.map(|(f, _)| f).sum();
             *slot = if stuck > STUCK_SHARE { 0.0 } else { 1.0 };
             *share = stuck;
         }
-        Some(bump)
+        Some(test_function)
     }
 
     /// Tick in the middle.
@@ -547,7 +549,7 @@ impl Bump {
         };
         let m = t.len();
         // With duty held from tick to tick the acceleration a_k is constant there, and exactly
-        // Δθ_k/h_k − Δθ_{k−1}/h_{k−1} = (a_k·h_k + a_{k−1}·h_{k−1})/2: summed with the bump's
+        // Δθ_k/h_k − Δθ_{k−1}/h_{k−1} = (a_k·h_k + a_{k−1}·h_{k−1})/2: summed with the test function's
         // values and by parts this gives the weights of angles and intervals.
         let mut angle = vec![0.0; m];
         let mut force = vec![0.0; m - 1];
@@ -600,8 +602,8 @@ impl Bump {
         a
     }
 
-    /// Adds the acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play by
-    /// itself.
+    /// Adds the acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play
+    /// by itself.
     fn offset(
         &self,
         shape: &Shape,

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::ALIKE;
 use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
-use crate::ridge::{Ridge, RidgeFit, Role};
 use crate::state::{Active, State};
+use estimation::prior::{Penalised, PenalisedFit, Role};
 
 /// Standard deviations of the named effects' laws that another effect must explain more than.
 const LAW_SIGMAS: f64 = 2.0;
@@ -18,7 +18,7 @@ const LAW_SIGMAS: f64 = 2.0;
 const TWIN: f64 = 0.3;
 
 /// A linearised link with all candidates, ready for any question about subsets.
-pub struct Bench {
+pub struct Design {
     /// The state it is linearised about.
     pub state: State,
     /// Candidates with a column each parameter.
@@ -33,7 +33,7 @@ pub struct Bench {
     held_share: f64,
 }
 
-/// A candidate's fit on a bench.
+/// A candidate's fit on a design.
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// Index of the candidate.
@@ -48,7 +48,7 @@ pub struct Trial {
     pub beyond: bool,
 }
 
-impl Bench {
+impl Design {
     /// Linearises a link about a state with all candidates.
     pub fn new(problem: &Problem, state: &State, candidates: &[Active], thresholds: &Thresholds) -> Self {
         let linear = problem.linearise(state, candidates);
@@ -89,7 +89,7 @@ impl Bench {
                 }
             })
             .collect::<Vec<_>>();
-        let mut bench = Self {
+        let mut design = Self {
             state: state.clone(),
             candidates: candidates.to_vec(),
             linear,
@@ -98,23 +98,24 @@ impl Bench {
             held,
             held_share: thresholds.held_share,
         };
-        bench.merge_twins();
-        bench.share_margins();
-        bench.narrow.clone_from(&bench.held);
-        bench.freeze_twins();
-        bench.widen(thresholds);
-        let free: Vec<Role> = bench.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
-        let n = bench.linear.gram.n();
+        design.merge_twins();
+        design.share_margins();
+        design.narrow.clone_from(&design.held);
+        design.freeze_twins();
+        design.widen(thresholds);
+        let free: Vec<Role> =
+            design.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
+        let n = design.linear.equations.n();
         let columns = free.iter().filter(|r| **r == Role::Free).count() as f64;
-        let least = Ridge::new(&bench.linear.gram, 1.0).fit(&free).loss;
-        bench.variance = (least / (n - columns).max(1.0)).max(1.0) * thresholds.correlation(problem.link());
-        bench
+        let least = Penalised::new(&design.linear.equations, 1.0).fit(&free).loss;
+        design.variance = (least / (n - columns).max(1.0)).max(1.0) * thresholds.correlation(problem.link());
+        design
     }
 
     /// Of columns that are the same but for a factor, one is held; several would add their margins.
     fn merge_twins(&mut self) {
         let m = self.linear.owners.len();
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         for a in 0..m {
             for b in 0..a {
                 let (Role::Held(sa, _), Role::Held(sb, _)) = (self.held[a], self.held[b]) else { continue };
@@ -132,7 +133,7 @@ impl Bench {
     /// they share one margin instead of adding up to several.
     fn share_margins(&mut self) {
         let m = self.linear.owners.len();
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let effect = |column: usize| match self.linear.owners[column] {
             Owner::Candidate(c, j) => {
                 let candidate = &self.candidates[c];
@@ -154,10 +155,10 @@ impl Bench {
         }
     }
 
-    /// What does the same as the named effects together is frozen while their sizes are estimated: these are the sizes of
-    /// "this is the cause".
+    /// What does the same as the named effects together is frozen while their sizes are estimated: these are the sizes
+    /// of "this is the cause".
     fn freeze_twins(&mut self) {
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let named = self.linear.active();
         if named.is_empty() {
             return;
@@ -168,7 +169,7 @@ impl Bench {
                 continue;
             }
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            if b.dot(&crate::gram::solve(&a, &b)) > ALIKE * jj[(c, c)] {
+            if b.dot(&estimation::normal_equations::solve(&a, &b)) > ALIKE * jj[(c, c)] {
                 self.narrow[c] = Role::Out;
             }
         }
@@ -178,7 +179,7 @@ impl Bench {
     /// allowed a share of it without being named, less where the law is geometry.
     fn widen(&mut self, thresholds: &Thresholds) {
         let m = self.linear.owners.len();
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         for index in 0..self.state.active.len() {
             let (columns, p) = whole(&self.linear, &self.state, index);
             let size2 = square(&jj, &columns, &p);
@@ -205,7 +206,7 @@ impl Bench {
     /// What the laws of the named effects, none of them exact, may leave at two standard deviations: a sum of squares
     /// in units of the noise.
     pub fn left_by_laws(&self) -> f64 {
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let left = |index: usize| {
             let (columns, p) = whole(&self.linear, &self.state, index);
             self.state.active[index].effect.law_uncertainty().powi(2) * square(&jj, &columns, &p)
@@ -225,7 +226,7 @@ impl Bench {
     }
 
     fn beside(&self, indices: &[usize], others: &[usize]) -> [f64; 2] {
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let (mut columns, mut p) = (Vec::new(), Vec::new());
         for index in indices {
             let part = whole(&self.linear, &self.state, *index);
@@ -237,7 +238,7 @@ impl Bench {
         let b = nalgebra::DVector::from_fn(others.len(), |i, _| {
             columns.iter().zip(&p).map(|(c, x)| jj[(others[i], *c)] * x).sum::<f64>()
         });
-        let done = b.dot(&crate::gram::solve(&a, &b)).clamp(0.0, size2.max(0.0));
+        let done = b.dot(&estimation::normal_equations::solve(&a, &b)).clamp(0.0, size2.max(0.0));
         [size2 / self.variance, (size2 - done) / self.variance]
     }
 
@@ -252,26 +253,26 @@ impl Bench {
     pub fn gain_per_square(&self, column: usize, roles: &[Role]) -> f64 {
         let roles: Vec<Role> =
             roles.iter().map(|r| if let Role::Held(sd, _) = r { Role::Held(*sd, 0.0) } else { *r }).collect();
-        let fit = self.ridge().explain(column, &roles);
+        let fit = self.penalised().explain(column, &roles);
         fit.loss + fit.penalty
     }
 
     /// What each cluster tells of a column that the named effects do not.
     pub fn information_beside_named(&self, column: usize) -> Vec<f64> {
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let named: Vec<usize> = self.linear.active().into_iter().filter(|c| *c != column).collect();
         let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
         let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], column)]);
-        let x = crate::gram::solve(&a, &b);
-        let of = |k: &crate::gram::Cluster| {
+        let x = estimation::normal_equations::solve(&a, &b);
+        let of = |k: &estimation::normal_equations::Cluster| {
             let twice = 2.0 * named.iter().enumerate().map(|(i, c)| x[i] * k.jj[(*c, column)]).sum::<f64>();
             k.jj[(column, column)] - twice + square(&k.jj, &named, x.as_slice())
         };
-        self.linear.gram.clusters.iter().map(of).collect()
+        self.linear.equations.clusters.iter().map(of).collect()
     }
 
-    pub(super) fn ridge(&self) -> Ridge<'_> {
-        Ridge::new(&self.linear.gram, self.variance)
+    pub(super) fn penalised(&self) -> Penalised<'_> {
+        Penalised::new(&self.linear.equations, self.variance)
     }
 
     /// Standard deviation of what is not named, as a share of its materiality threshold.
@@ -293,11 +294,11 @@ impl Bench {
     /// else is not named, is frozen. With `bare` everything is.
     pub fn judged(&self, bare: bool) -> Vec<Role> {
         let named = self.linear.active();
-        let jj = self.linear.gram.information();
+        let jj = self.linear.equations.information();
         let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
         let alike = |c: usize| {
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            b.dot(&crate::gram::solve(&a, &b)) > TWIN * jj[(c, c)]
+            b.dot(&estimation::normal_equations::solve(&a, &b)) > TWIN * jj[(c, c)]
         };
         let role = |(c, r): (usize, &Role)| match r {
             Role::Held(..) if bare || alike(c) => Role::Out,
@@ -308,12 +309,12 @@ impl Bench {
 
     /// The estimates of the roles with one run (or block) left out at a time, steps along all columns.
     pub fn left_out(&self, roles: &[Role]) -> Vec<nalgebra::DVector<f64>> {
-        self.ridge().left_out(roles)
+        self.penalised().left_out(roles)
     }
 
     /// The fit with given roles.
-    pub fn fit_roles(&self, roles: &[Role]) -> RidgeFit {
-        self.ridge().fit(roles)
+    pub fn fit_roles(&self, roles: &[Role]) -> PenalisedFit {
+        self.penalised().fit(roles)
     }
 
     /// Roles with some candidates freed.
@@ -339,18 +340,18 @@ impl Bench {
     }
 
     /// Objective of a fit: loss, penalty and the cost of what is freed.
-    pub fn objective(&self, fit: &RidgeFit, freed: &[usize], thresholds: &Thresholds) -> f64 {
+    pub fn objective(&self, fit: &PenalisedFit, freed: &[usize], thresholds: &Thresholds) -> f64 {
         let costs: f64 = freed.iter().map(|c| thresholds.cost(self.candidates[*c].form.free.len())).sum();
         fit.loss + fit.penalty + costs
     }
 
     /// The fit with nothing freed.
-    pub fn base(&self) -> RidgeFit {
-        self.ridge().fit(&self.held)
+    pub fn base(&self) -> PenalisedFit {
+        self.penalised().fit(&self.held)
     }
 
     /// The fit with nothing freed in which named effects move no further than a straight line holds.
-    pub fn near(&self) -> RidgeFit {
+    pub fn near(&self) -> PenalisedFit {
         let limits: Vec<[f64; 2]> = self
             .linear
             .owners
@@ -365,25 +366,25 @@ impl Bench {
                 _ => [f64::NEG_INFINITY, f64::INFINITY],
             })
             .collect();
-        self.ridge().fit_within(&self.held, &limits)
+        self.penalised().fit_within(&self.held, &limits)
     }
 
     /// Objective of the state as it stands, unnamed effects adjusted.
-    pub fn standing(&self) -> RidgeFit {
+    pub fn standing(&self) -> PenalisedFit {
         let still = |r: &Role| if *r == Role::Free { Role::Out } else { *r };
-        self.ridge().fit(&self.held.iter().map(still).collect::<Vec<_>>())
+        self.penalised().fit(&self.held.iter().map(still).collect::<Vec<_>>())
     }
 
     /// The fit with some candidates freed.
-    pub fn fit(&self, freed: &[usize]) -> RidgeFit {
-        self.ridge().fit(&self.freeing(freed))
+    pub fn fit(&self, freed: &[usize]) -> PenalisedFit {
+        self.penalised().fit(&self.freeing(freed))
     }
 
     /// The roles with one candidate freed, those of its parameters that the straight line leads out of their
     /// bounds stopped there; `None` if it does not make sense at all.
-    fn inside(&self, ridge: &Ridge, c: usize) -> Option<(Vec<Role>, RidgeFit, bool)> {
+    fn inside(&self, penalised: &Penalised, c: usize) -> Option<(Vec<Role>, PenalisedFit, bool)> {
         let mut roles = self.freeing(&[c]);
-        let fit = ridge.fit(&roles);
+        let fit = penalised.fit(&roles);
         if self.within_bounds(c, &self.values(&fit, c), &fit) {
             return Some((roles, fit, false));
         }
@@ -403,14 +404,14 @@ impl Bench {
                 roles[*column] = Role::At(stopped);
             }
         }
-        let fit = ridge.fit(&roles);
+        let fit = penalised.fit(&roles);
         self.within_bounds(c, &self.values(&fit, c), &fit).then_some((roles, fit, true))
     }
 
     /// Roles with a candidate freed and nothing held beside it.
     fn bare(&self, freed: Option<usize>) -> Vec<Role> {
         let roles = match freed {
-            Some(c) => self.inside(&self.ridge(), c).map_or_else(|| self.freeing(&[c]), |i| i.0),
+            Some(c) => self.inside(&self.penalised(), c).map_or_else(|| self.freeing(&[c]), |i| i.0),
             None => self.held.clone(),
         };
         roles.into_iter().map(|r| if matches!(r, Role::Held(..)) { Role::Out } else { r }).collect()
@@ -418,13 +419,13 @@ impl Bench {
 
     /// Held-out losses per cluster with a candidate freed, and nothing held beside it.
     pub fn held_out(&self, freed: Option<usize>) -> Vec<f64> {
-        self.ridge().held_out(&self.bare(freed))
+        self.penalised().held_out(&self.bare(freed))
     }
 
     /// The same with parts of runs held out instead of runs.
     pub fn held_out_blocks(&self, freed: Option<usize>) -> Vec<f64> {
-        let gram = self.linear.gram.with_folds(|i| i % 5);
-        Ridge::new(&gram, self.variance).held_out(&self.bare(freed))
+        let equations = self.linear.equations.with_folds(|i| i % 5);
+        Penalised::new(&equations, self.variance).held_out(&self.bare(freed))
     }
 
     /// Estimated increase of the objective if an active effect went, or kept only some parameters.
@@ -445,7 +446,7 @@ impl Bench {
                 *role = Role::Held(sd, active.values.get(&p.name));
             }
         }
-        let (base, without) = (self.base(), self.ridge().fit(&roles));
+        let (base, without) = (self.base(), self.penalised().fit(&roles));
         let freed = active.form.free.len() - keep.len();
         let cost =
             if keep.is_empty() { thresholds.cost(active.form.free.len()) } else { thresholds.costs[1] * freed as f64 };
@@ -453,7 +454,7 @@ impl Bench {
     }
 
     /// Estimates of a candidate in a fit.
-    pub fn values(&self, fit: &RidgeFit, candidate: usize) -> Vec<f64> {
+    pub fn values(&self, fit: &PenalisedFit, candidate: usize) -> Vec<f64> {
         let c = &self.candidates[candidate];
         let columns = self.linear.of_candidate(candidate);
         if c.switched() {
@@ -478,13 +479,13 @@ impl Bench {
     pub fn trials(&self, thresholds: &Thresholds) -> Vec<Trial> {
         let base = self.base();
         let from = base.loss + base.penalty;
-        let ridge = self.ridge();
+        let penalised = self.penalised();
         let mut trials: Vec<Trial> = (0..self.candidates.len())
             .into_par_iter()
-            .filter(|c| self.linear.of_candidate(*c).iter().all(|j| self.linear.gram.tells(*j)))
+            .filter(|c| self.linear.of_candidate(*c).iter().all(|j| self.linear.equations.tells(*j)))
             .filter(|c| !self.is_active(*c))
             .filter_map(|c| {
-                let (_, fit, beyond) = self.inside(&ridge, c)?;
+                let (_, fit, beyond) = self.inside(&penalised, c)?;
                 let values = self.values(&fit, c);
                 let gain = from - self.objective(&fit, &[c], thresholds);
                 Some(Trial { candidate: c, gain, material: self.material(c, &values), values, beyond })
@@ -505,7 +506,7 @@ impl Bench {
     }
 
     /// Whether an estimate makes physical sense: all parameters within bounds, give or take noise.
-    pub(super) fn within_bounds(&self, c: usize, values: &[f64], fit: &RidgeFit) -> bool {
+    pub(super) fn within_bounds(&self, c: usize, values: &[f64], fit: &PenalisedFit) -> bool {
         let candidate = &self.candidates[c];
         if candidate.switched() {
             let share = self.linear.of_candidate(c).first().map_or(0.0, |j| fit.step[*j]);
@@ -538,61 +539,18 @@ impl Bench {
     /// What is left above the noise is no scatter: it is the same in every cluster and every run, and how much of it a
     /// named effect took for its own does not show in the data. It points in any direction as likely as in another.
     pub fn missed(&self, roles: &[Role], directions: f64) -> Vec<f64> {
-        let (square, n) = self.linear.gram.plain();
+        let (square, n) = self.linear.equations.plain();
         let excess = (square - n).max(0.0) / directions;
-        let used: Vec<usize> =
-            (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.linear.gram.tells(*i)).collect();
-        let jj = self.linear.gram.information();
-        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
-        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
-            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
-        });
-        let inverse = crate::gram::inverse(&own);
-        let mut out = vec![0.0; roles.len()];
-        for (p, c) in used.iter().enumerate() {
-            out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| excess * inverse[(p, p)]);
-        }
-        out
+        self.penalised()
+            .inverse_diagonal(roles)
+            .into_iter()
+            .map(|x| if x.is_finite() { excess * x } else { x })
+            .collect()
     }
 
-    /// Covariance of the freed columns: cluster-robust, the held columns' priors as pseudo
-    /// observations, nowhere below what the residual variance explains.
-    pub fn covariance(&self, roles: &[Role], fit: &RidgeFit) -> DMatrix<f64> {
-        let gram = &self.linear.gram;
-        let m = roles.len();
-        let columns: Vec<usize> = (0..m).filter(|i| roles[*i] != Role::Out && gram.tells(*i)).collect();
-        let k = columns.len();
-        let whole = gram.information();
-        let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
-        let mut meat = DMatrix::zeros(k, k);
-        let g = gram.clusters.len() as f64;
-        for c in &gram.clusters {
-            let left = &c.jr - c.jj.times(&fit.step);
-            let score = nalgebra::DVector::from_fn(k, |p, _| left[columns[p]]);
-            meat.ger(1.0, &score, &score, 1.0);
-        }
-        let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
-        meat *= g / (g - free).max(1.0);
-        let mut plain = jj.clone() * self.variance;
-        for (p, c) in columns.iter().enumerate() {
-            if let Role::Held(sd, _) = roles[*c] {
-                let weight = self.variance / (sd * sd);
-                jj[(p, p)] += weight;
-                meat[(p, p)] += weight * self.variance;
-                plain[(p, p)] += weight * self.variance;
-            }
-        }
-        let Some(inverse) = crate::gram::inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
-        let robust = &inverse * meat * &inverse;
-        let plain = &inverse * plain * &inverse;
-        let mut out = DMatrix::zeros(m, m);
-        for p in 0..k {
-            for q in 0..k {
-                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
-                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
-            }
-        }
-        out
+    /// Covariance of the freed columns: see [`Penalised::covariance`].
+    pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
+        self.penalised().covariance(roles, fit)
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::symmetric::Symmetric;
+use crate::Symmetric;
 
 /// One cluster: residuals that may be correlated with each other, but not with other clusters.
 #[derive(Debug, Clone)]
@@ -92,20 +92,9 @@ fn huber(square: f64, limit: f64) -> f64 {
     if square > limit && limit > 0.0 { 2.0 * (limit * square).sqrt() - limit } else { square }
 }
 
-/// A least-squares fit of some columns.
+/// Linearised residuals, condensed.
 #[derive(Debug, Clone)]
-pub struct Solution {
-    /// The columns.
-    pub columns: Vec<usize>,
-    /// Step along each.
-    pub step: DVector<f64>,
-    /// Sum of squares left.
-    pub loss: f64,
-}
-
-/// Linearised residuals of a link.
-#[derive(Debug, Clone)]
-pub struct Gram {
+pub struct NormalEquations {
     /// Its clusters.
     pub clusters: Vec<Cluster>,
     /// Group of each cluster for leaving out: the run, or a block of a single run.
@@ -128,11 +117,11 @@ pub struct Totals {
 
 /// Blocks a single run is cut into.
 const BLOCKS: usize = 4;
-/// Ridge in units of a column's own information: keeps exact twins solvable without moving
+/// Regularisation in units of a column's own information: keeps exact twins solvable without moving
 /// anything measurable.
-const RIDGE: f64 = 1e-9;
+const REGULARISATION: f64 = 1e-9;
 
-impl Gram {
+impl NormalEquations {
     /// Sets up folds: leave one run out, or blocks of a single run.
     pub fn new(clusters: Vec<Cluster>) -> Self {
         let clusters: Vec<Cluster> = clusters.into_iter().map(Cluster::robust).collect();
@@ -205,13 +194,11 @@ impl Gram {
         self.clusters.iter().map(|c| c.n).sum()
     }
 
-    /// JᵀJ and Jᵀr of some columns over the clusters that `keep` wants.
-    fn sums(&self, columns: &[usize], keep: impl Fn(usize) -> bool) -> (DMatrix<f64>, DVector<f64>, f64) {
+    /// Fits some columns to all clusters: the step along each.
+    pub fn solve(&self, columns: &[usize]) -> DVector<f64> {
         let m = columns.len();
-        let (mut a, mut b, mut s) = (DMatrix::zeros(m, m), DVector::zeros(m), 0.0);
-        for (i, c) in self.clusters.iter().enumerate().filter(|(i, _)| keep(*i)) {
-            let _ = i;
-            s += c.rr;
+        let (mut a, mut b) = (DMatrix::zeros(m, m), DVector::zeros(m));
+        for c in &self.clusters {
             for (p, jp) in columns.iter().enumerate() {
                 b[p] += c.jr[*jp];
                 for (q, jq) in columns.iter().enumerate() {
@@ -219,85 +206,20 @@ impl Gram {
                 }
             }
         }
-        (a, b, s)
-    }
-
-    /// Fits some columns to all clusters.
-    pub fn solve(&self, columns: &[usize]) -> Solution {
-        let (a, b, s) = self.sums(columns, |_| true);
-        let step = solve(&a, &b);
-        let loss = s - 2.0 * b.dot(&step) + (step.transpose() * &a * &step)[0];
-        Solution { columns: columns.to_vec(), step, loss }
-    }
-
-    /// Sum of squares of held-out residuals per cluster: each fold predicted from a fit on the others.
-    pub fn held_out(&self, columns: &[usize]) -> Vec<f64> {
-        let mut out: Vec<f64> = self.clusters.iter().map(|c| c.rr).collect();
-        if columns.is_empty() {
-            return out;
-        }
-        let (a, b, _) = self.sums(columns, |_| true);
-        let mut folds: Vec<usize> = self.folds.clone();
-        folds.sort_unstable();
-        folds.dedup();
-        if folds.len() < 2 {
-            return out;
-        }
-        for fold in folds {
-            let (af, bf, _) = self.sums(columns, |i| self.folds[i] == fold);
-            let step = solve(&(&a - af), &(&b - bf));
-            for (i, c) in self.clusters.iter().enumerate().filter(|(i, _)| self.folds[*i] == fold) {
-                let (mut linear, mut square) = (0.0, 0.0);
-                for (p, jp) in columns.iter().enumerate() {
-                    linear += step[p] * c.jr[*jp];
-                    for (q, jq) in columns.iter().enumerate() {
-                        square += step[p] * step[q] * c.jj[(*jp, *jq)];
-                    }
-                }
-                out[i] = c.rr - 2.0 * linear + square;
-            }
-        }
-        out
-    }
-
-    /// Covariance of a solution, robust against correlation within clusters, small-sample
-    /// corrected, and nowhere below what the residual variance alone explains.
-    pub fn covariance(&self, solution: &Solution) -> DMatrix<f64> {
-        let columns = &solution.columns;
-        let m = columns.len();
-        let (a, _, _) = self.sums(columns, |_| true);
-        let Some(root) = inverse_root(&a) else { return DMatrix::from_diagonal_element(m, m, f64::INFINITY) };
-        let mut spread = DMatrix::zeros(m, m);
-        for c in &self.clusters {
-            let mut score = DVector::zeros(m);
-            for (p, jp) in columns.iter().enumerate() {
-                score[p] = c.jr[*jp]
-                    - columns.iter().enumerate().map(|(q, jq)| c.jj[(*jp, *jq)] * solution.step[q]).sum::<f64>();
-            }
-            let white = root.transpose() * score;
-            spread += &white * white.transpose();
-        }
-        let g = self.clusters.len() as f64;
-        let small = g / (g - m as f64).max(1.0);
-        let variance = solution.loss / (self.n() - m as f64).max(1.0);
-        let mut eigen = (spread * small).symmetric_eigen();
-        for value in eigen.eigenvalues.iter_mut() {
-            *value = value.max(variance);
-        }
-        &root * eigen.recompose() * root.transpose()
+        solve(&a, &b)
     }
 }
 
-/// Solves A·x = b for a positive semidefinite A scaled to a unit diagonal, with a tiny ridge.
+/// Solves A·x = b for a positive semidefinite A scaled to a unit diagonal, with a tiny regularisation.
 pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let m = b.len();
     let scale: Vec<f64> = (0..m).map(|i| if a[(i, i)] > 1e-300 { a[(i, i)].sqrt() } else { 0.0 }).collect();
     let scaled = DMatrix::from_fn(m, m, |i, j| {
-        let unit = if i == j { 1.0 + RIDGE } else { 0.0 };
+        let unit = if i == j { 1.0 + REGULARISATION } else { 0.0 };
         if scale[i] == 0.0 || scale[j] == 0.0 {
             return unit;
         }
-        a[(i, j)] / (scale[i] * scale[j]) + if i == j { RIDGE } else { 0.0 }
+        a[(i, j)] / (scale[i] * scale[j]) + if i == j { REGULARISATION } else { 0.0 }
     });
     let rhs = DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { b[i] / scale[i] });
     let x = match scaled.clone().cholesky() {
@@ -307,32 +229,14 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { x[i] / scale[i] })
 }
 
-/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny ridge on the way; `None` if it has none.
-pub(crate) fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny regularisation on the way; `None` if it has
+/// none.
+pub fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let m = a.nrows();
     let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
-    let unit = DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { RIDGE } else { 0.0 });
+    let unit =
+        DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { REGULARISATION } else { 0.0 });
     Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
-}
-
-/// W with W·Wᵀ = A⁻¹.
-fn inverse_root(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let m = a.nrows();
-    let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt()).collect();
-    if scale.iter().any(|s| !(*s > 0.0 && s.is_finite())) {
-        return None;
-    }
-    let scaled = DMatrix::from_fn(m, m, |i, j| a[(i, j)] / (scale[i] * scale[j]));
-    let eigen = scaled.symmetric_eigen();
-    let mut root = eigen.eigenvectors.clone();
-    for (j, value) in eigen.eigenvalues.iter().enumerate() {
-        let factor = 1.0 / value.max(RIDGE).sqrt();
-        root.column_mut(j).scale_mut(factor);
-    }
-    for i in 0..m {
-        root.row_mut(i).scale_mut(1.0 / scale[i]);
-    }
-    Some(root)
 }
 
 #[cfg(test)]
@@ -345,11 +249,12 @@ mod tests {
         let column = DMatrix::from_fn(n, 1, |r, _| 1.0 + (r % 3) as f64);
         let noise = DVector::from_fn(n, |r, _| if r % 2 == 0 { 1.0 } else { -1.0 });
         for (size, step) in [(0.0, 0.0), (0.5, 0.5), (20.0, 20.0), (20.0, 0.0), (20.0, 15.0)] {
-            let gram =
-                |residual: &DVector<f64>| Gram::new(vec![Cluster::new(0, 0.0, n as f64, residual, &column)]).loss();
+            let equations = |residual: &DVector<f64>| {
+                NormalEquations::new(vec![Cluster::new(0, 0.0, n as f64, residual, &column)]).loss()
+            };
             let before = &noise + column.column(0) * size;
-            let after = gram(&(&before - column.column(0) * step));
-            let moved = Gram::new(vec![Cluster::new(0, 0.0, n as f64, &before, &column)]);
+            let after = equations(&(&before - column.column(0) * step));
+            let moved = NormalEquations::new(vec![Cluster::new(0, 0.0, n as f64, &before, &column)]);
             let found = moved.loss_after(&DVector::from_element(1, step));
             assert!((found - after).abs() < 1e-9 * after, "{size} {step}: {found} {after}");
         }
