@@ -44,7 +44,8 @@ fn limits() -> Vec<Vec<String>> {
     let columns = [analysed(&numb), analysed(&|set| set), analysed(&blind)];
     let row = |(name, parameter, factor, unit): &(&str, &str, f64, &str)| {
         let cell = |all: &Vec<Analysis>| {
-            let of = |a: &Analysis| a.limits.iter().find(|l| l.name == *name && l.parameter == *parameter).map(|l| l.limit);
+            let of =
+                |a: &Analysis| a.limits.iter().find(|l| l.name == *name && l.parameter == *parameter).map(|l| l.limit);
             let known: Vec<f64> = all.iter().filter_map(of).collect();
             // The worst of the seeds.
             let worst = known.iter().copied().fold(0.0, f64::max);

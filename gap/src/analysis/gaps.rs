@@ -204,7 +204,8 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
             "Compared nothing, for no wheel turns by more than {most:.3} rad; drive a metre, and turn once on the spot."
         );
         // What stands still follows any command and any law.
-        return [Link::Command, Link::Controller, Link::Drive, Link::Motion].map(|link| (link, why.clone())).to_vec();
+        let all = [Link::Command, Link::Controller, Link::Drive, Link::Motion, Link::Gyroscope, Link::Accelerometer];
+        return all.map(|link| (link, why.clone())).to_vec();
     }
     if let Some(drive) = drive {
         let used = drive.weights.iter().flatten().any(|w| *w > 0.0);

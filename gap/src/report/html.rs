@@ -158,7 +158,7 @@ fn waterfall(page: &mut Page, a: &Analysis) {
         for (i, rms) in l.rms.iter().enumerate() {
             table.row([
                 l.link.name().to_owned(),
-                signal(l.link.name(), i),
+                signal(l.link.name(), i, l.signals),
                 short(rms[0]),
                 short(rms[1]),
                 short(l.floor.get(i).copied().unwrap_or(0.0)),
@@ -169,9 +169,11 @@ fn waterfall(page: &mut Page, a: &Analysis) {
     page.table(&table);
 }
 
-fn signal(link: &str, i: usize) -> String {
+fn signal(link: &str, i: usize, signals: usize) -> String {
     match link {
         "motion" => ["x", "y", "heading"].get(i).copied().unwrap_or("").to_owned(),
+        // A gyroscope of one axis is that of the heading.
+        "gyroscope" if signals == 1 => "gyro z".to_owned(),
         "gyroscope" | "accelerometer" => ["x", "y", "z"].get(i).copied().unwrap_or("").to_owned(),
         "timing" => "camera stamps".to_owned(),
         "command" => format!("set point {}", i + 1),

@@ -47,3 +47,60 @@ impl ImuDeviations {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Imu, ImuModel, Motion, Reading};
+    use crate::effects::Applied;
+    use crate::plant::GRAVITY;
+    use runs::robot::{Effect, EffectParameter, Robot};
+
+    /// The last of ten readings of a part with an effect less those of the same part without.
+    fn changed(name: &str, parameters: &[(&str, f64)], motion: impl Fn(usize) -> Motion) -> Reading {
+        let parameter = |(n, value): &(&str, f64)| {
+            ((*n).to_owned(), EffectParameter { value: *value, ..EffectParameter::default() })
+        };
+        let parameters = parameters.iter().map(parameter).collect();
+        let effect = Effect { name: name.to_owned(), parameters, ..Effect::default() };
+        let applied = Applied::of(&Robot { effects: vec![effect], ..Robot::racbot() });
+        assert!(applied.unsupported.is_empty());
+        let mut plain = Imu::new(ImuModel::icm_42688_p(1000.0), 7);
+        let mut hidden = plain.clone().with_deviations(&applied.imu);
+        let mut last = Reading::default();
+        for k in 0..10 {
+            let [a, b] = [&mut hidden, &mut plain].map(|imu| imu.read(&motion(k)));
+            let less = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
+            last = Reading {
+                gyro: less(a.gyro, b.gyro),
+                acceleration: less(a.acceleration, b.acceleration),
+                ..Reading::default()
+            };
+        }
+        last
+    }
+
+    fn close(found: [f64; 3], expected: [f64; 3], within: f64) {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < within), "{found:?} {expected:?}");
+    }
+
+    fn turning(rate: f64) -> Motion {
+        Motion { omega: [0.0, 0.0, rate], ..Motion::default() }
+    }
+
+    #[test]
+    fn every_effect_of_the_sensor_does_what_its_equation_says() {
+        close(changed("gyro-scale", &[("scale", 0.05)], |_| turning(4.0)).gyro, [0.0, 0.0, 0.2], 0.01);
+        let bias = changed("gyro-bias", &[("x_rad_s", 0.1), ("z_rad_s", -0.2)], |_| turning(4.0));
+        close(bias.gyro, [0.1, 0.0, -0.2], 0.003);
+        // Three and a half periods late on a ramp of 1 rad/s a period.
+        let late = changed("imu-latency", &[("latency_s", 0.003_5)], |k| turning(k as f64));
+        close(late.gyro, [0.0, 0.0, -3.5], 0.05);
+        // Turned about x, the chip's y axis has a part of the turn and loses gravity's.
+        let turned = changed("imu-mount", &[("x_rad", 0.1)], |_| turning(4.0));
+        let (sin, cos) = 0.1_f64.sin_cos();
+        close(turned.gyro, [0.0, 4.0 * sin, 4.0 * (cos - 1.0)], 0.02);
+        close(turned.acceleration, [0.0, GRAVITY * sin, GRAVITY * (cos - 1.0)], 0.05);
+        let moved = changed("imu-mount", &[("x_m", 0.05), ("y_m", -0.02)], |_| turning(4.0));
+        close(moved.acceleration, [-16.0 * 0.05, 16.0 * 0.02, 0.0], 0.03);
+    }
+}

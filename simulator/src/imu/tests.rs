@@ -79,3 +79,22 @@ fn the_gateware_reads_over_the_lines_what_the_sensor_means() {
         }
     }
 }
+
+#[test]
+fn what_a_robots_file_hides_is_in_the_words() {
+    use runs::robot::{Effect, EffectParameter, ImuMount, SensorName};
+
+    let words = |scale: f64| {
+        let parameters = vec![("scale".to_owned(), EffectParameter { value: scale, ..EffectParameter::default() })];
+        let hidden = Effect { name: "gyro-scale".to_owned(), parameters, ..Effect::default() };
+        let imu = SensorName::new("icm-42688-p").map(ImuMount::upright);
+        let robot = Robot { effects: vec![hidden], imu, ..Robot::racbot() };
+        let mut sensor = VirtualImu::of_robot(&robot, 5).unwrap();
+        sensor.access(u16::from(PWR_MGMT0) << 8 | 0x0F);
+        sensor.feel(&Motion { omega: [0.0, 0.0, 10.0], ..Motion::default() }, 33_333_333.0);
+        f64::from(sensor.sample(TEMP_DATA1).words[6] as i16)
+    };
+    // 10 rad/s of 34.9 in 32768 units, and a twentieth more.
+    let (plain, hidden) = (words(0.0), words(0.05));
+    assert!((plain - 9_387.0).abs() < 300.0 && (hidden - plain - 0.05 * 9_387.0).abs() < 15.0, "{plain} {hidden}");
+}
