@@ -29,7 +29,7 @@ const LINE: f64 = 1.0;
 /// What there is at first.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The field.
+    /// Its size and lines.
     pub field: Field,
     /// Robots: team, number, kind.
     pub robots: Vec<(Team, u32, Kind)>,
@@ -135,7 +135,7 @@ impl World {
         self.speed
     }
 
-    /// The ball.
+    /// Where it is and how it moves.
     #[must_use]
     pub fn ball(&self) -> &Ball {
         &self.ball

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// Slices that stand in one column, lowest first: a carry chain, or a single slice.
 #[derive(Clone, Debug, Default)]
 pub struct Column {
-    /// The slices.
+    /// Neighbours in this order, for the carry runs upwards.
     pub slices: Vec<Slice>,
 }
 
