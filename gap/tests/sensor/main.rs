@@ -124,12 +124,10 @@ fn a_slow_sensor_with_holes_a_narrow_range_and_a_walking_bias_names_what_is_ther
         for run in &mut data.runs {
             let n = run.t.len();
             for axis in run.gyro.iter_mut().flatten() {
-                for k in 0..n {
-                    // A narrow range, a bias that walks, and a bus that is silent for 0.2 s of every 2 s.
-                    axis[k] = (axis[k] + 2e-3 * run.t[k] / run.t[n - 1]).clamp(-4.0, 4.0);
-                    if k % 2000 < 200 {
-                        axis[k] = f64::NAN;
-                    }
+                // A narrow range, a bias that walks, and a bus that is silent for 0.2 s of every 2 s.
+                for (k, (x, t)) in axis.iter_mut().zip(&run.t).enumerate() {
+                    let walked = 2e-3 * t / run.t[n - 1];
+                    *x = if k % 2000 < 200 { f64::NAN } else { (*x + walked).clamp(-4.0, 4.0) };
                 }
             }
             for axis in run.gyro.iter_mut().chain(&mut run.acceleration).flatten() {
