@@ -15,6 +15,7 @@ use model::trajectory::{FIG_6, SetPoint};
 use plot::Color;
 use plot::page::Page;
 use runs::error::InputError;
+use runs::robot::Robot;
 use serde_json::{Value, json};
 use simulator::closed_loop::picture::{Curve, speeds, trajectory};
 use simulator::closed_loop::{Control, Drive, Driven, Ending};
