@@ -58,12 +58,14 @@ fn limits() -> Vec<Vec<String>> {
     ROWS.iter().map(row).collect()
 }
 
+/// Parameters, and their true values for a part.
+type Truths = Vec<(&'static str, f64)>;
+
 /// A hidden effect, the parameters whose intervals are to hold the truth, and that truth with the part's tolerances.
 struct Case {
     what: &'static str,
     hidden: &'static [Hidden<'static>],
-    /// Parameter, and its true value for a part.
-    truths: fn(u64, &'static [Hidden<'static>]) -> Vec<(&'static str, f64)>,
+    truths: fn(u64, &'static [Hidden<'static>]) -> Truths,
 }
 
 const CASES: [Case; 5] = [
