@@ -48,7 +48,7 @@ type Case = (fn(&mut Run), &'static str, &'static str, &'static str);
 #[test]
 fn units_signs_and_axes_are_said_with_the_column_and_what_to_write() {
     let cases: [Case; 9] = [
-        (|run| every(&mut run.gyro, |v| v.map(|x| x.to_degrees())), "gyro-unit", "gyro_z", "0.0174533"),
+        (|run| every(&mut run.gyro, |v| v.map(f64::to_degrees)), "gyro-unit", "gyro_z", "0.0174533"),
         (|run| every(&mut run.gyro, |v| v.map(|x| 1e3 * x.to_degrees())), "gyro-unit", "gyro_z", "0.0000174533"),
         (|run| every(&mut run.gyro, |v| v.map(f64::to_radians)), "gyro-unit", "gyro_z", "57.29578"),
         (|run| every(&mut run.gyro, |[x, y, z]| [x, -y, -z]), "gyro-sign", "gyro_z", "counter-clockwise"),
