@@ -15,7 +15,7 @@ const DRIVES: [Manoeuvre; 2] = [Spin, Chirp];
 /// Seeds of the limits, of the controls, and of each hidden effect.
 const LIMITS: u64 = 2;
 const CONTROLS: u64 = 10;
-const EACH: u64 = 2;
+const EACH: u64 = 3;
 const COMMAND: &str = "cargo bench -p gap --bench sensor";
 
 /// Effects whose limits a sensor may change: name, parameter, factor to the unit of the table, and that unit.
@@ -65,33 +65,46 @@ type Truths = Vec<(&'static str, f64)>;
 struct Case {
     what: &'static str,
     hidden: &'static [Hidden<'static>],
+    /// Whether the log has the sensor's columns.
+    felt: bool,
     truths: fn(u64, &'static [Hidden<'static>]) -> Truths,
 }
 
-const CASES: [Case; 5] = [
+const CASES: [Case; 6] = [
     Case {
         what: "gyro-scale +4 %",
         hidden: &[("gyro-scale", &[("scale", 0.04)])],
+        felt: true,
         truths: |part, hidden| vec![("scale", sensor(&truth(hidden, part)).gyro_errors()[0][2])],
     },
     Case {
         what: "gyro-bias 3.4 °/s about z",
         hidden: &[("gyro-bias", &[("z_rad_s", 0.06)])],
+        felt: true,
         truths: |part, hidden| vec![("z_rad_s", sensor(&truth(hidden, part)).gyro_errors()[1][2])],
     },
     Case {
         what: "imu-latency 10 ms",
         hidden: &[("imu-latency", &[("latency_s", 0.01)])],
+        felt: true,
         truths: |_, _| vec![("latency_s", 0.01)],
     },
     Case {
         what: "imu-mount 25 and -20 mm",
         hidden: &[("imu-mount", &[("x_m", 0.025), ("y_m", -0.02)])],
+        felt: true,
         truths: |_, _| vec![("x_m", 0.025), ("y_m", -0.02)],
+    },
+    Case {
+        what: "encoder-lag 20 ms, without the sensor's columns",
+        hidden: &[("encoder-lag", &[("latency_s", 0.02)])],
+        felt: false,
+        truths: |_, _| vec![("latency_s", 0.02)],
     },
     Case {
         what: "encoder-lag 20 ms",
         hidden: &[("encoder-lag", &[("latency_s", 0.02)])],
+        felt: true,
         truths: |_, _| vec![("latency_s", 0.02)],
     },
 ];
@@ -105,7 +118,8 @@ fn named() -> Vec<Vec<String>> {
         let (mut alone, mut held, mut all) = (0, 0, 0);
         for k in 0..EACH {
             let part = 60 + k;
-            let a = done(&set(&truth(case.hidden, part), &DRIVES, part));
+            let data = set(&truth(case.hidden, part), &DRIVES, part);
+            let a = done(&if case.felt { data } else { numb(data) });
             alone += usize::from(names(&a) == [name] && a.alternatives.is_empty());
             for (parameter, truth) in (case.truths)(part, case.hidden) {
                 let (_, [low, high]) = estimate(&a, parameter);
@@ -131,7 +145,7 @@ fn main() {
     .write(&limits());
     Table {
         name: "gap-sensor-named",
-        title: "Hidden in robots with camera and inertial sensor, each with another part of its type: named and nothing else",
+        title: "Hidden in robots with camera and inertial sensor, each with another part of its type: named, and nothing else or in its place",
         command: COMMAND,
         columns: &["hidden", "data sets", "right", "intervals that hold the truth"],
     }
