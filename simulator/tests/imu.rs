@@ -148,6 +148,8 @@ fn found(fault: ImuFault, error: &ImuError) -> bool {
             | (ImuFault::NeverReady, ImuError::NotReady)
             | (ImuFault::OtherType, ImuError::Another { found: 0x42, is: Some("icm-42605"), .. })
             | (ImuFault::StuckBit, ImuError::ReadBack { .. })
+            | (ImuFault::DeadGyro, ImuError::SelfTest { triad: "gyroscope", axis: 'z', .. })
+            | (ImuFault::DeadForce, ImuError::SelfTest { triad: "accelerometer", axis: 'x', .. })
     )
 }
 

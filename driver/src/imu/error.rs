@@ -82,6 +82,25 @@ pub enum ImuError {
         /// Largest standard deviation of an axis.
         scatter_deg_s: f64,
     },
+    /// An axis that does not answer its own test.
+    #[error(
+        "the self-test moves the {triad}'s {axis} axis by {answer:.2} {unit}; the data sheet asks for {least:.2} to {most:.2}: \
+         the sensor is broken"
+    )]
+    SelfTest {
+        /// Gyroscope or accelerometer.
+        triad: &'static str,
+        /// In the body's frame: x, y or z.
+        axis: char,
+        /// Change of the mean.
+        answer: f64,
+        /// By the data sheet.
+        least: f64,
+        /// By the data sheet, or what its range can show.
+        most: f64,
+        /// Of all three.
+        unit: &'static str,
+    },
 }
 
 fn names() -> String {

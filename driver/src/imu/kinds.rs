@@ -27,6 +27,10 @@ pub struct Kind {
     pub reset: (u8, u8),
     /// Registers and values after that, in order, each read back.
     pub settings: &'static [(u8, u8)],
+    /// Register and value that move all axes by the sensor's own actuators; 0 ends it.
+    pub self_test: (u8, u8),
+    /// Least answer to it of the gyroscope, rad/s, and least and most of the accelerometer, m/s².
+    pub answers: (f64, [f64; 2]),
     /// First of the fourteen registers.
     pub first: u8,
     /// What the seven words are.
@@ -63,6 +67,8 @@ pub const ICM_42688_P: Kind = Kind {
         (0x50, 0x03), // ACCEL_CONFIG0: ±16 g, 8 kHz
         (0x4E, 0x0F), // PWR_MGMT0: both in low-noise mode
     ],
+    self_test: (0x70, 0x7F), // SELF_TEST_CONFIG: six axes and the accelerometer's regulator
+    answers: (60.0 * PI / 180.0, [0.05 * GRAVITY, 1.2 * GRAVITY]),
     first: 0x1D,
     order: [Temperature, Acceleration(0), Acceleration(1), Acceleration(2), Gyro(0), Gyro(1), Gyro(2)],
     low_first: false,

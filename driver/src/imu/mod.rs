@@ -1,7 +1,7 @@
 //! The inertial sensor behind the card: found, set up and checked before the robot is armed, read with every snapshot.
 //!
 //! ```text
-//!  identify ─► reset ─► set up, read back ─► read at every tick ─► at rest: gravity, axes, bias
+//!  identify ─► reset ─► set up, read back ─► at rest: gravity, axes, bias ─► self-test ─► read at every tick
 //! ```
 
 mod error;
@@ -26,6 +26,8 @@ pub type Words = [u16; SNAPSHOT_IMU_WORDS];
 /// After reset and after the start of the gyroscope; the sheets ask for 1 ms and 30 to 45 ms.
 const RESET_TIME: Duration = Duration::from_millis(10);
 const START_TIME: Duration = Duration::from_millis(60);
+/// Until the self-test has settled, and until it is over: as START_TIME; the maker's own code waits 200 ms.
+const SELF_TEST_TIME: Duration = Duration::from_millis(200);
 /// Time at rest that the bias is the mean of: noise of 0.063 °/s at 1 kHz is 0.005 °/s then.
 const REST_TIME: Duration = Duration::from_millis(200);
 /// Least readings of it, where the control rate is low.
@@ -115,13 +117,18 @@ impl<R: Registers> Board<R> {
             }
         }
         pause(clock, START_TIME);
-        self.write_control(control | map::IMU_ENABLE.place(1))?;
         let imu = Imu { kind, mount: *mount, clock_hz, bias: [0.0; 3] };
-        let rested = self.rest(&imu, clock);
-        if rested.is_err() {
-            self.write_control(control)?;
-        }
-        rested
+        let rest = self.look_at_rest(&imu, control, clock)?;
+        let rested = rest.judge(&imu)?;
+        let (register, value) = kind.self_test;
+        self.imu_access(register, Some(value))?;
+        pause(clock, SELF_TEST_TIME);
+        let tested = self.look_at_rest(&imu, control, clock)?;
+        self.imu_access(register, Some(0))?;
+        tested.answers(&rest, kind)?;
+        pause(clock, START_TIME);
+        self.write_control(control | map::IMU_ENABLE.place(1))?;
+        Ok(rested)
     }
 
     fn write_control(&mut self, control: u32) -> Result<(), BoardError> {
@@ -148,8 +155,15 @@ impl<R: Registers> Board<R> {
         }
     }
 
-    /// Looks at the sensor while the robot stands.
-    fn rest(&mut self, imu: &Imu, clock: &mut impl Clock) -> Result<Imu, ImuError> {
+    /// Looks at the sensor for a while, the robot standing; it is not read before and after.
+    fn look_at_rest(&mut self, imu: &Imu, control: u32, clock: &mut impl Clock) -> Result<Rest, ImuError> {
+        self.write_control(control | map::IMU_ENABLE.place(1))?;
+        let rest = self.sum_at_rest(imu, clock);
+        self.write_control(control)?;
+        rest
+    }
+
+    fn sum_at_rest(&mut self, imu: &Imu, clock: &mut impl Clock) -> Result<Rest, ImuError> {
         let period = Duration::from_secs_f64(
             f64::from(self.bus.read(map::TICK_PERIOD.offset).map_err(BoardError::from)?) / imu.clock_hz,
         );
@@ -163,7 +177,7 @@ impl<R: Registers> Board<R> {
             let words = self.snapshot_with_imu()?.1;
             rest.add(&words, imu.reading(&words).as_ref())?;
         }
-        rest.judge(imu)
+        Ok(rest)
     }
 }
 
@@ -196,9 +210,33 @@ impl Rest {
         Ok(())
     }
 
-    fn judge(&self, imu: &Imu) -> Result<Imu, ImuError> {
+    /// Mean rate of turn and force, in the body's axes.
+    fn means(&self) -> [[f64; 3]; 2] {
         let n = self.readings.max(1) as f64;
-        let force = self.acceleration.map(|sum| sum / n);
+        [self.gyro.map(|[sum, _]| sum / n), self.acceleration.map(|sum| sum / n)]
+    }
+
+    /// Whether every axis moved by what the self-test should move it, against the sensor at rest.
+    fn answers(&self, rest: &Self, kind: &Kind) -> Result<(), ImuError> {
+        let ([gyro, force], [gyro_at_rest, force_at_rest]) = (self.means(), rest.means());
+        let (turn, [least, most]) = kind.answers;
+        for (index, axis) in ['x', 'y', 'z'].into_iter().enumerate() {
+            let answer = (gyro[index] - gyro_at_rest[index]).abs();
+            if answer < turn {
+                let most = (kind.gyro * f64::from(i16::MAX)).to_degrees();
+                let (answer, least) = (answer.to_degrees(), turn.to_degrees());
+                return Err(ImuError::SelfTest { triad: "gyroscope", axis, answer, least, most, unit: "°/s" });
+            }
+            let answer = (force[index] - force_at_rest[index]).abs();
+            if !(least..=most).contains(&answer) {
+                return Err(ImuError::SelfTest { triad: "accelerometer", axis, answer, least, most, unit: "m/s²" });
+            }
+        }
+        Ok(())
+    }
+
+    fn judge(&self, imu: &Imu) -> Result<Imu, ImuError> {
+        let [bias, force] = self.means();
         let magnitude = force.iter().map(|a| a * a).sum::<f64>().sqrt();
         if (magnitude / GRAVITY - 1.0).abs() > GRAVITY_SHARE {
             return Err(ImuError::Range { measured: magnitude });
@@ -206,7 +244,7 @@ impl Rest {
         if force[2] < UPRIGHT * magnitude {
             return Err(ImuError::Axes { expected: imu.mount.axes[2].to_string(), found: imu.upwards(force) });
         }
-        let bias = self.gyro.map(|[sum, _]| sum / n);
+        let n = self.readings.max(1) as f64;
         let scatter = self.gyro.map(|[sum, squares]| (squares / n - (sum / n).powi(2)).max(0.0).sqrt());
         let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         if largest(bias) > REST_TURN || largest(scatter) > REST_SCATTER {

@@ -72,11 +72,15 @@ pub enum ImuFault {
     OtherType,
     /// A register bit cannot be set.
     StuckBit,
+    /// The gyroscope's mass for the z axis sticks: bias and noise only.
+    DeadGyro,
+    /// The accelerometer's mass for the x axis sticks.
+    DeadForce,
 }
 
 impl ImuFault {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Absent,
         Self::ShortedLow,
         Self::Frozen,
@@ -85,6 +89,8 @@ impl ImuFault {
         Self::NeverReady,
         Self::OtherType,
         Self::StuckBit,
+        Self::DeadGyro,
+        Self::DeadForce,
     ];
 }
 
@@ -149,7 +155,13 @@ impl VirtualImu {
 
     /// How the chassis moves in the coming control period of a card with this clock.
     pub fn feel(&mut self, motion: &Motion, clock_hz: f64) {
-        let reading = self.part.read(motion);
+        let mut motion = *motion;
+        match self.fault {
+            Some(ImuFault::DeadGyro) => motion.omega[2] = 0.0,
+            Some(ImuFault::DeadForce) => motion.acceleration[0] = 0.0,
+            _ => {}
+        }
+        let reading = self.part.read(&motion);
         if self.fault != Some(ImuFault::Frozen) {
             self.words = self.measure(&reading);
         }
@@ -173,7 +185,12 @@ impl VirtualImu {
     fn measure(&self, reading: &Reading) -> [u16; WORDS] {
         let register = |at: u8| self.registers[usize::from(at)];
         let power = register(PWR_MGMT0);
-        let test = register(SELF_TEST_CONFIG);
+        let dead = match self.fault {
+            Some(ImuFault::DeadGyro) => 0x04,
+            Some(ImuFault::DeadForce) => 0x08,
+            _ => 0,
+        };
+        let test = register(SELF_TEST_CONFIG) & !dead;
         let gyro_range = 2000.0 * PI / 180.0 / f64::from(1_u32 << (register(GYRO_CONFIG0) >> 5));
         let finer = if self.fault == Some(ImuFault::WrongRange) { 3 } else { 0 };
         let force_range = 16.0 * GRAVITY / f64::from(1_u32 << (u32::from(register(ACCEL_CONFIG0) >> 5).min(3) + finer));
