@@ -295,7 +295,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let covariance = design.covariance(&roles, &fit);
     // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of
     // this cause alone, but it is not known to better than what those would make of it.
-    let beside = design.estimating();
+    let beside = design.without_twins();
     let beside = design.covariance(&beside, &design.fit_roles(&beside));
     let clusters = design.linear.equations.clusters.len();
     let left_out = design.left_out(&roles);
