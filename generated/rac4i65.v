@@ -1,5 +1,5 @@
 // rac4i65
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.3.
+// Written from the rust-hdl sources in hdl/src; register map 2.3.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none
@@ -1726,7 +1726,7 @@ module rac4i65_core_registers (
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h7b246130;
+    localparam content_hash = 32'hd19576f8;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;

@@ -1,5 +1,5 @@
 // rac_hx8k
-// Written by hdl 0.1.0 from the rust-hdl sources in hdl/src; register map 2.3.
+// Written from the rust-hdl sources in hdl/src; register map 2.3.
 // Do not edit: change the sources and run `racbot generate`.
 
 `default_nettype none

@@ -63,14 +63,14 @@ impl Configuration {
         Self { words: vec![0; (FRAMES * FRAME_BITS).div_ceil(64)] }
     }
 
-    /// A bit.
+    /// Whether a configuration bit is set.
     #[must_use]
     pub fn bit(&self, bit: Bit) -> bool {
         let at = place(bit);
         self.words[at / 64] >> (at % 64) & 1 == 1
     }
 
-    /// Sets a bit.
+    /// Writes a configuration bit in its frame.
     pub fn set_bit(&mut self, bit: Bit, value: bool) {
         let at = place(bit);
         let mask = 1 << (at % 64);

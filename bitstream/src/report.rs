@@ -49,7 +49,7 @@ pub struct Report {
     pub pads: Vec<PadReport>,
 }
 
-/// A pad.
+/// A pad in use and how it is set.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PadReport {
     /// Pin of the package.
@@ -73,7 +73,7 @@ pub struct Decoded {
     pub configuration: Configuration,
     /// The circuit; none if there are faults.
     pub netlist: Option<Netlist>,
-    /// The report.
+    /// What the file uses.
     pub report: Report,
 }
 

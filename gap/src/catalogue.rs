@@ -114,6 +114,12 @@ impl Description {
         self.equation.split([';', ':']).next().unwrap_or(&self.equation)
     }
 
+    /// Effects that cannot be told from it: by any drive, and besides by one without turns.
+    #[must_use]
+    pub fn twins(&self) -> [&'static [&'static str]; 2] {
+        twins::of(&self.name)
+    }
+
     /// `racbot gap --list NAME`, and the same as a page of the book.
     pub fn markdown(&self) -> String {
         let links: Vec<&str> = self.links.iter().map(|link| link.name()).collect();
@@ -131,7 +137,7 @@ impl Description {
             }
             out.push_str("\nBounds and sizes are those of the paper's robot; `i` is a wheel's number.\n\n");
         }
-        let [always, square] = twins::of(&self.name).map(|names| names.join(", "));
+        let [always, square] = self.twins().map(|names| names.join(", "));
         if !always.is_empty() {
             let _ = writeln!(
                 out,

@@ -99,7 +99,7 @@ pub enum Buffer {
         /// Period for the timing constraint, in nanoseconds.
         period_ns: u32,
     },
-    /// An output.
+    /// Driven by the FPGA.
     Output {
         /// Current in milliampere.
         drive_ma: u8,

@@ -14,10 +14,10 @@ pub const NAME: &str = "rac4i65";
 /// The committed `generated/rac4i65.v`; a test proves that it is current.
 pub const COMMITTED_VERILOG: &str = include_str!("../../generated/rac4i65.v");
 
-/// The committed `generated/rac_hx8k.v`: top and serial host for the open board.
+/// The committed `generated/rac4i65.bit`, made of that Verilog; a test builds it again.
 pub const COMMITTED_BITSTREAM: &[u8] = include_bytes!("../../generated/rac4i65.bit");
 
-/// The committed design for the open board.
+/// The committed `generated/rac_hx8k.v`: top and serial host for the open board.
 pub const COMMITTED_OPEN_BOARD: &str = include_str!("../../generated/rac_hx8k.v");
 
 /// A file of `generated/`.

@@ -84,7 +84,7 @@ pub struct Preset<const N: usize, const V: u64> {
     pub d: Signal<In, Bits<N>>,
     /// Value.
     pub q: Signal<Out, Bits<N>>,
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
 }
 
@@ -126,13 +126,13 @@ impl<const N: usize, const V: u64> Logic for Preset<N, V> {
 /// the memory starts at zero, so that no pattern is left to chance.
 #[derive(LogicBlock)]
 pub struct Memory<const W: usize, const N: usize> {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Address to read; data follow one clock later.
     pub read_address: Signal<In, Bits<N>>,
     /// What stood at `read_address` at the last clock.
     pub read_data: Signal<Out, Bits<W>>,
-    /// Address to write.
+    /// Where `write_data` goes at the next edge if `write` is high.
     pub write_address: Signal<In, Bits<N>>,
     /// Word to write.
     pub write_data: Signal<In, Bits<W>>,
@@ -201,7 +201,7 @@ impl<const W: usize, const N: usize> Logic for Memory<W, N> {
 /// Read-only memory of 2ᴺ words of `W` ≤ 32 bits, with a registered read port.
 #[derive(LogicBlock)]
 pub struct Rom<const W: usize, const N: usize> {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Address to read; data follow one clock later.
     pub read_address: Signal<In, Bits<N>>,

@@ -33,7 +33,7 @@ impl Page {
         let _ = writeln!(self.body, "<p class=\"verdict\">{}</p>", escape(text));
     }
 
-    /// A heading.
+    /// A line of the second level, escaped.
     pub fn heading(&mut self, text: &str) {
         let _ = writeln!(self.body, "<h2>{}</h2>", escape(text));
     }
@@ -58,13 +58,13 @@ impl Page {
         let _ = writeln!(self.body, "<pre>{}</pre>", escape(text.trim_end()));
     }
 
-    /// A list.
+    /// Points, each escaped.
     pub fn list<T: AsRef<str>>(&mut self, items: impl IntoIterator<Item = T>) {
         let items: String = items.into_iter().map(|item| format!("<li>{}</li>", escape(item.as_ref()))).collect();
         let _ = writeln!(self.body, "<ul>{items}</ul>");
     }
 
-    /// A table.
+    /// Scrolls sideways where the screen is narrow.
     pub fn table(&mut self, table: &Table) {
         self.body.push_str(&table.html());
     }

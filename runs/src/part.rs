@@ -13,7 +13,7 @@ pub struct Columns {
     pub reference: bool,
     /// Encoder counts.
     pub counts: bool,
-    /// Duties.
+    /// Whether the duties belong to the part.
     pub duty: bool,
     /// Measured wheel speeds.
     pub measured: bool,

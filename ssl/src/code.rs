@@ -23,7 +23,7 @@ pub enum Code {
     Dribbler,
     /// The robot's own watch switched it off.
     RobotFault,
-    /// A teleport by force.
+    /// `by_force` was asked for.
     TeleportByForce,
     /// A teleport that makes room.
     TeleportSafely,

@@ -26,6 +26,7 @@ pub mod gate;
 pub mod meet;
 pub mod messages;
 pub mod pilot;
+mod rest;
 #[cfg(feature = "simulation")]
 pub mod robot;
 pub mod server;

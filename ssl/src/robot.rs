@@ -3,6 +3,7 @@
 use crate::contact::Hull;
 use crate::meet::Body;
 use crate::pilot::{Order, Pilot, SharedPilot};
+use crate::rest::Rest;
 use crate::trigger::Trigger;
 use driver::drive::{Ending, Fault, NoSource, Plan, Session};
 use driver::realtime::Clock;
@@ -22,8 +23,6 @@ use std::time::Duration;
 /// Time in which an empty kicker charges, s, and for which the card lets it.
 const CHARGE_S: f64 = 1.0;
 const CHARGE_LIMIT_S: f64 = 4.0;
-/// Rest after a fault before the robot may be armed anew, s.
-const REST_S: f64 = 0.5;
 /// Time after a touch in which a wheel that stands or lags was held by it, s: the watch doubts no longer.
 const TOUCHED_S: f64 = 1.0;
 /// Friction coefficient of rubber rollers on carpet once something else moves the robot. An assumption: it lets a strong
@@ -67,13 +66,9 @@ pub struct SimulatedRobot {
     since: Duration,
     pilot: Rc<RefCell<Pilot>>,
     session: Option<Driving>,
-    fault: Option<String>,
-    /// Whether that came of pushing against something.
-    stalled: bool,
+    rest: Option<Rest>,
     /// Since it touched a robot, the ball or a board, s.
     untouched_s: f64,
-    /// Since when it has rested after a fault, s.
-    rested_s: f64,
     trigger: Trigger,
     /// Energy of the kicker's capacitor as a share of the full one.
     charge: f64,
@@ -98,10 +93,8 @@ impl SimulatedRobot {
             scale,
             since: now,
             session: None,
-            fault: None,
-            stalled: false,
+            rest: None,
             untouched_s: f64::INFINITY,
-            rested_s: 0.0,
             trigger: Trigger::default(),
             charge: 1.0,
         };
@@ -115,7 +108,7 @@ impl SimulatedRobot {
         self.trigger = Trigger::default();
         let board = Board::new(self.robot.clone());
         self.session = Some(Session::begin(&self.plan, self.scale.clone(), steer, board, &mut clock)?);
-        self.fault = None;
+        self.rest = None;
         Ok(())
     }
 
@@ -157,8 +150,8 @@ impl SimulatedRobot {
 
     /// Why it is switched off, if it is, and how it is had back.
     #[must_use]
-    pub fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
+    pub fn fault(&self) -> Option<String> {
+        self.rest.as_ref().map(Rest::words)
     }
 
     /// Whether the card's ball sensor saw the ball at the last tick.
@@ -246,13 +239,7 @@ impl SimulatedRobot {
         // Dropped, the session disarms.
         self.session = None;
         self.trigger = Trigger::default();
-        self.fault = Some(if stalled {
-            format!("it pushes against something and stalls ({why}); it is armed anew after half a second")
-        } else {
-            format!("{why}; it is armed anew after half a second without motion asked for")
-        });
-        self.stalled = stalled;
-        self.rested_s = 0.0;
+        self.rest = Some(Rest::after(why.to_string(), stalled));
     }
 
     /// Switched off: once nobody asks for motion any more, it is armed anew; after a stall, motors that cooled so long may
@@ -260,16 +247,13 @@ impl SimulatedRobot {
     fn rest(&mut self, clock: &mut VirtualRobot<BitTrue>, period: Duration) {
         let at = clock.now() + period;
         clock.sleep_until(at);
-        let asks_for_rest = {
-            let mut pilot = self.pilot.borrow_mut();
-            pilot.wait(period.as_secs_f64());
-            pilot.asks_for_rest()
-        };
-        self.rested_s = if asks_for_rest || self.stalled { self.rested_s + period.as_secs_f64() } else { 0.0 };
-        if self.rested_s >= REST_S
+        let passed =
+            self.rest.as_mut().is_none_or(|rest| rest.passes(&mut self.pilot.borrow_mut(), period.as_secs_f64()));
+        if passed
             && let Err(error) = self.arm()
+            && let Some(rest) = &mut self.rest
         {
-            self.switch_off(&error, self.stalled);
+            rest.again(error.to_string());
         }
     }
 

@@ -29,7 +29,7 @@ const LINE: f64 = 1.0;
 /// What there is at first.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The field.
+    /// Its size and lines.
     pub field: Field,
     /// Robots: team, number, kind.
     pub robots: Vec<(Team, u32, Kind)>,
@@ -135,7 +135,7 @@ impl World {
         self.speed
     }
 
-    /// The ball.
+    /// Where it is and how it moves.
     #[must_use]
     pub fn ball(&self) -> &Ball {
         &self.ball
@@ -164,7 +164,7 @@ impl Robots for World {
         let robot = self.robots.get(&(team, id))?;
         let state = State {
             ball: robot.has_ball(),
-            fault: robot.fault().map(str::to_owned),
+            fault: robot.fault(),
             fastest_kick: robot.kind().fastest_kick,
             dribbler: true,
         };

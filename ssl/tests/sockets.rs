@@ -11,7 +11,7 @@ use runs::robot::Robot;
 use runs::vision::WrapperPacket;
 use simulator::closed_loop::{VirtualRobot, whole_tick_clock_hz};
 use simulator::fpga::BitTrue;
-use ssl::card::{Link, drive};
+use ssl::card::{Link, Served, drive};
 use ssl::front::Team;
 use ssl::messages::{RobotControl, RobotControlResponse, SimulatorResponse};
 use ssl::server::{Addresses, Sockets, run, run_in_lock_step};
@@ -177,20 +177,40 @@ fn in_lock_step_a_frame_passes_for_every_message_of_the_leader() {
     assert_eq!(waiting(&team).len(), 40);
 }
 
-#[test]
-fn the_same_messages_drive_a_card_and_silence_stops_it() {
-    let team = client();
+fn is_armed(card: &VirtualRobot<BitTrue>) -> bool {
+    card.fpga(|fpga| Board::new(fpga).status().unwrap().armed)
+}
+
+/// Serves the paper's robot on a bit-true card as blue 5 for so many seconds; `stage` is called before every sleep.
+fn serve_card(
+    limit_s: f64,
+    fault_ends: bool,
+    mut stage: impl FnMut(u128, &VirtualRobot<BitTrue>, [SocketAddr; 2]),
+) -> Served {
     let mut sockets = sockets(Vec::new());
     let [control, blue, _] = sockets.local().unwrap();
     let robot = Robot::racbot();
-    let plan = Plan { limit_s: 3.0, ..Plan::new(&robot, &[]) };
+    let plan = Plan { limit_s, ..Plan::new(&robot, &[]) };
     let clock_hz = whole_tick_clock_hz(robot.control_rate_hz);
     let period = Duration::from_secs_f64(plan.scale(clock_hz).unwrap().tick_s());
     let card = VirtualRobot::new(BitTrue::new(), Plant::new(&robot).unwrap(), robot.supply_v, period);
     let seen = card.clone();
+    let before = |at: Duration| {
+        stage(at.as_millis(), &seen, [control, blue]);
+        Duration::ZERO
+    };
+    let clock = Staged { inner: card.clone(), before };
+    let link = Link { board: Board::new(card.clone()), clock_hz, clock, source: NoSource, recording: None, fault_ends };
+    let served = drive(&plan, (Team::Blue, 5), link, &mut sockets, &AtomicBool::new(false)).unwrap();
+    assert!(!is_armed(&card));
+    served
+}
+
+#[test]
+fn the_same_messages_drive_a_card_and_silence_stops_it() {
+    let team = client();
     let (mut speeds, mut answers) = (Vec::new(), Vec::new());
-    let stage = |at: Duration| {
-        let ms = at.as_millis();
+    let Served { driven, faults } = serve_card(3.0, false, |ms, seen, [control, blue]| {
         if ms.is_multiple_of(16) && ms < 1_000 {
             team.send_to(&ahead(5), blue).unwrap();
         }
@@ -200,18 +220,66 @@ fn the_same_messages_drive_a_card_and_silence_stops_it() {
         }
         answers.extend(waiting(&team));
         speeds.push((ms, seen.twist().vy));
-        Duration::ZERO
-    };
-    let clock = Staged { inner: card.clone(), before: stage };
-    let link = Link { board: Board::new(card.clone()), clock_hz, clock, source: NoSource, recording: None };
-    let driven = drive(&plan, (Team::Blue, 5), link, &mut sockets, &AtomicBool::new(false)).unwrap();
-    assert!(matches!(driven.ending, Ending::TimeLimit), "{:?}", driven.ending);
+    });
+    assert!(matches!(driven.ending, Ending::TimeLimit) && faults.is_empty(), "{:?} {faults:?}", driven.ending);
     assert!(driven.switched_off.is_ok());
     let at = |time: u128| speeds.iter().find(|(ms, _)| *ms >= time).unwrap().1;
     assert!((at(950) - 0.3).abs() < 0.03 && (at(1_080) - 0.3).abs() < 0.03, "{} {}", at(950), at(1_080));
     assert!(at(2_800).abs() < 0.01, "{}", at(2_800));
     for code in ["UNKNOWN_ROBOT", "NOT_SIMULATED"] {
         assert!(answers.iter().any(|answer| String::from_utf8_lossy(answer).contains(code)), "{code}");
+    }
+}
+
+/// An encoder fails at 1.0 s and is whole again at 2.0 s. The team asks for motion until 2.5 s, for none until 3.5 s, and
+/// then for motion again. What came of it, its answers, and whether the card was armed at each millisecond.
+fn an_encoder_fails(fault_ends: bool) -> (Served, Vec<String>, Vec<(u128, bool, f64)>) {
+    let team = client();
+    let (mut looks, mut answers) = (Vec::new(), Vec::new());
+    let served = serve_card(5.0, fault_ends, |ms, seen, [_, blue]| {
+        let order = if (2_500..3_500).contains(&ms) { 0.0 } else { 0.3 };
+        if ms.is_multiple_of(16) {
+            team.send_to(&RobotControl { robot_commands: vec![local(5, order, 0.0, 0.0)] }.encode_to_vec(), blue)
+                .unwrap();
+        }
+        seen.fpga(|fpga| fpga.pins.encoder_errors = u8::from((1_000..2_000).contains(&ms)));
+        answers.extend(waiting(&team).iter().map(|answer| String::from_utf8_lossy(answer).into_owned()));
+        looks.push((ms, is_armed(seen), seen.twist().vy));
+    });
+    (served, answers, looks)
+}
+
+#[test]
+fn a_card_with_a_fault_rests_and_is_had_back_once_nobody_asks_for_motion() {
+    let (Served { driven, faults }, answers, looks) = an_encoder_fails(false);
+    assert!(matches!(driven.ending, Ending::TimeLimit), "{:?}", driven.ending);
+    assert!(matches!(&faults[..], [(t, what)] if (0.99..1.02).contains(t) && what.contains("encoder")), "{faults:?}");
+    assert!(answers.iter().any(|answer| answer.contains("ROBOT_FAULT") && answer.contains("encoder")), "{answers:?}");
+    let armed = |from, to| looks.iter().filter(move |(ms, ..)| (from..to).contains(ms)).map(|(_, armed, _)| *armed);
+    assert!(armed(100, 1_000).all(|armed| armed) && armed(1_010, 3_000).all(|armed| !armed));
+    assert!(armed(3_100, 4_900).all(|armed| armed));
+    let speed = looks.iter().find(|(ms, ..)| *ms == 4_800).unwrap().2;
+    assert!((speed - 0.3).abs() < 0.03, "{speed}");
+}
+
+#[test]
+fn a_card_told_to_stay_off_ends_at_its_first_fault() {
+    let (Served { driven, faults }, ..) = an_encoder_fails(true);
+    assert!(matches!(driven.ending, Ending::Fault(_)) && faults.is_empty(), "{:?}", driven.ending);
+    assert!((0.99..1.02).contains(&driven.t) && driven.switched_off.is_ok(), "{}", driven.t);
+}
+
+#[test]
+fn after_an_emergency_stop_only_a_person_starts_a_card_again() {
+    // Pressed while it drives, and while it rests after an encoder that failed for a moment.
+    for pressed in [1_000..1_100, 1_600..1_601] {
+        let Served { driven, .. } = serve_card(5.0, false, |ms, seen, _| {
+            seen.fpga(|fpga| {
+                fpga.pins.emergency_stop = pressed.contains(&ms);
+                fpga.pins.encoder_errors = u8::from(pressed.start == 1_600 && (1_500..1_510).contains(&ms));
+            });
+        });
+        assert!(matches!(driven.ending, Ending::Fault(_)) && driven.t < 2.2, "{:?} {}", driven.ending, driven.t);
     }
 }
 

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A memory counts as the same box on both sides: what goes in is proven, what comes out is assumed. How a memory of the
-//! text becomes block memories, and that both sides begin alike, only simulation says.
+//! text becomes block memories only simulation says. Induction says nothing of the beginning: the start value of every
+//! flip-flop of the netlist is compared with what the text says, bit by bit.
 
 use bitstream::flow::synthesis;
 use simulator::cosim::{CosimError, folder};
@@ -24,6 +25,17 @@ pub struct Compared {
     pub unproven: usize,
 }
 
+/// Start values of the netlist's flip-flops.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub struct Starts {
+    /// As the text says.
+    pub equal: usize,
+    /// Not so.
+    pub different: usize,
+    /// The text leaves it open: that none of these reaches a pin undefined, simulation with four states shows.
+    pub open: usize,
+}
+
 /// Both proofs: the text against its optimised form, and that against the netlist.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Equivalence {
@@ -31,6 +43,8 @@ pub struct Equivalence {
     pub text: Compared,
     /// With block memories, against the cells of the device.
     pub netlist: Compared,
+    /// How both begin.
+    pub starts: Starts,
 }
 
 /// Pads without their delay and drive.
@@ -97,7 +111,8 @@ pub fn prove(text: &str, synthesised: &str, top: &str) -> Result<Equivalence, Co
         })
     })?;
     let status = |name: &str| read(&folder.join(name)).map(|log| compared(&log));
-    Ok(Equivalence { text: status("first.log")?, netlist: status("second.log")? })
+    let starts = starts(&read(&folder.join("text.il"))?, &read(&folder.join("netlist.il"))?);
+    Ok(Equivalence { text: status("first.log")?, netlist: status("second.log")?, starts })
 }
 
 fn read(path: &Path) -> Result<String, CosimError> {
@@ -109,6 +124,45 @@ fn compared(log: &str) -> Compared {
     let line = log.lines().find(|line| line.contains("Of those cells")).unwrap_or_default();
     let mut numbers = line.split_whitespace().filter_map(|word| word.parse().ok());
     Compared { proven: numbers.next().unwrap_or(0), unproven: numbers.next().unwrap_or(usize::MAX) }
+}
+
+/// A bit of a wire of RTLIL, as `\\name [3]`; a wire of one bit has no index.
+fn bit(signal: &str) -> Option<(&str, usize)> {
+    match signal.split_once(' ') {
+        None => Some((signal, 0)),
+        Some((name, index)) => Some((name, index.strip_prefix('[')?.strip_suffix(']')?.parse().ok()?)),
+    }
+}
+
+/// Compares the start values of the flip-flops of a netlist with those of the wires of the text, both in RTLIL.
+fn starts(text: &str, netlist: &str) -> Starts {
+    let mut said: HashMap<(&str, usize), char> = HashMap::new();
+    let mut pending = None;
+    for line in text.lines() {
+        if let Some(value) = line.strip_prefix("  attribute \\init ") {
+            pending = value.split_once('\'').map(|value| value.1);
+        } else if let Some(wire) = line.strip_prefix("  wire ") {
+            let name = wire.rsplit(' ').next().unwrap_or_default();
+            let bits = pending.take().into_iter().flat_map(|bits| bits.chars().rev().enumerate());
+            said.extend(bits.filter(|(_, value)| *value != 'x').map(|(index, value)| ((name, index), value)));
+        }
+    }
+    let mut starts = Starts::default();
+    let mut value = None;
+    for line in netlist.lines() {
+        if let Some(parameter) = line.strip_prefix("    parameter \\INIT 1'") {
+            value = parameter.chars().next();
+        } else if line.starts_with("  cell ") {
+            value = None;
+        } else if let (Some(own), Some(output)) = (value, line.strip_prefix("    connect \\Q ")) {
+            match bit(output).and_then(|bit| said.get(&bit)) {
+                Some(text) if *text == own => starts.equal += 1,
+                Some(_) => starts.different += 1,
+                None => starts.open += 1,
+            }
+        }
+    }
+    starts
 }
 
 /// The same design with two outputs in place of the buffers of an inout port `lad`: what they would drive and whether they

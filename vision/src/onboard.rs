@@ -75,7 +75,7 @@ impl OnBoard {
         Self { camera, map: Map::new(field), before: None }
     }
 
-    /// The camera.
+    /// How it looks at the world.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera

@@ -56,7 +56,7 @@ pub struct Bitstream {
     pub order: Order,
     /// What the packets do.
     pub summary: Summary,
-    /// The packets.
+    /// What the configuration logic is told, word by word.
     pub packets: Packets,
     /// Bytes of the file before the bitstream.
     head: Vec<u8>,

@@ -129,7 +129,7 @@ impl Device {
         &self.columns
     }
 
-    /// The address of a frame.
+    /// Block, major and minor as the register FAR takes them.
     #[must_use]
     pub fn frame_address(&self, frame: u16) -> Option<FrameAddress> {
         let column =

@@ -54,9 +54,9 @@ pub struct TileId(pub u16);
 pub struct Tile {
     /// Its kind, index into [`Device::classes`].
     pub class: u16,
-    /// Column.
+    /// Column in the grid of tiles, from 0.
     pub column: u8,
-    /// Row.
+    /// Row in the grid of tiles, from 0.
     pub row: u8,
     /// First bit of each of its rectangles.
     rectangles: Vec<Bit>,
@@ -66,7 +66,7 @@ pub struct Tile {
     first_pip: u32,
 }
 
-/// The device.
+/// The XC2S200 as a graph: tiles, wires, pips, bits, pads.
 #[derive(Debug)]
 pub struct Device {
     grid: (u8, u8),

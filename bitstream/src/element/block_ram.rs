@@ -67,7 +67,7 @@ impl Default for Port {
     }
 }
 
-/// A block RAM.
+/// How a block RAM is set: widths, polarities, content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockRam {
     /// Port A and port B.

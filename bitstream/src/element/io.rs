@@ -45,7 +45,7 @@ choices! {
 pub struct PadRegister {
     /// Value after configuration, and when SR is 1.
     pub init: bool,
-    /// A latch.
+    /// Transparent while the clock is high, in place of an edge.
     pub latch: bool,
     /// SR has an effect on it.
     pub reset: bool,
@@ -120,7 +120,7 @@ pub struct Io {
     pub invert_t: bool,
     /// Inverter before SR.
     pub invert_sr: bool,
-    /// The driver.
+    /// Standard, strength and slew of the output.
     pub driver: Driver,
     /// What holds the pad.
     pub pull: Pull,

@@ -47,17 +47,17 @@ pub struct Built {
     pub resources: Resources,
     /// Pass gates in series and wires joined, at most.
     pub extremes: Extremes,
-    /// Timing.
+    /// The slowest paths of each clock under the model of wires.
     pub timing: Report,
     /// Where every net is driven.
     pub drivers: Vec<Driver>,
     /// Whether the decoded bits are the netlist.
     pub proof: Proof,
-    /// Its logic.
+    /// What was mapped: tables, chains, flip-flops.
     pub logic: Logic,
     /// Its slices.
     pub packed: Packed,
-    /// Its nets.
+    /// Which pins each net joins.
     pub nets: Nets,
     /// Where everything stands.
     pub placement: Placement,

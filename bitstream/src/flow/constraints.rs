@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Resistor or latch at a pad.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Pull {
-    /// None.
+    /// Neither keeper nor resistor.
     #[default]
     None,
     /// To the supply.
@@ -31,7 +31,7 @@ pub struct PadConstraint {
     pub drive: u8,
     /// Fast slew rate.
     pub fast: bool,
-    /// Pull.
+    /// What holds the pad while nobody drives it.
     pub pull: Pull,
 }
 

@@ -25,7 +25,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A constant.
+    /// The same value for every input word.
     #[must_use]
     pub fn constant(value: bool) -> Self {
         Self { inputs: Vec::new(), table: if value { 0xFFFF } else { 0 } }
@@ -64,11 +64,11 @@ pub struct Logic {
     pub chains: Vec<Chain>,
     /// Pairs of tables under a multiplexer.
     pub wides: Vec<Wide>,
-    /// Flip-flops.
+    /// In the order of the netlist; an index into them stays valid through the flow.
     pub flip_flops: Vec<FlipFlop>,
     /// Block memories.
     pub memories: Vec<Memory>,
-    /// Pads.
+    /// With their flip-flops, standards and nets.
     pub pads: Vec<Pad>,
     /// Clock buffers: (net of the pad, net of the clock).
     pub clock_buffers: Vec<(Net, Net)>,

@@ -23,13 +23,13 @@ impl Net {
 /// What stands at an input pin.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 pub enum Signal {
-    /// A constant.
+    /// Tied to 0 or 1.
     Constant(bool),
     /// Nothing: any value will do.
     Open,
     /// A net, seen through an inverter or not.
     Wire {
-        /// The net.
+        /// Who drives the pin.
         net: Net,
         /// Whether the pin sees the opposite.
         inverted: bool,
@@ -82,7 +82,7 @@ pub struct FlipFlop {
     pub falling: bool,
     /// Clock enable, active high.
     pub enable: Signal,
-    /// Data.
+    /// What is stored at the edge.
     pub data: Signal,
     /// Reset or set, active high.
     pub reset: Signal,
@@ -146,7 +146,7 @@ pub struct Pad {
 pub struct CarryMux {
     /// Propagate.
     pub select: Signal,
-    /// Carry in.
+    /// From the bit below, or into the chain.
     pub carry: Signal,
     /// Generate.
     pub data: Signal,
@@ -159,7 +159,7 @@ pub struct CarryMux {
 pub struct CarryXor {
     /// Half sum.
     pub input: Signal,
-    /// Carry in.
+    /// From the bit below, or into the chain.
     pub carry: Signal,
     /// Sum.
     pub output: Net,
@@ -174,7 +174,7 @@ pub struct WideMux {
     pub low: Signal,
     /// For select 1.
     pub high: Signal,
-    /// Output.
+    /// The net that the cell drives.
     pub output: Net,
     /// Second level (MUXF6).
     pub second: bool,
@@ -195,11 +195,11 @@ pub struct Netlist {
     pub carry_xors: Vec<CarryXor>,
     /// Wide multiplexers.
     pub wide_muxes: Vec<WideMux>,
-    /// Flip-flops.
+    /// FD cells of any kind, in the order of the file.
     pub flip_flops: Vec<FlipFlop>,
     /// Block memories.
     pub memories: Vec<Memory>,
-    /// Pads.
+    /// Buffers of inputs, outputs and both.
     pub pads: Vec<Pad>,
     /// Clock buffers: (input net, output net).
     pub clock_buffers: Vec<(Net, Net)>,

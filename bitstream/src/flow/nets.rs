@@ -13,7 +13,7 @@ pub enum Part {
     Slice(u32, u16),
     /// A block memory.
     Memory(u32),
-    /// A pad.
+    /// Index of a pad in the logic.
     Pad(u32),
     /// A clock buffer.
     Clock(u32),

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// Slices that stand in one column, lowest first: a carry chain, or a single slice.
 #[derive(Clone, Debug, Default)]
 pub struct Column {
-    /// The slices.
+    /// Neighbours in this order, for the carry runs upwards.
     pub slices: Vec<Slice>,
 }
 
@@ -47,7 +47,7 @@ impl Packed {
         }));
         let mut packer = Packer { logic, columns, left: (0..logic.flip_flops.len()).collect() };
         packer.attach();
-        fill::fill(&mut packer);
+        fill::fill(&mut packer, super::SLICES);
         let packed = Self { columns: packer.columns };
         let (used, there) = (packed.slices().count(), super::SLICES);
         if used > there {

@@ -78,11 +78,11 @@ impl Placement {
 
 /// Everything that is known of a design before it is placed.
 pub struct Design<'a> {
-    /// Its logic.
+    /// What was mapped: tables, chains, flip-flops.
     pub logic: &'a Logic,
     /// Its slices.
     pub packed: &'a Packed,
-    /// Its nets.
+    /// Which pins each net joins.
     pub nets: &'a Nets,
     /// Its timing graph.
     pub graph: &'a Graph,

@@ -7,9 +7,9 @@ pub enum Stage {
     Synthesis,
     /// Mapping and packing.
     Pack,
-    /// Placing.
+    /// Annealing; most of the time.
     Place,
-    /// Routing.
+    /// Rounds of negotiated congestion.
     Route,
     /// Setting bits.
     Bits,
@@ -18,7 +18,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// Its name.
+    /// In a word, for the bar.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -28,7 +28,7 @@ pub enum Signal {
     Zero,
     /// 1, as every input that is not routed.
     One,
-    /// A net.
+    /// What some pin drives.
     Net(NetId),
     /// The inverse of a net.
     Not(NetId),
@@ -66,7 +66,7 @@ pub enum CellKind {
         table: u16,
         /// Inputs 0..4, which are F1..F4 or G1..G4.
         inputs: [Signal; 4],
-        /// The output.
+        /// The net that it drives.
         output: NetId,
     },
     /// Another name of a signal: the output of an element that passes it on.
@@ -86,21 +86,21 @@ pub enum CellKind {
         one: Signal,
         /// Passed when `select` is 0.
         zero: Signal,
-        /// The output.
+        /// The net that it drives.
         output: NetId,
     },
     /// Exclusive or, of a table and the carry.
     Xor {
-        /// The inputs.
+        /// What its pins read, the lower first.
         inputs: [Signal; 2],
-        /// The output.
+        /// The net that it drives.
         output: NetId,
     },
     /// And, of the two inputs of a table: for multipliers.
     And {
-        /// The inputs.
+        /// What its pins read, the lower first.
         inputs: [Signal; 2],
-        /// The output.
+        /// The net that it drives.
         output: NetId,
     },
     /// A flip-flop or latch.
@@ -145,13 +145,13 @@ pub enum CellKind {
         /// The bus.
         output: NetId,
     },
-    /// A block RAM.
+    /// 4096 bits behind two ports.
     BlockRam(Box<Memory>),
     /// A delay-locked loop.
     Dll(Box<Loop>),
     /// A global clock buffer.
     ClockBuffer {
-        /// The clock in.
+        /// CLKIN, from a pad or a net.
         input: Signal,
         /// Passes it while 1.
         enable: Signal,
@@ -169,14 +169,14 @@ pub enum MuxRole {
     F5,
     /// Of two F5.
     F6,
-    /// Of the carry.
+    /// A carry multiplexer, MUXCY.
     Carry,
 }
 
 /// A flip-flop or latch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FlipFlop {
-    /// Data.
+    /// What is stored at the edge.
     pub data: Signal,
     /// Clock: the rising edge, or of a latch the level 1.
     pub clock: Signal,
@@ -188,15 +188,15 @@ pub struct FlipFlop {
     pub reverse: Signal,
     /// Reset and reverse act at the clock; otherwise at once.
     pub synchronous: bool,
-    /// A latch.
+    /// Transparent while the clock is high, in place of an edge.
     pub latch: bool,
     /// Value after configuration.
     pub init: bool,
-    /// The output.
+    /// The net that it drives.
     pub output: NetId,
 }
 
-/// A block RAM.
+/// 4096 bits behind two ports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// Ports A and B.
@@ -231,9 +231,9 @@ pub struct MemoryPort {
 pub struct Loop {
     /// How it is set.
     pub setting: Dll,
-    /// The clock in.
+    /// CLKIN, from a pad or a net.
     pub clock: Signal,
-    /// The feedback in.
+    /// CLKFB, by which the delay is set.
     pub feedback: Signal,
     /// Starts anew while 1.
     pub reset: Signal,
@@ -261,7 +261,7 @@ pub struct PadUse {
 pub struct Netlist {
     /// Names of the nets.
     pub nets: Vec<String>,
-    /// Cells.
+    /// One for each element in use.
     pub cells: Vec<Cell>,
     /// Pads that are used, by pin.
     pub pads: Vec<PadUse>,

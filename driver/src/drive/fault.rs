@@ -30,7 +30,7 @@ pub enum Fault {
     Misread {
         /// From 1.
         wheel: usize,
-        /// What of it.
+        /// Which word: duty, speed or set point.
         what: &'static str,
     },
     /// The robot no longer comes nearer to where it should go.
@@ -44,7 +44,7 @@ pub enum Fault {
     CountJump {
         /// From 1.
         wheel: usize,
-        /// Counts.
+        /// What the encoder seems to have counted in between.
         counts: i64,
         /// What the motor can do in the time.
         limit: f64,

@@ -5,7 +5,7 @@ use super::watch::Watch;
 use super::{Armed, DriveError, Driven, Ending, Fault, Plan, PoseSource, Steer};
 use crate::realtime::{Clock, Latency, Timer};
 use crate::recording::{Recording, Sample};
-use crate::{Board, Registers, Scale, Snapshot, Standing};
+use crate::{Board, BoardError, Registers, Scale, Snapshot, Standing};
 use fixed_kin::AXES;
 use fixed_kin::registers::FAULT_COMMIT;
 use model::localisation::Localiser;
@@ -89,6 +89,49 @@ impl<R: Registers, S: Steer> Session<R, S> {
         }
     }
 
+    /// Switches the outputs off and keeps the card, after a fault; [`Session::idle`] and [`Session::resume`] come next.
+    ///
+    /// # Errors
+    /// [`Fault`] where the card does not obey: its watchdog then switches it off.
+    pub fn rest(&mut self) -> Result<(), Fault> {
+        self.state.command = Twist::default();
+        Ok(self.armed.board().disarm()?)
+    }
+
+    /// One tick with the outputs off: counts and poses are followed, so that the robot knows where it was pushed to.
+    ///
+    /// # Errors
+    /// [`Fault`] where the card gives no proper answer.
+    pub fn idle(
+        &mut self,
+        clock: &mut impl Clock,
+        source: &mut impl PoseSource,
+        recording: Option<&mut Recording>,
+    ) -> Result<(), Fault> {
+        self.state.idle(&mut self.armed, &self.scale, clock.now(), source, recording)
+    }
+
+    /// Arms the card again, after [`Session::rest`]. What stood in its sticky registers is cleared.
+    ///
+    /// # Errors
+    /// [`Fault`] while a cause stands, and where the card no longer runs our design; the outputs stay off.
+    pub fn resume(&mut self, clock: &mut impl Clock) -> Result<(), Fault> {
+        let board = self.armed.board();
+        board.identify()?;
+        self.state.driven.stood = board.arm()?;
+        let before = self.state.before;
+        self.state.before = board.snapshot()?;
+        if self.state.before.sequence.wrapping_sub(before.sequence) > u32::MAX / 2 {
+            board.disarm()?;
+            return Err(Fault::NoTick { silence: Duration::ZERO });
+        }
+        self.state.count(&before);
+        (self.state.seen_at, self.state.committed_at) = (clock.now(), clock.now());
+        self.state.watch = self.state.watch.anew();
+        self.timer = Timer::new(self.timer.period(), clock);
+        Ok(())
+    }
+
     /// Disarms; what happened.
     pub fn end(self, ending: Ending) -> Driven {
         let mut driven = self.state.driven;
@@ -119,6 +162,13 @@ impl<R: Registers, S: Steer> Session<R, S> {
     pub fn so_far(&self) -> &Driven {
         &self.state.driven
     }
+}
+
+/// What a tick showed.
+struct Seen {
+    t: f64,
+    pose: Pose,
+    camera: Option<Pose>,
 }
 
 enum Step {
@@ -188,18 +238,18 @@ impl<S: Steer> State<S> {
         })
     }
 
+    fn read<R: Registers>(&mut self, armed: &mut Armed<R>) -> Result<Snapshot, BoardError> {
+        let Some(feel) = &mut self.feel else { return armed.snapshot() };
+        let (now, words) = armed.snapshot_with_imu()?;
+        feel.see(&words, now.sequence);
+        Ok(now)
+    }
+
     /// A snapshot that can be true. A word that was misread is read again; what stays is a fault.
     fn look<R: Registers>(&mut self, armed: &mut Armed<R>, scale: &Scale) -> Result<(Snapshot, u32), Fault> {
         let mut doubt = None;
         for _ in 0..2 {
-            let now = match &mut self.feel {
-                None => armed.snapshot()?,
-                Some(feel) => {
-                    let (now, words) = armed.snapshot_with_imu()?;
-                    feel.see(&words, now.sequence);
-                    now
-                }
-            };
+            let now = self.read(armed)?;
             let ticks = now.sequence.wrapping_sub(self.before.sequence);
             // The snapshot of a tick before arming shows a card at rest.
             let fine = if !now.status.armed && ticks > 0 {
@@ -225,6 +275,69 @@ impl<S: Steer> State<S> {
         Err(Fault::Disarmed { faults: now.faults, first: armed.first_fault()?, silence: self.driven.silence })
     }
 
+    /// Adds what the wheels turned since another snapshot.
+    fn count(&mut self, before: &Snapshot) {
+        for (total, (new, old)) in self.total.iter_mut().zip(self.before.counts.iter().zip(&before.counts)) {
+            *total += i64::from(new.wrapping_sub(*old));
+        }
+    }
+
+    /// Takes a new snapshot, the poses that came and the inertial sensor into the robot's own pose.
+    fn follow(
+        &mut self,
+        now: Snapshot,
+        ticks: u32,
+        scale: &Scale,
+        host: Duration,
+        source: &mut impl PoseSource,
+    ) -> Seen {
+        self.seen_at = host;
+        let before = std::mem::replace(&mut self.before, now);
+        self.count(&before);
+        let t = f64::from(now.sequence.wrapping_sub(self.first)) * scale.tick_s();
+        (self.driven.t, self.driven.ticks) = (t, self.driven.ticks + 1);
+        self.driven.unseen += u64::from(ticks - 1);
+        let camera = source.arrived(t);
+        self.note_source(t, camera);
+        if let Some(feel) = &mut self.feel {
+            self.localiser.feel(feel.corrected());
+            self.driven.imu_gone = feel.gone(t);
+        }
+        let slipped = self.localiser.slips();
+        let pose = self.localiser.tick(t, &self.total[..self.wheels], camera);
+        self.driven.slips += u64::from(self.localiser.slips() && !slipped);
+        self.driven.pose = pose;
+        source.believed(t, pose);
+        Seen { t, pose, camera }
+    }
+
+    fn record(&self, recording: Option<&mut Recording>, t: f64, in_force: Twist, scale: &Scale, camera: Option<Pose>) {
+        if let Some(recording) = recording {
+            let felt = self.feel.as_ref().and_then(Feel::reading);
+            let sample = Sample::of(t, in_force, &self.before, self.total, scale, f64::NAN);
+            recording.push(sample.with_camera(camera).with_imu(felt.as_ref()));
+        }
+    }
+
+    fn idle<R: Registers>(
+        &mut self,
+        armed: &mut Armed<R>,
+        scale: &Scale,
+        host: Duration,
+        source: &mut impl PoseSource,
+        recording: Option<&mut Recording>,
+    ) -> Result<(), Fault> {
+        let now = self.read(armed)?;
+        let ticks = now.sequence.wrapping_sub(self.before.sequence);
+        if ticks == 0 || ticks > u32::MAX / 2 {
+            return Ok(());
+        }
+        self.watch.plausible(&self.before, &now, scale, ticks)?;
+        let Seen { t, camera, .. } = self.follow(now, ticks, scale, host, source);
+        self.record(recording, t, Twist::default(), scale, camera);
+        Ok(())
+    }
+
     fn tick<R: Registers>(
         &mut self,
         armed: &mut Armed<R>,
@@ -238,27 +351,8 @@ impl<S: Steer> State<S> {
         if ticks == 0 {
             return self.wait_for_tick(armed, scale, host);
         }
-        self.seen_at = host;
-        for (total, (new, old)) in self.total.iter_mut().zip(now.counts.iter().zip(&self.before.counts)) {
-            *total += i64::from(new.wrapping_sub(*old));
-        }
-        self.before = now;
-        let t = f64::from(now.sequence.wrapping_sub(self.first)) * scale.tick_s();
-        (self.driven.t, self.driven.ticks) = (t, self.driven.ticks + 1);
-        self.driven.unseen += u64::from(ticks - 1);
-
-        let seen = source.arrived(t);
-        self.note_source(t, seen);
+        let Seen { t, pose, camera } = self.follow(now, ticks, scale, host, source);
         let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
-        if let Some(feel) = &mut self.feel {
-            self.localiser.feel(feel.corrected());
-            self.driven.imu_gone = feel.gone(t);
-        }
-        let slipped = self.localiser.slips();
-        let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
-        self.driven.slips += u64::from(self.localiser.slips() && !slipped);
-        self.driven.pose = pose;
-        source.believed(t, pose);
         let in_force = self.command;
         let wanted = self.steer.command(pose, elapsed);
         self.command = wanted.unwrap_or_default();
@@ -266,12 +360,7 @@ impl<S: Steer> State<S> {
             self.command.omega = feel.steer(wanted, elapsed);
         }
         self.commit(armed, scale, host, now.faults)?;
-        if let Some(recording) = recording {
-            let felt = self.feel.as_ref().and_then(Feel::reading);
-            recording.push(
-                Sample::of(t, in_force, &now, self.total, scale, f64::NAN).with_camera(seen).with_imu(felt.as_ref()),
-            );
-        }
+        self.record(recording, t, in_force, scale, camera);
         self.watch.look(&now, &self.total, scale, ticks, host)?;
 
         self.settling_s = if wanted.is_none() { self.settling_s + elapsed } else { 0.0 };

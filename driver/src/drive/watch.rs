@@ -79,6 +79,20 @@ impl Watch {
         }
     }
 
+    /// The same with no doubts: after a rest.
+    pub(super) fn anew(&self) -> Self {
+        let doubtless = [0.0; AXES];
+        Self {
+            still: doubtless,
+            backwards: doubtless,
+            lost: doubtless,
+            saturated: doubtless,
+            clock: None,
+            refused: 0,
+            ..self.clone()
+        }
+    }
+
     /// Whether a snapshot can follow another, `ticks` later; if not, one of the two was misread.
     pub(super) fn plausible(&self, before: &Snapshot, now: &Snapshot, scale: &Scale, ticks: u32) -> Result<(), Fault> {
         let limit = self.counts_per_s * self.tick_s * f64::from(ticks) + COUNT_MARGIN;

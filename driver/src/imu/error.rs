@@ -39,7 +39,7 @@ pub enum ImuError {
          sensor changes bits: shorten it, or slow it down"
     )]
     ReadBack {
-        /// Register.
+        /// Address on the sensor.
         register: u8,
         /// What was written.
         written: u8,

@@ -8,7 +8,7 @@ pub(super) const GRAVITY: f64 = 9.806_65;
 /// What a word of the fourteen bytes is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// Temperature.
+    /// Raw, by the scale and offset of the kind.
     Temperature,
     /// Specific force along an axis of the chip, 0 to 2.
     Acceleration(usize),

@@ -71,7 +71,7 @@ pub enum LoadError {
         /// The hash wanted.
         expected: u32,
     },
-    /// The clock.
+    /// What was wrong with measuring LCLK.
     #[error(transparent)]
     Clock(#[from] ClockError),
     /// After several tries.

@@ -10,9 +10,9 @@ pub const SYSFS_DEVICES: &str = "/sys/bus/pci/devices";
 /// The four numbers by which a PCI card is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ids {
-    /// Vendor.
+    /// Who made the bridge: 10b5 for PLX.
     pub vendor: u16,
-    /// Device.
+    /// Which bridge: 9030.
     pub device: u16,
     /// Vendor of the card.
     pub subsystem_vendor: u16,
@@ -44,7 +44,7 @@ impl fmt::Display for Ids {
 pub struct Slot {
     /// Its name there: `domain:bus:device.function`.
     pub name: String,
-    /// Its folder.
+    /// In sysfs, below /sys/bus/pci/devices.
     pub folder: PathBuf,
     /// Its numbers.
     pub ids: Ids,

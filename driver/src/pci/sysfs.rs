@@ -23,9 +23,9 @@ pub enum OpenError {
     /// A kernel driver holds it.
     #[error("{slot} is held by the kernel driver {driver}; echo {slot} > /sys/bus/pci/drivers/{driver}/unbind")]
     Driver {
-        /// Slot.
+        /// Domain, bus, device and function, as 0000:02:00.0.
         slot: String,
-        /// Its driver.
+        /// Kernel driver that holds the card.
         driver: String,
     },
     /// Another program drives it.
@@ -34,7 +34,7 @@ pub enum OpenError {
     /// Neither memory nor ports can be reached.
     #[error("{slot}: {window} can neither be mapped ({memory}) nor reached through its ports ({ports})")]
     NoWindow {
-        /// Slot.
+        /// Domain, bus, device and function, as 0000:02:00.0.
         slot: String,
         /// What was looked for.
         window: &'static str,

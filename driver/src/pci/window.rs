@@ -24,7 +24,7 @@ impl<C: PciCard> RegisterWindow<C> {
         Self { card, bar }
     }
 
-    /// The card.
+    /// Gives the card back.
     pub fn into_card(self) -> C {
         self.card
     }

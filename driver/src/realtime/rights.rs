@@ -9,7 +9,7 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue};
 /// One right: granted, or why not and what that means.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Right {
-    /// Its name.
+    /// Short, as in a log.
     pub name: &'static str,
     /// Nothing where it was granted.
     pub refused: Option<String>,

@@ -32,7 +32,7 @@ impl Timer {
         Self { period, next: clock.now() + period }
     }
 
-    /// Its period.
+    /// Time between two wake-ups.
     #[must_use]
     pub fn period(&self) -> Duration {
         self.period

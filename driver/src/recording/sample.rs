@@ -30,7 +30,7 @@ pub struct Sample {
     pub reference: [f64; AXES],
     /// Cumulative counts.
     pub counts: [i64; AXES],
-    /// Duties.
+    /// −1 to 1, of full drive.
     pub duty: [f64; AXES],
     /// Measured wheel speeds, rad/s.
     pub measured: [f64; AXES],

@@ -23,7 +23,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(10);
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {cause}; choose another file for the recording", .file.display())]
 pub struct RecordingError {
-    /// The file.
+    /// Where the recording goes.
     pub file: PathBuf,
     /// Why.
     pub cause: io::Error,
@@ -32,9 +32,9 @@ pub struct RecordingError {
 /// What became of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recorded {
-    /// The file.
+    /// Where the recording goes.
     pub file: PathBuf,
-    /// Ticks in it.
+    /// Rows written, gaps not counted.
     pub ticks: u64,
     /// Ticks that found the ring full and are not in it.
     pub lost: u64,

@@ -19,9 +19,9 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Commit {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A set point is staged.
+    /// High for the clock in which a word goes to the staging memory of the set points.
     pub stage_set_point: Signal<In, Bit>,
     /// A word of the configuration is staged.
     pub stage_configuration: Signal<In, Bit>,
@@ -31,7 +31,7 @@ pub struct Commit {
     pub commit_configuration: Signal<In, Bit>,
     /// Word address of the write.
     pub address: Signal<In, Bits<14>>,
-    /// Its data.
+    /// The word that is staged.
     pub data: Signal<In, Bits<32>>,
     /// The checksum, in a commit.
     pub checksum: Signal<In, Bits<32>>,

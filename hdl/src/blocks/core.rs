@@ -64,9 +64,9 @@ pub struct Core {
     pub lad_in: Signal<In, Bits<32>>,
     /// Address and data bus, as driven.
     pub lad_out: Signal<Out, Bits<32>>,
-    /// Drive it.
+    /// High while the card, not the bridge, drives LAD.
     pub lad_drive: Signal<Out, Bit>,
-    /// Ready.
+    /// Low: the word on LAD is taken or valid at this edge.
     pub ready_n: Signal<Out, Bit>,
     /// Interrupt, low = a cause that the host enabled.
     pub int_n: Signal<Out, Bit>,

@@ -14,7 +14,7 @@ use rust_hdl::prelude::*;
 /// See the module; `TAPS` are in the order of the line.
 #[derive(LogicBlock, Default)]
 pub struct Crc<const N: usize, const TAPS: u64> {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Begin anew; before `shift`.
     pub clear: Signal<In, Bit>,

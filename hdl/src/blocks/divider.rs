@@ -18,7 +18,7 @@ pub const DIVISION_STEPS: u32 = 35;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Divider {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Takes the request below.
     pub start: Signal<In, Bit>,

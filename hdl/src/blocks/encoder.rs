@@ -26,7 +26,7 @@ use rust_hdl::prelude::*;
 /// `value` follows the synchronised pin after `limit + 1` consecutive ticks at which it differs.
 #[derive(LogicBlock, Default)]
 pub struct GlitchFilter {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Asynchronous input.
     pub pin: Signal<In, Bit>,
@@ -78,7 +78,7 @@ impl Logic for GlitchFilter {
 /// The encoder block; see the head of this file.
 #[derive(LogicBlock, Default)]
 pub struct Encoder {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Raw line A.
     pub a: Signal<In, Bit>,
@@ -118,7 +118,7 @@ pub struct Encoder {
     pub index_count: Signal<Out, Bits<16>>,
     /// An index was captured between the last two samples.
     pub index_event: Signal<Out, Bit>,
-    /// An index is waited for.
+    /// High from the request until the next index is captured.
     pub index_waiting: Signal<Out, Bit>,
     /// One was captured since the last arming.
     pub index_seen: Signal<Out, Bit>,

@@ -27,7 +27,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct ImuSpi {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A control tick.
     pub tick: Signal<In, Bit>,
@@ -49,9 +49,9 @@ pub struct ImuSpi {
     pub miso: Signal<In, Bit>,
     /// Data-ready line of the sensor.
     pub ready: Signal<In, Bit>,
-    /// Bank to read.
+    /// Bank that `read_word` addresses.
     pub read_bank: Signal<In, Bits<2>>,
-    /// Word to read.
+    /// Word in the bank, from 0.
     pub read_word: Signal<In, Bits<3>>,
     /// Chip select.
     pub cs_n: Signal<Out, Bit>,

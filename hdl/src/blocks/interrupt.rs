@@ -14,7 +14,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Interrupt {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Strobe: a control tick has ended.
     pub done: Signal<In, Bit>,

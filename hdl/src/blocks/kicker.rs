@@ -35,7 +35,7 @@ use rust_hdl::prelude::*;
 /// The kicker block; see the head of this file.
 #[derive(LogicBlock, Default)]
 pub struct Kicker {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Armed.
     pub enable: Signal<In, Bit>,

@@ -45,7 +45,7 @@ pub struct LocalBus {
     pub lad_in: Signal<In, Bits<32>>,
     /// The bus, as driven.
     pub lad_out: Signal<Out, Bits<32>>,
-    /// Drive it.
+    /// High while the card, not the bridge, drives LAD.
     pub lad_drive: Signal<Out, Bit>,
     /// Ready, active low.
     pub ready_n: Signal<Out, Bit>,

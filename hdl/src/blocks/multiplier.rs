@@ -25,7 +25,7 @@ const fn half(scale: Scale) -> u64 {
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Multiplier {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Takes the request below.
     pub start: Signal<In, Bit>,

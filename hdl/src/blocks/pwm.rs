@@ -42,7 +42,7 @@ use rust_hdl::prelude::*;
 /// The PWM block; see the head of this file.
 #[derive(LogicBlock, Default)]
 pub struct Pwm {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Outputs may be on.
     pub enable: Signal<In, Bit>,

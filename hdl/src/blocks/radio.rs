@@ -29,7 +29,7 @@ pub type Radio = RadioAt<{ CLOCKS_PER_BIT as u64 / 2 - 1 }, { CLOCKS_PER_BIT as 
 /// See the module; `HALF` and `WHOLE` as for the receiver.
 #[derive(LogicBlock, Default)]
 pub struct RadioAt<const HALF: u64, const WHOLE: u64> {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The line, idle high.
     pub rx: Signal<In, Bit>,

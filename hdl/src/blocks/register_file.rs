@@ -19,7 +19,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct RegisterFile {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word address inside the page.
     pub address: Signal<In, Bits<6>>,
@@ -65,41 +65,41 @@ pub struct RegisterFile {
     /// Live `imu_status`.
     pub imu_status: Signal<In, Bits<9>>,
 
-    /// `tick_period`.
+    /// The register `tick_period` as last written.
     pub tick_period: Signal<Out, Bits<24>>,
-    /// `tick_period` is written.
+    /// High for the clock in which `tick_period` is written.
     pub tick_period_written: Signal<Out, Bit>,
     /// `mode`.
     pub mode: Signal<Out, Bits<4>>,
-    /// `encoder_filter`.
+    /// The register `encoder_filter` as last written.
     pub encoder_filter: Signal<Out, Bits<4>>,
-    /// `encoder_fault_mask`.
+    /// The register `encoder_fault_mask` as last written.
     pub encoder_fault_mask: Signal<Out, Bits<4>>,
-    /// `pwm_period`.
+    /// The register `pwm_period` as last written.
     pub pwm_period: Signal<Out, Bits<13>>,
-    /// `pwm_blanking`.
+    /// The register `pwm_blanking` as last written.
     pub pwm_blanking: Signal<Out, Bits<10>>,
-    /// `watchdog_timeout`.
+    /// The register `watchdog_timeout` as last written.
     pub watchdog_timeout: Signal<Out, Bits<24>>,
-    /// `kicker_control`.
+    /// The register `kicker_control` as last written.
     pub kicker_control: Signal<Out, Bits<4>>,
-    /// `kicker_pulse`.
+    /// The register `kicker_pulse` as last written.
     pub kicker_pulse: Signal<Out, Bits<14>>,
-    /// `kicker_lockout`.
+    /// The register `kicker_lockout` as last written.
     pub kicker_lockout: Signal<Out, Bits<20>>,
-    /// `kicker_charge_timeout`.
+    /// The register `kicker_charge_timeout` as last written.
     pub kicker_charge_timeout: Signal<Out, Bits<24>>,
     /// `clocks_per_us`.
     pub clocks_per_microsecond: Signal<Out, Bits<6>>,
-    /// `leds`.
+    /// The register `leds` as last written.
     pub leds: Signal<Out, Bits<8>>,
-    /// `set_point_timeout`.
+    /// The register `set_point_timeout` as last written.
     pub set_point_timeout: Signal<Out, Bits<16>>,
-    /// `stall_window`.
+    /// The register `stall_window` as last written.
     pub stall_window: Signal<Out, Bits<16>>,
-    /// `stall_compare`.
+    /// The register `stall_compare` as last written.
     pub stall_compare: Signal<Out, Bits<13>>,
-    /// `interrupt_enable`.
+    /// The register `interrupt_enable` as last written.
     pub interrupt_enable: Signal<Out, Bits<2>>,
     /// `stall` is written: the bits to clear.
     pub clear_stall: Signal<Out, Bits<4>>,
@@ -111,7 +111,7 @@ pub struct RegisterFile {
     pub clear_interrupt: Signal<Out, Bits<2>>,
     /// `radio` is written.
     pub select_radio: Signal<Out, Bit>,
-    /// `imu_control`.
+    /// The register `imu_control` as last written.
     pub imu_control: Signal<Out, Bits<11>>,
     /// `imu_access` is written.
     pub imu_access: Signal<Out, Bit>,

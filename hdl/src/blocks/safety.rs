@@ -34,7 +34,7 @@ type FaultBit<const F: u64> = Literal<8, F>;
 /// The safety block; see the head of this file. Fault bits are those of `fixed_kin::safety::Fault`.
 #[derive(LogicBlock, Default)]
 pub struct Safety {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Raw pin: high or open = stop.
     pub emergency_stop: Signal<In, Bit>,

@@ -32,7 +32,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Sequencer {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Start of a control tick.
     pub tick: Signal<In, Bit>,

@@ -15,7 +15,7 @@ use rust_hdl::prelude::*;
 /// See the module; `HALF` and `WHOLE` are the clocks of half a bit and of a bit, each less one.
 #[derive(LogicBlock, Default)]
 pub struct SerialReceiver<const HALF: u64, const WHOLE: u64> {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The line.
     pub rx: Signal<In, Bit>,

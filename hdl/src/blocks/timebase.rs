@@ -15,13 +15,13 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Timebase {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Control period in clocks.
     pub tick_period: Signal<In, Bits<24>>,
     /// The period is written: start it anew.
     pub restart: Signal<In, Bit>,
-    /// Clocks in a microsecond.
+    /// Clocks of LCLK between two microsecond strobes.
     pub clocks_per_microsecond: Signal<In, Bits<6>>,
     /// Control ticks in a window of the stall detectors.
     pub stall_window: Signal<In, Bits<16>>,
@@ -31,7 +31,7 @@ pub struct Timebase {
     pub period: Signal<Out, Bits<24>>,
     /// A control tick.
     pub tick: Signal<Out, Bit>,
-    /// A microsecond.
+    /// High for one clock every microsecond.
     pub microsecond: Signal<Out, Bit>,
     /// A window of the stall detectors ends with this tick.
     pub window: Signal<Out, Bit>,

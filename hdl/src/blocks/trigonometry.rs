@@ -17,7 +17,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock)]
 pub struct Trigonometry {
-    /// Clock.
+    /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Takes the angle.
     pub load: Signal<In, Bit>,

@@ -44,10 +44,9 @@ pub fn modules<B: Block>(block: &B, name: &str) -> String {
 pub fn file(name: &str, parts: &[&str]) -> String {
     let map = fixed_kin::registers::VERSION;
     let (major, minor) = (map >> 16, map & 0xffff);
-    let version = env!("CARGO_PKG_VERSION");
     format!(
         "// {name}\n\
-         // Written by hdl {version} from the rust-hdl sources in hdl/src; register map {major}.{minor}.\n\
+         // Written from the rust-hdl sources in hdl/src; register map {major}.{minor}.\n\
          // Do not edit: change the sources and run `racbot generate`.\n\n\
          `default_nettype none\n\n{}\n`default_nettype wire\n",
         parts.join("\n")

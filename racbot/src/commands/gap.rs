@@ -117,12 +117,14 @@ fn list(name: Option<&str>) -> Result<Answer, Failure> {
 }
 
 fn to_json(d: &Description) -> serde_json::Value {
+    let [always, square] = d.twins();
     json!({
         "name": d.name, "links": d.links.iter().map(|l| l.name()).collect::<Vec<_>>(), "equation": d.equation,
         "reference": d.reference, "simulated": d.simulated,
         "parameters": d.parameters.iter().map(|p| json!({
             "name": p.name, "unit": p.unit, "bounds": p.bounds, "material": p.material,
         })).collect::<Vec<_>>(),
+        "twins": { "always": always, "in_a_square": square },
         "measurement": d.measurement.as_ref().map(|(how, minutes)| json!({ "how": how, "minutes": minutes })),
     })
 }

@@ -12,7 +12,7 @@ use driver::realtime::{Rights, stop_on_signals};
 use driver::recording::{Recording, logged_robot};
 use runs::robot::Robot;
 use serde_json::json;
-use ssl::card::Link;
+use ssl::card::{Link, Served};
 use ssl::front::Team;
 use ssl::server::{Addresses, Sockets, Traffic};
 use std::net::{Ipv4Addr, SocketAddr};
@@ -58,6 +58,11 @@ pub(crate) struct Options {
 
     #[command(flatten)]
     target: Target,
+
+    /// With --card: end at the first fault; without, the robot rests, says so, and is armed again once nobody has asked
+    /// for motion for half a second. An emergency stop always ends it
+    #[arg(long, requires = "card")]
+    stay_off: bool,
 
     /// With --card: real-time priority asked for
     #[arg(long, value_name = "N", default_value_t = 80, value_parser = clap::value_parser!(u8).range(1..=99))]
@@ -224,8 +229,10 @@ impl Options {
             eprintln!("{remark}");
         }
         let source: Box<dyn PoseSource> = source.unwrap_or_else(|| Box::new(NoSource));
-        let link = Link { board: Board::new(registers), clock_hz, clock, source, recording: recording.as_mut() };
-        let driven = ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
+        let (board, recorded) = (Board::new(registers), recording.as_mut());
+        let link = Link { board, clock_hz, clock, source, recording: recorded, fault_ends: self.stay_off };
+        let Served { driven, faults } =
+            ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
         let recorded = recording.map(Recording::finish).transpose().map_err(Failure::data)?;
         let robot_file = recorder.robot_beside(&logged)?;
         let traffic = sockets.traffic();
@@ -236,6 +243,9 @@ impl Options {
         };
         let mut text = entry("ended", &format!("{ended} after {:.2} s", driven.t));
         text += &entry("ticks", &format!("{} seen, {} unseen", driven.ticks, driven.unseen));
+        for (t, fault) in &faults {
+            text += &entry("rested", &format!("after {t:.2} s: {fault}"));
+        }
         text += &heard(&traffic);
         if let Some(recorded) = &recorded {
             text += &entry("recorded", &format!("{}: {} ticks", recorded.file.display(), recorded.ticks));
@@ -245,6 +255,7 @@ impl Options {
         }
         let json = json!({
             "card": name, "t_s": driven.t, "ticks": driven.ticks, "unseen": driven.unseen, "ended": ended,
+            "rested": faults.iter().map(|(t, fault)| json!({ "t_s": t, "fault": fault })).collect::<Vec<_>>(),
             "outputs_off": driven.switched_off.is_ok(), "heard": traffic.heard, "refused": traffic.refused,
             "recorded": recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
         });

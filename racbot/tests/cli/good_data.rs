@@ -115,7 +115,10 @@ fn the_catalogue_is_listed_and_described() {
     racbot(folder.path(), &["gap", "--list", "wheel-skw"])
         .refused(2, &["no effect wheel-skw; did you mean wheel-skew?"]);
     let json = racbot(folder.path(), &["--json", "gap", "--list"]).done().json();
-    assert!(json["effects"].as_array().unwrap().len() > 40);
+    let effects = json["effects"].as_array().unwrap();
+    assert!(effects.len() > 40);
+    let skew = effects.iter().find(|effect| effect["name"] == "wheel-skew").unwrap();
+    assert_eq!(skew["twins"]["always"], serde_json::json!(["wheel-angle"]));
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub struct Row {
     pub counts: Vec<i64>,
     /// Duties applied from this tick to the next.
     pub duties: Vec<f64>,
-    /// V.
+    /// Supply at the moment of the row, V.
     pub supply_v: f64,
 }
 

@@ -178,7 +178,7 @@ pub struct Roughness {
 /// Everything true about the robot and its surroundings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
-    /// kg.
+    /// Of the whole machine, kg.
     pub mass_kg: f64,
     /// kg m² about the centre of mass.
     pub yaw_inertia_kg_m2: f64,

@@ -45,7 +45,7 @@ pub struct ChainBit {
 pub struct Chain {
     /// Carry into the first bit.
     pub carry: Signal,
-    /// Bits.
+    /// Lowest first: two a slice, upwards.
     pub bits: Vec<ChainBit>,
 }
 

@@ -16,7 +16,7 @@ pub struct Wide {
     pub low: Table,
     /// For select 1: the F table.
     pub high: Table,
-    /// Output.
+    /// The net that F5 drives.
     pub output: Net,
 }
 

@@ -11,8 +11,8 @@ const COMMON: usize = 40;
 /// A place for a half: column, slice in it, half.
 type Place = (usize, usize, usize);
 
-/// Gives every table and flip-flop that is left a place.
-pub(super) fn fill(packer: &mut Packer) {
+/// Gives every table and flip-flop that is left a place, in `room` slices where that can be.
+pub(super) fn fill(packer: &mut Packer, room: usize) {
     let mut fill = Fill { sharers: BTreeMap::new(), pins: vec![0; packer.logic.nets.len()], packer };
     fill.count();
     let (mut units, lone) = fill.units();
@@ -20,6 +20,7 @@ pub(super) fn fill(packer: &mut Packer) {
     units.extend(lone);
     let tables = fill.by_control(units);
     let tables = fill.fill_halves(tables);
+    let tables = fill.fill_kin(tables, room);
     fill.pair_tables(tables);
 }
 
@@ -213,6 +214,31 @@ impl Fill<'_, '_> {
         left
     }
 
+    /// Where pairs of their own would take more slices than there are, tables go to open halves of slices that they are
+    /// not joined to: those whose nets have the most alike names, which the placer has near by. Only as many as must:
+    /// strangers in a slice pull it two ways.
+    fn fill_kin(&mut self, mut tables: Vec<Unit>, room: usize) -> Vec<Unit> {
+        let used: usize = self.packer.columns.iter().map(|column| column.slices.len()).sum();
+        let mut open: Vec<(Place, String)> = Vec::new();
+        for (at, column) in self.packer.columns.iter().enumerate() {
+            for (row, slice) in column.slices.iter().enumerate() {
+                let halves = (0..2).filter(|half| is_open(slice, *half));
+                let name = slice.sources().first().map(|(_, net)| self.packer.logic.nets[net.index()].clone());
+                open.extend(halves.map(|half| ((at, row, half), name.clone().unwrap_or_default())));
+            }
+        }
+        while used + tables.len().div_ceil(2) > room && !open.is_empty() {
+            let Some((_, content)) = tables.pop().and_then(|unit| unit.half) else { break };
+            let own = content.shows.map_or("", |net| self.packer.logic.nets[net.index()].as_str());
+            let alike = |name: &str| own.bytes().zip(name.bytes()).take_while(|(a, b)| a == b).count();
+            let best = (0..open.len()).max_by_key(|index| (alike(&open[*index].1), std::cmp::Reverse(*index)));
+            let ((column, row, half), _) = open.swap_remove(best.expect("one is open"));
+            let target = &mut self.packer.columns[column].slices[row].halves[half];
+            *target = Half { flop: target.flop, ..content };
+        }
+        tables
+    }
+
     /// Pairs the tables that are left.
     fn pair_tables(&mut self, mut tables: Vec<Unit>) {
         let mut nets: Vec<Vec<Net>> = tables.iter().map(|unit| self.nets(unit)).collect();
@@ -238,4 +264,49 @@ fn is_open(slice: &Slice, half: usize) -> bool {
         && slice.carry.is_none()
         && content.flop.is_none_or(|flop| !flop.through)
         && !matches!(slice.bypass[0], Bypass::Select(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::logic::{Logic, Table};
+    use crate::flow::netlist::FlipFlop;
+
+    /// Two flip-flops of different control sets and three tables, none joined to another.
+    fn strangers() -> Logic {
+        let mut logic = Logic { nets: (0..20).map(|net| format!("n{net}")).collect(), ..Logic::default() };
+        let net = Net;
+        let joined = |index| Signal::Wire { net: Net(index), inverted: false };
+        for index in 0..2 {
+            logic.flip_flops.push(FlipFlop {
+                name: format!("flop{index}"),
+                clock: net(index),
+                falling: false,
+                enable: Signal::Open,
+                data: joined(2 + index),
+                reset: Signal::Open,
+                reset_value: false,
+                asynchronous: false,
+                initial: Some(false),
+                output: net(4 + index),
+            });
+        }
+        for index in 0..3 {
+            logic.tables.insert(net(6 + index), Table::of(joined(10 + index)));
+        }
+        logic
+    }
+
+    #[test]
+    fn tables_stand_among_strangers_only_where_there_is_no_room() {
+        let logic = strangers();
+        for (room, slices) in [(10, 4), (4, 4), (3, 3), (2, 2), (1, 2)] {
+            let mut packer = Packer { logic: &logic, columns: Vec::new(), left: vec![0, 1] };
+            fill(&mut packer, room);
+            assert_eq!(packer.columns.len(), slices, "{room}");
+            let halves = || packer.columns.iter().flat_map(|c| &c.slices).flat_map(|slice| &slice.halves);
+            assert_eq!(halves().filter(|half| half.tabled).count(), 3);
+            assert_eq!(halves().filter(|half| half.flop.is_some_and(|flop| !flop.through)).count(), 2);
+        }
+    }
 }

@@ -7,7 +7,7 @@ use crate::flow::netlist::{FlipFlop, Net, Signal};
 /// What a half's output (X, Y) shows.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Shape {
-    /// Its table.
+    /// What the table says.
     #[default]
     Table,
     /// Its table, exclusive or its carry in.
@@ -146,7 +146,7 @@ pub struct Control {
     pub asynchronous: bool,
 }
 
-/// A slice.
+/// What one slice of a CLB holds.
 #[derive(Clone, Debug, Default, Eq, PartialEq)]
 pub struct Slice {
     /// F with X, then G with Y.

@@ -19,7 +19,7 @@ pub struct Ends {
 pub struct Terminals {
     /// Of general nets.
     pub general: Vec<Ends>,
-    /// Of clocks.
+    /// Nets that a global buffer drives, which have wires of their own.
     pub clocks: Vec<Ends>,
 }
 

@@ -20,7 +20,7 @@ pub struct Branch {
 /// A net's wires: branches in an order in which each starts at the source or where another ended.
 #[derive(Clone, Debug, Default, Eq, PartialEq)]
 pub struct Tree {
-    /// Branches.
+    /// Pass gates from the source outwards.
     pub branches: Vec<Branch>,
 }
 

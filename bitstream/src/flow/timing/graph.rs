@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 pub struct Clock {
     /// Port of its pad.
     pub port: String,
-    /// Period in ps.
+    /// What a path between registers may take, ps.
     pub period: u32,
 }
 
@@ -26,7 +26,7 @@ pub struct Clock {
 pub(super) enum From {
     /// A connection: index into the flat list of sinks.
     Connection(u32),
-    /// A node.
+    /// Index of a place where a signal has an arrival time.
     Node(u32),
 }
 
@@ -46,7 +46,7 @@ pub(super) struct End {
     pub(super) due: u32,
 }
 
-/// The graph.
+/// Places with arrival times, and the delays between them.
 #[derive(Clone, Debug)]
 pub struct Graph {
     /// Domains.

@@ -17,7 +17,7 @@ pub struct PathStep {
     pub connection: Option<u32>,
 }
 
-/// A path.
+/// A slow path, place by place.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct TimedPath {
     /// What it takes, set-up included, in ps.
@@ -41,7 +41,7 @@ impl TimedPath {
 pub struct DomainReport {
     /// Port of the clock.
     pub port: String,
-    /// Period in ps.
+    /// Of the constraint that the clock has, ps.
     pub period: u32,
     /// The worst paths, worst first, one for each end.
     pub worst: Vec<TimedPath>,
