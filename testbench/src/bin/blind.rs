@@ -98,7 +98,16 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
     let report = blind::run(&plan, &series, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     if args.measured {
-        let command: Vec<String> = std::env::args().skip(1).filter(|a| a != "--measured").collect();
+        // Where the scores are kept is no part of what was measured.
+        let mut given = std::env::args().skip(1);
+        let mut command = Vec::new();
+        while let Some(argument) = given.next() {
+            match argument.as_str() {
+                "--scores" => drop(given.next()),
+                "--measured" => {}
+                _ => command.push(argument),
+            }
+        }
         report.measured(&command.join(" "));
     }
     if args.json {
