@@ -135,20 +135,51 @@ impl<'a> Penalised<'a> {
         (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.equations.tells(*i)).collect()
     }
 
+    /// JᵀJ of some columns with the priors of those that are held.
+    fn information_of(&self, used: &[usize], roles: &[Role]) -> DMatrix<f64> {
+        let jj = &self.totals.jj;
+        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
+        DMatrix::from_fn(used.len(), used.len(), |p, q| {
+            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
+        })
+    }
+
     /// Diagonal of (JᵀJ + priors)⁻¹, 0 for columns that take no part, infinite where there is no inverse.
     pub fn inverse_diagonal(&self, roles: &[Role]) -> Vec<f64> {
         let used = self.used(roles);
-        let jj = &self.totals.jj;
-        let held = |c: usize| if let Role::Held(sd, _) = roles[c] { self.variance / (sd * sd) } else { 0.0 };
-        let own = DMatrix::from_fn(used.len(), used.len(), |p, q| {
-            jj[(used[p], used[q])] + if p == q { held(used[p]) } else { 0.0 }
-        });
-        let inverse = inverse(&own);
+        let inverse = inverse(&self.information_of(&used, roles));
         let mut out = vec![0.0; roles.len()];
         for (p, c) in used.iter().enumerate() {
             out[*c] = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(p, p)]);
         }
         out
+    }
+
+    /// The same roles without the held columns that can do what a free one does (squared partial cosine above `alike`)
+    /// once everything else adapts to it, within its own prior: twins that show only beside the others.
+    #[must_use]
+    pub fn without_twins(&self, roles: &[Role], alike: f64) -> Vec<Role> {
+        let mut roles = roles.to_vec();
+        loop {
+            let used = self.used(&roles);
+            let Some(v) = inverse(&self.information_of(&used, &roles)) else { return roles };
+            let mut worst = (alike, None);
+            for (h, column) in used.iter().enumerate() {
+                let Role::Held(sd, _) = roles[*column] else { continue };
+                // Its own prior taken out again (Sherman and Morrison).
+                let prior = self.variance / (sd * sd);
+                let scale = prior / (1.0 - prior * v[(h, h)]).max(1e-12);
+                let free = |p: usize, q: usize| v[(p, q)] + scale * v[(p, h)] * v[(q, h)];
+                for (c, _) in used.iter().enumerate().filter(|(_, c)| roles[**c] == Role::Free) {
+                    let cos2 = free(c, h).powi(2) / (free(c, c) * free(h, h));
+                    if cos2 > worst.0 {
+                        worst = (cos2, Some(*column));
+                    }
+                }
+            }
+            let Some(twin) = worst.1 else { return roles };
+            roles[twin] = Role::Out;
+        }
     }
 
     /// Covariance of all columns, 0 for those that take no part: cluster-robust (the sandwich, small-sample corrected),
@@ -299,6 +330,30 @@ mod tests {
         let expected = [4.0 * 9.0, 4.0 * 2.25, 4.0 * 20.25];
         for (found, expected) in penalised.held_out(&[Role::Free]).iter().zip(expected) {
             assert!((found - expected).abs() < 1e-5, "{found} for {expected}");
+        }
+    }
+
+    /// A free column, and two held ones of which only both together can do what it does.
+    #[test]
+    fn twins_show_beside_what_else_adapts() {
+        let column = |r: usize, c: usize| match c {
+            0 => (r % 2) as f64,
+            1 => (r % 2) as f64 + (r % 3) as f64,
+            2 => (r % 3) as f64,
+            _ => (r % 5) as f64,
+        };
+        let columns = DMatrix::from_fn(60, 4, column);
+        let equations =
+            NormalEquations::new(vec![Cluster::new(0, 0.0, 60.0, &columns.column(0).into_owned(), &columns)]);
+        let penalised = Penalised::new(&equations, 1.0);
+        let held = |sd: f64| Role::Held(sd, 0.0);
+        // The first of them does what the free one does as far as the second undoes the rest.
+        for (second, gone) in [(held(1e3), true), (held(1e-3), false), (Role::Out, false)] {
+            let roles = [Role::Free, held(0.1), second, held(0.1)];
+            let left = penalised.without_twins(&roles, 0.98);
+            let frozen = left[1] == Role::Out || second != Role::Out && left[2] == Role::Out;
+            assert_eq!(frozen, gone, "{second:?}: {left:?}");
+            assert_eq!((left[0], left[3]), (roles[0], roles[3]));
         }
     }
 }

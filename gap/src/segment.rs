@@ -197,6 +197,35 @@ impl Segment {
         self.t.partition_point(|x| *x <= t).saturating_sub(1).min(self.t.len().saturating_sub(2))
     }
 
+    /// The same with no more ticks than `part` of the time between two camera frames takes, the first and the last among
+    /// them: angles and what is smooth are what they are at those ticks. `None` if that leaves half of them or more.
+    pub(crate) fn coarser(&self, part: f64) -> Option<Self> {
+        let last = self.t.len().checked_sub(1)?;
+        let mut apart: Vec<f64> = self.frames.windows(2).map(|f| f[1].t - f[0].t).collect();
+        let tick = (self.t[last] - self.t[0]) / last.max(1) as f64;
+        let every = (part * estimation::statistics::median(&mut apart) / tick + 1e-6).floor();
+        if !(every >= 2.0 && every < last as f64) {
+            return None;
+        }
+        let ticks: Vec<usize> = (0..last).step_by(every as usize).chain([last]).collect();
+        let each = |rows: &[Vec<f64>]| rows.iter().map(|row| ticks.iter().map(|k| row[*k]).collect()).collect();
+        Some(Self {
+            t: ticks.iter().map(|k| self.t[*k]).collect(),
+            angle: each(&self.angle),
+            speed: each(&self.speed),
+            sign: each(&self.sign),
+            duty: each(&self.duty),
+            supply: ticks.iter().map(|k| self.supply[*k]).collect(),
+            twist: ticks.iter().map(|k| self.twist[*k]).collect(),
+            heading: ticks.iter().map(|k| self.heading[*k]).collect(),
+            position: ticks.iter().map(|k| self.position[*k]).collect(),
+            frames: self.frames.clone(),
+            own: 0..ticks.len(),
+            before: self.before.clone(),
+            ..*self
+        })
+    }
+
     /// A frame that repeats the one before to the last digit while the wheels turned is no new
     /// measurement: the tracker lost the robot.
     fn drop_frozen(&mut self) {

@@ -8,6 +8,8 @@ use crate::robot::{Robot, WHEELS};
 /// How far beyond the no-load speed a count may jump. Generous: a motor pushed from outside, a
 /// supply above nominal or a coarse time stamp are no errors; a lost or swapped counter is.
 const SPEED_FACTOR: f64 = 3.0;
+/// Ticks for which a counter may have been read late, or not at all: one read every second tick, a row of which is lost.
+const HELD_TICKS: f64 = 4.0;
 /// Counts allowed beside: edges that bounce around a tick.
 const COUNT_MARGIN: f64 = 16.0;
 
@@ -42,19 +44,25 @@ impl Run {
             let gaps = self.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
             let mut sampled = (0..counts.len()).filter(|tick| gaps.binary_search(tick).is_err());
             let Some(mut before) = sampled.next() else { continue };
+            let mut moved = before;
             for now in sampled {
-                // Stamps may jitter, so at least one nominal tick is granted.
-                let dt = (self.t[now] - self.t[before]).max(tick);
+                // Stamps may jitter, so at least one nominal tick is granted; and a counter may repeat what it was.
+                let since = self.t[now] - self.t[before];
+                let held = (self.t[now] - self.t[moved]).min(HELD_TICKS * tick);
+                let dt = since.max(held).max(tick);
                 let jump = counts[now].abs_diff(counts[before]);
                 let limit = per_second * dt + COUNT_MARGIN;
                 if jump as f64 > limit {
                     let what = format!(
                         "jumps by {jump} counts in {:.3} ms, but the wheel can turn by {limit:.0} at most",
-                        (self.t[now] - self.t[before]) * 1e3
+                        dt * 1e3
                     );
                     let hint = "look for a counter that was reset, wrapped or not read; log cumulative counts";
                     let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
                     return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });
+                }
+                if jump > 0 {
+                    moved = now;
                 }
                 before = now;
             }

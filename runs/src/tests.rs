@@ -161,6 +161,18 @@ fn counts_that_jump_further_than_the_wheel_can_turn_are_refused() {
     let two = read("t,enc_1,enc_2\n0,0,0\n").unwrap();
     let e = two.check(&Robot::racbot(), Path::new("run.csv")).unwrap_err().to_string();
     assert!(e.contains("speaks of 2 wheels, but the robot has 3"), "{e}");
+    // A counter that is read every second tick, a row of which is lost, is no lost counter; one that stood for long is.
+    let held = |ticks: usize, jump: i64| {
+        let mut text = "t,enc_1,enc_2,enc_3\n0,0,0,0\n0.001,0,100,0\n".to_owned();
+        (0..ticks).for_each(|k| text += &format!("{:.3},0,100,0\n", 0.002 + 1e-3 * k as f64));
+        text += &format!("{:.3},0,{},0\n", 0.002 + 1e-3 * ticks as f64, 100 + jump);
+        read(&text).unwrap().check(&Robot::racbot(), Path::new("run.csv")).is_ok()
+    };
+    for (ticks, jump, right) in
+        [(0, 1500, false), (1, 1500, true), (3, 4000, true), (50, 4000, true), (50, 5000, false)]
+    {
+        assert_eq!(held(ticks, jump), right, "{ticks} {jump}");
+    }
 }
 
 #[test]

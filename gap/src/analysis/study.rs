@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use runs::robot::Support;
+
 use super::{Limit, Named};
 use crate::drive::Generic;
 use crate::effect::{Effect, Link, Parameter};
@@ -306,7 +308,9 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let covariance = design.covariance(&roles, &fit);
     // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of
     // this cause alone, but it is not known to better than what those would make of it.
-    let beside = design.estimating();
+    // On the floor a little of everything is there, and what two of them do together is no size of a cause.
+    let beside =
+        if design.state.robot.support == Support::Blocks { design.without_twins() } else { design.estimating() };
     let beside = design.covariance(&beside, &design.fit_roles(&beside));
     let clusters = design.linear.equations.clusters.len();
     let left_out = design.left_out(&roles);

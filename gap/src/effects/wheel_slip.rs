@@ -58,8 +58,12 @@ impl Effect for WheelSlip {
         else {
             return;
         };
+        let rows = |m: &DMatrix<f64>| -> Vec<Vec<f64>> { m.row_iter().map(|r| r.iter().copied().collect()).collect() };
+        let (inertia, response) = (rows(&inertia), rows(&response));
+        let leaning = Leaning { geometry: geometry.clone(), share, lean };
         model.angles.push(Box::new(move |segment, angles| {
             let mut ground: Vec<f64> = segment.speed.iter().map(|w| w[0]).collect();
+            let mut free = vec![0.0; n];
             let mut lost = vec![0.0; n];
             let mut impulse = vec![0.0; n];
             let mut grip = vec![share * GRAVITY; n];
@@ -69,27 +73,30 @@ impl Effect for WheelSlip {
                 // The body frame turns under the robot.
                 let v = geometry.twist(&ground);
                 let turned = Twist::new(v.omega * v.vy * dt, -v.omega * v.vx * dt, 0.0);
-                let free: Vec<f64> = (0..n).map(|i| ground[i] + geometry.wheel_speed(i, turned)).collect();
+                for (i, free) in free.iter_mut().enumerate() {
+                    *free = ground[i] + geometry.wheel_speed(i, turned);
+                }
                 // Mostly friction can give what it takes to end every wheel's slip.
-                let needed = |i: usize| (0..n).map(|j| inertia[(i, j)] * (segment.speed[j][k] - free[j])).sum::<f64>();
-                if (0..n).all(|i| needed(i).abs() <= grip[i] * dt) {
+                let needed = |row: &[f64]| (0..n).map(|j| row[j] * (segment.speed[j][k] - free[j])).sum::<f64>();
+                if inertia.iter().zip(&grip).all(|(row, grip)| needed(row).abs() <= grip * dt) {
                     for i in 0..n {
                         ground[i] = segment.speed[i][k];
                         angles[i][k] -= lost[i];
                     }
-                    lean_back(&mut pushed, &geometry, &ground, &free, dt, share, &lean, &mut grip);
+                    leaning.back(&mut pushed, &ground, &mut free, dt, &mut grip);
                     continue;
                 }
                 // Otherwise each wheel takes what it needs, or what friction can give.
                 impulse.fill(0.0);
-                let moved =
-                    |impulse: &[f64], i: usize| free[i] + (0..n).map(|j| response[(i, j)] * impulse[j]).sum::<f64>();
+                let moved = |impulse: &[f64], i: usize| {
+                    free[i] + response[i].iter().zip(impulse).map(|(r, x)| r * x).sum::<f64>()
+                };
                 for _ in 0..SWEEPS {
                     let mut change = 0.0_f64;
                     for i in 0..n {
-                        let creeps = CREEPS * response[(i, i)];
+                        let creeps = CREEPS * response[i][i];
                         let missing = segment.speed[i][k] - moved(&impulse, i) - creeps * impulse[i];
-                        let next = impulse[i] + missing / (response[(i, i)] + creeps);
+                        let next = impulse[i] + missing / (response[i][i] + creeps);
                         let next = next.clamp(-grip[i] * dt, grip[i] * dt);
                         change = change.max((next - impulse[i]).abs());
                         impulse[i] = next;
@@ -103,7 +110,7 @@ impl Effect for WheelSlip {
                     lost[i] += (segment.speed[i][k] - ground[i]) * dt;
                     angles[i][k] -= lost[i];
                 }
-                lean_back(&mut pushed, &geometry, &ground, &free, dt, share, &lean, &mut grip);
+                leaning.back(&mut pushed, &ground, &mut free, dt, &mut grip);
             }
         }));
     }
@@ -146,25 +153,27 @@ impl Platform {
     }
 }
 
-/// What the wheels can hold once an acceleration from `free` to `ground` (wheel speeds, rad/s) has shifted the weight.
-#[allow(clippy::too_many_arguments)]
-fn lean_back(
-    pushed: &mut [f64; 2],
-    geometry: &Geometry,
-    ground: &[f64],
-    free: &[f64],
-    dt: f64,
+/// How accelerations shift the weight from wheel to wheel.
+struct Leaning {
+    geometry: Geometry,
+    /// Torque that friction holds per acceleration of the weight, one wheel's share, kg m.
     share: f64,
-    lean: &[[f64; 2]],
-    grip: &mut [f64],
-) {
-    let change: Vec<f64> = ground.iter().zip(free).map(|(a, b)| a - b).collect();
-    let moved = geometry.twist(&change);
-    let part = (dt / LOAD_S).min(1.0);
-    pushed[0] += part * (moved.vx / dt - pushed[0]);
-    pushed[1] += part * (moved.vy / dt - pushed[1]);
-    for (g, l) in grip.iter_mut().zip(lean) {
-        *g = share * (GRAVITY - l[0] * pushed[0] - l[1] * pushed[1]).max(0.0);
+    /// Grip per acceleration to the right and forward, one a wheel.
+    lean: Vec<[f64; 2]>,
+}
+
+impl Leaning {
+    /// What the wheels can hold once an acceleration from `free` to `ground` (wheel speeds, rad/s) has shifted the
+    /// weight; `free` is used up.
+    fn back(&self, pushed: &mut [f64; 2], ground: &[f64], free: &mut [f64], dt: f64, grip: &mut [f64]) {
+        free.iter_mut().zip(ground).for_each(|(free, ground)| *free = ground - *free);
+        let moved = self.geometry.twist(free);
+        let part = (dt / LOAD_S).min(1.0);
+        pushed[0] += part * (moved.vx / dt - pushed[0]);
+        pushed[1] += part * (moved.vy / dt - pushed[1]);
+        for (g, l) in grip.iter_mut().zip(&self.lean) {
+            *g = self.share * (GRAVITY - l[0] * pushed[0] - l[1] * pushed[1]).max(0.0);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use runs::frames::{Pose, SMALL_RAD, Twist, Walk, displacement, small_chord};
 
-use super::MotionModel;
+use super::{AngleChange, MotionModel};
 use crate::segment::{Frame, Segment};
 
 /// Turns of the wheels of a segment under one model, and where they take the body.
@@ -34,17 +34,14 @@ impl<'a> Path<'a> {
     /// Of another model on the same segment.
     pub(crate) fn of<'b>(&'b self, model: &'b MotionModel) -> Option<Path<'b>> {
         let columns = model.columns()?;
-        let (known, all) = (&self.model.origins, &model.origins);
-        let is_more =
-            known.len() == self.model.angles.len() && all.len() == model.angles.len() && all.starts_with(known);
-        let (angles, turned) = match &model.angles[known.len().min(model.angles.len())..] {
-            _ if !is_more => {
+        let (angles, turned) = match self.further(model) {
+            None => {
                 let angles = model.angles(self.segment);
                 let turned = Cow::Owned(turned(&angles));
                 (angles, turned)
             }
-            [] => (Cow::Borrowed(&*self.angles), Cow::Borrowed(&*self.turned)),
-            more => {
+            Some([]) => (Cow::Borrowed(&*self.angles), Cow::Borrowed(&*self.turned)),
+            Some(more) => {
                 let mut angles = self.angles.to_vec();
                 more.iter().for_each(|change| change(self.segment, &mut angles));
                 let turned = Cow::Owned(turned(&angles));
@@ -54,16 +51,25 @@ impl<'a> Path<'a> {
         Some(Path { model, segment: self.segment, angles, turned, columns })
     }
 
-    /// Whether its tracks are those of another path that borrowed from it.
-    pub(super) fn is_as(&self, other: &Path) -> bool {
-        other.is_beside(self) && self.columns == other.columns
+    /// What another model changes of the angles after all that this one's does; `None` if that is not all.
+    fn further<'b>(&self, model: &'b MotionModel) -> Option<&'b [AngleChange]> {
+        let (known, all) = (&self.model.origins, &model.origins);
+        let is_more =
+            known.len() == self.model.angles.len() && all.len() == model.angles.len() && all.starts_with(known);
+        is_more.then(|| &model.angles[known.len()..])
     }
 
-    /// Whether it differs from another path that it borrowed from in the columns alone.
-    pub(super) fn is_beside(&self, other: &Path) -> bool {
-        matches!(self.turned, Cow::Borrowed(_))
-            && self.clock() == other.clock()
-            && self.columns.len() == other.columns.len()
+    /// How another model's track differs from this one's.
+    pub(super) fn differs(&self, model: &MotionModel) -> Differs {
+        let Some(columns) = model.columns() else { return Differs::Alone };
+        if clock(model, self.segment) != clock(self.model, self.segment) || columns.len() != self.columns.len() {
+            return Differs::Alone;
+        }
+        match self.further(model) {
+            Some([]) if columns == self.columns => Differs::Nowhere,
+            Some([]) => Differs::InColumns,
+            _ => Differs::InTurns,
+        }
     }
 
     /// Body displacement per wheel angle.
@@ -83,8 +89,7 @@ impl<'a> Path<'a> {
 
     /// Latency, drift, offset in this run and delay by speed of the camera's clock.
     fn clock(&self) -> [f64; 4] {
-        let m = self.model;
-        [m.latency_s, m.clock_drift, m.clock_offset_s.get(self.segment.run).copied().unwrap_or(0.0), m.speed_delay]
+        clock(self.model, self.segment)
     }
 
     /// Chassis poses at the frames of one window, relative to that at the window's first frame, added to `out`.
@@ -117,7 +122,7 @@ impl<'a> Path<'a> {
         out
     }
 
-    /// The same of paths that differ in their columns alone, one for each.
+    /// The same of paths of one clock and as many wheels, one for each.
     pub(super) fn beside(paths: &[Path], windows: &[&[Frame]]) -> Vec<Vec<Walk>> {
         let room = windows.iter().map(|w| w.len()).sum();
         let mut out: Vec<Vec<Walk>> = paths.iter().map(|_| Vec::with_capacity(room)).collect();
@@ -129,16 +134,18 @@ impl<'a> Path<'a> {
             }
             let mut keep = |p: Lanes| out.iter_mut().enumerate().for_each(|(lane, out)| out.push(p.lane(lane)));
             match first.columns.len() {
-                2 => windows.iter().for_each(|w| first.walk(&first.moved_by_each::<2>(paths), w, &mut keep)),
-                3 => windows.iter().for_each(|w| first.walk(&first.moved_by_each::<3>(paths), w, &mut keep)),
-                _ => windows.iter().for_each(|w| first.walk(&first.moved_by_each::<4>(paths), w, &mut keep)),
+                2 => windows.iter().for_each(|w| first.walk(&Self::moved_by_each::<2>(paths), w, &mut keep)),
+                3 => windows.iter().for_each(|w| first.walk(&Self::moved_by_each::<3>(paths), w, &mut keep)),
+                _ => windows.iter().for_each(|w| first.walk(&Self::moved_by_each::<4>(paths), w, &mut keep)),
             }
         }
         out
     }
 
-    fn moved_by_each<const N: usize>(&self, paths: &[Path]) -> impl Fn(usize) -> [[f64; LANES]; 3] {
-        let (turned, _) = self.turned.as_chunks::<N>();
+    fn moved_by_each<'p, const N: usize>(paths: &'p [Path<'p>]) -> impl Fn(usize) -> [[f64; LANES]; 3] + use<'p, N> {
+        let all: [&[[f64; N]]; LANES] =
+            std::array::from_fn(|lane| paths[lane.min(paths.len() - 1)].turned.as_chunks::<N>().0);
+        let shared = all.iter().all(|turned| std::ptr::eq(*turned, all[0]));
         let mut columns = [[[0.0; LANES]; 3]; N];
         for (i, column) in columns.iter_mut().enumerate() {
             for (axis, lanes) in column.iter_mut().enumerate() {
@@ -147,10 +154,18 @@ impl<'a> Path<'a> {
         }
         move |k| {
             let mut sum = [[0.0; LANES]; 3];
-            for (column, turned) in columns.iter().zip(&turned[k]) {
+            let mut each = [[0.0; LANES]; N];
+            for (i, each) in each.iter_mut().enumerate() {
+                if shared {
+                    each.fill(all[0][k][i]);
+                } else {
+                    each.iter_mut().zip(&all).for_each(|(each, turned)| *each = turned[k][i]);
+                }
+            }
+            for (column, turned) in columns.iter().zip(&each) {
                 for (sum, column) in sum.iter_mut().zip(column) {
                     for lane in 0..LANES {
-                        sum[lane] += column[lane] * turned;
+                        sum[lane] += column[lane] * turned[lane];
                     }
                 }
             }
@@ -194,6 +209,24 @@ impl<'a> Path<'a> {
             keep(back.then(&at));
         }
     }
+}
+
+/// How a model's track differs from that of the one it was made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Differs {
+    /// Not at all: only the marker or the camera does.
+    Nowhere,
+    /// By where its wheels take the body.
+    InColumns,
+    /// By what its wheels turn, too.
+    InTurns,
+    /// By its clock or its wheels, so that it is walked alone.
+    Alone,
+}
+
+/// See [`Path::clock`].
+fn clock(m: &MotionModel, segment: &Segment) -> [f64; 4] {
+    [m.latency_s, m.clock_drift, m.clock_offset_s.get(segment.run).copied().unwrap_or(0.0), m.speed_delay]
 }
 
 /// Models whose tracks are walked side by side.
@@ -340,6 +373,7 @@ fn turned(angles: &[Vec<f64>]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::values::Values;
 
     #[test]
     fn models_side_by_side_go_where_each_goes_alone() {
@@ -357,11 +391,20 @@ mod tests {
             .map(|k| {
                 let mut model = MotionModel { latency_s: 0.013, ..MotionModel::new(&robot) };
                 model.distance_scale[k % 3] = 1.0 + 0.01 * k as f64;
+                if k > 8 {
+                    // Wheels that turn otherwise.
+                    model.angles.push(Box::new(move |_, angles| angles[k % 3].iter_mut().for_each(|a| *a *= 1.1)));
+                    model.angles_are_of("turned", &Values::default());
+                }
                 model
             })
             .collect();
         let paths: Vec<Path> = models.iter().map(|m| path.of(m).unwrap()).collect();
-        assert!(paths.iter().all(|p| p.is_beside(&path)) && path.is_as(&paths[0]) && !path.is_as(&paths[1]));
+        let differs = |k: usize| path.differs(&models[k]);
+        assert_eq!(
+            [0, 1, 9, 10].map(differs),
+            [Differs::Nowhere, Differs::InColumns, Differs::InTurns, Differs::InTurns]
+        );
         let together = Path::beside(&paths, &[&frames[..70], &frames[70..]]);
         for (model, together) in models.iter().zip(together) {
             let alone = Path::new(model, &segment).unwrap();
@@ -373,6 +416,6 @@ mod tests {
         }
         // The clock is not the columns.
         let late = MotionModel { latency_s: 0.02, ..MotionModel::new(&robot) };
-        assert!(!path.of(&late).unwrap().is_beside(&path));
+        assert_eq!(path.differs(&late), Differs::Alone);
     }
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
-use super::track::{LANES, Path};
+use super::track::{Differs, LANES, Path};
 use crate::inertial::InertialLink;
 use crate::pieces::Pieces;
 use crate::segment::{Frame, Segment};
@@ -22,6 +22,9 @@ const HUBER: f64 = 4.0;
 const REJECT: f64 = 10.0;
 /// Clusters at most; beyond, neighbouring windows count as one.
 const MOST_CLUSTERS: usize = 400;
+/// Ticks from which derivatives are taken, as a part of the time between two frames; residuals are taken from all ticks.
+/// At 1 kHz and 60 frames/s every fourth tick is left, and what a wheel turns between them is known all the same.
+const PART_OF_FRAME: f64 = 0.25;
 /// Median of the norm of three standard normal numbers.
 const MEDIAN_OF_CHI3: f64 = 1.538_2;
 
@@ -230,7 +233,14 @@ impl<'a> MotionLink<'a> {
         for range in self.by_segment() {
             let s = self.pieces.get(self.windows[range.start].segment);
             let own = &base[range.clone()];
-            let columns = if sides.is_empty() { Vec::new() } else { self.columns(model, sides, &s, own, &range) };
+            let columns = if sides.is_empty() {
+                Vec::new()
+            } else {
+                match s.coarser(PART_OF_FRAME) {
+                    Some(coarse) => self.columns(model, sides, &coarse, own, &range),
+                    None => self.columns(model, sides, &s, own, &range),
+                }
+            };
             let mut first = 0;
             let places: Vec<usize> = own
                 .iter()
@@ -275,10 +285,15 @@ impl<'a> MotionLink<'a> {
             }
             column
         };
-        let is_beside = |model: &MotionModel| path.of(model).is_some_and(|p| p.is_beside(&path) && !path.is_as(&p));
-        let (beside, others): (Vec<usize>, Vec<usize>) =
-            (0..sides.len()).partition(|i| sides[*i].0.iter().chain([&sides[*i].1]).all(is_beside));
-        // Models that differ in their wheels alone are walked side by side.
+        let differs = |(low, high, _): &(Option<MotionModel>, MotionModel, f64)| {
+            low.iter().map(|low| path.differs(low)).fold(path.differs(high), Differs::max)
+        };
+        let differs: Vec<Differs> = sides.iter().map(differs).collect();
+        let of_kind =
+            |wanted: &[Differs]| -> Vec<usize> { (0..sides.len()).filter(|i| wanted.contains(&differs[*i])).collect() };
+        // Models that differ in their wheels alone, or in what those turn, are walked side by side.
+        let [beside, turned] = [[Differs::InColumns], [Differs::InTurns]].map(|kind| of_kind(&kind));
+        let others = of_kind(&[Differs::Nowhere, Differs::Alone]);
         let together = |part: &[usize]| -> Vec<(usize, Vec<f64>)> {
             let models: Vec<&MotionModel> =
                 part.iter().flat_map(|i| sides[*i].0.iter().chain([&sides[*i].1])).collect();
@@ -293,8 +308,10 @@ impl<'a> MotionLink<'a> {
             part.iter().map(of_side).collect()
         };
         let predict = |other: &MotionModel| {
-            let own = path.of(other)?;
-            let tracks = if path.is_as(&own) { Cow::Borrowed(&tracks) } else { Cow::Owned(own.alone(&windows)) };
+            let tracks = match path.differs(other) {
+                Differs::Nowhere => Cow::Borrowed(&tracks),
+                _ => Cow::Owned(path.of(other)?.alone(&windows)),
+            };
             Some(predicted(other, &tracks, base))
         };
         let alone = |i: &usize| {
@@ -307,7 +324,7 @@ impl<'a> MotionLink<'a> {
             (*i, both.map_or_else(|| vec![0.0; rows], |(low, high)| column(&low, &high, *step)))
         };
         let mut all: Vec<(usize, Vec<f64>)> = others.par_iter().map(alone).collect();
-        all.par_extend(beside.par_chunks(LANES / 2).flat_map_iter(together));
+        all.par_extend(beside.par_chunks(LANES / 2).chain(turned.par_chunks(LANES / 2)).flat_map_iter(together));
         all.sort_by_key(|(i, _)| *i);
         all.into_iter().map(|(_, column)| column).collect()
     }

@@ -290,6 +290,12 @@ impl Design {
         self.narrow.clone()
     }
 
+    /// The same without what, once all else that is not named adapts, does what a named effect does: a motor 3 K
+    /// warmer and a rotor 1 % lighter are viscous friction, as a torque constant alone is, which is frozen already.
+    pub fn without_twins(&self) -> Vec<Role> {
+        self.penalised().without_twins(&self.narrow, ALIKE)
+    }
+
     /// Roles for the estimates of what is named if it is the cause: what looks like it, alone or together with what
     /// else is not named, is frozen. With `bare` everything is.
     pub fn judged(&self, bare: bool) -> Vec<Role> {

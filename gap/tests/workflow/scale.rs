@@ -121,7 +121,7 @@ fn a_servo_is_the_same_in_any_unit() {
         let (_, truth) =
             [("coulomb-friction", 4e-3), ("viscous-friction", 1e-5)].into_iter().find(|t| t.0 == e.name).unwrap();
         let [low, high] = e.parameters[0].2.ends().unwrap();
-        assert!(low < truth && truth < high && high - low < 2.0 * truth, "{:?}", e.parameters);
+        assert!(low < truth && truth < high && high - low < 0.6 * truth, "{:?}", e.parameters);
     }
     for k in [1e3, 1e-3] {
         let other = analysed(&stronger(&set, k));

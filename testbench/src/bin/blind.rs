@@ -47,6 +47,9 @@ struct Args {
     /// Seed of the whole series
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Write the table to docs/measured/blind.md, too
+    #[arg(long)]
+    measured: bool,
     /// JSON instead of the table
     #[arg(long)]
     json: bool,
@@ -94,6 +97,19 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
     };
     let report = blind::run(&plan, &series, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
+    if args.measured {
+        // Where the scores are kept is no part of what was measured.
+        let mut given = std::env::args().skip(1);
+        let mut command = Vec::new();
+        while let Some(argument) = given.next() {
+            match argument.as_str() {
+                "--scores" => drop(given.next()),
+                "--measured" => {}
+                _ => command.push(argument),
+            }
+        }
+        report.measured(&command.join(" "));
+    }
     if args.json {
         println!("{:#}", report.to_json());
     } else {

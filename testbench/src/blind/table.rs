@@ -146,6 +146,27 @@ impl Report {
         out
     }
 
+    /// Writes docs/measured/blind.md; `arguments` are those that the bench was run with.
+    pub fn measured(&self, arguments: &str) {
+        let mut columns = vec!["hidden", "sets"];
+        columns.extend(Grade::ALL.iter().map(|g| g.name()));
+        columns.push("95 % intervals");
+        columns.push("of them hold");
+        let row = |(label, sets): (String, Vec<&Scored>)| {
+            let mut row = vec![label, sets.len().to_string()];
+            row.extend(Grade::ALL.iter().map(|g| sets.iter().filter(|s| s.grade == *g).count().to_string()));
+            row.extend([0, 1].map(|i| sets.iter().map(|s| s.intervals[i]).sum::<usize>().to_string()));
+            row
+        };
+        let table = measured::Table {
+            name: "blind",
+            title: "Effects hidden by another simulator, and what the gap workflow made of them",
+            command: &format!("cargo run --release -p testbench --bin blind -- {arguments}"),
+            columns: &columns,
+        };
+        table.write(&self.rows().into_iter().map(row).collect::<Vec<_>>());
+    }
+
     /// Everything, set by set.
     pub fn to_json(&self) -> Value {
         let rows: Vec<Value> = self
