@@ -222,6 +222,8 @@ impl Segment {
             frames: self.frames.clone(),
             own: 0..ticks.len(),
             before: self.before.clone(),
+            // The sensor's links cut the segments as they are.
+            felt: None,
             ..*self
         })
     }
