@@ -68,20 +68,10 @@ pub fn alternatives(
     let mut ambiguous = false;
     let mut tried: Vec<String> = vec![name.clone()];
     let mut told: Vec<String> = vec![name.clone()];
-    let near = |t: &&Trial| t.gain >= own_gain - 12.0 - 0.05 * own_gain;
-    let mut ordered: Vec<&Trial> = trials.iter().take_while(near).collect();
-    most_alike_first(
-        &mut ordered,
-        |t| design.candidates[t.candidate].effect.name(),
-        |t| {
-            let [all, left] = found.design.left_by(t.candidate, &[index]);
-            left / all.max(1e-300)
-        },
-    );
-    for t in ordered {
+    for t in &trials {
         let candidate = &design.candidates[t.candidate];
         let alternative_name = candidate.effect.name().to_owned();
-        if tried.len() > MOST_TRIED {
+        if t.gain < own_gain - 12.0 - 0.05 * own_gain || tried.len() > MOST_TRIED {
             break;
         }
         // An effect has several shapes, and which one is the twin shows only after a fit.
@@ -125,21 +115,6 @@ pub fn alternatives(
     }
     sets.extend(pair_alternatives(&design, &trials, &told, own_gain, thresholds));
     Alternatives { design, sets, ambiguous }
-}
-
-/// Of the shapes of each effect the one that leaves the least of what is named takes the place of the first: an encoder
-/// that loses counts at any speed is a larger wheel, one that loses them from 3 rad/s on nearly is, and noise decides which
-/// of them gains most.
-fn most_alike_first<T, N: PartialEq>(trials: &mut [T], name: impl Fn(&T) -> N, left: impl Fn(&T) -> f64) {
-    for first in 0..trials.len() {
-        if trials[..first].iter().any(|t| name(t) == name(&trials[first])) {
-            continue;
-        }
-        let same = (first..trials.len()).filter(|i| name(&trials[*i]) == name(&trials[first]));
-        if let Some(best) = same.min_by(|a, b| left(&trials[*a]).total_cmp(&left(&trials[*b]))) {
-            trials[first..=best].rotate_right(1);
-        }
-    }
 }
 
 /// Shapes of one alternative, and alternatives in all, that are fitted.
@@ -216,16 +191,4 @@ fn pair_alternatives(
         |g: &&(f64, usize, usize)| design.candidates[g.1].form.free.len() + design.candidates[g.2].form.free.len();
     let (_, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
     Some([&told[0], effect(*a), effect(*b)].map(str::to_owned).to_vec())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shape_most_alike_is_tried_first() {
-        let mut trials = vec![("loss", 0.3), ("scale", 0.1), ("loss", 0.01), ("angle", 0.5), ("scale", 0.2)];
-        most_alike_first(&mut trials, |t| t.0, |t| t.1);
-        assert_eq!(trials, [("loss", 0.01), ("loss", 0.3), ("scale", 0.1), ("angle", 0.5), ("scale", 0.2)]);
-    }
 }
