@@ -63,6 +63,16 @@ impl Cluster {
         huber(square, BURST * n)
     }
 
+    /// Appends neighbours in order, so many together as one.
+    pub fn append(clusters: &mut Vec<Self>, neighbours: Vec<Self>, together: usize) {
+        for (k, cluster) in neighbours.into_iter().enumerate() {
+            match clusters.last_mut() {
+                Some(last) if k % together != 0 => last.add(&cluster),
+                _ => clusters.push(cluster),
+            }
+        }
+    }
+
     /// Joins the residuals of a neighbour.
     pub fn add(&mut self, other: &Self) {
         self.n += other.n;

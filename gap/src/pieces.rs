@@ -31,6 +31,19 @@ const RECENT: usize = 2;
 /// What the links read.
 const COLUMNS: Columns = Columns { counts: true, duty: true, supply: true, ..Columns::NONE };
 
+/// Clusters at most; beyond, neighbouring windows count as one.
+pub(crate) const MOST_CLUSTERS: usize = 400;
+
+/// Where the windows of each segment stand in a list that has them in order.
+pub(crate) fn by_segment<W>(windows: &[W], segment: impl Fn(&W) -> usize) -> Vec<Range<usize>> {
+    let mut first = 0;
+    let part = |part: &[W]| {
+        first += part.len();
+        first - part.len()..first
+    };
+    windows.chunk_by(|a, b| segment(a) == segment(b)).map(part).collect()
+}
+
 /// All segments of a data set.
 pub struct Pieces<'a> {
     robot: Robot,

@@ -4,7 +4,7 @@
 use measured::Table;
 use model::camera::{Camera, CameraModel};
 use model::fusion::{Fusion, FusionOptions};
-use model::imu::{Imu, ImuModel, Motion};
+use model::imu::{Chassis, Imu, ImuModel};
 use model::inertial::Inertial;
 use model::pi::SpeedLoop;
 use model::plant::{Contact, Plant};
@@ -79,23 +79,12 @@ fn drive(skew: f64, contact: Contact, hard: bool, seed: u64) -> Outcome {
     let sd = options.camera_noise;
     let mut wheels = Fusion::new(&geometry, counts_per_rad, options, start, sd);
     let mut inertial = Inertial::new(&geometry, counts_per_rad, options, &model, start, sd);
-    let mut before = plant.twist();
+    let mut chassis = Chassis::default();
     let (mut way, mut noticed_ms, mut since, mut free, mut alarm) = (0.0, Vec::new(), None, 0.0, [0.0; 2]);
     for k in 0..(END_S / TICK) as usize {
         let t = k as f64 * TICK;
         let now = plant.twist();
-        let rate = |a: f64, b: f64| (a - b) / TICK;
-        let motion = Motion {
-            omega: [0.0, 0.0, now.omega],
-            omega_rate: [0.0, 0.0, rate(now.omega, before.omega)],
-            acceleration: [
-                rate(now.vx, before.vx) - now.omega * now.vy,
-                rate(now.vy, before.vy) + now.omega * now.vx,
-                0.0,
-            ],
-            wheel_speed: plant.wheel_speeds().map(f64::abs).sum::<f64>() / 3.0,
-        };
-        before = now;
+        let motion = chassis.motion(&plant, TICK);
         let counts = plant.counts();
         wheels.predict(t, &counts);
         inertial.predict(t, &counts, &imu.read(&motion));

@@ -21,11 +21,6 @@ impl<R: Registers> Armed<R> {
         Ok((armed, stood))
     }
 
-    /// The card, which stays guarded.
-    pub(super) fn board(&mut self) -> &mut Board<R> {
-        self
-    }
-
     /// Disarms, and says whether the card obeyed.
     ///
     /// # Errors

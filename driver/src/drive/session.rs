@@ -95,7 +95,7 @@ impl<R: Registers, S: Steer> Session<R, S> {
     /// [`Fault`] where the card does not obey: its watchdog then switches it off.
     pub fn rest(&mut self) -> Result<(), Fault> {
         self.state.command = Twist::default();
-        Ok(self.armed.board().disarm()?)
+        Ok(self.board().disarm()?)
     }
 
     /// One tick with the outputs off: counts and poses are followed, so that the robot knows where it was pushed to.
@@ -116,7 +116,7 @@ impl<R: Registers, S: Steer> Session<R, S> {
     /// # Errors
     /// [`Fault`] while a cause stands, and where the card no longer runs our design; the outputs stay off.
     pub fn resume(&mut self, clock: &mut impl Clock) -> Result<(), Fault> {
-        let board = self.armed.board();
+        let board: &mut Board<R> = &mut self.armed;
         board.identify()?;
         self.state.driven.stood = board.arm()?;
         let before = self.state.before;

@@ -1,7 +1,5 @@
 //! Windows of a sensor's signals: floors, residuals and their derivatives.
 
-use std::ops::Range;
-
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -9,7 +7,7 @@ use super::ride::Ride;
 use super::{Felt, Integral};
 use crate::effect::{Effect, Link};
 use crate::motion::{MotionModel, Path};
-use crate::pieces::Pieces;
+use crate::pieces::{MOST_CLUSTERS, Pieces, by_segment};
 use crate::segment::Segment;
 use estimation::normal_equations::Cluster;
 use estimation::statistics::{median, rms};
@@ -33,8 +31,6 @@ const CONTACT: f64 = 0.005;
 const TOLERANCE: [f64; 2] = [0.005, 0.008_7];
 /// Increments with turning wheels from which the floor is taken of these alone.
 const ENOUGH: usize = 40;
-/// Clusters at most; beyond, neighbouring windows count as one.
-const MOST_CLUSTERS: usize = 400;
 
 /// An axis of the sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,7 +143,7 @@ impl<'a> InertialLink<'a> {
         let mut open: Vec<Vec<[f64; 6]>> = Vec::with_capacity(self.windows.len());
         // Second differences of what is left, where wheels turned and elsewhere.
         let mut seconds: Vec<[Vec<f64>; 2]> = vec![Default::default(); self.channels.len()];
-        for range in self.by_segment() {
+        for range in by_segment(&self.windows, |w| w.segment) {
             let s = self.pieces.get(self.windows[range.start].segment);
             let path = Path::new(model, &s)?;
             let ride = Ride::new(&path, model, &s, forces);
@@ -193,23 +189,13 @@ impl<'a> InertialLink<'a> {
         Some(())
     }
 
-    /// Windows of each segment.
-    fn by_segment(&self) -> Vec<Range<usize>> {
-        let mut first = 0;
-        let part = |part: &[Window]| {
-            first += part.len();
-            first - part.len()..first
-        };
-        self.windows.chunk_by(|a, b| a.segment == b.segment).map(part).collect()
-    }
-
     /// Residuals and the derivatives of the prediction along each pair of models, as those of the camera. A cluster is a
     /// window, or several in long logs.
     pub fn linearise(&self, model: &MotionModel, sides: &[(Option<MotionModel>, MotionModel, f64)]) -> Vec<Cluster> {
         let together = self.windows.len().div_ceil(MOST_CLUSTERS);
         let forces = self.has(Link::Accelerometer);
         let mut clusters: Vec<Cluster> = Vec::new();
-        for range in self.by_segment() {
+        for range in by_segment(&self.windows, |w| w.segment) {
             let s = self.pieces.get(self.windows[range.start].segment);
             let Some(path) = Path::new(model, &s) else { return Vec::new() };
             let own = &self.windows[range];
@@ -239,12 +225,7 @@ impl<'a> InertialLink<'a> {
                 w.cluster(&base[i], &columns)
             };
             let part: Vec<Cluster> = own.par_iter().enumerate().map(cluster).collect();
-            for (k, cluster) in part.into_iter().enumerate() {
-                match clusters.last_mut() {
-                    Some(last) if k % together != 0 => last.add(&cluster),
-                    _ => clusters.push(cluster),
-                }
-            }
+            Cluster::append(&mut clusters, part, together);
         }
         clusters
     }
@@ -253,7 +234,7 @@ impl<'a> InertialLink<'a> {
     pub fn fits(&self, model: &MotionModel, link: Link) -> Vec<Fit> {
         let forces = self.has(Link::Accelerometer);
         let mut sums = vec![([0.0; 4], (0, 0.0, 0.0)); Channel::ALL.len()];
-        for range in self.by_segment() {
+        for range in by_segment(&self.windows, |w| w.segment) {
             let s = self.pieces.get(self.windows[range.start].segment);
             let Some(path) = Path::new(model, &s) else { continue };
             let ride = Ride::new(&path, model, &s, forces);

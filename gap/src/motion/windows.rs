@@ -10,7 +10,7 @@ use runs::frames::{Pose, Walk, wrap_angle};
 use super::MotionModel;
 use super::track::{Differs, LANES, Path};
 use crate::inertial::InertialLink;
-use crate::pieces::Pieces;
+use crate::pieces::{MOST_CLUSTERS, Pieces, by_segment};
 use crate::segment::{Frame, Segment};
 use estimation::normal_equations::Cluster;
 
@@ -20,8 +20,6 @@ const FEWEST_FRAMES: usize = 4;
 const HUBER: f64 = 4.0;
 /// ... and none from here.
 const REJECT: f64 = 10.0;
-/// Clusters at most; beyond, neighbouring windows count as one.
-const MOST_CLUSTERS: usize = 400;
 /// Ticks from which derivatives are taken, as a part of the time between two frames; residuals are taken from all ticks.
 /// At 1 kHz and 60 frames/s every fourth tick is left, and what a wheel turns between them is known all the same.
 const PART_OF_FRAME: f64 = 0.25;
@@ -105,16 +103,6 @@ impl<'a> MotionLink<'a> {
         self
     }
 
-    /// Windows of each segment.
-    fn by_segment(&self) -> Vec<Range<usize>> {
-        let mut first = 0;
-        let part = |part: &[Window]| {
-            first += part.len();
-            first - part.len()..first
-        };
-        self.windows.chunk_by(|a, b| a.segment == b.segment).map(part).collect()
-    }
-
     /// Number of windows.
     pub fn len(&self) -> usize {
         self.windows.len()
@@ -127,8 +115,7 @@ impl<'a> MotionLink<'a> {
 
     /// Residuals of every window, start poses fitted, outliers weighted down.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
-        let parts: Option<Vec<Vec<Aligned>>> = self
-            .by_segment()
+        let parts: Option<Vec<Vec<Aligned>>> = by_segment(&self.windows, |w| w.segment)
             .into_par_iter()
             .map(|range| {
                 let s = self.pieces.get(self.windows[range.start].segment);
@@ -230,7 +217,7 @@ impl<'a> MotionLink<'a> {
         let together = self.windows.len().div_ceil(MOST_CLUSTERS);
         let mut clusters: Vec<Cluster> = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
-        for range in self.by_segment() {
+        for range in by_segment(&self.windows, |w| w.segment) {
             let s = self.pieces.get(self.windows[range.start].segment);
             let own = &base[range.clone()];
             let columns = if sides.is_empty() {
@@ -251,12 +238,7 @@ impl<'a> MotionLink<'a> {
                 .collect();
             let part: Vec<Cluster> =
                 own.par_iter().zip(places).map(|(w, first)| self.cluster(w, &columns, first)).collect();
-            for (k, cluster) in part.into_iter().enumerate() {
-                match clusters.last_mut() {
-                    Some(last) if k % together != 0 => last.add(&cluster),
-                    _ => clusters.push(cluster),
-                }
-            }
+            Cluster::append(&mut clusters, part, together);
         }
         clusters
     }

@@ -208,10 +208,17 @@ impl Fill<'_, '_> {
                 continue;
             };
             let (_, content) = unit.half.expect("a table");
-            let target = &mut self.packer.columns[column].slices[row].halves[half];
-            *target = Half { flop: target.flop, ..content };
+            self.add_table((column, row, half), content);
         }
         left
+    }
+
+    /// Puts a table into an open half, beside the flip-flop that may stand there.
+    fn add_table(&mut self, (column, row, half): Place, content: Half) {
+        let target = &mut self.packer.columns[column].slices[row].halves[half];
+        let flop = target.flop;
+        *target = content;
+        target.flop = flop;
     }
 
     /// Where pairs of their own would take more slices than there are, tables go to open halves of slices that they are
@@ -219,22 +226,26 @@ impl Fill<'_, '_> {
     /// strangers in a slice pull it two ways.
     fn fill_kin(&mut self, mut tables: Vec<Unit>, room: usize) -> Vec<Unit> {
         let used: usize = self.packer.columns.iter().map(|column| column.slices.len()).sum();
-        let mut open: Vec<(Place, String)> = Vec::new();
+        let fits = |tables: &[Unit]| used + tables.len().div_ceil(2) <= room;
+        if fits(&tables) {
+            return tables;
+        }
+        let logic = self.packer.logic;
+        let mut open: Vec<(Place, &str)> = Vec::new();
         for (at, column) in self.packer.columns.iter().enumerate() {
             for (row, slice) in column.slices.iter().enumerate() {
                 let halves = (0..2).filter(|half| is_open(slice, *half));
-                let name = slice.sources().first().map(|(_, net)| self.packer.logic.nets[net.index()].clone());
-                open.extend(halves.map(|half| ((at, row, half), name.clone().unwrap_or_default())));
+                let name = slice.sources().first().map_or("", |(_, net)| logic.nets[net.index()].as_str());
+                open.extend(halves.map(|half| ((at, row, half), name)));
             }
         }
-        while used + tables.len().div_ceil(2) > room && !open.is_empty() {
+        while !fits(&tables) && !open.is_empty() {
             let Some((_, content)) = tables.pop().and_then(|unit| unit.half) else { break };
-            let own = content.shows.map_or("", |net| self.packer.logic.nets[net.index()].as_str());
+            let own = content.shows.map_or("", |net| logic.nets[net.index()].as_str());
             let alike = |name: &str| own.bytes().zip(name.bytes()).take_while(|(a, b)| a == b).count();
-            let best = (0..open.len()).max_by_key(|index| (alike(&open[*index].1), std::cmp::Reverse(*index)));
-            let ((column, row, half), _) = open.swap_remove(best.expect("one is open"));
-            let target = &mut self.packer.columns[column].slices[row].halves[half];
-            *target = Half { flop: target.flop, ..content };
+            let best = (0..open.len()).max_by_key(|index| (alike(open[*index].1), std::cmp::Reverse(*index)));
+            let (place, _) = open.swap_remove(best.expect("one is open"));
+            self.add_table(place, content);
         }
         tables
     }
