@@ -1,11 +1,11 @@
-//! Any CSV with a header row and a column of time; empty fields and texts are no samples. PlotJuggler's exports have the
-//! time in `__time`.
+//! Any text table with a column of time; empty fields and texts are no samples. PlotJuggler's exports have the time in
+//! `__time`.
 
 use std::path::Path;
 
+use super::sheet::Sheet;
 use super::{Clock, Table, heading, units};
 use crate::error::InputError;
-use crate::read::separator;
 
 /// First words of names that time goes by.
 const TIMES: [&str; 12] =
@@ -13,14 +13,21 @@ const TIMES: [&str; 12] =
 
 /// The column of time and its unit in seconds, where the map says nothing of it.
 fn time_column(names: &[String]) -> Option<(usize, f64)> {
-    names.iter().enumerate().find_map(|(i, name)| {
+    let plain = names.iter().enumerate().find_map(|(i, name)| {
         let plain = name.to_lowercase();
         let mut words = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
         let is_time = |word: Option<&str>| word.is_some_and(|word| TIMES.contains(&word));
         let timed = is_time(words.next())
             && words.next().is_none_or(|word| TIMES.contains(&word) || units::of_time(word).is_some());
         (timed && words.next().is_none()).then(|| (i, unit_s(name)))
-    })
+    });
+    let mut others = names.iter().enumerate().filter(|(_, name)| {
+        let plain = name.to_lowercase();
+        plain.split(|c: char| !c.is_alphanumeric()).any(|word| ["time", "timestamp", "stamp"].contains(&word))
+    });
+    // A name with the word anywhere, if it is the only one.
+    let mut other = || others.next().filter(|_| others.next().is_none()).map(|(i, name)| (i, unit_s(name)));
+    plain.or_else(&mut other)
 }
 
 /// Seconds in the unit of time that a column's name ends in; 1 where it has none.
@@ -33,24 +40,24 @@ fn unit_s(name: &str) -> f64 {
 }
 
 pub(super) fn read(bytes: &[u8], path: &Path, time: &Clock) -> Result<Table, InputError> {
-    let separator = separator(bytes);
+    let Sheet { names, rows: text, separator } = Sheet::of(bytes);
     let mut csv = ::csv::ReaderBuilder::new()
         .delimiter(separator)
         .flexible(true)
         .has_headers(false)
         .trim(::csv::Trim::All)
-        .from_reader(bytes);
+        .from_reader(&*text);
     let mut record = ::csv::ByteRecord::new();
     let mut next = |record: &mut ::csv::ByteRecord| {
         csv.read_byte_record(record).map_err(|e| InputError::new(path, e.to_string(), "save the log as CSV"))
     };
-    if !next(&mut record)? {
-        return Err(InputError::new(path, "is empty", "give a file with a header row"));
-    }
-    let names: Vec<String> = record
-        .iter()
-        .map(|field| String::from_utf8_lossy(field.strip_prefix(b"\xef\xbb\xbf").unwrap_or(field)).trim().to_owned())
-        .collect();
+    let names: Vec<String> = match names {
+        Some(names) => names,
+        None if next(&mut record)? => {
+            record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
+        }
+        None => return Err(InputError::new(path, "is empty", "give a file with a header row")),
+    };
     let found = match time.column {
         Some(name) => names.iter().position(|n| n == name).map(|i| (i, unit_s(name))),
         None => time_column(&names),

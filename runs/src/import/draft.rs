@@ -30,7 +30,7 @@ const WORDS: [(Kind, &[&str]); 10] = [
     (Kind::Acceleration, &["acc", "accel", "acceleration", "linear_acceleration"]),
     (Kind::Command, &["cmd", "command", "soll", "twist", "desired"]),
     (Kind::Reference, &["ref", "reference", "setpoint", "target", "set"]),
-    (Kind::Counts, &["enc", "encoder", "ticks", "counts", "count", "position", "pos"]),
+    (Kind::Counts, &["enc", "encoder", "tick", "ticks", "counts", "count", "position", "pos"]),
     (Kind::Odometry, &["odom", "odometry"]),
     (Kind::Camera, &["cam", "camera", "vision", "mocap", "optitrack", "vicon", "tracker", "pose", "blue", "yellow"]),
 ];
@@ -61,7 +61,7 @@ pub fn draft(table: &Table) -> String {
     guesses.sort_by_key(|g| g.column);
     let mut out = String::from("# Guessed from names and ranges: check every line.\n");
     if let Some((name, unit)) = &table.time {
-        let _ = writeln!(out, "\n[time]\ncolumn = {}\nunit = \"{}\"", quoted(name), unit_name(*unit));
+        let _ = writeln!(out, "\n[time]\ncolumn = {}\nunit = \"{}\"", quoted(name), time_unit(table, *unit));
     } else if table.series.iter().all(|s| s.t.iter().zip(0..).all(|(t, row)| *t == f64::from(row))) {
         out.push_str("\n[time]\ncolumn = \"?\" # which column is the time?\nunit = \"s\"\n");
     }
@@ -98,6 +98,19 @@ pub fn draft(table: &Table) -> String {
 fn quoted(name: &str) -> String {
     let plain: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     format!("\"{}\"", plain.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// The unit of time, by its steps where its name says none: nobody logs a robot once a second.
+fn time_unit(table: &Table, unit_s: f64) -> &'static str {
+    let steps = |s: &Series| s.t.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+    let mut steps: Vec<f64> = table.series.iter().max_by_key(|s| s.t.len()).map(steps).unwrap_or_default();
+    steps.sort_by(f64::total_cmp);
+    match steps.get(steps.len() / 2) {
+        Some(1e6..) if unit_s == 1.0 => "ns",
+        Some(1e3..) if unit_s == 1.0 => "us",
+        Some(1.0..) if unit_s == 1.0 => "ms",
+        _ => unit_name(unit_s),
+    }
 }
 
 fn unit_name(unit_s: f64) -> &'static str {
@@ -189,7 +202,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
 /// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.
 fn number(words: &[&str]) -> Option<usize> {
     let has = |word: &str| words.contains(&word);
-    match (has("right"), has("left"), has("front"), has("rear") || has("back")) {
+    match (has("right") || has("r"), has("left") || has("l"), has("front"), has("rear") || has("back")) {
         (right, left, front, rear) if right != left && front != rear => {
             return Some(usize::from(right) + 2 * usize::from(rear));
         }

@@ -8,6 +8,7 @@ mod csv;
 mod draft;
 mod map;
 mod ros2;
+mod sheet;
 mod ssl;
 mod units;
 mod wpilog;

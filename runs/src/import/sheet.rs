@@ -1,0 +1,114 @@
+//! A text table as its writer left it: remarks before it, names of columns behind a `#` or none, blanks between fields.
+
+use std::borrow::Cow;
+
+use crate::read::separator;
+
+/// What begins a line that is a remark.
+const REMARKS: [&str; 3] = ["#", "%", "//"];
+
+/// A table whose rows have one separator.
+pub(super) struct Sheet<'a> {
+    /// Names of the columns if the first record does not hold them.
+    pub(super) names: Option<Vec<String>>,
+    /// The rows, each on the line where it was.
+    pub(super) rows: Cow<'a, [u8]>,
+    /// What stands between fields.
+    pub(super) separator: u8,
+}
+
+impl<'a> Sheet<'a> {
+    pub(super) fn of(bytes: &'a [u8]) -> Self {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let mut before = Vec::new();
+        let mut first: &[u8] = &[];
+        for line in bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty()) {
+            match remark(line) {
+                Some(remark) => before.push(remark),
+                None => {
+                    first = line;
+                    break;
+                }
+            }
+        }
+        let mut separator = separator(first);
+        let blanks = !first.contains(&separator) && first.iter().any(u8::is_ascii_whitespace);
+        if blanks {
+            separator = b';'; // beside which a decimal comma is one
+        }
+        let fields = fields(first, blanks, separator);
+        let said = before.last().map(|line| self::fields(line, blanks, separator));
+        let names = if fields.iter().any(|field| !is_number(field, separator)) {
+            None
+        } else if let Some(said) = said.filter(|said| said.len() == fields.len() && said.len() > 1) {
+            Some(said)
+        } else {
+            Some((1..=fields.len()).map(|i| format!("column_{i}")).collect())
+        };
+        let rows = if blanks || !before.is_empty() { Cow::Owned(plain(bytes, blanks)) } else { Cow::Borrowed(bytes) };
+        Self { names: names.filter(|_| !first.is_empty()), rows, separator }
+    }
+}
+
+/// What a line says after the mark of a remark.
+fn remark(line: &[u8]) -> Option<&[u8]> {
+    REMARKS.iter().find_map(|mark| line.strip_prefix(mark.as_bytes())).map(<[u8]>::trim_ascii)
+}
+
+fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
+    let text = String::from_utf8_lossy(line);
+    if blanks {
+        return text.split_whitespace().map(str::to_owned).collect();
+    }
+    text.split(char::from(separator)).map(|field| field.trim().to_owned()).collect()
+}
+
+/// Whether a field is a number, or empty.
+fn is_number(field: &str, separator: u8) -> bool {
+    let field = if separator == b',' { Cow::Borrowed(field) } else { Cow::Owned(field.replace(',', ".")) };
+    field.is_empty() || field.parse::<f64>().is_ok()
+}
+
+/// The same lines with remarks emptied and, if asked, semicolons in place of blanks.
+fn plain(bytes: &[u8], blanks: bool) -> Vec<u8> {
+    let mut out = Vec::with_capacity(bytes.len());
+    for line in bytes.split_inclusive(|b| *b == b'\n') {
+        let own = line.trim_ascii();
+        if remark(own).is_none() {
+            if blanks {
+                let words = own.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+                words.enumerate().for_each(|(i, word)| {
+                    out.extend((i > 0).then_some(b';'));
+                    out.extend_from_slice(word);
+                });
+            } else {
+                out.extend_from_slice(own);
+            }
+        }
+        out.extend(line.ends_with(b"\n").then_some(b'\n'));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet(text: &str) -> (Option<Vec<String>>, String, char) {
+        let sheet = Sheet::of(text.as_bytes());
+        (sheet.names, String::from_utf8(sheet.rows.into_owned()).unwrap(), sheet.separator.into())
+    }
+
+    #[test]
+    fn blanks_remarks_and_missing_names_make_one_table() {
+        let names = |of: &[&str]| Some(of.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>());
+        assert_eq!(sheet("t,a\n0,1\n"), (None, "t,a\n0,1\n".into(), ','));
+        assert_eq!(sheet("  t   a\n  0   1,5\n"), (None, "t;a\n0;1,5\n".into(), ';'));
+        assert_eq!(sheet("# by me\n# t a\n0 1\n"), (names(&["t", "a"]), "\n\n0;1\n".into(), ';'));
+        assert_eq!(sheet("0.0 1.5\r\n0.1 2\r\n"), (names(&["column_1", "column_2"]), "0.0;1.5\n0.1;2\n".into(), ';'));
+        assert_eq!(sheet("0\t1\n"), (names(&["column_1", "column_2"]), "0\t1\n".into(), '\t'));
+        assert_eq!(sheet("% made 2019, for us\nt;a\n0;1,5\n"), (None, "\nt;a\n0;1,5\n".into(), ';'));
+        assert_eq!(sheet("# t,a\n0,1\n# pause\n1,2\n"), (names(&["t", "a"]), "\n0,1\n\n1,2\n".into(), ','));
+        assert_eq!(sheet("").0, None);
+    }
+}
