@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, time: &Clock) -> Result<Table, Inp
         None if next(&mut record)? => {
             record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
         }
-        None => return Err(InputError::new(path, "is empty", "give a file with a header row")),
+        None => return Err(InputError::new(path, "is empty", "give a file with rows of numbers")),
     };
     let found = match time.column {
         Some(name) => names.iter().position(|n| n == name).map(|i| (i, unit_s(name))),

@@ -316,6 +316,25 @@ mod tests {
     }
 
     #[test]
+    fn a_table_of_blanks_in_milliseconds_is_understood() {
+        let rows = [
+            "  1128   16.04  -30.36  1.58  -3   1",
+            "  1199   16.05  -30.38  1.58  -3   1",
+            "  1327   16.01  -30.38  1.58  -3   7",
+        ];
+        let map = drafted("n_time  pose_x  pose_y  pose_theta  tick_L  tick_R", rows);
+        for line in
+            ["column = \"n_time\"\nunit = \"ms\"", "enc_1 = \"tick_R\"", "enc_2 = \"tick_L\"", "cam_y = \"pose_y\""]
+        {
+            assert!(map.contains(line), "{line}\n{map}");
+        }
+        let bare = "0.00 1 2\n0.01 2 3\n0.02 3 4\n";
+        let clock = Clock { column: Some("column_1"), ..Clock::default() };
+        let table = Table::of_bytes(bare.as_bytes(), Path::new("x.dat"), None, &clock).unwrap();
+        assert_eq!(table.find("column_3").unwrap().values, [2.0, 3.0, 4.0]);
+    }
+
+    #[test]
     fn a_file_without_a_time_column_asks_for_it() {
         let map = drafted("a,b\"c", ["1,2", "2,3", "3,4"]);
         assert!(map.contains("which column is the time?") && map.contains("# \"b\\\"c\", 2 to 4"), "{map}");

@@ -56,7 +56,7 @@ pub struct Clock<'a> {
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Text with a header row; one time column.
+    /// Text in columns, one of them the time.
     Csv,
     /// ROS 2 bag in an MCAP.
     Ros2,
