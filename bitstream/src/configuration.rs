@@ -21,17 +21,17 @@ pub enum AttributeError {
     /// The tile has no attribute of this name.
     #[error("{tile} has no attribute {attribute}")]
     Unknown {
-        /// Which tile.
+        /// Name as in the device's database, such as `R5C12`.
         tile: String,
-        /// Which attribute.
+        /// Name that no tile of its kind has.
         attribute: String,
     },
     /// The attribute has no such choice.
     #[error("{attribute} of {tile} cannot be {value}; it can be {choices}")]
     Choice {
-        /// Which tile.
+        /// Name as in the device's database, such as `R5C12`.
         tile: String,
-        /// Which attribute.
+        /// Multiplexer, mode or table that was to be set.
         attribute: String,
         /// What was asked for.
         value: String,
@@ -41,9 +41,9 @@ pub enum AttributeError {
     /// The bits stand for no choice.
     #[error("{attribute} of {tile} has the bits {pattern}, which stand for nothing; the frame is damaged")]
     Pattern {
-        /// Which tile.
+        /// Name as in the device's database, such as `R5C12`.
         tile: String,
-        /// Which attribute.
+        /// Multiplexer, mode or table that cannot be read.
         attribute: String,
         /// Its bits, first of the attribute first.
         pattern: String,

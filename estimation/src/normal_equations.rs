@@ -105,7 +105,7 @@ fn huber(square: f64, limit: f64) -> f64 {
 /// Linearised residuals, condensed.
 #[derive(Debug, Clone)]
 pub struct NormalEquations {
-    /// Its clusters.
+    /// Sums that belong together, such as those of a window.
     pub clusters: Vec<Cluster>,
     /// Group of each cluster for leaving out: the run, or a block of a single run.
     pub folds: Vec<usize>,

@@ -19,7 +19,7 @@ pub struct Penalised<'a> {
     totals: Arc<Totals>,
 }
 
-/// A fit.
+/// Step along all columns and what it costs.
 #[derive(Debug, Clone)]
 pub struct PenalisedFit {
     /// Step along each column of the linearisation, 0 for those left out.
@@ -37,7 +37,7 @@ pub enum Role {
     Out,
     /// Held near an offset: (standard deviation, present value).
     Held(f64, f64),
-    /// Free.
+    /// Estimated without a penalty.
     Free,
     /// Taken along by this step, whatever the data say.
     At(f64),

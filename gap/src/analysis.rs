@@ -67,7 +67,7 @@ impl Verdict {
 /// A named effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Named {
-    /// Name.
+    /// As in the catalogue, such as `wheel-radius`.
     pub name: String,
     /// What it is.
     pub equation: String,
@@ -88,7 +88,7 @@ pub struct Named {
 pub struct Limit {
     /// Name of the effect.
     pub name: String,
-    /// Parameter.
+    /// As in `robot.toml`.
     pub parameter: String,
     /// Its estimate if everything else unnamed is held near zero.
     pub estimate: f64,
@@ -103,7 +103,7 @@ pub struct Limit {
 /// Structure that no effect of the catalogue explains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leftover {
-    /// Link.
+    /// Where it is left over.
     pub link: Link,
     /// In words.
     pub structure: String,
@@ -111,7 +111,7 @@ pub struct Leftover {
 
 /// Everything found out about a data set.
 pub struct Analysis {
-    /// Verdict.
+    /// What the workflow makes of the data set as a whole.
     pub verdict: Verdict,
     /// Where it disagrees, worst first.
     pub located: Vec<Located>,

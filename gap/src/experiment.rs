@@ -50,7 +50,7 @@ pub struct Experiment {
     pub times: usize,
     /// Predicted distance between the hypotheses then, in standard deviations; `None` for a measurement.
     pub sigmas: Option<f64>,
-    /// Why.
+    /// What it tells apart, for the user.
     pub why: String,
     /// Other manoeuvres that would do, with the seconds they need.
     pub others: Vec<(String, f64)>,
@@ -72,7 +72,7 @@ pub(crate) struct Findings<'a> {
     pub window_s: f64,
     /// Thresholds in force.
     pub thresholds: &'a Thresholds,
-    /// The catalogue.
+    /// Effects that may be the cause.
     pub catalogue: &'a [Arc<dyn Effect>],
 }
 

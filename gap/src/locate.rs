@@ -10,7 +10,7 @@ use estimation::statistics::rms;
 /// Where the model and the data part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Located {
-    /// Link.
+    /// Where the disagreement shows.
     pub link: Link,
     /// Signal, such as `enc_3`.
     pub signal: String,

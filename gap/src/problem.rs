@@ -61,7 +61,7 @@ impl Linear {
 const STEPS: usize = 8;
 
 impl Problem<'_> {
-    /// Which link it is.
+    /// Between which two stages of the robot it compares.
     pub fn link(&self) -> Link {
         match self {
             Self::Motion(_) => Link::Motion,

@@ -11,7 +11,7 @@ use crate::motion::MotionModel;
 /// An effect with values.
 #[derive(Clone)]
 pub struct Active {
-    /// The effect.
+    /// Entry of the catalogue.
     pub effect: Arc<dyn Effect>,
     /// How it is parametrised.
     pub form: Form,

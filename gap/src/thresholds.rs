@@ -87,9 +87,9 @@ pub const AT_BOUND: f64 = 0.002;
 /// A fitted parameter with its interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Its name.
+    /// As it stands in the source and in the report.
     pub name: String,
-    /// Its value.
+    /// In the unit that its reason names.
     pub value: f64,
     /// Where it lies with 95 % confidence.
     pub interval: [f64; 2],

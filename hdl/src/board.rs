@@ -157,27 +157,27 @@ pub enum BoardError {
         first: String,
         /// The other.
         second: String,
-        /// The pin.
+        /// Number of the FPGA's pin that both want.
         pin: u8,
     },
     /// One bit on two pins.
     #[error("`{bit}` has two pins; remove one line")]
     BitTwice {
-        /// The bit.
+        /// Port, with its number where it is a vector.
         bit: String,
     },
     /// A vector with holes, or mixed with a single bit.
     #[error("port `{port}` needs its bits numbered from 0 without holes, or one line without a number")]
     Holes {
-        /// The port.
+        /// Vector whose numbers do not run from 0.
         port: String,
     },
     /// An I/O line that the card does not have.
     #[error("`{bit}` is on I/O line {line}; the card has lines 0 to 71")]
     NoLine {
-        /// The bit.
+        /// Port, with its number where it is a vector.
         bit: String,
-        /// The line.
+        /// Number that is above 71.
         line: u8,
     },
 }

@@ -22,7 +22,7 @@ pub enum Localiser {
     Fused(Box<Fusion>),
     /// Wheels, gyroscope and, where it comes, the camera.
     Inertial {
-        /// The filter.
+        /// State, covariance and what waits for a late camera frame.
         filter: Box<Inertial>,
         /// What the sensor says at the coming tick.
         felt: Option<Reading>,

@@ -37,9 +37,9 @@ pub(crate) enum Pace {
 pub(crate) struct OpenCard {
     /// Its name: the slot.
     pub(crate) name: String,
-    /// The card.
+    /// Owner of the configuration port and of the bridge.
     pub(crate) card: Box<dyn PciCard>,
-    /// The built-in one.
+    /// Without a file: the gateware in the binary.
     #[cfg(feature = "simulation")]
     pub(crate) built_in: bool,
     /// The time in which it lives.
@@ -55,7 +55,7 @@ pub(crate) struct OpenCard {
 pub(crate) struct ReadyCard {
     /// Its name: the slot.
     pub(crate) name: String,
-    /// Its registers.
+    /// Window through which the FPGA is read and written.
     pub(crate) registers: RegisterWindow<Box<dyn PciCard>>,
     /// Measured clock, Hz.
     pub(crate) clock_hz: f64,

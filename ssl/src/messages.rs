@@ -215,7 +215,7 @@ pub struct SimulatorConfig {
     pub vision_port: Option<u32>,
 }
 
-/// What a robot is.
+/// Size, weight and limits of a robot, as the simulator is told.
 #[derive(Clone, PartialEq, Message)]
 pub struct RobotSpecs {
     #[prost(message, required, tag = "1")]

@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 pub struct Proof {
     /// Short name, also that of the checker's file.
     pub name: &'static str,
-    /// What is claimed.
+    /// In words, for the table.
     pub claim: &'static str,
     /// The module.
     pub module: &'static str,
@@ -78,7 +78,7 @@ pub enum FormalError {
     /// The module is not in the text.
     #[error("{proof}: there is no module `{module}` in the Verilog; was it renamed?")]
     NoModule {
-        /// The proof.
+        /// Name of its folder.
         proof: &'static str,
         /// The module.
         module: &'static str,
@@ -86,11 +86,11 @@ pub enum FormalError {
     /// An edit that does not find its place.
     #[error("{proof}: `{text}` stands {count} times in `{module}`, not once; adapt the mutant or the shrinking")]
     NoPlace {
-        /// The proof.
+        /// Name of its folder.
         proof: &'static str,
         /// The module.
         module: &'static str,
-        /// The text.
+        /// What was to be replaced in the Verilog.
         text: &'static str,
         /// How often it stands there.
         count: usize,
@@ -98,7 +98,7 @@ pub enum FormalError {
     /// The claim does not follow.
     #[error("{proof}{variant}: not proven within {depth} clocks: {answer}\n{log}")]
     NotProven {
-        /// The proof.
+        /// Name of its folder.
         proof: &'static str,
         /// Which variant of the module.
         variant: &'static str,
@@ -112,9 +112,9 @@ pub enum FormalError {
     /// A broken module that the checker takes for a good one.
     #[error("{proof}: the mutant \"{mutant}\" was not refuted within {depth} clocks: the claim is too weak\n{log}")]
     Survived {
-        /// The proof.
+        /// Name of its folder.
         proof: &'static str,
-        /// The mutant.
+        /// What was replaced in the Verilog.
         mutant: &'static str,
         /// Clocks that were tried.
         depth: u32,

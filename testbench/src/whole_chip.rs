@@ -61,9 +61,9 @@ pub enum Difference {
         pair: u64,
         /// What was compared.
         what: &'static str,
-        /// Of the chip.
+        /// Words as the Verilog gave them.
         chip: Vec<u32>,
-        /// Of the card.
+        /// Words as the twin gave them.
         card: Vec<u32>,
     },
 }

@@ -37,7 +37,7 @@ pub enum FrameError {
     Part {
         /// Byte of the file.
         offset: usize,
-        /// Its words.
+        /// How many words of frame data it holds.
         words: usize,
     },
     /// Frames without a place.
@@ -53,7 +53,7 @@ pub enum FrameError {
     Missing {
         /// The first of them.
         first: u16,
-        /// Its address.
+        /// As in the packet to FAR.
         address: u32,
         /// How many more.
         others: usize,

@@ -6,7 +6,7 @@ use super::{BYTES, FRAME_WORDS, FRAMES, PART};
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {fault}")]
 pub struct BitstreamError {
-    /// Which file.
+    /// As it was named on the command line.
     pub file: String,
     /// What is wrong.
     pub fault: Fault,
@@ -27,7 +27,7 @@ pub enum Fault {
     /// Another kind of file.
     #[error("this is {kind}; give the .bit file that the same build made")]
     Format {
-        /// Which kind.
+        /// What it is instead, as far as its first bytes tell.
         kind: &'static str,
     },
     /// The header ends early, or a length in it points beyond the end.

@@ -35,7 +35,7 @@ pub enum Packet {
     Write {
         /// The header as it stands.
         header: u32,
-        /// The register.
+        /// Number in the packet's header, see XAPP151.
         register: u32,
         /// What is written.
         words: Vec<u32>,

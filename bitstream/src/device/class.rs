@@ -8,7 +8,7 @@ use std::collections::HashMap;
 pub struct TileBit {
     /// Which rectangle of the tile.
     pub rectangle: u8,
-    /// Which frame of it.
+    /// Frame of that rectangle, from its first.
     pub frame: u8,
     /// Which bit from the tile's first.
     pub bit: u8,
@@ -80,7 +80,7 @@ pub enum PipKind {
     Mux {
         /// The multiplexer.
         attribute: u16,
-        /// Its choice.
+        /// Index into the attribute's choices.
         choice: u8,
         /// Must be 1 for the multiplexer to drive.
         drive: Option<u16>,
@@ -153,14 +153,14 @@ pub struct ClassBel {
     pub kind: BelKind,
     /// Which of its kind in the tile.
     pub index: u8,
-    /// Its pins.
+    /// Where routing ends or begins.
     pub pins: Vec<Pin>,
 }
 
 /// A pin of a basic element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Its name.
+    /// As the data sheet has it, such as `F1` or `XQ`.
     pub name: &'static str,
     /// It drives its wire.
     pub output: bool,
@@ -171,7 +171,7 @@ pub struct Pin {
 /// A kind of tile.
 #[derive(Clone, Debug)]
 pub struct TileClass {
-    /// Its name.
+    /// As in the data sheet where it has one.
     pub name: &'static str,
     /// Wires that switches and pins touch: cell of the tile and name.
     pub(super) wires: Vec<(u8, Name)>,

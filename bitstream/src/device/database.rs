@@ -61,7 +61,7 @@ pub(super) struct RawClass {
     pub(super) lines: Vec<Line>,
 }
 
-/// A tile.
+/// A place of the grid as the database's JSON has it.
 #[derive(Clone, Debug)]
 pub(super) struct RawTile {
     /// Index of its class.
@@ -95,7 +95,7 @@ pub(super) struct Database {
     pub(super) passes: [HashMap<Name, Name>; 4],
     /// Kinds of tiles.
     pub(super) classes: Vec<RawClass>,
-    /// Tiles.
+    /// Row by row, as the database lists them.
     pub(super) tiles: Vec<RawTile>,
 }
 

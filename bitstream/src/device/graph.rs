@@ -14,7 +14,7 @@ pub struct Arc {
 /// A switch of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pip {
-    /// Its tile.
+    /// Where its pips are.
     pub tile: TileId,
     /// From this wire.
     pub from: WireId,

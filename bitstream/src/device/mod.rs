@@ -169,7 +169,7 @@ impl Device {
         self.tiles().filter(move |(_, tile)| self.classes[usize::from(tile.class)].name == class)
     }
 
-    /// A tile.
+    /// What stands at a place of the grid.
     #[must_use]
     pub fn tile(&self, tile: TileId) -> &Tile {
         &self.tiles[usize::from(tile.0)]

@@ -160,7 +160,7 @@ impl Device {
         ((id as usize) < self.wires.len()).then_some(WireId(id))
     }
 
-    /// A wire.
+    /// What a number stands for.
     #[must_use]
     pub fn wire(&self, wire: WireId) -> &Wire {
         &self.wires[wire.0 as usize]

@@ -47,7 +47,7 @@ pub enum FlowError {
     /// A port that has no usable pin.
     #[error("port {port} {what}")]
     Pad {
-        /// Which port.
+        /// As the netlist calls it.
         port: String,
         /// What is wrong.
         what: String,
@@ -55,7 +55,7 @@ pub enum FlowError {
     /// A net for which there is no way.
     #[error("there is no way for net {net}")]
     Unroutable {
-        /// Which net.
+        /// As the netlist calls it.
         net: String,
     },
     /// Nets that could not agree.

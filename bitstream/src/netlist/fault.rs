@@ -12,7 +12,7 @@ pub enum NetlistFault {
     /// Two outputs against each other.
     #[error("{wire} is driven by {} and by {}: the two would fight", drivers[0], drivers[1])]
     TwoDrivers {
-        /// The wire.
+        /// Tile and name of where it was found.
         wire: String,
         /// What drives it.
         drivers: [String; 2],

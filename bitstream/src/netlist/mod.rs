@@ -57,7 +57,7 @@ pub struct Cell {
     pub kind: CellKind,
 }
 
-/// What a cell is.
+/// What the bits make of a site.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellKind {
     /// A table of 16 bits: bit {3, 2, 1, 0 of the inputs} is the output.

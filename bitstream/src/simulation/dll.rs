@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 /// Periods until a loop says that it has locked.
 const LOCK: u32 = 4;
 
-/// A loop.
+/// A delay-locked loop that has to see edges before it locks.
 #[derive(Clone, Debug)]
 pub(super) struct Loop {
     reset: Line,

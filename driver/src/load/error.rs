@@ -28,7 +28,7 @@ pub enum LoadError {
         "the FPGA did not clear: {line} stays high while PROGRAM is low; PROGRAM does not reach it, or its power is bad"
     )]
     NotCleared {
-        /// Which line.
+        /// `DONE` or `INIT`.
         line: &'static str,
     },
     /// INIT did not rise.

@@ -80,7 +80,7 @@ pub fn inspect<C: PciCard>(card: &mut C) -> Result<CardState, LoadError> {
 
 /// Where a HostMot2 design of the card's maker has its cookie and its name.
 const HOSTMOT2: u16 = 0x100;
-/// Its cookie.
+/// What the maker's own firmware answers at its first register.
 const HOSTMOT2_COOKIE: u32 = 0x55AA_CAFE;
 
 /// What a design that is not ours is, as far as it or the access path to the card says.

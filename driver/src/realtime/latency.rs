@@ -12,7 +12,7 @@ const LONGEST_NS: u64 = 10_000_000_000;
 #[derive(Clone, Debug)]
 pub struct Latency {
     nanoseconds: Histogram<u64>,
-    /// The last one.
+    /// Of the newest cycle.
     pub last: Duration,
     /// Ticks left out.
     pub missed: u64,

@@ -14,7 +14,7 @@ use crate::thresholds::ROLLING_LOSES;
 /// Gap figures of one link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkGap {
-    /// Link.
+    /// Between which two stages it was measured.
     pub link: Link,
     /// Held-out RMS in units of the noise floor, nominal.
     pub before: f64,

@@ -12,7 +12,7 @@ use crate::segment::Segment;
 pub struct Instant<'a> {
     /// The piece of log.
     pub segment: &'a Segment,
-    /// The tick.
+    /// Index in the segment.
     pub tick: usize,
     /// Seconds since the start of the stretch.
     pub time_s: f64,

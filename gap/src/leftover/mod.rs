@@ -96,9 +96,9 @@ pub(crate) fn drive(
 
 /// One wheel's torque left, at the times of its test functions.
 struct Wheel {
-    /// Run of each.
+    /// Index of the log that holds each test function.
     run: Vec<usize>,
-    /// Segment of each.
+    /// Index of the segment that holds each.
     segment: Vec<usize>,
     /// Middle of each, s.
     t: Vec<f64>,

@@ -6,7 +6,7 @@
 /// A parsed expression over an indexed list of names.
 #[derive(Debug, Clone)]
 pub enum Expression {
-    /// A number.
+    /// A constant as it was written.
     Number(f64),
     /// The value at this index of the names.
     Name(usize),

@@ -51,7 +51,7 @@ pub enum PortError {
     Unsupported {
         /// The module.
         module: String,
-        /// The port.
+        /// Name in the Verilog.
         port: String,
         /// What is wrong, and what to do.
         reason: String,

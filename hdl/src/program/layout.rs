@@ -14,7 +14,7 @@ use fixed_kin::pose;
 use fixed_kin::registers;
 use fixed_kin::speed::EDGE_TIMEOUT;
 
-/// Words of the memory.
+/// Of 32 bits, for values between two instructions.
 pub const MEMORY_WORDS: usize = 256;
 
 /// An address of the program: a word, or one word per axis.

@@ -47,9 +47,9 @@ pub enum Part {
     Sideways,
     /// A skew for each wheel.
     Skews,
-    /// The place of the marker.
+    /// Where on the robot the camera's marker is, m.
     MarkerPlace,
-    /// The heading of the marker.
+    /// How far the marker is turned against the robot, rad.
     MarkerHeading,
     /// A latency that all runs share.
     Latency,
@@ -213,7 +213,7 @@ fn simpler(chosen: &[Part]) -> Vec<Vec<Part>> {
 enum Folds {
     /// One block of [`FOLDS`].
     Blocks,
-    /// A run.
+    /// Wheel steps and poses of one run.
     Runs,
 }
 

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use fixed_kin::speed::SpeedMode;
 use simulator::fpga::{Fpga, Kind};
 
-/// Which FPGA.
+/// What computes behind the card's registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FpgaChoice {
     /// The bit-true model in fixed-point arithmetic: fast, needs nothing

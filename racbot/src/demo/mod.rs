@@ -14,7 +14,7 @@ pub(crate) struct Report {
     pictures: Vec<Picture>,
 }
 
-/// One part.
+/// A step of the demo: what it shows and whether it held.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// Short name.

@@ -192,9 +192,9 @@ pub struct Machine {
     pub ground: Ground,
     /// Motors and battery.
     pub power: Power,
-    /// The camera.
+    /// Noise, delay and place of its marker.
     pub camera: Camera,
-    /// The controller.
+    /// Gains and what it does wrong.
     pub controller: Controller,
     /// Ground noise.
     pub roughness: Roughness,

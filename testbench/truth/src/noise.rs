@@ -7,7 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 /// What a stream of random numbers is for; adding a use never changes the numbers of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stream {
-    /// Which robot it is.
+    /// Where wheels, mass and floor vary.
     Robot,
     /// Nuisances that every set has.
     Nuisance,

@@ -35,7 +35,7 @@ pub struct Truth {
     pub conditions: Conditions,
     /// What every set has.
     pub nuisance: Nuisance,
-    /// The runs.
+    /// In the order of their files.
     pub runs: Vec<RunTruth>,
 }
 
@@ -78,7 +78,7 @@ impl Nuisance {
     }
 }
 
-/// One run of the truth.
+/// A recording: what was driven, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunTruth {
     /// File name.

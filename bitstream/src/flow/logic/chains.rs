@@ -21,7 +21,7 @@ pub enum Data {
     Pin(Net),
 }
 
-/// One bit of a chain.
+/// A LUT with the carry multiplexer and exclusive-or beside it.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct ChainBit {
     /// The half sum, which is also the select of the carry.

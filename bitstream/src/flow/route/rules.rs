@@ -13,7 +13,7 @@ pub enum RouteFault {
     /// Two nets on a wire, or one twice.
     #[error("{wire} is driven by nets {first} and {second}")]
     Shared {
-        /// The wire.
+        /// Tile and name of what two nets drive.
         wire: String,
         /// A net's number.
         first: usize,
@@ -25,7 +25,7 @@ pub enum RouteFault {
     Loose {
         /// The net's number.
         net: usize,
-        /// The wire.
+        /// Tile and name of where the branch starts.
         wire: String,
     },
     /// A sink that the net does not reach.
@@ -33,7 +33,7 @@ pub enum RouteFault {
     Open {
         /// The net's number.
         net: usize,
-        /// The wire.
+        /// Tile and name of the pin that waits for it.
         wire: String,
     },
     /// Too many pass gates in series.
