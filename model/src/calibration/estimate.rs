@@ -135,8 +135,8 @@ impl SkewEstimate {
 pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitError> {
     let n = robot.wheel_count();
     let options = FitOptions { window_s: WINDOW_S, noise: robot.camera_noise, ..FitOptions::default() };
-    let parts = match structure::choose(robot, runs, &options) {
-        Ok(parts) => parts,
+    let (parts, blocks) = match structure::choose(robot, runs, &options) {
+        Ok(chosen) => chosen,
         Err(FitError::NoWindows) => return Ok(nothing(robot, runs)),
         Err(e) => return Err(e),
     };
@@ -197,6 +197,14 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
     }
     let said = estimate.sizes.remarks(skewed);
     estimate.remarks.extend(said);
+    if blocks < structure::FEWEST_BLOCKS {
+        estimate.remarks.push(format!(
+            "Camera and encoders overlap for {blocks} stretches of {WINDOW_S:.0} s, too few to test what part of the robot is at \
+             fault on stretches that had no part in the fit: whether it is a skew, a radius or the marker is not proven. Log \
+             at least {}.",
+            structure::FEWEST_BLOCKS
+        ));
+    }
     Ok(estimate)
 }
 

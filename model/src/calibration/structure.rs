@@ -26,6 +26,8 @@ const ALIKE: f64 = 1.0;
 /// It stays from this many: with eight parts and eight blocks or more (Student's t), a robot that needs none keeps
 /// one in at most one of twelve data sets.
 const KEPT: f64 = 3.0;
+/// Blocks from which that holds. With fewer of them hardly anything is held out, and a radius passes for a skew.
+pub(super) const FEWEST_BLOCKS: usize = 8;
 /// Or it stays if without it so much more is left in the held-out blocks: where a few manoeuvres alone show a part, its
 /// gain varies from block to block however large it is.
 const LARGE: f64 = 0.25;
@@ -125,11 +127,12 @@ pub(super) fn with(parts: &[Part], part: Part) -> Vec<Part> {
     kept.chain([part]).collect()
 }
 
-/// The parts that these logs ask for, [`Part::Latency`] or [`Part::Clocks`] among them.
+/// The parts that these logs ask for, [`Part::Latency`] or [`Part::Clocks`] among them, and the blocks that the choice
+/// was tested on.
 ///
 /// # Errors
 /// [`FitError`] if there is nothing to compare.
-pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Result<Vec<Part>, FitError> {
+pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Result<(Vec<Part>, usize), FitError> {
     let wheels = robot.wheel_count();
     let every: Vec<Part> = Part::ALL.into_iter().filter(|part| part.tells(robot, runs.len())).collect();
     let all = parameters(&every, wheels, runs.len());
@@ -137,6 +140,7 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
     // Clocks set by hand would hide all else from other runs: one for each until the end.
     let mut chosen = vec![if runs.len() > 1 { Part::Clocks } else { Part::Latency }];
     let mut values = DVector::zeros(all.len());
+    let mut blocks = 0;
     let mut stages = [false, true].into_iter().peekable();
     for _ in 0..MOVES {
         let at: Vec<f64> = values.iter().zip(&all).map(|(v, p)| v * p.scale()).collect();
@@ -145,6 +149,7 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
             other => other?,
         };
         let held = HeldOut::new(&equations, &all, &values, runs.len());
+        blocks = held.blocks.len();
         let indices = |parts: &[Part]| held.indices(&parameters(parts, wheels, runs.len()));
         let try_out = |parts: Vec<Part>| {
             let losses = held.losses(&indices(&parts), Folds::Blocks);
@@ -178,7 +183,7 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
         }
         (chosen, values) = (next, moved);
     }
-    Ok(chosen)
+    Ok((chosen, blocks))
 }
 
 /// The choices with one part more, or two: a marker off the centre can hide a radius, and a radius the marker.

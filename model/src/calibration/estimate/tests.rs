@@ -164,6 +164,21 @@ fn a_wrong_radius_is_called_a_radius() {
 }
 
 #[test]
+fn few_windows_prove_neither_a_radius_nor_a_skew() {
+    let said = |seconds: f64| {
+        let truth = Robot { wheel_radius_m: 0.925 * Robot::racbot().wheel_radius_m, ..Robot::racbot() };
+        let mut robot = virtual_robot(&truth, 5);
+        calibration_drive(&mut robot, 0.8, seconds, &Robot::racbot().geometry().unwrap());
+        let e = estimate_skew(&Robot::racbot(), &[robot.into_log()]).unwrap();
+        (e.remarks.iter().any(|r| r.contains("is not proven")), e.remarks)
+    };
+    for (seconds, wanted) in [(5.0, true), (30.0, false)] {
+        let (unproven, remarks) = said(seconds);
+        assert_eq!(unproven, wanted, "{seconds} s: {remarks:?}");
+    }
+}
+
+#[test]
 fn one_small_wheel_is_one_small_wheel() {
     let mut robot = virtual_robot(&Robot::racbot(), 11);
     calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
