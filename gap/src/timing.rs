@@ -48,7 +48,15 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
     let mut parameters = vec![("jitter_s".to_owned(), scatter, known)];
     if lost > 0.01 {
         let sd = (lost * (1.0 - lost) / frames).sqrt();
-        parameters.push(("dropped".to_owned(), lost, Interval::Ci95([(lost - 2.0 * sd).max(0.0), lost + 2.0 * sd])));
+        let ends = [(lost - 2.0 * sd).max(0.0), lost + 2.0 * sd];
+        // Of frames that overtake each other the log holds one: not all that is missing was dropped.
+        let overtaken = overtaken(known.ends().map_or(scatter, |ends| ends[1]) * robot.camera_rate_hz);
+        let known = if folded > 1.0 {
+            Interval::Bound([(ends[0] - overtaken).max(0.0), ends[1]])
+        } else {
+            Interval::Ci95(ends)
+        };
+        parameters.push(("dropped".to_owned(), lost, known));
     }
     let evidence = Evidence::Test {
         method: "chi-squared of the stamps' scatter against rounding to ticks",
@@ -68,6 +76,11 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
         unexplained: false,
         replay: None,
     })
+}
+
+/// Share of the frames that the next one overtakes where stamps scatter by so many periods, normally distributed.
+fn overtaken(periods: f64) -> f64 {
+    0.5 * estimation::statistics::chi2_upper(0.5 / (periods * periods).max(1e-300), 1.0)
 }
 
 /// The regular grid that the stamps scatter about, one time a frame.
@@ -155,6 +168,13 @@ mod tests {
             square += grid(&stamps, 60.0).iter().zip(&stamps).map(|(g, s)| (g - s).powi(2)).sum::<f64>();
         }
         (square / count).sqrt()
+    }
+
+    #[test]
+    fn frames_overtake_each_other_where_stamps_scatter_by_half_a_period() {
+        for (periods, share) in [(0.1, 0.0), (0.5, 0.0786), (1.0, 0.2398)] {
+            assert!((overtaken(periods) - share).abs() < 1e-3, "{periods}: {}", overtaken(periods));
+        }
     }
 
     #[test]
