@@ -81,6 +81,9 @@ pub struct Named {
     pub gain: f64,
     /// What the name rests on.
     pub evidence: Evidence,
+    /// Effects on whose absence its sizes depend: the named ones can do what they do, with a part of what they are free
+    /// to do, and how much of it is theirs does not show.
+    pub conditional_on: Vec<String>,
 }
 
 /// An effect that is detectable but immaterial, or the limit from which it would be named.
@@ -251,7 +254,14 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut thresholds = options.thresholds.clone();
     let motion_link = MotionLink::new(&pieces, noise, window_s).felt(&start.motion(None));
     let has_motion = (!motion_link.is_empty() || motion_link.inertial.is_some()) && robot.support == Support::Floor;
-    let data = Data { pieces: &pieces, motion: &motion_link, has_motion, logs: &set.logs, catalogue: &catalogue };
+    let data = Data {
+        pieces: &pieces,
+        motion: &motion_link,
+        has_motion,
+        logs: &set.logs,
+        catalogue: &catalogue,
+        thresholds: &options.thresholds,
+    };
     start = data.state(&set.robot);
     let nominal = start.clone();
     let mut study = Findings::default();
@@ -307,7 +317,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
                 known,
                 &here,
                 thresholds,
-                gaps::FAR * gaps::floor_of_scatter(link, floor),
+                gaps::FAR * gaps::floor_of_scatter(link, floor, thresholds),
             )
         };
         let from = start.active.len();
@@ -317,7 +327,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             if !selection.state.active[from..].iter().any(Active::is_named) {
                 break;
             }
-            let sticks = link.mask_sticking(&selection.state.drive(None)) > crate::thresholds::STICKS_OFTEN;
+            let sticks = link.mask_sticking(&selection.state.drive(None), thresholds.sticks) > thresholds.sticks_often;
             let noise = (&floor[..], thresholds.drive_correlation);
             match lowered(&link, &selection.state, noise, reached) {
                 Some((lower, correlation)) => {
@@ -331,7 +341,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
             selection = looked(&link, &thresholds, &selection.state.active[from..], &floor);
         }
         options.reached(Stage::DriveChosen);
-        let least = gaps::floor_of_scatter(&link, &floor);
+        let least = gaps::floor_of_scatter(&link, &floor, &thresholds);
         let mut outcome =
             study::study(&Problem::Drive(&link), &start, selection, &here, &thresholds, gaps::FAR * least);
         outcome.held_out /= least;
@@ -664,5 +674,6 @@ fn exact_named(f: &Finding, link: &ExactLink) -> Named {
         parameters: f.parameters.clone(),
         gain: gain.clamp(0.0, 1.0),
         evidence: f.evidence.clone(),
+        conditional_on: Vec::new(),
     }
 }

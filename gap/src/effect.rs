@@ -213,6 +213,12 @@ pub struct Sizes {
     pub drive_nm: f64,
     /// Speed of the wheels while they turned, rad/s.
     pub speed: f64,
+    /// Count of the encoders, rad at the wheel shaft.
+    pub count_rad: f64,
+    /// Time within which a step of an angle shows as a torque, s: the length of a test function.
+    pub test_function_s: f64,
+    /// Longest run without a gap, s.
+    pub run_s: f64,
 }
 
 impl Sizes {
@@ -231,6 +237,9 @@ impl Sizes {
             stall_a,
             drive_nm: stall_nm,
             speed: thresholds::USUAL_SPEED * no_load,
+            count_rad: 1.0 / robot.counts_per_wheel_rad(),
+            test_function_s: crate::drive::TEST_FUNCTION_S,
+            run_s: f64::INFINITY,
         }
     }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::drive::{DriveLink, DriveModel, Side};
 use crate::effect::{Effect, Link, Parameter, Sizes};
 use crate::motion::{MotionLink, MotionModel};
+use crate::options::Thresholds;
 use crate::state::{Active, State};
 use estimation::normal_equations::{Cluster, NormalEquations};
 
@@ -189,7 +190,7 @@ impl Problem<'_> {
 
     /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
     /// changes what is to be moved, in the torque of its own inertia.
-    pub fn runs_away(&self, state: &State, other: &State) -> bool {
+    pub fn runs_away(&self, state: &State, other: &State, thresholds: &Thresholds) -> bool {
         let Self::Drive(link) = self else { return false };
         let (one, other) = (state.drive(None), other.drive(None));
         let worse = |of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64| match (of(&one), of(&other)) {
@@ -199,12 +200,12 @@ impl Problem<'_> {
         };
         let moves = |m: &DriveModel| m.mechanics().map(|m| m.inertia);
         moves(&one) != moves(&other) && worse(&|m| crate::drive::in_own_torque(link, m), 0.0)
-            || worse(&|m| crate::drive::runaway(link, m), crate::thresholds::RUNAWAY)
+            || worse(&|m| crate::drive::runaway(link, m), thresholds.runaway)
     }
 
     /// Whether an effect of a state opens the gap far beyond that of `start` if it alone is taken out: then the others
     /// undo most of what it does, and neither they nor it are the cause.
-    pub fn is_cancelled(&self, state: &State, index: usize, start: &State) -> bool {
+    pub fn is_cancelled(&self, state: &State, index: usize, start: &State, thresholds: &Thresholds) -> bool {
         let open = |state: &State| {
             let (square, n) = self.linearise_nothing(state).plain();
             (square - n, n)
@@ -212,7 +213,7 @@ impl Problem<'_> {
         let mut without = state.clone();
         without.active.remove(index);
         let (before, n) = open(start);
-        open(&without).0 > crate::thresholds::CANCELS * before.max(n)
+        open(&without).0 > thresholds.cancels * before.max(n)
     }
 
     /// Sum of squares of the residuals of a state.

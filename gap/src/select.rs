@@ -17,7 +17,6 @@ use crate::effect::{Effect, Link};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
-use crate::thresholds::{AS_WELL, FAR_LEFT, FROM_NOISE, UNDECIDED, decided};
 use estimation::normal_equations::NormalEquations;
 
 use gates::Gates;
@@ -82,12 +81,12 @@ pub fn select(
     // What is left far above the noise is not a little of everything: another search in which next to nothing is
     // adjusted without a name.
     let left = raw(&best);
-    if problem.link() != Link::Drive || left < FAR_LEFT {
+    if problem.link() != Link::Drive || left < thresholds.far_left {
         return best;
     }
     let other = searched(problem, start, &[], &all, &thresholds.narrow());
     let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
-    if named(&other) && raw(&other) < AS_WELL * left { other } else { best }
+    if named(&other) && raw(&other) < thresholds.as_well * left { other } else { best }
 }
 
 /// RMS of the residuals in units of the noise.
@@ -97,8 +96,8 @@ fn raw(found: &Selection) -> f64 {
 }
 
 /// Whether a law of the drive leaves far more than another, each fitted with nothing adjusted beside it.
-fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection) -> bool {
-    if problem.link() != Link::Drive || raw(worse) <= FROM_NOISE {
+fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection, thresholds: &Thresholds) -> bool {
+    if problem.link() != Link::Drive || raw(worse) <= thresholds.from_noise {
         return false;
     }
     let alone = |found: &Selection| {
@@ -108,7 +107,7 @@ fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection) -> 
         (square / n.max(1.0)).sqrt()
     };
     let left = alone(worse);
-    left > FROM_NOISE && decided(left, alone(better))
+    left > thresholds.from_noise && thresholds.decided(left, alone(better))
 }
 
 fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
@@ -148,7 +147,7 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
     // What is larger must also stand on the held-out runs, every part of it beside the others.
     let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
-    if better && stands() && !problem.runs_away(&other.state, &best.state) { other } else { best }
+    if better && stands() && !problem.runs_away(&other.state, &best.state, thresholds) { other } else { best }
 }
 
 /// The design from which effects that are given go on.
@@ -198,7 +197,8 @@ pub fn single(
     let settled = settle(problem, &mut state, &all, &narrow);
     let found = finish(state, settled, start.active.len(), &narrow);
     let found = sure::sure(problem, found, start.active.len(), &all, &narrow);
-    let sound = found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start);
+    let sound =
+        found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start, thresholds);
     sound.then_some(found)
 }
 
@@ -225,8 +225,8 @@ fn swap(
             .fold(0.0, f64::max);
         // Laws that leave much above the noise are not exact enough to decide by little.
         let (square, n) = best.design.linear.equations.plain();
-        let open = UNDECIDED * (square - n).max(0.0) / best.design.variance;
-        let far = raw(&best) > FAR_LEFT && problem.link() == Link::Drive;
+        let open = thresholds.undecided * (square - n).max(0.0) / best.design.variance;
+        let far = raw(&best) > thresholds.far_left && problem.link() == Link::Drive;
         let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
         let most = if far { 8 } else { 3 };
         let mut tried: Vec<&str> = vec![own.effect.name()];
@@ -248,12 +248,12 @@ fn swap(
             // What leaves far more than another law of no more parameters is not chosen, however it looks with
             // everything else adjusted.
             let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];
-            if fewer <= more && leaves_far_more(problem, &alternative, &best) {
+            if fewer <= more && leaves_far_more(problem, &alternative, &best, thresholds) {
                 continue;
             }
-            let clear = more <= fewer && leaves_far_more(problem, &best, &alternative);
+            let clear = more <= fewer && leaves_far_more(problem, &best, &alternative, thresholds);
             let needed = if simpler || clear { tie } else { -tie };
-            if alternative.against(&best) < needed && !problem.runs_away(&alternative.state, &without) {
+            if alternative.against(&best) < needed && !problem.runs_away(&alternative.state, &without, thresholds) {
                 best = alternative;
                 changed = true;
                 break;
@@ -320,7 +320,7 @@ fn forward(problem: &Problem, mut design: Design, from: usize, all: &[Active], t
             larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
             larger.active.push(active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &design, from, thresholds) || problem.runs_away(&larger, &state) {
+            if !improves(&settled, &design, from, thresholds) || problem.runs_away(&larger, &state, thresholds) {
                 refused.push(next.candidate);
                 continue;
             }

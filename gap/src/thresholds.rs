@@ -60,15 +60,6 @@ pub const UNDECIDED: f64 = 0.3;
 /// whose torque constant was 13 % off left 2.0 by viscous friction and 1.1 by the torque constant.
 pub const FROM_NOISE: f64 = 1.5;
 
-/// Whether the floors left of one law speak against it beside those that another one of no more parameters leaves,
-/// however much both explain: far from the noise, where the other is hardly above it. A servo whose torque constant was
-/// 17 % off (500 floors) was explained to 1 % by viscous friction, which left 26 floors where the torque constant left
-/// 0.9.
-pub fn decided(worse: f64, better: f64) -> bool {
-    let excess = |floors: f64| (floors * floors - 1.0).max(0.0);
-    worse > FROM_NOISE && excess(better) < UNDECIDED * excess(worse)
-}
-
 /// Share of what is more than noise without it that an effect too small to matter alone must close to be named beside
 /// others. A servo's viscous friction, a tenth of its dry friction, closed all that this left; on wheels that stick
 /// between moves viscous friction that is not there closes a part of it, estimated at a quarter and not measured.
@@ -172,16 +163,6 @@ mod tests {
             bounds: [-0.6, 2.0],
             sized: true,
             absent_at_zero: true,
-        }
-    }
-
-    #[test]
-    fn a_law_is_decided_against_only_far_from_the_noise() {
-        // Floors left by the one, by the other, and whether that speaks against the one.
-        for (worse, better, wanted) in
-            [(26.0, 0.9, true), (2.0, 1.1, true), (1.4, 0.9, false), (26.0, 20.0, false), (1.0, 26.0, false)]
-        {
-            assert_eq!(decided(worse, better), wanted, "{worse} {better}");
         }
     }
 

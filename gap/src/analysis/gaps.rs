@@ -8,8 +8,8 @@ use crate::effect::{Link, Sizes};
 use crate::exact::ExactLink;
 use crate::inertial::{self, Fit};
 use crate::motion::{MotionLink, WindowResiduals};
+use crate::options::Thresholds;
 use crate::pieces::Pieces;
-use crate::thresholds::ROLLING_LOSES;
 
 /// Gap figures of one link.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,18 +121,18 @@ pub(super) fn motion_matters(link: &MotionLink) -> f64 {
 }
 
 /// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and on a floor what rolling loses.
-pub(super) fn drive_floor(link: &DriveLink, scatter: &[f64]) -> Vec<f64> {
+pub(super) fn drive_floor(link: &DriveLink, scatter: &[f64], thresholds: &Thresholds) -> Vec<f64> {
     let lost = match link.pieces.robot().support {
-        Support::Floor => ROLLING_LOSES * link.sizes.drive_nm,
+        Support::Floor => thresholds.rolling_loses * link.sizes.drive_nm,
         Support::Blocks => 0.0,
     };
     scatter.iter().map(|s| s.hypot(lost)).collect()
 }
 
 /// The RMS of that floor in units of the scatter.
-pub(super) fn floor_of_scatter(link: &DriveLink, scatter: &[f64]) -> f64 {
+pub(super) fn floor_of_scatter(link: &DriveLink, scatter: &[f64], thresholds: &Thresholds) -> f64 {
     let rms = |nm: &[f64]| estimation::statistics::rms(nm.iter().copied());
-    rms(&drive_floor(link, scatter)) / rms(scatter)
+    rms(&drive_floor(link, scatter, thresholds)) / rms(scatter)
 }
 
 /// What is left on a link after everything that is named.

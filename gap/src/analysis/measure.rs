@@ -15,6 +15,7 @@ use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link};
 use crate::inertial::{self, Fit, InertialLink};
 use crate::motion::{MotionLink, WindowResiduals};
+use crate::options::Thresholds;
 use crate::pieces::Pieces;
 use crate::problem::Problem;
 use crate::state::{Active, State};
@@ -30,6 +31,7 @@ pub(super) struct Data<'a> {
     pub(super) has_motion: bool,
     pub(super) logs: &'a [Log<'a>],
     pub(super) catalogue: &'a [Arc<dyn Effect>],
+    pub(super) thresholds: &'a Thresholds,
 }
 
 /// The drive link under one model of the motion, its floor and the correlation of its residuals.
@@ -107,7 +109,7 @@ impl<'a> Data<'a> {
         let mut residuals = link.residuals(&model)?;
         let (mut floor, mut correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
         link.noise = floor;
-        if link.mask_sticking(&model) > 0.0 {
+        if link.mask_sticking(&model, self.thresholds.sticks) > 0.0 {
             residuals = link.residuals(&model)?;
             (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
             link.noise = floor;
@@ -163,7 +165,7 @@ impl<'a> Data<'a> {
         }
         let mut drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
         if let Some(Drive { link, .. }) = &mut drive {
-            link.noise = gaps::drive_floor(link, &link.noise);
+            link.noise = gaps::drive_floor(link, &link.noise, self.thresholds);
         }
         if let Some(drive) = &drive {
             let problem = Problem::Drive(&drive.link);

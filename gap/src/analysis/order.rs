@@ -66,5 +66,6 @@ pub(super) fn order_named(active: &Active, gain: f64) -> Named {
         parameters: active.values.0.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact)).collect(),
         gain,
         evidence,
+        conditional_on: Vec::new(),
     }
 }

@@ -14,6 +14,10 @@ fn equation(name: &str, catalogue: &[Arc<dyn Effect>]) -> String {
     catalogue.iter().find(|e| e.name() == name).map_or("", |e| e.equation()).to_owned()
 }
 
+/// Share of a ripple that its contact may swallow, at 95 %: wheels creep, and the robot gives way. On three simulated
+/// robots of the blind bench 3.2 to 5.1 % were missing.
+const CREEPS: f64 = 0.06;
+
 /// Whether the wheels of a machine have rollers: it stands on the floor, and can move sideways only on them.
 fn has_rollers(robot: &Robot) -> bool {
     robot.support == Support::Floor && robot.wheel_count() > 2
@@ -46,6 +50,7 @@ pub(super) fn ripple_named(
     } else {
         estimation::statistics::t_quantile_975(usize::MAX) * noise
     };
+    let half = half.hypot(CREEPS * amplitude);
     let what =
         format!("a line {} times a turn whose phase the wheel's angle fixes (Rayleigh, chi-squared)", ripple.count);
     Ok(Named {
@@ -59,6 +64,7 @@ pub(super) fn ripple_named(
         ],
         gain: 0.0,
         evidence: Evidence::Pattern { what, p: Some(ripple.p_value) },
+        conditional_on: Vec::new(),
     })
 }
 
@@ -96,5 +102,6 @@ pub(super) fn rattling(
             what: "rotors accelerate beyond what the stalled motor could give the wheel".to_owned(),
             p: None,
         },
+        conditional_on: Vec::new(),
     })
 }

@@ -112,6 +112,9 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         if !twins.is_empty() {
             other.insert("cannot_be_told_from".to_owned(), strings(&twins));
         }
+        if !n.conditional_on.is_empty() {
+            other.insert("conditional_on".to_owned(), strings(&n.conditional_on));
+        }
         let parameters: Vec<(String, EffectParameter)> = n
             .parameters
             .iter()

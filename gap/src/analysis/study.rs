@@ -104,8 +104,7 @@ pub(super) fn study(
 ) -> Outcome {
     let all = problem.candidates(start, catalogue);
     let from = start.active.len();
-    let (selection, mut refused) = admitted(problem, selection, start, &all, thresholds);
-    let mut judged = judge(problem, start, selection);
+    let (mut judged, mut refused) = sound(problem, selection, start, &all, thresholds);
     // What laws of what is named may leave is nothing to explain by small effects.
     let design = &judged.selection.design;
     let laws = design.left_by_laws() / design.linear.equations.plain().1.max(1.0);
@@ -113,8 +112,7 @@ pub(super) fn study(
         && judged.rms.powi(2) - 1.0 > laws
         && let Some(several) = several(problem, start, &judged, &all, thresholds)
     {
-        let (selection, more) = admitted(problem, several, start, &all, thresholds);
-        let again = judge(problem, start, selection);
+        let (again, more) = sound(problem, several, start, &all, thresholds);
         if again.rms < judged.rms {
             judged = again;
             refused.extend(more);
@@ -142,7 +140,7 @@ pub(super) fn study(
         ambiguous |= alternatives.ambiguous && !own.is_empty();
         sets.extend(own);
         let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
-        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all)) {
+        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all, thresholds)) {
             let name = at.map_or("", |at| other.active[at].effect.name());
             let pair = vec![active.effect.name().to_owned(), name.to_owned()];
             if !sets.contains(&pair) {
@@ -160,6 +158,7 @@ pub(super) fn study(
             // Known when the file is written and read again.
             gain: 0.0,
             evidence: Evidence::Test { method: "signs of whole clusters flipped", p: estimate.p },
+            conditional_on: alternatives.shared,
         });
     }
     let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
@@ -227,7 +226,7 @@ fn several(
         });
         match least.min_by(|a, b| a.0.total_cmp(&b.0)) {
             None => return None,
-            Some(without) if without.0 - now < thresholds::LEAST_TOGETHER * (without.0 - noise) => kept = without,
+            Some(without) if without.0 - now < thresholds.least_together * (without.0 - noise) => kept = without,
             Some(_) => break,
         }
     }
@@ -250,6 +249,41 @@ struct Judged {
     rms: f64,
 }
 
+/// A selection judged, without what may not be named by the estimates that are reported, and why not.
+fn sound(
+    problem: &Problem,
+    selection: Selection,
+    start: &State,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> (Judged, Vec<String>) {
+    let (mut selection, mut refused) = admitted(problem, selection, start, all, thresholds);
+    loop {
+        let judged = judge(problem, start, selection);
+        let active = |e: &Estimate| &judged.selection.state.active[e.index];
+        let faults = judged.estimates.iter().filter_map(|e| Some((e, fault(active(e), e)?)));
+        let worst = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p).then(a.0.index.cmp(&b.0.index)));
+        let Some((estimate, why)) = worst else { return (judged, refused) };
+        let name = active(estimate).effect.name().to_owned();
+        refused.push(not_named(problem, &name, &why));
+        let fewer = select::without(
+            problem,
+            &judged.selection,
+            start.active.len(),
+            |a| a.effect.name() != name,
+            all,
+            thresholds,
+        );
+        let more;
+        (selection, more) = admitted(problem, fewer, start, all, thresholds);
+        refused.extend(more);
+    }
+}
+
+fn not_named(problem: &Problem, name: &str, why: &str) -> String {
+    format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name())
+}
+
 /// Takes out of a selection what may not be named, one effect after the other, and says why.
 fn admitted(
     problem: &Problem,
@@ -262,7 +296,7 @@ fn admitted(
     let mut refused = Vec::new();
     loop {
         let estimates = estimates(problem, &selection, from, selection.bare);
-        let cancelled = |e: &Estimate| problem.is_cancelled(&selection.state, e.index, start);
+        let cancelled = |e: &Estimate| problem.is_cancelled(&selection.state, e.index, start, thresholds);
         let why = |e: &Estimate| {
             fault(&selection.state.active[e.index], e)
                 .or_else(|| cancelled(e).then(|| thresholds::Refusal::Cancelled.reason().to_owned()))
@@ -276,7 +310,7 @@ fn admitted(
         let worst = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p).then(rank(a.0).cmp(&rank(b.0))));
         let Some((estimate, why)) = worst else { return (selection, refused) };
         let name = selection.state.active[estimate.index].effect.name().to_owned();
-        refused.push(format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()));
+        refused.push(not_named(problem, &name, &why));
         selection = select::without(problem, &selection, from, |a| a.effect.name() != name, all, thresholds);
     }
 }

@@ -23,6 +23,7 @@ pub use columns::Side;
 pub use floor::{Generic, Left, floor};
 pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
+pub(crate) use test_functions::TEST_FUNCTION_S;
 pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.

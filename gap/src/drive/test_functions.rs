@@ -16,7 +16,7 @@ use crate::thresholds;
 use estimation::normal_equations::Cluster;
 
 /// Length of a test function, s, and in ticks at least.
-const TEST_FUNCTION_S: f64 = 0.12;
+pub(crate) const TEST_FUNCTION_S: f64 = 0.12;
 const FEWEST_TICKS: f64 = 12.0;
 /// Length of a cluster, s, and in test functions at least.
 const CLUSTER_S: f64 = 1.0;
@@ -92,11 +92,13 @@ impl<'a> DriveLink<'a> {
         let mut test_functions = Vec::new();
         let mut cluster = 0;
         let total = pieces.seconds();
+        let mut longest = 0.0_f64;
         for (index, s) in pieces.iter().enumerate() {
             if s.duty.len() != n || s.angle.len() != n || s.t.len() < 2 * FEWEST_TICKS as usize {
                 continue;
             }
             let end = s.t[s.t.len() - 1];
+            longest = longest.max(s.stretch[1] - s.stretch[0]).max(end - s.t[0]);
             let tick = (end - s.t[0]) / (s.t.len() - 1) as f64;
             let length = test_function_s.max(FEWEST_TICKS * tick);
             let cluster_s = CLUSTER_S.max(0.5 * FEWEST_TEST_FUNCTIONS * length).max(total / MOST_CLUSTERS);
@@ -123,6 +125,8 @@ impl<'a> DriveLink<'a> {
         let mut link =
             Self { pieces, inertia, noise: vec![1.0; n], sizes, test_functions, columns: Columns::default() };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
+        link.sizes.test_function_s = link.length();
+        link.sizes.run_s = longest;
         Some(link)
     }
 
@@ -166,22 +170,23 @@ impl<'a> DriveLink<'a> {
 
     /// Leaves out what a wheel did while it may have stuck to a friction of this model that is not small beside the
     /// noise: then it is anything up to its size, in either direction. Returns the share of the test functions that
-    /// went. Where most would go, for wheels that hardly ever turn freely, all stay.
-    pub fn mask_sticking(&mut self, model: &DriveModel) -> f64 {
+    /// went. Where most would go, for wheels that hardly ever turn freely, all stay. `sticks` is the torque of that
+    /// friction in standard deviations of the noise.
+    pub fn mask_sticking(&mut self, model: &DriveModel, sticks: f64) -> f64 {
         let Some(first) = self.test_functions.first() else { return 0.0 };
         let friction = model.standing_friction(&self.pieces.get(first.segment));
-        let sticks = |b: &TestFunction, i: usize| b.stuck[i] * friction[i] > thresholds::STICKS * self.noise[i];
+        let stuck = |b: &TestFunction, i: usize| b.stuck[i] * friction[i] > sticks * self.noise[i];
         let turned = |b: &TestFunction, i: usize| b.weights[i] > 0.0;
         let each = || self.test_functions.iter().flat_map(|b| (0..b.weights.len()).map(move |i| (b, i)));
         let all = each().filter(|(b, i)| turned(b, *i)).count();
-        let gone = each().filter(|(b, i)| turned(b, *i) && sticks(b, *i)).count();
+        let gone = each().filter(|(b, i)| turned(b, *i) && stuck(b, *i)).count();
         if gone == 0 || 2 * gone > all {
             return 0.0;
         }
         let noise = &self.noise;
         for b in &mut self.test_functions {
             for i in 0..b.weights.len() {
-                if b.stuck[i] * friction[i] > thresholds::STICKS * noise[i] {
+                if b.stuck[i] * friction[i] > sticks * noise[i] {
                     b.weights[i] = 0.0;
                 }
             }

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use runs::robot::Robot;
 
-use crate::drive::{DriveModel, smooth_sign};
+use crate::drive::{DriveModel, TEST_FUNCTION_S, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -35,8 +35,11 @@ impl Effect for GearBacklash {
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
         // Material is what jerks the encoder as a torque that matters would, within a test function: 0.03 rad at the
         // motor of a robot of 2.4 kg, tenths of a millimetre on a linear axis of 95 kg.
-        let unit = SHOWS * sizes.drive_nm * robot.gear_ratio / DriveModel::new(robot).felt_inertia();
-        let p = |name: String| Parameter::new(name, 0.7 * unit, [0.0, 700.0 * unit], unit);
+        let longer = (sizes.test_function_s / TEST_FUNCTION_S).powi(2);
+        let unit = SHOWS * longer * sizes.drive_nm * robot.gear_ratio / DriveModel::new(robot).felt_inertia();
+        // Less than a count is not told from where the counts happen to change.
+        let least = unit.max(sizes.count_rad * robot.gear_ratio);
+        let p = |name: String| Parameter::new(name, 0.7 * unit, [0.0, 700.0 * least], least);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
         forms
@@ -81,7 +84,7 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Square of the time within which a test function of 0.12 s shows a step of the angle (0.0023 s²) times the share of
+/// Square of the time within which a test function of [`TEST_FUNCTION_S`] shows a step of the angle (0.0023 s²) times the share of
 /// the drive's torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
 const SHOWS: f64 = 7.8e-5;
 
@@ -136,4 +139,24 @@ fn side(segment: &Segment, inertia: &DMatrix<f64>, wheel: usize) -> Vec<f64> {
         (momentum[b] - momentum[a]) / (segment.t[b] - segment.t[a]).max(1e-9)
     };
     (0..=last).map(|k| smooth_sign(torque(k), 500.0 * peak)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn play_is_named_from_what_counts_and_test_functions_resolve() {
+        let least = |robot: &Robot, sizes: &Sizes| GearBacklash.forms_in(robot, sizes)[0].free[0].material;
+        let robot = Robot::racbot();
+        let sizes = Sizes::of(&robot);
+        let fine = least(&robot, &sizes);
+        let count = |robot: &Robot| robot.gear_ratio / robot.counts_per_wheel_rad();
+        assert!(fine > count(&robot));
+        // A test function of twice the length, as at 50 Hz, shows a step of the angle a quarter as well.
+        let slow = Sizes { test_function_s: 2.0 * TEST_FUNCTION_S, ..sizes };
+        assert!((least(&robot, &slow) / fine - 4.0).abs() < 1e-9);
+        let coarse = Sizes { count_rad: 100.0 * sizes.count_rad, ..sizes };
+        assert!((least(&robot, &coarse) / (100.0 * count(&robot)) - 1.0).abs() < 1e-9);
+    }
 }

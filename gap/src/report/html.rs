@@ -42,6 +42,7 @@ fn in_words(page: &mut Page, a: &Analysis) {
     items.extend(a.effects.iter().map(words::effect));
     items.extend(words::own(a));
     items.extend(a.alternatives.iter().map(|set| format!("These data cannot tell apart: {}.", words::tied(set))));
+    items.extend(words::conditions(a));
     let open = |u: &crate::analysis::Leftover| {
         format!("No effect explains this in the {} link: {}.", u.link.name(), u.structure)
     };

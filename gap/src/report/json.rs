@@ -16,6 +16,13 @@ fn plain_name(effect: &Named, parameter: &str) -> Option<String> {
         .then(|| parameter.replacen(&number, "_", 1))
 }
 
+/// What cannot be told apart, the effects that share what a named one does among them.
+fn ties(a: &Analysis) -> Vec<Vec<String>> {
+    let shared =
+        a.effects.iter().flat_map(|e| e.conditional_on.iter().map(|other| vec![e.name.clone(), other.clone()]));
+    a.alternatives.iter().cloned().chain(shared).collect()
+}
+
 pub(super) fn json(a: &Analysis) -> Value {
     let (before, after) = overall(&a.links);
     let named = !a.effects.is_empty();
@@ -48,8 +55,9 @@ pub(super) fn json(a: &Analysis) -> Value {
         "effects": a.effects.iter().map(|e| json!({
             "name": e.name, "wheels": e.wheels, "parameters": parameters(e),
             "gain": e.gain, "p_value": e.evidence.p_value(), "evidence": e.evidence.to_json(), "link": e.link.name(), "equation": e.equation,
+            "conditional_on": e.conditional_on,
         })).collect::<Vec<_>>(),
-        "alternatives": a.alternatives,
+        "alternatives": ties(a),
         "unexplained": a.unexplained.iter().map(|u| json!({"link": u.link.name(), "structure": u.structure})).collect::<Vec<_>>(),
         "next_experiment": a.next_experiment.as_ref().map(|e| json!({
             "kind": e.kind, "what": e.what, "separates": e.separates, "seconds": e.seconds, "times": e.times,
@@ -105,6 +113,7 @@ mod tests {
             parameters: Vec::new(),
             gain: 0.0,
             evidence: Evidence::Test { method: "", p: 1.0 },
+            conditional_on: Vec::new(),
         };
         assert_eq!(plain_name(&named("gear-backlash", &[2]), "play_2_rad").as_deref(), Some("play_rad"));
         assert_eq!(plain_name(&named("gear-backlash", &[1, 2]), "play_2_rad"), None);

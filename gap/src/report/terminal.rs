@@ -48,6 +48,9 @@ pub(super) fn summary(a: &Analysis) -> String {
     for set in &a.alternatives {
         wrap(&mut out, "  ", &format!("cannot be told apart: {}", words::tied(set)));
     }
+    for line in words::conditions(a) {
+        wrap(&mut out, "  ", &line);
+    }
     for u in &a.unexplained {
         wrap(&mut out, "  ", &format!("unexplained ({}): {}", u.link.name(), u.structure));
     }

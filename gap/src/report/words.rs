@@ -108,6 +108,18 @@ pub(super) fn tied(set: &[String]) -> String {
     }
 }
 
+/// What the sizes of named effects depend on.
+pub(super) fn conditions(a: &Analysis) -> Vec<String> {
+    let of = |e: &Named| {
+        format!(
+            "The sizes of {} are those without {}: a part of it does the same, and how much is whose does not show here.",
+            e.name,
+            e.conditional_on.join(" and ")
+        )
+    };
+    a.effects.iter().filter(|e| !e.conditional_on.is_empty()).map(of).collect()
+}
+
 fn join(names: &[&str]) -> String {
     match names {
         [] => String::new(),

@@ -58,7 +58,10 @@ fn joined(
             let settled = settle(problem, &mut state, all, thresholds);
             let alternative = finish(state, settled, from, thresholds);
             let sound = alternative.state.active[a].worth() && !stopped(&alternative.state.active[a]);
-            if sound && alternative.against(best) < DOUBTFUL && !problem.runs_away(&alternative.state, &best.state) {
+            if sound
+                && alternative.against(best) < DOUBTFUL
+                && !problem.runs_away(&alternative.state, &best.state, thresholds)
+            {
                 return Some(alternative);
             }
         }

@@ -12,7 +12,6 @@ use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
-use crate::thresholds::decided;
 use estimation::prior::{Penalised, Role};
 
 /// Effects at most.
@@ -61,8 +60,9 @@ pub(crate) fn plain(
         larger.active.push(active);
         problem.fit(&mut larger);
         let sound = larger.active[from..].iter().all(|a| !stopped(a));
-        let cancelled = |i: usize| problem.is_cancelled(&larger, i, start);
-        let sound = sound && !problem.runs_away(&larger, &state) && !(from..larger.active.len()).any(cancelled);
+        let cancelled = |i: usize| problem.is_cancelled(&larger, i, start, thresholds);
+        let sound =
+            sound && !problem.runs_away(&larger, &state, thresholds) && !(from..larger.active.len()).any(cancelled);
         if sound && held_out(problem, &larger).0 < (1.0 - 0.5 * SHARE) * now {
             state = larger;
         } else {
@@ -73,7 +73,7 @@ pub(crate) fn plain(
     // Of laws between which the data do not decide the first of the catalogue: friction before a bridge.
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     for index in from..state.active.len() {
-        let others = undecided(problem, &state, index, all).into_iter();
+        let others = undecided(problem, &state, index, all, thresholds).into_iter();
         if let Some(first) = others.min_by_key(|s| rank(&s.active[index]))
             && rank(&first.active[index]) < rank(&state.active[index])
         {
@@ -173,7 +173,10 @@ fn best(
     let left = |p: &Promise| ((total - p.explains) / n.max(1.0)).max(0.0).sqrt();
     let least = promises.iter().map(left).fold(f64::INFINITY, f64::min);
     let rank = |p: &Promise| (p.parameters, usize::from(all[p.candidate].effect.name() == "encoder-lag"), p.candidate);
-    promises.into_iter().filter(|p| p.score >= AS_GOOD * most && !(laws && decided(left(p), least))).min_by_key(rank)
+    promises
+        .into_iter()
+        .filter(|p| p.score >= AS_GOOD * most && !(laws && thresholds.decided(left(p), least)))
+        .min_by_key(rank)
 }
 
 /// Held-out losses per cluster, each run predicted from the others; what belongs to a run is fitted on it.

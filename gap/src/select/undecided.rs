@@ -2,20 +2,26 @@
 
 use super::{is_material, stopped};
 use crate::effect::Link;
+use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
-use crate::thresholds::{FAR_LEFT, UNDECIDED};
 
 /// The state with an effect replaced by each other one, of no more parameters, that leaves hardly more: where much is
 /// left whatever is named, no law is exact and a little more or less of it says nothing. In the order of the catalogue;
 /// nothing where little is left, or on the link of geometry, whose laws are exact.
-pub(crate) fn undecided(problem: &Problem, state: &State, index: usize, all: &[Active]) -> Vec<State> {
+pub(crate) fn undecided(
+    problem: &Problem,
+    state: &State,
+    index: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Vec<State> {
     let excess = |state: &State| {
         let (square, n) = problem.linearise_nothing(state).plain();
         (square - n, n)
     };
     let (left, n) = excess(state);
-    if problem.link() != Link::Drive || left + n < FAR_LEFT * FAR_LEFT * n {
+    if problem.link() != Link::Drive || left + n < thresholds.far_left.powi(2) * n {
         return Vec::new();
     }
     let own = &state.active[index];
@@ -34,8 +40,9 @@ pub(crate) fn undecided(problem: &Problem, state: &State, index: usize, all: &[A
         replaced.active[index] = other.clone();
         problem.fit(&mut replaced);
         let a = &replaced.active[index];
-        let sound = is_material(a, &a.parameters()) && !stopped(a) && !problem.runs_away(&replaced, &without);
-        if sound && excess(&replaced).0 < (1.0 + UNDECIDED) * left {
+        let sound =
+            is_material(a, &a.parameters()) && !stopped(a) && !problem.runs_away(&replaced, &without, thresholds);
+        if sound && excess(&replaced).0 < (1.0 + thresholds.undecided) * left {
             found.push(replaced);
         }
     }

@@ -6,6 +6,7 @@ use super::common::{names, simulate, with};
 use estimation::statistics::rms;
 use gap::drive::{DriveLink, DriveModel};
 use gap::effect::{Effect, Form, Link, Values};
+use gap::options::Thresholds;
 use gap::pieces::{PIECE, segments};
 use gap::problem::Problem;
 use gap::state::{Active, State};
@@ -92,7 +93,7 @@ fn no_effect_buys_the_metric_by_predicting_nothing() {
                 tried += 1;
                 let closes = rms(&with) < 0.8 * open;
                 bought += usize::from(closes);
-                let refused = problem.runs_away(&with, &bare);
+                let refused = problem.runs_away(&with, &bare, &Thresholds::default());
                 assert!(refused || !closes, "{} {values:?}: {} Nm of {open}", effect.name(), rms(&with));
             }
         }
@@ -102,7 +103,11 @@ fn no_effect_buys_the_metric_by_predicting_nothing() {
     let friction = catalogue.iter().find(|e| e.name() == "coulomb-friction").unwrap();
     let form = friction.forms(&set.robot).swap_remove(0);
     let true_one = state(friction, form, Values(vec![("torque_nm".to_owned(), 0.03)]));
-    assert!(rms(&true_one) < 0.2 * open && !problem.runs_away(&true_one, &bare), "{} of {open}", rms(&true_one));
+    assert!(
+        rms(&true_one) < 0.2 * open && !problem.runs_away(&true_one, &bare, &Thresholds::default()),
+        "{} of {open}",
+        rms(&true_one)
+    );
 }
 
 /// A robot with friction that its file does not know gets friction, whatever its inertia.
