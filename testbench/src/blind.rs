@@ -10,11 +10,12 @@ mod series;
 mod table;
 
 use std::panic::AssertUnwindSafe;
+use std::path::Path;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use truth::{Ablation, Conditions, Kind};
+use truth::{Ablation, Conditions, Kind, Truth};
 
 pub use answer::{Answer, NamedEffect};
 pub use binomial::{lower_bound, upper_bound};
@@ -56,6 +57,8 @@ pub struct Plan {
     pub only: Vec<String>,
     /// Sets with two drawn effects, a look-alike pair every other time.
     pub pairs: usize,
+    /// Sizes of both effects of a pair, in turn; empty = each drawn, 2 to 5.
+    pub pair_sizes: Vec<u8>,
     /// Sets with a drawn effect that no catalogue lists.
     pub outside: usize,
     /// Sets with a drawn effect of the catalogue whose runs have no rotation.
@@ -76,6 +79,7 @@ impl Plan {
             sizes: vec![1, 2, 3, 4, 5],
             only: Vec::new(),
             pairs: 0,
+            pair_sizes: Vec::new(),
             outside: 0,
             translations_only: 0,
             ablations: 0,
@@ -109,8 +113,8 @@ impl Plan {
             }
         }
         for i in 0..self.pairs {
-            let kind =
-                if i % 2 == 0 { Kind::Pair { effects: None, size: None } } else { Kind::LookAlike { size: None } };
+            let size = self.pair_sizes.get(i / 2 % self.pair_sizes.len().max(1)).copied();
+            let kind = if i % 2 == 0 { Kind::Pair { effects: None, size } } else { Kind::LookAlike { size } };
             tasks.push(task(Group::Pair, i, kind));
         }
         for i in 0..self.outside {
@@ -180,15 +184,28 @@ impl Task {
     /// [`BlindError`] if the set cannot be made. A workflow that gives up is a score, not an error.
     pub fn run(&self) -> Result<Scored, BlindError> {
         let scratch = tempfile::tempdir()?;
+        let sealed = self.make(scratch.path())?;
+        Ok(self.score(&sealed, scratch.path(), &gap::Options::default()))
+    }
+
+    /// Writes the data into a folder and says what they hide.
+    ///
+    /// # Errors
+    /// [`BlindError`] if the set cannot be made.
+    pub fn make(&self, folder: &Path) -> Result<Truth, BlindError> {
         let case = truth::draw_with(self.seed, &self.kind, &self.conditions)?;
-        let sealed = truth::write(&case, scratch.path())?;
+        Ok(truth::write(&case, folder)?)
+    }
+
+    /// Has the data of a folder analysed, and scores the answer.
+    pub fn score(&self, sealed: &Truth, folder: &Path, options: &gap::Options) -> Scored {
         let start = Instant::now();
         let answer = std::panic::catch_unwind(AssertUnwindSafe(|| {
-            let set = runs::DataSet::open(scratch.path()).map_err(|e| e.to_string())?;
-            let analysis = gap::analyse(&set, &gap::Options::default()).map_err(|e| e.to_string())?;
+            let set = runs::DataSet::open(folder).map_err(|e| e.to_string())?;
+            let analysis = gap::analyse(&set, options).map_err(|e| e.to_string())?;
             Answer::from_json(&analysis.to_json()).ok_or_else(|| "gap.json lacks a key".to_owned())
         }))
         .unwrap_or_else(|_| Err("the workflow panicked".to_owned()));
-        Ok(Scored::new(self, &sealed, answer, start.elapsed().as_secs_f64()))
+        Scored::new(self, sealed, answer, start.elapsed().as_secs_f64())
     }
 }

@@ -26,6 +26,9 @@ struct Args {
     /// Sets with two effects
     #[arg(long, default_value_t = 0)]
     pairs: usize,
+    /// Sizes of both effects of a pair, in turn [default: each drawn, 2 to 5]
+    #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u8).range(1..=5))]
+    pair_sizes: Vec<u8>,
     /// Sets with an effect that no catalogue lists
     #[arg(long, default_value_t = 0)]
     outside: usize,
@@ -76,6 +79,7 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
         sizes: args.sizes,
         only: args.only,
         pairs: args.pairs,
+        pair_sizes: args.pair_sizes,
         outside: args.outside,
         translations_only: args.translations_only,
         ablations: args.ablations,

@@ -186,9 +186,13 @@ fn intervals(hidden: &[Hidden], answer: &Answer) -> [usize; 2] {
     out
 }
 
-/// The smallest of the hidden effects in its stated limits; `None` where one of them has none.
+/// The smallest of the hidden effects in its stated limits; `None` where one of them has none. What is replayed tick by
+/// tick needs none: it shows whatever its size.
 fn in_limits(hidden: &[Hidden], answer: &Answer) -> Option<f64> {
     let of = |h: &Hidden| {
+        if matches!(h.link, truth::Link::Timing | truth::Link::Command | truth::Link::Controller) {
+            return Some(f64::MAX);
+        }
         let own = answer.limits.iter().filter(|(name, _, limit)| *name == h.name && *limit > 0.0);
         own.filter_map(|(_, parameter, limit)| Some(h.parameters.get(parameter)?.abs() / limit)).max_by(f64::total_cmp)
     };

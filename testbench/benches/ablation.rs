@@ -1,0 +1,276 @@
+//! Every threshold of the gap workflow off, halved and doubled in turn, on blind sets and on recordings of real machines:
+//! writes `docs/measured/ablation.md`.
+//!
+//! ```sh
+//! cargo bench -p testbench --bench ablation -- [--minutes M] [--sets N] [--seed S] [--state FILE]
+//! ```
+//!
+//! Set after set, each with all thresholds; no set is begun after `--minutes`. Every answer stands in the state file as
+//! soon as it is known, and an interrupted run goes on from there; after a change of the workflow the file must go.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use gap::options::{Options, Thresholds};
+use serde::{Deserialize, Serialize};
+use testbench::blind::{Answer, Grade, Plan, Task};
+use truth::Conditions;
+
+/// Log rate of the sets, Hz: an analysis takes a quarter of the time it takes at 1 kHz.
+const RATE_HZ: f64 = 250.0;
+/// Effects of the single sets: of every link that is fitted, and of what passes for another.
+const SINGLE: [&str; 14] = [
+    "wheel-skew",
+    "wheel-radius",
+    "encoder-loss",
+    "camera-latency",
+    "coulomb-friction",
+    "viscous-friction",
+    "stribeck-friction",
+    "torque-constant",
+    "robot-mass",
+    "battery-sag",
+    "dead-band",
+    "actuation-latency",
+    "gear-backlash",
+    "wheel-slip",
+];
+
+type Change = fn(&mut Thresholds);
+
+/// A threshold, what becomes of it, and how.
+const VARIANTS: &[(&str, &str, Change)] = &[
+    ("as shipped", "", |_| ()),
+    ("rolling_loses", "off", |t| t.rolling_loses = 0.0),
+    ("rolling_loses", "doubled", |t| t.rolling_loses *= 2.0),
+    ("least_together", "off", |t| t.least_together = 0.0),
+    ("least_together", "halved", |t| t.least_together *= 0.5),
+    ("far_left", "off", |t| t.far_left = f64::INFINITY),
+    ("far_left", "halved", |t| t.far_left *= 0.5),
+    ("as_well", "off", |t| t.as_well = f64::INFINITY),
+    ("as_well", "1", |t| t.as_well = 1.0),
+    ("undecided", "off", |t| t.undecided = 0.0),
+    ("undecided", "doubled", |t| t.undecided *= 2.0),
+    ("cancels", "off", |t| t.cancels = f64::INFINITY),
+    ("cancels", "halved", |t| t.cancels *= 0.5),
+    ("sticks", "off", |t| t.sticks = f64::INFINITY),
+    ("sticks", "halved", |t| t.sticks *= 0.5),
+    ("sticks_often", "off", |t| t.sticks_often = f64::INFINITY),
+    ("from_noise", "off", |t| t.from_noise = f64::INFINITY),
+    ("runaway", "off", |t| t.runaway = f64::INFINITY),
+    ("law_share", "off", |t| t.law_share = 0.0),
+    ("law_share", "doubled", |t| t.law_share *= 2.0),
+    ("held_share", "halved", |t| t.held_share *= 0.5),
+    ("held_share", "doubled", |t| t.held_share *= 2.0),
+    ("held_switch", "halved", |t| t.held_switch *= 0.5),
+    ("costs", "halved", |t| t.costs = t.costs.map(|c| 0.5 * c)),
+    ("costs", "doubled", |t| t.costs = t.costs.map(|c| 2.0 * c)),
+    ("gain", "off", |t| t.gain = 0.0),
+    ("shares", "off", |t| t.shares = [0.0; 2]),
+    ("share_of_excess", "off", |t| t.share_of_excess = 0.0),
+    ("share_of_excess", "doubled", |t| t.share_of_excess *= 2.0),
+    ("held_out_t", "off", |t| t.held_out_t = 0.0),
+    ("held_out_t", "doubled", |t| t.held_out_t *= 2.0),
+    ("ties", "off", |t| t.ties = [0.0; 2]),
+];
+
+/// Data that all variants look at.
+enum Set {
+    Simulated(Box<Task>),
+    Recorded(PathBuf),
+}
+
+impl Set {
+    fn name(&self) -> String {
+        match self {
+            Self::Simulated(task) => format!("{} {}", task.group.name(), task.seed),
+            Self::Recorded(path) => path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
+        }
+    }
+}
+
+/// What one variant said of one set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Outcome {
+    set: String,
+    variant: String,
+    /// None for a recording, whose truth nobody knows.
+    grade: Option<Grade>,
+    said: String,
+}
+
+fn options((_, _, change): &(&str, &str, Change)) -> Options {
+    let mut options = Options::default();
+    change(&mut options.thresholds);
+    options
+}
+
+fn key((name, how, _): &(&str, &str, Change)) -> String {
+    format!("{name} {how}")
+}
+
+/// Verdict, names and wheels: what a user acts on.
+fn said(answer: &Answer) -> String {
+    let mut names: Vec<String> = answer.effects.iter().map(|e| format!("{} {:?}", e.name, e.wheels)).collect();
+    names.sort();
+    format!("{}: {}", answer.verdict, names.join(", "))
+}
+
+/// The answers of all variants to one set, those that are known already left out.
+fn answers(set: &Set, known: &BTreeMap<(String, String), Outcome>, keep: &(dyn Fn(Outcome) + Sync)) {
+    let open = VARIANTS.iter().filter(|v| !known.contains_key(&(set.name(), key(v)))).collect::<Vec<_>>();
+    if open.is_empty() {
+        return;
+    }
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let outcome =
+        |variant: &&(&str, &str, Change), grade, said| Outcome { set: set.name(), variant: key(variant), grade, said };
+    match set {
+        Set::Simulated(task) => {
+            // A robot that cannot be simulated makes no set.
+            let Ok(sealed) = task.make(scratch.path()) else { return };
+            for variant in open {
+                let scored = task.score(&sealed, scratch.path(), &options(variant));
+                let said = scored.answer.as_ref().map_or_else(Clone::clone, said);
+                keep(outcome(&variant, Some(scored.grade), said));
+            }
+        }
+        Set::Recorded(path) => {
+            let data = runs::DataSet::open(path).expect("the recordings of data/real are sound");
+            for variant in open {
+                let answer = gap::analyse(&data, &options(variant)).map_err(|e| e.to_string());
+                let said = match answer.map(|a| Answer::from_json(&a.to_json())) {
+                    Ok(answer) => answer.as_ref().map_or_else(String::new, said),
+                    Err(why) => why,
+                };
+                keep(outcome(&variant, None, said));
+            }
+        }
+    }
+}
+
+fn read(path: &Path) -> BTreeMap<(String, String), Outcome> {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let lines = text.lines().filter_map(|line| serde_json::from_str::<Outcome>(line).ok());
+    lines.map(|o| ((o.set.clone(), o.variant.clone()), o)).collect()
+}
+
+fn row(variant: &(&str, &str, Change), sets: &[Set], known: &BTreeMap<(String, String), Outcome>) -> Vec<String> {
+    let shipped = key(&VARIANTS[0]);
+    let of = |set: &Set, variant: &str| known.get(&(set.name(), variant.to_owned()));
+    // Only sets that every variant has seen are compared.
+    let whole: Vec<&Set> = sets.iter().filter(|s| VARIANTS.iter().all(|v| of(s, &key(v)).is_some())).collect();
+    let (simulated, recorded): (Vec<&Set>, Vec<&Set>) = whole.iter().partition(|s| matches!(s, Set::Simulated(_)));
+    let graded = |wanted: &[Grade]| {
+        let own = simulated.iter().filter_map(|s| of(s, &key(variant))?.grade);
+        own.filter(|g| wanted.contains(g)).count().to_string()
+    };
+    let differ = |sets: &[&Set]| {
+        let other = |s: &&&Set| of(s, &key(variant)).map(|o| &o.said) != of(s, &shipped).map(|o| &o.said);
+        format!("{} of {}", sets.iter().filter(other).count(), sets.len())
+    };
+    vec![
+        if variant.1.is_empty() { variant.0.to_owned() } else { format!("`{}` {}", variant.0, variant.1) },
+        graded(&[Grade::Right, Grade::Within]),
+        graded(&[Grade::Extra]),
+        graded(&[Grade::Partial]),
+        graded(&[Grade::Nothing, Grade::Failed]),
+        graded(&[Grade::Wrong]),
+        differ(&simulated),
+        differ(&recorded),
+    ]
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    let value = |name: &str| arguments.iter().position(|a| a == name).map(|at| arguments[at + 1].as_str());
+    let number = |name: &str| value(name).map(|text| text.parse::<f64>().unwrap_or_else(|e| panic!("{name}: {e}")));
+    let budget = number("--minutes").map(|m| Duration::from_secs_f64(60.0 * m));
+    let most = number("--sets").map_or(usize::MAX, |n| n as usize);
+    let path = value("--state").map_or_else(|| std::env::temp_dir().join("racbot-ablation.jsonl"), PathBuf::from);
+    let plan = Plan {
+        effect_free: 6,
+        single: 1,
+        sizes: vec![3, 5],
+        only: SINGLE.iter().map(|n| (*n).to_owned()).collect(),
+        pairs: 8,
+        outside: 6,
+        conditions: Conditions { rate_hz: RATE_HZ, ..Conditions::default() },
+        ..Plan::new(number("--seed").map_or(1, |s| s as u64))
+    };
+    let mut tasks = plan.tasks();
+    // Every kind of set comes early: a run that is cut short says something of each.
+    tasks.sort_by_key(|t| t.seed);
+    let mut sets: Vec<Set> = tasks.into_iter().take(most).map(|t| Set::Simulated(Box::new(t))).collect();
+    let real = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/real");
+    let mut folders: Vec<PathBuf> = std::fs::read_dir(&real)
+        .expect("data/real is part of the repository")
+        .filter_map(|entry| entry.ok().map(|e| e.path()).filter(|p| p.is_dir()))
+        .collect();
+    // A recording of minutes takes as long as all simulated sets: the shortest early, the others at the end.
+    folders.sort_by_key(|folder| bytes(folder));
+    let mut recorded = folders.into_iter().map(Set::Recorded);
+    let at = sets.len().min(4);
+    sets.splice(at..at, recorded.next());
+    sets.extend(recorded);
+    let known = Mutex::new(read(&path));
+    let before = known.lock().expect("no thread has panicked").clone();
+    let file = OpenOptions::new().create(true).append(true).open(&path);
+    let file: Mutex<File> = Mutex::new(file.unwrap_or_else(|error| panic!("{}: {error}", path.display())));
+    let keep = |outcome: Outcome| {
+        let line = serde_json::to_string(&outcome).expect("an outcome is plain text");
+        writeln!(file.lock().expect("no thread has panicked"), "{line}").expect("the state can be kept");
+        let key = (outcome.set.clone(), outcome.variant.clone());
+        known.lock().expect("no thread has panicked").insert(key, outcome);
+    };
+    let (began, next) = (Instant::now(), AtomicUsize::new(0));
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some(set) = sets.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    if budget.is_none_or(|budget| began.elapsed() < budget) {
+                        answers(set, &before, &keep);
+                        println!("{}: {:.0} s", set.name(), began.elapsed().as_secs_f64());
+                    }
+                }
+            });
+        }
+    });
+    let known = known.into_inner().expect("no thread has panicked");
+    let rows: Vec<Vec<String>> = VARIANTS.iter().map(|v| row(v, &sets, &known)).collect();
+    rows.iter().for_each(|row| println!("{}", row.join(" | ")));
+    let given: Vec<&str> = arguments[1..].iter().map(String::as_str).filter(|a| *a != "--bench").collect();
+    measured::Table {
+        name: "ablation",
+        title: "What the gap workflow says with each of its thresholds off, halved or doubled",
+        command: &format!("cargo bench -p testbench --bench ablation -- {}", without_state(&given).join(" ")),
+        columns: &[
+            "threshold",
+            "right or within",
+            "extra",
+            "partial",
+            "nothing",
+            "wrong",
+            "sets answered otherwise",
+            "recordings answered otherwise",
+        ],
+    }
+    .write(&rows);
+}
+
+/// Size of the files of a folder.
+fn bytes(folder: &Path) -> u64 {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    files.filter_map(|file| file.metadata().ok()).map(|m| m.len()).sum()
+}
+
+/// Where the state is kept is no part of what was measured.
+fn without_state<'a>(given: &[&'a str]) -> Vec<&'a str> {
+    let at = given.iter().position(|a| *a == "--state");
+    given.iter().enumerate().filter(|(i, _)| at.is_none_or(|at| *i != at && *i != at + 1)).map(|(_, a)| *a).collect()
+}
