@@ -35,19 +35,20 @@ const RATE: f32 = 0.03;
 
 /// Features whose weight may only rise (1) or only fall (−1) with their value, by what a ball is: pictures of other halls
 /// have other coincidences, but not another geometry.
-const DIRECTION: [i8; COUNT] = [0, 0, 1, 1, -1, 1, -1, 1, 1, 0, 1, 0, 0, 0, -1, 1, 0, 0, 0, 0];
+const DIRECTION: [i8; COUNT] = [0, 0, 1, 1, -1, 1, -1, 1, 1, 0, 1, 0, 0, 0, -1, 1, 0, 0, 0, 0, -1, -1, 0];
 
 struct Case {
     features: [f32; COUNT],
     ball: bool,
+    /// Larger side of the ball, pixels.
+    size: f64,
+    /// How far it reaches beyond the candidate's box to the left, right, up and down, pixels; of balls alone.
+    beyond: Option<[f64; 4]>,
 }
 
 fn main() {
     let arguments: Vec<u64> = std::env::args().skip(1).map_while(|a| a.parse().ok()).collect();
-    assert!(
-        !arguments.is_empty() && arguments.len().is_multiple_of(2),
-        "give ranges of seeds: the first and the one after the last"
-    );
+    assert!(arguments.len().is_multiple_of(2), "give ranges of seeds: the first and the one after the last");
     let seeds: Vec<u64> = arguments.chunks_exact(2).flat_map(|range| range[0]..range[1]).collect();
     let mut cases: Vec<Case> = seeds
         .into_par_iter()
@@ -64,7 +65,23 @@ fn main() {
                 .flat_map_iter(|photograph| self::cases(&candidates(&photograph.picture), &photograph.labels)),
         );
     }
+    boxes(&cases);
     train(&cases);
+}
+
+/// Says by how much balls' boxes are larger than the candidates', from which `outline` has what it adds.
+fn boxes(cases: &[Case]) {
+    for sizes in [6.0, 8.0, 12.0, 20.0, 40.0, 200.0].windows(2) {
+        let class = || cases.iter().filter(|case| case.size >= sizes[0] && case.size < sizes[1]);
+        let medians: Vec<String> = (0..4)
+            .map(|side| {
+                let mut off: Vec<f64> = class().filter_map(|case| case.beyond.map(|beyond| beyond[side])).collect();
+                off.sort_by(f64::total_cmp);
+                off.get(off.len() / 2).map_or_else(|| "-".to_owned(), |off| format!("{off:.2}"))
+            })
+            .collect();
+        eprintln!("balls of {} to {} pixels reach beyond their boxes: left, right, up, down {medians:?}", sizes[0], sizes[1]);
+    }
 }
 
 fn cases(candidates: &[Candidate], labels: &[Label]) -> Vec<Case> {
@@ -80,7 +97,13 @@ fn cases(candidates: &[Candidate], labels: &[Label]) -> Vec<Case> {
                 o if o < NO_BALL => Some(false),
                 _ => None,
             }
-            .map(|ball| Case { features: candidate.features.0, ball })
+            .map(|ball| {
+                let (c, l) = (candidate.region, label.filter(|_| ball).map_or(candidate.region, |label| label.region));
+                let (x, y) = (c.x - l.x, c.y - l.y);
+                let (width, height) = ((l.width - c.width) / 2.0, (l.height - c.height) / 2.0);
+                let beyond = ball.then_some([width + x, width - x, height + y, height - y]);
+                Case { features: candidate.features.0, ball, size: l.width.max(l.height), beyond }
+            })
         })
         .collect()
 }

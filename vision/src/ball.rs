@@ -6,6 +6,7 @@
 //! parts of a pixel where redness is half-way between inside and outside. Then **features** of colour, outline, shading
 //! and surroundings are weighed into the odds that it is a ball.
 
+mod directions;
 pub mod features;
 mod outline;
 mod redness;

@@ -4,6 +4,10 @@ use crate::picture::Raster;
 
 /// Bins of red and of green chromaticity: one is 0.02 wide, a fifth of what separates carpet from lines.
 const BINS: usize = 50;
+/// One pixel of so many votes for the carpet's colour, and tells it: a thousand pixels are as good as all. Both numbers
+/// are prime, so that they meet every column.
+const VOTERS: usize = 3;
+const MEMBERS: usize = 7;
 /// Distance in chromaticity within which a pixel has the carpet's colour; the noise of a dim 8-bit picture is 0.03.
 const NEAR: f32 = 0.055;
 /// Brightness of carpet as multiples of its median: shadow of a robot to the patch below a window.
@@ -31,7 +35,7 @@ impl Carpet {
     pub(crate) fn find(picture: &Raster<[f32; 3]>) -> Option<Self> {
         let lower = &picture.data[picture.width * (picture.height / 3)..];
         let mut votes = vec![0.0_f32; BINS * BINS];
-        for &pixel in lower {
+        for &pixel in lower.iter().step_by(VOTERS) {
             let sum = total(pixel);
             if sum > 36.0 {
                 let [r, g] = chromaticity(pixel);
@@ -45,12 +49,12 @@ impl Carpet {
             near(y).flat_map(|y| near(x).map(move |x| y * BINS + x)).map(|bin| votes[bin]).sum()
         };
         let peak = (0..BINS * BINS).max_by(|&a, &b| around(a).total_cmp(&around(b)))?;
-        if around(peak) < LEAST_SHARE * lower.len() as f32 * NOT_GREEN {
+        if around(peak) < LEAST_SHARE * (lower.len() / VOTERS) as f32 * NOT_GREEN {
             return None;
         }
         let centre = [peak % BINS, peak / BINS].map(|c| (c as f32 + 0.5) / BINS as f32);
-        let mut members: Vec<[f32; 3]> = lower.iter().copied().filter(|&p| near(p, centre)).step_by(7).collect();
-        if members.len() * 7 < (LEAST_SHARE * lower.len() as f32) as usize {
+        let mut members: Vec<[f32; 3]> = lower.iter().copied().step_by(MEMBERS).filter(|&p| near(p, centre)).collect();
+        if members.len() * MEMBERS < (LEAST_SHARE * lower.len() as f32) as usize {
             return None;
         }
         let middle = members.len() / 2;
@@ -78,8 +82,10 @@ fn chromaticity(pixel: [f32; 3]) -> [f32; 2] {
 }
 
 fn near(pixel: [f32; 3], centre: [f32; 2]) -> bool {
-    let [r, g] = chromaticity(pixel);
-    (r - centre[0]).hypot(g - centre[1]) < NEAR
+    // Multiplied by the sum: a division a pixel less.
+    let sum = total(pixel).max(1.0);
+    let (r, g, reach) = (pixel[0] - centre[0] * sum, pixel[1] - centre[1] * sum, NEAR * sum);
+    r * r + g * g < reach * reach
 }
 
 /// Hues from yellowish to bluish green, with a little colour at least.
@@ -111,8 +117,11 @@ fn boundary(mask: &Raster<bool>) -> Vec<f32> {
 fn upper_hull(raw: &[f32], bottom: f32) -> Vec<f32> {
     const REACH: usize = 4;
     let believed = |x: usize| {
-        let mut near: Vec<f32> = raw[x.saturating_sub(REACH)..(x + REACH + 1).min(raw.len())].to_vec();
-        near.sort_by(f32::total_cmp);
+        let from = &raw[x.saturating_sub(REACH)..(x + REACH + 1).min(raw.len())];
+        let mut near = [0.0; 2 * REACH + 1];
+        let near = &mut near[..from.len()];
+        near.copy_from_slice(from);
+        near.sort_unstable_by(f32::total_cmp);
         near[near.len() / 2]
     };
     let points = (0..raw.len()).map(|x| (x as f32, believed(x))).filter(|(_, y)| *y < bottom);

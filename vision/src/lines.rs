@@ -26,35 +26,28 @@ pub struct LinePoint {
 /// Points on lines, by scans down every `every`th column and across every `every`th row.
 pub(crate) fn points(picture: &Raster<[f32; 3]>, carpet: &Carpet, by: usize, every: usize) -> Vec<LinePoint> {
     let ground = total(carpet.colour);
-    let bright: Vec<bool> = picture
-        .data
-        .iter()
-        .map(|&pixel| {
-            let sum = total(pixel);
-            let range = pixel.iter().fold(f32::MIN, |m, &c| m.max(c)) - pixel.iter().fold(f32::MAX, |m, &c| m.min(c));
-            sum > BRIGHTER * ground && range < COLOUR * sum
-        })
-        .collect();
+    let bright = |place: usize| {
+        let pixel = picture.data[place];
+        let sum = total(pixel);
+        let [r, g, b] = pixel;
+        sum > BRIGHTER * ground && r.max(g).max(b) - r.min(g).min(b) < COLOUR * sum
+    };
+    let weight = |place: usize| (total(picture.data[place]) - ground).max(0.0);
+    let mask = |place: usize| carpet.mask.data[place];
     let widest = (WIDEST * picture.width as f32) as usize;
     let scale = by as f64;
     let mut points = Vec::new();
     for x in (every / 2..picture.width).step_by(every) {
         let at = |y: usize| y * picture.width + x;
-        let weight = |y: usize| (total(picture.data[at(y)]) - ground).max(0.0);
-        for (middle, width) in
-            crossings(picture.height, widest, &|y| bright[at(y)], &|y| carpet.mask.data[at(y)], &weight)
-        {
+        crossings(picture.height, widest, |y| bright(at(y)), |y| mask(at(y)), |y| weight(at(y)), |middle, width| {
             points.push(LinePoint { x: (x as f64 + 0.5) * scale, y: middle * scale, width: width * scale });
-        }
+        });
     }
     for y in (every / 2..picture.height).step_by(every) {
         let at = |x: usize| y * picture.width + x;
-        let weight = |x: usize| (total(picture.data[at(x)]) - ground).max(0.0);
-        for (middle, width) in
-            crossings(picture.width, widest, &|x| bright[at(x)], &|x| carpet.mask.data[at(x)], &weight)
-        {
+        crossings(picture.width, widest, |x| bright(at(x)), |x| mask(at(x)), |x| weight(at(x)), |middle, width| {
             points.push(LinePoint { x: middle * scale, y: (y as f64 + 0.5) * scale, width: width * scale });
-        }
+        });
     }
     points
 }
@@ -63,11 +56,11 @@ pub(crate) fn points(picture: &Raster<[f32; 3]>, carpet: &Carpet, by: usize, eve
 fn crossings(
     length: usize,
     widest: usize,
-    bright: &dyn Fn(usize) -> bool,
-    carpet: &dyn Fn(usize) -> bool,
-    weight: &dyn Fn(usize) -> f32,
-) -> Vec<(f64, f64)> {
-    let mut found = Vec::new();
+    bright: impl Fn(usize) -> bool,
+    carpet: impl Fn(usize) -> bool,
+    weight: impl Fn(usize) -> f32,
+    mut found: impl FnMut(f64, f64),
+) {
     let mut i = 0;
     while i < length {
         if !bright(i) {
@@ -78,18 +71,17 @@ fn crossings(
         while i < length && bright(i) {
             i += 1;
         }
-        let before = from.checked_sub(FRINGE + 1).is_some_and(|first| (first..from).any(carpet) && carpet(first));
-        let after = i + FRINGE < length && (i..=i + FRINGE).any(carpet) && carpet(i + FRINGE);
+        let before = from.checked_sub(FRINGE + 1).is_some_and(|first| carpet(first));
+        let after = i + FRINGE < length && carpet(i + FRINGE);
         if i - from <= widest && before && after {
             let (low, high) = (from.saturating_sub(1), (i + 1).min(length));
             let sum: f64 = (low..high).map(|k| f64::from(weight(k))).sum();
             let moment: f64 = (low..high).map(|k| f64::from(weight(k)) * (k as f64 + 0.5)).sum();
             if sum > 0.0 {
-                found.push((moment / sum, (i - from) as f64));
+                found(moment / sum, (i - from) as f64);
             }
         }
     }
-    found
 }
 
 #[cfg(test)]
@@ -99,8 +91,11 @@ mod tests {
     #[test]
     fn a_line_between_carpet_counts_and_a_wall_behind_carpet_does_not() {
         let row: Vec<u8> = b"ccccccwwcccccccccccwwwwwwwww".to_vec();
-        let found =
-            crossings(row.len(), 4, &|i| row[i] == b'w', &|i| row[i] == b'c', &|i| f32::from(u8::from(row[i] == b'w')));
+        let mut found = Vec::new();
+        let weight = |i: usize| f32::from(u8::from(row[i] == b'w'));
+        crossings(row.len(), 4, |i| row[i] == b'w', |i| row[i] == b'c', weight, |middle, width| {
+            found.push((middle, width));
+        });
         assert_eq!(found, [(7.0, 2.0)]);
     }
 }

@@ -132,15 +132,15 @@ impl Picture {
     /// # Errors
     /// [`Unusable::Flat`], [`Unusable::Black`], [`Unusable::OverExposed`].
     pub fn check(&self) -> Result<(), Unusable> {
-        let share = |is: &dyn Fn(&[u8; 3]) -> bool| {
-            self.pixels.iter().filter(|pixel| is(pixel)).count() as f64 / self.pixels.len() as f64
-        };
+        let all = self.pixels.len() as f64;
         let sum: u64 = self.pixels.as_flattened().iter().map(|&c| u64::from(c)).sum();
         let mean = sum as f64 / (3 * self.pixels.len()) as f64;
-        if mean < BLACK_MEAN && share(&|pixel| pixel.iter().all(|&c| c < DARK)) >= BLACK_SHARE {
+        let dark = |pixel: &&[u8; 3]| pixel.iter().all(|&c| c < DARK);
+        if mean < BLACK_MEAN && self.pixels.iter().filter(dark).count() as f64 >= BLACK_SHARE * all {
             return Err(Unusable::Black);
         }
-        if share(&|pixel| pixel.iter().filter(|&&c| c >= LIMIT).count() >= 2) >= OVER_EXPOSED_SHARE {
+        let over = |pixel: &&[u8; 3]| pixel.iter().map(|&c| u8::from(c >= LIMIT)).sum::<u8>() >= 2;
+        if self.pixels.iter().filter(over).count() as f64 >= OVER_EXPOSED_SHARE * all {
             return Err(Unusable::OverExposed);
         }
         if self.pixels.iter().all(|pixel| *pixel == self.pixels[0]) {
@@ -160,19 +160,17 @@ impl Picture {
         }
         let scale = 1.0 / (by * by) as f32;
         let mut data = Vec::with_capacity(columns * rows);
-        for y in 0..rows {
-            for x in 0..columns {
-                let mut sum = [0_u32; 3];
-                for row in y * by..(y + 1) * by {
-                    let from = row * self.width + x * by;
-                    for pixel in &self.pixels[from..from + by] {
-                        for (sum, &c) in sum.iter_mut().zip(pixel) {
-                            *sum += u32::from(c);
-                        }
+        let mut sums = vec![[0_u32; 3]; columns];
+        for rows in self.pixels.chunks_exact(by * self.width) {
+            sums.fill([0; 3]);
+            for row in rows.chunks_exact(self.width) {
+                for (sum, pixels) in sums.iter_mut().zip(row.chunks_exact(by)) {
+                    for [r, g, b] in pixels {
+                        *sum = [sum[0] + u32::from(*r), sum[1] + u32::from(*g), sum[2] + u32::from(*b)];
                     }
                 }
-                data.push(sum.map(|c| c as f32 * scale));
             }
+            data.extend(sums.iter().map(|sum| sum.map(|c| c as f32 * scale)));
         }
         (Raster { width: columns, height: rows, data }, by)
     }

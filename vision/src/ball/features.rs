@@ -28,6 +28,9 @@ pub const NAMES: [&str; COUNT] = [
     "red over green against the carpet, logarithm",
     "green over blue against the carpet, logarithm",
     "brightness outside against inside, unevenness",
+    "outline: bulge towards the box's corners, radii",
+    "outline: roughness, pixels",
+    "height over bottom below the field's boundary, logarithm",
 ];
 
 /// The features of a candidate, by [`NAMES`].
@@ -81,6 +84,10 @@ impl Features {
             ratio(r, g) - ratio(ground[0], ground[1]),
             ratio(g, b) - ratio(ground[1], ground[2]),
             outer.uneven,
+            outline.corners,
+            outline.rough * (outline.a * outline.b).sqrt(),
+            // What stands on the floor is as many times as high as it lies below the horizon, wherever it stands.
+            (2.0 * outline.b / (bottom - boundary).max(1.0)).ln().clamp(-4.0, 4.0),
         ])
     }
 
@@ -196,8 +203,7 @@ impl Outer {
         let (mut green, mut low, mut low_green) = (0.0, 0.0, 0.0);
         let mut lights = Vec::with_capacity(2 * AROUND);
         for scale in [1.15 + gap, 1.45 + gap] {
-            for k in 0..AROUND {
-                let [x, y] = outline.point(k, AROUND, scale);
+            for (k, [x, y]) in outline.points(AROUND, scale).enumerate() {
                 let Some(value) = redness.under(x, y) else { continue };
                 let is_carpet = carpet.is_some_and(|carpet| carpet.mask.under(x, y).unwrap_or(false));
                 let lower = k > AROUND / 12 && k < AROUND * 5 / 12;

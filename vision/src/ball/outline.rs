@@ -1,6 +1,7 @@
 //! A candidate's outline: an upright ellipse through the points where redness is half-way between inside and outside.
 
 use super::Region;
+use super::directions::directions;
 use super::regions::Blob;
 use crate::picture::Raster;
 use nalgebra::{Matrix4, Vector4};
@@ -13,6 +14,8 @@ const ROUNDS: usize = 2;
 const REACH: f32 = 1.8;
 /// A crossing farther than this from the ellipse, in radii, is of something else: a highlight, a neighbour.
 const OUTLIER: f32 = 0.2;
+/// A bulge counts up to this, in radii: a box's corner lies 0.26 beyond the ellipse that fits its outline.
+const BULGE: f32 = 0.4;
 /// How far a fit may move a box's sides, in radii.
 const TRUSTED: f32 = 0.5;
 
@@ -33,6 +36,8 @@ pub(super) struct Outline {
     pub(super) agreeing: f32,
     /// Root mean square distance of those crossings from the ellipse, in radii.
     pub(super) rough: f32,
+    /// How far it bulges towards the corners of its box, radii: the fourth harmonic of the crossings' distance.
+    pub(super) corners: f32,
     /// Share of rays within the picture.
     pub(super) shown: f32,
 }
@@ -42,16 +47,19 @@ impl Outline {
     pub(super) fn refine(redness: &Raster<f32>, blob: Blob) -> Option<Self> {
         let (a, b) = ((blob.right - blob.left) / 2.0, (blob.bottom - blob.top) / 2.0);
         let (cx, cy) = (blob.left + a, blob.top + b);
-        let first = Self { cx, cy, a, b, inside: 0.0, agreeing: 0.0, rough: 1.0, shown: 0.0 };
+        let first = Self { cx, cy, a, b, inside: 0.0, agreeing: 0.0, rough: 1.0, corners: 0.0, shown: 0.0 };
         let mut now = first;
         for round in 0..=ROUNDS {
             now.inside = now.typical(redness)?;
             let crossings = now.crossings(redness);
             let shown = crossings.iter().filter(|crossing| !matches!(crossing, Crossing::Outside)).count();
             now.judge(&crossings, shown);
-            if round < ROUNDS {
-                now = now.fitted(&crossings).filter(|fit| fit.near(&first)).unwrap_or(now);
+            if round == ROUNDS {
+                break;
             }
+            // Without a fit another round would find the same.
+            let Some(fit) = now.fitted(&crossings).filter(|fit| fit.near(&first)) else { break };
+            now = fit;
         }
         Some(now)
     }
@@ -68,48 +76,48 @@ impl Outline {
         Region { x, y, width, height }
     }
 
-    /// A point on the ellipse blown up by `scale`, in the direction of ray `k`.
-    pub(super) fn point(&self, k: usize, rays: usize, scale: f32) -> [f32; 2] {
-        let (s, c) = (std::f32::consts::TAU * k as f32 / rays as f32).sin_cos();
-        [self.cx + scale * self.a * c, self.cy + scale * self.b * s]
+    /// Points on the ellipse blown up by `scale`.
+    pub(super) fn points(&self, count: usize, scale: f32) -> impl Iterator<Item = [f32; 2]> {
+        let Self { cx, cy, a, b, .. } = *self;
+        directions(count).map(move |[c, s]| [cx + scale * a * c, cy + scale * b * s])
     }
 
     /// The 60th percentile of redness inside: neither highlight nor blurred edge.
     fn typical(&self, redness: &Raster<f32>) -> Option<f32> {
-        let mut values: Vec<f32> = Vec::with_capacity(64);
+        let (mut values, mut count) = ([0.0; 64], 0);
         for ring in [0.0, 0.3, 0.55, 0.75] {
-            for k in 0..16 {
-                let [x, y] = self.point(k, 16, ring);
-                values.extend(redness.sample(x, y));
+            for value in self.points(16, ring).filter_map(|[x, y]| redness.sample(x, y)) {
+                values[count] = value;
+                count += 1;
             }
         }
-        let place = values.len() * 6 / 10;
-        (values.len() >= 12).then(|| *values.select_nth_unstable_by(place, f32::total_cmp).1)
+        (count >= 12).then(|| *values[..count].select_nth_unstable_by(count * 6 / 10, f32::total_cmp).1)
     }
 
     fn crossings(&self, redness: &Raster<f32>) -> [Crossing; RAYS] {
-        std::array::from_fn(|k| self.crossing(redness, k))
+        let mut crossings = [Crossing::None; RAYS];
+        for (crossing, direction) in crossings.iter_mut().zip(directions(RAYS)) {
+            *crossing = self.crossing(redness, direction);
+        }
+        crossings
     }
 
-    fn crossing(&self, redness: &Raster<f32>, k: usize) -> Crossing {
-        let at = |scale: f32| {
-            let [x, y] = self.point(k, RAYS, scale);
-            redness.sample(x, y)
-        };
+    fn crossing(&self, redness: &Raster<f32>, [c, s]: [f32; 2]) -> Crossing {
+        let (across, down) = (self.a * c, self.b * s);
+        let at = |scale: f32| redness.sample(self.cx + scale * across, self.cy + scale * down);
         let Some(_) = at(1.0) else { return Crossing::Outside };
         // One pixel beyond the ellipse is outside for large and small ones alike.
         let pixel = 1.0 / self.a.min(self.b).max(1.0);
-        let outside = [1.25, 1.45].map(|scale| at(scale + pixel * 0.7));
-        let outside: Vec<f32> = outside.into_iter().flatten().collect();
-        if outside.is_empty() {
-            return Crossing::Outside;
-        }
-        let outside = outside.iter().sum::<f32>() / outside.len() as f32;
+        let outside = match [1.25, 1.45].map(|scale| at(scale + pixel * 0.7)) {
+            [Some(near), Some(far)] => (near + far) / 2.0,
+            [Some(one), None] | [None, Some(one)] => one,
+            [None, None] => return Crossing::Outside,
+        };
         if self.inside - outside < 0.3 * self.inside.abs().max(0.1) {
             return Crossing::None;
         }
         let half = (self.inside + outside) / 2.0;
-        let step = (0.4 * pixel).clamp(0.02, 0.2);
+        let step = (0.7 * pixel).clamp(0.03, 0.2);
         let mut before = f32::NAN;
         let mut scale = 0.45;
         while scale < REACH {
@@ -124,35 +132,33 @@ impl Outline {
     }
 
     fn judge(&mut self, crossings: &[Crossing], shown: usize) {
-        let off: Vec<f32> = crossings
-            .iter()
-            .filter_map(|crossing| match crossing {
-                Crossing::At(scale) if (scale - 1.0).abs() < OUTLIER => Some((scale - 1.0).powi(2)),
-                _ => None,
-            })
-            .collect();
+        let off = crossings.iter().filter_map(|crossing| match crossing {
+            Crossing::At(scale) if (scale - 1.0).abs() < OUTLIER => Some((scale - 1.0).powi(2)),
+            _ => None,
+        });
+        let (count, sum) = off.fold((0, 0.0), |(count, sum), off| (count + 1, sum + off));
+        let bulges = crossings.iter().zip(directions(RAYS)).filter_map(|(crossing, [c, s])| match crossing {
+            // cos 4t = 1 - 8 sin² t cos² t
+            Crossing::At(scale) => Some((scale - 1.0).clamp(-BULGE, BULGE) * (8.0 * c * c * s * s - 1.0)),
+            _ => None,
+        });
+        self.corners = 2.0 * bulges.sum::<f32>() / RAYS as f32;
         self.shown = shown as f32 / RAYS as f32;
-        self.agreeing = if shown == 0 { 0.0 } else { off.len() as f32 / shown as f32 };
-        self.rough = if off.is_empty() { OUTLIER } else { (off.iter().sum::<f32>() / off.len() as f32).sqrt() };
+        self.agreeing = if shown == 0 { 0.0 } else { count as f32 / shown as f32 };
+        self.rough = if count == 0 { OUTLIER } else { (sum / count as f32).sqrt() };
     }
 
     /// The ellipse through the crossings: u² / a² + v² / b² linear in its coefficients, twice, the second time without
     /// what is far from the first.
     fn fitted(&self, crossings: &[Crossing]) -> Option<Self> {
-        let points: Vec<[f32; 2]> = crossings
-            .iter()
-            .enumerate()
-            .filter_map(|(k, crossing)| match crossing {
-                Crossing::At(scale) => {
-                    let (s, c) = (std::f32::consts::TAU * k as f32 / RAYS as f32).sin_cos();
-                    Some([scale * c, scale * s])
-                }
+        let points = || {
+            crossings.iter().zip(directions(RAYS)).filter_map(|(crossing, [c, s])| match crossing {
+                Crossing::At(scale) => Some([scale * c, scale * s]),
                 _ => None,
             })
-            .collect();
-        let first = ellipse(&points)?;
-        let close: Vec<[f32; 2]> = points.into_iter().filter(|p| (distance(&first, *p)).abs() < OUTLIER).collect();
-        let [cu, cv, a, b] = ellipse(&close)?;
+        };
+        let first = ellipse(points())?;
+        let [cu, cv, a, b] = ellipse(points().filter(|p| distance(&first, *p).abs() < OUTLIER))?;
         Some(Self { cx: self.cx + cu * self.a, cy: self.cy + cv * self.b, a: a * self.a, b: b * self.b, ..*self })
     }
 
@@ -177,15 +183,16 @@ enum Crossing {
 }
 
 /// Middle and half axes of the upright ellipse through points, in least squares of A u² + B v² + C u + D v = 1.
-fn ellipse(points: &[[f32; 2]]) -> Option<[f32; 4]> {
-    if points.len() < 10 {
-        return None;
-    }
-    let (mut m, mut right) = (Matrix4::<f32>::zeros(), Vector4::zeros());
-    for &[u, v] in points {
+fn ellipse(points: impl Iterator<Item = [f32; 2]>) -> Option<[f32; 4]> {
+    let (mut m, mut right, mut count) = (Matrix4::<f32>::zeros(), Vector4::zeros(), 0);
+    for [u, v] in points {
         let row = Vector4::new(u * u, v * v, u, v);
         m += row * row.transpose();
         right += row;
+        count += 1;
+    }
+    if count < 10 {
+        return None;
     }
     let [[a, b, c, d]] = m.cholesky()?.solve(&right).data.0;
     if a <= 0.0 || b <= 0.0 {

@@ -1,5 +1,6 @@
 //! Connected regions above every threshold of redness, and which of them may be a ball.
 
+use super::directions::directions;
 use crate::picture::Raster;
 
 /// Thresholds, from the least one up.
@@ -33,8 +34,11 @@ pub(super) struct Blob {
     mean: f32,
 }
 
+/// What a set of joined pixels is known by.
 #[derive(Clone, Copy)]
 struct Part {
+    /// The next one up, or itself.
+    parent: u32,
     left: u16,
     top: u16,
     right: u16,
@@ -66,72 +70,93 @@ pub(super) fn regions(redness: &Raster<f32>, ground: f32, most: usize) -> Vec<Bl
 }
 
 /// All connected regions above all thresholds: pixels are added from the reddest down and joined to their neighbours
-/// (union and find, as in Najman and Couprie 2006 for component trees).
+/// (union and find, as in Najman and Couprie 2006 for component trees). Work and memory are for pixels above the least
+/// threshold alone, a small part of most pictures.
 fn tree(redness: &Raster<f32>, least: f32) -> Vec<Blob> {
-    let (width, height) = (redness.width, redness.height);
-    let level = |value: f32| (((value - least) / STEP) as usize).min(LEVELS - 1);
-    let mut buckets: Vec<Vec<u32>> = vec![Vec::new(); LEVELS];
-    for (i, &value) in redness.data.iter().enumerate() {
-        if value >= least {
-            buckets[level(value)].push(i as u32);
-        }
+    const NOT: u32 = u32::MAX;
+    let width = redness.width;
+    let level = |value: f32| LEVELS - 1 - (((value - least) / STEP) as usize).min(LEVELS - 1);
+    let (order, ends) = sorted(redness, least, level);
+    let mut place = vec![NOT; redness.data.len()];
+    for (k, &i) in order.iter().enumerate() {
+        place[i as usize] = k as u32;
     }
-    const NONE: u32 = u32::MAX;
-    let mut parent = vec![NONE; width * height];
-    let nothing = Part { left: 0, top: 0, right: 0, bottom: 0, area: 0, sum: 0.0 };
-    let mut parts = vec![nothing; width * height];
+    let mut parts: Vec<Part> = Vec::with_capacity(order.len());
+    let mut told = vec![usize::MAX; order.len()];
     let mut blobs = Vec::new();
-    let mut touched: Vec<u32> = Vec::new();
-    for bucket in buckets.iter().rev() {
-        for &i in bucket {
+    for (level, end) in ends.into_iter().enumerate() {
+        let first = parts.len();
+        for &i in &order[first..end] {
             let (x, y) = (i as usize % width, i as usize / width);
-            let (column, row) = (x as u16, y as u16);
-            let value = redness.data[i as usize];
-            parts[i as usize] = Part { left: column, top: row, right: column, bottom: row, area: 1, sum: value };
-            parent[i as usize] = i;
-            let mut root = i;
+            let (column, row, this) = (x as u16, y as u16, parts.len() as u32);
+            let sum = redness.data[i as usize];
+            parts.push(Part { parent: this, left: column, top: row, right: column, bottom: row, area: 1, sum });
+            let mut root = this;
             let neighbours = [
-                (x > 0).then(|| i - 1),
-                (x + 1 < width).then(|| i + 1),
-                (y > 0).then(|| i - width as u32),
-                (y + 1 < height).then(|| i + width as u32),
+                (x > 0).then(|| i as usize - 1),
+                (x + 1 < width).then(|| i as usize + 1),
+                (y > 0).then(|| i as usize - width),
+                (y + 1 < redness.height).then(|| i as usize + width),
             ];
             for neighbour in neighbours.into_iter().flatten() {
-                if parent[neighbour as usize] == NONE {
+                // Later ones, and those below the least threshold, are not there yet.
+                if place[neighbour] >= this {
                     continue;
                 }
-                let other = find(&mut parent, neighbour);
+                let other = find(&mut parts, place[neighbour]);
                 if other != root {
-                    let (small, large) = if parts[other as usize].area < parts[root as usize].area {
-                        (other, root)
-                    } else {
-                        (root, other)
-                    };
-                    parent[small as usize] = large;
+                    let smaller = parts[other as usize].area < parts[root as usize].area;
+                    let (small, large) = if smaller { (other, root) } else { (root, other) };
                     parts[large as usize] = joined(parts[large as usize], parts[small as usize]);
+                    parts[small as usize].parent = large;
                     root = large;
                 }
             }
         }
-        touched.clear();
-        touched.extend(bucket.iter().map(|&i| find(&mut parent, i)));
-        touched.sort_unstable();
-        touched.dedup();
-        blobs.extend(touched.iter().map(|&root| parts[root as usize]).filter(|part| part.area >= SMALLEST).map(blob));
+        for k in first..end {
+            let root = find(&mut parts, k as u32) as usize;
+            if told[root] != level && parts[root].area >= SMALLEST {
+                told[root] = level;
+                blobs.push(blob(parts[root]));
+            }
+        }
     }
     blobs
 }
 
-fn find(parent: &mut [u32], mut i: u32) -> u32 {
-    while parent[i as usize] != i {
-        parent[i as usize] = parent[parent[i as usize] as usize];
-        i = parent[i as usize];
+/// Pixels above the least threshold by level, and for every level the place after its last one.
+fn sorted(redness: &Raster<f32>, least: f32, level: impl Fn(f32) -> usize) -> (Vec<u32>, [usize; LEVELS]) {
+    let above = || redness.data.iter().enumerate().filter(|(_, value)| **value >= least);
+    let mut ends = [0; LEVELS];
+    for (_, &value) in above() {
+        ends[level(value)] += 1;
+    }
+    let mut sum = 0;
+    let mut next = ends.map(|count| {
+        sum += count;
+        sum - count
+    });
+    let mut order = vec![0; sum];
+    for (i, &value) in above() {
+        let level = level(value);
+        order[next[level]] = i as u32;
+        next[level] += 1;
+    }
+    (order, next)
+}
+
+fn find(parts: &mut [Part], mut i: u32) -> u32 {
+    while parts[i as usize].parent != i {
+        let parent = parts[i as usize].parent;
+        parts[i as usize].parent = parts[parent as usize].parent;
+        i = parent;
     }
     i
 }
 
 fn joined(a: Part, b: Part) -> Part {
     Part {
+        parent: a.parent,
         left: a.left.min(b.left),
         top: a.top.min(b.top),
         right: a.right.max(b.right),
@@ -169,8 +194,7 @@ fn promise(blob: &Blob, redness: &Raster<f32>) -> f32 {
     let (cx, cy) = ((blob.left + blob.right) / 2.0, (blob.top + blob.bottom) / 2.0);
     let (a, b) = ((blob.right - blob.left) / 2.0, (blob.bottom - blob.top) / 2.0);
     let (mut sum, mut worst, mut count) = (0.0, f32::NEG_INFINITY, 0.0);
-    for k in 0..AROUND {
-        let (s, c) = (std::f32::consts::TAU * k as f32 / AROUND as f32).sin_cos();
+    for [c, s] in directions(AROUND) {
         if let Some(value) = redness.sample(cx + c * (1.25 * a + 1.0), cy + s * (1.25 * b + 1.0)) {
             sum += value;
             worst = worst.max(value);

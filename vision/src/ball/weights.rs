@@ -1,7 +1,7 @@
 //! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.
 
 /// Number of features.
-pub const COUNT: usize = 20;
+pub const COUNT: usize = 23;
 
 /// Odds of a candidate whose weights are all zero, logarithm.
 pub(super) const OFFSET: f32 = -0.523;
@@ -30,6 +30,9 @@ pub(super) const KNOTS: [[f32; 9]; COUNT] = [
     [0.311, 0.356, 0.508, 0.723, 0.861, 0.971, 1.340, 1.820, 2.093], // red over green against the carpet, logarithm
     [-0.988, -0.689, -0.306, -0.253, -0.100, 0.086, 0.333, 0.415, 0.686], // green over blue against the carpet, logarithm
     [0.031, 0.051, 0.071, 0.092, 0.135, 0.210, 0.230, 0.380, 0.839], // brightness outside against inside, unevenness
+    [0.000, 1.000, 2.000, 3.000, 4.000, 5.000, 6.000, 7.000, 8.000], // corners
+    [0.000, 1.000, 2.000, 3.000, 4.000, 5.000, 6.000, 7.000, 8.000], // rough px
+    [0.000, 1.000, 2.000, 3.000, 4.000, 5.000, 6.000, 7.000, 8.000], // ratio
 ];
 
 /// Logarithm of odds at each knot.
@@ -56,4 +59,7 @@ pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
     [-0.499, -0.176, 0.067, 0.067, -0.052, -0.211, -0.350, -0.457, -0.495], // red over green against the carpet, logarithm
     [-1.271, -0.857, -0.398, 0.021, 0.234, 0.325, 0.187, 0.051, -0.004], // green over blue against the carpet, logarithm
     [0.672, 0.696, 0.687, 0.525, 0.271, -0.127, -0.638, -1.207, -1.821], // brightness outside against inside, unevenness
+    [0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000], // corners
+    [0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000], // rough px
+    [0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000, 0.000], // ratio
 ];

@@ -3,7 +3,7 @@
 use super::light::{Finish, Lamp};
 use super::scene::{Body, Ground, Surface, World, ball, plain};
 use super::shape::Shape;
-use super::{Point, Rendered, Sensor, Shutter, render};
+use super::{BALL_RADIUS, Point, Rendered, Sensor, Shutter, render};
 use crate::camera::Camera;
 use crate::field::Field;
 use rand::{RngExt, SeedableRng};
@@ -36,7 +36,7 @@ pub fn sample(seed: u64, width: usize, height: usize) -> Sample {
     let mut world = hall(field, pose, rng);
     populate(&mut world, &camera, pose, rng);
     let shaky = rng.random_bool(0.35);
-    let shake = |rng: &mut ChaCha8Rng| if shaky { rng.random_range(-0.02..0.02) } else { 0.0 };
+    let shake = |rng: &mut ChaCha8Rng| if shaky { rng.random_range(-0.03..0.03) } else { 0.0 };
     let (turn, nod) = (shake(rng), shake(rng) * 0.6);
     let rolling = rng.random_range(0.0..0.8);
     let shutter = Shutter { pose, turn, nod, rolling };
@@ -69,7 +69,7 @@ fn sensor(rng: &mut ChaCha8Rng) -> Sensor {
         saturation: rng.random_range(0.65..1.35),
         gamma: 1.0 / rng.random_range(1.7..2.5),
         haze: rng.random_range(0.0..0.05),
-        vignette: rng.random_range(0.0..0.5),
+        vignette: rng.random_range(0.0..0.7),
         blur: rng.random_range(0.2..1.3),
         sharpening: rng.random_range(0.0..0.8),
         noise: [rng.random_range(0.0..0.05), rng.random_range(0.0..0.015)],
@@ -195,17 +195,34 @@ fn populate(world: &mut World, camera: &Camera, pose: [f64; 3], rng: &mut ChaCha
             at = place(camera, pose, 0.11, 3.0, rng);
         }
         let above = if rng.random_bool(0.07) { rng.random_range(0.0..0.08) } else { 0.0 };
-        world.bodies.push(ball(number, at[0], at[1], above, ball_finish(rng), rng.random()));
+        let held = rng.random_bool(HELD).then(|| holder(world, pose, rng)).flatten();
+        let [x, y] = held.unwrap_or(at);
+        world.bodies.push(ball(number, x, y, above, ball_finish(rng), rng.random()));
     }
     let eye = Point::new(pose[0], pose[1], camera.mount_height);
     world.bodies.retain(|body| body.ball.is_some() || clear(&body.shape, eye));
+}
+
+/// Share of balls that some robot has at its front or side, half hidden or with its colours beside it.
+const HELD: f64 = 0.2;
+
+/// A place at a robot, anywhere around it but where it hides the ball altogether.
+fn holder(world: &World, pose: [f64; 3], rng: &mut ChaCha8Rng) -> Option<[f64; 2]> {
+    let robots: Vec<(Point, f64)> = world.bodies.iter().filter_map(Body::robot).collect();
+    let (base, radius) = *robots.get(rng.random_range(0..robots.len().max(1)))?;
+    let towards = (pose[1] - base.y).atan2(pose[0] - base.x);
+    let angle = towards + rng.random_range(-2.1..2.1);
+    let far = radius + BALL_RADIUS * rng.random_range(0.6..1.6);
+    Some([base.x + far * angle.cos(), base.y + far * angle.sin()])
 }
 
 /// Orange of a league ball, new to worn.
 fn ball_finish(rng: &mut ChaCha8Rng) -> Finish {
     let red: f64 = rng.random_range(0.55..0.95);
     let albedo = [red, red * rng.random_range(0.14..0.42), red * rng.random_range(0.01..0.13)];
-    Finish { albedo, gloss: rng.random_range(0.0..0.12), sharpness: rng.random_range(8.0..120.0) }
+    // One in four is new and shines: its highlight burns out.
+    let gloss = if rng.random_bool(0.25) { rng.random_range(0.1..0.4) } else { rng.random_range(0.0..0.12) };
+    Finish { albedo, gloss, sharpness: rng.random_range(8.0..120.0) }
 }
 
 fn clear(shape: &Shape, eye: Point) -> bool {
@@ -235,13 +252,15 @@ fn robot(world: &mut World, at: [f64; 2], rng: &mut ChaCha8Rng) {
     let surface = Surface::Robot { side, cover, spots, heading, seed: rng.random() };
     world.bodies.push(Body::new(Shape::Cylinder { base, radius, height }, surface));
     // Connectors, coils, wires, indicator lights, printed parts.
-    for _ in 0..rng.random_range(0..4) {
+    let marker = if rng.random_bool(0.5) { pink } else { between([0.6, 0.12, 0.02], [0.9, 0.35, 0.1], rng) };
+    for _ in 0..rng.random_range(0..5) {
+        let colour = if rng.random_bool(0.25) { marker } else { thing(rng) };
         let angle = rng.random_range(0.0..TAU);
         let part = Point::new(at[0] + radius * angle.cos(), at[1] + radius * angle.sin(), rng.random_range(0.01..0.13));
         let half =
             Point::new(rng.random_range(0.002..0.015), rng.random_range(0.004..0.03), rng.random_range(0.003..0.02));
         let shape = Shape::Box { centre: part, half, heading: angle };
-        world.bodies.push(Body::new(shape, Surface::Plain(plain(thing(rng)))));
+        world.bodies.push(Body::new(shape, Surface::Plain(plain(colour))));
     }
 }
 

@@ -300,6 +300,14 @@ impl Body {
         Self { bound: shape.bound(), shape, surface, ball: None }
     }
 
+    /// Place and radius of a robot.
+    pub(super) fn robot(&self) -> Option<(Point, f64)> {
+        match (&self.surface, &self.shape) {
+            (Surface::Robot { .. }, Shape::Cylinder { base, radius, .. }) => Some((*base, *radius)),
+            _ => None,
+        }
+    }
+
     fn meet(&self, from: Point, along: Point) -> Option<Hit> {
         let to = self.bound.0 - from;
         let (ahead, far) = (to.dot(&along), to.norm_squared());
