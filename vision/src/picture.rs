@@ -1,5 +1,6 @@
 //! A colour picture, and reading it from a file.
 
+mod orientation;
 mod read;
 
 pub use read::{PictureError, decode, read};
@@ -152,27 +153,38 @@ impl Picture {
     /// The picture in floating point, sides divided by the whole number that brings the width to `width` or little
     /// more; and that number.
     pub(crate) fn reduced(&self, width: usize) -> (Raster<[f32; 3]>, usize) {
-        let by = (self.width / width).max(1);
+        // A very wide picture keeps its rows.
+        let by = (self.width / width).min(self.height / SMALLEST_SIDE).max(1);
         let (columns, rows) = (self.width / by, self.height / by);
         if by == 1 {
             let data = self.pixels.iter().map(|pixel| pixel.map(f32::from)).collect();
             return (Raster { width: columns, height: rows, data }, 1);
         }
-        let scale = 1.0 / (by * by) as f32;
         let mut data = Vec::with_capacity(columns * rows);
-        let mut sums = vec![[0_u32; 3]; columns];
-        for rows in self.pixels.chunks_exact(by * self.width) {
-            sums.fill([0; 3]);
-            for row in rows.chunks_exact(self.width) {
-                for (sum, pixels) in sums.iter_mut().zip(row.chunks_exact(by)) {
-                    for [r, g, b] in pixels {
-                        *sum = [sum[0] + u32::from(*r), sum[1] + u32::from(*g), sum[2] + u32::from(*b)];
-                    }
-                }
-            }
-            data.extend(sums.iter().map(|sum| sum.map(|c| c as f32 * scale)));
+        // The usual sizes as constants: the compiler unrolls them.
+        match by {
+            2 => self.blocks(2, &mut data),
+            3 => self.blocks(3, &mut data),
+            _ => self.blocks(by, &mut data),
         }
         (Raster { width: columns, height: rows, data }, by)
+    }
+
+    /// Means of blocks of `by` times `by` pixels.
+    #[inline(always)]
+    fn blocks(&self, by: usize, means: &mut Vec<[f32; 3]>) {
+        let scale = 1.0 / (by * by) as f32;
+        for rows in self.pixels.chunks_exact(by * self.width) {
+            for left in (0..=self.width - by).step_by(by) {
+                let mut sum = [0_u32; 3];
+                for row in 0..by {
+                    for [r, g, b] in &rows[row * self.width + left..][..by] {
+                        sum = [sum[0] + u32::from(*r), sum[1] + u32::from(*g), sum[2] + u32::from(*b)];
+                    }
+                }
+                means.push(sum.map(|c| c as f32 * scale));
+            }
+        }
     }
 }
 

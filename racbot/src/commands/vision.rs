@@ -24,7 +24,7 @@ enum Task {
 
 #[derive(Args, Debug)]
 struct Detect {
-    /// Pictures, or folders of pictures (*.png, *.jpg, *.jpeg)
+    /// Pictures, or folders with pictures (*.png, *.jpg, *.jpeg) in them or in their folders
     #[arg(value_name = "FILE|FOLDER", required = true)]
     inputs: Vec<PathBuf>,
 
@@ -54,13 +54,13 @@ impl Detect {
     fn run(&self) -> Result<Answer, Failure> {
         let mut files = Vec::new();
         for input in &self.inputs {
-            files.extend(pictures(input)?);
+            gather(input, &mut files);
         }
         let mut table = Table::new(1, &["file", "ball", "x", "y", "size", "score"]);
         let (mut list, mut failed) = (Vec::new(), Vec::new());
         let mut before: Option<Picture> = None;
-        for file in &files {
-            let picture = read(file).map_err(|error| error.to_string());
+        for (file, listed) in &files {
+            let picture = listed.clone().and_then(|()| read(file).map_err(|error| error.to_string()));
             let seen = picture.and_then(|picture| {
                 if self.sequence && before.as_ref() == Some(&picture) {
                     return Err(Unusable::Frozen.to_string());
@@ -76,7 +76,7 @@ impl Detect {
                     list.push(to_json(file, &scene, size));
                 }
                 Err(what) => {
-                    list.push(json!({ "file": file, "balls": [], "error": what }));
+                    list.push(json!({ "file": file.display().to_string(), "balls": [], "error": what }));
                     failed.push(format!("{}: {what}", file.display()));
                 }
             }
@@ -94,22 +94,50 @@ impl Detect {
     }
 }
 
-/// A file itself, or the pictures of a folder by name.
-pub(crate) fn pictures(input: &Path) -> Result<Vec<PathBuf>, Failure> {
+const NO_PICTURES: &str = "no pictures in this folder; *.png, *.jpg and *.jpeg are read";
+
+fn is_picture(file: &Path) -> bool {
+    let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    ["png", "jpg", "jpeg"].contains(&extension.as_str())
+}
+
+/// A file itself, or the pictures of a folder and of the folders in it, by name; a folder of no use with the reason. Links
+/// to folders are not followed: they may lead in a circle.
+fn gather(input: &Path, files: &mut Vec<(PathBuf, Result<(), String>)>) {
     if !input.is_dir() {
-        return Ok(vec![input.to_owned()]);
+        files.push((input.to_owned(), Ok(())));
+        return;
     }
-    let known = |file: &PathBuf| {
-        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-        ["png", "jpg", "jpeg"].contains(&extension.as_str()) && file.is_file()
-    };
-    let entries = fs::read_dir(input).map_err(|error| Failure::about(input, error))?;
+    let before = files.len();
+    let mut folders = vec![input.to_owned()];
+    while let Some(folder) = folders.pop() {
+        match fs::read_dir(&folder) {
+            Ok(entries) => {
+                for entry in entries.flatten() {
+                    let path = entry.path();
+                    if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                        folders.push(path);
+                    } else if is_picture(&path) && !path.is_dir() {
+                        files.push((path, Ok(())));
+                    }
+                }
+            }
+            Err(error) => files.push((folder, Err(error.to_string()))),
+        }
+    }
+    if files.len() == before {
+        files.push((input.to_owned(), Err(NO_PICTURES.to_owned())));
+    }
+    files[before..].sort();
+}
+
+/// The pictures of one folder by name, without those of folders in it: frames in their order.
+pub(crate) fn pictures(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let entries = fs::read_dir(folder).map_err(|error| Failure::about(folder, error))?;
+    let known = |file: &PathBuf| is_picture(file) && file.is_file();
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(known).collect();
     files.sort();
-    if files.is_empty() {
-        return Err(Failure::about(input, "no pictures in this folder; *.png, *.jpg and *.jpeg are read"));
-    }
-    Ok(files)
+    if files.is_empty() { Err(Failure::about(folder, NO_PICTURES)) } else { Ok(files) }
 }
 
 fn rows(table: &mut Table, file: &Path, scene: &Scene) {
@@ -149,6 +177,6 @@ fn to_json(file: &Path, scene: &Scene, [width, height]: [usize; 2]) -> Value {
         .collect();
     let lines: Vec<Value> = scene.lines.iter().map(|point| json!([tenth(point.x), tenth(point.y)])).collect();
     let boundary: Vec<Value> = scene.boundary.iter().map(|p| json!([tenth(p[0]), tenth(p[1])])).collect();
-    json!({ "file": file, "width": width, "height": height, "balls": balls, "goals": goals, "lines": lines,
+    json!({ "file": file.display().to_string(), "width": width, "height": height, "balls": balls, "goals": goals, "lines": lines,
         "boundary": boundary })
 }

@@ -19,9 +19,10 @@ const BULGE: f32 = 0.4;
 /// How far a fit may move a box's sides, in radii.
 const TRUSTED: f32 = 0.5;
 
-/// What half-way misses of a ball, left to right and top to bottom, pixels: medians over rendered balls of 8 pixels and
-/// more. The lower part is dim, and video stores colour at half the resolution.
-const MISSED: [f32; 2] = [0.5, 0.8];
+/// What half-way misses of a ball's width and height, pixels: between the medians over rendered balls of 8 pixels and more
+/// (0.5 and 0.8: the lower part is dim, and video stores colour at half the resolution), and those over people's labels,
+/// from 0 to 2.
+const MISSED: [f32; 2] = [0.6, 0.9];
 
 /// An upright ellipse and how well the picture agrees.
 #[derive(Clone, Copy, Debug)]
@@ -70,9 +71,8 @@ impl Outline {
             let (low, high) = ((middle - half).max(0.0), (middle + half).min(size as f32));
             (f64::from(low + high) / 2.0 * by as f64, f64::from(high - low) * by as f64)
         };
-        let [beside, below] = MISSED.map(|missed| missed / 2.0);
-        let (x, width) = span(self.cx, self.a + beside, working.width);
-        let (y, height) = span(self.cy + below, self.b + below, working.height);
+        let (x, width) = span(self.cx, self.a + MISSED[0] / 2.0, working.width);
+        let (y, height) = span(self.cy, self.b + MISSED[1] / 2.0, working.height);
         Region { x, y, width, height }
     }
 

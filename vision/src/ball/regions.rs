@@ -75,7 +75,7 @@ pub(super) fn regions(redness: &Raster<f32>, ground: f32, most: usize) -> Vec<Bl
 fn tree(redness: &Raster<f32>, least: f32) -> Vec<Blob> {
     const NOT: u32 = u32::MAX;
     let width = redness.width;
-    let level = |value: f32| LEVELS - 1 - (((value - least) / STEP) as usize).min(LEVELS - 1);
+    let level = |value: f32| LEVELS - 1 - (((value - least) * (1.0 / STEP)) as usize).min(LEVELS - 1);
     let (order, ends) = sorted(redness, least, level);
     let mut place = vec![NOT; redness.data.len()];
     for (k, &i) in order.iter().enumerate() {
@@ -92,16 +92,10 @@ fn tree(redness: &Raster<f32>, least: f32) -> Vec<Blob> {
             let sum = redness.data[i as usize];
             parts.push(Part { parent: this, left: column, top: row, right: column, bottom: row, area: 1, sum });
             let mut root = this;
-            let neighbours = [
-                (x > 0).then(|| i as usize - 1),
-                (x + 1 < width).then(|| i as usize + 1),
-                (y > 0).then(|| i as usize - width),
-                (y + 1 < redness.height).then(|| i as usize + width),
-            ];
-            for neighbour in neighbours.into_iter().flatten() {
+            let mut meet = |neighbour: usize| {
                 // Later ones, and those below the least threshold, are not there yet.
                 if place[neighbour] >= this {
-                    continue;
+                    return;
                 }
                 let other = find(&mut parts, place[neighbour]);
                 if other != root {
@@ -111,6 +105,19 @@ fn tree(redness: &Raster<f32>, least: f32) -> Vec<Blob> {
                     parts[small as usize].parent = large;
                     root = large;
                 }
+            };
+            let i = i as usize;
+            if x > 0 {
+                meet(i - 1);
+            }
+            if x + 1 < width {
+                meet(i + 1);
+            }
+            if y > 0 {
+                meet(i - width);
+            }
+            if y + 1 < redness.height {
+                meet(i + width);
             }
         }
         for k in first..end {

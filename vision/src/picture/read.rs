@@ -1,5 +1,6 @@
 //! PNG and JPEG files.
 
+use super::orientation::{orientation, upright};
 use super::{LARGEST_SIDE, Picture, Unusable};
 use std::io::Cursor;
 use std::path::Path;
@@ -16,6 +17,9 @@ pub enum PictureError {
     /// It cannot be read.
     #[error("cannot be read: {0}")]
     Io(#[from] std::io::Error),
+    /// A pipe or a device, which may never end.
+    #[error("not a regular file")]
+    NotRegular,
     /// Larger than any frame of a camera.
     #[error("{0} bytes are no camera frame; at most {LARGEST_FILE}")]
     TooLarge(u64),
@@ -43,16 +47,19 @@ pub enum PictureError {
 /// # Errors
 /// [`PictureError`]
 pub fn read(file: &Path) -> Result<Picture, PictureError> {
-    let size = std::fs::metadata(file)?.len();
-    if size > LARGEST_FILE {
-        return Err(PictureError::TooLarge(size));
+    let metadata = std::fs::metadata(file)?;
+    if !metadata.is_file() {
+        return Err(PictureError::NotRegular);
+    }
+    if metadata.len() > LARGEST_FILE {
+        return Err(PictureError::TooLarge(metadata.len()));
     }
     let picture = decode(&std::fs::read(file)?)?;
     picture.check()?;
     Ok(picture)
 }
 
-/// Decodes the bytes of a PNG or JPEG file.
+/// Decodes the bytes of a PNG or JPEG file, turned as its Exif data says.
 ///
 /// # Errors
 /// [`PictureError`]
@@ -84,7 +91,8 @@ fn png(bytes: &[u8]) -> Result<Picture, PictureError> {
     let frame = reader.next_frame(&mut buffer).map_err(failed)?;
     let samples = frame.color_type.samples();
     let pixels = buffer[..frame.buffer_size()].chunks_exact(samples).map(rgb).collect();
-    Ok(Picture::new(frame.width as usize, frame.height as usize, pixels)?)
+    let picture = Picture::new(frame.width as usize, frame.height as usize, pixels)?;
+    Ok(upright(picture, reader.info().exif_metadata.as_deref().map_or(1, orientation)))
 }
 
 /// Grey, grey with alpha, RGB or RGBA as RGB.
@@ -115,5 +123,5 @@ fn jpeg(bytes: &[u8]) -> Result<Picture, PictureError> {
         return Err(damaged(&"not three components"));
     }
     let pixels = data.chunks_exact(3).map(rgb).collect();
-    Ok(Picture::new(width, height, pixels)?)
+    Ok(upright(Picture::new(width, height, pixels)?, decoder.exif().map_or(1, |exif| orientation(exif))))
 }
