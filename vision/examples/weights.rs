@@ -1,7 +1,7 @@
 //! Trains the weights of the ball's features on rendered pictures and labelled photographs, and writes them as Rust:
 //!
 //! ```sh
-//! cargo run --release -p vision --example weights -- 10000 10900 20000 20900 [FOLDER ...] >vision/src/ball/weights.rs
+//! cargo run --release -p vision --example weights -- 20000 21400 [FOLDER ...] >vision/src/ball/weights.rs
 //! ```
 //!
 //! The numbers are ranges of seeds: the first one and the one after the last. Seeds of tests and benches lie below

@@ -95,6 +95,55 @@ fn a_ball_is_found_and_bad_files_are_named_without_stopping_the_rest() {
 }
 
 #[test]
+fn no_file_or_folder_of_whatever_kind_costs_the_others_their_results() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for nested in ["empty", "nest/deeper", "nest/dir.png"] {
+        fs::create_dir_all(at(nested)).unwrap();
+    }
+    picture(&at("good.png"), field);
+    picture(&at("nest/deeper/ball.png"), field);
+    fs::write(at("nest/nothing.jpg"), []).unwrap();
+    fs::write(at("text.png"), "no picture").unwrap();
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        std::os::unix::fs::symlink("nowhere", at("nest/dangling.png")).unwrap();
+        std::os::unix::fs::symlink("..", at("nest/circle")).unwrap();
+        fs::copy(at("good.png"), folder.path().join(std::ffi::OsStr::from_bytes(b"nest/\xff.png"))).unwrap();
+    }
+    let inputs = ["text.png", "missing.png", "empty", "nest", "/dev/null", "good.png"];
+    let outcome = racbot(folder.path(), &[&["vision", "detect", "--json"], &inputs[..]].concat());
+    assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+    let list = outcome.json();
+    let seen: Vec<(&str, String, usize)> = list
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| {
+            let error = one["error"].as_str().unwrap_or_default().to_owned();
+            (one["file"].as_str().unwrap(), error, one["balls"].as_array().unwrap().len())
+        })
+        .collect();
+    let is = |file: &str, what: &str, balls: usize| {
+        let found = seen.iter().any(|(name, error, count)| *name == file && error.contains(what) && *count == balls);
+        assert!(found, "{file}: {what}\n{seen:?}");
+    };
+    is("text.png", "neither PNG nor JPEG", 0);
+    is("missing.png", "cannot be read", 0);
+    is("empty", "no pictures in this folder", 0);
+    is("nest/deeper/ball.png", "", 1);
+    is("nest/nothing.jpg", "cut off", 0);
+    is("good.png", "", 1);
+    if cfg!(unix) {
+        is("/dev/null", "not a regular file", 0);
+        is("nest/dangling.png", "cannot be read", 0);
+        is("nest/\u{fffd}.png", "", 1);
+        assert_eq!(seen.len(), 9, "{seen:?}");
+    }
+}
+
+#[test]
 fn folders_without_pictures_and_impossible_scores_are_refused() {
     let folder = tempdir().unwrap();
     racbot(folder.path(), &["vision", "detect", "."]).refused(1, &["no pictures"]);
