@@ -114,8 +114,9 @@ impl Camera {
     pub fn ray(&self, pixel: [f64; 2]) -> Vector3<f64> {
         let seen = [0, 1].map(|i| (pixel[i] - self.centre[i]) / self.focal[i]);
         let mut at = seen;
-        for _ in 0..UNDISTORTION_STEPS {
-            let stretch = self.stretch(at[0].hypot(at[1]));
+        let steps = if self.distortion == [0.0; 2] { 0 } else { UNDISTORTION_STEPS };
+        for _ in 0..steps {
+            let stretch = self.stretch(at);
             at = seen.map(|s| s / stretch);
         }
         self.axes() * Vector3::new(at[0], at[1], 1.0).normalize()
@@ -129,7 +130,7 @@ impl Camera {
             return None;
         }
         let at = [seen.x / seen.z, seen.y / seen.z];
-        let stretch = self.stretch(at[0].hypot(at[1]));
+        let stretch = self.stretch(at);
         Some([0, 1].map(|i| self.centre[i] + self.focal[i] * at[i] * stretch))
     }
 
@@ -141,9 +142,9 @@ impl Camera {
         (way.is_finite() && way > 0.0).then(|| [way * ray.x, way * ray.y])
     }
 
-    fn stretch(&self, r: f64) -> f64 {
+    fn stretch(&self, at: [f64; 2]) -> f64 {
         let [k1, k2] = self.distortion;
-        let r2 = r * r;
+        let r2 = at[0] * at[0] + at[1] * at[1];
         (1.0 + k1 * r2 + k2 * r2 * r2).max(0.2)
     }
 }

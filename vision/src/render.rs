@@ -71,17 +71,18 @@ pub fn render(
     let mut seen = vec![Seen::default(); world.balls()];
     let step = 1.0 / grid as f64;
     let eye = Point::new(shutter.pose[0], shutter.pose[1], camera.mount_height);
+    let still = shutter.turn == 0.0 && shutter.nod == 0.0;
+    let at_rest = shutter.pose[2].sin_cos();
     for y in 0..height {
         for x in 0..width {
             let mut sum = [0.0; 3];
             for k in 0..grid * grid {
                 let px = x as f64 + (((k % grid) as f64) + rng.random::<f64>()) * step;
                 let py = y as f64 + (((k / grid) as f64) + rng.random::<f64>()) * step;
-                let still = shutter.turn == 0.0 && shutter.nod == 0.0;
                 let open = if still { 0.0 } else { rng.random::<f64>() - 0.5 };
                 let time = shutter.rolling * (py / height as f64 - 0.5) + (1.0 - shutter.rolling) * open;
                 let lens = Camera { tilt: camera.tilt + time * shutter.nod, ..*camera };
-                let (s, c) = (shutter.pose[2] + time * shutter.turn).sin_cos();
+                let (s, c) = if still { at_rest } else { (shutter.pose[2] + time * shutter.turn).sin_cos() };
                 let ray = lens.ray([px, py]);
                 let along = Point::new(c * ray.x - s * ray.y, s * ray.x + c * ray.y, ray.z);
                 let (colour, ball) = world.look(eye, along, rng);

@@ -46,8 +46,12 @@ impl Lamp {
 impl Finish {
     /// Light towards the eye of a lamp of one colour, `amount` strong on the surface.
     pub(super) fn lit(&self, amount: f64, tint: [f64; 3], normal: Point, towards: Point, along: Point) -> [f64; 3] {
-        let half = (towards - along).normalize();
-        let highlight = self.gloss * (self.sharpness + 2.0) / 8.0 * normal.dot(&half).max(0.0).powf(self.sharpness);
+        let highlight = if self.gloss == 0.0 {
+            0.0
+        } else {
+            let half = (towards - along).normalize();
+            self.gloss * (self.sharpness + 2.0) / 8.0 * normal.dot(&half).max(0.0).powf(self.sharpness)
+        };
         [0, 1, 2].map(|i| amount * tint[i] * (self.albedo[i] + highlight))
     }
 }

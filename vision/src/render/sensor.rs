@@ -120,6 +120,7 @@ fn blurred(light: Vec<[f64; 3]>, width: usize, sd: f64) -> Vec<[f64; 3]> {
     let reach = (3.0 * sd).ceil() as isize;
     let weights: Vec<f64> = (-reach..=reach).map(|i| (-0.5 * (i as f64 / sd).powi(2)).exp()).collect();
     let total: f64 = weights.iter().sum();
+    let weights: Vec<f64> = weights.into_iter().map(|weight| weight / total).collect();
     let height = light.len() / width;
     let pass = |from: &[[f64; 3]], across: bool| {
         let mut to = Vec::with_capacity(from.len());
@@ -132,7 +133,7 @@ fn blurred(light: Vec<[f64; 3]>, width: usize, sd: f64) -> Vec<[f64; 3]> {
                 let (px, py) = (px.clamp(0, width as isize - 1), py.clamp(0, height as isize - 1));
                 let pixel = from[py as usize * width + px as usize];
                 for (sum, c) in sum.iter_mut().zip(pixel) {
-                    *sum += weight * c / total;
+                    *sum += weight * c;
                 }
             }
             to.push(sum);
