@@ -80,7 +80,10 @@ fn boxes(cases: &[Case]) {
                 off.get(off.len() / 2).map_or_else(|| "-".to_owned(), |off| format!("{off:.2}"))
             })
             .collect();
-        eprintln!("balls of {} to {} pixels reach beyond their boxes: left, right, up, down {medians:?}", sizes[0], sizes[1]);
+        eprintln!(
+            "balls of {} to {} pixels reach beyond their boxes: left, right, up, down {medians:?}",
+            sizes[0], sizes[1]
+        );
     }
 }
 

@@ -39,15 +39,29 @@ pub(crate) fn points(picture: &Raster<[f32; 3]>, carpet: &Carpet, by: usize, eve
     let mut points = Vec::new();
     for x in (every / 2..picture.width).step_by(every) {
         let at = |y: usize| y * picture.width + x;
-        crossings(picture.height, widest, |y| bright(at(y)), |y| mask(at(y)), |y| weight(at(y)), |middle, width| {
-            points.push(LinePoint { x: (x as f64 + 0.5) * scale, y: middle * scale, width: width * scale });
-        });
+        crossings(
+            picture.height,
+            widest,
+            |y| bright(at(y)),
+            |y| mask(at(y)),
+            |y| weight(at(y)),
+            |middle, width| {
+                points.push(LinePoint { x: (x as f64 + 0.5) * scale, y: middle * scale, width: width * scale });
+            },
+        );
     }
     for y in (every / 2..picture.height).step_by(every) {
         let at = |x: usize| y * picture.width + x;
-        crossings(picture.width, widest, |x| bright(at(x)), |x| mask(at(x)), |x| weight(at(x)), |middle, width| {
-            points.push(LinePoint { x: middle * scale, y: (y as f64 + 0.5) * scale, width: width * scale });
-        });
+        crossings(
+            picture.width,
+            widest,
+            |x| bright(at(x)),
+            |x| mask(at(x)),
+            |x| weight(at(x)),
+            |middle, width| {
+                points.push(LinePoint { x: middle * scale, y: (y as f64 + 0.5) * scale, width: width * scale });
+            },
+        );
     }
     points
 }
@@ -93,9 +107,16 @@ mod tests {
         let row: Vec<u8> = b"ccccccwwcccccccccccwwwwwwwww".to_vec();
         let mut found = Vec::new();
         let weight = |i: usize| f32::from(u8::from(row[i] == b'w'));
-        crossings(row.len(), 4, |i| row[i] == b'w', |i| row[i] == b'c', weight, |middle, width| {
-            found.push((middle, width));
-        });
+        crossings(
+            row.len(),
+            4,
+            |i| row[i] == b'w',
+            |i| row[i] == b'c',
+            weight,
+            |middle, width| {
+                found.push((middle, width));
+            },
+        );
         assert_eq!(found, [(7.0, 2.0)]);
     }
 }

@@ -146,7 +146,9 @@ fn no_file_or_folder_of_whatever_kind_costs_the_others_their_results() {
 #[test]
 fn folders_without_pictures_and_impossible_scores_are_refused() {
     let folder = tempdir().unwrap();
-    racbot(folder.path(), &["vision", "detect", "."]).refused(1, &["no pictures"]);
+    let empty = racbot(folder.path(), &["vision", "detect", ".", "--json"]);
+    assert!(empty.code == Some(1) && empty.stderr.contains("no pictures"), "{}", empty.stderr);
+    assert!(empty.json()[0]["error"].as_str().unwrap().contains("no pictures"));
     racbot(folder.path(), &["vision", "detect", "x.png", "--least", "2"]).refused(2, &["from 0 to 1"]);
     let missing = racbot(folder.path(), &["vision", "detect", "nowhere.png"]);
     assert!(missing.code == Some(1) && missing.stderr.contains("nowhere.png: "), "{}", missing.stderr);
