@@ -51,7 +51,7 @@ fn measure() {
         alone.push(on_processor() - ran);
         whole.push(start.elapsed().as_secs_f64() * 1e3);
     }
-    let instructions: Vec<f64> = frames.par_iter().filter_map(|frame| instructions(frame)).collect();
+    let instructions: Vec<f64> = frames.par_iter().filter_map(instructions).collect();
     let row = |what: &str, mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
         let at = |share: f64| {

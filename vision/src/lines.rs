@@ -85,7 +85,7 @@ fn crossings(
         while i < length && bright(i) {
             i += 1;
         }
-        let before = from.checked_sub(FRINGE + 1).is_some_and(|first| carpet(first));
+        let before = from.checked_sub(FRINGE + 1).is_some_and(&carpet);
         let after = i + FRINGE < length && carpet(i + FRINGE);
         if i - from <= widest && before && after {
             let (low, high) = (from.saturating_sub(1), (i + 1).min(length));

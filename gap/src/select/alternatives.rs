@@ -151,7 +151,7 @@ fn shared(design: &Design, index: usize) -> Vec<String> {
         let active = design.state.active.iter().any(|a| a.effect.name() == candidate.effect.name());
         let seen = |j: &usize| design.linear.equations.tells(*j);
         fits && !active
-            && columns.iter().all(|j| seen(j))
+            && columns.iter().all(seen)
             && (own.len() > columns.len() && columns.iter().all(|j| done(&own, *j) > HIDES)
                 || columns.iter().all(|j| done(&all, *j) > ALIKE) && !columns.iter().all(|j| done(&others, *j) > ALIKE))
     };
