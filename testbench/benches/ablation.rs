@@ -248,7 +248,7 @@ fn main() {
     measured::Table {
         name: "ablation",
         title: "What the gap workflow says with each of its thresholds off, halved or doubled",
-        command: &format!("cargo bench -p testbench --bench ablation -- {}", without_state(&given).join(" ")),
+        command: &format!("cargo bench -p testbench --bench ablation -- {}", repeatable(&given).join(" ")),
         columns: &[
             "threshold",
             "right or within",
@@ -269,8 +269,8 @@ fn bytes(folder: &Path) -> u64 {
     files.filter_map(|file| file.metadata().ok()).map(|m| m.len()).sum()
 }
 
-/// Where the state is kept is no part of what was measured.
-fn without_state<'a>(given: &[&'a str]) -> Vec<&'a str> {
-    let at = given.iter().position(|a| *a == "--state");
-    given.iter().enumerate().filter(|(i, _)| at.is_none_or(|at| *i != at && *i != at + 1)).map(|(_, a)| *a).collect()
+/// Where the state is kept, and how long each of the runs took that filled it, is no part of what was measured.
+fn repeatable<'a>(given: &[&'a str]) -> Vec<&'a str> {
+    let pairs = given.chunks(2).filter(|pair| !["--state", "--minutes"].contains(&pair[0]));
+    pairs.flatten().copied().collect()
 }
