@@ -132,8 +132,8 @@ pub fn alternatives(
 /// by their second order only; 0.13 rad of it passed for skews (blind bench).
 const HIDES: f64 = 0.9;
 
-/// Effects that the active ones together can do, and could not without this one, nor this one alone; and those that this
-/// one, which has several parameters, can nearly do.
+/// Effects that the active ones together can do, and could not without this one; and those that this one, which has
+/// several parameters, can nearly do.
 fn shared(design: &Design, index: usize) -> Vec<String> {
     let jj = design.linear.equations.information();
     let done = |columns: &[usize], c: usize| {
@@ -153,9 +153,7 @@ fn shared(design: &Design, index: usize) -> Vec<String> {
         fits && !active
             && columns.iter().all(seen)
             && (own.len() > columns.len() && columns.iter().all(|j| done(&own, *j) > HIDES)
-                || [(&all, true), (&own, false), (&others, false)]
-                    .iter()
-                    .all(|(by, wanted)| columns.iter().all(|j| done(by, *j) > ALIKE) == *wanted))
+                || columns.iter().all(|j| done(&all, *j) > ALIKE) && !columns.iter().all(|j| done(&others, *j) > ALIKE))
     };
     let mut names: Vec<String> =
         (0..design.candidates.len()).filter(is_shared).map(|c| design.candidates[c].effect.name().to_owned()).collect();
