@@ -37,31 +37,25 @@ pub(crate) fn points(picture: &Raster<[f32; 3]>, carpet: &Carpet, by: usize, eve
     let widest = (WIDEST * picture.width as f32) as usize;
     let scale = by as f64;
     let mut points = Vec::new();
-    for x in (every / 2..picture.width).step_by(every) {
-        let at = |y: usize| y * picture.width + x;
+    let mut scan = |length: usize, first: usize, stride: usize, place: &dyn Fn(f64) -> [f64; 2]| {
+        let at = |k: usize| first + k * stride;
         crossings(
-            picture.height,
+            length,
             widest,
-            |y| bright(at(y)),
-            |y| mask(at(y)),
-            |y| weight(at(y)),
+            |k| bright(at(k)),
+            |k| mask(at(k)),
+            |k| weight(at(k)),
             |middle, width| {
-                points.push(LinePoint { x: (x as f64 + 0.5) * scale, y: middle * scale, width: width * scale });
+                let [x, y] = place(middle);
+                points.push(LinePoint { x: x * scale, y: y * scale, width: width * scale });
             },
         );
+    };
+    for x in (every / 2..picture.width).step_by(every) {
+        scan(picture.height, x, picture.width, &|middle| [x as f64 + 0.5, middle]);
     }
     for y in (every / 2..picture.height).step_by(every) {
-        let at = |x: usize| y * picture.width + x;
-        crossings(
-            picture.width,
-            widest,
-            |x| bright(at(x)),
-            |x| mask(at(x)),
-            |x| weight(at(x)),
-            |middle, width| {
-                points.push(LinePoint { x: middle * scale, y: (y as f64 + 0.5) * scale, width: width * scale });
-            },
-        );
+        scan(picture.width, y * picture.width, 1, &|middle| [middle, y as f64 + 0.5]);
     }
     points
 }

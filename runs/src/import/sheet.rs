@@ -1,4 +1,4 @@
-//! A text table as its writer left it: remarks before it, names of columns behind a `#` or none, blanks between fields.
+//! A text table as its writer left it: remarks before it, names of columns after a `#` or none, blanks between fields.
 
 use std::borrow::Cow;
 
