@@ -78,9 +78,9 @@ pub const AT_BOUND: f64 = 0.002;
 /// A fitted parameter with its interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// As it stands in the source and in the report.
+    /// Of the parameter, as in the catalogue.
     pub name: String,
-    /// In the unit that its reason names.
+    /// In the parameter's unit.
     pub value: f64,
     /// Where it lies with 95 % confidence.
     pub interval: [f64; 2],

@@ -37,9 +37,9 @@ pub(crate) enum Pace {
 pub(crate) struct OpenCard {
     /// Its name: the slot.
     pub(crate) name: String,
-    /// Owner of the configuration port and of the bridge.
+    /// What reads and writes its PCI windows.
     pub(crate) card: Box<dyn PciCard>,
-    /// Without a file: the gateware in the binary.
+    /// Whether it is the simulated one in this program.
     #[cfg(feature = "simulation")]
     pub(crate) built_in: bool,
     /// The time in which it lives.

@@ -78,7 +78,7 @@ pub enum FormalError {
     /// The module is not in the text.
     #[error("{proof}: there is no module `{module}` in the Verilog; was it renamed?")]
     NoModule {
-        /// Name of its folder.
+        /// As in the table of claims.
         proof: &'static str,
         /// The module.
         module: &'static str,
@@ -86,7 +86,7 @@ pub enum FormalError {
     /// An edit that does not find its place.
     #[error("{proof}: `{text}` stands {count} times in `{module}`, not once; adapt the mutant or the shrinking")]
     NoPlace {
-        /// Name of its folder.
+        /// As in the table of claims.
         proof: &'static str,
         /// The module.
         module: &'static str,
@@ -98,7 +98,7 @@ pub enum FormalError {
     /// The claim does not follow.
     #[error("{proof}{variant}: not proven within {depth} clocks: {answer}\n{log}")]
     NotProven {
-        /// Name of its folder.
+        /// As in the table of claims.
         proof: &'static str,
         /// Which variant of the module.
         variant: &'static str,
@@ -112,7 +112,7 @@ pub enum FormalError {
     /// A broken module that the checker takes for a good one.
     #[error("{proof}: the mutant \"{mutant}\" was not refuted within {depth} clocks: the claim is too weak\n{log}")]
     Survived {
-        /// Name of its folder.
+        /// As in the table of claims.
         proof: &'static str,
         /// What was replaced in the Verilog.
         mutant: &'static str,

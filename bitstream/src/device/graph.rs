@@ -14,7 +14,7 @@ pub struct Arc {
 /// A switch of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pip {
-    /// Where its pips are.
+    /// Where the switch stands.
     pub tile: TileId,
     /// From this wire.
     pub from: WireId,

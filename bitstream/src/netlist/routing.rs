@@ -12,7 +12,7 @@ const FLOATING: u32 = u32::MAX - 1;
 /// An output of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Output {
-    /// Where its switches stand.
+    /// Where the element stands.
     pub tile: TileId,
     /// What drives.
     pub kind: BelKind,

@@ -218,7 +218,7 @@ fn simpler(chosen: &[Part]) -> Vec<Vec<Part>> {
 enum Folds {
     /// One block of [`FOLDS`].
     Blocks,
-    /// Wheel steps and poses of one run.
+    /// One run, where there are several.
     Runs,
 }
 

@@ -13,7 +13,7 @@ const TIMES: [&str; 12] =
 
 /// The column of time and its unit in seconds, where the map says nothing of it.
 fn time_column(names: &[String]) -> Option<(usize, f64)> {
-    let plain = names.iter().enumerate().find_map(|(i, name)| {
+    let exact = names.iter().enumerate().find_map(|(i, name)| {
         let plain = name.to_lowercase();
         let mut words = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
         let is_time = |word: Option<&str>| word.is_some_and(|word| TIMES.contains(&word));
@@ -26,8 +26,7 @@ fn time_column(names: &[String]) -> Option<(usize, f64)> {
         plain.split(|c: char| !c.is_alphanumeric()).any(|word| ["time", "timestamp", "stamp"].contains(&word))
     });
     // A name with the word anywhere, if it is the only one.
-    let mut other = || others.next().filter(|_| others.next().is_none()).map(|(i, name)| (i, unit_s(name)));
-    plain.or_else(&mut other)
+    exact.or_else(|| others.next().filter(|_| others.next().is_none()).map(|(i, name)| (i, unit_s(name))))
 }
 
 /// Seconds in the unit of time that a column's name ends in; 1 where it has none.
