@@ -5,6 +5,7 @@ mod design;
 mod gates;
 mod join;
 mod plain;
+mod spanning;
 mod sure;
 mod undecided;
 

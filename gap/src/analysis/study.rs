@@ -134,7 +134,11 @@ pub(super) fn study(
             (0..design.candidates.len()).any(|c| design.candidates[c].effect.name() == name && design.is_twin(c, index))
         };
         // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
-        let counts = |s: &Vec<String>| !selection.bare || matches!(&s[..], [_, other] if twin(other));
+        let counts = |s: &Vec<String>| match &s[..] {
+            _ if !selection.bare => true,
+            [_, other] => twin(other),
+            _ => alternatives.spanned,
+        };
         let own: Vec<Vec<String>> =
             alternatives.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
         ambiguous |= alternatives.ambiguous && !own.is_empty();

@@ -33,6 +33,8 @@ pub struct Alternatives {
     pub design: Design,
     /// Sets of names that do as well, the effect's own among them.
     pub sets: Vec<Vec<String>>,
+    /// Whether the pair among them does what the effect does, not merely as much.
+    pub spanned: bool,
     /// Whether a single alternative has no more parameters and no convention prefers the named effect.
     pub ambiguous: bool,
     /// Effects that the named ones can do with a part of what they are free to do, this one's share of it among them:
@@ -122,9 +124,12 @@ pub fn alternatives(
             told.push(other);
         }
     }
-    sets.extend(pair_alternatives(&design, &trials, &told, own_gain, thresholds));
+    let spanning = super::spanning::spanning_pairs(&found.design, index);
+    let pair = pair_alternatives(&design, &trials, &spanning, &told, own_gain, thresholds);
+    let spanned = pair.as_ref().is_some_and(|p| p.0);
+    sets.extend(pair.map(|p| p.1));
     let shared = shared(&found.design, index).into_iter().filter(|other| !told.contains(other)).collect();
-    Alternatives { design, sets, ambiguous, shared }
+    Alternatives { design, sets, spanned, ambiguous, shared }
 }
 
 /// Squared cosine with what an effect of several parameters can do from which it hides another: the other's limit is
@@ -196,15 +201,18 @@ fn twins_of_parts(design: &Design, index: usize) -> Vec<String> {
     names
 }
 
-/// Two effects that together do what the first of the `told` does, neither of them told already.
+/// Two effects that together do what the first of the `told` does, neither of them told already: one of the pairs that
+/// span it before two that merely gain as much, and whether it is one.
 fn pair_alternatives(
     design: &Design,
     trials: &[Trial],
+    spanning: &[[usize; 2]],
     told: &[String],
     own_gain: f64,
     thresholds: &Thresholds,
-) -> Option<Vec<String>> {
+) -> Option<(bool, Vec<String>)> {
     let effect = |c: usize| design.candidates[c].effect.name();
+    let name = told[0].as_str();
     let mut others: Vec<usize> = trials
         .iter()
         .filter(|t| !told.iter().any(|n| n == effect(t.candidate)) && !t.beyond && t.gain > 0.0)
@@ -215,24 +223,30 @@ fn pair_alternatives(
     others.sort_unstable();
     let base = design.base();
     let from = base.loss + base.penalty;
-    let pairs: Vec<(usize, usize)> =
-        others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (*a, *b))).collect();
-    let gains: Vec<(f64, usize, usize)> = pairs
+    let told = |c: usize| told[1..].iter().any(|n| n == effect(c));
+    let alone = others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (false, *a, *b)));
+    let together = spanning.iter().filter(|p| !p.iter().any(|c| told(*c))).map(|p| (true, p[0], p[1]));
+    let pairs: Vec<(bool, usize, usize)> = together.chain(alone).collect();
+    let gains: Vec<(f64, bool, usize, usize)> = pairs
         .into_par_iter()
-        .filter(|(a, b)| effect(*a) != effect(*b))
-        .filter_map(|(a, b)| {
+        .filter(|(_, a, b)| effect(*a) != effect(*b))
+        .filter_map(|(spans, a, b)| {
             let fit = design.fit(&[a, b]);
             let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
             let sound = [a, b].iter().all(|c| {
                 let v = design.values(&fit, *c);
-                design.within_bounds(*c, &v, &fit) && design.material(*c, &v)
+                let material = if spans { is_material(&design.candidates[*c], &v) } else { design.material(*c, &v) };
+                design.within_bounds(*c, &v, &fit) && material
             });
-            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, a, b))
+            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, spans, a, b))
         })
         .collect();
+    let spans = gains.iter().any(|g| g.1);
+    let gains: Vec<_> = gains.into_iter().filter(|g| g.1 == spans).collect();
     let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
-    let parameters =
-        |g: &&(f64, usize, usize)| design.candidates[g.1].form.free.len() + design.candidates[g.2].form.free.len();
-    let (_, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
-    Some([&told[0], effect(*a), effect(*b)].map(str::to_owned).to_vec())
+    let parameters = |g: &&(f64, bool, usize, usize)| {
+        design.candidates[g.2].form.free.len() + design.candidates[g.3].form.free.len()
+    };
+    let (_, _, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
+    Some((spans, [name, effect(*a), effect(*b)].map(str::to_owned).to_vec()))
 }

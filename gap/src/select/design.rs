@@ -220,6 +220,11 @@ impl Design {
         self.beside(indices, &self.linear.of_candidate(candidate))
     }
 
+    /// The columns of an active effect, and the step along them that takes all of it away.
+    pub(super) fn whole(&self, index: usize) -> (Vec<usize>, Vec<f64>) {
+        whole(&self.linear, &self.state, index)
+    }
+
     /// What an active effect does that another one cannot.
     pub(super) fn own_part(&self, index: usize, other: usize) -> f64 {
         self.beside(&[index], &whole(&self.linear, &self.state, other).0)[1]

@@ -54,6 +54,15 @@ fn one_effect_is_named_in_place_of_two_that_look_like_it() {
     assert!(b.terminal_summary().contains("camera-scale, or wheel-radius-common with body-radius"));
 }
 
+/// Neither of the two shows anything alone, and of both only the turns remain, as of a body that is larger.
+#[test]
+fn two_that_cancel_but_for_one_sign_are_listed_beside_what_they_look_like() {
+    let two: [Hidden; 2] = [("wheel-radius-common", &[("scale", 0.02)]), ("camera-scale", &[("scale", -0.0196)])];
+    let a = looked(&two, &RICH, 85);
+    assert_eq!(names(&a), ["body-radius"], "{}", a.terminal_summary());
+    assert!(listed(&a, &["body-radius", "wheel-radius-common", "camera-scale"]), "{:?}", a.alternatives);
+}
+
 /// Lost counts at every speed are a larger wheel, however many counts must be lost before it matters.
 #[test]
 fn a_twin_is_listed_whatever_size_would_be_material_under_its_name() {
