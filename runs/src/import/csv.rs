@@ -1,45 +1,15 @@
 //! Any text table with a column of time; empty fields and texts are no samples. PlotJuggler's exports have the time in
-//! `__time`.
+//! `__time`. Lines that begin with a word, such as `ODOM 0.1 2.5`, are one table a word: `ODOM/column_2`.
 
 use std::path::Path;
 
-use super::sheet::Sheet;
-use super::{Clock, Table, heading, units};
+use super::rows::{self, Rows};
+use super::sheet::{Sheet, numbered};
+use super::{Clock, Table, heading};
 use crate::error::InputError;
 
-/// First words of names that time goes by.
-const TIMES: [&str; 12] =
-    ["t", "time", "timestamp", "stamp", "seconds", "elapsed", "millis", "micros", "zeit", "clock", "sec", "secs"];
-
-/// The column of time and its unit in seconds, where the map says nothing of it.
-fn time_column(names: &[String]) -> Option<(usize, f64)> {
-    let exact = names.iter().enumerate().find_map(|(i, name)| {
-        let plain = name.to_lowercase();
-        let mut words = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
-        let is_time = |word: Option<&str>| word.is_some_and(|word| TIMES.contains(&word));
-        let timed = is_time(words.next())
-            && words.next().is_none_or(|word| TIMES.contains(&word) || units::of_time(word).is_some());
-        (timed && words.next().is_none()).then(|| (i, unit_s(name)))
-    });
-    let mut others = names.iter().enumerate().filter(|(_, name)| {
-        let plain = name.to_lowercase();
-        plain.split(|c: char| !c.is_alphanumeric()).any(|word| ["time", "timestamp", "stamp"].contains(&word))
-    });
-    // A name with the word anywhere, if it is the only one.
-    exact.or_else(|| others.next().filter(|_| others.next().is_none()).map(|(i, name)| (i, unit_s(name))))
-}
-
-/// Seconds in the unit of time that a column's name ends in; 1 where it has none.
-fn unit_s(name: &str) -> f64 {
-    match name.to_lowercase().as_str() {
-        "millis" => 1e-3,
-        "micros" => 1e-6,
-        _ => units::in_name(name).and_then(units::of_time).unwrap_or(1.0),
-    }
-}
-
-pub(super) fn read(bytes: &[u8], path: &Path, time: &Clock) -> Result<Table, InputError> {
-    let Sheet { names, rows: text, separator } = Sheet::of(bytes);
+pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
+    let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
     let mut csv = ::csv::ReaderBuilder::new()
         .delimiter(separator)
         .flexible(true)
@@ -50,57 +20,57 @@ pub(super) fn read(bytes: &[u8], path: &Path, time: &Clock) -> Result<Table, Inp
     let mut next = |record: &mut ::csv::ByteRecord| {
         csv.read_byte_record(record).map_err(|e| InputError::new(path, e.to_string(), "save the log as CSV"))
     };
-    let names: Vec<String> = match names {
-        Some(names) => names,
-        None if next(&mut record)? => {
-            record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
+    let mut table = Table::default();
+    // Kinds of rows, each with its columns: one, but where every line begins with a word that says what it is.
+    let mut kinds: Vec<(Vec<u8>, Option<Rows>)> = Vec::new();
+    let mut timeless = None;
+    let mut begin = |prefix: &str, names: Vec<String>| {
+        let rows = Rows::new(prefix, &names, clock);
+        if rows.is_none() {
+            timeless.get_or_insert_with(|| rows::timeless(path, &names, clock));
         }
-        None => return Err(InputError::new(path, "is empty", "give a file with rows of numbers")),
+        rows
     };
-    let found = match time.column {
-        Some(name) => names.iter().position(|n| n == name).map(|i| (i, unit_s(name))),
-        None => time_column(&names),
-    };
-    if found.is_none() && !time.rows {
-        let wanted = time.column.map_or("no column of time".to_owned(), |name| format!("no column {name:?}"));
-        let hint = format!("name it in the map, [time] column = \"...\": it has {}", names.join(", "));
-        return Err(InputError::new(path, wanted, hint).at(1, 1));
-    }
-    let unit = time.unit_s.or(found.map(|(_, unit)| unit)).unwrap_or(1.0);
-    let at = found.map(|(at, _)| at);
-    let mut table = Table { time: at.map(|at| (names[at].clone(), unit)), ..Table::default() };
-    let mut rows = 0.0;
-    let number = |field: &[u8]| {
-        let text = std::str::from_utf8(field).ok()?;
-        let text = if separator == b',' { text.to_owned() } else { text.replace(',', ".") };
-        text.parse::<f64>().ok()
-    };
-    while next(&mut record)? {
-        let t = match at {
-            Some(at) => {
-                let Some(field) = record.get(at).filter(|f| !f.is_empty()) else { continue };
-                let Some(t) = number(field) else {
-                    let what = format!("{:?} is no time", String::from_utf8_lossy(field));
-                    let line = record.position().map_or(1, ::csv::Position::line);
-                    return Err(InputError::new(path, what, "write times as numbers")
-                        .at(line as usize, 1)
-                        .field(names[at].clone()));
-                };
-                t
+    if !tagged {
+        let names = match names {
+            Some(names) => names,
+            None if next(&mut record)? => {
+                record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
             }
-            None => rows,
+            None => return Err(InputError::new(path, "is empty", "give a file with rows of numbers")),
         };
-        rows += 1.0;
-        for (i, (name, field)) in names.iter().zip(&record).enumerate() {
-            if Some(i) != at
-                && let Some(value) = number(field)
-            {
-                table.push(name, t * unit, value);
-            }
+        kinds.push((Vec::new(), begin("", names)));
+    }
+    while next(&mut record)? {
+        let tag = if tagged { record.get(0).unwrap_or_default() } else { b"" };
+        let at = kinds.iter().position(|(known, _)| known == tag).unwrap_or_else(|| {
+            let names = numbered(record.len());
+            kinds.push((tag.to_owned(), begin(&format!("{}/", String::from_utf8_lossy(tag)), names)));
+            kinds.len() - 1
+        });
+        let Some(rows) = &mut kinds[at].1 else { continue };
+        let line = record.position().map_or(1, ::csv::Position::line) as usize;
+        let number = |i: usize| record.get(i).and_then(|field| number(field, separator));
+        if let Some((at, name)) = rows.time_column()
+            && let Some(field) = record.get(at).filter(|f| !f.is_empty())
+            && number(at).is_none()
+        {
+            let what = format!("{:?} is no time", String::from_utf8_lossy(field));
+            return Err(InputError::new(path, what, "write times as numbers").at(line, 1).field(name));
         }
+        rows.push(&mut table, line, number);
+    }
+    match timeless {
+        Some(error) if kinds.iter().all(|(_, rows)| rows.is_none()) => return Err(error),
+        _ => table.time = kinds.iter().flat_map(|(_, rows)| rows).find_map(Rows::time),
     }
     headings(&mut table);
     Ok(table)
+}
+
+fn number(field: &[u8], separator: u8) -> Option<f64> {
+    let text = std::str::from_utf8(field).ok()?;
+    if separator == b',' { text.parse().ok() } else { text.replace(',', ".").parse().ok() }
 }
 
 /// Quaternions, four columns whose names differ in their last letter only, give headings: `.../orientation/z` and its

@@ -45,6 +45,10 @@ struct Derive {
 struct Time {
     column: Option<String>,
     unit: Option<String>,
+    /// Rows a second, of a file without a column of time.
+    rate_hz: Option<f64>,
+    /// Which recording of a file with several, from 1.
+    recording: Option<usize>,
     /// Keep the file's time instead of beginning at 0.
     #[serde(default)]
     keep: bool,
@@ -135,7 +139,7 @@ impl Map {
             InputError::new(path, e.message().replace('\n', " "), hint).at(line, column)
         })?;
         if let Some(name) = map.format.as_deref().filter(|name| Format::from_name(name).is_none()) {
-            let hint = "give csv, plotjuggler, ros2, ssl-log or wpilog, or leave it out";
+            let hint = "give csv, plotjuggler, json, ros2, ssl-log or wpilog, or leave it out";
             return Err(InputError::new(path, format!("{name:?} is no format"), hint).field("format"));
         }
         map.time_unit().map_err(|e| InputError { file: path.to_owned(), ..e })?;
@@ -159,10 +163,27 @@ impl Map {
     /// # Errors
     /// [`InputError`] for a unit that is none of time.
     pub fn time(&self) -> Result<Clock<'_>, InputError> {
-        Ok(Clock { column: self.time.column.as_deref(), unit_s: self.time_unit()?, rows: false })
+        Ok(Clock {
+            column: self.time.column.as_deref(),
+            unit_s: self.time_unit()?,
+            rate_hz: self.time.rate_hz,
+            recording: self.time.recording,
+            rows: false,
+        })
     }
 
     fn time_unit(&self) -> Result<Option<f64>, InputError> {
+        if let Some(rate) = self.time.rate_hz {
+            let fail = |what: String, hint: &str| {
+                Err(InputError::new(Path::new(""), what, hint).field("time.rate_hz"))
+            };
+            if !(rate.is_finite() && rate > 0.0) {
+                return fail(format!("{rate} rows a second are none"), "such as rate_hz = 100");
+            }
+            if self.time.column.is_some() || self.time.unit.is_some() {
+                return fail("there is a column of time, or none".to_owned(), "give column and unit, or rate_hz");
+            }
+        }
         let Some(unit) = self.time.unit.as_deref() else { return Ok(None) };
         units::of_time(unit).map(Some).ok_or_else(|| {
             InputError::new(Path::new(""), format!("{unit:?} is no unit of time"), "give s, ms, us or ns")
@@ -223,6 +244,11 @@ impl Map {
     /// column takes.
     pub fn run(&self, table: &Table, path: &Path) -> Result<Run, InputError> {
         let fail = |e: InputError| InputError { file: path.to_owned(), ..e };
+        if let Some(restart) = table.restart.filter(|_| self.time.recording.is_none()) {
+            let what = format!("its time starts again: it holds {} recordings", restart.recordings);
+            let hint = "make a run of each: recording = 1 in the map's [time], then 2, ...";
+            return Err(InputError::new(path, what, hint).at(restart.line, 1));
+        }
         let mut wanted = self.wanted().map_err(fail)?;
         if wanted.is_empty() {
             let ours = table.series.iter().map(|s| (Column::from_name(&s.name), s.name.as_str()));

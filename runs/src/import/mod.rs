@@ -1,13 +1,15 @@
 //! Other tools' logs: whatever they hold becomes named series of numbers, of which a map (a TOML file) makes a run.
 //!
-//! One file a format: any CSV (PlotJuggler's among them), ROS 2 bags (MCAP with CDR messages), game logs of the RoboCup
+//! One file a format: any CSV (PlotJuggler's among them), JSON, ROS 2 bags (MCAP with CDR messages), game logs of the RoboCup
 //! small-size league, WPILib data logs.
 
 mod cdr;
 mod csv;
 mod draft;
+mod json;
 mod map;
 mod ros2;
+mod rows;
 mod sheet;
 mod ssl;
 mod units;
@@ -39,16 +41,31 @@ pub struct Table {
     pub series: Vec<Series>,
     /// The column of time of a CSV and its unit, s.
     pub time: Option<(String, f64)>,
+    /// That it holds several recordings.
+    pub restart: Option<Restart>,
     index: std::collections::HashMap<String, usize>,
 }
 
-/// The column of time of a CSV; other files have their own.
+/// Recordings of one file, one after the other: the time starts again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Restart {
+    /// Line where the second begins.
+    pub line: usize,
+    /// How many there are.
+    pub recordings: usize,
+}
+
+/// The time of a text table or a JSON; other files have their own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Clock<'a> {
-    /// Its name; else the one that is named like time.
+    /// The name of its column; else the one that is named like time.
     pub column: Option<&'a str>,
     /// Its unit, s; else the one in its name, else a second.
     pub unit_s: Option<f64>,
+    /// There is none: so many rows a second.
+    pub rate_hz: Option<f64>,
+    /// Which recording of the file, from 1.
+    pub recording: Option<usize>,
     /// Count rows where there is no such column.
     pub rows: bool,
 }
@@ -58,6 +75,8 @@ pub struct Clock<'a> {
 pub enum Format {
     /// Text in columns, one of them the time.
     Csv,
+    /// Records, columns or rows of numbers in JSON, or JSON by the line.
+    Json,
     /// ROS 2 bag in an MCAP.
     Ros2,
     /// Game log of the small-size league, `.log` or `.log.gz`.
@@ -71,6 +90,7 @@ impl Format {
     pub fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "csv" | "plotjuggler" => Self::Csv,
+            "json" | "jsonl" => Self::Json,
             "ros2" | "mcap" => Self::Ros2,
             "ssl" | "ssl-log" => Self::Ssl,
             "wpilog" | "wpilib" => Self::Wpilog,
@@ -85,6 +105,7 @@ impl Format {
             () if bytes.starts_with(mcap::MAGIC) => Self::Ros2,
             () if bytes.starts_with(wpilog::MAGIC) => Self::Wpilog,
             () if bytes.starts_with(ssl::MAGIC) || name.ends_with(".log.gz") => Self::Ssl,
+            () if json::is_json(&name, bytes) => Self::Json,
             () => Self::Csv,
         }
     }
@@ -114,10 +135,17 @@ impl Table {
     pub fn of_bytes(bytes: &[u8], path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
         let table = match format.unwrap_or_else(|| Format::of(path, bytes)) {
             Format::Csv => csv::read(bytes, path, time),
+            Format::Json => json::read(bytes, path, time),
             Format::Ros2 => ros2::read(bytes, path),
             Format::Ssl => ssl::read(bytes, path),
             Format::Wpilog => wpilog::read(bytes, path),
         }?;
+        if let (Some(wanted), recordings) = (time.recording, table.restart.map_or(1, |r| r.recordings))
+            && !(1..=recordings).contains(&wanted)
+        {
+            let what = format!("has no recording {wanted}: its time starts {recordings} times");
+            return Err(InputError::new(path, what, format!("give one of 1 to {recordings}")).field("time.recording"));
+        }
         if table.series.is_empty() {
             return Err(InputError::new(
                 path,

@@ -15,14 +15,22 @@ pub(super) struct Sheet<'a> {
     pub(super) rows: Cow<'a, [u8]>,
     /// What stands between fields.
     pub(super) separator: u8,
+    /// Whether every row begins with a word that says which kind of row it is.
+    pub(super) tagged: bool,
+}
+
+/// Names of columns that have none.
+pub(super) fn numbered(columns: usize) -> Vec<String> {
+    (1..=columns).map(|i| format!("column_{i}")).collect()
 }
 
 impl<'a> Sheet<'a> {
     pub(super) fn of(bytes: &'a [u8]) -> Self {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let mut before = Vec::new();
+        let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
         let mut first: &[u8] = &[];
-        for line in bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty()) {
+        for line in lines.by_ref() {
             match remark(line) {
                 Some(remark) => before.push(remark),
                 None => {
@@ -31,6 +39,7 @@ impl<'a> Sheet<'a> {
                 }
             }
         }
+        let second = lines.find(|line| remark(line).is_none());
         let mut separator = separator(first);
         let blanks = !first.contains(&separator) && first.iter().any(u8::is_ascii_whitespace);
         if blanks {
@@ -43,10 +52,17 @@ impl<'a> Sheet<'a> {
         } else if let Some(said) = said.filter(|said| said.len() == fields.len() && said.len() > 1) {
             Some(said)
         } else {
-            Some((1..=fields.len()).map(|i| format!("column_{i}")).collect())
+            Some(numbered(fields.len()))
         };
         let rows = if blanks || !before.is_empty() { Cow::Owned(plain(bytes, blanks)) } else { Cow::Borrowed(bytes) };
-        Self { names: names.filter(|_| !first.is_empty()), rows, separator }
+        // Of one such line its word is the name of the column of time, and numbers name the others.
+        let tagged = second.is_some_and(|second| {
+            [fields, self::fields(second, blanks, separator)].iter().all(|fields| {
+                let [word, numbers @ ..] = &fields[..] else { return false };
+                !is_number(word, separator) && numbers.len() > 1 && numbers.iter().all(|n| is_number(n, separator))
+            })
+        });
+        Self { names: names.filter(|_| !first.is_empty()), rows, separator, tagged }
     }
 }
 

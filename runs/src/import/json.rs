@@ -1,0 +1,201 @@
+//! Logs in JSON: records (`[{"t": 0, "pos": 1}, ...]`, or one a line), columns (`{"t": [...], "pos": [...]}`) and rows
+//! (`[[0, 1], ...]`), at any depth. Names of nested fields are joined by `/`; a file of several tables has theirs before
+//! them.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::rows::{self, Rows};
+use super::sheet::numbered;
+use super::{Clock, Table};
+use crate::error::InputError;
+
+/// From so many numbers on an array is a column of a log; below, a vector of one sample: the longest usual one is the
+/// covariance of a pose, 36 numbers.
+const COLUMN: usize = 40;
+
+/// A table: its place in the file, names of its columns, and its rows.
+struct Found {
+    place: String,
+    columns: Vec<String>,
+    rows: Vec<Vec<Option<f64>>>,
+}
+
+pub(super) fn is_json(name: &str, bytes: &[u8]) -> bool {
+    let named = [".json", ".jsonl", ".ndjson"].iter().any(|end| name.ends_with(end));
+    named || bytes.trim_ascii_start().starts_with(b"{\"")
+}
+
+pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
+    let bytes = without_nan(bytes);
+    let mut values = Vec::new();
+    for value in serde_json::Deserializer::from_slice(&bytes).into_iter::<Value>() {
+        match value {
+            Ok(value) => values.push(value),
+            // A log of a robot that was switched off ends with its last whole record.
+            Err(e) if e.is_eof() && values.len() > 1 => break,
+            Err(e) => {
+                let hint = "save the log as JSON, an array of records or one record a line";
+                return Err(InputError::new(path, e.to_string(), hint).at(e.line(), e.column()));
+            }
+        }
+    }
+    let whole = if values.len() == 1 { values.remove(0) } else { Value::Array(values) };
+    let mut found = Vec::new();
+    search(&whole, "", &mut found);
+    let alone = found.len() == 1;
+    let mut table = Table::default();
+    let mut timeless = None;
+    for one in &found {
+        let prefix = if alone || one.place.is_empty() { String::new() } else { format!("{}/", one.place) };
+        let Some(mut rows) = Rows::new(&prefix, &one.columns, clock) else {
+            timeless.get_or_insert_with(|| {
+                let named: Vec<String> = one.columns.iter().map(|name| format!("{prefix}{name}")).collect();
+                rows::timeless(path, &named, clock)
+            });
+            continue;
+        };
+        for (line, row) in (1..).zip(&one.rows) {
+            rows.push(&mut table, line, |i| row.get(i).copied().flatten());
+        }
+        table.time = table.time.take().or(rows.time());
+    }
+    match timeless {
+        Some(error) if table.series.is_empty() => Err(error),
+        _ => Ok(table),
+    }
+}
+
+/// The same bytes with null where Python writes NaN and Infinity, which no JSON has.
+fn without_nan(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let mut out = Vec::new();
+    let (mut done, mut at, mut quoted) = (0, 0, false);
+    while at < bytes.len() {
+        let word = [&b"-Infinity"[..], b"Infinity", b"NaN"].into_iter().find(|w| !quoted && bytes[at..].starts_with(w));
+        match (bytes[at], word) {
+            (_, Some(word)) => {
+                out.extend_from_slice(&bytes[done..at]);
+                out.extend_from_slice(b"null");
+                at += word.len();
+                done = at;
+                continue;
+            }
+            (b'\\', _) if quoted => at += 1,
+            (b'"', _) => quoted = !quoted,
+            _ => {}
+        }
+        at += 1;
+    }
+    if done == 0 {
+        return Cow::Borrowed(bytes);
+    }
+    out.extend_from_slice(&bytes[done..]);
+    Cow::Owned(out)
+}
+
+/// Finds the tables of a value at a place.
+fn search(value: &Value, place: &str, found: &mut Vec<Found>) {
+    match value {
+        Value::Array(items) if !items.is_empty() && items.iter().all(is_row) => {
+            found.push(Found::of(place, items.iter().map(|row| vec![("", row)])));
+        }
+        Value::Array(items) => (1..).zip(items).for_each(|(i, item)| search(item, &join(place, i), found)),
+        Value::Object(fields) => {
+            let columns: Vec<(&String, &Vec<Value>)> =
+                fields.iter().filter_map(|(name, value)| Some((name, column(value)?))).collect();
+            let length = columns.iter().map(|(_, column)| column.len()).max();
+            // Arrays of vectors belong to columns of numbers that are as long.
+            let rows = |items: &&Vec<Value>| Some(items.len()) == length && items.iter().all(is_row);
+            let table: Vec<(&String, &Vec<Value>)> = fields
+                .iter()
+                .filter_map(|(name, value)| Some((name, column(value).or(value.as_array().filter(rows))?)))
+                .collect();
+            if let Some(length) = length {
+                let row = |i: usize| table.iter().filter_map(move |(name, of)| Some((name.as_str(), of.get(i)?)));
+                found.push(Found::of(place, (0..length).map(|i| row(i).collect())));
+            }
+            for (name, value) in fields {
+                if table.iter().all(|(known, _)| *known != name) || length.is_none() {
+                    search(value, &join(place, name), found);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A long array of numbers, some of which may be missing.
+fn column(value: &Value) -> Option<&Vec<Value>> {
+    let plain = |item: &Value| number(item).is_some() || item.is_null();
+    value.as_array().filter(|items| items.len() >= COLUMN && items.iter().all(plain) && items.iter().any(|i| !i.is_null()))
+}
+
+/// Whether it is one sample of some quantities.
+fn is_row(item: &Value) -> bool {
+    let mut some = false;
+    let mut fields = |item: &Value| flatten("", item, &mut |_, _| some = true);
+    match item {
+        Value::Object(_) => fields(item),
+        Value::Array(items) if items.iter().all(|i| number(i).is_some() || i.is_null()) => fields(item),
+        _ => {}
+    }
+    some && !holds_column(item)
+}
+
+fn holds_column(value: &Value) -> bool {
+    match value {
+        Value::Array(items) => items.len() >= COLUMN || items.iter().any(holds_column),
+        Value::Object(fields) => fields.values().any(holds_column),
+        _ => false,
+    }
+}
+
+impl Found {
+    /// Of rows, each of named values.
+    fn of<'a>(place: &str, rows: impl Iterator<Item = Vec<(&'a str, &'a Value)>>) -> Self {
+        let mut index: HashMap<String, usize> = HashMap::new();
+        let mut columns = Vec::new();
+        let rows = rows
+            .map(|row| {
+                let mut out = vec![None; columns.len()];
+                for (name, value) in row {
+                    flatten(name, value, &mut |name, value| {
+                        let at = *index.entry(name).or_insert_with_key(|name| {
+                            columns.push(name.clone());
+                            columns.len() - 1
+                        });
+                        out.resize(columns.len(), None);
+                        out[at] = Some(value);
+                    });
+                }
+                out
+            })
+            .collect();
+        let unnamed = columns.iter().all(|name| name.parse::<usize>().is_ok());
+        Self { place: place.to_owned(), columns: if unnamed { numbered(columns.len()) } else { columns }, rows }
+    }
+}
+
+/// Every number in a value, by its name.
+fn flatten(name: &str, value: &Value, take: &mut dyn FnMut(String, f64)) {
+    match value {
+        Value::Array(items) => (1..).zip(items).for_each(|(i, item)| flatten(&join(name, i), item, take)),
+        Value::Object(fields) => fields.iter().for_each(|(key, item)| flatten(&join(name, key), item, take)),
+        _ => {
+            if let Some(value) = number(value) {
+                take(name.to_owned(), value);
+            }
+        }
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64().or_else(|| value.as_str()?.trim().parse().ok())
+}
+
+fn join(place: &str, name: impl std::fmt::Display) -> String {
+    if place.is_empty() { name.to_string() } else { format!("{place}/{name}") }
+}
