@@ -63,7 +63,20 @@ pub fn draft(table: &Table) -> String {
     if let Some((name, unit)) = &table.time {
         let _ = writeln!(out, "\n[time]\ncolumn = {}\nunit = \"{}\"", quoted(name), time_unit(table, *unit));
     } else if table.series.iter().all(|s| s.t.iter().zip(0..).all(|(t, row)| *t == f64::from(row))) {
-        out.push_str("\n[time]\ncolumn = \"?\" # which column is the time?\nunit = \"s\"\n");
+        match increasing(table) {
+            Some(s) => {
+                let rows = Series { t: s.values.clone(), ..Series::default() };
+                let unit = time_unit(&Table { series: vec![rows], ..Table::default() }, 1.0);
+                let _ = writeln!(
+                    out,
+                    "\n[time]\ncolumn = {} # is it? it increases from row to row\nunit = \"{unit}\"",
+                    quoted(&s.name)
+                );
+            }
+            None => out.push_str(
+                "\n[time]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second\n",
+            ),
+        }
     }
     out.push_str(
         "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
@@ -134,12 +147,34 @@ fn drop_broken_groups<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Serie
     }
 }
 
+/// A name with a blank before each capital that follows a small letter: `leftEncoder`, `left Encoder`.
+fn spaced(name: &str) -> String {
+    let mut out = String::new();
+    let mut small = false;
+    for c in name.chars() {
+        if small && c.is_uppercase() {
+            out.push(' ');
+        }
+        out.push(c);
+        small = c.is_lowercase();
+    }
+    out
+}
+
+/// A column that increases from row to row, not by ones, as time does; another recording may follow.
+fn increasing(table: &Table) -> Option<&Series> {
+    table.series.iter().find(|s| {
+        let steps = s.values.windows(2).filter(|w| w[1] > w[0] && w[1] != w[0] + 1.0).count();
+        s.values.len() > 2 && 100 * steps >= 95 * (s.values.len() - 1)
+    })
+}
+
 fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)> {
     let ours = Column::from_name(&series.name);
     if !matches!(ours, Column::Other | Column::Time) {
         return Some((ours, ""));
     }
-    let lower = series.name.to_lowercase();
+    let lower = spaced(&series.name).to_lowercase();
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
     let said = units::in_name(&series.name);
     let number = number(&words);

@@ -130,7 +130,9 @@ fn search(value: &Value, place: &str, found: &mut Vec<Found>) {
 /// A long array of numbers, some of which may be missing.
 fn column(value: &Value) -> Option<&Vec<Value>> {
     let plain = |item: &Value| number(item).is_some() || item.is_null();
-    value.as_array().filter(|items| items.len() >= COLUMN && items.iter().all(plain) && items.iter().any(|i| !i.is_null()))
+    value
+        .as_array()
+        .filter(|items| items.len() >= COLUMN && items.iter().all(plain) && items.iter().any(|i| !i.is_null()))
 }
 
 /// Whether it is one sample of some quantities.

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use super::fill::{counts, integrate, speeds_of_commands, unwrapped};
 use super::{Clock, Format, Table, units};
 use crate::columns::{Column, GROUPS, missing_member};
 use crate::error::{InputError, line_and_column, nearest};
-use crate::frames::{Pose, Twist, wrap_angle};
+use crate::frames::{Pose, wrap_angle};
 use crate::geometry::Geometry;
 use crate::robot::Robot;
 use crate::{CameraSample, Run};
@@ -89,11 +90,33 @@ enum Sense {
     Clockwise,
 }
 
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone)]
 enum Source {
     Name(String),
     Scaled(Scaled),
+}
+
+/// As text or table, with the fault of the table, which an untagged enum would not say.
+impl<'de> Deserialize<'de> for Source {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> serde::de::Visitor<'de> for Either {
+            type Value = Source;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("the name of a series, or { from = \"its name\", unit = \"mm\" }")
+            }
+
+            fn visit_str<E>(self, name: &str) -> Result<Source, E> {
+                Ok(Source::Name(name.to_owned()))
+            }
+
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Source, A::Error> {
+                Scaled::deserialize(serde::de::value::MapAccessDeserializer::new(map)).map(Source::Scaled)
+            }
+        }
+        from.deserialize_any(Either)
+    }
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -107,14 +130,26 @@ struct Scaled {
     offset: f64,
     /// Counts a turn of an encoder whose log has angles.
     counts_per_rev: Option<f64>,
+    /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
+    /// bits, in the file's unit.
+    wraps: Option<f64>,
 }
 
+/// Velocities of the body that its odometry was made of: integrated, they are the odometry.
+const RATES: [&str; 3] = ["odom_vx", "odom_vy", "odom_w"];
+
 /// One column of the run to be.
-struct Wanted<'a> {
-    column: Column,
+pub(super) struct Wanted<'a> {
+    pub(super) column: Column,
     from: &'a str,
     factor: f64,
     offset: f64,
+    /// Of how many of the file's units a multiple is not known.
+    pub(super) wraps: Option<f64>,
+    /// The file's units in a turn, of an encoder whose log has angles.
+    pub(super) turn: Option<f64>,
+    /// Whether it is the rate of the column.
+    rate: bool,
 }
 
 impl Map {
@@ -174,9 +209,7 @@ impl Map {
 
     fn time_unit(&self) -> Result<Option<f64>, InputError> {
         if let Some(rate) = self.time.rate_hz {
-            let fail = |what: String, hint: &str| {
-                Err(InputError::new(Path::new(""), what, hint).field("time.rate_hz"))
-            };
+            let fail = |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint).field("time.rate_hz"));
             if !(rate.is_finite() && rate > 0.0) {
                 return fail(format!("{rate} rows a second are none"), "such as rate_hz = 100");
             }
@@ -196,7 +229,8 @@ impl Map {
         for (name, source) in &self.columns {
             let field = format!("columns.{name}");
             let fail = |what: String, hint: String| InputError::new(Path::new(""), what, hint).field(field.clone());
-            let column = Column::from_name(name);
+            let rate = RATES.iter().position(|rate| rate == name);
+            let column = rate.map_or_else(|| Column::from_name(name), Column::Odometry);
             if matches!(column, Column::Other | Column::Time) {
                 let known: Vec<String> = Column::all(4).into_iter().map(Column::name).collect();
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
@@ -206,10 +240,15 @@ impl Map {
                 );
                 return Err(fail("is no column of a run".to_owned(), hint));
             }
-            let (from, name, scale, offset, per_rev) = match source {
-                Source::Name(from) => (from, "", 1.0, 0.0, None),
-                Source::Scaled(s) => (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.counts_per_rev),
+            let (from, name, scale, offset, per_rev, wraps) = match source {
+                Source::Name(from) => (from, "", 1.0, 0.0, None, None),
+                Source::Scaled(s) => {
+                    (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.counts_per_rev, s.wraps)
+                }
             };
+            if let Some(n) = wraps.filter(|n| !(n.is_finite() && *n > 0.0)) {
+                return Err(fail(format!("wraps = {n} is no period"), "such as wraps = 4096".to_owned()));
+            }
             let angle = ["rad", "deg", "rev"].contains(&name);
             let counted = matches!(column, Column::Counts(_));
             if counted && units::factor(name).is_some() && !matches!(name, "" | "counts" | "lines") && per_rev.is_none()
@@ -232,7 +271,15 @@ impl Map {
                 return Err(fail("its scale or offset is no number".to_owned(), "such as scale = -1".to_owned()));
             }
             let factor = unit * scale * per_rev.map_or(1.0, |n| n / TAU);
-            wanted.push(Wanted { column, from, factor, offset });
+            wanted.push(Wanted {
+                column,
+                from,
+                factor,
+                offset,
+                wraps,
+                turn: per_rev.map(|_| TAU / unit),
+                rate: rate.is_some(),
+            });
         }
         Ok(wanted)
     }
@@ -253,7 +300,15 @@ impl Map {
         if wanted.is_empty() {
             let ours = table.series.iter().map(|s| (Column::from_name(&s.name), s.name.as_str()));
             let ours = ours.filter(|(column, _)| !matches!(column, Column::Other | Column::Time));
-            wanted.extend(ours.map(|(column, from)| Wanted { column, from, factor: 1.0, offset: 0.0 }));
+            wanted.extend(ours.map(|(column, from)| Wanted {
+                column,
+                from,
+                factor: 1.0,
+                offset: 0.0,
+                wraps: None,
+                turn: None,
+                rate: false,
+            }));
         }
         let mut columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
         // Two wheels on an axle are told no sideways velocity.
@@ -263,6 +318,16 @@ impl Map {
         if straight {
             columns.push(sideways);
         }
+        let rates = wanted.iter().any(|w| w.rate);
+        if rates && wanted.iter().any(|w| matches!(w.column, Column::Odometry(_)) && !w.rate) {
+            let hint = "map odom_x, odom_y and odom_theta, or odom_vx, odom_vy and odom_w";
+            return Err(InputError::new(path, "the odometry is a pose, or its velocities", hint).field("odom_w"));
+        }
+        let sidewards = Column::Odometry(if self.frame.x == Axis::Forward { 1 } else { 0 });
+        let no_sideways = rates && !columns.contains(&sidewards);
+        if no_sideways {
+            columns.push(sidewards);
+        }
         if columns.is_empty() {
             let hint = table.suggestion("enc_1");
             return Err(InputError::new(path, "none of its series is a column of ours: name them in [columns]", hint));
@@ -270,12 +335,17 @@ impl Map {
         for (group, at_least) in GROUPS {
             if let Some(column) = missing_member(&columns, group, at_least) {
                 let hint = match column {
+                    Column::Odometry(_) if rates => "map odom_vx and odom_w; only the sideways one may be left out",
                     Column::Command(_) => {
                         "map cmd_vx, cmd_vy and cmd_w (only the sideways one may be left out), or none"
                     }
                     _ => "map the whole group of columns, or none of it",
                 };
-                return Err(InputError::new(path, "no such column in the map", hint).field(column.name()));
+                let name = match column {
+                    Column::Odometry(i) if rates => RATES[i].to_owned(),
+                    column => column.name(),
+                };
+                return Err(InputError::new(path, "no such column in the map", hint).field(name));
             }
         }
         let mut series = Vec::new();
@@ -302,7 +372,7 @@ impl Map {
         let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
         for (w, s) in wanted.iter().zip(&series) {
             let mut column = vec![f64::NAN; ticks];
-            for (t, value) in s.t.iter().zip(&s.values) {
+            for (t, value) in s.t.iter().zip(unwrapped(w, &s.values).iter()) {
                 if let Ok(tick) = keys.binary_search(&key(*t)) {
                     column[tick] = units::times(*value, w.factor) + w.offset;
                 }
@@ -339,6 +409,12 @@ impl Map {
                     }
                 }
             }
+        }
+        if rates && let Some(odometry) = &mut run.odometry {
+            if no_sideways && let Column::Odometry(i) = sidewards {
+                odometry[i].fill(0.0);
+            }
+            integrate(&run.t, odometry, if self.frame.headings == Sense::Clockwise { -1.0 } else { 1.0 });
         }
         self.turn(&mut run, &mut camera);
         if let Some(geometry) = &self.geometry {
@@ -377,32 +453,4 @@ impl Map {
             }
         }
     }
-}
-
-/// Counts of a wheel; ticks without one hold the last.
-fn counts(run: &mut Run, wheel: usize, column: &[f64]) {
-    let mut held = column.iter().copied().find(|x| x.is_finite()).unwrap_or(0.0).round() as i64;
-    for (tick, x) in column.iter().enumerate() {
-        if x.is_finite() {
-            held = x.round() as i64;
-        } else {
-            run.count_gaps[wheel].push(tick);
-        }
-        run.counts[wheel].push(held);
-    }
-}
-
-/// Wheel speeds as commanded, where none were logged.
-fn speeds_of_commands(run: &mut Run, geometry: &Geometry, path: &Path) -> Result<(), InputError> {
-    let refuse = |what: &str, hint: &str| Err(InputError::new(path, what, hint).field("derive.speeds"));
-    if !run.speed.is_empty() || !run.counts.is_empty() {
-        return refuse("the wheels are logged", "leave [derive] speeds out of the map");
-    }
-    let Some([vx, vy, w]) = &run.command else {
-        return refuse("speeds are derived from commands, and none are mapped", "map cmd_vx, cmd_vy and cmd_w");
-    };
-    let twists = vx.iter().zip(vy).zip(w).map(|((vx, vy), w)| Twist::new(*vx, *vy, *w));
-    let speeds: Vec<Vec<f64>> = twists.map(|twist| geometry.wheel_speeds(twist)).collect();
-    run.speed = (0..geometry.wheel_count()).map(|wheel| speeds.iter().map(|tick| tick[wheel]).collect()).collect();
-    Ok(())
 }

@@ -6,6 +6,7 @@
 mod cdr;
 mod csv;
 mod draft;
+mod fill;
 mod json;
 mod map;
 mod ros2;
