@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Options of `convert`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "IN may be any table of numbers as text (CSV, PlotJuggler's too; tabs or blanks; names of columns or none), a \
+    after_help = "IN may be any table of numbers as text (CSV, PlotJuggler's too; tabs or blanks; names of columns or none), JSON, a \
 ROS 2 bag in an MCAP, a game log of the small-size league (.log, .log.gz) or a WPILib log. MAP.toml says which of its series is which column, such as\n\n  \
 [columns]\n  enc_1 = \"left/ticks\"\n  cam_x = { from = \"pose.x\", unit = \"mm\" }\n  [frame]\n  x = \"forward\"\n\n\
 docs/book/src/log-format.md has all of it."

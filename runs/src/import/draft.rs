@@ -230,6 +230,13 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         _ if words.contains(&"velocity") || words.contains(&"speed") || words.contains(&"rpm") => {
             wheel.then_some(Kind::Speed)
         }
+        // What somebody told a motor, or its mode, is no encoder's.
+        _ if words
+            .iter()
+            .any(|w| ["command", "cmd", "mode", "state", "error", "status", "pid", "load", "temp"].contains(w)) =>
+        {
+            None
+        }
         _ => (wheel && whole && axis.is_none()).then_some(Kind::Counts),
     }
 }
@@ -370,8 +377,31 @@ mod tests {
     }
 
     #[test]
+    fn words_run_together_and_times_without_a_name_are_understood() {
+        let mouse = drafted(
+            "time, targetSpeed, leftEncoder, leftCommand, rightEncoder",
+            ["0,1,2,3,4", "2,1,3,3,5", "4,1,4,3,6"],
+        );
+        for line in
+            ["ref_1 = \"targetSpeed\"", "enc_2 = \"leftEncoder\"", "enc_1 = \"rightEncoder\"", "# \"leftCommand\""]
+        {
+            assert!(mouse.contains(line), "{line}\n{mouse}");
+        }
+        let bare = drafted(
+            "100; 0.0069; 0; -67305",
+            ["100; 0.0129; 2; -67304", "100; 0.0191; 6; -67304", "100; 0.0248; 6; -67304"],
+        );
+        assert!(bare.contains("column = \"column_2\" # is it?"), "{bare}");
+    }
+
+    #[test]
     fn a_file_without_a_time_column_asks_for_it() {
         let map = drafted("a,b\"c", ["1,2", "2,3", "3,4"]);
-        assert!(map.contains("which column is the time?") && map.contains("# \"b\\\"c\", 2 to 4"), "{map}");
+        assert!(
+            map.contains("which column is the time?")
+                && map.contains("rate_hz")
+                && map.contains("# \"b\\\"c\", 2 to 4"),
+            "{map}"
+        );
     }
 }

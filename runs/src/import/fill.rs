@@ -83,3 +83,61 @@ pub(super) fn speeds_of_commands(run: &mut Run, geometry: &Geometry, path: &Path
     run.speed = (0..geometry.wheel_count()).map(|wheel| speeds.iter().map(|tick| tick[wheel]).collect()).collect();
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::super::{Clock, Map, Table};
+    use super::*;
+
+    fn made(map: &str, text: &str) -> Result<Run, String> {
+        let table = Table::of_bytes(text.as_bytes(), Path::new("in"), None, &Clock::default()).unwrap();
+        Map::parse(map, Path::new("map.toml")).and_then(|m| m.run(&table, Path::new("in"))).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn an_encoder_of_one_turn_goes_on_counting() {
+        let angles =
+            "t,deg,raw,pwm\n0,350,4090,65535\n1,10,5,1\n2,170,2000,65534\n3,200,2100,32767\n4,340,3900,0\n5,20,100,0\n";
+        let of = |column: &str| made(&format!("[columns]\n{column}\n"), angles);
+        let turns = of("enc_1 = { from = \"deg\", unit = \"deg\", counts_per_rev = 360, scale = -1 }").unwrap();
+        assert_eq!(turns.counts[0], [-350, -370, -530, -560, -700, -740]);
+        let raw = of("enc_1 = { from = \"raw\", wraps = 4096 }").unwrap();
+        assert_eq!(raw.counts[0], [4090, 4101, 6096, 6196, 7996, 8292]);
+        let signed = of("duty_1 = { from = \"pwm\", wraps = 65536, scale = 1e-5 }").unwrap();
+        assert_eq!(signed.duty[0][..3], [-1e-5, 1e-5, -2e-5]);
+        assert!(of("enc_1 = { from = \"raw\", wraps = 0 }").unwrap_err().contains("wraps = 0 is no period"));
+        let error = of("enc_1 = { from = \"raw\", wrap = 4096 }").unwrap_err();
+        assert!(error.starts_with("map.toml:2:") && error.contains("unknown field `wrap`, expected one of"), "{error}");
+        let error = of("enc_1 = 4096").unwrap_err();
+        assert!(error.contains("expected the name of a series, or { from ="), "{error}");
+        // A motor that turned more than once in its angle did not lose its turns.
+        let far = made(
+            "[columns]\nenc_1 = { from = \"rad\", unit = \"rad\", counts_per_rev = 100 }\n",
+            "t,rad\n0,0\n1,4\n2,8\n",
+        );
+        assert_eq!(far.unwrap().counts[0], [0, 64, 127]);
+    }
+
+    #[test]
+    fn velocities_are_integrated_to_odometry() {
+        // A quarter turn to the left about a centre 1 m away, x forward.
+        let rows: Vec<String> = (0..=1000).map(|i| format!("{},{},{}", i, PI / 2.0, PI / 2.0)).collect();
+        let text = format!("time_ms,v,omega\n{}\n", rows.join("\n"));
+        let columns = "[columns]\nodom_vx = \"v\"\nodom_w = \"omega\"\n";
+        let run = made(&format!("[frame]\nx = \"forward\"\n{columns}"), &text).unwrap();
+        let [x, y, theta] = run.odometry.as_ref().unwrap().clone().map(|c| c[1000]);
+        assert!((x - 1.0).abs() < 1e-6 && (y - 1.0).abs() < 1e-6, "{x} {y}");
+        // Its forward axis looks along y, so that its x axis, to the right, looks along x.
+        assert!(theta.abs() < 1e-9, "{theta}");
+        let clockwise = made(&format!("[frame]\nx = \"forward\"\nheadings = \"clockwise\"\n{columns}"), &text).unwrap();
+        let [x, y, theta] = clockwise.odometry.as_ref().unwrap().clone().map(|c| c[1000]);
+        assert!((x - 1.0).abs() < 1e-6 && (y + 1.0).abs() < 1e-6, "{x} {y}");
+        assert!((theta.abs() - 2.0 * FRAC_PI_2).abs() < 1e-9, "{theta}");
+        let half = made("[frame]\nx = \"forward\"\n[columns]\nodom_vx = \"v\"\n", &text).unwrap_err();
+        assert!(half.contains("odom_w: no such column in the map; map odom_vx and odom_w"), "{half}");
+        let both = made("[columns]\nodom_vx = \"v\"\nodom_w = \"omega\"\nodom_x = \"v\"\n", &text).unwrap_err();
+        assert!(both.contains("a pose, or its velocities"), "{both}");
+    }
+}

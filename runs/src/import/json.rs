@@ -201,3 +201,64 @@ fn number(value: &Value) -> Option<f64> {
 fn join(place: &str, name: impl std::fmt::Display) -> String {
     if place.is_empty() { name.to_string() } else { format!("{place}/{name}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Table {
+        Table::of_bytes(text.as_bytes(), Path::new("log.json"), None, &Clock::default()).unwrap()
+    }
+
+    fn names(table: &Table) -> Vec<&str> {
+        table.series.iter().map(|s| s.name.as_str()).collect()
+    }
+
+    #[test]
+    fn records_columns_and_lines_are_tables() {
+        // Records beside what is known of the machine; a vector, a text and a NaN of Python in them.
+        let servo = r#"{"mass": 0.5, "entries": [
+            {"timestamp": 0.00, "position": 0.1, "q": [1, 2], "motor": {"volts": "7.4"}, "mode": "on"},
+            {"timestamp": 0.01, "position": NaN, "q": [3, 4], "motor": {"volts": "7.3"}, "mode": "NaN"}]}"#;
+        let read = table(servo);
+        assert_eq!(names(&read), ["motor/volts", "position", "q/1", "q/2"]);
+        assert_eq!(read.find("q/2").unwrap().values, [2.0, 4.0]);
+        assert_eq!((read.find("position").unwrap().t.len(), read.find("motor/volts").unwrap().t[1]), (1, 0.01));
+        assert_eq!(read.time, Some(("timestamp".to_owned(), 1.0)));
+        // One record a line, the last cut off.
+        let lines = table("{\"t\": 1, \"a\": 5}\n{\"t\": 2, \"a\": 6}\n{\"t\": 3, ");
+        assert_eq!(lines.find("a").unwrap().values, [5.0, 6.0]);
+        // Columns, and rows that belong to them; another table beside.
+        let numbers = |from: usize| (from..from + COLUMN).map(|i| i.to_string()).collect::<Vec<_>>().join(",");
+        let pairs = (0..COLUMN).map(|i| format!("[{i},{}]", i + 1)).collect::<Vec<_>>().join(",");
+        let columns = format!(
+            "{{\"t\": [{}], \"speed\": [{}], \"xy\": [{pairs}], \"note\": [1, 2], \"other\": {{\"t\": [{}], \"u\": [{}]}}}}",
+            numbers(0),
+            numbers(7),
+            numbers(0),
+            numbers(9)
+        );
+        let read = table(&columns);
+        assert_eq!(names(&read), ["speed", "xy/1", "xy/2", "other/u"]);
+        assert_eq!((read.find("xy/2").unwrap().values[3], read.find("other/u").unwrap().values[0]), (4.0, 9.0));
+    }
+
+    #[test]
+    fn rows_of_numbers_are_named_by_their_test() {
+        let text =
+            r#"{"slow-forward": [[0.0, 1.5, 0.0], [0.02, 1.6, 0.1]], "fast-forward": [[5.0, 7, 0], [5.02, 7, 1]]}"#;
+        let clock = Clock { column: Some("column_1"), ..Clock::default() };
+        let read = Table::of_bytes(text.as_bytes(), Path::new("sysid.json"), None, &clock).unwrap();
+        assert_eq!(read.find("fast-forward/column_3").unwrap().t, [5.0, 5.02]);
+        assert_eq!(read.find("slow-forward/column_2").unwrap().values, [1.5, 1.6]);
+        let one = Clock { column: Some("slow-forward/column_1"), ..Clock::default() };
+        let read = Table::of_bytes(text.as_bytes(), Path::new("sysid.json"), None, &one).unwrap();
+        assert_eq!(names(&read), ["slow-forward/column_2", "slow-forward/column_3"]);
+        let error = |text: &str| {
+            Table::of_bytes(text.as_bytes(), Path::new("x.json"), None, &Clock::default()).unwrap_err().to_string()
+        };
+        assert!(error(text).contains("no column of time; name it in the map"), "{}", error(text));
+        assert!(error("{\"a\": }").starts_with("x.json:1:7: expected value"), "{}", error("{\"a\": }"));
+        assert!(error("{\"a\": 1}").contains("holds no numbers that can be read"));
+    }
+}

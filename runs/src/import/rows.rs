@@ -125,3 +125,69 @@ pub(super) fn timeless(path: &Path, names: &[String], clock: &Clock) -> InputErr
     );
     InputError::new(path, wanted, hint).at(1, 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Map;
+    use super::*;
+
+    fn made(map: &str, text: &str) -> Result<crate::Run, String> {
+        let map = Map::parse(map, Path::new("map.toml")).map_err(|e| e.to_string())?;
+        let path = Path::new("in.csv");
+        let table = Table::of_bytes(text.as_bytes(), path, None, &map.time().unwrap()).map_err(|e| e.to_string())?;
+        map.run(&table, path).map_err(|e| e.to_string())
+    }
+
+    /// Steps of a motor in one file, each with its own time from 0; a row that another overtook is no new one.
+    const STEPS: &str =
+        "t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0.01,0.2,1\n0.03,0.2,2\n0.0,0.4,9\n0.01,0.4,11\n0.02,0.4,15\n";
+    const COLUMNS: &str = "[columns]\nenc_1 = \"pos\"\nduty_1 = \"duty\"\n";
+
+    #[test]
+    fn several_recordings_in_a_file_are_several_runs() {
+        let error = made(COLUMNS, STEPS).unwrap_err();
+        assert_eq!(
+            error,
+            "in.csv:6:1: its time starts again: it holds 2 recordings; make a run of each: recording = 1 in the map's \
+             [time], then 2, ..."
+        );
+        let of = |n: usize| made(&format!("[time]\nrecording = {n}\n{COLUMNS}"), STEPS);
+        assert_eq!(
+            (of(1).unwrap().counts[0].clone(), of(2).unwrap().t.clone()),
+            (vec![0, 1, 1, 2], vec![0.0, 0.01, 0.02])
+        );
+        assert!(of(3).unwrap_err().contains("has no recording 3: its time starts 2 times"));
+        let ramps = "t,duty,pos\n0,0,0\n1,0,0\n2,0,0\n";
+        assert!(made(&format!("[time]\nrecording = 2\n{COLUMNS}"), ramps).unwrap_err().contains("starts 1 times"));
+    }
+
+    #[test]
+    fn a_file_without_time_has_so_many_rows_a_second() {
+        let text = "u y\n0.5 0\n0.5 3\n0.5 9\n";
+        let columns = "[columns]\nenc_1 = \"y\"\nduty_1 = \"u\"\n";
+        assert_eq!(made(&format!("[time]\nrate_hz = 50\n{columns}"), text).unwrap().t, [0.0, 0.02, 0.04]);
+        assert!(made(columns, text).unwrap_err().contains("or say how many rows a second it has, rate_hz = 100"));
+        for (time, message) in [
+            ("rate_hz = 0", "time.rate_hz: 0 rows a second are none"),
+            ("rate_hz = 50\ncolumn = \"u\"", "time.rate_hz: there is a column of time, or none"),
+        ] {
+            let error = made(&format!("[time]\n{time}\n{columns}"), text).unwrap_err();
+            assert!(error.contains(message), "{error}");
+        }
+    }
+
+    #[test]
+    fn lines_that_begin_with_a_word_are_a_table_a_word() {
+        let text =
+            "# log of a robot\nPOSE 0.0 1.0 2.0 0.5\nODOM 0.05 0.2 0.3\nODOM 0.15 0.2 0.3\nPOSE 0.2 1.1 2.0 0.6\n";
+        let map = "[time]\ncolumn = \"column_2\"\n[frame]\nx = \"forward\"\n[columns]\nodom_vx = \"ODOM/column_3\"\n\
+                   odom_w = \"ODOM/column_4\"\ncam_x = \"POSE/column_3\"\ncam_y = \"POSE/column_4\"\n\
+                   cam_theta = \"POSE/column_5\"\n";
+        let run = made(map, text).unwrap();
+        assert_eq!((run.t.clone(), run.camera.len()), (vec![0.0, 0.05, 0.15, 0.2], 2));
+        assert!((run.odometry.as_ref().unwrap()[0][2] - 0.02).abs() < 1e-4);
+        // One word before numbers is a header: columns of a table that are called 0, 1, 2.
+        let header = Table::of_bytes(b"time,0,1\n0.0,5,6\n", Path::new("x.csv"), None, &Clock::default()).unwrap();
+        assert_eq!(header.find("1").unwrap().values, [6.0]);
+    }
+}

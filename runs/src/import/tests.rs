@@ -261,11 +261,12 @@ fn angles_become_counts_and_quaternions_headings() {
 fn no_soup_of_bytes_panics_an_importer() {
     use rand::{Rng, SeedableRng};
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(3);
-    let heads: [&[u8]; 5] = [b"", mcap::MAGIC, b"WPILOG", b"SSL_LOG_FILE", b"t,a\n"];
+    let heads: [&[u8]; 7] =
+        [b"", mcap::MAGIC, b"WPILOG", b"SSL_LOG_FILE", b"t,a\n", b"{\"t\": [1, ", b"A 1 2\nB 2 3\n"];
     for k in 0..400 {
         let mut bytes = vec![0; k % 97];
         rng.fill_bytes(&mut bytes);
-        let _ = Table::of_bytes(&[heads[k % 5], &bytes].concat(), Path::new("soup"), None, &Clock::default());
+        let _ = Table::of_bytes(&[heads[k % 7], &bytes].concat(), Path::new("soup"), None, &Clock::default());
         let mut bag = bag(&messages(), ["", "lz4", "zstd"][k % 3]);
         let at = rng.next_u32() as usize % bag.len();
         bag[at] ^= 1 << (k % 8);
