@@ -115,7 +115,8 @@ pub(super) fn sentence(a: &Analysis) -> String {
             } else {
                 format!(" Nearest in the catalogue: {}.", a.nearest.join(", "))
             };
-            format!("Model and data disagree, and no effect of the catalogue explains it{first}.{near}")
+            let stop = if first.ends_with('?') { "" } else { "." };
+            format!("Model and data disagree, and no effect of the catalogue explains it{first}{stop}{near}")
         }
     }
 }
