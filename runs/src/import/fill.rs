@@ -3,12 +3,25 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::map::Wanted;
 use crate::Run;
 use crate::columns::Column;
 use crate::error::InputError;
 use crate::frames::Twist;
 use crate::geometry::Geometry;
+
+/// One column of the run to be.
+pub(super) struct Wanted<'a> {
+    pub(super) column: Column,
+    pub(super) from: &'a str,
+    pub(super) factor: f64,
+    pub(super) offset: f64,
+    /// Of how many of the file's units a multiple is not known.
+    pub(super) wraps: Option<f64>,
+    /// The file's units in a turn, of an encoder whose log has angles.
+    pub(super) turn: Option<f64>,
+    /// Whether it is the rate of the column.
+    pub(super) rate: bool,
+}
 
 /// The values of a column whose multiples of a turn were lost: counts go on from the last, others are those next to 0.
 /// An encoder of one turn shows itself: angles within a turn that leap by more than half of it.

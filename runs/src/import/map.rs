@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::fill::{counts, integrate, speeds_of_commands, unwrapped};
+use super::fill::{Wanted, counts, integrate, speeds_of_commands, unwrapped};
 use super::{Clock, Format, Table, units};
 use crate::columns::{Column, GROUPS, missing_member};
 use crate::error::{InputError, line_and_column, nearest};
@@ -137,20 +137,6 @@ struct Scaled {
 
 /// Velocities of the body that its odometry was made of: integrated, they are the odometry.
 const RATES: [&str; 3] = ["odom_vx", "odom_vy", "odom_w"];
-
-/// One column of the run to be.
-pub(super) struct Wanted<'a> {
-    pub(super) column: Column,
-    from: &'a str,
-    factor: f64,
-    offset: f64,
-    /// Of how many of the file's units a multiple is not known.
-    pub(super) wraps: Option<f64>,
-    /// The file's units in a turn, of an encoder whose log has angles.
-    pub(super) turn: Option<f64>,
-    /// Whether it is the rate of the column.
-    rate: bool,
-}
 
 impl Map {
     /// Reads a map.
