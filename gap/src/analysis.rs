@@ -171,6 +171,9 @@ const SHOWN: usize = 4;
 
 /// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
 const NO_NOISE: f64 = 0.15;
+/// Share of what a duty varies that its wheel's motion accounts for, from which it is this drive's, however much
+/// scatters: less, and most of it has nothing to do with the wheel.
+const OWN: f64 = 0.5;
 
 /// Share of a link's gap that must be left at most once its effects stand in the file.
 const FALLS: f64 = 0.98;
@@ -294,13 +297,16 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         let slides = start.active.iter().any(|a| a.effect.name() == "wheel-slip");
         let reached = link.sizes.drive_nm;
         if let Some(worst) = floor.iter().copied().reduce(f64::max).filter(|worst| *worst > NO_NOISE * reached) {
-            let structure = format!(
-                "what the duties predict scatters by {:.0} mNm, {:.0} % of what they reach, at random: are these the \
-                 duties of this drive?",
-                1e3 * worst,
-                100.0 * worst / reached
-            );
-            study.leave(Link::Drive, [structure]);
+            let scatters =
+                format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
+            let own = crate::drive::accounted(&link, &start.drive(None)).into_iter().all(|share| share > OWN);
+            if own {
+                remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
+            } else {
+                let structure =
+                    format!("what the duties predict {scatters}, at random: are these the duties of this drive?");
+                study.leave(Link::Drive, [structure]);
+            }
         }
         thresholds.drive_correlation = correlation;
         // What a camera would have shown is not deduced from duties.

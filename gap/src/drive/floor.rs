@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{DriveLink, DriveResiduals, smooth_sign};
+use super::{DriveLink, DriveModel, DriveResiduals, smooth_sign};
 use crate::thresholds;
 use estimation::normal_equations::solve;
 
@@ -121,6 +121,35 @@ pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Ve
     // A first-order correlation and its sum over all lags.
     let rho = if power > 0.0 { (lagged / power).clamp(0.0, 0.8) } else { 0.2 };
     (noise, (1.0 + rho) / (1.0 - rho))
+}
+
+/// Share of what a wheel's duty varies that its own motion accounts for, one a wheel: a drive's voltage is what speed,
+/// friction and acceleration take. Duties of another drive have next to nothing to do with them.
+pub fn accounted(link: &DriveLink, model: &DriveModel) -> Vec<f64> {
+    let n = link.noise.len();
+    let means = link.means(3 * n, |s, k, out| {
+        for i in 0..n {
+            let speed = s.speed[i][k];
+            out[3 * i..3 * i + 3].copy_from_slice(&[s.duty[i][k] * s.supply[k], speed, smooth_sign(speed, s.turning)]);
+        }
+    });
+    let accelerated = link.done(model);
+    let of = |i: usize| {
+        let used: Vec<usize> =
+            (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0 && *b < accelerated.len()).collect();
+        let volts = DVector::from_iterator(used.len(), used.iter().map(|b| means[3 * i][*b]));
+        let varies = volts.add_scalar(-volts.mean()).norm_squared();
+        let motion = DMatrix::from_fn(used.len(), 4, |row, column| match column {
+            0 => 1.0,
+            1 | 2 => means[3 * i + column][used[row]],
+            _ => accelerated[used[row]][i],
+        });
+        let x = solve(&(motion.transpose() * &motion), &(motion.transpose() * &volts));
+        let left = (&motion * x - &volts).norm_squared();
+        // A duty that never varies says nothing of whose it is.
+        if varies > 1e-12 * volts.norm_squared() { 1.0 - left / varies } else { 1.0 }
+    };
+    (0..n).map(of).collect()
 }
 
 fn neighbours(residuals: &DriveResiduals, wheel: usize) -> f64 {

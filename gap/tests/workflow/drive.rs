@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::common::{names, simulate, with};
+use super::scale::servo;
 use estimation::statistics::rms;
 use gap::drive::{DriveLink, DriveModel};
 use gap::effect::{Effect, Form, Link, Values};
@@ -147,4 +148,39 @@ fn rows_further_apart_than_the_control_period_are_no_inertia() {
     });
     let a = gap::analyse(&set, &gap::Options::default()).unwrap();
     assert!(names(&a).is_empty(), "{}", a.terminal_summary());
+}
+
+const FOREIGN: &str = "are these the duties of this drive?";
+
+/// Values between -0.5 and 0.5, each held for some ticks.
+fn wandering(ticks: usize, held: usize, seed: u64) -> impl Iterator<Item = f64> {
+    let next =
+        |state: &u64| Some(state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
+    let states = std::iter::successors(Some(seed), next).skip(1).take(ticks.div_ceil(held));
+    states.flat_map(move |s| std::iter::repeat_n((s >> 40) as f64 / (1_u64 << 24) as f64 - 0.5, held)).take(ticks)
+}
+
+/// Duties that have nothing to do with what a heavy axis did.
+#[test]
+fn duties_of_another_drive_are_asked_about() {
+    let mut set = servo(1e-3, 1e-3, 1e-5, 4e-3);
+    for (seed, run) in (1..).zip(&mut set.runs) {
+        run.duty[0] = wandering(run.t.len(), 100, seed).collect();
+    }
+    let a = gap::analyse(&set, &gap::Options::default()).unwrap();
+    assert_eq!(a.verdict, gap::Verdict::Unexplained, "{}", a.terminal_summary());
+    assert!(a.unexplained.iter().any(|u| u.structure.contains(FOREIGN)), "{}", a.terminal_summary());
+}
+
+/// An amplifier whose voltage wanders by a tenth scatters, and is still this drive's.
+#[test]
+fn a_drive_that_scatters_is_not_called_another() {
+    let mut set = servo(2e-5, 2e-5, 1e-5, 4e-3);
+    for (seed, run) in (1..).zip(&mut set.runs) {
+        let ticks = run.t.len();
+        run.duty[0].iter_mut().zip(wandering(ticks, 30, seed)).for_each(|(duty, off)| *duty += 0.2 * off);
+    }
+    let a = gap::analyse(&set, &gap::Options::default()).unwrap();
+    assert!(a.remarks.iter().any(|r| r.contains("smaller effects do not show")), "{:?}", a.remarks);
+    assert!(!a.unexplained.iter().any(|u| u.structure.contains(FOREIGN)), "{}", a.terminal_summary());
 }

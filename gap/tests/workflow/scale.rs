@@ -10,7 +10,7 @@ use runs::robot::{Layout, Robot, Support};
 use runs::{DataSet, Run};
 
 /// A servo axis on blocks at 500 Hz, kg m², Nm s, Nm; what the file says of its inertia, and what its motor loses besides.
-fn servo(inertia: f64, told: f64, viscous: f64, dry: f64) -> DataSet {
+pub(super) fn servo(inertia: f64, told: f64, viscous: f64, dry: f64) -> DataSet {
     let (kt, ohm, volt, counts, tick) = (0.05, 1.2, 24.0, 4096.0, 2e-3);
     let text = format!(
         "encoder_counts_per_wheel_rev = {counts}\ngear_ratio = 1\nsupply_v = {volt}\nsupport = \"blocks\"\n\
