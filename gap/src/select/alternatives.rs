@@ -212,41 +212,41 @@ fn pair_alternatives(
     thresholds: &Thresholds,
 ) -> Option<(bool, Vec<String>)> {
     let effect = |c: usize| design.candidates[c].effect.name();
-    let name = told[0].as_str();
+    let is_told = |c: usize| told.iter().any(|n| n == effect(c));
+    let base = design.base();
+    let from = base.loss + base.penalty;
+    let best = |pairs: Vec<[usize; 2]>, material: &(dyn Fn(usize, &[f64]) -> bool + Sync)| {
+        let gains: Vec<(f64, [usize; 2])> = pairs
+            .into_par_iter()
+            .filter(|[a, b]| effect(*a) != effect(*b))
+            .filter_map(|pair| {
+                let fit = design.fit(&pair);
+                let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
+                let sound = pair.iter().all(|c| {
+                    let v = design.values(&fit, *c);
+                    design.within_bounds(*c, &v, &fit) && material(*c, &v)
+                });
+                (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, pair))
+            })
+            .collect();
+        let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
+        let parameters =
+            |g: &&(f64, [usize; 2])| g.1.iter().map(|c| design.candidates[*c].form.free.len()).sum::<usize>();
+        let (_, [a, b]) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
+        Some([told[0].as_str(), effect(*a), effect(*b)].map(str::to_owned).to_vec())
+    };
+    let spanning = spanning.iter().filter(|p| !p.iter().any(|c| is_told(*c))).copied().collect();
+    if let Some(set) = best(spanning, &|c, v| is_material(&design.candidates[c], v)) {
+        return Some((true, set));
+    }
     let mut others: Vec<usize> = trials
         .iter()
-        .filter(|t| !told.iter().any(|n| n == effect(t.candidate)) && !t.beyond && t.gain > 0.0)
+        .filter(|t| !is_told(t.candidate) && !t.beyond && t.gain > 0.0)
         .map(|t| t.candidate)
         .take(14)
         .collect();
     // Of equals the simplest, and what comes first in the catalogue.
     others.sort_unstable();
-    let base = design.base();
-    let from = base.loss + base.penalty;
-    let told = |c: usize| told[1..].iter().any(|n| n == effect(c));
-    let alone = others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (false, *a, *b)));
-    let together = spanning.iter().filter(|p| !p.iter().any(|c| told(*c))).map(|p| (true, p[0], p[1]));
-    let pairs: Vec<(bool, usize, usize)> = together.chain(alone).collect();
-    let gains: Vec<(f64, bool, usize, usize)> = pairs
-        .into_par_iter()
-        .filter(|(_, a, b)| effect(*a) != effect(*b))
-        .filter_map(|(spans, a, b)| {
-            let fit = design.fit(&[a, b]);
-            let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
-            let sound = [a, b].iter().all(|c| {
-                let v = design.values(&fit, *c);
-                let material = if spans { is_material(&design.candidates[*c], &v) } else { design.material(*c, &v) };
-                design.within_bounds(*c, &v, &fit) && material
-            });
-            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, spans, a, b))
-        })
-        .collect();
-    let spans = gains.iter().any(|g| g.1);
-    let gains: Vec<_> = gains.into_iter().filter(|g| g.1 == spans).collect();
-    let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
-    let parameters = |g: &&(f64, bool, usize, usize)| {
-        design.candidates[g.2].form.free.len() + design.candidates[g.3].form.free.len()
-    };
-    let (_, _, a, b) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
-    Some((spans, [name, effect(*a), effect(*b)].map(str::to_owned).to_vec()))
+    let pairs = others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| [*a, *b])).collect();
+    best(pairs, &|c, v| design.material(c, v)).map(|set| (false, set))
 }

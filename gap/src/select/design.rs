@@ -181,7 +181,7 @@ impl Design {
         let m = self.linear.owners.len();
         let jj = self.linear.equations.information();
         for index in 0..self.state.active.len() {
-            let (columns, p) = whole(&self.linear, &self.state, index);
+            let (columns, p) = self.whole(index);
             let size2 = square(&jj, &columns, &p);
             if size2 <= 0.0 {
                 continue;
@@ -208,7 +208,7 @@ impl Design {
     pub fn left_by_laws(&self) -> f64 {
         let jj = self.linear.equations.information();
         let left = |index: usize| {
-            let (columns, p) = whole(&self.linear, &self.state, index);
+            let (columns, p) = self.whole(index);
             self.state.active[index].effect.law_uncertainty().powi(2) * square(&jj, &columns, &p)
         };
         LAW_SIGMAS * LAW_SIGMAS * (0..self.state.active.len()).map(left).sum::<f64>()
@@ -222,19 +222,29 @@ impl Design {
 
     /// The columns of an active effect, and the step along them that takes all of it away.
     pub(super) fn whole(&self, index: usize) -> (Vec<usize>, Vec<f64>) {
-        whole(&self.linear, &self.state, index)
+        if let Some(column) = self.linear.owners.iter().position(|o| *o == Owner::Whole(index)) {
+            return (vec![column], vec![1.0]);
+        }
+        let active = &self.state.active[index];
+        let columns = self.linear.of_active(index);
+        let value = |c: &usize| match self.linear.owners[*c] {
+            Owner::Active(_, j) => active.values.get(&active.form.free[j].name),
+            _ => 0.0,
+        };
+        let p = columns.iter().map(value).collect();
+        (columns, p)
     }
 
     /// What an active effect does that another one cannot.
     pub(super) fn own_part(&self, index: usize, other: usize) -> f64 {
-        self.beside(&[index], &whole(&self.linear, &self.state, other).0)[1]
+        self.beside(&[index], &self.whole(other).0)[1]
     }
 
     fn beside(&self, indices: &[usize], others: &[usize]) -> [f64; 2] {
         let jj = self.linear.equations.information();
         let (mut columns, mut p) = (Vec::new(), Vec::new());
         for index in indices {
-            let part = whole(&self.linear, &self.state, *index);
+            let part = self.whole(*index);
             columns.extend(part.0);
             p.extend(part.1);
         }
@@ -563,21 +573,6 @@ impl Design {
     pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
         self.penalised().covariance(roles, fit)
     }
-}
-
-/// The columns of an active effect, and the step along them that takes all of it away.
-fn whole(linear: &Linear, state: &State, index: usize) -> (Vec<usize>, Vec<f64>) {
-    if let Some(column) = linear.owners.iter().position(|o| *o == Owner::Whole(index)) {
-        return (vec![column], vec![1.0]);
-    }
-    let active = &state.active[index];
-    let columns = linear.of_active(index);
-    let value = |c: &usize| match linear.owners[*c] {
-        Owner::Active(_, j) => active.values.get(&active.form.free[j].name),
-        _ => 0.0,
-    };
-    let p = columns.iter().map(value).collect();
-    (columns, p)
 }
 
 /// Square of a step along some columns in units of the noise.

@@ -12,7 +12,8 @@ pub(super) fn spanning_pairs(design: &Design, index: usize) -> Vec<[usize; 2]> {
     let linear = &design.linear;
     let jj = linear.equations.information();
     let own = design.whole(index);
-    let others: Vec<usize> = linear.active().into_iter().filter(|c| !own.0.contains(c)).collect();
+    let parts = linear.of_active(index);
+    let others: Vec<usize> = linear.active().into_iter().filter(|c| !own.0.contains(c) && !parts.contains(c)).collect();
     let candidates: Vec<(usize, usize)> = (0..design.candidates.len())
         .filter_map(|c| {
             let candidate = &design.candidates[c];
