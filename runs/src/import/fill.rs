@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::Run;
 use crate::columns::Column;
 use crate::error::InputError;
-use crate::frames::Twist;
+use crate::frames::{Pose, Twist};
 use crate::geometry::Geometry;
 
 /// One column of the run to be.
@@ -47,7 +47,7 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
 
 /// Poses of velocities, from the first on; a velocity between two samples is their mean.
 pub(super) fn integrate(t: &[f64], odometry: &mut [Vec<f64>; 3], sense: f64) {
-    let mut pose = [0.0; 3];
+    let mut pose = Pose::default();
     let mut before: Option<(f64, [f64; 3])> = None;
     for (tick, t) in t.iter().enumerate() {
         let now = [0, 1, 2].map(|i| odometry[i][tick]);
@@ -56,16 +56,13 @@ pub(super) fn integrate(t: &[f64], odometry: &mut [Vec<f64>; 3], sense: f64) {
             continue;
         }
         if let Some((since, last)) = before {
-            let step = [0, 1, 2].map(|i| 0.5 * (last[i] + now[i]) * (t - since));
-            let (sin, cos) = (pose[2] + 0.5 * sense * step[2]).sin_cos();
-            pose[0] += cos * step[0] - sin * step[1];
-            pose[1] += sin * step[0] + cos * step[1];
-            pose[2] += sense * step[2];
+            let [vx, vy, w] = [0, 1, 2].map(|i| 0.5 * (last[i] + now[i]));
+            pose = pose.advance(Twist::new(vx, vy, sense * w), t - since);
         }
         before = Some((*t, now));
-        odometry[0][tick] = pose[0];
-        odometry[1][tick] = pose[1];
-        odometry[2][tick] = sense * pose[2];
+        odometry[0][tick] = pose.x;
+        odometry[1][tick] = pose.y;
+        odometry[2][tick] = sense * pose.theta;
     }
 }
 
