@@ -12,6 +12,8 @@ use gap::pieces::{PIECE, segments};
 use gap::problem::Problem;
 use gap::state::{Active, State};
 use model::manoeuvre::Manoeuvre;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use runs::robot::{Robot, Support};
 use runs::{Logs, Run};
 
@@ -154,10 +156,9 @@ const FOREIGN: &str = "are these the duties of this drive?";
 
 /// Values between -0.5 and 0.5, each held for some ticks.
 fn wandering(ticks: usize, held: usize, seed: u64) -> impl Iterator<Item = f64> {
-    let next =
-        |state: &u64| Some(state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
-    let states = std::iter::successors(Some(seed), next).skip(1).take(ticks.div_ceil(held));
-    states.flat_map(move |s| std::iter::repeat_n((s >> 40) as f64 / (1_u64 << 24) as f64 - 0.5, held)).take(ticks)
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let values = std::iter::repeat_with(move || rng.random_range(-0.5..0.5));
+    values.flat_map(move |value| std::iter::repeat_n(value, held)).take(ticks)
 }
 
 /// Duties that have nothing to do with what a heavy axis did.
