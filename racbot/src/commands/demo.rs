@@ -26,7 +26,7 @@ pub(crate) struct Options {
     ticks: u32,
 }
 
-const TICKS: u32 = 120;
+const TICKS: u32 = 40;
 const OUT: &str = "out/demo";
 const GENERATED: &str = "generated";
 
