@@ -129,18 +129,8 @@ pub(super) fn study(
         }
         let Some(estimate) = estimates.iter().find(|e| e.index == index) else { continue };
         let alternatives = select::alternatives(problem, &selection, index, &all, thresholds);
-        let design = &selection.design;
-        let twin = |name: &str| {
-            (0..design.candidates.len()).any(|c| design.candidates[c].effect.name() == name && design.is_twin(c, index))
-        };
-        // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
-        let counts = |s: &Vec<String>| match &s[..] {
-            _ if !selection.bare => true,
-            [_, other] => twin(other),
-            _ => alternatives.spanned,
-        };
         let own: Vec<Vec<String>> =
-            alternatives.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe")) && counts(s)).collect();
+            alternatives.sets.into_iter().filter(|s| !s.iter().any(|n| n.starts_with("probe"))).collect();
         ambiguous |= alternatives.ambiguous && !own.is_empty();
         sets.extend(own);
         let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());

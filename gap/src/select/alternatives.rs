@@ -33,8 +33,6 @@ pub struct Alternatives {
     pub design: Design,
     /// Sets of names that do as well, the effect's own among them.
     pub sets: Vec<Vec<String>>,
-    /// Whether the pair among them does what the effect does, not merely as much.
-    pub spanned: bool,
     /// Whether a single alternative has no more parameters and no convention prefers the named effect.
     pub ambiguous: bool,
     /// Effects that the named ones can do with a part of what they are free to do, this one's share of it among them:
@@ -70,6 +68,11 @@ pub fn alternatives(
         .fold(0.0, f64::max);
     // The same signal matters as much under any name.
     let twin = |c: usize| found.design.is_twin(c, index);
+    // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
+    let counts = |name: &str| {
+        let of_name = |c: &usize| found.design.candidates[*c].effect.name() == name;
+        !found.bare || (0..found.design.candidates.len()).filter(of_name).any(twin)
+    };
     let mut sets: Vec<Vec<String>> = Vec::new();
     let mut ambiguous = false;
     let mut tried: Vec<String> = vec![name.clone()];
@@ -90,6 +93,7 @@ pub fn alternatives(
             || shapes >= MOST_SHAPES
             || !(t.material || twin(t.candidate))
             || without.active.iter().any(|a| a.effect.name() == alternative_name)
+            || !counts(&alternative_name)
         {
             continue;
         }
@@ -119,17 +123,16 @@ pub fn alternatives(
         }
     }
     for other in twins_of_parts(&found.design, index) {
-        if !told.contains(&other) {
+        if !told.contains(&other) && counts(&other) {
             sets.push(vec![name.clone(), other.clone()]);
             told.push(other);
         }
     }
     let spanning = super::spanning::spanning_pairs(&found.design, index);
     let pair = pair_alternatives(&design, &trials, &spanning, &told, own_gain, thresholds);
-    let spanned = pair.as_ref().is_some_and(|p| p.0);
-    sets.extend(pair.map(|p| p.1));
+    sets.extend(pair.filter(|(spanned, _)| *spanned || !found.bare).map(|p| p.1));
     let shared = shared(&found.design, index).into_iter().filter(|other| !told.contains(other)).collect();
-    Alternatives { design, sets, spanned, ambiguous, shared }
+    Alternatives { design, sets, ambiguous, shared }
 }
 
 /// Squared cosine with what an effect of several parameters can do from which it hides another: the other's limit is
