@@ -27,6 +27,7 @@ pub mod normal_equations;
 pub mod prior;
 pub mod sign_flips;
 pub mod statistics;
+pub mod sums;
 mod symmetric;
 pub mod truncated;
 

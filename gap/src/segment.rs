@@ -1,5 +1,6 @@
 //! A piece of a run without gaps, with everything the links need derived from it once.
 
+use estimation::sums::dot;
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
 use runs::geometry::Geometry;
 use runs::robot::Robot;
@@ -380,18 +381,15 @@ pub(crate) fn smooth_speed(t: &[f64], angle: &[f64]) -> Vec<f64> {
             (std::f64::consts::PI * x).sin().powi(2)
         })
         .collect();
+    let increments = |values: &[f64]| values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
+    let (turned, passed) = (increments(angle), increments(t));
     (0..n)
         .map(|k| {
-            let (mut sum, mut time) = (0.0, 0.0);
-            for (j, w) in weights.iter().enumerate() {
-                // Increment from tick m to m + 1, centred on k.
-                let Some(m) = (k + j).checked_sub(half) else { continue };
-                if m + 1 < n {
-                    sum += w * (angle[m + 1] - angle[m]);
-                    time += w * (t[m + 1] - t[m]);
-                }
-            }
-            if time > 0.0 { sum / time } else { 0.0 }
+            // Increments from tick m to m + 1, centred on k.
+            let m = k.saturating_sub(half)..(k + half).min(n - 1);
+            let weights = &weights[m.start + half - k..];
+            let time = dot(weights, &passed[m.clone()]);
+            if time > 0.0 { dot(weights, &turned[m]) / time } else { 0.0 }
         })
         .collect()
 }

@@ -14,6 +14,7 @@ use crate::pieces::Pieces;
 use crate::segment::Segment;
 use crate::thresholds;
 use estimation::normal_equations::Cluster;
+use estimation::sums::dot;
 
 /// Length of a test function, s, and in ticks at least.
 pub(crate) const TEST_FUNCTION_S: f64 = 0.12;
@@ -625,17 +626,4 @@ impl TestFunction {
         let rotors = DVector::from_fn(n, |i, _| model.moves_in_play(i) * ahead[i]);
         *a += ahead - &mechanics.response * rotors;
     }
-}
-
-/// Σ a·b over the shorter of two; four sums side by side, which one loop would add one after the other.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let length = a.len().min(b.len());
-    let ((a, a_rest), (b, b_rest)) = (a[..length].as_chunks::<4>(), b[..length].as_chunks::<4>());
-    let mut sum = [0.0; 4];
-    for (a, b) in a.iter().zip(b) {
-        for l in 0..4 {
-            sum[l] += a[l] * b[l];
-        }
-    }
-    sum[0] + sum[1] + (sum[2] + sum[3]) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }
