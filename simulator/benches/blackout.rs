@@ -4,16 +4,16 @@
 use measured::Table;
 use simulator::blackout::{Blackout, Outcome, Senses};
 
-/// Starts; another number as argument prints instead of writing the table.
+/// Starts, by their seeds; another number as argument, and another first seed behind it, prints instead of writing the table.
 const STARTS: u64 = 200;
 /// Near enough, m.
 const REACHED: f64 = 0.05;
 
-fn outcomes(senses: Senses, starts: u64) -> Vec<Outcome> {
+fn outcomes(senses: Senses, starts: std::ops::Range<u64>) -> Vec<Outcome> {
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
     std::thread::scope(|scope| {
         let part = |thread: u64| {
-            let seeds = (0..starts).filter(move |seed| seed % threads == thread);
+            let seeds = starts.clone().filter(move |seed| seed % threads == thread);
             seeds.map(|seed| Blackout::new(seed).run(senses).expect("the simulation runs")).collect::<Vec<_>>()
         };
         let running: Vec<_> = (0..threads).map(|thread| scope.spawn(move || part(thread))).collect();
@@ -25,15 +25,15 @@ fn main() {
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    let asked = std::env::args().find_map(|argument| argument.parse().ok());
-    let starts = asked.unwrap_or(STARTS);
+    let asked: Vec<u64> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
+    let (starts, first) = (asked.first().copied().unwrap_or(STARTS), asked.get(1).copied().unwrap_or(0));
     let rows = [
         ("wheels", Senses::Wheels),
         ("wheels, gyroscope", Senses::Gyroscope),
         ("wheels, gyroscope, camera", Senses::Camera),
     ]
     .map(|(name, senses)| {
-        let outcomes = outcomes(senses, starts);
+        let outcomes = outcomes(senses, first..first + starts);
         let share = |reached: &dyn Fn(&Outcome) -> bool| {
             format!("{:.1}", 100.0 * outcomes.iter().filter(|o| reached(o)).count() as f64 / starts as f64)
         };
@@ -49,7 +49,7 @@ fn main() {
             at(0.95),
         ]
     });
-    if asked.is_some() {
+    if !asked.is_empty() {
         rows.iter().for_each(|row| println!("{}", row.join("  ")));
         return;
     }

@@ -32,8 +32,6 @@ use vision::onboard::Glance;
 const REACH: f64 = 0.1;
 /// Where the robot believes to stand before it looks: standard deviations, m, m, rad.
 const ASTRAY: [f64; 3] = [0.04, 0.04, 0.03];
-/// Where it believes to stand after a drive, likewise.
-const DRIVEN: [f64; 3] = [0.03, 0.03, 0.03];
 /// Standard deviations of the poses that the control loop gets.
 const POSE_SD: [f64; 3] = [0.01, 0.01, 0.01];
 /// Speed, m/s.
@@ -79,6 +77,8 @@ pub struct Story {
     pub outcome: Outcome,
     /// The drives, between which the robot stands and looks.
     pub legs: Vec<Driven>,
+    /// What it believed at the end of each drive, before it looked, and where it was.
+    pub rests: Vec<(Estimate, Pose)>,
     /// What its camera took, where pictures were kept.
     pub shots: Vec<Shot>,
     /// How often a picture gave no pose, by the reason.
@@ -102,6 +102,7 @@ struct Now {
     belief: Estimate,
     t: f64,
     legs: Vec<Driven>,
+    rests: Vec<(Estimate, Pose)>,
 }
 
 impl Blackout {
@@ -152,7 +153,7 @@ impl Blackout {
         let eye = Eye::new(Eye::small(), Field::DIVISION_B, Some(self.ball), self.seed).with_fault(fault);
         let eye = shared(if pictures { eye.keeping() } else { eye });
         let belief = Estimate::new(self.told, ASTRAY);
-        let mut now = Now { truth: self.truth, belief, t: 0.0, legs: Vec::new() };
+        let mut now = Now { truth: self.truth, belief, t: 0.0, legs: Vec::new(), rests: Vec::new() };
         // Without a camera the ball's place is told as it is, in the frame of the belief.
         let ball = if senses == Senses::Camera { self.search(&mut now, &eye)? } else { Some(self.ball) };
         let view = now.belief.pose.theta + FRAC_PI_2;
@@ -174,7 +175,7 @@ impl Blackout {
             miss: (now.truth.x - self.target[0]).hypot(now.truth.y - self.target[1]),
         };
         let mut eye = eye.borrow_mut();
-        Ok(Story { outcome, legs: now.legs, shots: eye.take_shots(), refused: eye.refused().clone() })
+        Ok(Story { outcome, legs: now.legs, rests: now.rests, shots: eye.take_shots(), refused: eye.refused().clone() })
     }
 
     /// Looks, and drives nearer, until the ball is seen from near by.
@@ -233,16 +234,17 @@ impl Blackout {
             seed: self.seed,
             ..Drive::new(&robot, set_points)
         };
-        let end = Rc::new(Cell::new(now.belief.pose));
+        let end = Rc::new(Cell::new(now.belief));
         let driven = drive.run_seen_by(
             BitTrue::new(),
-            |ride| OnBoard::new(ride, &robot, now, senses, Rc::clone(eye), Rc::clone(&end)),
+            |ride| OnBoard::new(ride, &robot, now, senses, Rc::clone(eye), Rc::clone(&end), self.seed),
             |_| {},
         )?;
         if let Some((t, pose)) = driven.track.last() {
             (now.truth, now.t) = (*pose, now.t + t);
         }
-        now.belief = Estimate::new(end.get(), DRIVEN);
+        now.belief = end.get();
+        now.rests.push((now.belief, now.truth));
         now.legs.push(driven);
         Ok(())
     }

@@ -34,8 +34,8 @@ pub struct OnBoard<F> {
     senses: Senses,
     /// Seconds of the story before this drive.
     since: f64,
-    /// The pose at the last tick, for the next drive.
-    end: Rc<Cell<Pose>>,
+    /// What is believed at the last tick, for the next drive.
+    end: Rc<Cell<Estimate>>,
 }
 
 impl<F: Fpga> OnBoard<F> {
@@ -45,7 +45,8 @@ impl<F: Fpga> OnBoard<F> {
         now: &Now,
         senses: Senses,
         eye: SharedEye,
-        end: Rc<Cell<Pose>>,
+        end: Rc<Cell<Estimate>>,
+        part: u64,
     ) -> Self {
         let sensor = ImuModel::icm_42688_p(model.control_rate_hz);
         let geometry = model.geometry().expect("the robot drives by this geometry");
@@ -54,7 +55,7 @@ impl<F: Fpga> OnBoard<F> {
         let start_sd = [place, place, heading];
         let mut filter =
             Inertial::new(&geometry, model.counts_per_wheel_rad(), options, &sensor, now.belief.pose, start_sd);
-        let mut imu = Imu::new(sensor, 3);
+        let mut imu = Imu::new(sensor, part).with_noise(part + now.legs.len() as u64);
         // A second of rest before the start shows the gyroscope's bias.
         let period = 1.0 / model.control_rate_hz;
         let mut chassis = Chassis::default();
@@ -65,8 +66,14 @@ impl<F: Fpga> OnBoard<F> {
         for k in 0..1000 {
             filter.predict((f64::from(k) - 1000.0) * period, &counts, &imu.read(&Motion::default()));
         }
+        // At rest nothing was learned of the pose: what the drive before left is known, as a whole.
+        filter.adopt(now.belief.pose, now.belief.covariance);
         let eye = (senses == Senses::Camera).then_some(eye);
         Self { robot, filter, imu, chassis, tick: 0, period, eye, senses, since: now.t, end }
+    }
+
+    fn belief(&self) -> Estimate {
+        Estimate { pose: self.filter.pose(), covariance: self.filter.covariance(), agreeing: 1.0 }
     }
 
     fn motion(&mut self) -> (Motion, Vec<i64>, Pose) {
@@ -84,14 +91,14 @@ impl<F: Fpga> PoseSource for OnBoard<F> {
         if self.tick.is_multiple_of(PICTURE_EVERY)
             && let Some(eye) = &self.eye
         {
-            let belief = Estimate { pose: self.filter.pose(), covariance: self.filter.covariance(), agreeing: 1.0 };
+            let belief = self.belief();
             // The match holds the prediction already: the filter takes it over as it is.
             if let Ok(Glance { pose: Ok(found), .. }) = eye.borrow_mut().look(self.since + t, truth, &belief) {
                 self.filter.adopt(found.pose, found.covariance);
             }
         }
         let pose = self.filter.pose();
-        self.end.set(pose);
+        self.end.set(self.belief());
         let due = self.senses != Senses::Wheels && self.tick.is_multiple_of(POSE_EVERY);
         due.then(|| Pose::new(pose.x, pose.y, wrap_angle(pose.theta)))
     }
