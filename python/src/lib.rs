@@ -128,7 +128,7 @@ fn simulate(
             return Err(failed("set_points: not all are numbers"));
         }
         drive.set_points =
-            points.into_iter().map(|(x, y, v, omega)| SetPoint { x, y, v, omega, stop: false }).collect();
+            points.into_iter().map(|(x, y, v, omega)| SetPoint::pass(x, y, v, omega)).collect();
     }
     drive.actual = applied.robot.clone();
     drive.contact = applied.contact;

@@ -45,7 +45,7 @@ impl Clock for Sleepy {
 /// Drives a square and records it, with a camera where nobody is late: a pose is logged when the host wakes up,
 /// and the jitter of its stamps would rightly be found. Gives the ticks that the host missed.
 fn record(robot: &Robot, speed_mode: SpeedMode, late: u32, file: &Path) -> u64 {
-    let point = |x, y, stop| SetPoint { x, y, v: 1.0, omega: 1.0, stop };
+    let point = |x, y, stop| SetPoint { x, y, v: 1.0, omega: 1.0, stop, heading: None };
     let points = [point(1.0, 0.0, false), point(1.0, 1.0, false), point(0.0, 1.0, true), point(0.0, 0.0, true)];
     let actual = Applied::of(robot).robot;
     let rig = Rig::new(&actual, Rig::nominal_clock_hz(), None).unwrap();

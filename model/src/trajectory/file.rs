@@ -138,7 +138,7 @@ fn point([x, y, v, omega]: [f64; 4], stop: bool, path: &Path) -> Result<SetPoint
         let hint = "give the speed on the way there; to stand still, write stop behind the point";
         return Err(InputError::new(path, format!("speed {v} is not positive"), hint).field("v"));
     }
-    Ok(SetPoint { x, y, v, omega, stop })
+    Ok(SetPoint { x, y, v, omega, stop, heading: None })
 }
 
 fn not_empty(points: Vec<SetPoint>, path: &Path) -> Result<Vec<SetPoint>, InputError> {

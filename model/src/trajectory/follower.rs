@@ -2,7 +2,7 @@
 
 use super::{Limits, SetPoint, length_of};
 use crate::motor::Axis;
-use runs::frames::{Pose, Twist};
+use runs::frames::{Pose, Twist, wrap_angle};
 use runs::geometry::{Geometry, GeometryError};
 use runs::robot::Robot;
 
@@ -13,7 +13,9 @@ pub struct FollowerOptions {
     pub corner_m: f64,
     /// Distance at which a set point counts as reached, m.
     pub tolerance_m: f64,
-    /// Correction of an error across the path, 1/s.
+    /// Error at which a heading counts as reached, rad.
+    pub tolerance_rad: f64,
+    /// Correction of an error across the path, and of a heading, 1/s.
     pub gain: f64,
     /// Without coming nearer for this long the robot counts as stuck, s.
     pub patience_s: f64,
@@ -23,7 +25,7 @@ pub struct FollowerOptions {
 
 impl Default for FollowerOptions {
     fn default() -> Self {
-        Self { corner_m: 0.03, tolerance_m: 0.01, gain: 4.0, patience_s: 3.0, lead_s: 0.0 }
+        Self { corner_m: 0.03, tolerance_m: 0.01, tolerance_rad: 0.02, gain: 4.0, patience_s: 3.0, lead_s: 0.0 }
     }
 }
 
@@ -46,6 +48,12 @@ impl FollowerOptions {
 
 /// Loops that lag by more than this are not worth leading: the command would be all lead.
 const LONGEST_LEAD_S: f64 = 0.2;
+
+/// A turn counts as coming nearer by what it moves the rim of a small robot, m.
+const RIM_M: f64 = 0.09;
+
+/// Share of the acceleration that is braked with: a reserve, because speed loops lag behind.
+const BRAKING: f64 = 0.7;
 
 /// What became of a set point, as far as the controller knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +82,8 @@ pub enum Arrival {
 /// no more than [`FollowerOptions::corner_m`]; a wheel that would be too fast slows the whole
 /// twist down. At a set point with `stop` the robot comes to rest, else it passes through; after
 /// the last one it brakes. Errors across the line are corrected, so that a slow correction of the
-/// pose by the camera draws the robot back to the path.
+/// pose by the camera draws the robot back to the path. A heading is turned to on the way, and at
+/// the point as far as is left.
 #[derive(Debug, Clone)]
 pub struct Follower {
     set_points: Vec<SetPoint>,
@@ -183,9 +192,11 @@ impl Follower {
             let to_go = [target.x - pose.x, target.y - pose.y];
             let distance = length_of(to_go);
             let along = if length > 0.0 { (to_go[0] * leg[0] + to_go[1] * leg[1]) / length } else { 0.0 };
-            let slow = length_of(self.velocity) < 0.02;
+            let to_turn = target.heading.filter(|_| target.stop).map(|heading| wrap_angle(heading - pose.theta));
+            let off = to_turn.map_or(0.0, f64::abs);
+            let slow = length_of(self.velocity) < 0.02 && (to_turn.is_none() || RIM_M * self.omega.abs() < 0.02);
             let arrived = if target.stop {
-                distance <= self.options.tolerance_m && slow
+                distance <= self.options.tolerance_m && off <= self.options.tolerance_rad && slow
             } else {
                 distance <= self.options.tolerance_m || along <= 0.0
             };
@@ -193,17 +204,26 @@ impl Follower {
                 self.move_on(Arrival::Reached { t: self.t, miss_m: distance }, target);
                 continue;
             }
-            if distance < self.nearest - 0.005 {
-                (self.nearest, self.nearest_at) = (distance, self.t);
+            let left = distance + RIM_M * off;
+            if left < self.nearest - 0.005 {
+                (self.nearest, self.nearest_at) = (left, self.t);
             }
             if self.t - self.nearest_at > self.options.patience_s {
                 self.arrivals[self.next] = Arrival::Stuck { t: self.t, distance_m: distance };
                 self.next = self.set_points.len();
                 break;
             }
-            return (self.towards(target, to_go, leg, length, along), target.omega);
+            let omega = to_turn.map_or(target.omega, |angle| self.turning(target, angle));
+            return (self.towards(target, to_go, leg, length, along), omega);
         }
         ([0.0; 2], 0.0)
+    }
+
+    /// Rate of the turn to a heading, so that it ends without overshoot.
+    fn turning(&self, target: SetPoint, angle: f64) -> f64 {
+        let braking = BRAKING * self.limits.angular_acceleration;
+        let rate = (2.0 * braking * angle.abs()).sqrt().min(self.options.gain * angle.abs());
+        rate.min(target.omega.abs()).copysign(angle)
     }
 
     fn move_on(&mut self, arrival: Arrival, target: SetPoint) {
@@ -218,8 +238,7 @@ impl Follower {
         let distance = length_of(to_go);
         let cruise = target.v.min(self.limits.speed);
         let end = if target.stop { 0.0 } else { self.corner.min(cruise) };
-        // Braking with a reserve, because speed loops lag behind.
-        let braking = 0.7 * self.limits.acceleration;
+        let braking = BRAKING * self.limits.acceleration;
         let room = if target.stop { distance } else { along.max(0.0) };
         let mut speed = cruise.min((end * end + 2.0 * braking * room).sqrt());
         if target.stop {

@@ -20,21 +20,28 @@ pub struct SetPoint {
     pub y: f64,
     /// Speed on the way there, m/s, greater than 0.
     pub v: f64,
-    /// Rotation on the way there, counter-clockwise, rad/s.
+    /// Rotation on the way there, counter-clockwise, rad/s; with a heading, the fastest turn to it either way.
     pub omega: f64,
     /// Whether to come to rest there instead of passing through.
     pub stop: bool,
+    /// Heading to come to rest at, rad; only with `stop`, and not for the paper's controller, which knows none.
+    pub heading: Option<f64>,
 }
 
 impl SetPoint {
     /// A point to pass through.
     pub const fn pass(x: f64, y: f64, v: f64, omega: f64) -> Self {
-        Self { x, y, v, omega, stop: false }
+        Self { x, y, v, omega, stop: false, heading: None }
     }
 
     /// A point to come to rest at.
     pub const fn stop(x: f64, y: f64, v: f64, omega: f64) -> Self {
-        Self { x, y, v, omega, stop: true }
+        Self { x, y, v, omega, stop: true, heading: None }
+    }
+
+    /// A point to come to rest at with a heading, turning no faster than `omega`.
+    pub const fn facing(x: f64, y: f64, v: f64, omega: f64, heading: f64) -> Self {
+        Self { x, y, v, omega, stop: true, heading: Some(heading) }
     }
 }
 
