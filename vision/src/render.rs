@@ -48,6 +48,8 @@ pub struct Rendered {
 pub struct Shutter {
     /// Place of the camera on the field, m, and direction of view from x to y, rad.
     pub pose: [f64; 3],
+    /// Way of the camera over the field during the exposure, m.
+    pub moved: [f64; 2],
     /// Turn during the exposure, rad.
     pub turn: f64,
     /// Change of tilt during the exposure, rad.
@@ -71,7 +73,8 @@ pub fn render(
     let mut seen = vec![Seen::default(); world.balls()];
     let step = 1.0 / grid as f64;
     let eye = Point::new(shutter.pose[0], shutter.pose[1], camera.mount_height);
-    let still = shutter.turn == 0.0 && shutter.nod == 0.0;
+    let way = Point::new(shutter.moved[0], shutter.moved[1], 0.0);
+    let still = shutter.turn == 0.0 && shutter.nod == 0.0 && shutter.moved == [0.0; 2];
     let at_rest = shutter.pose[2].sin_cos();
     for y in 0..height {
         for x in 0..width {
@@ -85,7 +88,7 @@ pub fn render(
                 let (s, c) = if still { at_rest } else { (shutter.pose[2] + time * shutter.turn).sin_cos() };
                 let ray = lens.ray([px, py]);
                 let along = Point::new(c * ray.x - s * ray.y, s * ray.x + c * ray.y, ray.z);
-                let (colour, ball) = world.look(eye, along, rng);
+                let (colour, ball) = world.look(eye + time * way, along, rng);
                 if let Some(ball) = ball {
                     seen[ball].add(px, py);
                 }

@@ -39,7 +39,7 @@ pub fn sample(seed: u64, width: usize, height: usize) -> Sample {
     let shake = |rng: &mut ChaCha8Rng| if shaky { rng.random_range(-0.03..0.03) } else { 0.0 };
     let (turn, nod) = (shake(rng), shake(rng) * 0.6);
     let rolling = rng.random_range(0.0..0.8);
-    let shutter = Shutter { pose, turn, nod, rolling };
+    let shutter = Shutter { pose, moved: [0.0; 2], turn, nod, rolling };
     let sensor = sensor(rng);
     let rendered = render(&world, &camera, shutter, &sensor, 2, rng);
     Sample { rendered, camera, pose }
