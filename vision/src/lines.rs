@@ -8,9 +8,9 @@ const BRIGHTER: f32 = 1.25;
 /// Chromaticity of a line lies at least this far from saturation: the components' range over their sum.
 const COLOUR: f32 = 0.22;
 /// Widest line, as share of the picture's width: 10 mm from 10 cm away.
-const WIDEST: f32 = 0.09;
+pub(crate) const WIDEST: f32 = 0.09;
 /// Pixels beside a line within which carpet must begin: blur makes a fringe.
-const FRINGE: usize = 3;
+pub(crate) const FRINGE: usize = 3;
 
 /// Where a scan crosses a painted line: the middle, weighed by brightness, to parts of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,10 @@
 //! the result is the pose of most likelihood and its covariance. A match that most points contradict is none.
 
 mod map;
+mod outlook;
 
 pub use map::Map;
+pub use outlook::Outlook;
 
 use crate::LinePoint;
 use crate::camera::Camera;
@@ -57,6 +59,13 @@ impl Estimate {
         let variance = |i: usize| self.covariance[(i, i)];
         [variance(0).max(variance(1)).sqrt(), variance(2).sqrt()]
     }
+
+    /// Of the place in the direction where it is largest, m.
+    #[must_use]
+    pub fn place_sd(&self) -> f64 {
+        let [xx, xy, yy] = [(0, 0), (0, 1), (1, 1)].map(|i| self.covariance[i]);
+        (0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)).sqrt()
+    }
 }
 
 /// Why there is no match.
@@ -85,12 +94,15 @@ pub(crate) fn on_floor(camera: &Camera, points: &[LinePoint]) -> Vec<FloorPoint>
         if far > FARTHEST {
             return None;
         }
-        // What one pixel further down moves the point.
-        let [f, l] = camera.onto([point.x, point.y + 1.0], 0.0)?;
-        let worth = (f - forward).hypot(l - left);
-        Some(FloorPoint { at: [-left, forward], sd: FLOOR_SD.hypot(PIXEL_SD * worth) })
+        Some(FloorPoint { at: [-left, forward], sd: point_sd(camera, [point.x, point.y])? })
     };
     points.iter().filter_map(place).collect()
+}
+
+/// Standard deviation on the floor of a point at a pixel, m: by what one pixel further down moves it.
+fn point_sd(camera: &Camera, [x, y]: [f64; 2]) -> Option<f64> {
+    let ([forward, left], [f, l]) = (camera.onto([x, y], 0.0)?, camera.onto([x, y + 1.0], 0.0)?);
+    Some(FLOOR_SD.hypot(PIXEL_SD * (f - forward).hypot(l - left)))
 }
 
 /// Matches points to the map around a prediction.

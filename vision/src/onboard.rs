@@ -81,6 +81,13 @@ impl OnBoard {
         &self.camera
     }
 
+    /// The turn (rad) after which a look should leave the place known to a standard deviation of `needed`, m;
+    /// `None` where no turn is worth it.
+    #[must_use]
+    pub fn turn(&self, believed: &Estimate, needed: f64) -> Option<f64> {
+        self.map.turn(&self.camera, believed, needed)
+    }
+
     /// Looks at the next frame, taken where the robot is `predicted` to be.
     ///
     /// # Errors

@@ -70,6 +70,12 @@ pub enum Unusable {
     Frozen,
 }
 
+/// Pixels of a picture in a row of one pixel of the working picture, at least `working` pixels wide.
+pub(crate) fn reduction(width: usize, height: usize, working: usize) -> usize {
+    // A very wide picture keeps its rows.
+    (width / working).min(height / SMALLEST_SIDE).max(1)
+}
+
 impl Picture {
     /// A picture of `height` rows of `width` pixels.
     ///
@@ -153,8 +159,7 @@ impl Picture {
     /// The picture in floating point, sides divided by the whole number that brings the width to `width` or little
     /// more; and that number.
     pub(crate) fn reduced(&self, width: usize) -> (Raster<[f32; 3]>, usize) {
-        // A very wide picture keeps its rows.
-        let by = (self.width / width).min(self.height / SMALLEST_SIDE).max(1);
+        let by = reduction(self.width, self.height, width);
         let (columns, rows) = (self.width / by, self.height / by);
         if by == 1 {
             let data = self.pixels.iter().map(|pixel| pixel.map(f32::from)).collect();

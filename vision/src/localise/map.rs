@@ -58,6 +58,14 @@ impl Map {
         place(at[1], self.rows) * self.columns + place(at[0], self.columns)
     }
 
+    pub(super) fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    pub(super) fn line_width(&self) -> f64 {
+        self.field.line_width
+    }
+
     /// The line nearest to a place and its nearest point.
     pub(super) fn nearest(&self, at: [f64; 2]) -> (&Line, [f64; 2]) {
         let line = &self.lines[usize::from(self.nearest[self.cell(at)])];
