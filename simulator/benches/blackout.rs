@@ -2,12 +2,10 @@
 //! `docs/measured/blackout.md`.
 
 use measured::Table;
-use simulator::blackout::{Blackout, Outcome, Senses};
+use simulator::blackout::{Blackout, Outcome, REACHED, Senses};
 
 /// Starts, by their seeds; another number as argument, and another first seed behind it, prints instead of writing the table.
 const STARTS: u64 = 200;
-/// Near enough, m.
-const REACHED: f64 = 0.05;
 
 fn outcomes(senses: Senses, starts: std::ops::Range<u64>) -> Vec<Outcome> {
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;

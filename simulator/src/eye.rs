@@ -4,7 +4,7 @@ use crate::virtual_card::SharedCard;
 use driver::drive::PoseSource;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use runs::frames::Pose;
+use runs::frames::{Pose, Twist};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -20,6 +20,9 @@ use vision::render::{Sensor, Shutter, World, render};
 /// Standard deviations with which a pose of the camera counts where nothing better is known (m, m, rad): what the wheels
 /// of a skewed robot lose between two pictures.
 pub const DRIVING_SD: [f64; 3] = [0.05, 0.05, 0.05];
+
+/// How long the shutter is open, s: a period of the light of lamps on 50 Hz, with which pictures do not flicker.
+const EXPOSURE_S: f64 = 0.01;
 
 /// What is wrong with the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,12 +126,18 @@ impl Eye {
         Some([believed.x + forward * c - left * s, believed.y + forward * s + left * c])
     }
 
-    /// Takes a picture and looks at it.
+    /// The turn after which a look should leave the place known to `needed`, as `vision::onboard::OnBoard::turn`.
+    #[must_use]
+    pub fn turn(&self, believed: &Estimate, needed: f64) -> Option<f64> {
+        self.onboard.turn(believed, needed)
+    }
+
+    /// Takes a picture of where the robot is, blurred by how it moves, and looks at it.
     ///
     /// # Errors
     /// [`Unusable`], as `vision::onboard::OnBoard::glance`.
-    pub fn look(&mut self, t: f64, truth: Pose, predicted: &Estimate) -> Result<Glance, Unusable> {
-        let picture = self.take(truth);
+    pub fn look(&mut self, t: f64, (truth, twist): (Pose, Twist), predicted: &Estimate) -> Result<Glance, Unusable> {
+        let picture = self.take(truth, twist);
         let glance = self.onboard.glance(&picture, predicted);
         let why = match &glance {
             Ok(Glance { pose: Ok(_), .. }) => None,
@@ -144,8 +153,14 @@ impl Eye {
         glance
     }
 
-    fn take(&mut self, truth: Pose) -> Picture {
-        let shutter = Shutter { pose: [truth.x, truth.y, truth.theta + FRAC_PI_2], ..Shutter::default() };
+    fn take(&mut self, truth: Pose, twist: Twist) -> Picture {
+        let [vx, vy, omega] = truth.world_velocity(twist);
+        let shutter = Shutter {
+            pose: [truth.x, truth.y, truth.theta + FRAC_PI_2],
+            moved: [EXPOSURE_S * vx, EXPOSURE_S * vy],
+            turn: EXPOSURE_S * omega,
+            ..Shutter::default()
+        };
         let mut camera = *self.onboard.camera();
         let mut sensor = Sensor::GOOD;
         match self.fault {
@@ -198,7 +213,7 @@ impl PoseSource for CardEye {
     fn arrived(&mut self, t: f64) -> Option<Pose> {
         let believed = self.believed.filter(|_| t >= self.due)?;
         self.due = t + self.every;
-        let glance = self.eye.borrow_mut().look(t, self.card.pose(), &Estimate::new(believed, DRIVING_SD));
+        let glance = self.eye.borrow_mut().look(t, self.card.motion(), &Estimate::new(believed, DRIVING_SD));
         glance.ok()?.pose.ok().map(|found| found.pose)
     }
 

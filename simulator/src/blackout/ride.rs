@@ -9,7 +9,7 @@ use driver::drive::PoseSource;
 use model::fusion::FusionOptions;
 use model::imu::{Imu, ImuModel, Motion};
 use model::inertial::Inertial;
-use runs::frames::{Pose, wrap_angle};
+use runs::frames::{Pose, Twist, wrap_angle};
 use runs::robot::Robot;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -76,9 +76,9 @@ impl<F: Fpga> OnBoard<F> {
         Estimate { pose: self.filter.pose(), covariance: self.filter.covariance(), agreeing: 1.0 }
     }
 
-    fn motion(&mut self) -> (Motion, Vec<i64>, Pose) {
+    fn motion(&mut self) -> (Motion, Vec<i64>, (Pose, Twist)) {
         let (chassis, period) = (&mut self.chassis, self.period);
-        self.robot.with_plant(|plant| (chassis.motion(plant, period), plant.counts(), plant.pose()))
+        self.robot.with_plant(|plant| (chassis.motion(plant, period), plant.counts(), (plant.pose(), plant.twist())))
     }
 }
 

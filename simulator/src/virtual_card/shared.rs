@@ -5,7 +5,7 @@ use driver::drive::PoseSource;
 use driver::pci::{Bar, PciCard, PciError};
 use driver::realtime::Clock;
 use model::camera::{Camera, CameraModel};
-use runs::frames::Pose;
+use runs::frames::{Pose, Twist};
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
@@ -24,7 +24,15 @@ impl SharedCard {
     /// Where the robot really is.
     #[must_use]
     pub fn pose(&self) -> Pose {
-        self.0.borrow_mut().machine().plant().pose()
+        self.motion().0
+    }
+
+    /// Where its robot is, and how it moves.
+    #[must_use]
+    pub fn motion(&self) -> (Pose, Twist) {
+        let mut card = self.0.borrow_mut();
+        let plant = card.machine().plant();
+        (plant.pose(), plant.twist())
     }
 
     /// A camera above it.
