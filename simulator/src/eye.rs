@@ -89,10 +89,10 @@ impl Eye {
         }
     }
 
-    /// The camera of a small robot, 240 by 180 pixels.
+    /// The camera of a small robot, 320 by 240 pixels.
     #[must_use]
     pub fn small() -> Camera {
-        Camera { distortion: [-0.08, 0.0], ..Camera::ideal(240, 180, 1.25, 0.15, 0.33) }
+        Camera { distortion: [-0.08, 0.0], ..Camera::ideal(320, 240, 1.25, 0.15, 0.33) }
     }
 
     /// With a fault from now on.
