@@ -126,10 +126,10 @@ impl Eye {
         Some([believed.x + forward * c - left * s, believed.y + forward * s + left * c])
     }
 
-    /// The turn after which a look should leave the place known to `needed`, as `vision::onboard::OnBoard::turn`.
+    /// Where to stand for a look that should tell the place, as `vision::onboard::OnBoard::vantage`.
     #[must_use]
-    pub fn turn(&self, believed: &Estimate, needed: f64) -> Option<f64> {
-        self.onboard.turn(believed, needed)
+    pub fn vantage(&self, believed: &Estimate, needed: f64) -> Option<Pose> {
+        self.onboard.vantage(believed, needed)
     }
 
     /// Takes a picture of where the robot is, blurred by how it moves, and looks at it.

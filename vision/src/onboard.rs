@@ -11,7 +11,7 @@ use crate::localise::{Estimate, Map, NoMatch, track};
 use crate::picture::{Picture, Unusable};
 use crate::{Scene, ball, detect};
 use nalgebra::{Matrix3, Vector3};
-use runs::frames::wrap_angle;
+use runs::frames::{Pose, wrap_angle};
 
 /// A match is believed where its standard deviations stay below these (m, rad): a robot's radius, and the turn that moves
 /// what is 1 m ahead by as much.
@@ -81,11 +81,11 @@ impl OnBoard {
         &self.camera
     }
 
-    /// The turn (rad) after which a look should leave the place known to a standard deviation of `needed`, m;
-    /// `None` where no turn is worth it.
+    /// Where to stand for a look that should leave the place known to a standard deviation of `needed`, m, as
+    /// [`Map::vantage`].
     #[must_use]
-    pub fn turn(&self, believed: &Estimate, needed: f64) -> Option<f64> {
-        self.map.turn(&self.camera, believed, needed)
+    pub fn vantage(&self, believed: &Estimate, needed: f64) -> Option<Pose> {
+        self.map.vantage(&self.camera, believed, needed)
     }
 
     /// Looks at the next frame, taken where the robot is `predicted` to be.

@@ -66,6 +66,11 @@ impl Map {
         self.field.line_width
     }
 
+    /// Whether a place is within the outer lines.
+    pub(super) fn is_inside(&self, [x, y]: [f64; 2]) -> bool {
+        x.abs() <= self.field.length / 2.0 && y.abs() <= self.field.width / 2.0
+    }
+
     /// The line nearest to a place and its nearest point.
     pub(super) fn nearest(&self, at: [f64; 2]) -> (&Line, [f64; 2]) {
         let line = &self.lines[usize::from(self.nearest[self.cell(at)])];

@@ -1,4 +1,4 @@
-//! What a look would tell: the points on lines that a camera should see from a pose, and where to turn to learn more.
+//! What a look would tell: the points on lines that a camera should see from a pose, and where to look to learn more.
 
 use super::{DEPENDENT, Estimate, FARTHEST, FEWEST, Map, across, point_sd};
 use crate::camera::Camera;
@@ -10,7 +10,7 @@ use runs::frames::{Pose, wrap_angle};
 use std::f64::consts::TAU;
 
 /// Distance of the places of a line that are looked at, m: small against what a scan's step is worth from afar.
-const SAMPLE: f64 = 0.02;
+const SAMPLE: f64 = 0.04;
 /// Thinnest line that a scan is sure to find, pixels of the working picture: with it, as many points are seen as are
 /// expected over the whole field (`vision/tests/outlook.rs`); with half of it a third of them is missing.
 const THINNEST: f64 = 0.3;
@@ -18,8 +18,13 @@ const THINNEST: f64 = 0.3;
 const HEADINGS: usize = 24;
 /// Points that must be expected for one that is needed: lines are worn, and the pose is not where it is believed to be.
 const SPARE: f64 = 1.5;
-/// What the standard deviation of the place must become for a turn that still leaves it too large.
+/// What the standard deviation of the place must at least become, as a share, for a look that still leaves it too large.
 const WORTH: f64 = 0.7;
+/// Longest way to a better look, m: the wheels of a robot that is not calibrated lose 10 mm on the way back.
+const WAY: f64 = 0.8;
+/// Distances and directions of the places that are weighed up.
+const RINGS: usize = 4;
+const DIRECTIONS: usize = 8;
 
 /// What a look is expected to tell.
 #[derive(Clone, Copy, Debug)]
@@ -82,32 +87,48 @@ impl Map {
         sum.information += points / (sd * sd) / DEPENDENT * row * row.transpose();
     }
 
-    /// The turn (rad) after which a look should leave the place known to a standard deviation of `needed` (m) in every
-    /// direction: the least one that does, or the one after which it is known best if that is worth it. `None` where no
-    /// turn is.
+    /// Where to stand for a look that should leave the place known to a standard deviation of `needed` (m) in every
+    /// direction: here with the least turn, or else the least way off within the field; or the pose at which it becomes
+    /// known best, if that is worth it. `None` where nothing is.
     #[must_use]
-    pub fn turn(&self, camera: &Camera, believed: &Estimate, needed: f64) -> Option<f64> {
+    pub fn vantage(&self, camera: &Camera, believed: &Estimate, needed: f64) -> Option<Pose> {
         let prior = believed.covariance.try_inverse()?;
-        let mut turns: Vec<f64> = (1..HEADINGS).map(|k| wrap_angle(TAU * k as f64 / HEADINGS as f64)).collect();
+        let mut turns: Vec<f64> = (0..HEADINGS).map(|k| wrap_angle(TAU * k as f64 / HEADINGS as f64)).collect();
         turns.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         let mut best = None;
-        for turn in turns {
-            let pose = Pose { theta: wrap_angle(believed.pose.theta + turn), ..believed.pose };
-            let outlook = self.outlook(camera, pose);
-            if outlook.points < SPARE * FEWEST as f64 {
-                continue;
-            }
-            let Some(covariance) = (prior + outlook.information).try_inverse() else { continue };
-            let sd = Estimate { covariance, ..*believed }.place_sd();
-            if sd <= needed {
-                return Some(turn);
-            }
-            if best.is_none_or(|(least, _)| sd < least) {
-                best = Some((sd, turn));
+        let places = around([believed.pose.x, believed.pose.y]).filter(|place| self.is_inside(*place));
+        for (n, [x, y]) in places.enumerate() {
+            // Here and as it stands, it has looked.
+            for turn in &turns[usize::from(n == 0)..] {
+                let pose = Pose::new(x, y, wrap_angle(believed.pose.theta + turn));
+                let outlook = self.outlook(camera, pose);
+                if outlook.points < SPARE * FEWEST as f64 {
+                    continue;
+                }
+                let Some(covariance) = (prior + outlook.information).try_inverse() else { continue };
+                let sd = Estimate { covariance, ..*believed }.place_sd();
+                if sd <= needed {
+                    return Some(pose);
+                }
+                if best.is_none_or(|(least, _)| sd < least) {
+                    best = Some((sd, pose));
+                }
             }
         }
-        best.filter(|(sd, _)| *sd < WORTH * believed.place_sd()).map(|(_, turn)| turn)
+        best.filter(|(sd, _)| *sd < WORTH * believed.place_sd()).map(|(_, pose)| pose)
     }
+}
+
+/// A place, and those around it, the nearest first.
+fn around([x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    let ring = move |ring: usize| {
+        let way = WAY * ring as f64 / RINGS as f64;
+        (0..DIRECTIONS).map(move |k| {
+            let (s, c) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+            [x + way * c, y + way * s]
+        })
+    };
+    std::iter::once([x, y]).chain((1..=RINGS).flat_map(ring))
 }
 
 /// Places on a line, from one end to the other.
