@@ -34,6 +34,9 @@ pub use part::Columns;
 pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning};
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
+/// How far the clocks of a robot and its camera may be apart in a run, s: `gap` looks for no more.
+pub const CLOCK_OFF_S: f64 = 0.5;
+
 /// What is wrong in a log, where, and what to do about it.
 pub type RunError = InputError;
 

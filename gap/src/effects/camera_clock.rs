@@ -1,5 +1,6 @@
 //! `camera-clock`: clocks of robot and camera that were set against each other anew for every run.
 
+use runs::CLOCK_OFF_S;
 use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
@@ -55,7 +56,14 @@ impl Effect for CameraClock {
         if self.runs < 2 {
             return Vec::new();
         }
-        let p = |run| Parameter::new(Self::parameter(run), 0.005, [-0.5, 0.5], super::camera_latency::material(robot));
+        let p = |run| {
+            Parameter::new(
+                Self::parameter(run),
+                0.005,
+                [-CLOCK_OFF_S, CLOCK_OFF_S],
+                super::camera_latency::material(robot),
+            )
+        };
         vec![Form::whole((0..self.runs - 1).map(p).collect())]
     }
 

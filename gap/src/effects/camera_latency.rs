@@ -1,5 +1,6 @@
 //! `camera-latency`: a camera frame that is older than its stamp.
 
+use runs::CLOCK_OFF_S;
 use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
@@ -46,7 +47,7 @@ impl Effect for CameraLatency {
         vec![Form::whole(vec![Parameter::new(
             "latency_s",
             0.005,
-            [-robot.camera_latency_s - EARLY_S, 0.5],
+            [-robot.camera_latency_s - EARLY_S, CLOCK_OFF_S],
             material(robot),
         )])]
     }

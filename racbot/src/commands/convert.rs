@@ -2,7 +2,8 @@
 
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
-use runs::import::{Clock, Map, Table, draft};
+use runs::CLOCK_OFF_S;
+use runs::import::{Clock, Imported, Joined, Map, Table, draft, draft_two};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use std::path::{Path, PathBuf};
     after_help = "IN may be any table of numbers as text (CSV, PlotJuggler's too; tabs or blanks; names of columns or none), JSON, a \
 ROS 2 bag in an MCAP, a game log of the small-size league (.log, .log.gz) or a WPILib log. MAP.toml says which of its series is which column, such as\n\n  \
 [columns]\n  enc_1 = \"left/ticks\"\n  cam_x = { from = \"pose.x\", unit = \"mm\" }\n  [frame]\n  x = \"forward\"\n\n\
+The pose may be in a second file, of motion capture or GPS, on a clock of its own: [truth]. \
 docs/book/src/log-format.md has all of it."
 )]
 pub(crate) struct Options {
@@ -26,6 +28,10 @@ pub(crate) struct Options {
     /// Write a first map for a file, guessed from names and ranges: `racbot convert --draft IN map.toml`
     #[arg(long)]
     draft: bool,
+
+    /// Second file, with the pose; else the one that the map's [truth] names
+    #[arg(long, value_name = "FILE", conflicts_with = "list")]
+    truth: Option<PathBuf>,
 
     #[command(flatten)]
     target: Target,
@@ -49,7 +55,11 @@ impl Options {
 
     fn draft(&self, file: &Path, map: Option<&PathBuf>) -> Result<Answer, Failure> {
         self.target.check_free(map)?;
-        let text = draft(&survey(file)?);
+        let log = survey(file)?;
+        let text = match &self.truth {
+            Some(truth) => draft_two([(&log, file), (&survey(truth)?, truth)]),
+            None => draft(&log),
+        };
         let Some(map) = map else { return Ok(Answer { json: json!({ "map": text }), text, wrong: None }) };
         self.target.save(map, &text)?;
         let json = json!({ "map": map });
@@ -67,26 +77,70 @@ impl Options {
             return Err(Failure::about(out, "is neither *.csv nor *.mcap; runs are one of the two"));
         }
         self.target.check_free([out])?;
-        let map = Map::load(map)?;
-        let table = Table::read(file, map.format(), &map.time()?)?;
-        let run = map.run(&table, file)?;
+        let Imported { run, joined } = Map::load(map)?.import(file, self.truth.as_deref())?;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|error| runs::error::InputError::io(folder, &error))?;
         }
         run.save(out, self.target.existing())?;
-        let said = format!(
-            "{}: {} ticks in {:.1} s, {} camera poses",
-            out.display(),
-            run.len(),
-            run.duration_s(),
-            run.camera.len()
+        let mut text = wrapped(
+            &format!(
+                "{}: {} ticks in {:.1} s, {} camera poses",
+                out.display(),
+                run.len(),
+                run.duration_s(),
+                run.camera.len()
+            ),
+            2,
         );
+        if let Some(joined) = &joined {
+            text += &wrapped(&told(joined), 2);
+        }
         let json = json!({
             "run": out, "ticks": run.len(), "seconds": run.duration_s(), "camera": run.camera.len(),
             "wheels": run.wheel_count(),
+            "truth": joined.map(|j| json!({
+                "file": j.file, "offset_s": j.offset_s, "apart_s": j.apart_s,
+                "matched": j.matched.map(|m| json!({ "share": m.share, "elsewhere": m.rival })),
+                "before": j.outside[0], "after": j.outside[1], "incomplete": j.incomplete, "alike": j.alike,
+            })),
         });
-        Ok(Answer { text: wrapped(&said, 2), json, wrong: None })
+        Ok(Answer { text, json, wrong: None })
     }
+}
+
+/// How the poses of a second file came into a run.
+fn told(joined: &Joined) -> String {
+    let mut said = format!("poses of {}", joined.file.display());
+    if joined.offset_s != 0.0 {
+        said += &format!(", {:.4} s added to its times", joined.offset_s);
+    }
+    if let Some(found) = joined.matched {
+        said += &format!(
+            ": found by the motion, {:.0} % of which the poses explain there, and {:.0} % at most elsewhere; a latency \
+             of the camera is in it",
+            100.0 * found.share,
+            100.0 * found.rival
+        );
+    }
+    let [before, after] = joined.outside;
+    let left_out = [
+        (before, "before the log's first row"),
+        (after, "after its last"),
+        (joined.incomplete, "with a part missing"),
+        (joined.alike, "with the time of another"),
+    ];
+    let left_out: Vec<String> =
+        left_out.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    if !left_out.is_empty() {
+        said += &format!("; left out: {}", left_out.join(", "));
+    }
+    if let Some(apart) = joined.apart_s {
+        said += &format!(
+            ". By the motion {apart:.2} s are still to be added, more than `racbot gap` looks for ({CLOCK_OFF_S} s): see \
+             offset_s and clock = \"match\" in [truth]"
+        );
+    }
+    said
 }
 
 /// Everything in a file, of a CSV without a column of time by its rows.

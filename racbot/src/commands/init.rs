@@ -79,7 +79,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "KG")]
     mass_kg: Option<f64>,
 
-    /// Moment of inertia about the vertical [default: that of a disc of the body radius]
+    /// Moment of inertia about the vertical [default: that of a disc as wide as the wheels stand apart]
     #[arg(long, value_name = "KGM2")]
     yaw_inertia: Option<f64>,
 
@@ -142,7 +142,10 @@ impl Options {
         let speeds = counts || of(|run| !run.speed.is_empty() || !run.measured.is_empty());
         let drives = of(|run| !run.duty.is_empty() || !run.current.is_empty());
         let duties = of(|run| !run.duty.is_empty());
-        let disc = self.mass_kg.zip(self.body_radius_mm).map(|(m, r)| 0.5 * m * (1e-3 * r).powi(2));
+        // The wheels stand on its edge, however their places were given.
+        let apart = wheels.iter().map(|[x, y, ..]| x.hypot(*y)).reduce(f64::max);
+        let radius = self.body_radius_mm.map(|r| 1e-3 * r).or(apart).filter(|r| *r > 0.0);
+        let disc = self.mass_kg.zip(radius).map(|(m, r)| 0.5 * m * r * r);
         let key = |name, flag, value, needed, meaning| Key { name, flag, value, meaning, needed };
         let mut keys = vec![
             key(

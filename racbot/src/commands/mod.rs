@@ -63,7 +63,7 @@ pub(crate) enum Command {
     Check(check::Options),
     /// Write a commented robot.toml from the angles of the wheels
     Init(Box<init::Options>),
-    /// Bring other tools' logs into ours: any CSV, ROS 2 bags, SSL game logs, WPILib logs
+    /// Bring other tools' logs into ours: any CSV, JSON, ROS 2 bags, SSL game logs, WPILib logs
     #[cfg(feature = "simulation")]
     Convert(convert::Options),
     /// Find the skew of the wheels

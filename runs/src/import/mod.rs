@@ -3,16 +3,24 @@
 //! One file a format: any CSV (PlotJuggler's among them), JSON, ROS 2 bags (MCAP with CDR messages), game logs of the RoboCup
 //! small-size league, WPILib data logs.
 
+mod agreement;
 mod cdr;
+mod columns;
 mod csv;
 mod draft;
 mod fill;
+mod frame;
+mod join;
 mod json;
 mod map;
+mod reading;
 mod ros2;
 mod rows;
 mod sheet;
 mod ssl;
+mod time;
+mod track;
+mod truth;
 mod units;
 mod wpilog;
 
@@ -20,8 +28,10 @@ use std::path::Path;
 
 use crate::error::{InputError, nearest};
 
-pub use draft::draft;
-pub use map::Map;
+pub use agreement::Agreement;
+pub use draft::{draft, draft_two};
+pub use join::Joined;
+pub use map::{Imported, Map};
 pub use ssl::{field_size, is_game_log};
 
 /// Samples of one quantity.

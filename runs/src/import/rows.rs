@@ -95,6 +95,9 @@ impl<'a> Rows<'a> {
         };
         self.rows += 1.0;
         // Rows that overtook others are no restart: it goes back over half of what was recorded.
+        if self.first.is_none() {
+            self.last = t; // it may be negative
+        }
         let first = *self.first.get_or_insert(t);
         if t < self.last - 0.5 * (self.last - first) {
             self.recording += 1;

@@ -1,0 +1,185 @@
+//! The offset of two clocks by the motion: what the robot's log says of its motion is a linear function of the velocity
+//! of the body that the poses show, whatever wheels it has. Where their times are set right, that function explains the
+//! log best; nothing of the robot need be known.
+
+use std::fmt;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::track::{Motion, OVER, of_poses, spread, velocity};
+use crate::frames::Pose;
+use crate::{CLOCK_OFF_S, Run};
+
+/// Steps of the search, s, where the files are fast enough; slower ones are searched by their own.
+const STEP_S: f64 = 0.05;
+/// Steps in the longer recording; of one of many minutes they are longer.
+const MOST_STEPS: f64 = 8_000.0;
+/// Parts of a step to which the offset is found.
+const FINE: i32 = 8;
+/// Share of the shorter recording that both must have in common.
+const OVERLAP: f64 = 0.5;
+/// Share of the log's motion that the poses must explain.
+const LEAST: f64 = 0.5;
+/// Every offset that is farther away than `gap` would correct leaves so many times as much unexplained.
+const RIVAL: f64 = 2.0;
+/// And is so many times less likely, as a logarithm: a thousand to one.
+const ODDS: f64 = 6.9;
+/// What is left unexplained (slip, noise, filters) says something new so often, s.
+const NEWS_S: f64 = 1.0;
+/// An offset that the motion tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Agreement {
+    /// What is to be added to the times of the poses, s.
+    pub offset_s: f64,
+    /// Share of the log's motion that the poses explain there.
+    pub share: f64,
+    /// The greatest share at any other offset.
+    pub rival: f64,
+}
+
+/// Why the motion tells no offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Doubt {
+    /// The log says nothing of the motion.
+    Silent,
+    /// Too short, or nothing moves.
+    Still,
+    /// The poses explain little of it at any offset.
+    Strange(f64),
+    /// Two offsets, s, explain it about as well.
+    Alike([f64; 2], [f64; 2]),
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the motion does not tell how the clocks stand to each other: ")?;
+        match self {
+            Self::Silent => f.write_str("the log has neither wheels, odometry, commands nor a gyroscope"),
+            Self::Still => f.write_str("too little of it moves"),
+            Self::Strange(share) => {
+                write!(f, "at no offset do the poses explain more than {:.0} % of what the log has", 100.0 * share)
+            }
+            Self::Alike([a, b], [first, second]) => write!(
+                f,
+                "offsets of {a:.2} s ({:.0} % explained) and {b:.2} s ({:.0} %) fit about as well, as where a drive repeats itself",
+                100.0 * first,
+                100.0 * second
+            ),
+        }
+    }
+}
+
+/// How well poses explain a log at one offset.
+#[derive(Clone, Copy)]
+struct Fit {
+    offset_s: f64,
+    /// Rows in common.
+    rows: usize,
+    share: f64,
+}
+
+/// Least squares of the log's velocities on those of the poses, with a constant.
+fn fit<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, [f64; 3])>, floor: Vector3<f64>, offset_s: f64) -> Fit {
+    let (mut rows, mut sum, mut square) = (0, Vector3::zeros(), Matrix3::zeros());
+    let mut own: Vec<(f64, f64, Vector3<f64>)> = Vec::new();
+    for (log, pose) in pairs {
+        let pose = Vector3::from(pose);
+        own.resize(log.len(), Default::default());
+        rows += 1;
+        sum += pose;
+        square += pose * pose.transpose();
+        for ((total, squares, mixed), x) in own.iter_mut().zip(log) {
+            *total += x;
+            *squares += x * x;
+            *mixed += pose * *x;
+        }
+    }
+    let n = rows.max(1) as f64;
+    let scatter = square / n - sum * sum.transpose() / (n * n) + Matrix3::from_diagonal(&floor);
+    let (mut all, mut explained) = (0.0, 0.0);
+    if let Some(inverse) = scatter.try_inverse() {
+        for (total, squares, mixed) in own {
+            let mixed = mixed / n - sum * (total / (n * n));
+            all += squares / n - (total / n).powi(2);
+            explained += mixed.dot(&(inverse * mixed));
+        }
+    }
+    Fit { offset_s, rows, share: if all > 0.0 { (explained / all).clamp(0.0, 1.0) } else { 0.0 } }
+}
+
+/// The offset by which the poses (times and poses) explain the log's motion, if there is just one.
+pub(super) fn by_motion(run: &Run, poses: &[(f64, Pose)]) -> Result<Agreement, Doubt> {
+    let first = poses.iter().map(|(t, _)| *t).fold(f64::INFINITY, f64::min);
+    let begin = run.t.first().copied().unwrap_or(0.0);
+    let track = of_poses(poses.iter().map(|(t, pose)| (t - first, *pose)));
+    let motion = Motion::of(run, begin).ok_or(Doubt::Silent)?;
+    let [log_step, log_s] = motion.extent();
+    let step_s =
+        [log_step, track.step_s(), log_s.max(track.length_s()) / MOST_STEPS].into_iter().fold(STEP_S, f64::max);
+    let steps = |length: f64| ((length / step_s) as usize).saturating_sub(OVER);
+    let log = motion.velocities(steps(log_s), step_s);
+    let over_s = OVER as f64 * step_s;
+    // Poses that begin `shift` later than the log's rows.
+    let seen = |shift: f64| -> Vec<Option<[f64; 3]>> {
+        let at = |k: usize| {
+            Some(velocity(
+                track.at(k as f64 * step_s - shift, step_s)?,
+                track.at((k + OVER) as f64 * step_s - shift, step_s)?,
+                over_s,
+            ))
+        };
+        (0..steps(track.length_s()) + 1).map(at).collect()
+    };
+    let poses = seen(0.0);
+    let known = |rows: usize, have: usize| OVERLAP * rows.min(have) as f64;
+    let needed = known(log.iter().flatten().count(), poses.iter().flatten().count());
+    // A direction in which nothing moves explains nothing, were it not for rounding.
+    let spreads = [0, 1, 2].map(|i| spread(poses.iter().flatten().map(|v| v[i])).powi(2));
+    let most = spreads.into_iter().fold(0.0, f64::max);
+    let floor = Vector3::from(spreads.map(|own| 1e-6 * own + 1e-9 * most));
+    let at = |lag: i64, poses: &[Option<[f64; 3]>], offset_s: f64| {
+        let from = lag.max(0) as usize;
+        let skip = (-lag).max(0) as usize;
+        let pairs = log.iter().skip(from).zip(poses.iter().skip(skip));
+        fit(pairs.filter_map(|(log, pose)| Some((log.as_ref()?, (*pose)?))), floor, offset_s)
+    };
+    let lags = -(poses.len() as i64)..log.len() as i64;
+    let fits: Vec<Fit> = lags
+        .map(|lag| at(lag, &poses, lag as f64 * step_s))
+        .filter(|f| f.rows as f64 >= needed && f.rows > 0)
+        .collect();
+    // The more they have in common, the more it says.
+    let weight = |f: &Fit| -(f.rows as f64) * (1.0 - f.share).max(1e-12).ln();
+    let best = fits.iter().copied().max_by(|a, b| weight(a).total_cmp(&weight(b))).ok_or(Doubt::Still)?;
+    if needed * step_s < NEWS_S || best.share == 0.0 {
+        return Err(Doubt::Still);
+    }
+    let elsewhere = fits.iter().filter(|f| (f.offset_s - best.offset_s).abs() > 2.0 * CLOCK_OFF_S);
+    let rival = elsewhere.copied().max_by(|a, b| a.share.total_cmp(&b.share));
+    let whole = |offset_s: f64| offset_s + begin - first;
+    if best.share < LEAST {
+        return Err(Doubt::Strange(best.share));
+    }
+    if let Some(rival) = rival {
+        let ratio = (1.0 - rival.share) / (1.0 - best.share).max(1e-12);
+        let news = best.rows as f64 * step_s / NEWS_S;
+        if ratio < RIVAL || 0.5 * news * ratio.ln() < ODDS {
+            let offsets = [best, rival].map(|f| whole(f.offset_s));
+            return Err(Doubt::Alike(offsets, [best.share, rival.share]));
+        }
+    }
+    let lag = (best.offset_s / step_s).round() as i64;
+    let fine: Vec<Fit> = (-FINE..=FINE)
+        .map(|part| {
+            let shift = f64::from(part) / f64::from(FINE) * step_s;
+            at(lag, &seen(shift), best.offset_s + shift)
+        })
+        .collect();
+    let top = (1..fine.len() - 1).max_by(|a, b| fine[*a].share.total_cmp(&fine[*b].share)).unwrap_or(FINE as usize);
+    let [a, b, c] = [top - 1, top, top + 1].map(|i| fine[i].share);
+    // The top of the parabola through the three best.
+    let bend = a - 2.0 * b + c;
+    let part = if bend < 0.0 { (0.5 * (a - c) / bend).clamp(-1.0, 1.0) } else { 0.0 };
+    let offset_s = fine[top].offset_s + part * step_s / f64::from(FINE);
+    Ok(Agreement { offset_s: whole(offset_s), share: fine[top].share, rival: rival.map_or(0.0, |f| f.share) })
+}

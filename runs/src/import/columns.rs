@@ -1,0 +1,121 @@
+//! The columns of a run that a map names: each with its series, unit and sign.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::fill::Wanted;
+use super::units;
+use crate::columns::Column;
+use crate::error::{InputError, nearest};
+
+/// Which series a column is made of, and how.
+#[derive(Debug, Clone)]
+pub(super) enum Source {
+    Name(String),
+    Scaled(Scaled),
+}
+
+/// As text or table, with the fault of the table, which an untagged enum would not say.
+impl<'de> Deserialize<'de> for Source {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> serde::de::Visitor<'de> for Either {
+            type Value = Source;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("the name of a series, or { from = \"its name\", unit = \"mm\" }")
+            }
+
+            fn visit_str<E>(self, name: &str) -> Result<Source, E> {
+                Ok(Source::Name(name.to_owned()))
+            }
+
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Source, A::Error> {
+                Scaled::deserialize(serde::de::value::MapAccessDeserializer::new(map)).map(Source::Scaled)
+            }
+        }
+        from.deserialize_any(Either)
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Scaled {
+    from: String,
+    #[serde(default)]
+    unit: String,
+    scale: Option<f64>,
+    #[serde(default)]
+    offset: f64,
+    /// Counts a turn of an encoder whose log has angles.
+    counts_per_rev: Option<f64>,
+    /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
+    /// bits, in the file's unit.
+    wraps: Option<f64>,
+}
+
+/// Velocities of the body that its odometry was made of: integrated, they are the odometry.
+pub(super) const RATES: [&str; 3] = ["odom_vx", "odom_vy", "odom_w"];
+
+/// The columns that a map names.
+pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_>>, InputError> {
+    let mut wanted = Vec::new();
+    for (name, source) in columns {
+        let field = format!("columns.{name}");
+        let fail = |what: String, hint: String| InputError::new(Path::new(""), what, hint).field(field.clone());
+        let rate = RATES.iter().position(|rate| rate == name);
+        let column = rate.map_or_else(|| Column::from_name(name), Column::Odometry);
+        if matches!(column, Column::Other | Column::Time) {
+            let known: Vec<String> = Column::all(4).into_iter().map(Column::name).collect();
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            let hint = nearest(name, &known).map_or_else(
+                || "the columns are those of docs/book/src/log-format.md; time has a table [time]".to_owned(),
+                |near| format!("did you mean {near}?"),
+            );
+            return Err(fail("is no column of a run".to_owned(), hint));
+        }
+        let (from, name, scale, offset, per_rev, wraps) = match source {
+            Source::Name(from) => (from, "", 1.0, 0.0, None, None),
+            Source::Scaled(s) => {
+                (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.counts_per_rev, s.wraps)
+            }
+        };
+        if let Some(n) = wraps.filter(|n| !(n.is_finite() && *n > 0.0)) {
+            return Err(fail(format!("wraps = {n} is no period"), "such as wraps = 4096".to_owned()));
+        }
+        let angle = ["rad", "deg", "rev"].contains(&name);
+        let counted = matches!(column, Column::Counts(_));
+        if counted && units::factor(name).is_some() && !matches!(name, "" | "counts" | "lines") && per_rev.is_none() {
+            let hint = "say what the encoder counts: counts_per_rev = 1440 beside unit = \"rad\", and \
+                            encoder_counts_per_wheel_rev = 1440 in robot.toml; any fine number, as 65536, where nobody knows";
+            return Err(fail(format!("counts cannot be in {name:?}"), hint.to_owned()));
+        }
+        if let Some(n) = per_rev.filter(|n| !(counted && angle && n.is_finite() && *n > 0.0)) {
+            let hint = "it is a positive number, for an enc_ column whose unit is rad, deg or rev";
+            return Err(fail(format!("counts_per_rev = {n} has no meaning here"), hint.to_owned()));
+        }
+        let Some(unit) = units::factor(name) else {
+            return Err(fail(
+                format!("{name:?} is no unit that is known"),
+                format!("give one of {}, or a scale", units::names()),
+            ));
+        };
+        if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
+            return Err(fail("its scale or offset is no number".to_owned(), "such as scale = -1".to_owned()));
+        }
+        let factor = unit * scale * per_rev.map_or(1.0, |n| n / TAU);
+        wanted.push(Wanted {
+            column,
+            from,
+            factor,
+            offset,
+            wraps,
+            turn: per_rev.map(|_| TAU / unit),
+            rate: rate.is_some(),
+        });
+    }
+    Ok(wanted)
+}

@@ -1,0 +1,267 @@
+//! What a series seems to be, by its name and its range.
+
+use super::super::{Series, Table, units};
+use crate::columns::Column;
+
+/// What a series seems to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Command,
+    Camera,
+    Odometry,
+    Gyro,
+    Acceleration,
+    Counts,
+    Reference,
+    Speed,
+    Duty,
+    Current,
+    Supply,
+}
+
+/// Words that tell what a series is, the telling first.
+const WORDS: [(Kind, &[&str]); 10] = [
+    (Kind::Supply, &["supply", "vbus", "vbat", "battery", "akku"]),
+    (Kind::Duty, &["duty", "pwm"]),
+    (Kind::Current, &["current", "amps", "iq"]),
+    (Kind::Gyro, &["gyro", "gyroscope", "angular_velocity"]),
+    (Kind::Acceleration, &["acc", "accel", "acceleration", "linear_acceleration"]),
+    (Kind::Command, &["cmd", "command", "soll", "twist", "desired"]),
+    (Kind::Reference, &["ref", "reference", "setpoint", "target", "set"]),
+    (Kind::Counts, &["enc", "encoder", "tick", "ticks", "counts", "count", "position", "pos"]),
+    (Kind::Odometry, &["odom", "odometry"]),
+    (Kind::Camera, &["cam", "camera", "vision", "mocap", "optitrack", "vicon", "tracker", "pose", "blue", "yellow"]),
+];
+
+/// Words that number wheels, in the order in which `racbot init` numbers them.
+const CORNERS: [&str; 4] = ["fl", "fr", "rl", "rr"];
+
+/// A series and what it seems to be.
+pub(super) struct Guess<'a> {
+    pub(super) series: &'a Series,
+    pub(super) column: Column,
+    pub(super) unit: &'static str,
+}
+
+/// What the series of a log seem to be, and the rest.
+pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+    let mut guesses: Vec<Guess> = Vec::new();
+    let mut rest: Vec<&Series> = Vec::new();
+    let mut wheels = [0; Kind::Supply as usize + 1];
+    for series in &table.series {
+        let found = guess(series, &mut wheels);
+        match found.filter(|(column, _)| guesses.iter().all(|g| g.column != *column)) {
+            Some((column, unit)) => guesses.push(Guess { series, column, unit }),
+            None => rest.push(series),
+        }
+    }
+    drop_broken_groups(&mut guesses, &mut rest);
+    guesses.sort_by_key(|g| g.column);
+    (guesses, rest)
+}
+
+/// The pose in a file that has little else, whatever the tracker is called: the first series that are its x, y and
+/// heading, and the rest.
+pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+    let mut guesses: Vec<Guess> = Vec::new();
+    let mut rest: Vec<&Series> = Vec::new();
+    for series in &table.series {
+        let found = part_of_pose(&series.name).map(Column::Camera);
+        match found.filter(|column| guesses.iter().all(|g| g.column != *column)) {
+            Some(column) => guesses.push(Guess { series, column, unit: unit(column, series) }),
+            None => rest.push(series),
+        }
+    }
+    drop_broken_groups(&mut guesses, &mut rest);
+    guesses.sort_by_key(|g| g.column);
+    // What stood still in y was nevertheless measured as x was.
+    if let [x, y, _] = &mut guesses[..] {
+        let unit = if x.unit.is_empty() { y.unit } else { x.unit };
+        (x.unit, y.unit) = (unit, unit);
+    }
+    (guesses, rest)
+}
+
+/// Which of x, y and heading a series of a tracker is.
+fn part_of_pose(name: &str) -> Option<usize> {
+    let lower = spaced(name).to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let has = |some: &[&str]| words.iter().any(|word| some.contains(word));
+    if has(&["yaw", "theta", "phi", "heading", "rz"]) || words.iter().any(|word| word.ends_with("yaw")) {
+        return Some(2);
+    }
+    // Velocities, and parts of a quaternion, are neither.
+    if has(&[
+        "v",
+        "vel",
+        "velocity",
+        "speed",
+        "twist",
+        "acc",
+        "rate",
+        "orientation",
+        "rotation",
+        "quat",
+        "quaternion",
+        "rot",
+    ]) {
+        return None;
+    }
+    let axes = [["x", "tx", "posx", "pos_x"], ["y", "ty", "posy", "pos_y"]];
+    axes.iter().position(|axis| has(axis))
+}
+
+/// Groups of three that are not whole are no groups.
+fn drop_broken_groups<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
+    let groups: [fn(usize) -> Column; 5] =
+        [Column::Command, Column::Camera, Column::Odometry, Column::Gyro, Column::Acceleration];
+    for group in groups {
+        let has = |i: usize| guesses.iter().any(|g| g.column == group(i));
+        // A sideways command may be missing, see [`super::Map`].
+        let whole = has(0) && has(2) && (has(1) || group(0) == Column::Command(0));
+        if !whole {
+            let (broken, kept): (Vec<_>, Vec<_>) =
+                std::mem::take(guesses).into_iter().partition(|g| (0..3).any(|i| g.column == group(i)));
+            *guesses = kept;
+            rest.extend(broken.into_iter().map(|g| g.series));
+        }
+    }
+}
+
+/// A name with a blank before each capital that follows a small letter: `leftEncoder`, `left Encoder`.
+fn spaced(name: &str) -> String {
+    let mut out = String::new();
+    let mut small = false;
+    for c in name.chars() {
+        if small && c.is_uppercase() {
+            out.push(' ');
+        }
+        out.push(c);
+        small = c.is_lowercase();
+    }
+    out
+}
+
+fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)> {
+    let ours = Column::from_name(&series.name);
+    if !matches!(ours, Column::Other | Column::Time) {
+        return Some((ours, ""));
+    }
+    let lower = spaced(&series.name).to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let said = units::in_name(&series.name);
+    let number = number(&words);
+    let axis = axis(&words);
+    let has = |kind: Kind| {
+        let known = WORDS.iter().find(|(k, _)| *k == kind).map_or(&[][..], |(_, names)| names);
+        known.iter().any(|name| words.contains(name) || name.contains('_') && lower.contains(name))
+    };
+    // A pose has axes, a wheel has none: `/pose/position/x` is no encoder.
+    let mut kinds = WORDS.iter().map(|(kind, _)| *kind).filter(|kind| has(*kind));
+    let kind = kinds
+        .find(|kind| match kind {
+            Kind::Command | Kind::Camera | Kind::Odometry | Kind::Gyro | Kind::Acceleration => axis.is_some(),
+            Kind::Supply => true,
+            _ => axis.is_none(),
+        })
+        .or_else(|| wordless(&words, axis, series))?;
+    let kind = if kind == Kind::Counts && said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm") {
+        Kind::Speed
+    } else {
+        kind
+    };
+    let mut wheel = || {
+        let next = &mut wheels[kind as usize];
+        let wheel = number.unwrap_or(*next);
+        *next += 1;
+        wheel
+    };
+    let column = match (kind, axis) {
+        (Kind::Command, Some(i)) => Column::Command(i),
+        (Kind::Camera, Some(i)) => Column::Camera(i),
+        (Kind::Odometry, Some(i)) => Column::Odometry(i),
+        (Kind::Gyro, Some(i)) => Column::Gyro(i),
+        (Kind::Acceleration, Some(i)) => Column::Acceleration(i),
+        (Kind::Supply, _) => Column::Supply,
+        (Kind::Counts, _) => Column::Counts(wheel()),
+        (Kind::Reference, _) => Column::Reference(wheel()),
+        (Kind::Speed, _) => Column::Speed(wheel()),
+        (Kind::Duty, _) => Column::Duty(wheel()),
+        (Kind::Current, _) => Column::Current(wheel()),
+        _ => return None,
+    };
+    Some((column, unit(column, series)))
+}
+
+/// The unit that its name says, or its range; none where it is ours.
+fn unit(column: Column, series: &Series) -> &'static str {
+    let said = units::in_name(&series.name).filter(|unit| *unit != column.unit());
+    said.unwrap_or_else(|| by_range(column, series))
+}
+
+/// Series without a telling word: bare corners of a robot are its encoders, bare x, y and yaw the camera's.
+fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind> {
+    let whole = series.values.iter().all(|x| x.fract() == 0.0);
+    let wheel = words.iter().any(|w| CORNERS.contains(w) || ["left", "right", "motor", "wheel", "joint"].contains(w));
+    match words {
+        [_] if axis.is_some() => Some(Kind::Camera),
+        _ if words.contains(&"velocity") || words.contains(&"speed") || words.contains(&"rpm") => {
+            wheel.then_some(Kind::Speed)
+        }
+        // What somebody told a motor, or its mode, is no encoder's.
+        _ if words
+            .iter()
+            .any(|w| ["command", "cmd", "mode", "state", "error", "status", "pid", "load", "temp"].contains(w)) =>
+        {
+            None
+        }
+        _ => (wheel && whole && axis.is_none()).then_some(Kind::Counts),
+    }
+}
+
+/// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.
+fn number(words: &[&str]) -> Option<usize> {
+    let has = |word: &str| words.contains(&word);
+    match (has("right") || has("r"), has("left") || has("l"), has("front"), has("rear") || has("back")) {
+        (right, left, front, rear) if right != left && front != rear => {
+            return Some(usize::from(right) + 2 * usize::from(rear));
+        }
+        (right, left, false, false) if right != left => return Some(usize::from(left)),
+        _ => {}
+    }
+    let corner = |word: &&str| CORNERS.iter().position(|corner| corner == word);
+    let digits = |word: &&str| {
+        let number = word.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        number.parse::<usize>().ok().filter(|n| (1..=8).contains(n)).map(|n| n - 1)
+    };
+    words.iter().find_map(corner).or_else(|| words.iter().find_map(digits))
+}
+
+/// Which of x, y, heading (or z) a name means.
+fn axis(words: &[&str]) -> Option<usize> {
+    let last = words.iter().rev();
+    let named = |word: &&str| match *word {
+        "x" | "vx" => Some(0),
+        "y" | "vy" => Some(1),
+        "z" | "w" | "theta" | "yaw" | "phi" | "heading" | "omega" => Some(2),
+        _ => None,
+    };
+    // Of a quaternion its heading alone.
+    let quaternion = words.contains(&"orientation") && !words.contains(&"yaw");
+    last.clone().find_map(named).filter(|_| !quaternion)
+}
+
+/// The unit that a range gives away: no field is 50 m long, no heading beyond a few turns in a radian.
+fn by_range(column: Column, series: &Series) -> &'static str {
+    let [low, high] = series.range();
+    let most = low.abs().max(high.abs());
+    match column {
+        Column::Camera(0 | 1) if most > 50.0 => "mm",
+        Column::Camera(2) if most > 30.0 => "deg",
+        Column::Duty(_) if most > 1.001 && most <= 100.0 => "percent",
+        Column::Counts(_) if series.values.iter().filter(|x| x.fract() != 0.0).count() * 2 > series.values.len() => {
+            "rad"
+        }
+        _ => "",
+    }
+}

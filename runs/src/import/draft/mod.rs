@@ -1,0 +1,145 @@
+//! A first map for a file, guessed from the names and ranges of its series, for its owner to correct.
+
+mod guess;
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use self::guess::{Guess, guesses, pose};
+use super::{Series, Table, truth, units};
+use crate::columns::Column;
+
+/// The text of a map for a file: columns that were recognised by their names, and the rest as comments with their ranges.
+pub fn draft(table: &Table) -> String {
+    let (guesses, rest) = guesses(table);
+    log(table, &guesses, &rest)
+}
+
+/// The same for a log and a second file with the pose, each with its path.
+pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
+    let (mut guesses, mut rest) = guesses(table.0);
+    let (seen, other) = pose(poses.0);
+    if !seen.is_empty() {
+        let camera = |g: &mut Guess| matches!(g.column, Column::Camera(_));
+        rest.extend(guesses.extract_if(.., camera).map(|g| g.series));
+    }
+    let mut out = log(table.0, &guesses, &rest);
+    let file = quoted(&truth::pattern(table.1, poses.1));
+    let _ = writeln!(
+        out,
+        "\n[truth] # the pose\nfile = {file} # from the log's folder; {{stem}} is the log's name, {{number}} its number\n\
+         clock = \"{}\" # same: one clock; own: both files begin together; match: found by the motion",
+        clock([table.0, poses.0])
+    );
+    out += &time(poses.0, "truth.time");
+    out.push_str("\n[truth.columns]\n");
+    out += &columns(&seen, "# cam_x = \"...\"\n# cam_y = \"...\"\n# cam_theta = \"...\"\n");
+    out + &unused(&other)
+}
+
+/// How two clocks seem to stand: the same where their times lie over each other, and not just because both count from 0.
+fn clock(tables: [&Table; 2]) -> &'static str {
+    let span = |table: &Table| {
+        let t = table.series.iter().flat_map(|s| &s.t);
+        t.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(*t), high.max(*t)])
+    };
+    let [a, b] = tables.map(span);
+    let shorter = (a[1] - a[0]).min(b[1] - b[0]);
+    let shared = a[1].min(b[1]) - a[0].max(b[0]);
+    let from_zero = a[0].abs().max(b[0].abs()) < 0.1 * shorter;
+    if shared > 0.5 * shorter && !from_zero { "same" } else { "match" }
+}
+
+fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
+    let mut out = String::from("# Guessed from names and ranges: check every line.\n");
+    out += &time(table, "time");
+    out.push_str(
+        "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
+    );
+    out.push_str("\n[columns]\n");
+    out += &columns(guesses, "# enc_1 = \"...\"\n");
+    out + &unused(rest)
+}
+
+/// The table of the time.
+fn time(table: &Table, name: &str) -> String {
+    if let Some((column, unit)) = &table.time {
+        return format!("\n[{name}]\ncolumn = {}\nunit = \"{}\"\n", quoted(column), time_unit(table, *unit));
+    }
+    if !table.series.iter().all(|s| s.t.iter().zip(0..).all(|(t, row)| *t == f64::from(row))) {
+        return String::new();
+    }
+    match increasing(table) {
+        Some(s) => {
+            let rows = Series { t: s.values.clone(), ..Series::default() };
+            let unit = time_unit(&Table { series: vec![rows], ..Table::default() }, 1.0);
+            let column = quoted(&s.name);
+            format!("\n[{name}]\ncolumn = {column} # is it? it increases from row to row\nunit = \"{unit}\"\n")
+        }
+        None => format!(
+            "\n[{name}]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second\n"
+        ),
+    }
+}
+
+/// A line a column.
+fn columns(guesses: &[Guess], none: &str) -> String {
+    let mut out = String::new();
+    for Guess { series, column, unit } in guesses {
+        let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
+        let value = match *unit {
+            "" => quoted(&series.name),
+            unit if angle => format!(
+                "{{ from = {}, unit = \"{unit}\", counts_per_rev = 65536 }} # what the encoder counts a turn",
+                quoted(&series.name)
+            ),
+            unit => format!("{{ from = {}, unit = \"{unit}\" }}", quoted(&series.name)),
+        };
+        let _ = writeln!(out, "{} = {value}", column.name());
+    }
+    if guesses.is_empty() { none.to_owned() } else { out }
+}
+
+/// What was not recognised, as remarks.
+fn unused(rest: &[&Series]) -> String {
+    let mut out = String::from(if rest.is_empty() { "" } else { "\n# Not used:\n" });
+    for series in rest {
+        let [low, high] = series.range();
+        let _ = writeln!(out, "# {}, {low} to {high}", quoted(&series.name));
+    }
+    out
+}
+
+/// A TOML string on one line.
+fn quoted(name: &str) -> String {
+    let plain: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    format!("\"{}\"", plain.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// The unit of time, by its steps where its name says none: nobody logs a robot once a second.
+fn time_unit(table: &Table, unit_s: f64) -> &'static str {
+    let steps = |s: &Series| s.t.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+    let mut steps: Vec<f64> = table.series.iter().max_by_key(|s| s.t.len()).map(steps).unwrap_or_default();
+    steps.sort_by(f64::total_cmp);
+    match steps.get(steps.len() / 2) {
+        Some(1e6..) if unit_s == 1.0 => "ns",
+        Some(1e3..) if unit_s == 1.0 => "us",
+        Some(1.0..) if unit_s == 1.0 => "ms",
+        _ => unit_name(unit_s),
+    }
+}
+
+fn unit_name(unit_s: f64) -> &'static str {
+    ["ms", "us", "ns"].into_iter().find(|unit| units::factor(unit) == Some(unit_s)).unwrap_or("s")
+}
+
+/// A column that increases from row to row, not by ones, as time does; another recording may follow.
+fn increasing(table: &Table) -> Option<&Series> {
+    table.series.iter().find(|s| {
+        let steps = s.values.windows(2).filter(|w| w[1] > w[0] && w[1] != w[0] + 1.0).count();
+        s.values.len() > 2 && 100 * steps >= 95 * (s.values.len() - 1)
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,126 @@
+use std::path::Path;
+
+use super::super::{Clock, Map};
+use super::*;
+
+fn drafted(header: &str, rows: [&str; 3]) -> String {
+    let text = format!("{header}\n{}\n", rows.join("\n"));
+    let table =
+        Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock { rows: true, ..Clock::default() }).unwrap();
+    let map = draft(&table);
+    let parsed = Map::parse(&map, Path::new("map.toml")).unwrap_or_else(|e| panic!("{e}\n{map}"));
+    if table.time.is_some() {
+        parsed.run(&table, Path::new("x.csv")).unwrap_or_else(|e| panic!("{e}\n{map}"));
+    }
+    map
+}
+
+#[test]
+fn names_of_five_robots_are_understood() {
+    let omni = drafted(
+        "Zeit [ms];Motor 1 (ticks);Motor 2 (ticks);vx soll [mm/s];vy soll [mm/s];omega soll [deg/s];vision x;vision y;vision phi",
+        ["5;0;0;0,0;0,0;0,00;301,4;-202,1;28,41", "10;1;2;13,3;0,0;1,43;;;", "15;2;4;13,3;0,0;1,43;301,4;-202,1;99,5"],
+    );
+    for line in [
+        "column = \"Zeit [ms]\"\nunit = \"ms\"",
+        "enc_2 = \"Motor 2 (ticks)\"",
+        "cmd_w = { from = \"omega soll [deg/s]\", unit = \"deg/s\" }",
+        "cam_x = { from = \"vision x\", unit = \"mm\" }",
+        "cam_theta = { from = \"vision phi\", unit = \"deg\" }",
+    ] {
+        assert!(omni.contains(line), "{line}\n{omni}");
+    }
+    let two = drafted(
+        "timestamp,/cmd_vel/linear/x,/cmd_vel/angular/z,/left_wheel/ticks,/right_wheel/ticks,/mocap/pose/x,/mocap/pose/y,/mocap/pose/yaw",
+        ["1.0,0.1,0.2,1,2,0.5,0.6,1.0", "1.1,0.1,0.2,3,4,,,", "1.2,0.1,0.2,5,6,0.5,0.6,1.0"],
+    );
+    for line in ["cmd_vx = \"/cmd_vel/linear/x\"", "cmd_w = ", "enc_2 = \"/left_wheel/ticks\"", "cam_theta = "] {
+        assert!(two.contains(line), "{line}\n{two}");
+    }
+    let mecanum = drafted("t,fl,fr,rl,rr,x,y,yaw", ["0,0,1,2,3,0.1,0.2,0.3", "1,0,1,2,3,,,", "2,0,1,2,3,1,2,3"]);
+    assert!(mecanum.contains("enc_3 = \"rl\"") && mecanum.contains("cam_theta = \"yaw\""), "{mecanum}");
+    let servo =
+        drafted("time_us,pos_counts,ref_rpm,pwm_percent,vbus", ["0,0,60,50,24", "1000,7,60,40,24", "2000,9,60,-30,24"]);
+    for line in ["unit = \"us\"", "enc_1 = ", "ref_1 = { from = \"ref_rpm\", unit = \"rpm\" }", "supply_v = "] {
+        assert!(servo.contains(line), "{line}\n{servo}");
+    }
+    let joints = drafted(
+        "__time,/joint_states/right_wheel/position,/joint_states/right_wheel/velocity,/pose/position/x,/pose/position/y,/pose/orientation/x,/pose/orientation/y,/pose/orientation/z,/pose/orientation/w,mode",
+        ["0,0.25,1,1,2,0,0,0.6,0.8,7", "1,0.5,1,1,2,0,0,0.6,0.8,7", "2,1.75,1,1,2,0,0,0.6,0.8,7"],
+    );
+    for line in [
+        "enc_1 = { from = \"/joint_states/right_wheel/position\", unit = \"rad\", counts_per_rev",
+        "speed_1 = ",
+        "cam_theta = \"/pose/orientation/yaw\"",
+        "# \"mode\", 7 to 7",
+    ] {
+        assert!(joints.contains(line), "{line}\n{joints}");
+    }
+}
+
+#[test]
+fn a_table_of_blanks_in_milliseconds_is_understood() {
+    let rows = [
+        "  1128   16.04  -30.36  1.58  -3   1",
+        "  1199   16.05  -30.38  1.58  -3   1",
+        "  1327   16.01  -30.38  1.58  -3   7",
+    ];
+    let map = drafted("n_time  pose_x  pose_y  pose_theta  tick_L  tick_R", rows);
+    for line in ["column = \"n_time\"\nunit = \"ms\"", "enc_1 = \"tick_R\"", "enc_2 = \"tick_L\"", "cam_y = \"pose_y\""]
+    {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let bare = "0.00 1 2\n0.01 2 3\n0.02 3 4\n";
+    let clock = Clock { column: Some("column_1"), ..Clock::default() };
+    let table = Table::of_bytes(bare.as_bytes(), Path::new("x.dat"), None, &clock).unwrap();
+    assert_eq!(table.find("column_3").unwrap().values, [2.0, 3.0, 4.0]);
+}
+
+#[test]
+fn words_run_together_and_times_without_a_name_are_understood() {
+    let mouse =
+        drafted("time, targetSpeed, leftEncoder, leftCommand, rightEncoder", ["0,1,2,3,4", "2,1,3,3,5", "4,1,4,3,6"]);
+    for line in ["ref_1 = \"targetSpeed\"", "enc_2 = \"leftEncoder\"", "enc_1 = \"rightEncoder\"", "# \"leftCommand\""]
+    {
+        assert!(mouse.contains(line), "{line}\n{mouse}");
+    }
+    let bare = drafted(
+        "100; 0.0069; 0; -67305",
+        ["100; 0.0129; 2; -67304", "100; 0.0191; 6; -67304", "100; 0.0248; 6; -67304"],
+    );
+    assert!(bare.contains("column = \"column_2\" # is it?"), "{bare}");
+}
+
+#[test]
+fn a_file_without_a_time_column_asks_for_it() {
+    let map = drafted("a,b\"c", ["1,2", "2,3", "3,4"]);
+    assert!(
+        map.contains("which column is the time?") && map.contains("rate_hz") && map.contains("# \"b\\\"c\", 2 to 4"),
+        "{map}"
+    );
+}
+
+#[test]
+fn two_files_make_one_map() {
+    let read = |text: &str, name: &str| {
+        Table::of_bytes(text.as_bytes(), Path::new(name), None, &Clock { rows: true, ..Clock::default() }).unwrap()
+    };
+    let log = read("t,left,right,x,y,yaw\n0,0,1,0,0,0\n1,5,7,0,0,0\n2,5,8,0,0,0\n", "run_1.csv");
+    let mocap = read(
+        "stamp_ns,frame,robot pos x,robot pos y,robot pos z,robot qx,robot qy,robot qz,robot qw,vx\n\
+         1600000000000000000,1,900,0,300,0,0,0.6,0.8,7\n1600000000010000000,2,901,0,300,0,0,0.6,0.8,8\n",
+        "take_1.csv",
+    );
+    let map = draft_two([(&log, Path::new("set/run_1.csv")), (&mocap, Path::new("set/take_1.csv"))]);
+    for line in [
+        "[truth] # the pose\nfile = \"take_{number}.csv\" #",
+        "clock = \"match\" #",
+        "[truth.time]\ncolumn = \"stamp_ns\"\nunit = \"ns\"\n",
+        "[truth.columns]\ncam_x = { from = \"robot pos x\", unit = \"mm\" }\ncam_y = { from = \"robot pos y\", unit = \"mm\" }\ncam_theta = \"robot qyaw\"\n",
+        "# \"vx\", 7 to 8",
+        "# \"yaw\", 0 to 0",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    Map::parse(&map, Path::new("map.toml")).unwrap();
+}

@@ -1,0 +1,198 @@
+//! What a map says of one file, and the run that it makes of it.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::columns::{RATES, Source, wanted};
+use super::fill::{Wanted, counts, integrate, unwrapped};
+use super::frame::{Axis, Frame, Sense};
+use super::time::Time;
+use super::{Format, Table, units};
+use crate::columns::{Column, GROUPS, missing_member};
+use crate::error::InputError;
+use crate::frames::Pose;
+use crate::{CameraSample, Run};
+
+/// How one file is read.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Reading {
+    pub(super) format: Option<String>,
+    pub(super) time: Time,
+    pub(super) frame: Frame,
+    pub(super) columns: BTreeMap<String, Source>,
+    /// Nothing else than the pose is wanted of it.
+    pub(super) pose_alone: bool,
+}
+
+/// A run made of a file.
+pub(super) struct Made {
+    pub(super) run: Run,
+    /// The file's time at the run's 0, s.
+    pub(super) first_s: f64,
+    /// Samples of the pose in the file, those with the time of another among them.
+    pub(super) poses: usize,
+}
+
+impl Reading {
+    /// Whether everything in it is known.
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        if let Some(name) = self.format.as_deref().filter(|name| Format::from_name(name).is_none()) {
+            let hint = "give csv, plotjuggler, json, ros2, ssl-log or wpilog, or leave it out";
+            return Err(InputError::new(Path::new(""), format!("{name:?} is no format"), hint).field("format"));
+        }
+        self.time.clock()?;
+        wanted(&self.columns).map(|_| ())
+    }
+
+    /// The kind of file, if the map says it.
+    pub(super) fn format(&self) -> Option<Format> {
+        self.format.as_deref().and_then(Format::from_name)
+    }
+
+    /// Reads the file.
+    pub(super) fn table(&self, file: &Path) -> Result<Table, InputError> {
+        Table::read(file, self.format(), &self.time.clock()?)
+    }
+
+    /// Makes a run of what a file holds; without columns in the map, of the series that have our names. Errors are about
+    /// `path`: series that are not there, groups of columns that are not whole, and values that no column takes.
+    pub(super) fn made(&self, table: &Table, path: &Path) -> Result<Made, InputError> {
+        let fail = |e: InputError| InputError { file: path.to_owned(), ..e };
+        if let Some(restart) = table.restart.filter(|_| self.time.recording.is_none()) {
+            let what = format!("its time starts again: it holds {} recordings", restart.recordings);
+            let its = if self.pose_alone { "truth.time" } else { "time" };
+            let hint = format!("make a run of each: recording = 1 in the map's [{its}], then 2, ...");
+            return Err(InputError::new(path, what, hint).at(restart.line, 1));
+        }
+        let mut wanted = wanted(&self.columns).map_err(fail)?;
+        if wanted.is_empty() {
+            let ours = table.series.iter().map(|s| (Column::from_name(&s.name), s.name.as_str()));
+            let ours = ours.filter(|(column, _)| !matches!(column, Column::Other | Column::Time));
+            let ours = ours.filter(|(column, _)| !self.pose_alone || matches!(column, Column::Camera(_)));
+            wanted.extend(ours.map(|(column, from)| Wanted {
+                column,
+                from,
+                factor: 1.0,
+                offset: 0.0,
+                wraps: None,
+                turn: None,
+                rate: false,
+            }));
+        }
+        let mut columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
+        // Two wheels on an axle are told no sideways velocity.
+        let sideways = Column::Command(if self.frame.x == Axis::Forward { 1 } else { 0 });
+        let others = (0..3).map(Column::Command).filter(|c| *c != sideways);
+        let straight = !columns.contains(&sideways) && others.into_iter().all(|c| columns.contains(&c));
+        if straight {
+            columns.push(sideways);
+        }
+        let rates = wanted.iter().any(|w| w.rate);
+        if rates && wanted.iter().any(|w| matches!(w.column, Column::Odometry(_)) && !w.rate) {
+            let hint = "map odom_x, odom_y and odom_theta, or odom_vx, odom_vy and odom_w";
+            return Err(InputError::new(path, "the odometry is a pose, or its velocities", hint).field("odom_w"));
+        }
+        let sidewards = Column::Odometry(if self.frame.x == Axis::Forward { 1 } else { 0 });
+        let no_sideways = rates && !columns.contains(&sidewards);
+        if no_sideways {
+            columns.push(sidewards);
+        }
+        if columns.is_empty() {
+            let (name, its) = if self.pose_alone { ("cam_x", "truth.columns") } else { ("enc_1", "columns") };
+            let what = format!("none of its series is a column of ours: name them in [{its}]");
+            return Err(InputError::new(path, what, table.suggestion(name)));
+        }
+        for (group, at_least) in GROUPS {
+            if let Some(column) = missing_member(&columns, group, at_least) {
+                let hint = match column {
+                    Column::Odometry(_) if rates => "map odom_vx and odom_w; only the sideways one may be left out",
+                    Column::Command(_) => {
+                        "map cmd_vx, cmd_vy and cmd_w (only the sideways one may be left out), or none"
+                    }
+                    _ => "map the whole group of columns, or none of it",
+                };
+                let name = match column {
+                    Column::Odometry(i) if rates => RATES[i].to_owned(),
+                    column => column.name(),
+                };
+                return Err(InputError::new(path, "no such column in the map", hint).field(name));
+            }
+        }
+        let mut series = Vec::new();
+        for w in &wanted {
+            let Some(found) = table.find(w.from) else {
+                let what = format!("has no series {:?}", w.from);
+                return Err(InputError::new(path, what, table.suggestion(w.from)).field(w.column.name()));
+            };
+            series.push(found);
+        }
+        // Times to the nanosecond: what is stamped alike is one tick.
+        let key = |t: f64| (t * 1e9).round() as i64;
+        let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| key(*t))).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
+        let mut run = Run::with_columns(&columns);
+        run.t = keys.iter().map(|k| (k - first) as f64 / 1e9).collect();
+        let ticks = keys.len();
+        run.reals_mut().into_iter().skip(1).for_each(|c| c.resize(ticks, f64::NAN));
+        if straight && let Some(slot) = run.real_mut(sideways) {
+            slot.fill(0.0);
+        }
+        let poses = wanted.iter().zip(&series).filter(|(w, _)| matches!(w.column, Column::Camera(_)));
+        let poses = poses.map(|(_, s)| s.t.len()).max().unwrap_or(0);
+        let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
+        for (w, s) in wanted.iter().zip(&series) {
+            let mut column = vec![f64::NAN; ticks];
+            for (t, value) in s.t.iter().zip(unwrapped(w, &s.values).iter()) {
+                if let Ok(tick) = keys.binary_search(&key(*t)) {
+                    column[tick] = units::times(*value, w.factor) + w.offset;
+                }
+            }
+            match w.column {
+                Column::Counts(wheel) => {
+                    // Angles are counts only to rounding; what was never counted is no encoder's.
+                    let known: Vec<f64> = column.iter().copied().filter(|x| x.is_finite()).collect();
+                    let fractions = known.iter().filter(|x| (*x - x.round()).abs() > 0.01).count();
+                    if w.factor.abs() == 1.0 && 2 * fractions > known.len() {
+                        let hint = "an angle needs its unit: { from = ..., unit = \"rad\", counts_per_rev = 1440 }; a \
+                                    speed is a speed_ column";
+                        let what = format!("series {:?} has fractions, which no counter has", w.from);
+                        return Err(InputError::new(path, what, hint).field(w.column.name()));
+                    }
+                    counts(&mut run, wheel, &column);
+                }
+                Column::Camera(i) => camera.iter_mut().zip(&column).for_each(|(pose, x)| pose[i] = *x),
+                Column::Duty(_) => {
+                    if let Some(x) = column.iter().find(|x| x.abs() > 1.001) {
+                        let hint = "scale it to a share of the supply, such as unit = \"percent\"";
+                        let what = format!("duty {x} is not within ±1");
+                        return Err(InputError::new(path, what, hint).field(w.column.name()));
+                    }
+                    run.duty.iter_mut().enumerate().filter(|(i, _)| w.column == Column::Duty(*i)).for_each(
+                        |(_, slot)| {
+                            slot.clone_from(&column);
+                        },
+                    );
+                }
+                other => {
+                    if let Some(slot) = run.real_mut(other) {
+                        *slot = column;
+                    }
+                }
+            }
+        }
+        if rates && let Some(odometry) = &mut run.odometry {
+            if no_sideways && let Column::Odometry(i) = sidewards {
+                odometry[i].fill(0.0);
+            }
+            integrate(&run.t, odometry, if self.frame.headings == Sense::Clockwise { -1.0 } else { 1.0 });
+        }
+        self.frame.turn(&mut run, &mut camera);
+        let whole = |(tick, p): (usize, &[f64; 3])| {
+            p.iter().all(|x| x.is_finite()).then(|| CameraSample { tick, pose: Pose::new(p[0], p[1], p[2]) })
+        };
+        run.camera = camera.iter().enumerate().filter_map(whole).collect();
+        Ok(Made { run, first_s: first as f64 / 1e9, poses })
+    }
+}

@@ -1,0 +1,53 @@
+//! What a map says of the time of a file.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::{Clock, units};
+use crate::error::InputError;
+
+/// The table `[time]`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Time {
+    column: Option<String>,
+    unit: Option<String>,
+    /// Rows a second, of a file without a column of time.
+    rate_hz: Option<f64>,
+    /// Which recording of a file with several, from 1.
+    pub(super) recording: Option<usize>,
+    /// Keep the file's time instead of beginning at 0.
+    #[serde(default)]
+    pub(super) keep: bool,
+}
+
+impl Time {
+    /// For the reader of the file.
+    pub(super) fn clock(&self) -> Result<Clock<'_>, InputError> {
+        Ok(Clock {
+            column: self.column.as_deref(),
+            unit_s: self.unit_s()?,
+            rate_hz: self.rate_hz,
+            recording: self.recording,
+            rows: false,
+        })
+    }
+
+    fn unit_s(&self) -> Result<Option<f64>, InputError> {
+        if let Some(rate) = self.rate_hz {
+            let fail = |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint).field("time.rate_hz"));
+            if !(rate.is_finite() && rate > 0.0) {
+                return fail(format!("{rate} rows a second are none"), "such as rate_hz = 100");
+            }
+            if self.column.is_some() || self.unit.is_some() {
+                return fail("there is a column of time, or none".to_owned(), "give column and unit, or rate_hz");
+            }
+        }
+        let Some(unit) = self.unit.as_deref() else { return Ok(None) };
+        units::of_time(unit).map(Some).ok_or_else(|| {
+            InputError::new(Path::new(""), format!("{unit:?} is no unit of time"), "give s, ms, us or ns")
+                .field("time.unit")
+        })
+    }
+}
