@@ -5,6 +5,7 @@ mod bad_data;
 mod card;
 mod drive;
 mod good_data;
+mod joined;
 mod printed;
 mod radio;
 mod serve;

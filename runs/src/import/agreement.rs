@@ -50,6 +50,16 @@ pub(super) enum Doubt {
     Alike([f64; 2], [f64; 2]),
 }
 
+impl Doubt {
+    /// The same of clocks that are so many seconds more apart.
+    pub(super) fn shifted(self, by_s: f64) -> Self {
+        match self {
+            Self::Alike(offsets, shares) => Self::Alike(offsets.map(|offset| offset + by_s), shares),
+            other => other,
+        }
+    }
+}
+
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("the motion does not tell how the clocks stand to each other: ")?;
@@ -61,7 +71,7 @@ impl fmt::Display for Doubt {
             }
             Self::Alike([a, b], [first, second]) => write!(
                 f,
-                "offsets of {a:.2} s ({:.0} % explained) and {b:.2} s ({:.0} %) fit about as well, as where a drive repeats itself",
+                "offsets of {a:.2} s ({:.1} % explained) and {b:.2} s ({:.1} %) fit about as well, as where a drive repeats itself",
                 100.0 * first,
                 100.0 * second
             ),

@@ -53,7 +53,7 @@ pub(super) fn join(
         Clocks::Match => {
             let found = told.as_ref().map_err(|doubt| {
                 let hint = "give clock = \"own\" or an offset_s that brings it within 0.5 s: `gap` finds the rest";
-                InputError::new(path, doubt.to_string(), hint).field("truth.clock")
+                InputError::new(path, doubt.shifted(files_s).to_string(), hint).field("truth.clock")
             })?;
             (found.offset_s, Some(*found))
         }

@@ -1,0 +1,135 @@
+//! `convert` with the pose in a second file.
+
+use super::{data, racbot};
+use runs::Run;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+/// A run as its robot and a motion capture would have written it: counts on the robot's clock from its start, poses in
+/// millimetres and degrees, x forward, in milliseconds of a clock that shows `ahead_s` more.
+fn split(run: &Run, folder: &Path, name: &str, ahead_s: f64) {
+    let wheels = run.counts.len();
+    let mut log = format!("t,{}\n", (1..=wheels).map(|i| format!("motor{i}_ticks")).collect::<Vec<_>>().join(","));
+    for k in 0..run.len() {
+        let counts: Vec<String> = run.counts.iter().map(|c| c[k].to_string()).collect();
+        let _ = writeln!(log, "{:.4},{}", run.t[k], counts.join(","));
+    }
+    let mut truth = "stamp_ms\tpos x [mm]\tpos y [mm]\tyaw [deg]\n".to_owned();
+    for seen in &run.camera {
+        let pose = seen.pose;
+        let ms = 1e3 * (run.t[seen.tick] + ahead_s);
+        let yaw = (pose.theta + std::f64::consts::FRAC_PI_2).to_degrees();
+        let _ = writeln!(truth, "{ms:.1}\t{:.3}\t{:.3}\t{yaw:.4}", 1e3 * pose.x, 1e3 * pose.y);
+    }
+    fs::write(folder.join(format!("{name}.csv")), log).unwrap();
+    fs::write(folder.join(format!("{name}_mocap.tsv")), truth).unwrap();
+}
+
+/// Names of the effects that `gap` finds, but those of clocks.
+fn verdict(folder: &Path, set: &str) -> Vec<String> {
+    let json = racbot(folder, &["--json", "gap", set]).json();
+    let name = |e: &serde_json::Value| e["name"].as_str().unwrap().to_owned();
+    let named = json["effects"].as_array().unwrap().iter().map(name);
+    named.filter(|name| !name.starts_with("camera-")).collect()
+}
+
+#[test]
+fn a_run_in_two_files_on_two_clocks_gets_the_verdict_of_one() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let whole = data("real/omni3-circles");
+    fs::create_dir(path.join("set")).unwrap();
+    fs::copy(whole.join("robot.toml"), path.join("set/robot.toml")).unwrap();
+    for (run, ahead_s) in [(1, 1.7e9), (2, -12.0), (3, 0.31), (4, 5e4)] {
+        let name = format!("run_{run:02}");
+        let original = Run::read(whole.join(format!("{name}.csv"))).unwrap();
+        split(&original, path, &name, ahead_s);
+        let log = format!("{name}.csv");
+        if run == 1 {
+            let mocap = format!("{name}_mocap.tsv");
+            racbot(path, &["convert", "--draft", &log, "map.toml", "--truth", &mocap]).done().fits_80_columns();
+            let map = fs::read_to_string(path.join("map.toml")).unwrap();
+            assert!(map.contains("file = \"{stem}_mocap.tsv\"") && map.contains("clock = \"match\""), "{map}");
+        }
+        let out = format!("set/{name}.csv");
+        let json = racbot(path, &["--json", "convert", "map.toml", &log, &out]).json();
+        let found = json["truth"]["offset_s"].as_f64().unwrap();
+        // The latency of the camera is in it.
+        assert!((found + ahead_s).abs() < 0.05, "{json}");
+        assert!(json["truth"]["matched"]["share"].as_f64().unwrap() > 0.9, "{json}");
+        let run = Run::read(path.join(&out)).unwrap();
+        let left_out = ["before", "after"].map(|side| json["truth"][side].as_u64().unwrap() as usize);
+        assert_eq!(run.camera.len() + left_out[0] + left_out[1], original.camera.len());
+        assert!(left_out[0] + left_out[1] < 10, "{json}");
+    }
+    assert_eq!(verdict(path, "set"), verdict(path, whole.to_str().unwrap()));
+}
+
+#[test]
+fn two_files_in_an_empty_folder_become_a_run_or_an_error_that_helps() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let original = Run::read(data("runs/wheel-skew/run_03.csv")).unwrap();
+    split(&original, path, "drive7", 1.7e9);
+    fs::rename(path.join("drive7_mocap.tsv"), path.join("take7.tsv")).unwrap();
+    racbot(path, &["convert", "--draft", "drive7.csv", "map.toml", "--truth", "take7.tsv"]).done();
+    let map = fs::read_to_string(path.join("map.toml")).unwrap();
+    assert!(map.contains("file = \"take{number}.tsv\""), "{map}");
+    let matched = racbot(path, &["convert", "map.toml", "drive7.csv", "a.csv"]).done().fits_80_columns();
+    for part in ["added to its times: found by", "camera poses", "take7.tsv"] {
+        assert!(matched.stdout.contains(part), "{}", matched.stdout);
+    }
+    fs::write(path.join("own.toml"), map.replace("clock = \"match\"", "clock = \"own\"")).unwrap();
+    racbot(path, &["convert", "own.toml", "drive7.csv", "own.csv"]).done();
+    let own = Run::read(path.join("own.csv")).unwrap();
+    assert!(own.camera.len() + 2 >= original.camera.len(), "{}", own.camera.len());
+    fs::write(path.join("same.toml"), map.replace("clock = \"match\"", "clock = \"same\"")).unwrap();
+    racbot(path, &["convert", "same.toml", "drive7.csv", "b.csv"]).refused(
+        1,
+        &["take7.tsv: truth.clock", "1700000000", "nothing in common with those of drive7.csv", "clock = \"match\""],
+    );
+    let late = map.replace("clock = \"match\"", "clock = \"own\"\noffset_s = 2");
+    fs::write(path.join("late.toml"), late).unwrap();
+    let late = racbot(path, &["convert", "late.toml", "drive7.csv", "c.csv"]).done().fits_80_columns();
+    assert!(late.stdout.contains("left out: 120 after") && late.stdout.contains("By the motion -"), "{}", late.stdout);
+    racbot(path, &["convert", "map.toml", "drive7.csv", "d.csv", "--truth", "take8.tsv"])
+        .refused(1, &["take8.tsv: ", "check the path"]);
+    fs::write(path.join("one.toml"), "[columns]\nenc_1 = \"motor1_ticks\"\n").unwrap();
+    racbot(path, &["convert", "one.toml", "drive7.csv", "d.csv", "--truth", "take7.tsv"])
+        .refused(1, &["one.toml: has no [truth]", "--draft"]);
+}
+
+#[test]
+fn a_differential_drive_has_the_inertia_that_the_help_promises() {
+    let folder = tempdir().unwrap();
+    let duties = data("real/robojackets-excitation/run_01.csv");
+    let init = ["init", "--track-mm", "200", "--radius-mm", "30", "--gear", "3", "--counts-per-motor-rev", "2048"];
+    let motor = ["--resistance-ohm", "1", "--torque-constant", "0.02", "--rotor-inertia", "1e-5", "--supply-v", "18"];
+    let log = ["--mass-kg", "2", "--log", duties.to_str().unwrap()];
+    racbot(folder.path(), &[&init[..], &motor, &log].concat()).done();
+    let text = fs::read_to_string(folder.path().join("robot.toml")).unwrap();
+    // A disc of 2 kg and 0.1 m.
+    assert!(text.contains("yaw_inertia_kg_m2 = 0.01 "), "{text}");
+}
+
+#[test]
+fn the_printed_map_of_two_files_converts_them() {
+    let page = fs::read_to_string(data("../docs/book/src/log-format.md")).unwrap();
+    let mut blocks = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let map = blocks.find(|map| map.contains("[truth]\n")).unwrap();
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    // Three rows do not tell an offset.
+    fs::write(path.join("map.toml"), map.replace("clock = \"match\"", "clock = \"own\"")).unwrap();
+    fs::write(path.join("run_1.csv"), "t,left/ticks,right/ticks\n7,1,2\n8,3,4\n9,5,6\n").unwrap();
+    fs::write(path.join("run_1_mocap.csv"), "timestamp_ms,pos_x,pos_y,yaw\n100,1000,0,90\n1600,0,1000,0\n").unwrap();
+    racbot(path, &["convert", "map.toml", "run_1.csv", "set/run_1.csv"]).done().fits_80_columns();
+    let run = Run::read(path.join("set/run_1.csv")).unwrap();
+    assert_eq!(run.t, [0.0, 1.0, 1.5, 2.0]);
+    assert_eq!(
+        run.camera.iter().map(|seen| (seen.tick, seen.pose.x, seen.pose.y)).collect::<Vec<_>>(),
+        [(0, 1.0, 0.0), (2, 0.0, 1.0)]
+    );
+}
