@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
     after_help = "IN may be any table of numbers as text (CSV, PlotJuggler's too; tabs or blanks; names of columns or none), JSON, a \
 ROS 2 bag in an MCAP, a game log of the small-size league (.log, .log.gz) or a WPILib log. MAP.toml says which of its series is which column, such as\n\n  \
 [columns]\n  enc_1 = \"left/ticks\"\n  cam_x = { from = \"pose.x\", unit = \"mm\" }\n  [frame]\n  x = \"forward\"\n\n\
-The pose may be in a second file, of motion capture or GPS, on a clock of its own: [truth]. \
+The pose may be in a second file, of motion capture or another camera, on a clock of its own: [truth]. \
 docs/book/src/log-format.md has all of it."
 )]
 pub(crate) struct Options {

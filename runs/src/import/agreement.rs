@@ -26,6 +26,7 @@ const RIVAL: f64 = 2.0;
 const ODDS: f64 = 6.9;
 /// What is left unexplained (slip, noise, filters) says something new so often, s.
 const NEWS_S: f64 = 1.0;
+
 /// An offset that the motion tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
