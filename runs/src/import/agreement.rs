@@ -2,8 +2,6 @@
 //! of the body that the poses show, whatever wheels it has. Where their times are set right, that function explains the
 //! log best; nothing of the robot need be known.
 
-use std::fmt;
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::track::{Motion, OVER, of_poses, spread, velocity};
@@ -39,15 +37,22 @@ pub struct Agreement {
 }
 
 /// Why the motion tells no offset.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(super) enum Doubt {
     /// The log says nothing of the motion.
+    #[error("the log has neither wheels, odometry, commands nor a gyroscope")]
     Silent,
     /// Too short, or nothing moves.
+    #[error("too little of it moves")]
     Still,
-    /// The poses explain little of it at any offset.
+    /// The poses explain so much of it at best.
+    #[error("at no offset do the poses explain more than {:.0} % of what the log has", 100.0 * .0)]
     Strange(f64),
-    /// Two offsets, s, explain it about as well.
+    /// Two offsets, s, explain so much of it.
+    #[error(
+        "offsets of {:.2} s ({:.1} % explained) and {:.2} s ({:.1} %) fit about as well, as where a drive repeats itself",
+        .0[0], 100.0 * .1[0], .0[1], 100.0 * .1[1]
+    )]
     Alike([f64; 2], [f64; 2]),
 }
 
@@ -57,25 +62,6 @@ impl Doubt {
         match self {
             Self::Alike(offsets, shares) => Self::Alike(offsets.map(|offset| offset + by_s), shares),
             other => other,
-        }
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("the motion does not tell how the clocks stand to each other: ")?;
-        match self {
-            Self::Silent => f.write_str("the log has neither wheels, odometry, commands nor a gyroscope"),
-            Self::Still => f.write_str("too little of it moves"),
-            Self::Strange(share) => {
-                write!(f, "at no offset do the poses explain more than {:.0} % of what the log has", 100.0 * share)
-            }
-            Self::Alike([a, b], [first, second]) => write!(
-                f,
-                "offsets of {a:.2} s ({:.1} % explained) and {b:.2} s ({:.1} %) fit about as well, as where a drive repeats itself",
-                100.0 * first,
-                100.0 * second
-            ),
         }
     }
 }

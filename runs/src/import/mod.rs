@@ -125,11 +125,21 @@ impl Format {
 impl Series {
     /// Least and greatest value.
     pub fn range(&self) -> [f64; 2] {
-        self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)])
+        span(self.values.iter().copied())
     }
 }
 
+/// Least and greatest of some values.
+fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+}
+
 impl Table {
+    /// Its first and last time, s.
+    fn times(&self) -> [f64; 2] {
+        span(self.series.iter().flat_map(|s| s.t.iter().copied()))
+    }
+
     /// Reads a file. `time` says what the map says of the time column of a CSV.
     ///
     /// # Errors

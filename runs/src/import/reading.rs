@@ -6,7 +6,7 @@ use std::path::Path;
 use super::columns::{RATES, Source, wanted};
 use super::fill::{Wanted, counts, integrate, unwrapped};
 use super::frame::{Axis, Frame, Sense};
-use super::time::Time;
+use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
 use crate::columns::{Column, GROUPS, missing_member};
 use crate::error::InputError;
@@ -126,9 +126,7 @@ impl Reading {
             };
             series.push(found);
         }
-        // Times to the nanosecond: what is stamped alike is one tick.
-        let key = |t: f64| (t * 1e9).round() as i64;
-        let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| key(*t))).collect();
+        let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| nanoseconds(*t))).collect();
         keys.sort_unstable();
         keys.dedup();
         let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
@@ -145,7 +143,7 @@ impl Reading {
         for (w, s) in wanted.iter().zip(&series) {
             let mut column = vec![f64::NAN; ticks];
             for (t, value) in s.t.iter().zip(unwrapped(w, &s.values).iter()) {
-                if let Ok(tick) = keys.binary_search(&key(*t)) {
+                if let Ok(tick) = keys.binary_search(&nanoseconds(*t)) {
                     column[tick] = units::times(*value, w.factor) + w.offset;
                 }
             }

@@ -22,6 +22,18 @@ pub(super) struct Time {
     pub(super) keep: bool,
 }
 
+/// A time to the nanosecond: what is stamped alike is one tick.
+pub(super) fn nanoseconds(t: f64) -> i64 {
+    (t * 1e9).round() as i64
+}
+
+/// The median of the steps of some times, s; of those that go back, none.
+pub(super) fn usual_step(t: &[f64]) -> Option<f64> {
+    let mut steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+    let middle = steps.len() / 2;
+    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
 impl Time {
     /// For the reader of the file.
     pub(super) fn clock(&self) -> Result<Clock<'_>, InputError> {

@@ -1,5 +1,6 @@
 //! What a log and poses say of the motion, as velocities over time.
 
+use super::time::usual_step;
 use crate::Run;
 use crate::frames::{Pose, displacement_to, wrap_angle};
 
@@ -27,9 +28,7 @@ impl<const N: usize> Track<N> {
 
     /// The usual step, s.
     pub(super) fn step_s(&self) -> f64 {
-        let mut steps: Vec<f64> = self.t.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > 0.0).collect();
-        let middle = steps.len() / 2;
-        if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 }
+        usual_step(&self.t).unwrap_or(0.0)
     }
 
     pub(super) fn length_s(&self) -> f64 {

@@ -45,11 +45,19 @@ pub(super) struct Guess<'a> {
 
 /// What the series of a log seem to be, and the rest.
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+    let mut wheels = [0; Kind::Supply as usize + 1];
+    recognised(table, |series| guess(series, &mut wheels))
+}
+
+/// The first series that is each column, and the rest.
+fn recognised(
+    table: &Table,
+    mut guess: impl FnMut(&Series) -> Option<(Column, &'static str)>,
+) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let mut guesses: Vec<Guess> = Vec::new();
     let mut rest: Vec<&Series> = Vec::new();
-    let mut wheels = [0; Kind::Supply as usize + 1];
     for series in &table.series {
-        let found = guess(series, &mut wheels);
+        let found = guess(series);
         match found.filter(|(column, _)| guesses.iter().all(|g| g.column != *column)) {
             Some((column, unit)) => guesses.push(Guess { series, column, unit }),
             None => rest.push(series),
@@ -63,17 +71,10 @@ pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
 /// The pose in a file that has little else, whatever the tracker is called: the first series that are its x, y and
 /// heading, and the rest.
 pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
-    let mut guesses: Vec<Guess> = Vec::new();
-    let mut rest: Vec<&Series> = Vec::new();
-    for series in &table.series {
-        let found = part_of_pose(&series.name).map(Column::Camera);
-        match found.filter(|column| guesses.iter().all(|g| g.column != *column)) {
-            Some(column) => guesses.push(Guess { series, column, unit: unit(column, series) }),
-            None => rest.push(series),
-        }
-    }
-    drop_broken_groups(&mut guesses, &mut rest);
-    guesses.sort_by_key(|g| g.column);
+    let (mut guesses, rest) = recognised(table, |series| {
+        let column = Column::Camera(part_of_pose(&series.name)?);
+        Some((column, unit(column, series)))
+    });
     // What stood still in y was nevertheless measured as x was.
     if let [x, y, _] = &mut guesses[..] {
         let unit = if x.unit.is_empty() { y.unit } else { x.unit };
@@ -85,7 +86,7 @@ pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
 /// Which of x, y and heading a series of a tracker is.
 fn part_of_pose(name: &str) -> Option<usize> {
     let lower = spaced(name).to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let words = words(&lower);
     let has = |some: &[&str]| words.iter().any(|word| some.contains(word));
     if has(&["yaw", "theta", "phi", "heading", "rz"]) || words.iter().any(|word| word.ends_with("yaw")) {
         return Some(2);
@@ -142,13 +143,18 @@ fn spaced(name: &str) -> String {
     out
 }
 
+/// The words of a name.
+fn words(name: &str) -> Vec<&str> {
+    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect()
+}
+
 fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)> {
     let ours = Column::from_name(&series.name);
     if !matches!(ours, Column::Other | Column::Time) {
         return Some((ours, ""));
     }
     let lower = spaced(&series.name).to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let words = words(&lower);
     let said = units::in_name(&series.name);
     let number = number(&words);
     let axis = axis(&words);

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use self::guess::{Guess, guesses, pose};
+use super::time::usual_step;
 use super::{Series, Table, truth, units};
 use crate::columns::Column;
 
@@ -39,11 +40,7 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
 
 /// How two clocks seem to stand: the same where their times lie over each other, and not just because both count from 0.
 fn clock(tables: [&Table; 2]) -> &'static str {
-    let span = |table: &Table| {
-        let t = table.series.iter().flat_map(|s| &s.t);
-        t.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(*t), high.max(*t)])
-    };
-    let [a, b] = tables.map(span);
+    let [a, b] = tables.map(Table::times);
     let shorter = (a[1] - a[0]).min(b[1] - b[0]);
     let shared = a[1].min(b[1]) - a[0].max(b[0]);
     let from_zero = a[0].abs().max(b[0].abs()) < 0.1 * shorter;
@@ -64,16 +61,15 @@ fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
 /// The table of the time.
 fn time(table: &Table, name: &str) -> String {
     if let Some((column, unit)) = &table.time {
-        return format!("\n[{name}]\ncolumn = {}\nunit = \"{}\"\n", quoted(column), time_unit(table, *unit));
+        let longest = table.series.iter().max_by_key(|s| s.t.len()).map_or(&[][..], |s| &s.t);
+        return format!("\n[{name}]\ncolumn = {}\nunit = \"{}\"\n", quoted(column), time_unit(longest, *unit));
     }
     if !table.series.iter().all(|s| s.t.iter().zip(0..).all(|(t, row)| *t == f64::from(row))) {
         return String::new();
     }
     match increasing(table) {
         Some(s) => {
-            let rows = Series { t: s.values.clone(), ..Series::default() };
-            let unit = time_unit(&Table { series: vec![rows], ..Table::default() }, 1.0);
-            let column = quoted(&s.name);
+            let (column, unit) = (quoted(&s.name), time_unit(&s.values, 1.0));
             format!("\n[{name}]\ncolumn = {column} # is it? it increases from row to row\nunit = \"{unit}\"\n")
         }
         None => format!(
@@ -117,11 +113,8 @@ fn quoted(name: &str) -> String {
 }
 
 /// The unit of time, by its steps where its name says none: nobody logs a robot once a second.
-fn time_unit(table: &Table, unit_s: f64) -> &'static str {
-    let steps = |s: &Series| s.t.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
-    let mut steps: Vec<f64> = table.series.iter().max_by_key(|s| s.t.len()).map(steps).unwrap_or_default();
-    steps.sort_by(f64::total_cmp);
-    match steps.get(steps.len() / 2) {
+fn time_unit(t: &[f64], unit_s: f64) -> &'static str {
+    match usual_step(t) {
         Some(1e6..) if unit_s == 1.0 => "ns",
         Some(1e3..) if unit_s == 1.0 => "us",
         Some(1.0..) if unit_s == 1.0 => "ms",

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::agreement::{self, Agreement};
 use super::reading::Made;
+use super::time::nanoseconds;
 use super::truth::{Clocks, Truth};
-use super::{Series, Table};
+use super::{Table, span};
 use crate::error::InputError;
 use crate::frames::Pose;
 use crate::{CLOCK_OFF_S, CameraSample, Run};
@@ -47,23 +48,22 @@ pub(super) fn join(
     let (by, matched) = match truth.clock {
         Clocks::Same => (truth.offset_s - files_s, None),
         Clocks::Own => {
-            let own = [(files[0].0, &log), (files[1].0, &poses)].map(|(table, made)| start(table) - made.first_s);
+            let own = [(files[0].0, &log), (files[1].0, &poses)].map(|(table, made)| table.times()[0] - made.first_s);
             (own[0] - own[1] + truth.offset_s, None)
         }
         Clocks::Match => {
             let found = told.as_ref().map_err(|doubt| {
                 let hint = "give clock = \"own\" or an offset_s that brings it within 0.5 s: `gap` finds the rest";
-                InputError::new(path, doubt.shifted(files_s).to_string(), hint).field("truth.clock")
+                let what =
+                    format!("the motion does not tell how the clocks stand to each other: {}", doubt.shifted(files_s));
+                InputError::new(path, what, hint).field("truth.clock")
             })?;
             (found.offset_s, Some(*found))
         }
     };
     let offset_s = by + files_s;
-    let span = |t: &mut dyn Iterator<Item = f64>| {
-        t.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)])
-    };
-    let ours = span(&mut log.run.t.iter().copied());
-    let theirs = span(&mut seen.iter().map(|(t, _)| t + by));
+    let ours = span(log.run.t.iter().copied());
+    let theirs = span(seen.iter().map(|(t, _)| t + by));
     if ours[0] > theirs[1] || theirs[0] > ours[1] {
         let [a, b] = [(ours, log.first_s), (theirs, log.first_s - offset_s)]
             .map(|([from, to], first)| format!("{:.3} to {:.3} s", from + first, to + first));
@@ -72,12 +72,12 @@ pub(super) fn join(
             format!("its times, {b},{shifted} have nothing in common with those of {}, {a}", files[0].1.display());
         return Err(InputError::new(path, what, remedy(truth.clock, ours, theirs)).field("truth.clock"));
     }
-    let before = seen.iter().filter(|(t, _)| key(t + by) < key(ours[0])).count();
-    let after = seen.iter().filter(|(t, _)| key(t + by) > key(ours[1])).count();
+    let before = seen.iter().filter(|(t, _)| nanoseconds(t + by) < nanoseconds(ours[0])).count();
+    let after = seen.iter().filter(|(t, _)| nanoseconds(t + by) > nanoseconds(ours[1])).count();
     let within: Vec<(i64, Pose)> = seen
         .iter()
-        .map(|(t, pose)| (key(t + by), *pose))
-        .filter(|(k, _)| (key(ours[0])..=key(ours[1])).contains(k))
+        .map(|(t, pose)| (nanoseconds(t + by), *pose))
+        .filter(|(k, _)| (nanoseconds(ours[0])..=nanoseconds(ours[1])).contains(k))
         .collect();
     let apart = told.ok().filter(|_| matched.is_none()).map(|found| found.offset_s - by);
     let joined = Joined {
@@ -90,17 +90,6 @@ pub(super) fn join(
         alike: poses.poses.saturating_sub(poses.run.len()),
     };
     Ok((merged(log.run, &within), joined))
-}
-
-/// A time to the nanosecond: what is stamped alike is one tick.
-fn key(t: f64) -> i64 {
-    (t * 1e9).round() as i64
-}
-
-/// The first time in a file, s.
-fn start(table: &Table) -> f64 {
-    let first = |s: &Series| s.t.iter().copied().fold(f64::INFINITY, f64::min);
-    table.series.iter().map(first).fold(f64::INFINITY, f64::min)
 }
 
 /// What brings two spans of time together.
@@ -124,7 +113,7 @@ fn remedy(clock: Clocks, ours: [f64; 2], theirs: [f64; 2]) -> String {
 
 /// A run with poses at times of their own, in ns.
 fn merged(run: Run, poses: &[(i64, Pose)]) -> Run {
-    let ours: Vec<i64> = run.t.iter().map(|t| key(*t)).collect();
+    let ours: Vec<i64> = run.t.iter().map(|t| nanoseconds(*t)).collect();
     let mut keys: Vec<i64> = ours.iter().copied().chain(poses.iter().map(|(k, _)| *k)).collect();
     keys.sort_unstable();
     keys.dedup();
