@@ -1,6 +1,6 @@
 //! A start as one page: what came of it, where the robot drove, and its pictures with what was found drawn in.
 
-use super::{Blackout, Outcome, Senses, Story};
+use super::{Blackout, Outcome, REACHED, Senses, Story};
 use crate::eye::Shot;
 use plot::{Axis, Color, Figure, Panel, Series};
 use std::fmt::Write as _;
@@ -10,8 +10,6 @@ use vision::onboard::Glance;
 const PICTURES: usize = 36;
 /// Points of a curve.
 const POINTS: usize = 400;
-/// Near enough, m.
-const REACHED: f64 = 0.05;
 
 const STYLE: &str = "body{font:16px/1.5 Helvetica,Arial,sans-serif;max-width:62rem;margin:0 auto;padding:1rem;color:#1a1a1a}\
 h1{font-size:1.5rem;margin:.5rem 0}h2{font-size:1.15rem;margin-top:2.2rem;border-bottom:1px solid #ccc}svg{max-width:100%;height:auto}\
