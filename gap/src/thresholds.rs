@@ -70,6 +70,24 @@ pub const LEAST_TOGETHER: f64 = 0.5;
 /// which gap opened 20 times as far without either, passed for a few per cent of rolling loss.
 pub const CANCELS: f64 = 4.0;
 
+/// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
+pub const NO_NOISE: f64 = 0.15;
+/// Share of what a duty varies that its wheel's motion accounts for, from which it is this drive's, however much
+/// scatters: less, and most of it has nothing to do with the wheel. Reasoned, and tried on two: a motor's
+/// log with foreign duties, and one whose amplifier wanders by a tenth.
+pub const FOREIGN: f64 = 0.5;
+
+/// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
+pub const SEEN: f64 = 2.0;
+/// Share of the information on a small effect that the floor must have hidden for another look above a lower one.
+pub const HIDDEN: f64 = 0.2;
+/// Share of the explained gap that the inexactness of a law may leave as structure.
+pub const LAW_LEAVES: f64 = 0.05;
+/// Share of a link's gap that must be left at most once its effects stand in the file.
+pub const FALLS: f64 = 0.98;
+/// Control periods between two rows of a log beyond which its times are in another unit.
+pub const ODD_ROWS: f64 = 300.0;
+
 /// Significance from which an effect is named: in one of twenty data sets chance gives as much.
 pub const SIGNIFICANT: f64 = 0.05;
 /// Distance from a bound at which a value is not one that the data chose, as a share of the distance of the bounds.

@@ -2,33 +2,15 @@
 
 use runs::robot::Support;
 
-use super::{Located, Named};
+use super::found::{LinkGap, Named};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Link, Sizes};
 use crate::exact::ExactLink;
 use crate::inertial::{self, Fit};
+use crate::locate::Located;
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::Thresholds;
 use crate::pieces::Pieces;
-
-/// Gap figures of one link.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinkGap {
-    /// Between which two stages it was measured.
-    pub link: Link,
-    /// Held-out RMS in units of the noise floor, nominal.
-    pub before: f64,
-    /// With the named effects.
-    pub after: f64,
-    /// Physical floor per signal.
-    pub floor: Vec<f64>,
-    /// Physical RMS per signal, nominal and after.
-    pub rms: Vec<[f64; 2]>,
-    /// Unit of each signal.
-    pub units: Vec<&'static str>,
-    /// Number of signals.
-    pub signals: usize,
-}
 
 pub(super) fn motion_gap([before, after]: [f64; 2], noise: [f64; 3], plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
     let rms = |side: usize, i: usize| {

@@ -8,9 +8,12 @@ use estimation::normal_equations::NormalEquations;
 use runs::Log;
 use runs::robot::Robot;
 
+use super::driven::Driven;
+use super::found::LinkGap;
+use super::gaps;
+use super::misses::{FAR_AMISS, Misses};
 use super::robot_file::{completed, given};
 use super::study::rms;
-use super::{Driven, LinkGap, Misses, gaps};
 use crate::drive::{DriveLink, DriveResiduals};
 use crate::effect::{Effect, Link};
 use crate::inertial::{self, Fit, InertialLink};
@@ -19,9 +22,6 @@ use crate::options::Thresholds;
 use crate::pieces::Pieces;
 use crate::problem::Problem;
 use crate::state::{Active, State};
-
-/// RMS residual of a window far from what a second of noise reaches, where wheels slip, whose law is not exact.
-const FAR_AMISS: f64 = 2.0;
 
 /// The data that every model is measured on.
 pub(super) struct Data<'a> {

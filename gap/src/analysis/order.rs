@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Named;
+use super::found::Named;
 use crate::effect::{Effect, Link, Values};
 use crate::evidence::{Evidence, Interval};
 use crate::motion::MotionLink;
@@ -12,11 +12,15 @@ use crate::state::{Active, State};
 /// The one effect with two sides: cables on the motion link, set points on the command link.
 pub(super) const ORDER: &str = "wheel-order";
 
+/// Whether an effect says where the cables of the wheels are.
+pub(super) fn cabled(active: &Active) -> bool {
+    active.effect.name() == ORDER && active.values.find("cable_1").is_some()
+}
+
 /// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
 pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
     let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
-    let wired = |a: &Active| a.effect.name() == ORDER && a.values.find("cable_1").is_some();
-    if link.is_empty() || start.active.iter().any(wired) {
+    if link.is_empty() || start.active.iter().any(cabled) {
         return None;
     }
     let problem = Problem::Motion(link);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use runs::robot::{Robot, Support};
 
-use super::Named;
+use super::found::Named;
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Link, wheel_name};
 use crate::evidence::{Evidence, Interval};

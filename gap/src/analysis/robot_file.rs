@@ -5,7 +5,7 @@ use std::sync::Arc;
 use runs::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
 use runs::{Columns, Log, Logs, as_logged};
 
-use super::Named;
+use super::found::Named;
 use super::order::ORDER;
 use crate::effect::{Effect, Values};
 use crate::evidence::Interval;

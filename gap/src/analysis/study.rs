@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use runs::robot::Support;
 
-use super::{Limit, Named};
+use super::found::{Limit, Named};
 use crate::drive::Generic;
 use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};

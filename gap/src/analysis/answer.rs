@@ -1,0 +1,166 @@
+//! What an analysis answers: the verdict and everything that is shown with it.
+
+use super::driven::Driven;
+use super::found::{Analysis, Leftover, LinkGap, Verdict};
+use super::gaps::{self, Remains};
+use super::measure::{Measured, MeasuredDrive};
+use super::robot_file::completed;
+use super::workflow::Workflow;
+use super::writing::Written;
+use crate::GapError;
+use crate::effect::{Effect, Link, Sizes};
+use crate::exact::ExactLink;
+use crate::inertial::Fit;
+use crate::locate::{self, Located};
+use crate::motion::{MotionLink, WindowResiduals};
+
+/// Whole runs that a report shows.
+const SHOWN: usize = 4;
+
+impl Workflow<'_> {
+    /// Everything found out; `replayed` are the gaps of the exact links.
+    pub(super) fn answer(
+        mut self,
+        written: Written,
+        exact: Vec<ExactLink>,
+        replayed: Vec<LinkGap>,
+    ) -> Result<Analysis, GapError> {
+        let located = self.located(&written, &exact);
+        let Written { robot, text, measured, odd_clock } = written;
+        let Measured { mut links, motion, drive, mut driven, steps, felt, .. } = measured;
+        let weightless = gaps::weightless(self.data.pieces, drive.as_ref().map(|d| &d.plots[1]));
+        links.extend(replayed);
+        if links.is_empty() && weightless.is_empty() {
+            return Err(GapError::NothingToCompare);
+        }
+        if self.data.has_camera() {
+            driven.seen = Driven::seen(self.data.pieces, SHOWN);
+        }
+        let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
+        let counts = |l: &&LinkGap| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing;
+        let weight = if odd_clock { 0 } else { links.iter().filter(counts).count() };
+        let mut why: Vec<String> = weightless.iter().map(|w| w.1.clone()).collect();
+        why.dedup();
+        self.findings.remarks.extend(why);
+        let nearest = self.nearest();
+        let verdict = self.verdict(&nearest, weight);
+        let drive_noise = drive.as_ref().map_or(&[][..], |d: &MeasuredDrive| &d.floor);
+        let known = crate::experiment::Findings {
+            robot: &self.question.robot,
+            found: &completed(&robot, self.data.logs),
+            active: &self.findings.found,
+            pieces: self.data.pieces,
+            noise: (self.question.noise, drive_noise),
+            window_s: self.data.motion.window_s,
+            thresholds: &self.thresholds,
+            catalogue: self.data.catalogue,
+        };
+        let next_experiment = match verdict {
+            Verdict::Ambiguous | Verdict::MissingEffect => {
+                crate::experiment::propose(&known, &self.findings.alternatives)
+            }
+            _ => None,
+        };
+        let folder = self.question.set.folder.file_name();
+        Ok(Analysis {
+            verdict,
+            located,
+            nearest,
+            next_experiment,
+            tried: self.tried(),
+            whole: self.whole(&robot),
+            waterfall: gaps::waterfall(&links, &steps, &self.findings.named),
+            links,
+            robot_text: text,
+            robot,
+            name: folder.map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
+            runs: self.runs(),
+            window_s: self.data.motion.window_s,
+            remains,
+            motion,
+            drive: drive.map(|d| d.plots),
+            driven,
+            exact,
+            thresholds: self.thresholds,
+            effects: self.findings.named,
+            alternatives: self.findings.alternatives,
+            unexplained: self.findings.unexplained,
+            limits: self.findings.limits,
+            held_out: self.findings.held_out,
+            remarks: self.findings.remarks,
+        })
+    }
+
+    /// Where the model and the data part, worst first.
+    fn located(&self, written: &Written, exact: &[ExactLink]) -> Vec<Located> {
+        let measured = &written.measured;
+        let mut located = locate::inertial(&measured.felt);
+        if let Some(plots) = &measured.motion {
+            located.extend(locate::motion(self.data.motion, &plots[0]));
+        }
+        let seen = measured.motion.as_ref().map(|p| &p[1]);
+        if let Some(MeasuredDrive { plots, floor }) = &measured.drive
+            && let Some(drive) = self.data.drive(&self.data.state(&written.robot), seen)
+        {
+            let stall = Sizes::of(&self.question.robot).stall_nm;
+            located.extend(locate::drive(&drive.link, &plots[0], floor, stall));
+        }
+        located.extend(exact.iter().flat_map(locate::exact));
+        located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));
+        located
+    }
+
+    /// What remains on the links, in sentences; where it is too much, it stays unexplained.
+    fn remains(&mut self, links: &[LinkGap], located: &[Located], felt: &[Fit]) -> Vec<String> {
+        let findings = &mut self.findings;
+        // What slides drives no body as Newton has it: the name says so already.
+        let slides = findings.named.iter().any(|n| n.name == "wheel-slip");
+        let mut sentences = Vec::new();
+        for link in links.iter().filter(|l| !(slides && l.link == Link::Drive)) {
+            match gaps::remains(link, located, felt) {
+                Some(Remains::Open(structure)) if !findings.unexplained.iter().any(|u| u.link == link.link) => {
+                    findings.unexplained.push(Leftover { link: link.link, structure });
+                }
+                Some(Remains::Open(sentence) | Remains::Beside(sentence)) => sentences.push(sentence),
+                None => {}
+            }
+        }
+        sentences
+    }
+
+    /// Named effects on links that stay unexplained.
+    fn nearest(&self) -> Vec<String> {
+        let open = |link: Link| self.findings.unexplained.iter().any(|u| u.link == link);
+        self.findings.named.iter().filter(|n| open(n.link)).map(|n| n.name.clone()).collect()
+    }
+
+    /// What it comes to, where some names are merely the nearest and so many links had weight.
+    fn verdict(&self, nearest: &[String], weight: usize) -> Verdict {
+        let findings = &self.findings;
+        if !findings.unexplained.is_empty() && findings.named.iter().all(|n| nearest.contains(&n.name)) {
+            Verdict::Unexplained
+        } else if findings.named.is_empty() {
+            if weight == 0 { Verdict::NotCompared } else { Verdict::Agrees }
+        } else if findings.ambiguous {
+            Verdict::Ambiguous
+        } else {
+            Verdict::MissingEffect
+        }
+    }
+
+    /// Names of the effects that were tried. Without a sensor nobody asked for its effects.
+    fn tried(&self) -> Vec<String> {
+        let sensor = self.data.motion.inertial.as_ref();
+        let shows = |e: &dyn Effect| !e.link().is_inertial() || sensor.is_some_and(|sensor| sensor.shows(e));
+        let tried = self.data.catalogue.iter().filter(|e| !e.probe() && shows(e.as_ref()));
+        tried.map(|e| e.name().to_owned()).collect()
+    }
+
+    /// The first runs as one window each, before and after.
+    fn whole(&self, written: &runs::robot::Robot) -> Option<[Vec<WindowResiduals>; 2]> {
+        self.data.has_camera().then(|| {
+            let uncut = MotionLink::new(self.data.pieces, self.question.noise, f64::INFINITY).first(SHOWN);
+            [&self.nominal, &self.data.state(written)].map(|state| uncut.residuals(&state.motion(None)))
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! The drive in an analysis: what is missing from duties to wheels.
+
+use std::sync::Arc;
+
+use super::gaps;
+use super::measure::Drive;
+use super::misses::{FAR, Misses};
+use super::patterns;
+use super::study::{self, Outcome, chosen, study};
+use super::workflow::Workflow;
+use crate::drive::DriveLink;
+use crate::effect::{Effect, Link};
+use crate::options::Stage;
+use crate::problem::Problem;
+use crate::select::Selection;
+use crate::state::{Active, State};
+use crate::thresholds::{FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
+
+/// Looks at the drive again, each above a floor lowered by what was named.
+const LOOKS: usize = 2;
+
+impl Workflow<'_> {
+    /// Duties to encoders.
+    pub(super) fn drive(&mut self) {
+        let options = self.question.options;
+        let Some(Drive { mut link, correlation, .. }) = self.data.drive(&self.start, self.seen.as_ref()) else {
+            let none = "No duties in the logs (or none that belong to the wheels): the drive link is not compared.";
+            self.findings.remarks.push(none.to_owned());
+            options.reached(Stage::DriveStudied);
+            return;
+        };
+        self.scatter(&link);
+        self.thresholds.drive_correlation = correlation;
+        let here = self.not_for_a_camera();
+        let (selection, floor) = self.drive_chosen(&mut link, &here);
+        options.reached(Stage::DriveChosen);
+        let least = gaps::floor_of_scatter(&link, &floor, &self.thresholds);
+        let problem = Problem::Drive(&link);
+        let mut outcome = study(&problem, &self.start, selection, &here, &self.thresholds, gaps::FAR * least);
+        outcome.held_out /= least;
+        let from = self.start.active.len();
+        self.patterns(&link, &mut outcome);
+        self.findings.take(outcome, Link::Drive, from);
+        options.reached(Stage::DriveStudied);
+    }
+
+    /// Says of a drive that scatters too much what that means.
+    fn scatter(&mut self, link: &DriveLink) {
+        let reached = link.sizes.drive_nm;
+        let worst = link.noise.iter().copied().fold(0.0, f64::max);
+        if worst <= NO_NOISE * reached {
+            return;
+        }
+        let scatters =
+            format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
+        let own = crate::drive::accounted(link, &self.start.drive(None)).into_iter().all(|share| share > FOREIGN);
+        if own {
+            self.findings.remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
+        } else {
+            let structure =
+                format!("what the duties predict {scatters}, at random: are these the duties of this drive?");
+            self.findings.leave(Link::Drive, [structure]);
+        }
+    }
+
+    /// The catalogue without what a camera would have shown: that is not deduced from duties.
+    fn not_for_a_camera(&self) -> Vec<Arc<dyn Effect>> {
+        let shown = |e: &Arc<dyn Effect>| {
+            let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
+            e.also() == Some(Link::Drive) && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
+        };
+        self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
+    }
+
+    /// What is selected, and the floor above which it was looked for. What has a name is no noise: the next effect is
+    /// looked for above the floor without it.
+    fn drive_chosen(&mut self, link: &mut DriveLink, here: &[Arc<dyn Effect>]) -> (Selection, Vec<f64>) {
+        let from = self.start.active.len();
+        let mut floor = link.noise.clone();
+        let mut selection = self.looked(link, here, &[], &floor);
+        for _ in 0..LOOKS {
+            if !selection.state.active[from..].iter().any(Active::is_named) {
+                break;
+            }
+            let stuck = link.mask_sticking(&selection.state.drive(None), self.thresholds.sticks);
+            match lowered(link, &selection.state, &floor, self.thresholds.drive_correlation) {
+                Some((lower, correlation)) => {
+                    link.noise.clone_from(&lower);
+                    floor = lower;
+                    self.thresholds.drive_correlation = correlation;
+                }
+                None if stuck > self.thresholds.sticks_often => {}
+                None => break,
+            }
+            selection = self.looked(link, here, &selection.state.active[from..], &floor);
+        }
+        (selection, floor)
+    }
+
+    fn looked(&self, link: &DriveLink, here: &[Arc<dyn Effect>], known: &[Active], floor: &[f64]) -> Selection {
+        let matters = gaps::FAR * gaps::floor_of_scatter(link, floor, &self.thresholds);
+        chosen(&Problem::Drive(link), &self.start, known, here, &self.thresholds, matters)
+    }
+
+    /// Rattle, ripple and what else repeats in what is left.
+    fn patterns(&mut self, link: &DriveLink, outcome: &mut Outcome) {
+        let (robot, catalogue, pieces) = (&self.question.robot, self.data.catalogue, self.data.pieces);
+        // Wheels that slide chatter from roller to roller.
+        let slides = self.start.active.iter().any(|a| a.effect.name() == "wheel-slip");
+        let rattling = patterns::rattling(pieces, robot, &self.start.drive(None), catalogue)
+            .filter(|r| !slides && robot.effect(&r.name).is_none());
+        if rattling.is_some() && !outcome.named.is_empty() {
+            let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
+            self.findings.remarks.push(format!(
+                "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
+                names.join(", ")
+            ));
+            outcome.forget(&self.start);
+        }
+        let [before, after] = [&self.start, &outcome.written].map(|s| study::rms(&Problem::Drive(link), s));
+        let misses = Misses::new(self.seen.as_ref(), FAR);
+        let rolls = |run: usize, t: f64| !misses.are_near(run, t);
+        let model = outcome.selection.state.drive(None);
+        let leftover = crate::leftover::drive(pieces, &model, &link.masked(), &rolls, link.sizes);
+        // Beside a named effect only what its law's inexactness cannot leave.
+        let explained = if outcome.named.is_empty() { 0.0 } else { before.powi(2) - after.powi(2) };
+        for structure in leftover.structures {
+            if structure.share * after.powi(2) >= LAW_LEAVES * explained {
+                self.findings.leave(Link::Drive, [structure.text]);
+            } else {
+                self.findings.remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
+            }
+        }
+        if let Some(ripple) = leftover.ripple.filter(|_| robot.effect("roller-ripple").is_none() && !slides) {
+            match patterns::ripple_named(&ripple, robot, catalogue) {
+                Ok(ripple) => self.findings.named.push(ripple),
+                Err(structure) => self.findings.leave(Link::Drive, [structure]),
+            }
+        }
+        if rattling.is_some() && !self.data.has_motion {
+            // Sliding wheels shake, too; a camera would have seen that.
+            self.findings.alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
+        }
+        self.findings.named.extend(rattling);
+    }
+}
+
+/// Floor and correlation of the drive with what was named in the model, if they hid enough to look again.
+fn lowered(link: &DriveLink, state: &State, floor: &[f64], correlation: f64) -> Option<(Vec<f64>, f64)> {
+    let residuals = link.residuals(&state.drive(None))?;
+    let (now, correlated) = crate::drive::floor(link, &residuals, link.sizes.drive_nm);
+    let lower: Vec<f64> = now.iter().zip(floor).map(|(a, b)| a.min(*b)).collect();
+    let correlated = correlated.min(correlation);
+    let noise = |floor: &[f64], correlation: f64| correlation * floor.iter().map(|f| f * f).sum::<f64>();
+    (noise(&lower, correlated) < (1.0 - HIDDEN) * noise(floor, correlation)).then_some((lower, correlated))
+}

@@ -1,0 +1,50 @@
+//! What the links of a data set gave so far.
+
+use super::found::{Leftover, Limit, Named};
+use super::study::Outcome;
+use crate::effect::Link;
+use crate::state::{Active, State};
+
+/// What was found, link by link.
+#[derive(Default)]
+pub(super) struct Findings {
+    pub(super) named: Vec<Named>,
+    pub(super) alternatives: Vec<Vec<String>>,
+    pub(super) limits: Vec<Limit>,
+    pub(super) unexplained: Vec<Leftover>,
+    pub(super) ambiguous: bool,
+    /// What is named, with values.
+    pub(super) found: Vec<Active>,
+    pub(super) held_out: Vec<(Link, f64)>,
+    /// What could not be compared, and why.
+    pub(super) remarks: Vec<String>,
+    /// What was fitted and is not named, and why.
+    pub(super) refused: Vec<String>,
+}
+
+impl Findings {
+    /// Structures that nothing explains.
+    pub(super) fn leave(&mut self, link: Link, structures: impl IntoIterator<Item = String>) {
+        self.unexplained.extend(structures.into_iter().map(|structure| Leftover { link, structure }));
+    }
+
+    /// Takes over what was found on a link from effect `from` on; the state that the next link starts from.
+    pub(super) fn take(&mut self, outcome: Outcome, link: Link, from: usize) -> State {
+        self.found.extend(outcome.written.active[from..].iter().cloned());
+        self.named.extend(outcome.named);
+        self.alternatives.extend(outcome.sets);
+        self.limits.extend(outcome.limits);
+        self.leave(link, outcome.leftovers);
+        self.ambiguous |= outcome.ambiguous;
+        self.refused.extend(outcome.refused);
+        self.held_out.push((link, outcome.held_out));
+        outcome.written
+    }
+
+    /// Takes back some names.
+    pub(super) fn forget(&mut self, gone: &[String]) {
+        self.named.retain(|n| !gone.contains(&n.name));
+        self.alternatives.retain(|set| !set.first().is_some_and(|first| gone.contains(first)));
+        self.ambiguous &= !self.named.is_empty();
+    }
+}

@@ -1,0 +1,98 @@
+//! What is settled before anything is fitted: the robot, the catalogue, the camera's noise, the cables.
+
+use std::sync::Arc;
+
+use runs::Logs;
+use runs::geometry::Geometry;
+use runs::robot::Robot;
+
+use super::order::{ORDER, cabled, wheel_order};
+use super::robot_file::{completed, given};
+use crate::effect::Effect;
+use crate::exact::ExactLink;
+use crate::motion::{MotionLink, MotionModel, WINDOW_S};
+use crate::options::Options;
+use crate::pieces::{PIECE, Pieces, segments};
+use crate::state::{Active, State};
+use crate::{GapError, command, controller, effects, timing};
+
+/// A data set and what is asked of it.
+pub(super) struct Question<'a> {
+    pub(super) set: &'a Logs<'a>,
+    pub(super) options: &'a Options,
+    /// The file's robot, with what it leaves to the logs.
+    pub(super) robot: Robot,
+    pub(super) catalogue: Vec<Arc<dyn Effect>>,
+    /// Standard deviations of a camera pose (m, m, rad).
+    pub(super) noise: [f64; 3],
+    geometry: Geometry,
+}
+
+impl<'a> Question<'a> {
+    pub(super) fn new(set: &'a Logs<'a>, options: &'a Options) -> Result<Self, GapError> {
+        let robot = completed(&set.robot, &set.logs);
+        let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
+        for effect in &options.effects {
+            let wheels = effect.forms(&robot).into_iter().flat_map(|f| f.wheels);
+            if let Some(wheel) = wheels.filter(|w| *w >= robot.wheel_count()).max() {
+                let (name, wheel, n) = (effect.name(), wheel + 1, robot.wheel_count());
+                return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
+            }
+        }
+        let catalogue = effects::catalogue_for(set.logs.len())
+            .into_iter()
+            .map(Arc::from)
+            .chain(options.effects.iter().cloned())
+            .collect();
+        let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
+        let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
+        Ok(Self { set, options, robot, catalogue, noise, geometry })
+    }
+
+    /// The links that are replayed bit by bit, and what is to be said of them.
+    pub(super) fn exact_links(&self, remarks: &mut Vec<String>) -> Vec<ExactLink> {
+        let (robot, logs) = (&self.robot, &self.set.logs);
+        let links = [
+            timing::analyse(robot, logs),
+            command::analyse(robot, &self.geometry, logs, remarks),
+            controller::analyse(robot, logs, remarks),
+        ];
+        let known =
+            |link: &ExactLink| link.finding.as_ref().is_some_and(|f| robot.effect(f.name).is_some() && f.name != ORDER);
+        let news = |mut link: ExactLink| {
+            // What the robot's file already carries is no news.
+            if known(&link) {
+                link.finding = None;
+                link.before.clone_from(&link.after);
+            }
+            link
+        };
+        links.into_iter().flatten().map(news).collect()
+    }
+
+    /// The logs in pieces, everything derived from the wheels by their true order; and that order with its share of the
+    /// squared gap, if it is not the file's.
+    pub(super) fn pieces(&self) -> (Pieces<'a>, Option<(Active, f64)>) {
+        let cut = |geometry: &Geometry| segments(&self.robot, geometry, &self.set.logs, PIECE);
+        let (pieces, start) = (cut(&self.geometry), self.filed());
+        let crossed = wheel_order(&MotionLink::new(&pieces, self.noise, WINDOW_S), &start, &self.catalogue);
+        let found = crossed.as_ref().map(|(active, _)| active);
+        let Some(active) = found.or_else(|| start.active.iter().find(|a| cabled(a))) else { return (pieces, crossed) };
+        let mut wheels = MotionModel::new(&self.robot);
+        active.effect.motion(&active.values, &mut wheels);
+        match Geometry::new(wheels.wheels, self.robot.wheel_radius_m) {
+            Ok(geometry) => (cut(&geometry), crossed),
+            Err(_) => (pieces, crossed),
+        }
+    }
+
+    /// Encoders to camera and inertial sensor.
+    pub(super) fn motion_link<'b>(&self, pieces: &'b Pieces<'b>) -> MotionLink<'b> {
+        MotionLink::new(pieces, self.noise, WINDOW_S).felt(&self.filed().motion(None))
+    }
+
+    /// The robot as its file has it.
+    fn filed(&self) -> State {
+        State { robot: self.robot.clone(), active: given(&self.robot, &self.catalogue) }
+    }
+}

@@ -1,0 +1,135 @@
+//! An analysis under way: link after link, each from what the one before left.
+
+use runs::Logs;
+use runs::robot::Support;
+
+use super::findings::Findings;
+use super::found::{LinkGap, Named};
+use super::gaps;
+use super::measure::Data;
+use super::order::{ORDER, order_named};
+use super::question::Question;
+use super::study::{chosen, study};
+use crate::effect::Link;
+use crate::effects;
+use crate::exact::{ExactLink, Finding};
+use crate::motion::{MotionLink, WindowResiduals};
+use crate::options::{Stage, Thresholds};
+use crate::pieces::Pieces;
+use crate::problem::Problem;
+use crate::state::{Active, State};
+
+/// An analysis under way.
+pub(super) struct Workflow<'a> {
+    pub(super) question: &'a Question<'a>,
+    pub(super) data: Data<'a>,
+    /// What the file says.
+    pub(super) nominal: State,
+    /// What the next link starts from.
+    pub(super) start: State,
+    pub(super) thresholds: Thresholds,
+    pub(super) findings: Findings,
+    /// Residuals of the motion with what is named there.
+    pub(super) seen: Option<Vec<WindowResiduals>>,
+}
+
+impl<'a> Workflow<'a> {
+    /// `crossed` are cables that are not where the file has them, and their share of the squared gap.
+    pub(super) fn new(
+        question: &'a Question<'a>,
+        pieces: &'a Pieces<'a>,
+        motion: &'a MotionLink<'a>,
+        crossed: Option<(Active, f64)>,
+        remarks: Vec<String>,
+    ) -> Self {
+        let has_motion = (!motion.is_empty() || motion.inertial.is_some()) && question.robot.support == Support::Floor;
+        let data = Data {
+            pieces,
+            motion,
+            has_motion,
+            logs: &question.set.logs,
+            catalogue: &question.catalogue,
+            thresholds: &question.options.thresholds,
+        };
+        let nominal = data.state(&question.set.robot);
+        let mut start = nominal.clone();
+        let mut findings = Findings { remarks, ..Findings::default() };
+        if let Some((active, gain)) = crossed {
+            findings.named.push(order_named(&active, gain));
+            findings.found.push(active.clone());
+            start.active.push(active);
+        }
+        findings.unexplained.extend(crate::leftover::frozen(pieces));
+        findings.unexplained.extend(crate::leftover::torn(pieces));
+        let thresholds = question.options.thresholds.clone();
+        Self { question, data, nominal, start, thresholds, findings, seen: None }
+    }
+
+    /// Encoders to camera and inertial sensor.
+    pub(super) fn motion(&mut self) {
+        if self.data.has_motion {
+            let (link, catalogue) = (self.data.motion, self.data.catalogue);
+            let problem = Problem::Motion(link);
+            let matters = gaps::motion_matters(link);
+            let selection = chosen(&problem, &self.start, &[], catalogue, &self.thresholds, matters);
+            self.question.options.reached(Stage::MotionChosen);
+            let outcome = study(&problem, &self.start, selection, catalogue, &self.thresholds, gaps::FAR);
+            self.seen = Some(link.residuals(&outcome.written.motion(None)));
+            self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
+            self.start.active.iter_mut().for_each(|a| a.given = true);
+        }
+        if !self.data.has_camera() {
+            self.findings.remarks.push(missing(self.question.set));
+        }
+        self.question.options.reached(Stage::MotionStudied);
+    }
+
+    /// Takes over what the replayed links gave; their gaps.
+    pub(super) fn exact(&mut self, links: &[ExactLink]) -> Vec<LinkGap> {
+        for link in links {
+            let findings = &mut self.findings;
+            let is_new = |f: &&Finding| f.name == ORDER || !findings.named.iter().any(|n| n.name == f.name);
+            if let Some(f) = link.finding.as_ref().filter(is_new) {
+                findings.named.push(exact_named(f, link));
+            } else if link.unexplained {
+                let told = link.replay.as_ref().and_then(|r| r.structure.clone());
+                let structure = told.unwrap_or_else(|| {
+                    format!(
+                        "differs at {:.1} % of the ticks, and no hypothesis of the catalogue replays it",
+                        100.0 * link.wrong_share
+                    )
+                });
+                findings.leave(link.link, [structure]);
+            }
+            findings.remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
+        }
+        links.iter().map(gaps::exact_gap).collect()
+    }
+}
+
+fn exact_named(f: &Finding, link: &ExactLink) -> Named {
+    let square = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
+    let gain = 1.0 - square(&link.after) / square(&link.before).max(1e-300);
+    Named {
+        name: f.name.to_owned(),
+        equation: effects::exact_equation(f.name).to_owned(),
+        link: f.link,
+        wheels: f.wheels.iter().map(|w| w + 1).collect(),
+        parameters: f.parameters.clone(),
+        gain: gain.clamp(0.0, 1.0),
+        evidence: f.evidence.clone(),
+        conditional_on: Vec::new(),
+    }
+}
+
+/// Why there is no camera to compare with.
+fn missing(set: &Logs) -> String {
+    let what = if set.robot.support == Support::Blocks {
+        "The wheels are off the floor: the motion link is not compared."
+    } else if set.logs.iter().all(|log| log.layout().counts.is_empty()) {
+        "No encoder counts in the logs: the motion link is not compared."
+    } else {
+        "No second of the logs has four camera poses: the motion link is not compared."
+    };
+    what.to_owned()
+}

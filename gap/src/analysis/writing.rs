@@ -1,0 +1,98 @@
+//! The file that an analysis writes, and what it gives when it is read again.
+
+use runs::Log;
+use runs::robot::Robot;
+
+use super::found::Named;
+use super::measure::Measured;
+use super::robot_file::{robot_text, with_effects};
+use super::workflow::Workflow;
+use crate::GapError;
+use crate::evidence::Evidence;
+use crate::options::Stage;
+use crate::thresholds::{FALLS, ODD_ROWS};
+
+/// A robot with what was named, its file, and the figures of that file.
+pub(super) struct Written {
+    pub(super) robot: Robot,
+    pub(super) text: String,
+    pub(super) measured: Measured,
+    /// Whether the times of the logs cannot be seconds: what was found by such a clock is nothing.
+    pub(super) odd_clock: bool,
+}
+
+impl Workflow<'_> {
+    /// Names of the runs.
+    pub(super) fn runs(&self) -> Vec<String> {
+        self.data.logs.iter().map(|r| r.name.clone()).collect()
+    }
+
+    /// Writes what is named and measures that file. What is reported is what the file, read again, gives; where that
+    /// does not fall, nothing is named.
+    pub(super) fn written(&mut self) -> Result<Written, GapError> {
+        let refused = std::mem::take(&mut self.findings.refused);
+        self.findings.remarks.extend(refused);
+        let odd = odd_clock(&self.question.robot, self.data.logs);
+        let odd_clock = odd.is_some();
+        if let Some(remark) = odd {
+            self.findings.remarks.push(remark);
+            self.findings.named.clear();
+            self.findings.alternatives.clear();
+            self.findings.unexplained.clear();
+        }
+        let (robot, text, measured) = loop {
+            let (robot, text, measured) = self.measured()?;
+            let gone: Vec<String> =
+                self.findings.named.iter().filter(|n| is_idle(n, &measured)).map(|n| n.name.clone()).collect();
+            if gone.is_empty() {
+                break (robot, text, measured);
+            }
+            let idle =
+                gone.iter().map(|n| format!("Fitted, and not named: {n}; as written it does not lower the gap."));
+            self.findings.remarks.extend(idle);
+            self.findings.forget(&gone);
+        };
+        self.question.options.reached(Stage::Measured);
+        for n in &mut self.findings.named {
+            let tested = matches!(n.evidence, Evidence::Test { .. });
+            if let Some((_, gain)) = measured.gains.iter().find(|g| tested && g.0 == n.name) {
+                n.gain = *gain;
+            }
+        }
+        self.findings.named.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        Ok(Written { robot, text, measured, odd_clock })
+    }
+
+    /// The file as it would be, and its figures.
+    fn measured(&self) -> Result<(Robot, String, Measured), GapError> {
+        let (set, options) = (self.question.set, self.question.options);
+        let robot = with_effects(&set.robot, &self.findings.named, &self.findings.alternatives, &self.runs());
+        let text = robot_text(set, options, &robot);
+        let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
+        let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;
+        // On blocks a log may speak of some of the axes only.
+        let reread = reread.first_axes(self.question.robot.wheel_count());
+        let new: Vec<&str> = self.findings.named.iter().map(|n| n.name.as_str()).collect();
+        let measured = self.data.measure(&set.robot, &reread, &new);
+        Ok((robot, text, measured))
+    }
+}
+
+/// Whether a fitted effect, as written, leaves its link where it was.
+fn is_idle(n: &Named, measured: &Measured) -> bool {
+    let link = measured.links.iter().find(|l| l.link == n.link);
+    matches!(n.evidence, Evidence::Test { .. })
+        && n.link.is_fitted()
+        && link.is_some_and(|l| l.after >= FALLS * l.before)
+}
+
+/// What to say of logs whose times cannot be seconds.
+fn odd_clock(robot: &Robot, logs: &[Log]) -> Option<String> {
+    let periods = logs.iter().filter_map(Log::tick_s).map(|tick| tick * robot.control_rate_hz);
+    periods.filter(|p| *p > 0.0).find(|p| p.max(1.0 / p) > ODD_ROWS).map(|odd| {
+        format!(
+            "Compared nothing: the rows are {odd:.3} control periods apart by the column t and control_rate_hz; t is in \
+             seconds (are these milliseconds?)."
+        )
+    })
+}
