@@ -54,12 +54,13 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let question = Question::new(set, options)?;
     let mut remarks = set.notes();
     let exact = question.exact_links(&mut remarks);
-    let (pieces, crossed) = question.pieces();
-    if pieces.is_empty() {
+    let (pieces, crossed) = question.cut();
+    if pieces.whole.is_empty() {
         return Err(GapError::NothingToCompare);
     }
-    let motion = question.motion_link(&pieces);
-    let mut workflow = Workflow::new(&question, &pieces, &motion, crossed, remarks);
+    let whole = question.motion_link(&pieces.whole);
+    let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched()));
+    let mut workflow = Workflow::new(&question, &whole, sample.as_ref(), crossed, remarks);
     options.reached(Stage::Exact);
     workflow.motion();
     workflow.drive();

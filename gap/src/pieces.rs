@@ -29,6 +29,14 @@ const BEHIND: usize = 1 << 12;
 /// 1 kHz. Of the others only the last ones.
 const KEPT: usize = 16;
 const RECENT: usize = 2;
+/// Ticks of a sample. Of 50 minutes at 1 kHz a search in 4.4 named what a search in all named (skews; the estimates, of
+/// all ticks, differed by 1e-8 rad), and took a third of the processor time.
+const SAMPLE: usize = 1 << 18;
+/// Ticks of its pieces: eight windows of the motion at 1 kHz, and as many ticks again for what they see around them.
+const SAMPLED: usize = 1 << 13;
+/// Share of the golden section: its multiples fall evenly into an interval without a period, so that a drive that
+/// repeats itself is not always seen at the same place.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// What the links read.
 const COLUMNS: Columns = Columns { counts: true, duty: true, supply: true, ..Columns::NONE };
 
@@ -94,16 +102,45 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
             pieces.all.extend(cut);
         }
     }
-    let mut ticks = 0;
-    let fits = |p: &&Piece| {
-        ticks += p.rows.len();
-        ticks <= KEPT * piece
-    };
-    pieces.kept = pieces.all.iter().take_while(fits).map(|_| OnceLock::new()).collect();
+    pieces.keep(KEPT * piece);
     pieces
 }
 
 impl<'a> Pieces<'a> {
+    /// Short pieces spread evenly over the logs, of every run at least one; `None` where these would be more than half
+    /// of them.
+    pub fn sample(&self) -> Option<Self> {
+        if self.ticks() < 2 * SAMPLE {
+            return None;
+        }
+        let mut sample = segments(&self.robot, &self.geometry, self.logs, SAMPLED);
+        let strata = (SAMPLE / SAMPLED).min(sample.len());
+        let each = sample.len() as f64 / strata as f64;
+        let mut taken: Vec<usize> =
+            (0..strata).map(|k| ((k as f64 + (k as f64 * GOLDEN).fract()) * each) as usize).collect();
+        let mut first = 0;
+        for run in sample.all.chunk_by(|a, b| a.run == b.run) {
+            if !taken.iter().any(|i| (first..first + run.len()).contains(i)) {
+                taken.push(first + run.len() / 2);
+            }
+            first += run.len();
+        }
+        taken.sort_unstable();
+        sample.all = taken.into_iter().map(|i| sample.all[i].clone()).collect();
+        sample.keep(KEPT * PIECE);
+        (2 * sample.ticks() <= self.ticks()).then_some(sample)
+    }
+
+    /// Keeps the first segments that together see so many ticks.
+    fn keep(&mut self, ticks: usize) {
+        let mut sum = 0;
+        let fits = |p: &&Piece| {
+            sum += p.rows.len();
+            sum <= ticks
+        };
+        self.kept = self.all.iter().take_while(fits).map(|_| OnceLock::new()).collect();
+    }
+
     /// Number of segments.
     pub fn len(&self) -> usize {
         self.all.len()
@@ -150,9 +187,10 @@ impl<'a> Pieces<'a> {
         self.all.iter().map(|p| p.own.len()).sum()
     }
 
-    /// Length of all stretches together, s.
+    /// Length of all segments together, s.
     pub fn seconds(&self) -> f64 {
-        self.all.iter().filter(|p| p.own.start == p.stretch.start).map(|p| p.stretch_s[1] - p.stretch_s[0]).sum()
+        let share = |p: &Piece| p.own.len() as f64 / p.stretch.len() as f64;
+        self.all.iter().map(|p| share(p) * (p.stretch_s[1] - p.stretch_s[0])).sum()
     }
 
     /// Index of the run of a segment.

@@ -148,7 +148,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
                 counts.iter().map(|c| c / robot.counts_per_wheel_rad()).collect()
             })
             .collect();
-        s.speed = s.angle.iter().map(|a| smooth_speed(&t, a)).collect();
+        s.speed = smooth_speeds(&t, &s.angle);
         s.turning = turns_round(robot, &t, place.speed);
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
     }
@@ -370,8 +370,8 @@ fn held(values: &[f64], first: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Derivative at each tick from a Hann-weighted mean of the increments around it.
-pub(crate) fn smooth_speed(t: &[f64], angle: &[f64]) -> Vec<f64> {
+/// Derivatives at each tick from a Hann-weighted mean of the increments around it, one row for each of `angles`.
+pub(crate) fn smooth_speeds(t: &[f64], angles: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let n = t.len();
     let tick = (t[n - 1] - t[0]) / (n - 1) as f64;
     let half = ((0.5 * SMOOTHING_S / tick).round() as usize).max(1);
@@ -382,16 +382,18 @@ pub(crate) fn smooth_speed(t: &[f64], angle: &[f64]) -> Vec<f64> {
         })
         .collect();
     let increments = |values: &[f64]| values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
-    let (turned, passed) = (increments(angle), increments(t));
-    (0..n)
-        .map(|k| {
-            // Increments from tick m to m + 1, centred on k.
-            let m = k.saturating_sub(half)..(k + half).min(n - 1);
-            let weights = &weights[m.start + half - k..];
-            let time = dot(weights, &passed[m.clone()]);
-            if time > 0.0 { dot(weights, &turned[m]) / time } else { 0.0 }
-        })
-        .collect()
+    // Increments from tick m to m + 1, centred on k.
+    let mean = |k: usize, increments: &[f64]| {
+        let m = k.saturating_sub(half)..(k + half).min(n - 1);
+        dot(&weights[m.start + half - k..], &increments[m])
+    };
+    let passed = increments(t);
+    let times: Vec<f64> = (0..n).map(|k| mean(k, &passed)).collect();
+    let speeds = |angle: &Vec<f64>| {
+        let turned = increments(angle);
+        times.iter().enumerate().map(|(k, time)| if *time > 0.0 { mean(k, &turned) / time } else { 0.0 }).collect()
+    };
+    angles.iter().map(speeds).collect()
 }
 
 fn running_mean(values: &[(f64, f64)], half: usize) -> Vec<(f64, f64)> {

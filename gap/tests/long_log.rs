@@ -89,3 +89,20 @@ fn a_log_in_a_file_says_what_it_says_in_memory() {
     assert_eq!(there.effects.iter().map(|e| e.name.as_str()).collect::<Vec<_>>(), ["coulomb-friction"]);
     assert!((there.effects[0].parameters[0].1 - 0.015).abs() < 0.002, "{:?}", there.effects[0].parameters);
 }
+
+/// Drives of some 7 s, of which there are enough for a sample.
+const DRIVES: usize = 90;
+
+#[test]
+fn a_cause_looked_for_in_a_part_is_estimated_on_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let minutes = write(folder.path(), DRIVES) as f64 / 60e3;
+    let set = Logs::open_within(folder.path(), Robot::racbot(), 1000).unwrap();
+    let found = analyse_logs(&set, &Options::default()).unwrap();
+    let remark = found.remarks.iter().find(|r| r.starts_with("Causes were looked for in")).expect("a sample");
+    assert!(remark.contains(&format!(" of {minutes:.1} minutes")), "{minutes} {remark}");
+    assert_eq!(found.effects.iter().map(|e| e.name.as_str()).collect::<Vec<_>>(), ["coulomb-friction"]);
+    let (_, torque, interval) = &found.effects[0].parameters[0];
+    let [low, high] = interval.ends().unwrap();
+    assert!((low..high).contains(&0.015) && (torque - 0.015).abs() < 0.002, "{torque} {low} {high}");
+}

@@ -21,7 +21,7 @@ impl Workflow<'_> {
     /// Everything found out; `replayed` are the gaps of the exact links.
     pub(super) fn answer(
         mut self,
-        written: Written,
+        written: Written<'_>,
         exact: Vec<ExactLink>,
         replayed: Vec<LinkGap>,
     ) -> Result<Analysis, GapError> {
@@ -44,12 +44,12 @@ impl Workflow<'_> {
         self.findings.remarks.extend(why);
         let nearest = self.nearest();
         let verdict = self.verdict(&nearest, weight);
-        let drive_noise = drive.as_ref().map_or(&[][..], |d: &MeasuredDrive| &d.floor);
+        let drive_noise = drive.as_ref().map_or(&[][..], |d| &d.link.noise);
         let known = crate::experiment::Findings {
             robot: &self.question.robot,
             found: &completed(&robot, self.data.logs),
             active: &self.findings.found,
-            pieces: self.data.pieces,
+            pieces: self.searched().pieces,
             noise: (self.question.noise, drive_noise),
             window_s: self.data.motion.window_s,
             thresholds: &self.thresholds,
@@ -92,18 +92,15 @@ impl Workflow<'_> {
     }
 
     /// Where the model and the data part, worst first.
-    fn located(&self, written: &Written, exact: &[ExactLink]) -> Vec<Located> {
+    fn located(&self, written: &Written<'_>, exact: &[ExactLink]) -> Vec<Located> {
         let measured = &written.measured;
         let mut located = locate::inertial(&measured.felt);
         if let Some(plots) = &measured.motion {
             located.extend(locate::motion(self.data.motion, &plots[0]));
         }
-        let seen = measured.motion.as_ref().map(|p| &p[1]);
-        if let Some(MeasuredDrive { plots, floor }) = &measured.drive
-            && let Some(drive) = self.data.drive(&self.data.state(&written.robot), seen)
-        {
+        if let Some(MeasuredDrive { link, plots }) = &measured.drive {
             let stall = Sizes::of(&self.question.robot).stall_nm;
-            located.extend(locate::drive(&drive.link, &plots[0], floor, stall));
+            located.extend(locate::drive(link, &plots[0], &link.noise, stall));
         }
         located.extend(exact.iter().flat_map(locate::exact));
         located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));

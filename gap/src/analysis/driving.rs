@@ -1,9 +1,10 @@
 //! The drive in an analysis: what is missing from duties to wheels.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use super::gaps;
-use super::measure::Drive;
+use super::measure::{Data, Drive};
 use super::misses::{FAR, Misses};
 use super::patterns;
 use super::study::{self, Outcome, chosen, study};
@@ -23,7 +24,7 @@ impl Workflow<'_> {
     /// Duties to encoders.
     pub(super) fn drive(&mut self) {
         let options = self.question.options;
-        let Some(Drive { mut link, correlation, .. }) = self.data.drive(&self.start, self.seen.as_ref()) else {
+        let Some(Drive { mut link, correlation, .. }) = self.searched().drive(&self.start, self.seen.as_ref()) else {
             let none = "No duties in the logs (or none that belong to the wheels): the drive link is not compared.";
             self.findings.remarks.push(none.to_owned());
             options.reached(Stage::DriveStudied);
@@ -36,12 +37,26 @@ impl Workflow<'_> {
         options.reached(Stage::DriveChosen);
         let least = gaps::floor_of_scatter(&link, &floor, &self.thresholds);
         let problem = Problem::Drive(&link);
-        let mut outcome = study(&problem, &self.start, selection, &here, &self.thresholds, gaps::FAR * least);
+        let found = selection.state.clone();
+        let all = OnceCell::new();
+        let made = || self.beyond().and_then(|data| self.whole_drive(data, &link, &found));
+        let whole = || all.get_or_init(made).as_ref().map(Problem::Drive);
+        let far = gaps::FAR * least;
+        let mut outcome = study(&problem, &whole, &self.start, selection, &here, &self.thresholds, far);
         outcome.held_out /= least;
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.findings.take(outcome, Link::Drive, from);
         options.reached(Stage::DriveStudied);
+    }
+
+    /// The drive of all data with the noise of what was searched.
+    fn whole_drive<'b>(&self, data: Data<'b>, searched: &DriveLink, found: &State) -> Option<DriveLink<'b>> {
+        let seen = data.has_motion.then(|| data.motion.residuals(&self.start.motion(None)));
+        let mut link = data.drive(&self.start, seen.as_ref())?.link;
+        link.noise.clone_from(&searched.noise);
+        link.mask_sticking(&found.drive(None), self.thresholds.sticks);
+        Some(link)
     }
 
     /// Says of a drive that scatters too much what that means.
@@ -104,7 +119,7 @@ impl Workflow<'_> {
 
     /// Rattle, ripple and what else repeats in what is left.
     fn patterns(&mut self, link: &DriveLink, outcome: &mut Outcome) {
-        let (robot, catalogue, pieces) = (&self.question.robot, self.data.catalogue, self.data.pieces);
+        let (robot, catalogue, pieces) = (&self.question.robot, self.data.catalogue, self.searched().pieces);
         // Wheels that slide chatter from roller to roller.
         let slides = self.start.active.iter().any(|a| a.effect.name() == "wheel-slip");
         let rattling = patterns::rattling(pieces, robot, &self.start.drive(None), catalogue)

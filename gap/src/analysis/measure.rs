@@ -6,12 +6,13 @@ use std::sync::Arc;
 use estimation::normal_equations::NormalEquations;
 
 use runs::Log;
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 
 use super::driven::Driven;
 use super::found::LinkGap;
 use super::gaps;
 use super::misses::{FAR_AMISS, Misses};
+use super::question::Question;
 use super::robot_file::{completed, given};
 use super::study::rms;
 use crate::drive::{DriveLink, DriveResiduals};
@@ -23,7 +24,8 @@ use crate::pieces::Pieces;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 
-/// The data that every model is measured on.
+/// Data on which models are measured, or causes looked for.
+#[derive(Clone, Copy)]
 pub(super) struct Data<'a> {
     pub(super) pieces: &'a Pieces<'a>,
     pub(super) motion: &'a MotionLink<'a>,
@@ -42,19 +44,19 @@ pub(super) struct Drive<'a> {
 }
 
 /// The drive link as measured.
-pub(super) struct MeasuredDrive {
+pub(super) struct MeasuredDrive<'a> {
+    /// Above the floor that the written model leaves.
+    pub(super) link: DriveLink<'a>,
     /// Residuals, nominal and written.
     pub(super) plots: [DriveResiduals; 2],
-    /// Nm, one a wheel.
-    pub(super) floor: Vec<f64>,
 }
 
 /// Figures of a written model beside the nominal one's.
-pub(super) struct Measured {
+pub(super) struct Measured<'a> {
     pub(super) links: Vec<LinkGap>,
     /// Motion residuals, nominal and written.
     pub(super) motion: Option<[Vec<WindowResiduals>; 2]>,
-    pub(super) drive: Option<MeasuredDrive>,
+    pub(super) drive: Option<MeasuredDrive<'a>>,
     /// Axes of the inertial sensor under the nominal model.
     pub(super) felt: Vec<Fit>,
     /// Share of the link's squared gap that goes with each effect of the file, by name.
@@ -65,6 +67,18 @@ pub(super) struct Measured {
 }
 
 impl<'a> Data<'a> {
+    pub(super) fn new(question: &'a Question<'a>, motion: &'a MotionLink<'a>) -> Self {
+        let compared = !motion.is_empty() || motion.inertial.is_some();
+        Self {
+            pieces: motion.pieces,
+            motion,
+            has_motion: compared && question.robot.support == Support::Floor,
+            logs: &question.set.logs,
+            catalogue: &question.catalogue,
+            thresholds: &question.options.thresholds,
+        }
+    }
+
     /// Whether a camera sees that motion.
     pub(super) fn has_camera(&self) -> bool {
         self.has_motion && !self.motion.is_empty()
@@ -119,7 +133,7 @@ impl<'a> Data<'a> {
 
     /// Measures a written robot beside the nominal one, both as files; `new` are the names of the effects that only the
     /// written one has.
-    pub(super) fn measure(&self, nominal: &Robot, written: &Robot, new: &[&str]) -> Measured {
+    pub(super) fn measure(&self, nominal: &Robot, written: &Robot, new: &[&str]) -> Measured<'a> {
         let before = self.state(nominal);
         let after = self.state(written);
         let is_new = |a: &Active| new.contains(&a.effect.name());
@@ -167,14 +181,14 @@ impl<'a> Data<'a> {
         if let Some(Drive { link, .. }) = &mut drive {
             link.noise = gaps::drive_floor(link, &link.noise, self.thresholds);
         }
+        let mut plotted = None;
         if let Some(drive) = &drive {
             let problem = Problem::Drive(&drive.link);
             let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
             let plots = [nominally, drive.residuals.clone()];
             out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
             out.driven.test_functions = Driven::at_test_functions(&drive.link);
-            let floor = drive.link.noise.clone();
-            out.drive = Some(MeasuredDrive { plots, floor });
+            plotted = Some(plots);
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
             let motion = self.has_camera().then(|| (Link::Motion, seen(state)));
@@ -187,7 +201,9 @@ impl<'a> Data<'a> {
         for a in after.active.iter().filter(|a| is_new(a)) {
             let name = a.effect.name().to_owned();
             sofar.active.push(a.clone());
-            out.steps.push((name.clone(), on_links(&sofar)));
+            let whole = sofar.active.len() == after.active.len();
+            let last = || out.links.iter().map(|l| (l.link, l.after)).collect();
+            out.steps.push((name.clone(), if whole { last() } else { on_links(&sofar) }));
             let alone = on_links(&without(&name));
             let gain = out.links.iter().filter_map(|l| {
                 let without = alone.iter().find(|x| x.0 == l.link)?.1;
@@ -195,6 +211,7 @@ impl<'a> Data<'a> {
             });
             out.gains.push((name, gain.fold(0.0, f64::max).clamp(0.0, 1.0)));
         }
+        out.drive = drive.zip(plotted).map(|(Drive { link, .. }, plots)| MeasuredDrive { link, plots });
         out
     }
 }

@@ -16,6 +16,24 @@ use crate::pieces::{PIECE, Pieces, segments};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
 
+/// Logs in pieces, and a sample of long ones.
+pub(super) struct Cut<'a> {
+    pub(super) whole: Pieces<'a>,
+    sample: Option<Pieces<'a>>,
+}
+
+impl<'a> Cut<'a> {
+    /// What causes are looked for in.
+    pub(super) fn searched(&self) -> &Pieces<'a> {
+        self.sample.as_ref().unwrap_or(&self.whole)
+    }
+
+    /// Whether that is not all.
+    pub(super) fn is_sampled(&self) -> bool {
+        self.sample.is_some()
+    }
+}
+
 /// A data set and what is asked of it.
 pub(super) struct Question<'a> {
     pub(super) set: &'a Logs<'a>,
@@ -72,10 +90,13 @@ impl<'a> Question<'a> {
 
     /// The logs in pieces, everything derived from the wheels by their true order; and that order with its share of the
     /// squared gap, if it is not the file's.
-    pub(super) fn pieces(&self) -> (Pieces<'a>, Option<(Active, f64)>) {
-        let cut = |geometry: &Geometry| segments(&self.robot, geometry, &self.set.logs, PIECE);
+    pub(super) fn cut(&self) -> (Cut<'a>, Option<(Active, f64)>) {
+        let cut = |geometry: &Geometry| {
+            let whole = segments(&self.robot, geometry, &self.set.logs, PIECE);
+            Cut { sample: whole.sample(), whole }
+        };
         let (pieces, start) = (cut(&self.geometry), self.filed());
-        let crossed = wheel_order(&MotionLink::new(&pieces, self.noise, WINDOW_S), &start, &self.catalogue);
+        let crossed = wheel_order(&MotionLink::new(pieces.searched(), self.noise, WINDOW_S), &start, &self.catalogue);
         let found = crossed.as_ref().map(|(active, _)| active);
         let Some(active) = found.or_else(|| start.active.iter().find(|a| cabled(a))) else { return (pieces, crossed) };
         let mut wheels = MotionModel::new(&self.robot);

@@ -10,7 +10,7 @@ use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
-use crate::select::{self, Selection};
+use crate::select::{self, Design, Selection};
 use crate::state::{Active, State};
 use crate::thresholds;
 
@@ -93,9 +93,11 @@ pub(super) fn rms(problem: &Problem, state: &State) -> f64 {
     (square / n.max(1.0)).sqrt()
 }
 
-/// Judges what was selected on one link from where the study starts; from `far` noise floors on it does not agree.
-pub(super) fn study(
+/// Judges what was selected on one link from where the study starts; from `far` noise floors on it does not agree. What
+/// was selected on a sample is estimated on the `whole`.
+pub(super) fn study<'a>(
     problem: &Problem,
+    whole: &dyn Fn() -> Option<Problem<'a>>,
     start: &State,
     selection: Selection,
     catalogue: &[Arc<dyn Effect>],
@@ -118,7 +120,14 @@ pub(super) fn study(
             refused.extend(more);
         }
     }
-    let Judged { selection, written, estimates, .. } = judged;
+    let Judged { selection, mut written, mut estimates, .. } = judged;
+    if !estimates.is_empty()
+        && let Some(whole) = whole()
+    {
+        let more;
+        (written, estimates, more) = on_whole(&whole, start, &selection, &all, thresholds);
+        refused.extend(more);
+    }
     let (mut named, mut sets, mut leftovers, mut ambiguous) = (Vec::new(), Vec::new(), Vec::new(), false);
     for (index, active) in selection.state.active.iter().enumerate().skip(from) {
         if active.effect.probe() {
@@ -272,6 +281,32 @@ fn sound(
         (selection, more) = admitted(problem, fewer, start, all, thresholds);
         refused.extend(more);
     }
+}
+
+/// What was selected on a sample, estimated on the whole; without what may not be named by these estimates, and why not.
+fn on_whole(
+    whole: &Problem,
+    start: &State,
+    selection: &Selection,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> (State, Vec<Estimate>, Vec<String>) {
+    let design = Design::new(whole, &selection.state, all, thresholds);
+    let &Selection { loss, costs, bare, .. } = selection;
+    let judged = judge(whole, start, Selection { state: selection.state.clone(), design, loss, costs, bare });
+    let Judged { selection, mut written, estimates, .. } = judged;
+    let mut refused = Vec::new();
+    let kept = |e: &Estimate| {
+        let active = &selection.state.active[e.index];
+        let why = fault(active, e);
+        refused.extend(why.iter().map(|why| not_named(whole, active.effect.name(), why)));
+        if why.is_some() {
+            written.active.retain(|a| a.given || a.effect.name() != active.effect.name());
+        }
+        why.is_none()
+    };
+    let estimates = estimates.into_iter().filter(kept).collect();
+    (written, estimates, refused)
 }
 
 fn not_named(problem: &Problem, name: &str, why: &str) -> String {

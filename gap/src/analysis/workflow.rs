@@ -15,21 +15,23 @@ use crate::effects;
 use crate::exact::{ExactLink, Finding};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Stage, Thresholds};
-use crate::pieces::Pieces;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 
 /// An analysis under way.
 pub(super) struct Workflow<'a> {
     pub(super) question: &'a Question<'a>,
+    /// All data.
     pub(super) data: Data<'a>,
+    /// What of them causes are looked for in; `None` for all.
+    sample: Option<Data<'a>>,
     /// What the file says.
     pub(super) nominal: State,
     /// What the next link starts from.
     pub(super) start: State,
     pub(super) thresholds: Thresholds,
     pub(super) findings: Findings,
-    /// Residuals of the motion with what is named there.
+    /// Residuals of the motion that was searched, with what is named there.
     pub(super) seen: Option<Vec<WindowResiduals>>,
 }
 
@@ -37,20 +39,20 @@ impl<'a> Workflow<'a> {
     /// `crossed` are cables that are not where the file has them, and their share of the squared gap.
     pub(super) fn new(
         question: &'a Question<'a>,
-        pieces: &'a Pieces<'a>,
         motion: &'a MotionLink<'a>,
+        sample: Option<&'a MotionLink<'a>>,
         crossed: Option<(Active, f64)>,
-        remarks: Vec<String>,
+        mut remarks: Vec<String>,
     ) -> Self {
-        let has_motion = (!motion.is_empty() || motion.inertial.is_some()) && question.robot.support == Support::Floor;
-        let data = Data {
-            pieces,
-            motion,
-            has_motion,
-            logs: &question.set.logs,
-            catalogue: &question.catalogue,
-            thresholds: &question.options.thresholds,
-        };
+        let data = Data::new(question, motion);
+        let sample = sample.map(|motion| Data::new(question, motion));
+        let pieces = data.pieces;
+        remarks.extend(sample.map(|sample| {
+            let [part, all] = [sample.pieces, pieces].map(|pieces| pieces.seconds() / 60.0);
+            format!(
+                "Causes were looked for in {part:.1} of {all:.1} minutes, spread over all runs; estimates and gaps are of all."
+            )
+        }));
         let nominal = data.state(&question.set.robot);
         let mut start = nominal.clone();
         let mut findings = Findings { remarks, ..Findings::default() };
@@ -62,18 +64,29 @@ impl<'a> Workflow<'a> {
         findings.unexplained.extend(crate::leftover::frozen(pieces));
         findings.unexplained.extend(crate::leftover::torn(pieces));
         let thresholds = question.options.thresholds.clone();
-        Self { question, data, nominal, start, thresholds, findings, seen: None }
+        Self { question, data, sample, nominal, start, thresholds, findings, seen: None }
+    }
+
+    /// The data that causes are looked for in.
+    pub(super) fn searched(&self) -> Data<'a> {
+        self.sample.unwrap_or(self.data)
+    }
+
+    /// All data, where causes are looked for in a part of them.
+    pub(super) fn beyond(&self) -> Option<Data<'a>> {
+        self.sample.map(|_| self.data)
     }
 
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
-            let (link, catalogue) = (self.data.motion, self.data.catalogue);
+            let (link, catalogue) = (self.searched().motion, self.data.catalogue);
             let problem = Problem::Motion(link);
+            let whole = || self.beyond().map(|data| Problem::Motion(data.motion));
             let matters = gaps::motion_matters(link);
             let selection = chosen(&problem, &self.start, &[], catalogue, &self.thresholds, matters);
             self.question.options.reached(Stage::MotionChosen);
-            let outcome = study(&problem, &self.start, selection, catalogue, &self.thresholds, gaps::FAR);
+            let outcome = study(&problem, &whole, &self.start, selection, catalogue, &self.thresholds, gaps::FAR);
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);

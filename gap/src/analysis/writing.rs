@@ -13,15 +13,15 @@ use crate::options::Stage;
 use crate::thresholds::{FALLS, ODD_ROWS};
 
 /// A robot with what was named, its file, and the figures of that file.
-pub(super) struct Written {
+pub(super) struct Written<'a> {
     pub(super) robot: Robot,
     pub(super) text: String,
-    pub(super) measured: Measured,
+    pub(super) measured: Measured<'a>,
     /// Whether the times of the logs cannot be seconds: what was found by such a clock is nothing.
     pub(super) odd_clock: bool,
 }
 
-impl Workflow<'_> {
+impl<'a> Workflow<'a> {
     /// Names of the runs.
     pub(super) fn runs(&self) -> Vec<String> {
         self.data.logs.iter().map(|r| r.name.clone()).collect()
@@ -29,7 +29,7 @@ impl Workflow<'_> {
 
     /// Writes what is named and measures that file. What is reported is what the file, read again, gives; where that
     /// does not fall, nothing is named.
-    pub(super) fn written(&mut self) -> Result<Written, GapError> {
+    pub(super) fn written(&mut self) -> Result<Written<'a>, GapError> {
         let refused = std::mem::take(&mut self.findings.refused);
         self.findings.remarks.extend(refused);
         let odd = odd_clock(&self.question.robot, self.data.logs);
@@ -64,7 +64,7 @@ impl Workflow<'_> {
     }
 
     /// The file as it would be, and its figures.
-    fn measured(&self) -> Result<(Robot, String, Measured), GapError> {
+    fn measured(&self) -> Result<(Robot, String, Measured<'a>), GapError> {
         let (set, options) = (self.question.set, self.question.options);
         let robot = with_effects(&set.robot, &self.findings.named, &self.findings.alternatives, &self.runs());
         let text = robot_text(set, options, &robot);

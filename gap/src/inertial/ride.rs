@@ -2,7 +2,7 @@
 
 use super::Sensor;
 use crate::motion::{MotionModel, Path};
-use crate::segment::{Segment, smooth_speed};
+use crate::segment::{Segment, smooth_speeds};
 
 /// Distance of the sums that an accelerometer needs, s: short against the smoothing of the wheels' speeds.
 const SUMMED_S: f64 = 0.005;
@@ -49,7 +49,7 @@ impl<'a> Ride<'a> {
         let speed = if model.angles.is_empty() {
             &segment.speed
         } else {
-            changed = path.angles().iter().map(|a| smooth_speed(&segment.t, a)).collect();
+            changed = smooth_speeds(&segment.t, path.angles());
             &changed
         };
         let columns = path.columns();

@@ -67,7 +67,9 @@ pub struct WindowResiduals {
 }
 
 /// A window's track and its residuals.
-type Aligned = (Vec<Walk>, WindowResiduals);
+type Aligned = (Walked, WindowResiduals);
+/// How the chassis gets to the frames of a window, and these frames.
+type Walked = (Vec<Walk>, Vec<Frame>);
 
 impl<'a> MotionLink<'a> {
     /// Cuts the segments into windows of `window_s`; without an end, each into one.
@@ -121,25 +123,25 @@ impl<'a> MotionLink<'a> {
                 let s = self.pieces.get(self.windows[range.start].segment);
                 let path = Path::new(model, &s)?;
                 let aligned = |w: &Window| {
-                    let mut track = Vec::with_capacity(w.frames.len());
-                    path.track(&s.frames[w.frames.clone()], &mut track);
-                    let aligned = self.align(model, &s, w, &track, None);
-                    (track, aligned)
+                    let frames = &s.frames[w.frames.clone()];
+                    let mut track = Vec::with_capacity(frames.len());
+                    path.track(frames, &mut track);
+                    let aligned = self.align(model, s.run, frames, &track, None);
+                    ((track, frames.to_vec()), aligned)
                 };
                 Some(self.windows[range].par_iter().map(aligned).collect())
             })
             .collect();
-        let (tracks, mut all): (Vec<Vec<Walk>>, Vec<WindowResiduals>) =
+        let (tracks, mut all): (Vec<Walked>, Vec<WindowResiduals>) =
             parts.unwrap_or_default().into_iter().flatten().unzip();
         // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
         let out: Vec<Vec<f64>> =
             all.par_iter().map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i)).collect()).collect();
         let spread = (estimation::statistics::median(&mut out.concat()) / MEDIAN_OF_CHI3).max(1.0);
-        let windows = self.windows.par_iter().zip(&tracks).zip(out);
-        all.par_iter_mut().zip(windows).for_each(|(w, ((window, track), out))| {
+        all.par_iter_mut().zip(tracks.par_iter().zip(out)).for_each(|(w, ((track, frames), out))| {
             let weights: Vec<f64> = out.into_iter().map(|out| weight(out / spread)).collect();
             if weights.iter().any(|x| *x < 1.0) {
-                *w = self.align(model, &self.pieces.get(window.segment), window, track, Some(weights));
+                *w = self.align(model, w.run, frames, track, Some(weights));
             }
         });
         all
@@ -148,12 +150,11 @@ impl<'a> MotionLink<'a> {
     fn align(
         &self,
         model: &MotionModel,
-        s: &Segment,
-        window: &Window,
+        run: usize,
+        frames: &[Frame],
         track: &[Walk],
         weights: Option<Vec<f64>>,
     ) -> WindowResiduals {
-        let frames = &s.frames[window.frames.clone()];
         let n = frames.len();
         let middle = n / 2;
         // Chassis pose of the first frame so that the middle one fits.
@@ -192,7 +193,7 @@ impl<'a> MotionLink<'a> {
             let d = inverse * score;
             start = Pose::new(start.x + d.x, start.y + d.y, start.theta + d.z);
         }
-        WindowResiduals { run: s.run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
+        WindowResiduals { run, t: frames.iter().map(|f| f.t).collect(), predicted, residuals, weights, start }
     }
 
     /// Linearises camera and inertial sensor together: see [`MotionLink::linearise_camera`].
@@ -218,11 +219,11 @@ impl<'a> MotionLink<'a> {
         let mut clusters: Vec<Cluster> = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in by_segment(&self.windows, |w| w.segment) {
-            let s = self.pieces.get(self.windows[range.start].segment);
             let own = &base[range.clone()];
             let columns = if sides.is_empty() {
                 Vec::new()
             } else {
+                let s = self.pieces.get(self.windows[range.start].segment);
                 match s.coarser(PART_OF_FRAME) {
                     Some(coarse) => self.columns(model, sides, &coarse, own, &range),
                     None => self.columns(model, sides, &s, own, &range),
