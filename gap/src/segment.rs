@@ -30,6 +30,8 @@ pub struct Segment {
     pub t: Vec<f64>,
     /// Wheel angle by the encoders, rad, `[wheel][tick]`, 0 at the start; empty if not logged.
     pub angle: Vec<Vec<f64>>,
+    /// What the log's own counters read where the angles are 0, rad, one a wheel.
+    pub zero: Vec<f64>,
     /// Smoothed wheel speed at each tick, rad/s, `[wheel][tick]`.
     pub speed: Vec<Vec<f64>>,
     /// Direction of rotation, −1 to 1, smooth about 0, `[wheel][tick]`.
@@ -148,6 +150,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
                 counts.iter().map(|c| c / robot.counts_per_wheel_rad()).collect()
             })
             .collect();
+        s.zero = (0..n).map(|i| zero(part, i, &s.angle[i], robot.counts_per_wheel_rad())).collect();
         s.speed = smooth_speeds(&t, &s.angle);
         s.turning = turns_round(robot, &t, place.speed);
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
@@ -193,6 +196,14 @@ impl Segment {
         self.angle.len()
     }
 
+    /// Angle of a wheel by the log's own counter, the same in all runs of an encoder that keeps its zero: the mean from a
+    /// tick to the next, rad.
+    pub fn shaft_angle(&self, wheel: usize, tick: usize) -> f64 {
+        let Some(angle) = self.angle.get(wheel) else { return 0.0 };
+        let at = |k: usize| angle[k.min(angle.len() - 1)];
+        self.zero.get(wheel).unwrap_or(&0.0) + 0.5 * (at(tick) + at(tick + 1))
+    }
+
     /// The tick whose interval to the next contains `t`, within the segment.
     pub fn tick_at(&self, t: f64) -> usize {
         self.t.partition_point(|x| *x <= t).saturating_sub(1).min(self.t.len().saturating_sub(2))
@@ -213,6 +224,7 @@ impl Segment {
         Some(Self {
             t: ticks.iter().map(|k| self.t[*k]).collect(),
             angle: each(&self.angle),
+            zero: self.zero.clone(),
             speed: each(&self.speed),
             sign: each(&self.sign),
             duty: each(&self.duty),
@@ -336,6 +348,13 @@ fn unwrapped(run: &Run, wheel: usize, first: f64, t: &[f64]) -> Vec<f64> {
         }
     }
     out
+}
+
+/// What the log's own counter reads where the angles of a wheel are 0, rad.
+fn zero(run: &Run, wheel: usize, angle: &[f64], counts_per_rad: f64) -> f64 {
+    let lost = run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
+    let known = (0..angle.len()).find(|k| !lost.contains(k)).unwrap_or(0);
+    run.counts[wheel][known] as f64 / counts_per_rad - angle[known]
 }
 
 /// Direction of a speed, −1 to 1, smooth over about `width` on either side of 0.

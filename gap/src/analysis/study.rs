@@ -379,7 +379,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
     let left_out = design.left_out(&roles);
     // A floor is what smooth functions of speed, duty and the like leave of each wheel: laws that are missing are such.
     let missed = match problem {
-        Problem::Drive(link) => design.missed(&roles, Generic::columns_of_wheel(link.noise.len()) as f64),
+        Problem::Drive(link) => design.missed(&roles, Generic::columns_of_wheel(link) as f64),
         Problem::Motion(_) => vec![0.0; roles.len()],
     };
     // Of friction and motors every robot has a little beyond its file, of which this name does not speak.

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{DriveLink, DriveModel, DriveResiduals, smooth_sign};
 use crate::thresholds;
 use estimation::normal_equations::solve;
+use runs::robot::Support;
 
 /// Torque below which no drive is predicted, Nm as a share of what the motors reach in the logs.
 const LEAST: f64 = 0.001;
@@ -30,30 +31,37 @@ pub struct Left {
 
 /// Columns of a wheel that no other shares.
 const ALONE: usize = 4;
+/// Further ones of an axis that may turn a weight.
+const WEIGHT: usize = 2;
+
+fn alone(link: &DriveLink) -> usize {
+    ALONE + if link.pieces.robot().support == Support::Blocks { WEIGHT } else { 0 }
+}
 
 impl Generic {
-    /// Functions that describe one of so many wheels.
-    pub fn columns_of_wheel(wheels: usize) -> usize {
-        3 * wheels + 6 + ALONE
+    /// Functions that describe one wheel.
+    pub fn columns_of_wheel(link: &DriveLink) -> usize {
+        3 * link.noise.len() + 6 + alone(link)
     }
 
     /// Its columns.
     pub fn new(link: &DriveLink) -> Self {
         let n = link.noise.len();
         let slides = thresholds::SLIDES * link.pieces.robot().wheel_radius_m;
-        let (common, alone) = (Self::columns_of_wheel(n) - ALONE, ALONE);
+        let alone = alone(link);
+        let common = Self::columns_of_wheel(link) - alone;
         let mut all = link.means(common + alone * n, |s, k, out| {
             let (common, own) = out.split_at_mut(common);
             for i in 0..n {
                 let (speed, duty) = (s.speed[i][k], s.duty[i][k]);
                 let sign = smooth_sign(speed, s.turning);
                 common[3 * i..3 * i + 3].copy_from_slice(&[sign, speed, duty]);
-                own[alone * i..][..alone].copy_from_slice(&[
-                    speed * speed.abs(),
-                    duty.abs() * sign,
-                    duty.powi(3),
-                    sign.abs(),
-                ]);
+                let (laws, weight) = own[alone * i..][..alone].split_at_mut(ALONE);
+                laws.copy_from_slice(&[speed * speed.abs(), duty.abs() * sign, duty.powi(3), sign.abs()]);
+                if !weight.is_empty() {
+                    let (sin, cos) = s.shaft_angle(i, k).sin_cos();
+                    weight.copy_from_slice(&[sin, cos]);
+                }
             }
             let (heading, twist) = (s.heading[k], s.twist[k]);
             common[3 * n..].copy_from_slice(&[
@@ -124,25 +132,29 @@ pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Ve
 }
 
 /// Share of what a wheel's duty varies that its own motion accounts for, one a wheel: a drive's voltage is what speed,
-/// friction and acceleration take. Duties of another drive have next to nothing to do with them.
+/// friction, acceleration and, on an axis alone, a weight take. Duties of another drive have next to nothing to do with them.
 pub fn accounted(link: &DriveLink, model: &DriveModel) -> Vec<f64> {
     let n = link.noise.len();
-    let means = link.means(3 * n, |s, k, out| {
+    let lifted = link.pieces.robot().support == Support::Blocks;
+    let means = link.means(5 * n, |s, k, out| {
         for i in 0..n {
             let speed = s.speed[i][k];
-            out[3 * i..3 * i + 3].copy_from_slice(&[s.duty[i][k] * s.supply[k], speed, smooth_sign(speed, s.turning)]);
+            let (sin, cos) = if lifted { s.shaft_angle(i, k).sin_cos() } else { (0.0, 0.0) };
+            let volts = s.duty[i][k] * s.supply[k];
+            out[5 * i..5 * i + 5].copy_from_slice(&[volts, speed, smooth_sign(speed, s.turning), sin, cos]);
         }
     });
+    let width = if lifted { 6 } else { 4 };
     let accelerated = link.done(model);
     let of = |i: usize| {
         let used: Vec<usize> =
             (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0 && *b < accelerated.len()).collect();
-        let volts = DVector::from_iterator(used.len(), used.iter().map(|b| means[3 * i][*b]));
+        let volts = DVector::from_iterator(used.len(), used.iter().map(|b| means[5 * i][*b]));
         let varies = volts.add_scalar(-volts.mean()).norm_squared();
-        let motion = DMatrix::from_fn(used.len(), 4, |row, column| match column {
+        let motion = DMatrix::from_fn(used.len(), width, |row, column| match column {
             0 => 1.0,
-            1 | 2 => means[3 * i + column][used[row]],
-            _ => accelerated[used[row]][i],
+            1 => accelerated[used[row]][i],
+            _ => means[5 * i + column - 1][used[row]],
         });
         let x = solve(&(motion.transpose() * &motion), &(motion.transpose() * &volts));
         let left = (&motion * x - &volts).norm_squared();

@@ -38,9 +38,13 @@ const NOT_ON_BLOCKS: [&str; 12] = [
     "probe-position-drag",
 ];
 
+/// What hangs on an axis alone; the weight of a robot hangs on none of its wheels.
+const ONLY_ON_BLOCKS: [&str; 1] = ["gravity-load"];
+
 /// Whether a robot can have an effect.
 pub(crate) fn fits(name: &str, robot: &Robot) -> bool {
-    if robot.support == Support::Blocks && NOT_ON_BLOCKS.contains(&name) {
+    let elsewhere: &[&str] = if robot.support == Support::Blocks { &NOT_ON_BLOCKS } else { &ONLY_ON_BLOCKS };
+    if elsewhere.contains(&name) {
         return false;
     }
     if runs::is_dead_reckoning(robot) {
@@ -66,6 +70,7 @@ mod tests {
         let two = Robot { layout: runs::robot::Layout::Wheels(axle), ..robot.clone() };
         let blocks = Robot { support: Support::Blocks, ..robot.clone() };
         assert!(NOT_ON_BLOCKS.iter().all(|name| fits(name, &robot) && !fits(name, &blocks)));
+        assert!(ONLY_ON_BLOCKS.iter().all(|name| fits(name, &blocks) && !fits(name, &robot)));
         assert!(fits("coulomb-friction", &blocks));
         for (name, on) in [
             ("wheel-skew", [true, false, false]),

@@ -22,6 +22,7 @@ mod fits;
 mod floor_tilt;
 mod gear_backlash;
 mod gear_efficiency;
+mod gravity_load;
 mod gyro_bias;
 mod gyro_scale;
 mod heading_drag;
@@ -88,6 +89,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(viscous_friction::ViscousFriction),
         Box::new(stribeck_friction::StribeckFriction),
         Box::new(asymmetric_friction::AsymmetricFriction),
+        Box::new(gravity_load::GravityLoad),
         Box::new(gear_efficiency::GearEfficiency),
         Box::new(gear_backlash::GearBacklash),
         Box::new(roller_friction::RollerFriction),
@@ -137,7 +139,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 31] = [
+    const NAMES: [(&str, &[&str]); 32] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -161,6 +163,7 @@ mod tests {
         ("marker-offset", &["x_m", "y_m"]),
         ("centre-of-mass", &["x_m", "y_m"]),
         ("coulomb-friction", &["torque_nm", "torque_#_nm"]),
+        ("gravity-load", &["sin_#_nm", "cos_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
         ("roller-friction", &["force_n"]),
         ("dead-band", &["duty"]),

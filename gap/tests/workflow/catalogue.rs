@@ -56,6 +56,7 @@ const CASES: &[Case] = &[
     case("viscous-friction", &[("coefficient_2_nms", 4e-4)], ("coefficient_2_nms", 0.25), &RICH, &[]),
     case("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)], ("torque_nm", 0.4), &SLOW, &[]),
     case("asymmetric-friction", &[("torque_2_nm", 0.015), ("sense", 1.0)], ("torque_2_nm", 0.25), &RICH, &[]),
+    case("gravity-load", &[("sin_2_nm", 0.02), ("cos_2_nm", 0.01)], ("sin_2_nm", 0.2), &LIFTED, &[]),
     case("gear-efficiency", &[("scale", -0.3)], ("scale", 0.3), &HARD, &[]),
     case("gear-backlash", &[("play_rad", 0.8)], ("play_rad", 0.5), &HARD, &[]),
     case("roller-friction", &[("force_n", 0.5)], ("force_n", 0.25), &RICH, &[]),
@@ -84,8 +85,9 @@ const CASES: &[Case] = &[
 ];
 
 /// Not found as they should be. Play is taken for something else: the torque that decides which flank
-/// carries comes from smoothed counts.
-const SHORTFALLS: [&str; 1] = ["gear-backlash"];
+/// carries comes from smoothed counts. What a gear loses of the torque that holds a weight is taken for friction beside
+/// the weight: the model's gear passes on what accelerates the load, and here the load has no inertia.
+const SHORTFALLS: [&str; 2] = ["gear-backlash", "gravity-load"];
 
 /// What is wrong with the answer, if anything.
 fn fault(case: &Case, a: &Analysis) -> Option<String> {

@@ -83,6 +83,11 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
         "encoder-scale" => (each("scale", ""), |w, x| w.encoder = x),
         "coulomb-friction" => (each("torque", "nm"), |w, x| w.dry_nm = x),
         "viscous-friction" => (each("coefficient", "nms"), |w, x| w.viscous_nms = x),
+        "gravity-load" => {
+            let wheels = applied.deviations.wheels_mut(n);
+            wheels.iter_mut().zip(each("sin", "nm")).for_each(|(w, x)| w.gravity_nm[0] = x);
+            (each("cos", "nm"), |w, x| w.gravity_nm[1] = x)
+        }
         "gear-backlash" => (each("play", "rad"), |w, x| w.play_rad = x),
         "asymmetric-friction" if value("sense") < 0.0 => (each("torque", "nm"), |w, x| w.one_way_nm[0] = x),
         "asymmetric-friction" => (each("torque", "nm"), |w, x| w.one_way_nm[1] = x),

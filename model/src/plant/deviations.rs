@@ -54,6 +54,8 @@ pub struct WheelDeviation {
     pub one_way_nm: [f64; 2],
     /// Viscous friction at the wheel shaft, Nm s/rad.
     pub viscous_nms: f64,
+    /// Torque at the wheel shaft with sine and cosine of the wheel's angle, Nm.
+    pub gravity_nm: [f64; 2],
     /// Counts per wheel angle, relative.
     pub encoder: f64,
     /// Share of the counts lost above the threshold.
@@ -101,6 +103,16 @@ impl Deviations {
     /// Whether the plant's matrices change while it moves.
     pub(super) fn is_changing(&self) -> bool {
         self.heating[0] != 0.0 || self.wheels.iter().any(|w| w.ripple != [0.0; 2])
+    }
+
+    /// Torque of gravity on what hangs on wheel `i`, Nm, at an angle.
+    pub(super) fn gravity(&self, i: usize, angle: f64) -> f64 {
+        let [a, b] = self.wheel(i).gravity_nm;
+        if a == 0.0 && b == 0.0 {
+            return 0.0;
+        }
+        let (s, c) = angle.sin_cos();
+        a * s + b * c
     }
 
     /// Friction torque of wheel `i` beyond nominal, Nm, at a speed and a heading; `push` says where it

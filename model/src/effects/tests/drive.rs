@@ -38,6 +38,16 @@ fn friction_at_the_wheel_shaft() {
 }
 
 #[test]
+fn a_weight_hangs_where_its_torque_is_0() {
+    let mut plant = lifted("gravity-load", &[("sin_1_nm", -0.02), ("cos_1_nm", 0.01)]);
+    run(&mut plant, [0.0; 3], 3000);
+    let per_rad = Robot::racbot().counts_per_wheel_rad();
+    // Friction holds it a little before.
+    close(plant.encoder_after()[0] / per_rad, 0.5_f64.atan(), 0.06);
+    assert_eq!(plant.encoder_after()[1..], [0.0; 2]);
+}
+
+#[test]
 fn what_sticks_lets_go_at_the_stribeck_torque() {
     let moved = |torque: f64| {
         let mut plant = lifted("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)]);

@@ -1,0 +1,174 @@
+//! A servo axis with a pendulum, by equations of motion that share nothing with the model.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use super::common::names;
+
+use gap::{Analysis, Interval, Options, Verdict, analyse};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use runs::robot::Robot;
+use runs::{DataSet, Run};
+
+/// A geared servo, by its output shaft.
+#[derive(Clone, Copy, Debug)]
+struct Servo {
+    /// Torque with sine and cosine of the angle, N m.
+    gravity: [f64; 2],
+    /// Dry friction that the file does not know, N m.
+    dry: f64,
+    /// Inertia of the load, kg m², and what of it the file knows.
+    load: [f64; 2],
+    /// Mean angle in rad that the loop holds it about, and how far it swings; `None` for duties without a loop.
+    about: Option<[f64; 2]>,
+    /// Standard deviation of the torque that nobody explains, N m, new every 10 ms.
+    scatter: f64,
+}
+
+const QUIET: Servo = Servo { gravity: [0.0; 2], dry: 0.0, load: [2e-3; 2], about: Some([0.4, 1.3]), scatter: 0.004 };
+/// Torque per volt at standstill and per speed, N m/V and N m s/rad, and supply, V: 0.6 N m at most, 16 rad/s.
+const KT_R: f64 = 0.05;
+const DAMPING: f64 = 0.038;
+const VOLT: f64 = 12.0;
+
+fn run(servo: Servo, seed: u64) -> Run {
+    let (tick, counts) = (0.004, 4096.0);
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut run = Run { name: format!("run_{seed}"), ..Run::default() };
+    let phases: Vec<f64> = (0..5).map(|_| rng.random_range(0.0..TAU)).collect();
+    let waves = [(0.31, 1.0), (0.73, 0.6), (1.37, 0.3), (2.3, 0.12), (0.17, 0.8)];
+    let wave = |t: f64| waves.iter().zip(&phases).map(|((f, a), p)| a * (TAU * f * t + p).sin() / 1.6).sum::<f64>();
+    let (mut angle, mut speed, mut push) = (0.0_f64, 0.0_f64, 0.0);
+    let (mut duties, mut counted) = (Vec::new(), Vec::new());
+    for k in 0..5000 {
+        let t = tick * f64::from(k);
+        let duty = match servo.about {
+            Some([mean, swing]) => 2.5 * (mean + swing * wave(t) - angle),
+            None => 0.7 * wave(t),
+        };
+        let duty = (duty.clamp(-1.0, 1.0) * 1e3).round() / 1e3;
+        run.t.push(t);
+        duties.push(duty);
+        counted.push((angle / TAU * counts).floor() as i64);
+        if k % 3 == 0 {
+            push = servo.scatter * (0..12).map(|_| rng.random_range(-0.5..0.5)).sum::<f64>();
+        }
+        let step = tick / 40.0;
+        for _ in 0..40 {
+            let held = servo.gravity[0] * angle.sin() + servo.gravity[1] * angle.cos();
+            let torque = KT_R * VOLT * duty - DAMPING * speed + held + push;
+            let sticks = speed == 0.0 && torque.abs() < servo.dry;
+            let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
+            let next = if sticks { 0.0 } else { speed + step * (torque - servo.dry * sense) / (servo.load[0] + ROTOR) };
+            let next = if speed * next < 0.0 { 0.0 } else { next };
+            angle += 0.5 * step * (speed + next);
+            speed = next;
+        }
+    }
+    run.duty = vec![duties];
+    run.counts = vec![counted];
+    run
+}
+
+/// Inertia of the rotor at the output shaft, kg m².
+const ROTOR: f64 = 1e-3;
+
+fn set(servo: Servo, seed: u64) -> DataSet {
+    // Gear 100, 2 ohm: 0.001 N m/A at the motor.
+    let text = format!(
+        "encoder_counts_per_wheel_rev = 4096\ngear_ratio = 100\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+         control_rate_hz = 250\nwheel_radius_m = 0.01\nwheel_inertia_kg_m2 = {}\n[motor]\nresistance_ohm = 2\n\
+         torque_constant = {}\nback_emf_constant = {}\nrotor_inertia = {}\nfriction_torque = 0\n\
+         [[wheel]]\nx_m = 0\ny_m = 0.1\ndrive_deg = 0\n",
+        servo.load[1],
+        2.0 * KT_R / 100.0,
+        DAMPING / KT_R / 100.0,
+        ROTOR / 1e4,
+    );
+    let robot = Robot::parse_partial(&text, Path::new("robot.toml")).unwrap();
+    let runs = (0..3).map(|k| run(servo, 10 * seed + k)).collect();
+    DataSet { folder: PathBuf::from("servo"), robot, runs }
+}
+
+fn done(set: &DataSet) -> Analysis {
+    analyse(set, &Options::default()).unwrap()
+}
+
+/// What is wrong with the size of a hidden load, if anything.
+fn fault(a: &Analysis, truth: [f64; 2]) -> Option<String> {
+    let found = a.effects.iter().find(|e| e.name == "gravity-load")?;
+    ["sin_1_nm", "cos_1_nm"].iter().zip(truth).find_map(|(name, truth)| {
+        let (_, value, interval) = found.parameters.iter().find(|(n, ..)| n == name)?;
+        let Interval::Ci95([low, high]) = interval else { return Some(format!("{name}: {interval:?}")) };
+        let within = (*low..=*high).contains(&truth);
+        (!within).then(|| format!("{name} is {value} in {low} to {high} instead of {truth}"))
+    })
+}
+
+/// Three sizes, with the counter's zero elsewhere each time, in a loop that holds it and without one.
+#[test]
+fn a_pendulum_is_named_with_its_size_and_then_agrees() {
+    let sizes = [[-0.06, 0.03], [-0.15, -0.1], [0.1, 0.28]];
+    let cases = sizes.iter().flat_map(|size| [QUIET.about, None].map(|about| (*size, about)));
+    let cases: Vec<_> = cases.enumerate().collect();
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .filter_map(|(k, (gravity, about))| {
+            let logs = set(Servo { gravity, about, ..QUIET }, 20 + k as u64);
+            let a = done(&logs);
+            let again = done(&DataSet { robot: a.robot.clone(), ..logs });
+            let wrong = match () {
+                () if names(&a) != ["gravity-load"] => Some(format!("named {:?}", names(&a))),
+                () if again.verdict != Verdict::Agrees => Some(format!("then {}", again.terminal_summary())),
+                () => fault(&a, gravity),
+            };
+            wrong.map(|wrong| format!("{gravity:?} {about:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Friction that nobody told beside it.
+#[test]
+fn a_pendulum_is_named_beside_friction() {
+    let faults: Vec<String> = [QUIET.about, None]
+        .into_par_iter()
+        .filter_map(|about| {
+            let gravity = [-0.2, 0.05];
+            let logs = set(Servo { gravity, about, dry: 0.04, ..QUIET }, 3);
+            let a = done(&logs);
+            let mut found = names(&a);
+            found.sort_unstable();
+            let wrong =
+                if found == ["coulomb-friction", "gravity-load"] { fault(&a, gravity) } else { Some(String::new()) };
+            wrong.map(|wrong| format!("{about:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Axes without a weight.
+#[test]
+fn no_weight_is_named_where_there_is_none() {
+    let controls = [
+        QUIET,
+        Servo { about: None, ..QUIET },
+        Servo { about: Some([0.0, 0.2]), ..QUIET },
+        Servo { dry: 0.05, ..QUIET },
+        Servo { dry: 0.05, about: None, ..QUIET },
+        Servo { load: [3e-3, 2e-3], ..QUIET },
+        Servo { load: [3e-3, 2e-3], dry: 0.03, about: None, ..QUIET },
+        Servo { scatter: 0.03, ..QUIET },
+    ];
+    let faults: Vec<String> = controls
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, servo)| {
+            let a = done(&set(servo, 40 + k as u64));
+            names(&a).contains(&"gravity-load").then(|| format!("{servo:?}:\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
