@@ -5,6 +5,7 @@ mod treadmill;
 use driver::Board;
 use driver::drive::{Driven, Ending, Fault, NoSource, Plan, PoseSource};
 use driver::recording::Recording;
+use model::measurement::Measurement;
 use model::trajectory::{Arrival, SetPoint};
 use runs::frames::Pose;
 use runs::output::Existing;
@@ -47,9 +48,9 @@ fn a_set_point_is_reached_recorded_and_left_switched_off() {
 fn the_loop_allocates_nothing_recording_and_camera_included() {
     struct Camera(u32);
     impl PoseSource for Camera {
-        fn arrived(&mut self, _: f64) -> Option<Pose> {
+        fn arrived(&mut self, _: f64) -> Option<Measurement> {
             self.0 += 1;
-            self.0.is_multiple_of(16).then(Pose::default)
+            self.0.is_multiple_of(16).then(|| Pose::default().into())
         }
     }
     let allocations = |seconds: f64| {
@@ -110,7 +111,7 @@ fn a_host_that_oversleeps_the_watchdog_is_switched_off_and_told_so() {
 fn a_request_and_the_emergency_stop_end_the_drive_at_once() {
     struct Stops<'a>(&'a AtomicBool);
     impl PoseSource for Stops<'_> {
-        fn arrived(&mut self, t: f64) -> Option<Pose> {
+        fn arrived(&mut self, t: f64) -> Option<Measurement> {
             self.0.store(t > 0.1, Ordering::Relaxed);
             None
         }
@@ -123,7 +124,7 @@ fn a_request_and_the_emergency_stop_end_the_drive_at_once() {
 
     struct Presses(Treadmill);
     impl PoseSource for Presses {
-        fn arrived(&mut self, t: f64) -> Option<Pose> {
+        fn arrived(&mut self, t: f64) -> Option<Measurement> {
             if t > 0.1 {
                 self.0.press_emergency_stop();
             }

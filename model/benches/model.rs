@@ -7,6 +7,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use model::calibration::estimate_skew;
 use model::camera::CameraModel;
 use model::fusion::{Fusion, FusionOptions};
+use model::odometry::Estimate;
 use model::plant::{Contact, Plant};
 use model::simulation::{VirtualRobot, calibration_drive};
 use runs::frames::{Pose, Twist};
@@ -56,7 +57,8 @@ fn fusion(c: &mut Criterion) {
     for (name, every) in [("tick, frame every 16th", 16), ("tick and late frame", 1)] {
         group.bench_function(name, |b| {
             let options = FusionOptions { gate: f64::INFINITY, ..FusionOptions::of(&robot) };
-            let mut fusion = Fusion::new(&g, robot.counts_per_wheel_rad(), options, Pose::default(), [0.01; 3]);
+            let mut fusion =
+                Fusion::new(&g, robot.counts_per_wheel_rad(), options, Estimate::new(Pose::default(), [0.01; 3]));
             let wheels = g.wheel_speeds(Twist::new(0.3, 0.6, 1.0));
             let mut k = 0_u32;
             b.iter(|| {

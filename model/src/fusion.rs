@@ -4,10 +4,15 @@ use std::collections::VecDeque;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::measurement::Measurement;
 use crate::odometry::{DEFAULT_WHEEL_VARIANCE, Estimate, Increment, Odometer};
 use runs::frames::{Pose, Twist, wrap_angle};
 use runs::geometry::Geometry;
 use runs::robot::Robot;
+
+/// How late a measurement that says when it was taken may come, s: a picture at 10 Hz that is read out, sent and matched
+/// while the next ones wait takes 0.3 s. What is older is worth no more than the odometry since.
+pub(crate) const MEMORY_S: f64 = 0.4;
 
 /// What the filter is told about its sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,16 +93,10 @@ pub struct Fusion {
 }
 
 impl Fusion {
-    /// A filter that starts at a pose with the given standard deviations (m, m, rad), at counts 0.
-    pub fn new(
-        geometry: &Geometry,
-        counts_per_wheel_rad: f64,
-        options: FusionOptions,
-        start: Pose,
-        start_sd: [f64; 3],
-    ) -> Self {
+    /// A filter that starts from an estimate, at counts 0.
+    pub fn new(geometry: &Geometry, counts_per_wheel_rad: f64, options: FusionOptions, start: Estimate) -> Self {
         let odometer = Odometer::new(geometry, counts_per_wheel_rad, options.wheel_variance);
-        Self { options, odometer, now: Estimate::new(start, start_sd), history: VecDeque::new(), refused: 0 }
+        Self { options, odometer, now: start, history: VecDeque::new(), refused: 0 }
     }
 
     /// Takes these counts as where the robot stands.
@@ -110,7 +109,7 @@ impl Fusion {
         let increment = self.odometer.increment(counts);
         self.now = self.now.moved(&increment);
         self.history.push_back(Past { t, estimate: self.now, increment });
-        let oldest = t - self.options.latency_s;
+        let oldest = t - self.options.latency_s.max(MEMORY_S);
         // One tick before the exposure stays, so that there is something to interpolate from.
         while self.history.len() > 2 && self.history[1].t < oldest - 1e-9 {
             self.history.pop_front();
@@ -118,13 +117,13 @@ impl Fusion {
     }
 
     /// A frame that was delivered at time `t`, after the prediction for that tick.
-    pub fn correct(&mut self, t: f64, seen: Pose) -> Correction {
-        let exposed = t - self.options.latency_s;
-        let finite = [seen.x, seen.y, seen.theta].iter().all(|v| v.is_finite());
+    pub fn correct(&mut self, t: f64, seen: impl Into<Measurement>) -> Correction {
+        let seen = seen.into();
+        let exposed = seen.taken.map_or(t - self.options.latency_s, |taken| taken.min(t));
         let first = self.history.front().map_or(f64::INFINITY, |p| p.t);
-        if !finite || exposed < first - 1e-9 {
+        let Some(alone) = seen.alone(self.options.camera_noise).filter(|_| exposed >= first - 1e-9) else {
             return Correction::Unusable;
-        }
+        };
         // The last tick at or before the exposure, and the part of the next one that belongs before.
         let base = self.history.partition_point(|p| p.t <= exposed + 1e-9).max(1) - 1;
         let from = self.history[base];
@@ -134,18 +133,19 @@ impl Fusion {
             (Some(part(&next.increment, share)), Some(part(&next.increment, 1.0 - share)))
         });
         let prior = before.map_or(from.estimate, |increment| from.estimate.moved(&increment));
+        let (at, noise) = (alone.pose, alone.covariance);
         let innovation =
-            Vector3::new(seen.x - prior.pose.x, seen.y - prior.pose.y, wrap_angle(seen.theta - prior.pose.theta));
-        let noise = Matrix3::from_diagonal(&Vector3::from(self.options.camera_noise.map(|s| s * s)));
+            Vector3::new(at.x - prior.pose.x, at.y - prior.pose.y, wrap_angle(at.theta - prior.pose.theta));
         let Some(inverse) = (prior.covariance + noise).try_inverse() else { return Correction::Unusable };
         let nis = (innovation.transpose() * inverse * innovation)[0];
         let restart = self.refused + 1 >= self.options.refusals_before_restart;
-        if nis > self.options.gate && !restart {
+        let far = nis > self.options.gate && seen.prediction.is_none();
+        if far && !restart {
             self.refused += 1;
             return Correction::Refused(nis);
         }
-        let (posterior, verdict) = if nis > self.options.gate {
-            (Estimate { pose: seen, covariance: noise }, Correction::Restarted)
+        let (posterior, verdict) = if far {
+            (alone, Correction::Restarted)
         } else {
             let gain = prior.covariance * inverse;
             let change = gain * innovation;

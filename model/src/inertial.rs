@@ -4,8 +4,9 @@ use std::collections::VecDeque;
 
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
 
-use crate::fusion::{Correction, FusionOptions};
+use crate::fusion::{Correction, FusionOptions, MEMORY_S};
 use crate::imu::{ImuModel, Reading};
+use crate::measurement::Measurement;
 use crate::odometry::{Estimate, Odometer};
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
 use runs::geometry::Geometry;
@@ -88,23 +89,23 @@ struct Compared {
 }
 
 impl Inertial {
-    /// A filter that starts at a pose with standard deviations (m, m, rad), at counts 0.
+    /// A filter that starts from an estimate, at counts 0.
     pub fn new(
         geometry: &Geometry,
         counts_per_wheel_rad: f64,
         options: FusionOptions,
         sensor: &ImuModel,
-        start: Pose,
-        start_sd: [f64; 3],
+        start: Estimate,
     ) -> Self {
-        let sd = [start_sd[0], start_sd[1], start_sd[2], sensor.gyro.bias * 2.0];
-        let covariance = Matrix4::from_diagonal(&Vector4::from(sd.map(|s| s * s)));
+        let mut covariance = Matrix4::zeros();
+        covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&start.covariance);
+        covariance[(3, 3)] = (2.0 * sensor.gyro.bias).powi(2);
         Self {
             options,
             odometer: Odometer::new(geometry, counts_per_wheel_rad, options.wheel_variance),
             gyro_noise: sensor.gyro.noise_density * 0.5_f64.sqrt(),
             bias_walk: sensor.gyro.bias_walk,
-            now: State { pose: start, bias: 0.0, covariance },
+            now: State { pose: start.pose, bias: 0.0, covariance },
             history: VecDeque::new(),
             window: VecDeque::new(),
             still: 0.0,
@@ -174,7 +175,7 @@ impl Inertial {
     /// Keeps a step for frames that come late.
     fn keep(&mut self, t: f64, step: Step) {
         self.history.push_back((t, self.now, step));
-        let oldest = t - self.options.latency_s;
+        let oldest = t - self.options.latency_s.max(MEMORY_S);
         while self.history.len() > 2 && self.history[1].0 < oldest - 1e-9 {
             self.history.pop_front();
         }
@@ -236,39 +237,37 @@ impl Inertial {
     }
 
     /// A frame that was delivered at time `t`, after the prediction for that tick.
-    pub fn correct(&mut self, t: f64, seen: Pose) -> Correction {
-        let exposed = t - self.options.latency_s;
-        let finite = [seen.x, seen.y, seen.theta].iter().all(|v| v.is_finite());
+    pub fn correct(&mut self, t: f64, seen: impl Into<Measurement>) -> Correction {
+        let seen = seen.into();
+        let exposed = seen.taken.map_or(t - self.options.latency_s, |taken| taken.min(t));
         let base = self.history.partition_point(|(at, ..)| *at <= exposed + 1e-9);
-        if !finite || base == 0 {
+        let Some(alone) = seen.alone(self.options.camera_noise).filter(|_| base > 0) else {
             return Correction::Unusable;
-        }
+        };
         let (at, from, _) = self.history[base - 1];
         let next = self.history.get(base).map(|(after, _, step)| (*step, (exposed - at) / (after - at)));
         let prior = next.map_or(from, |(step, share)| from.after(&step.part(share), self.bias_walk));
         let p = prior.pose;
-        let innovation = Vector3::new(seen.x - p.x, seen.y - p.y, wrap_angle(seen.theta - p.theta));
-        let noise = Matrix3::from_diagonal(&Vector3::from(self.options.camera_noise.map(|s| s * s)));
+        let (at, noise) = (alone.pose, alone.covariance);
+        let innovation = Vector3::new(at.x - p.x, at.y - p.y, wrap_angle(at.theta - p.theta));
         let observed = Matrix3x4::<f64>::identity();
         let Some(inverse) = (prior.covariance.fixed_view::<3, 3>(0, 0) + noise).try_inverse() else {
             return Correction::Unusable;
         };
         let nis = (innovation.transpose() * inverse * innovation)[0];
         let restart = self.refused + 1 >= self.options.refusals_before_restart;
-        if nis > self.options.gate && !restart {
+        let far = nis > self.options.gate && seen.prediction.is_none();
+        if far && !restart {
             self.refused += 1;
             return Correction::Refused(nis);
         }
         self.refused = 0;
         let mut posterior = prior;
-        let verdict = if nis > self.options.gate {
-            posterior.pose = seen;
-            posterior.covariance = Matrix4::from_diagonal(&Vector4::new(
-                noise[(0, 0)],
-                noise[(1, 1)],
-                noise[(2, 2)],
-                prior.covariance[(3, 3)],
-            ));
+        let verdict = if far {
+            posterior.pose = at;
+            posterior.covariance = Matrix4::zeros();
+            posterior.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&noise);
+            posterior.covariance[(3, 3)] = prior.covariance[(3, 3)];
             Correction::Restarted
         } else {
             let gain = prior.covariance * observed.transpose() * inverse;

@@ -35,6 +35,7 @@ pub mod imu;
 pub mod inertial;
 pub mod localisation;
 pub mod manoeuvre;
+pub mod measurement;
 pub mod motor;
 pub mod odometry;
 pub mod pi;

@@ -3,6 +3,7 @@
 use crate::fusion::{Fusion, FusionOptions};
 use crate::imu::{ImuModel, Reading};
 use crate::inertial::Inertial;
+use crate::measurement::Measurement;
 use crate::odometry::{DEFAULT_WHEEL_VARIANCE, Estimate, Odometer};
 use runs::frames::Pose;
 use runs::geometry::Geometry;
@@ -38,22 +39,20 @@ impl Localiser {
         }
     }
 
-    /// Odometry and camera, from a start known to the camera's noise.
-    pub fn fused(robot: &Robot, geometry: &Geometry, options: FusionOptions, start: Pose) -> Self {
-        let sd = options.camera_noise;
-        Self::Fused(Box::new(Fusion::new(geometry, robot.counts_per_wheel_rad(), options, start, sd)))
+    /// Odometry and camera.
+    pub fn fused(robot: &Robot, geometry: &Geometry, options: FusionOptions, start: Estimate) -> Self {
+        Self::Fused(Box::new(Fusion::new(geometry, robot.counts_per_wheel_rad(), options, start)))
     }
 
-    /// Wheels and gyroscope, from a start known to the camera's noise; the camera may come.
+    /// Wheels and gyroscope; the camera may come.
     pub fn inertial(
         robot: &Robot,
         geometry: &Geometry,
         options: FusionOptions,
         sensor: &ImuModel,
-        start: Pose,
+        start: Estimate,
     ) -> Self {
-        let sd = options.camera_noise;
-        let filter = Inertial::new(geometry, robot.counts_per_wheel_rad(), options, sensor, start, sd);
+        let filter = Inertial::new(geometry, robot.counts_per_wheel_rad(), options, sensor, start);
         Self::Inertial { filter: Box::new(filter), felt: None }
     }
 
@@ -70,7 +69,7 @@ impl Localiser {
     }
 
     /// One control tick at time `t` (s): counts, and what the camera delivered, if anything.
-    pub fn tick(&mut self, t: f64, counts: &[i64], seen: Option<Pose>) -> Pose {
+    pub fn tick(&mut self, t: f64, counts: &[i64], seen: Option<Measurement>) -> Pose {
         match self {
             Self::Odometry { odometer, estimate } => {
                 *estimate = estimate.moved(&odometer.increment(counts));
@@ -78,8 +77,8 @@ impl Localiser {
             }
             Self::Fused(fusion) => {
                 fusion.predict(t, counts);
-                if let Some(pose) = seen {
-                    fusion.correct(t, pose);
+                if let Some(seen) = seen {
+                    fusion.correct(t, seen);
                 }
                 fusion.pose()
             }
@@ -88,8 +87,8 @@ impl Localiser {
                     Some(reading) => filter.predict(t, counts, &reading),
                     None => filter.predict_by_wheels(t, counts),
                 }
-                if let Some(pose) = seen {
-                    filter.correct(t, pose);
+                if let Some(seen) = seen {
+                    filter.correct(t, seen);
                 }
                 filter.pose()
             }

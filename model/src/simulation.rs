@@ -216,7 +216,7 @@ pub fn follow(
     loop {
         let t = robot.time() - began;
         let seen = robot.look();
-        let pose = localiser.tick(robot.time(), &robot.counts(), seen);
+        let pose = localiser.tick(robot.time(), &robot.counts(), seen.map(Into::into));
         track.push((t, robot.pose()));
         poses.push(pose);
         let Some(command) = follower.command(pose, robot.robot.tick_s()).filter(|_| t < limit_s) else { break };
@@ -260,6 +260,7 @@ pub fn calibration_drive(robot: &mut VirtualRobot, speed: f64, seconds: f64, bel
 mod tests {
     use super::*;
     use crate::fusion::FusionOptions;
+    use crate::odometry::Estimate;
     use crate::pi::PiLaw;
     use crate::trajectory::{FIG_6, FIG_7_SKEW_DEG, FollowerOptions, Limits};
     use runs::robot::Layout;
@@ -304,7 +305,7 @@ mod tests {
         let mut follower = Follower::new(points, start, &g, limits, options);
         let mut localiser = if closed {
             let options = FusionOptions::of(&nominal).uncalibrated();
-            Localiser::fused(&nominal, &g, options, start)
+            Localiser::fused(&nominal, &g, options, Estimate::new(start, options.camera_noise))
         } else {
             Localiser::odometry(&nominal, &g, start)
         };

@@ -6,6 +6,7 @@ use model::camera::{Camera, CameraModel};
 use model::fusion::{Fusion, FusionOptions};
 use model::imu::{Chassis, Imu, ImuModel};
 use model::inertial::Inertial;
+use model::odometry::Estimate;
 use model::pi::SpeedLoop;
 use model::plant::{Contact, Plant};
 use runs::frames::{Pose, Twist, wrap_angle};
@@ -76,9 +77,9 @@ fn drive(skew: f64, contact: Contact, hard: bool, seed: u64) -> Outcome {
     let mut imu = Imu::new(model, seed + 90);
     let options = FusionOptions::of(&believed).uncalibrated();
     let counts_per_rad = believed.counts_per_wheel_rad();
-    let sd = options.camera_noise;
-    let mut wheels = Fusion::new(&geometry, counts_per_rad, options, start, sd);
-    let mut inertial = Inertial::new(&geometry, counts_per_rad, options, &model, start, sd);
+    let told = Estimate::new(start, options.camera_noise);
+    let mut wheels = Fusion::new(&geometry, counts_per_rad, options, told);
+    let mut inertial = Inertial::new(&geometry, counts_per_rad, options, &model, told);
     let mut chassis = Chassis::default();
     let (mut way, mut noticed_ms, mut since, mut free, mut alarm) = (0.0, Vec::new(), None, 0.0, [0.0; 2]);
     for k in 0..(END_S / TICK) as usize {

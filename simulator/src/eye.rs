@@ -2,6 +2,8 @@
 
 use crate::virtual_card::SharedCard;
 use driver::drive::PoseSource;
+use model::measurement::Measurement;
+use model::odometry;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use runs::frames::{Pose, Twist};
@@ -16,10 +18,6 @@ use vision::localise::Estimate;
 use vision::onboard::{Glance, OnBoard};
 use vision::picture::{Picture, Unusable};
 use vision::render::{Sensor, Shutter, World, render};
-
-/// Standard deviations with which a pose of the camera counts where nothing better is known (m, m, rad): what the wheels
-/// of a skewed robot lose between two pictures.
-pub const DRIVING_SD: [f64; 3] = [0.05, 0.05, 0.05];
 
 /// How long the shutter is open, s: a period of the light of lamps on 50 Hz, with which pictures do not flicker.
 const EXPOSURE_S: f64 = 0.01;
@@ -198,7 +196,7 @@ pub struct CardEye {
     /// Seconds between two pictures, and when the next one is due.
     every: f64,
     due: f64,
-    believed: Option<Pose>,
+    believed: Option<odometry::Estimate>,
 }
 
 impl CardEye {
@@ -210,14 +208,16 @@ impl CardEye {
 }
 
 impl PoseSource for CardEye {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         let believed = self.believed.filter(|_| t >= self.due)?;
         self.due = t + self.every;
-        let glance = self.eye.borrow_mut().look(t, self.card.motion(), &Estimate::new(believed, DRIVING_SD));
-        glance.ok()?.pose.ok().map(|found| found.pose)
+        let predicted = Estimate { pose: believed.pose, covariance: believed.covariance, agreeing: 1.0 };
+        let found = self.eye.borrow_mut().look(t, self.card.motion(), &predicted).ok()?.pose.ok()?;
+        let found = odometry::Estimate { pose: found.pose, covariance: found.covariance };
+        Some(Measurement::posterior(found, believed, t))
     }
 
-    fn believed(&mut self, _: f64, pose: Pose) {
-        self.believed = Some(pose);
+    fn believed(&mut self, _: f64, belief: &odometry::Estimate) {
+        self.believed = Some(*belief);
     }
 }

@@ -9,9 +9,10 @@ use driver::realtime::Clock;
 use fixed_kin::registers as map;
 use measured::Table;
 use model::camera::CameraModel;
+use model::measurement::Measurement;
 use model::plant::{Contact, Plant};
 use model::trajectory::SetPoint;
-use runs::frames::{Pose, wrap_angle};
+use runs::frames::wrap_angle;
 use runs::robot::{ImuMount, Layout, Robot, SensorName};
 use simulator::closed_loop::{Drive, Driven, LoopError, VirtualRobot};
 use simulator::fpga::BitTrue;
@@ -66,7 +67,7 @@ fn rounds(turning: bool) -> Vec<SetPoint> {
 struct Until<S>(S);
 
 impl<S: PoseSource> PoseSource for Until<S> {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         self.0.arrived(t).filter(|_| t < SEEN_S)
     }
 }

@@ -7,6 +7,7 @@ use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
 use model::fusion::FusionOptions;
 use model::localisation::Localiser;
+use model::odometry::Estimate;
 use model::trajectory::SetPoint;
 use runs::frames::Pose;
 use runs::geometry::GeometryError;
@@ -24,6 +25,8 @@ pub struct Plan {
     pub control: Control,
     /// Where the robot stands.
     pub start: Pose,
+    /// How well that is known, standard deviations (m, m, rad); without it, as a pose of the robot's camera.
+    pub start_sd: Option<[f64; 3]>,
     /// Whether poses from outside correct the controller's; else odometry is all it has.
     pub fused: bool,
     /// Speeds and time-outs.
@@ -44,6 +47,7 @@ impl Plan {
             set_points: set_points.to_vec(),
             control: Control::default(),
             start: Pose::default(),
+            start_sd: None,
             fused: false,
             settings: Settings { watchdog_s, speed_mode: SpeedMode::Difference, ..defaults },
             limit_s: 60.0,
@@ -70,7 +74,7 @@ impl Plan {
         let robot = self.believed();
         let geometry = robot.geometry()?;
         let options = FusionOptions::of(&robot).uncalibrated();
-        Ok(Localiser::inertial(&robot, &geometry, options, &imu.model(robot.control_rate_hz), self.start))
+        Ok(Localiser::inertial(&robot, &geometry, options, &imu.model(robot.control_rate_hz), self.told(&options)))
     }
 
     /// What tells the controller where the robot is.
@@ -81,10 +85,16 @@ impl Plan {
         let robot = self.believed();
         let geometry = robot.geometry()?;
         Ok(if self.fused {
-            Localiser::fused(&robot, &geometry, FusionOptions::of(&robot).uncalibrated(), self.start)
+            let options = FusionOptions::of(&robot).uncalibrated();
+            Localiser::fused(&robot, &geometry, options, self.told(&options))
         } else {
             Localiser::odometry(&robot, &geometry, self.start)
         })
+    }
+
+    /// What the filter is told of the start.
+    fn told(&self, options: &FusionOptions) -> Estimate {
+        Estimate::new(self.start, self.start_sd.unwrap_or(options.camera_noise))
     }
 
     /// Conversions for this plan on a card with this clock.

@@ -297,18 +297,18 @@ impl<S: Steer> State<S> {
         let t = f64::from(now.sequence.wrapping_sub(self.first)) * scale.tick_s();
         (self.driven.t, self.driven.ticks) = (t, self.driven.ticks + 1);
         self.driven.unseen += u64::from(ticks - 1);
-        let camera = source.arrived(t);
-        self.note_source(t, camera);
+        let seen = source.arrived(t);
+        self.note_source(t, seen.is_some());
         if let Some(feel) = &mut self.feel {
             self.localiser.feel(feel.corrected());
             self.driven.imu_gone = feel.gone(t);
         }
         let slipped = self.localiser.slips();
-        let pose = self.localiser.tick(t, &self.total[..self.wheels], camera);
+        let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
         self.driven.slips += u64::from(self.localiser.slips() && !slipped);
         self.driven.pose = pose;
-        source.believed(t, pose);
-        Seen { t, pose, camera }
+        source.believed(t, &self.localiser.estimate());
+        Seen { t, pose, camera: seen.map(|seen| seen.pose) }
     }
 
     fn record(&self, recording: Option<&mut Recording>, t: f64, in_force: Twist, scale: &Scale, camera: Option<Pose>) {
@@ -414,8 +414,8 @@ impl<S: Steer> State<S> {
         Ok(())
     }
 
-    fn note_source(&mut self, t: f64, seen: Option<Pose>) {
-        if seen.is_some() {
+    fn note_source(&mut self, t: f64, seen: bool) {
+        if seen {
             self.posed_at = t;
             self.driven.poses += 1;
             self.driven.source_gone = None;

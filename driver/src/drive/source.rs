@@ -1,26 +1,26 @@
-//! Who sees the robot from outside.
+//! Who sees where the robot is.
 
-use runs::frames::Pose;
+use model::measurement::Measurement;
+use model::odometry::Estimate;
 
-/// A source of poses in the field frame, such as an overhead camera.
+/// A source of poses in the field frame: a camera above the robot, or on it.
 pub trait PoseSource {
-    /// The pose that arrived since the last call, for the tick at `t` seconds of the drive. Must neither wait
-    /// nor allocate.
-    fn arrived(&mut self, t: f64) -> Option<Pose>;
+    /// What arrived since the last call, for the tick at `t` seconds of the drive. Must neither wait nor allocate.
+    fn arrived(&mut self, t: f64) -> Option<Measurement>;
 
     /// Hears what the controller believes of the pose at `t` seconds of the drive, which a source on the robot needs as
     /// its prediction. Must neither wait nor allocate.
-    fn believed(&mut self, t: f64, pose: Pose) {
-        let _ = (t, pose);
+    fn believed(&mut self, t: f64, belief: &Estimate) {
+        let _ = (t, belief);
     }
 }
 
 impl<S: PoseSource + ?Sized> PoseSource for Box<S> {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         (**self).arrived(t)
     }
-    fn believed(&mut self, t: f64, pose: Pose) {
-        (**self).believed(t, pose);
+    fn believed(&mut self, t: f64, belief: &Estimate) {
+        (**self).believed(t, belief);
     }
 }
 
@@ -29,7 +29,7 @@ impl<S: PoseSource + ?Sized> PoseSource for Box<S> {
 pub struct NoSource;
 
 impl PoseSource for NoSource {
-    fn arrived(&mut self, _: f64) -> Option<Pose> {
+    fn arrived(&mut self, _: f64) -> Option<Measurement> {
         None
     }
 }

@@ -42,7 +42,7 @@ impl Drive {
         let mut gauss = || -> f64 { StandardNormal.sample(&mut rng) };
         let told =
             Pose::new(start.x + noise[0] * gauss(), start.y + noise[1] * gauss(), start.theta + noise[2] * gauss());
-        let mut fusion = Fusion::new(&g, COUNTS_PER_RAD, self.options, told, noise);
+        let mut fusion = Fusion::new(&g, COUNTS_PER_RAD, self.options, Estimate::new(told, noise));
         let mut truth = start;
         let mut angles = [0.0; 3];
         let mut outcome = Outcome::default();
@@ -137,7 +137,7 @@ fn seconds_without_a_camera_are_survived_and_admitted() {
 fn a_robot_carried_away_is_found_again() {
     let g = Geometry::rac(0.0275, 0.085, [0.0; 3]).unwrap();
     let options = FusionOptions { latency_s: 0.02, ..FusionOptions::of(&Robot::racbot()) };
-    let mut fusion = Fusion::new(&g, 1e3, options, Pose::default(), [0.001; 3]);
+    let mut fusion = Fusion::new(&g, 1e3, options, Estimate::new(Pose::default(), [0.001; 3]));
     let elsewhere = Pose::new(2.0, 1.0, -1.0);
     let mut verdicts = Vec::new();
     for k in 0..1000_u32 {
@@ -151,4 +151,47 @@ fn a_robot_carried_away_is_found_again() {
     assert!(fusion.pose().distance(elsewhere) < 1e-6, "{:?}", fusion.pose());
     assert_eq!(verdicts[0], Correction::Unusable, "exposed before the filter began");
     assert_eq!(fusion.correct(1.0, Pose::new(f64::NAN, 0.0, 0.0)), Correction::Unusable);
+}
+
+/// Pictures that are matched to the belief of their own moment and come late, one of them while the next is already
+/// matched: the filter ends where it would have, had each come alone and at once.
+#[test]
+fn a_late_match_counts_its_prediction_once() {
+    let g = Geometry::rac(0.0275, 0.085, [0.0; 3]).unwrap();
+    let options = FusionOptions::of(&Robot::racbot()).uncalibrated();
+    let start = Estimate::new(Pose::new(0.4, 0.3, 0.2), [0.04, 0.05, 0.03]);
+    let counts = |k: usize| [k as i64 * 9, k as i64 * -3, k as i64 * -5];
+    // Picture, its sight of a line along y, and of the heading; taken at ticks 20 and 40.
+    let sights = [(20, Pose::new(0.41, 0.0, 0.21)), (40, Pose::new(0.43, 0.0, 0.20))];
+    let noise = Matrix3::from_diagonal(&Vector3::new(4e-4, 100.0, 2.5e-4));
+    let alone = |seen: Pose, t: f64| Measurement { covariance: Some(noise), taken: Some(t), ..seen.into() };
+    let (mut at_once, mut late) =
+        (Fusion::new(&g, COUNTS_PER_RAD / 1e3, options, start), Fusion::new(&g, COUNTS_PER_RAD / 1e3, options, start));
+    let mut found = Vec::new();
+    for k in 0..100 {
+        let t = k as f64 * TICK;
+        at_once.predict(t, &counts(k));
+        late.predict(t, &counts(k));
+        if let Some((_, seen)) = sights.iter().find(|(tick, _)| *tick == k) {
+            // The match: the belief of now, corrected as a filter would.
+            let belief = late.estimate();
+            let mut by_match = Fusion { history: VecDeque::new(), now: belief, ..late.clone() };
+            by_match.predict(t, &counts(k));
+            by_match.correct(t, alone(*seen, t));
+            found.push(Measurement::posterior(by_match.estimate(), belief, t));
+            assert!(matches!(at_once.correct(t, alone(*seen, t)), Correction::Accepted(_)));
+        }
+        if k == 60 || k == 75 {
+            let verdict = late.correct(t, found[usize::from(k == 75)]);
+            assert!(matches!(verdict, Correction::Accepted(_)), "{verdict:?}");
+        }
+    }
+    let (a, b) = (at_once.estimate(), late.estimate());
+    let off = Vector3::new(a.pose.x - b.pose.x, a.pose.y - b.pose.y, a.pose.theta - b.pose.theta);
+    // The match was linearised at an older belief: the difference is of second order.
+    assert!(off.norm() < 2e-4, "{off:?}");
+    assert!((a.covariance - b.covariance).norm() < 0.01 * a.covariance.norm(), "{a:?} {b:?}");
+    assert!(a.covariance[(0, 0)].sqrt() < 0.02 && a.covariance[(1, 1)].sqrt() > 0.04, "{a:?}");
+    let old = Measurement { taken: Some(0.099 - 2.0 * MEMORY_S), ..Pose::default().into() };
+    assert_eq!(late.correct(0.099, old), Correction::Unusable);
 }

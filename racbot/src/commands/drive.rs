@@ -118,7 +118,7 @@ impl Options {
         self.target.check_free(&self.record)?;
         let (actual, pace) = self.built_in(&robot)?;
         #[cfg(feature = "vision")]
-        let (robot, setting) = (self.vision.seen(&robot), self.vision.setting()?);
+        let setting = self.vision.setting()?;
         let plan = self.plan(&robot, &set_points);
         let ready = self.card.ready(Use::Drive, &actual, pace)?;
         #[cfg(feature = "vision")]
@@ -204,6 +204,8 @@ impl Options {
             Speeds::Difference => SpeedMode::Difference,
             Speeds::CountAndTime => SpeedMode::CountAndTime,
         };
+        #[cfg(feature = "vision")]
+        let plan = Plan { start_sd: self.vision.start_sd(), ..plan };
         Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, ..plan }
     }
 

@@ -9,6 +9,8 @@ use driver::drive::PoseSource;
 use model::fusion::FusionOptions;
 use model::imu::{Imu, ImuModel, Motion};
 use model::inertial::Inertial;
+use model::measurement::Measurement;
+use model::odometry;
 use runs::frames::{Pose, Twist, wrap_angle};
 use runs::robot::Robot;
 use std::cell::Cell;
@@ -50,11 +52,9 @@ impl<F: Fpga> OnBoard<F> {
     ) -> Self {
         let sensor = ImuModel::icm_42688_p(model.control_rate_hz);
         let geometry = model.geometry().expect("the robot drives by this geometry");
-        let [place, heading] = now.belief.standard_deviations();
         let options = FusionOptions::of(model).uncalibrated();
-        let start_sd = [place, place, heading];
-        let mut filter =
-            Inertial::new(&geometry, model.counts_per_wheel_rad(), options, &sensor, now.belief.pose, start_sd);
+        let start = odometry::Estimate { pose: now.belief.pose, covariance: now.belief.covariance };
+        let mut filter = Inertial::new(&geometry, model.counts_per_wheel_rad(), options, &sensor, start);
         let mut imu = Imu::new(sensor, part).with_noise(part + now.legs.len() as u64);
         // A second of rest before the start shows the gyroscope's bias.
         let period = 1.0 / model.control_rate_hz;
@@ -83,7 +83,7 @@ impl<F: Fpga> OnBoard<F> {
 }
 
 impl<F: Fpga> PoseSource for OnBoard<F> {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         let (motion, counts, truth) = self.motion();
         let reading = self.imu.read(&motion);
         self.filter.predict(t, &counts, &reading);
@@ -100,6 +100,6 @@ impl<F: Fpga> PoseSource for OnBoard<F> {
         let pose = self.filter.pose();
         self.end.set(self.belief());
         let due = self.senses != Senses::Wheels && self.tick.is_multiple_of(POSE_EVERY);
-        due.then(|| Pose::new(pose.x, pose.y, wrap_angle(pose.theta)))
+        due.then(|| Pose::new(pose.x, pose.y, wrap_angle(pose.theta)).into())
     }
 }

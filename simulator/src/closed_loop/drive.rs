@@ -192,7 +192,7 @@ fn believed(mut localiser: Localiser, imu: Option<&Imu>, run: &Run) -> Vec<Pose>
         counts.iter_mut().zip(&run.counts).for_each(|(count, column)| *count = column[tick]);
         let seen = camera.next_if(|sample| sample.tick == tick).map(|sample| sample.pose);
         localiser.feel(imu.and_then(|imu| imu.logged(run, tick)));
-        localiser.tick(*t, &counts[..run.counts.len()], seen)
+        localiser.tick(*t, &counts[..run.counts.len()], seen.map(Into::into))
     };
     run.t.iter().enumerate().map(pose).collect()
 }

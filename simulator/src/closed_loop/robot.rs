@@ -8,6 +8,7 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::registers::NOMINAL_CLOCK_HZ;
 use model::camera::{Camera, CameraModel};
+use model::measurement::Measurement;
 use model::plant::Plant;
 use runs::frames::{Pose, Twist};
 use std::cell::RefCell;
@@ -180,9 +181,9 @@ impl<F: Fpga> Clock for VirtualRobot<F> {
 }
 
 impl<F: Fpga> PoseSource for VirtualRobot<F> {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         let mut inside = self.0.borrow_mut();
         let pose = inside.history.last()?.pose;
-        inside.camera.as_mut()?.observe(t, pose)
+        inside.camera.as_mut()?.observe(t, pose).map(Into::into)
     }
 }

@@ -5,6 +5,7 @@ use driver::drive::PoseSource;
 use driver::pci::{Bar, PciCard, PciError};
 use driver::realtime::Clock;
 use model::camera::{Camera, CameraModel};
+use model::measurement::Measurement;
 use runs::frames::{Pose, Twist};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -86,7 +87,7 @@ pub struct CameraAbove {
 }
 
 impl PoseSource for CameraAbove {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
-        self.camera.observe(t, self.card.pose())
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
+        self.camera.observe(t, self.card.pose()).map(Into::into)
     }
 }

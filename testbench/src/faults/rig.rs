@@ -5,6 +5,7 @@ use driver::realtime::Clock;
 use driver::{BusError, Registers};
 use fixed_kin::registers::{NOMINAL_CLOCK_HZ, STATUS, STATUS_ARMED};
 use model::camera::{Camera, CameraModel};
+use model::measurement::Measurement;
 use runs::frames::Pose;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
@@ -232,9 +233,9 @@ impl Clock for Rig {
 }
 
 impl PoseSource for Rig {
-    fn arrived(&mut self, t: f64) -> Option<Pose> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
         let mut inside = self.0.borrow_mut();
         let pose = inside.machine.plant().pose();
-        inside.camera.as_mut()?.observe(t, pose)
+        inside.camera.as_mut()?.observe(t, pose).map(Into::into)
     }
 }
