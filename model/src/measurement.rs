@@ -18,6 +18,11 @@ pub struct Measurement {
     pub prediction: Option<Estimate>,
 }
 
+/// Share of a prediction's information that stays in what is left without it: a picture of one line tells nothing along
+/// it, and the difference of two rounded matrices may be less than nothing. So little counts twice that a million
+/// pictures weigh as much as one prediction.
+const STAYS: f64 = 1e-6;
+
 impl From<Pose> for Measurement {
     fn from(pose: Pose) -> Self {
         Self { pose, covariance: None, taken: None, prediction: None }
@@ -32,7 +37,8 @@ impl Measurement {
     }
 
     /// Pose and covariance without the prediction: by the product of normal densities, inverse covariances add up, and so
-    /// do the poses that they weigh. `noise` are the standard deviations where the measurement has no covariance (m, m,
+    /// do the poses that they weigh. Where the picture tells nothing the deviation is a thousand times the prediction's.
+    /// `noise` are the standard deviations where the measurement has no covariance (m, m,
     /// rad). `None` where numbers are not finite, or say less than the prediction.
     #[must_use]
     pub fn alone(&self, noise: [f64; 3]) -> Option<Estimate> {
@@ -45,6 +51,7 @@ impl Measurement {
         // What cannot be inverted is no prediction: the match did not use it either.
         let prior = self.prediction.and_then(|p| Some((p.pose, p.covariance.try_inverse()?)));
         let Some((from, weight)) = prior else { return Some(Estimate { pose: self.pose, covariance: given }) };
+        let weight = (1.0 - STAYS) * weight;
         let covariance = (given.try_inverse()? - weight).cholesky()?.inverse();
         let moved = Vector3::new(x - from.x, y - from.y, wrap_angle(theta - from.theta));
         let off = covariance * (weight * moved);
@@ -73,11 +80,35 @@ mod tests {
         assert!((alone.covariance - picture.covariance).norm() < 1e-4, "{alone:?}");
     }
 
+    /// One line across the way: the match leaves the place along it, and the heading's covariance, as predicted.
+    #[test]
+    fn a_picture_of_one_line_tells_what_it_shows() {
+        for (k, sd) in [[0.05, 0.04, 0.03], [0.3, 0.001, 0.2], [0.0123, 0.0456, 0.0789]].into_iter().enumerate() {
+            let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), 0.3 * (k + 1) as f64);
+            let turned = |c: Matrix3<f64>| turn.matrix() * c * turn.matrix().transpose();
+            let plain = Estimate::new(Pose::new(1.0, 2.0, 0.5), sd);
+            let prediction = Estimate { covariance: turned(plain.covariance), ..plain };
+            let across = turn.matrix() * Vector3::x();
+            // The line is seen to a centimetre, 5 mm from where it was predicted.
+            let told = across * across.transpose() * 1e4;
+            let covariance = (prediction.covariance.try_inverse().unwrap() + told).try_inverse().unwrap();
+            let by = covariance * (told * (0.005 * across));
+            let pose = Pose::new(1.0 + by.x, 2.0 + by.y, 0.5 + by.z);
+            let alone = Measurement::posterior(Estimate { pose, covariance }, prediction, 0.0).alone([1.0; 3]).unwrap();
+            let off = Vector3::new(alone.pose.x - 1.0, alone.pose.y - 2.0, 0.0).dot(&across);
+            assert!((off - 0.005).abs() < 1e-4, "{k}: {off}");
+            let variance = (across.transpose() * alone.covariance * across)[0];
+            assert!((variance.sqrt() - 0.01).abs() < 1e-3, "{k}: {variance}");
+            let along = turn.matrix() * Vector3::y();
+            assert!((along.transpose() * alone.covariance * along)[0].sqrt() > 100.0 * sd[1], "{k}: {alone:?}");
+        }
+    }
+
     #[test]
     fn what_is_no_measurement_is_none() {
         let start = Estimate::new(Pose::default(), [0.1; 3]);
         let nothing = |found: Estimate| Measurement::posterior(found, start, 0.0).alone([1.0; 3]).is_none();
-        assert!(nothing(start) && nothing(Estimate::new(Pose::default(), [0.2; 3])));
+        assert!(nothing(Estimate::new(Pose::default(), [0.2; 3])));
         assert!(nothing(Estimate::new(Pose::new(f64::NAN, 0.0, 0.0), [0.01; 3])));
         assert!(nothing(Estimate::new(Pose::default(), [f64::NAN; 3])));
         let plain = Measurement::from(Pose::new(1.0, 2.0, 3.0)).alone([0.1, 0.2, 0.3]).unwrap();

@@ -14,7 +14,7 @@ use estimation::prior::{Penalised, PenalisedFit, Role};
 /// Standard deviations of the named effects' laws that another effect must explain more than.
 const LAW_SIGMAS: f64 = 2.0;
 /// Share of what an unnamed effect does that the named ones could do in its place, from which it is frozen while they
-/// are estimated: they would share the signal (issue: -2.3 % where -3.6 % is true).
+/// are estimated: they would share the signal (-2.3 % was found where -3.6 % is true).
 const TWIN: f64 = 0.3;
 
 /// A linearised link with all candidates, ready for any question about subsets.
