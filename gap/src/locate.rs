@@ -95,12 +95,7 @@ pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64],
             let (slow_part, fast_part) = (along(&|b| speed[b].abs() < middle), along(&|b| speed[b].abs() >= middle));
             let half = used.len() / 2;
             let (early, late) = (along(&|b| b < used[half].0), along(&|b| b >= used[half].0));
-            let which = match (ahead < -floor[i] * 500.0, back > floor[i] * 500.0) {
-                (true, true) => "in both directions",
-                (true, false) => "turning forwards only",
-                (false, true) => "turning backwards only",
-                _ => "in no direction alone",
-            };
+            let which = directions([ahead, back], floor[i] * 500.0);
             let against = -along(&|_| true) * 1e-3;
             // Against the rotation by most of it: that much more duty is needed.
             let place = if against.abs() > 0.4 * excess * floor[i] {
@@ -134,6 +129,17 @@ pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64],
         .collect()
 }
 
+/// Where a drive is off by more than `least`, by its means forwards and backwards, mNm.
+fn directions(means: [f64; 2], least: f64) -> &'static str {
+    match means.map(|mean| mean.abs() > least) {
+        [true, true] if means[0] * means[1] > 0.0 => "one way, wherever it turns",
+        [true, true] => "in both directions",
+        [true, false] => "turning forwards only",
+        [false, true] => "turning backwards only",
+        [false, false] => "in no direction alone",
+    }
+}
+
 /// A deterministic link.
 pub(crate) fn exact(link: &ExactLink) -> Vec<Located> {
     let signal = |i: usize| match link.link {
@@ -155,4 +161,23 @@ pub(crate) fn exact(link: &ExactLink) -> Vec<Located> {
             place: format!("{} differs by {e:.4} {} RMS beyond rounding", signal(i), link.unit),
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_say_where_a_drive_is_off() {
+        for (means, wanted) in [
+            ([-51.4, -50.6], "one way, wherever it turns"),
+            ([-20.0, 18.0], "in both directions"),
+            ([20.0, -18.0], "in both directions"),
+            ([-20.0, 1.0], "turning forwards only"),
+            ([1.0, -20.0], "turning backwards only"),
+            ([3.0, -3.0], "in no direction alone"),
+        ] {
+            assert_eq!(directions(means, 5.0), wanted, "{means:?}");
+        }
+    }
 }
