@@ -219,6 +219,8 @@ pub struct Sizes {
     pub test_function_s: f64,
     /// Longest run without a gap, s.
     pub run_s: f64,
+    /// Half of what the wheel that turned most turned through, rad.
+    pub reach_rad: f64,
 }
 
 impl Sizes {
@@ -240,6 +242,7 @@ impl Sizes {
             count_rad: 1.0 / robot.counts_per_wheel_rad(),
             test_function_s: crate::drive::TEST_FUNCTION_S,
             run_s: f64::INFINITY,
+            reach_rad: 1.0,
         }
     }
 

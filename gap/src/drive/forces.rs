@@ -57,16 +57,49 @@ impl Instant<'_> {
 pub struct Loads {
     /// At each wheel shaft, Nm, positive with the wheel's rotation.
     pub wheel: Vec<f64>,
+    /// On what each shaft turns, Nm, likewise: of an axis on blocks the gear carries it, and loses its share of it.
+    pub carried: Vec<f64>,
     /// On the body: to the right (N), forward (N), counter-clockwise (Nm).
     pub body: [f64; 3],
 }
 
 impl Loads {
+    fn none(wheels: usize) -> Self {
+        Self { wheel: vec![0.0; wheels], carried: vec![0.0; wheels], body: [0.0; 3] }
+    }
+
+    fn clear(&mut self) {
+        self.wheel.fill(0.0);
+        self.carried.fill(0.0);
+        self.body = [0.0; 3];
+    }
+
     /// Adds a force in world axes, N, at the chassis centre.
     pub fn push_world(&mut self, heading: f64, force: [f64; 2]) {
         let (s, c) = heading.sin_cos();
         self.body[0] += c * force[0] + s * force[1];
         self.body[1] += -s * force[0] + c * force[1];
+    }
+}
+
+/// What is the same at every tick of an axis, at its output shaft.
+struct Axis {
+    /// Nm per volt.
+    gain: f64,
+    /// Nm per rad/s.
+    damping: f64,
+    /// Friction of the motor, Nm.
+    coulomb: f64,
+    /// Share of the transmitted torque that is lost.
+    loss: f64,
+    /// Share of the winding's torque that passes through the gear: off the floor, what turns the rotor does not.
+    passed: f64,
+}
+
+impl Axis {
+    /// Torque that the gear loses, Nm, by size.
+    fn lost(&self, winding: f64, sign: f64, carried: f64) -> f64 {
+        self.loss * (self.passed * (winding - self.coulomb * sign) - (1.0 - self.passed) * carried).abs()
     }
 }
 
@@ -76,17 +109,20 @@ pub(super) struct Base<'a> {
     segment: &'a Segment,
     /// As of [`DriveModel::forces`].
     pub(super) forces: Vec<f64>,
-    /// `[tick][5 wheels + 4]`, flat, without the last tick: duty, speed, sign, winding and sideways speed of the
-    /// wheels, twist, supply.
+    /// `[tick][SIGNALS wheels + 4]`, flat, without the last tick: duty, speed, sign, winding, sideways speed and carried
+    /// torque of the wheels, twist, supply.
     signals: Vec<f64>,
     prepared: Vec<Vec<Vec<f64>>>,
 }
+
+/// Signals of a wheel.
+const SIGNALS: usize = 6;
 
 impl<'a> Base<'a> {
     /// Of a model at a segment; without its signals, unless loads are to be added.
     pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, with_signals: bool) -> Self {
         let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
-        let room = if with_signals { segment.t.len() * (5 * model.wheels.len() + 4) } else { 0 };
+        let room = if with_signals { segment.t.len() * (SIGNALS * model.wheels.len() + 4) } else { 0 };
         let mut signals = Vec::with_capacity(room);
         let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals));
         Self { model, segment, forces, signals, prepared }
@@ -114,10 +150,11 @@ impl<'a> Base<'a> {
             Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
         };
         let mut out = vec![vec![0.0; s.t.len()]; n + 3];
-        let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
+        let mut loads = Loads::none(n);
+        let axes = self.model.constants();
         let sliding_per_turning = self.model.sliding_per_turning();
-        for (k, signals) in self.signals.chunks_exact(5 * n + 4).enumerate() {
-            let (by_wheel, whole) = signals.split_at(5 * n);
+        for (k, signals) in self.signals.chunks_exact(SIGNALS * n + 4).enumerate() {
+            let (by_wheel, whole) = signals.split_at(SIGNALS * n);
             let wheel = |index: usize| &by_wheel[index * n..(index + 1) * n];
             let now = Instant {
                 segment: s,
@@ -135,10 +172,16 @@ impl<'a> Base<'a> {
                 prepared: &prepared,
                 sliding_per_turning,
             };
-            loads.wheel.fill(0.0);
-            loads.body = [0.0; 3];
+            loads.clear();
             for term in more {
                 term(&now, &mut loads);
+            }
+            for (i, axis) in axes.iter().enumerate() {
+                let (before, more) = (wheel(5)[i], loads.carried[i]);
+                if more != 0.0 {
+                    let lost = |carried| axis.lost(now.winding[i], now.sign[i], carried);
+                    loads.wheel[i] += more - now.sign[i] * (lost(before + more) - lost(before));
+                }
             }
             for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
                 row[k] = *x;
@@ -156,6 +199,25 @@ impl<'a> Base<'a> {
 impl DriveModel {
     fn sliding_per_turning(&self) -> f64 {
         crate::thresholds::SLIDES * self.wheel_radius_m
+    }
+
+    fn constants(&self) -> Vec<Axis> {
+        let g = self.gear_ratio;
+        let of = |a: &super::AxisModel| {
+            let gain = g * a.torque_constant / a.resistance;
+            let rotor = g * g * a.rotor_inertia;
+            Axis {
+                gain,
+                damping: gain * a.back_emf * g * a.encoder_scale,
+                coulomb: g * a.friction,
+                loss: a.gear_loss,
+                passed: match self.support {
+                    Support::Blocks => a.load_inertia / (a.load_inertia + rotor).max(1e-300),
+                    Support::Floor => 1.0,
+                },
+            }
+        };
+        self.axes.iter().map(of).collect()
     }
 
     /// Largest torque with which each wheel may stick, Nm, at the start of a segment.
@@ -180,7 +242,7 @@ impl DriveModel {
                 prepared: &prepared,
                 sliding_per_turning: self.sliding_per_turning(),
             };
-            let mut loads = Loads { wheel: still.clone(), body: [0.0; 3] };
+            let mut loads = Loads::none(n);
             self.loads.iter().for_each(|term| term(&now, &mut loads));
             loads.wheel
         };
@@ -216,7 +278,7 @@ impl DriveModel {
         let g = self.gear_ratio;
         let (mut duty, mut speed, mut sign) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let mut loads = Loads { wheel: vec![0.0; n], body: [0.0; 3] };
+        let mut loads = Loads::none(n);
         let start = s.stretch[0];
         let from_wheels: Option<Vec<[f64; 3]>> = self.twist_per_wheel_speed().map(|m| {
             let of_wheel = |(i, a): (usize, &super::AxisModel)| [0, 1, 2].map(|j| m[(j, i)] * a.encoder_scale);
@@ -225,20 +287,7 @@ impl DriveModel {
         let sliding_per_turning = self.sliding_per_turning();
         // Only terms and maps look at more than duties and counts.
         let bare = self.loads.is_empty() && self.supply_maps.is_empty() && signals.is_none();
-        let constants: Vec<[f64; 4]> = self
-            .axes
-            .iter()
-            .map(|a| {
-                let gain = g * a.torque_constant / a.resistance;
-                // Off the floor, what turns the rotor does not pass through the gear.
-                let rotor = g * g * a.rotor_inertia;
-                let passed = match self.support {
-                    Support::Blocks => a.load_inertia / (a.load_inertia + rotor).max(1e-300),
-                    Support::Floor => 1.0,
-                };
-                [gain, gain * a.back_emf * g * a.encoder_scale, g * a.friction, a.gear_loss * passed]
-            })
-            .collect();
+        let axes = self.constants();
         for k in 0..ticks - 1 {
             let dt = s.t[k + 1] - s.t[k];
             let per_dt = 1.0 / dt;
@@ -306,12 +355,9 @@ impl DriveModel {
             for i in 0..n {
                 // Raw increments where the equation is linear: nothing is lost by smoothing.
                 let raw = (s.angle[i][k + 1] - s.angle[i][k]) * per_dt;
-                let [gain, damping, coulomb, loss] = constants[i];
-                winding[i] = gain * duty[i] * supply - damping * raw;
-                let transmitted = winding[i] - coulomb * sign[i];
-                loads.wheel[i] = winding[i] - sign[i] * (coulomb + loss * transmitted.abs());
+                winding[i] = axes[i].gain * duty[i] * supply - axes[i].damping * raw;
             }
-            loads.body = [0.0; 3];
+            loads.clear();
             if self.support == Support::Floor {
                 let [cx, cy] = self.centre_of_mass;
                 let (px, py) = (self.mass * (twist.vx - twist.omega * cy), self.mass * (twist.vy + twist.omega * cx));
@@ -339,11 +385,15 @@ impl DriveModel {
                     term(&now, &mut loads);
                 }
             }
+            for (i, axis) in axes.iter().enumerate() {
+                let lost = axis.lost(winding[i], sign[i], loads.carried[i]);
+                loads.wheel[i] += winding[i] + loads.carried[i] - sign[i] * (axis.coulomb + lost);
+            }
             let row = &mut out[k * width..(k + 1) * width];
             row[..n].copy_from_slice(&loads.wheel);
             row[n..].copy_from_slice(&loads.body);
             if let Some(signals) = &mut signals {
-                for part in [&duty, &speed, &sign, &winding, &sideways] {
+                for part in [&duty, &speed, &sign, &winding, &sideways, &loads.carried] {
                     signals.extend_from_slice(part);
                 }
                 signals.extend([twist.vx, twist.vy, twist.omega, supply]);

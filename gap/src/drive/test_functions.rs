@@ -94,12 +94,19 @@ impl<'a> DriveLink<'a> {
         let mut cluster = 0;
         let total = pieces.seconds();
         let mut longest = 0.0_f64;
+        let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; n];
         for (index, s) in pieces.iter().enumerate() {
             if s.duty.len() != n || s.angle.len() != n || s.t.len() < 2 * FEWEST_TICKS as usize {
                 continue;
             }
             let end = s.t[s.t.len() - 1];
             longest = longest.max(s.stretch[1] - s.stretch[0]).max(end - s.t[0]);
+            for (i, [low, high]) in reached.iter_mut().enumerate() {
+                for angle in &s.angle[i] {
+                    *low = low.min(s.zero[i] + angle);
+                    *high = high.max(s.zero[i] + angle);
+                }
+            }
             let tick = (end - s.t[0]) / (s.t.len() - 1) as f64;
             let length = test_function_s.max(FEWEST_TICKS * tick);
             let cluster_s = CLUSTER_S.max(0.5 * FEWEST_TEST_FUNCTIONS * length).max(total / MOST_CLUSTERS);
@@ -128,6 +135,7 @@ impl<'a> DriveLink<'a> {
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         link.sizes.test_function_s = link.length();
         link.sizes.run_s = longest;
+        link.sizes.reach_rad = reached.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
         Some(link)
     }
 

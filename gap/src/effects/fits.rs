@@ -39,7 +39,7 @@ const NOT_ON_BLOCKS: [&str; 12] = [
 ];
 
 /// What hangs on an axis alone; the weight of a robot hangs on none of its wheels.
-const ONLY_ON_BLOCKS: [&str; 1] = ["gravity-load"];
+const ONLY_ON_BLOCKS: [&str; 2] = ["gravity-load", "joint-spring"];
 
 /// Whether a robot can have an effect.
 pub(crate) fn fits(name: &str, robot: &Robot) -> bool {

@@ -5,7 +5,7 @@ use runs::robot::Robot;
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 
-/// A mass beside the shaft of an axis. A spring does the same within a radian or so, and no effect is one: it is named so.
+/// A mass beside the shaft of an axis. Within a radian or so a spring does the same.
 pub(super) struct GravityLoad;
 
 impl Effect for GravityLoad {
@@ -58,7 +58,7 @@ impl Effect for GravityLoad {
             for (i, [a, b]) in torque.iter().enumerate() {
                 if *a != 0.0 || *b != 0.0 {
                     let (s, c) = now.segment.shaft_angle(i, now.tick).sin_cos();
-                    loads.wheel[i] += a * s + b * c;
+                    loads.carried[i] += a * s + b * c;
                 }
             }
         }));

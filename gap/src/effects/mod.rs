@@ -28,6 +28,7 @@ mod gyro_scale;
 mod heading_drag;
 mod imu_latency;
 mod imu_mount;
+mod joint_spring;
 mod lens_distortion;
 mod marker_heading;
 mod marker_offset;
@@ -90,6 +91,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(stribeck_friction::StribeckFriction),
         Box::new(asymmetric_friction::AsymmetricFriction),
         Box::new(gravity_load::GravityLoad),
+        Box::new(joint_spring::JointSpring),
         Box::new(gear_efficiency::GearEfficiency),
         Box::new(gear_backlash::GearBacklash),
         Box::new(roller_friction::RollerFriction),
@@ -139,7 +141,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 32] = [
+    const NAMES: [(&str, &[&str]); 33] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -164,6 +166,7 @@ mod tests {
         ("centre-of-mass", &["x_m", "y_m"]),
         ("coulomb-friction", &["torque_nm", "torque_#_nm"]),
         ("gravity-load", &["sin_#_nm", "cos_#_nm"]),
+        ("joint-spring", &["stiffness_#_nm_per_rad", "preload_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
         ("roller-friction", &["force_n"]),
         ("dead-band", &["duty"]),

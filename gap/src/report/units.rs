@@ -6,6 +6,7 @@ use super::short;
 fn unit(name: &str) -> (f64, &'static str) {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
     match stem {
+        _ if name.ends_with("_nm_per_rad") => (1e3, " mNm/rad"),
         _ if name.ends_with("_rad_s") => (1.0, " rad/s"),
         _ if name.ends_with("_rad") => (180.0 / std::f64::consts::PI, "°"),
         _ if name.ends_with("_nms") => (1e6, " µNm s"),
@@ -24,7 +25,8 @@ fn unit(name: &str) -> (f64, &'static str) {
 
 /// The SI unit that a parameter's name ends in; empty for a ratio.
 pub(crate) fn si(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 15] = [
+    const UNITS: [(&str, &str); 16] = [
+        ("_nm_per_rad", "N m/rad"),
         ("_rad_s", "rad/s"),
         ("_rad_m", "rad m"),
         ("_rad", "rad"),
@@ -46,7 +48,8 @@ pub(crate) fn si(name: &str) -> &'static str {
 
 /// The name without its unit, such as `skew 1`.
 pub(super) fn label(name: &str) -> String {
-    let units = ["_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];
+    let units =
+        ["_nm_per_rad", "_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];
     let stem = units.iter().find_map(|u| name.strip_suffix(u)).unwrap_or(name);
     stem.replace('_', " ")
 }
@@ -77,6 +80,7 @@ mod tests {
             ("scale", -0.15, "-15.0 %"),
             ("torque_3_nm", 0.0208, "20.8 mNm"),
             ("latency_s", 0.0704, "70.4 ms"),
+            ("stiffness_1_nm_per_rad", 0.05, "50.0 mNm/rad"),
             ("x_m", 0.0101, "10.1 mm"),
             ("x_rad", 0.02, "1.15°"),
             ("threshold_rad_s", 14.0, "14.0 rad/s"),

@@ -1,4 +1,4 @@
-//! A servo axis with a pendulum, by equations of motion that share nothing with the model.
+//! A servo axis with a pendulum or a spring, by equations of motion that share nothing with the model.
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,10 @@ use runs::{DataSet, Run};
 struct Servo {
     /// Torque with sine and cosine of the angle, N m.
     gravity: [f64; 2],
+    /// Stiffness of a spring, N m/rad, and its torque where the angle is 0, N m.
+    spring: [f64; 2],
+    /// Share of the transmitted torque that the gear loses.
+    loss: f64,
     /// Dry friction that the file does not know, N m.
     dry: f64,
     /// Inertia of the load, kg m², and what of it the file knows.
@@ -27,7 +31,15 @@ struct Servo {
     scatter: f64,
 }
 
-const QUIET: Servo = Servo { gravity: [0.0; 2], dry: 0.0, load: [2e-3; 2], about: Some([0.4, 1.3]), scatter: 0.004 };
+const QUIET: Servo = Servo {
+    gravity: [0.0; 2],
+    spring: [0.0; 2],
+    loss: 0.0,
+    dry: 0.0,
+    load: [2e-3; 2],
+    about: Some([0.4, 1.3]),
+    scatter: 0.004,
+};
 /// Torque per volt at standstill and per speed, N m/V and N m s/rad, and supply, V: 0.6 N m at most, 16 rad/s.
 const KT_R: f64 = 0.05;
 const DAMPING: f64 = 0.038;
@@ -57,11 +69,17 @@ fn run(servo: Servo, seed: u64) -> Run {
         }
         let step = tick / 40.0;
         for _ in 0..40 {
-            let held = servo.gravity[0] * angle.sin() + servo.gravity[1] * angle.cos();
-            let torque = KT_R * VOLT * duty - DAMPING * speed + held + push;
-            let sticks = speed == 0.0 && torque.abs() < servo.dry;
+            let weight = servo.gravity[0] * angle.sin() + servo.gravity[1] * angle.cos();
+            let held = weight + servo.spring[1] - servo.spring[0] * angle + push;
+            let winding = KT_R * VOLT * duty - DAMPING * speed;
+            let torque = winding + held;
+            // What the rotor leaves of the winding's torque passes through the gear.
+            let inertia = servo.load[0] + ROTOR;
+            let transmitted = winding - ROTOR * torque / inertia;
+            let friction = servo.dry + servo.loss * transmitted.abs();
+            let sticks = speed == 0.0 && torque.abs() < friction;
             let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
-            let next = if sticks { 0.0 } else { speed + step * (torque - servo.dry * sense) / (servo.load[0] + ROTOR) };
+            let next = if sticks { 0.0 } else { speed + step * (torque - friction * sense) / inertia };
             let next = if speed * next < 0.0 { 0.0 } else { next };
             angle += 0.5 * step * (speed + next);
             speed = next;
@@ -79,10 +97,11 @@ fn set(servo: Servo, seed: u64) -> DataSet {
     // Gear 100, 2 ohm: 0.001 N m/A at the motor.
     let text = format!(
         "encoder_counts_per_wheel_rev = 4096\ngear_ratio = 100\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
-         control_rate_hz = 250\nwheel_radius_m = 0.01\nwheel_inertia_kg_m2 = {}\n[motor]\nresistance_ohm = 2\n\
+         control_rate_hz = 250\nwheel_radius_m = 0.01\nwheel_inertia_kg_m2 = {}\ngear_efficiency = {}\n[motor]\nresistance_ohm = 2\n\
          torque_constant = {}\nback_emf_constant = {}\nrotor_inertia = {}\nfriction_torque = 0\n\
          [[wheel]]\nx_m = 0\ny_m = 0.1\ndrive_deg = 0\n",
         servo.load[1],
+        1.0 - servo.loss,
         2.0 * KT_R / 100.0,
         DAMPING / KT_R / 100.0,
         ROTOR / 1e4,
@@ -98,8 +117,12 @@ fn done(set: &DataSet) -> Analysis {
 
 /// What is wrong with the size of a hidden load, if anything.
 fn fault(a: &Analysis, truth: [f64; 2]) -> Option<String> {
-    let found = a.effects.iter().find(|e| e.name == "gravity-load")?;
-    ["sin_1_nm", "cos_1_nm"].iter().zip(truth).find_map(|(name, truth)| {
+    fault_of(a, "gravity-load", ["sin_1_nm", "cos_1_nm"], truth)
+}
+
+fn fault_of(a: &Analysis, effect: &str, parameters: [&str; 2], truth: [f64; 2]) -> Option<String> {
+    let found = a.effects.iter().find(|e| e.name == effect)?;
+    parameters.iter().zip(truth).find_map(|(name, truth)| {
         let (_, value, interval) = found.parameters.iter().find(|(n, ..)| n == name)?;
         let Interval::Ci95([low, high]) = interval else { return Some(format!("{name}: {interval:?}")) };
         let within = (*low..=*high).contains(&truth);
@@ -167,7 +190,53 @@ fn no_weight_is_named_where_there_is_none() {
         .enumerate()
         .filter_map(|(k, servo)| {
             let a = done(&set(servo, 40 + k as u64));
-            names(&a).contains(&"gravity-load").then(|| format!("{servo:?}:\n{}", a.terminal_summary()))
+            ["gravity-load", "joint-spring"]
+                .iter()
+                .any(|name| names(&a).contains(name))
+                .then(|| format!("{servo:?}:\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// With a gear that loses a quarter of what it carries, and says so: friction that goes with the held torque.
+#[test]
+fn a_lossy_gear_carries_a_pendulum_without_friction_of_its_own() {
+    let faults: Vec<String> = [QUIET.about, None]
+        .into_par_iter()
+        .filter_map(|about| {
+            let gravity = [-0.2, 0.05];
+            let logs = set(Servo { gravity, about, loss: 0.25, ..QUIET }, 5);
+            let a = done(&logs);
+            let wrong = if names(&a) == ["gravity-load"] { fault(&a, gravity) } else { Some(String::new()) };
+            wrong.map(|wrong| format!("{about:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Over two turns a spring is no pendulum; within half a radian nobody can tell, and the two are a tie.
+#[test]
+fn a_spring_is_named_over_turns_and_tied_with_a_weight_within_a_little() {
+    let cases =
+        [([0.04, 0.02], Some([0.4, 3.0])), ([0.12, -0.1], Some([-0.3, 2.0])), ([0.08, 0.032], Some([0.4, 0.15]))];
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, (spring, about))| {
+            let logs = set(Servo { spring, about, ..QUIET }, 70 + k as u64);
+            let a = done(&logs);
+            let tie: Vec<String> = ["gravity-load", "joint-spring"].map(str::to_owned).into();
+            let tied = a.alternatives.iter().any(|set| tie.iter().all(|name| set.contains(name)));
+            let parameters = ["stiffness_1_nm_per_rad", "preload_1_nm"];
+            let wrong = match about {
+                Some([_, swing]) if swing < 1.0 => {
+                    (names(&a).len() != 1 || !tied).then(|| format!("no tie: {:?}", a.alternatives))
+                }
+                _ if names(&a) != ["joint-spring"] || tied => Some(format!("named {:?}", names(&a))),
+                _ => fault_of(&a, "joint-spring", parameters, spring),
+            };
+            wrong.map(|wrong| format!("{spring:?} {about:?}: {wrong}\n{}", a.terminal_summary()))
         })
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -88,6 +88,11 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
             wheels.iter_mut().zip(each("sin", "nm")).for_each(|(w, x)| w.gravity_nm[0] = x);
             (each("cos", "nm"), |w, x| w.gravity_nm[1] = x)
         }
+        "joint-spring" => {
+            let wheels = applied.deviations.wheels_mut(n);
+            wheels.iter_mut().zip(each("stiffness", "nm_per_rad")).for_each(|(w, x)| w.spring_nm_per_rad = x);
+            (each("preload", "nm"), |w, x| w.preload_nm = x)
+        }
         "gear-backlash" => (each("play", "rad"), |w, x| w.play_rad = x),
         "asymmetric-friction" if value("sense") < 0.0 => (each("torque", "nm"), |w, x| w.one_way_nm[0] = x),
         "asymmetric-friction" => (each("torque", "nm"), |w, x| w.one_way_nm[1] = x),

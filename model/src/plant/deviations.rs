@@ -56,6 +56,10 @@ pub struct WheelDeviation {
     pub viscous_nms: f64,
     /// Torque at the wheel shaft with sine and cosine of the wheel's angle, Nm.
     pub gravity_nm: [f64; 2],
+    /// Stiffness of a spring on the wheel shaft, Nm/rad.
+    pub spring_nm_per_rad: f64,
+    /// Torque of that spring where the wheel's angle is 0, Nm.
+    pub preload_nm: f64,
     /// Counts per wheel angle, relative.
     pub encoder: f64,
     /// Share of the counts lost above the threshold.
@@ -105,14 +109,16 @@ impl Deviations {
         self.heating[0] != 0.0 || self.wheels.iter().any(|w| w.ripple != [0.0; 2])
     }
 
-    /// Torque of gravity on what hangs on wheel `i`, Nm, at an angle.
-    pub(super) fn gravity(&self, i: usize, angle: f64) -> f64 {
-        let [a, b] = self.wheel(i).gravity_nm;
+    /// Torque of what hangs on wheel `i` and of a spring on its shaft, Nm, at an angle.
+    pub(super) fn at_angle(&self, i: usize, angle: f64) -> f64 {
+        let w = self.wheel(i);
+        let spring = w.preload_nm - w.spring_nm_per_rad * angle;
+        let [a, b] = w.gravity_nm;
         if a == 0.0 && b == 0.0 {
-            return 0.0;
+            return spring;
         }
         let (s, c) = angle.sin_cos();
-        a * s + b * c
+        spring + a * s + b * c
     }
 
     /// Friction torque of wheel `i` beyond nominal, Nm, at a speed and a heading; `push` says where it

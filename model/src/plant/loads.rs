@@ -14,7 +14,7 @@ impl Plant {
         let Some(d) = self.deviations.as_deref() else { return };
         let heading = self.walk.pose().theta;
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
-            wheel.load = d.gravity(i, wheel.angle) - d.wheel(i).viscous_nms * wheel.speed;
+            wheel.load = d.at_angle(i, wheel.angle) - d.wheel(i).viscous_nms * wheel.speed;
             wheel.dry = d.friction(i, wheel.speed, wheel.drive, heading);
         }
         if self.support == Support::Blocks {

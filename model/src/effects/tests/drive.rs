@@ -48,6 +48,16 @@ fn a_weight_hangs_where_its_torque_is_0() {
 }
 
 #[test]
+fn a_spring_turns_back_to_its_rest() {
+    let mut plant = lifted("joint-spring", &[("stiffness_1_nm_per_rad", 0.02), ("preload_1_nm", 0.03)]);
+    run(&mut plant, [0.0; 3], 3000);
+    let per_rad = Robot::racbot().counts_per_wheel_rad();
+    // Friction holds it a little before.
+    close(plant.encoder_after()[0] / per_rad, 1.5, 0.06);
+    assert_eq!(plant.encoder_after()[1..], [0.0; 2]);
+}
+
+#[test]
 fn what_sticks_lets_go_at_the_stribeck_torque() {
     let moved = |torque: f64| {
         let mut plant = lifted("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)]);
