@@ -16,6 +16,9 @@ use vision::field::Field;
 /// `docs/measured/blackout.md`.
 const START_SD: [f64; 3] = [0.04, 0.04, 0.03];
 
+/// Half of a small robot's diameter of 180 mm by the league's rules, m: what no camera of its own has to beat.
+const LEAST_SURE_M: f64 = 0.09;
+
 /// Who sees the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Source {
@@ -73,6 +76,12 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
+    /// Standard deviation of the place, m, with which a robot that keeps to the lines stays on the carpet: 19 times of 20.
+    pub(crate) fn sure_m(&self) -> f64 {
+        // Somebody's field without a rim: the robot's own size.
+        (0.5 * self.field.boundary).max(LEAST_SURE_M)
+    }
+
     /// The camera of a real robot.
     pub(crate) fn real(self) -> Result<(Box<dyn PoseSource>, Refusals), Failure> {
         let need = |what: &str| Failure::usage(format!("--vision onboard: {what}"));

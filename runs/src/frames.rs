@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use nalgebra::Matrix3;
+
 /// Velocity of the platform in its own **body frame**.
 ///
 /// Conventions (those of the paper's equation (1)): x to the right, y forward (wheel 1 is at the
@@ -243,6 +245,12 @@ impl Walk {
     pub fn step(&mut self, d: Twist) {
         *self = self.then(&Self::by(d));
     }
+}
+
+/// Standard deviation of a place in the direction where it is largest, m, by the covariance of x, y (m²) and heading.
+pub fn place_sd(covariance: &Matrix3<f64>) -> f64 {
+    let [xx, xy, yy] = [(0, 0), (0, 1), (1, 1)].map(|i| covariance[i]);
+    (0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)).sqrt()
 }
 
 /// The angle in [−π, π) equal to `angle` up to whole turns.

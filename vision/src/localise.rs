@@ -15,7 +15,7 @@ use crate::LinePoint;
 use crate::camera::Camera;
 use crate::field::Line;
 use nalgebra::{Matrix3, Vector3};
-use runs::frames::{Pose, wrap_angle};
+use runs::frames::{Pose, place_sd, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
 
 /// Farthest point used, m: at 3 m from a camera 0.15 m high one pixel of 640 is worth 0.15 m.
@@ -63,8 +63,7 @@ impl Estimate {
     /// Of the place in the direction where it is largest, m.
     #[must_use]
     pub fn place_sd(&self) -> f64 {
-        let [xx, xy, yy] = [(0, 0), (0, 1), (1, 1)].map(|i| self.covariance[i]);
-        (0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)).sqrt()
+        place_sd(&self.covariance)
     }
 }
 

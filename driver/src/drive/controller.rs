@@ -64,6 +64,13 @@ pub trait Steer {
     /// allocate.
     fn command(&mut self, pose: Pose, dt: f64) -> Option<Twist>;
 
+    /// The body velocity that brings the robot to rest in its place, turning at a rate (rad/s), while it must not go on. Must
+    /// neither wait nor allocate.
+    fn hold(&mut self, pose: Pose, turn: f64, dt: f64) -> Twist {
+        let _ = (pose, dt);
+        Twist::new(0.0, 0.0, turn)
+    }
+
     /// What became of each set point so far, where there are any.
     fn arrivals(&self) -> &[Arrival] {
         &[]
@@ -82,6 +89,16 @@ impl Steer for Controller {
                 }
                 *t += dt;
                 command
+            }
+        }
+    }
+
+    fn hold(&mut self, pose: Pose, turn: f64, dt: f64) -> Twist {
+        match self {
+            Self::Follower(follower) => follower.hold(pose, turn, dt),
+            Self::Paper { t, .. } => {
+                *t += dt;
+                Twist::new(0.0, 0.0, turn)
             }
         }
     }

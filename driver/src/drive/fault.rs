@@ -40,6 +40,13 @@ pub enum Fault {
         /// Distance by the controller's pose, m.
         distance_m: f64,
     },
+    /// The robot does not know where it is, and looking round did not tell.
+    Lost {
+        /// Standard deviation of the place, m.
+        sd_m: f64,
+        /// What it has to be below, m.
+        limit_m: f64,
+    },
     /// A count that no wheel can make.
     CountJump {
         /// From 1.
@@ -110,6 +117,11 @@ impl fmt::Display for Fault {
                 f,
                 "set point {point}: the robot no longer comes nearer and is {distance_m:.2} m away; look for an \
                  obstacle, a wrong start pose, or a motor or encoder on the wrong axis"
+            ),
+            Self::Lost { sd_m, limit_m } => write!(
+                f,
+                "lost: the place is known to {sd_m:.2} m where {limit_m:.2} m are needed, and looking round showed nothing \
+                 that tells more; look at the camera, its calibration and the field's sizes, then give the start anew"
             ),
             Self::CountJump { wheel, counts, limit } => write!(
                 f,

@@ -20,6 +20,7 @@ mod plan;
 mod run;
 mod session;
 mod source;
+mod sure;
 mod watch;
 
 pub use armed::Armed;

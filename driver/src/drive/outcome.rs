@@ -56,6 +56,8 @@ pub struct Driven {
     pub imu_gone: Option<f64>,
     /// Times that wheels and inertial sensor began to disagree: slip.
     pub slips: u64,
+    /// Times that the robot stopped to look round, for it no longer knew where it was.
+    pub lost: u64,
     /// Poses that came.
     pub poses: u64,
 }

@@ -29,6 +29,9 @@ pub struct Plan {
     pub start_sd: Option<[f64; 3]>,
     /// Whether poses from outside correct the controller's; else odometry is all it has.
     pub fused: bool,
+    /// Standard deviation of the place in its worst direction, m, above which the robot stops and looks round, and gives up
+    /// where that tells it no more; without it, it drives on whatever it knows.
+    pub sure_m: Option<f64>,
     /// Speeds and time-outs.
     pub settings: Settings,
     /// Longest drive, s.
@@ -49,6 +52,7 @@ impl Plan {
             start: Pose::default(),
             start_sd: None,
             fused: false,
+            sure_m: None,
             settings: Settings { watchdog_s, speed_mode: SpeedMode::Difference, ..defaults },
             limit_s: 60.0,
         }

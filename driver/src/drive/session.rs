@@ -1,6 +1,7 @@
 //! A drive tick by tick, for whoever keeps the time.
 
 use super::heading::Feel;
+use super::sure::{Sure, Verdict};
 use super::watch::Watch;
 use super::{Armed, DriveError, Driven, Ending, Fault, Plan, PoseSource, Steer};
 use crate::realtime::{Clock, Latency, Timer};
@@ -169,6 +170,7 @@ struct Seen {
     t: f64,
     pose: Pose,
     camera: Option<Pose>,
+    verdict: Verdict,
 }
 
 enum Step {
@@ -186,6 +188,8 @@ struct State<S> {
     localiser: Localiser,
     feel: Option<Feel>,
     watch: Watch,
+    sure: Option<Sure>,
+    looking: bool,
     before: Snapshot,
     first: u32,
     total: [i64; AXES],
@@ -207,6 +211,8 @@ impl<S: Steer> State<S> {
             localiser: plan.localiser()?,
             feel: None,
             watch: Watch::new(&plan.believed(), scale),
+            sure: plan.sure_m.map(Sure::to),
+            looking: false,
             before: Snapshot::default(),
             first: 0,
             total: [0; AXES],
@@ -233,6 +239,7 @@ impl<S: Steer> State<S> {
                 imu: None,
                 imu_gone: None,
                 slips: 0,
+                lost: 0,
                 poses: 0,
             },
         })
@@ -307,8 +314,10 @@ impl<S: Steer> State<S> {
         let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
         self.driven.slips += u64::from(self.localiser.slips() && !slipped);
         self.driven.pose = pose;
-        source.believed(t, &self.localiser.estimate());
-        Seen { t, pose, camera: seen.map(|seen| seen.pose) }
+        let belief = self.localiser.estimate();
+        source.believed(t, &belief);
+        let verdict = self.sure.as_mut().map(|sure| sure.judge(t, &belief, seen.is_some(), source.contradicts()));
+        Seen { t, pose, camera: seen.map(|seen| seen.pose), verdict: verdict.unwrap_or(Verdict::Sure) }
     }
 
     fn record(&self, recording: Option<&mut Recording>, t: f64, in_force: Twist, scale: &Scale, camera: Option<Pose>) {
@@ -351,10 +360,13 @@ impl<S: Steer> State<S> {
         if ticks == 0 {
             return self.wait_for_tick(armed, scale, host);
         }
-        let Seen { t, pose, camera } = self.follow(now, ticks, scale, host, source);
+        let Seen { t, pose, camera, verdict } = self.follow(now, ticks, scale, host, source);
         let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
         let in_force = self.command;
-        let wanted = self.steer.command(pose, elapsed);
+        let wanted = match self.looks(verdict)? {
+            Some(rate) => Some(self.steer.hold(pose, rate, elapsed)),
+            None => self.steer.command(pose, elapsed),
+        };
         self.command = wanted.unwrap_or_default();
         if let Some(feel) = &mut self.feel {
             self.command.omega = feel.steer(wanted, elapsed);
@@ -371,6 +383,17 @@ impl<S: Steer> State<S> {
             () if ticks == 2 => Step::Beat,
             () => Step::Goes,
         })
+    }
+
+    /// Rate at which a robot that does not know where it is looks round, rad/s.
+    fn looks(&mut self, verdict: Verdict) -> Result<Option<f64>, Fault> {
+        let looked = std::mem::replace(&mut self.looking, matches!(verdict, Verdict::Look(_)));
+        self.driven.lost += u64::from(self.looking && !looked);
+        match (verdict, &self.sure) {
+            (Verdict::Look(rate), _) => Ok(Some(rate)),
+            (Verdict::Lost(sd_m), Some(sure)) => Err(Fault::Lost { sd_m, limit_m: sure.limit_m() }),
+            _ => Ok(None),
+        }
     }
 
     /// At rest: there, or given up.

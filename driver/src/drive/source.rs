@@ -13,6 +13,11 @@ pub trait PoseSource {
     fn believed(&mut self, t: f64, belief: &Estimate) {
         let _ = (t, belief);
     }
+
+    /// Whether what it sees contradicts what it last heard of the controller's belief. Must neither wait nor allocate.
+    fn contradicts(&self) -> bool {
+        false
+    }
 }
 
 impl<S: PoseSource + ?Sized> PoseSource for Box<S> {
@@ -21,6 +26,9 @@ impl<S: PoseSource + ?Sized> PoseSource for Box<S> {
     }
     fn believed(&mut self, t: f64, belief: &Estimate) {
         (**self).believed(t, belief);
+    }
+    fn contradicts(&self) -> bool {
+        (**self).contradicts()
     }
 }
 

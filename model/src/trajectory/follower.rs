@@ -147,7 +147,18 @@ impl Follower {
             }
             wanted = ([0.0; 2], 0.0);
         }
-        let (velocity, omega) = wanted;
+        Some(self.step_towards(wanted, pose, dt))
+    }
+
+    /// The body twist for the coming `dt` seconds of a robot that must not go on: it brakes and turns at a rate, rad/s. The
+    /// time does not count against its patience.
+    pub fn hold(&mut self, pose: Pose, turn: f64, dt: f64) -> Twist {
+        self.nearest_at += dt;
+        self.step_towards(([0.0; 2], turn), pose, dt)
+    }
+
+    /// A tick towards a velocity in the world and a rate of turn, within the limits.
+    fn step_towards(&mut self, (velocity, omega): ([f64; 2], f64), pose: Pose, dt: f64) -> Twist {
         let step = self.limited_step([velocity[0] - self.velocity[0], velocity[1] - self.velocity[1]], dt);
         self.velocity = [self.velocity[0] + step[0], self.velocity[1] + step[1]];
         let turn = self.limits.angular_acceleration * dt;
@@ -163,7 +174,7 @@ impl Follower {
         self.t += dt;
         let lead = self.options.lead_s / dt;
         let [lead_x, lead_y] = heading.rotate_to_body(step.map(|v| v * lead));
-        Some(Twist::new(limited.vx + lead_x, limited.vy + lead_y, limited.omega))
+        Twist::new(limited.vx + lead_x, limited.vy + lead_y, limited.omega)
     }
 
     /// A change of velocity within the acceleration limit. What goes across the leg comes first, so

@@ -46,6 +46,11 @@ pub(crate) struct Options {
     #[command(flatten)]
     vision: crate::onboard::Vision,
 
+    /// Standard deviation of the place above which the robot stops and looks round [default with --vision: half of the
+    /// carpet outside the lines; without: never]
+    #[arg(long, value_name = "M")]
+    sure_m: Option<f64>,
+
     /// Start pose: x and y in metres, heading of the body's x axis in degrees
     #[arg(long, value_name = "X,Y,DEG", default_value = "0,0,0", allow_hyphen_values = true)]
     start: Start,
@@ -115,11 +120,18 @@ impl Options {
         if !(self.limit_s > 0.0 && self.limit_s <= 3_600.0) {
             return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
         }
+        if self.sure_m.is_some_and(|sure| !(sure > 0.0 && sure.is_finite())) {
+            return Err(Failure::usage("--sure-m: give metres above 0"));
+        }
         self.target.check_free(&self.record)?;
         let (actual, pace) = self.built_in(&robot)?;
         #[cfg(feature = "vision")]
         let setting = self.vision.setting()?;
-        let plan = self.plan(&robot, &set_points);
+        let mut plan = self.plan(&robot, &set_points);
+        #[cfg(feature = "vision")]
+        if self.vision.is_onboard() {
+            plan.sure_m = plan.sure_m.or(Some(setting.sure_m()));
+        }
         let ready = self.card.ready(Use::Drive, &actual, pace)?;
         #[cfg(feature = "vision")]
         let (ready, refused) = if self.vision.is_onboard() { onboard(ready, setting, pace)? } else { (ready, None) };
@@ -206,7 +218,7 @@ impl Options {
         };
         #[cfg(feature = "vision")]
         let plan = Plan { start_sd: self.vision.start_sd(), ..plan };
-        Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, ..plan }
+        Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, sure_m: self.sure_m, ..plan }
     }
 
     fn recorder(&self) -> Record<'_> {
@@ -301,9 +313,13 @@ impl Report<'_> {
         });
         let refused = (self.driven.refused > 0)
             .then(|| format!("the card refused {} commits by their checksum; each was sent anew", self.driven.refused));
+        let lost = (self.driven.lost > 0).then(|| match self.driven.lost {
+            1 => "once the robot did not know well enough where it was, stopped and looked round".to_owned(),
+            times => format!("{times} times the robot did not know well enough where it was, stopped and looked round"),
+        });
         let stood = self.driven.stood;
         let stood = stood.is_notable().then(|| format!("cleared before arming: {stood}"));
-        stood.into_iter().chain(gone).chain(refused).collect()
+        stood.into_iter().chain(gone).chain(lost).chain(refused).collect()
     }
 
     fn json(&self) -> Value {
@@ -333,6 +349,7 @@ impl Report<'_> {
             "outputs_off": driven.switched_off.is_ok(), "t_s": driven.t,
             "pose": [driven.pose.x, driven.pose.y, driven.pose.theta],
             "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,
+            "looked_round": driven.lost,
             "wake_up_us": { "min": min, "avg": mean, "max": max }, "missed": driven.latency.missed,
             "recorded": self.recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
             "remarks": self.remarks.iter().cloned().chain(self.late_remarks()).collect::<Vec<_>>(),
