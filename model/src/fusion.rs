@@ -140,11 +140,12 @@ impl Fusion {
         let nis = (innovation.transpose() * inverse * innovation)[0];
         let restart = self.refused + 1 >= self.options.refusals_before_restart;
         let far = nis > self.options.gate && seen.prediction.is_none();
-        if far && !restart {
+        let anew = seen.replaces || far && restart;
+        if far && !anew {
             self.refused += 1;
             return Correction::Refused(nis);
         }
-        let (posterior, verdict) = if far {
+        let (posterior, verdict) = if anew {
             (alone, Correction::Restarted)
         } else {
             let gain = prior.covariance * inverse;

@@ -257,13 +257,14 @@ impl Inertial {
         let nis = (innovation.transpose() * inverse * innovation)[0];
         let restart = self.refused + 1 >= self.options.refusals_before_restart;
         let far = nis > self.options.gate && seen.prediction.is_none();
-        if far && !restart {
+        let anew = seen.replaces || far && restart;
+        if far && !anew {
             self.refused += 1;
             return Correction::Refused(nis);
         }
         self.refused = 0;
         let mut posterior = prior;
-        let verdict = if far {
+        let verdict = if anew {
             posterior.pose = at;
             posterior.covariance = Matrix4::zeros();
             posterior.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&noise);

@@ -16,6 +16,8 @@ pub struct Measurement {
     /// The prediction that is part of pose and covariance already: the filter takes it out, so that it counts once. Who
     /// matched a picture to a prediction has also judged whether the two go together.
     pub prediction: Option<Estimate>,
+    /// Whether what the filter believes was found to be wrong, and this takes its place.
+    pub replaces: bool,
 }
 
 /// Share of a prediction's information that stays in what is left without it: a picture of one line tells nothing along
@@ -25,7 +27,7 @@ const STAYS: f64 = 1e-6;
 
 impl From<Pose> for Measurement {
     fn from(pose: Pose) -> Self {
-        Self { pose, covariance: None, taken: None, prediction: None }
+        Self { pose, covariance: None, taken: None, prediction: None, replaces: false }
     }
 }
 
@@ -33,7 +35,14 @@ impl Measurement {
     /// What was measured at `taken`, as the posterior of a prediction and a picture.
     #[must_use]
     pub fn posterior(found: Estimate, prediction: Estimate, taken: f64) -> Self {
-        Self { pose: found.pose, covariance: Some(found.covariance), taken: Some(taken), prediction: Some(prediction) }
+        let covariance = Some(found.covariance);
+        Self { covariance, taken: Some(taken), prediction: Some(prediction), ..found.pose.into() }
+    }
+
+    /// What was found at `taken` without a prediction, of a robot that is not where it believes to be.
+    #[must_use]
+    pub fn instead(found: Estimate, taken: f64) -> Self {
+        Self { covariance: Some(found.covariance), taken: Some(taken), replaces: true, ..found.pose.into() }
     }
 
     /// Pose and covariance without the prediction: by the product of normal densities, inverse covariances add up, and so

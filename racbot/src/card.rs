@@ -46,8 +46,8 @@ pub(crate) struct OpenCard {
     pub(crate) clock: Box<dyn Clock>,
     /// The camera above its robot, if there is one.
     pub(crate) source: Option<Box<dyn PoseSource>>,
-    /// The built-in card, for a camera on its robot.
-    #[cfg(all(feature = "simulation", feature = "vision"))]
+    /// The built-in card, for who moves its robot or rides on it.
+    #[cfg(feature = "simulation")]
     pub(crate) shared: Option<simulator::virtual_card::SharedCard>,
 }
 
@@ -63,9 +63,20 @@ pub(crate) struct ReadyCard {
     pub(crate) clock: Box<dyn Clock>,
     /// The camera above its robot, if there is one.
     pub(crate) source: Option<Box<dyn PoseSource>>,
-    /// The built-in card, for a camera on its robot.
-    #[cfg(all(feature = "simulation", feature = "vision"))]
+    /// The built-in card, for who moves its robot or rides on it.
+    #[cfg(feature = "simulation")]
     pub(crate) shared: Option<simulator::virtual_card::SharedCard>,
+}
+
+impl ReadyCard {
+    /// Sets the robot of a built-in card down where a real one stands.
+    pub(crate) fn stand(&self, pose: runs::frames::Pose) {
+        #[cfg(feature = "simulation")]
+        if let Some(card) = &self.shared {
+            card.stand(pose);
+        }
+        let _ = pose;
+    }
 }
 
 impl CardOptions {
@@ -99,7 +110,7 @@ impl CardOptions {
             built_in: false,
             clock: Box::new(MonotonicClock),
             source: None,
-            #[cfg(all(feature = "simulation", feature = "vision"))]
+            #[cfg(feature = "simulation")]
             shared: None,
         })
     }
@@ -132,7 +143,7 @@ impl CardOptions {
             clock_hz,
             clock: open.clock,
             source: open.source,
-            #[cfg(all(feature = "simulation", feature = "vision"))]
+            #[cfg(feature = "simulation")]
             shared: open.shared,
         })
     }
@@ -151,7 +162,6 @@ fn built_in(robot: &Robot, pace: Pace) -> Result<OpenCard, Failure> {
     let source = Box::new(card.camera(CameraModel::of(robot), SEED));
     Ok(OpenCard {
         name: VIRTUAL.to_owned(),
-        #[cfg(feature = "vision")]
         shared: Some(card.clone()),
         card: Box::new(card),
         built_in: true,

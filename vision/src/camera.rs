@@ -8,6 +8,8 @@ use runs::error::{InputError, line_and_column};
 use serde::Deserialize;
 use std::path::Path;
 
+/// What is older when it comes is worth no more than the odometry since, s.
+const LONGEST_LATENCY_S: f64 = 0.4;
 /// Steps that undo a distortion; each one shrinks the error by the distortion's size, a tenth or so.
 const UNDISTORTION_STEPS: usize = 8;
 
@@ -31,6 +33,9 @@ pub struct Camera {
     pub tilt: f64,
     /// Of the camera about its optical axis, clockwise as seen from behind it, rad.
     pub roll: f64,
+    /// From the middle of the exposure until the picture is delivered, s; 0 where a calibration does not say.
+    #[serde(default)]
+    pub latency_s: f64,
 }
 
 impl Camera {
@@ -47,6 +52,7 @@ impl Camera {
             mount_height,
             tilt,
             roll: 0.0,
+            latency_s: 0.0,
         }
     }
 
@@ -61,7 +67,7 @@ impl Camera {
 
     fn of_toml(text: &str, file: &Path) -> Result<Self, InputError> {
         let hint = "give width, height, focal = [x, y], centre = [x, y] in pixels, distortion = [k1, k2], mount_height in \
-                    metres, tilt and roll in radians";
+                    metres, tilt and roll in radians; latency_s, in seconds, may be left out";
         let camera: Self = toml::from_str(text).map_err(|error| {
             let (line, column) = line_and_column(text, error.span().map_or(0, |span| span.start));
             InputError::new(file, error.message().to_owned(), hint).at(line, column)
@@ -77,6 +83,7 @@ impl Camera {
             ("mount_height", positive(camera.mount_height) && camera.mount_height < 3.0),
             ("tilt", upright(camera.tilt)),
             ("roll", upright(camera.roll)),
+            ("latency_s", (0.0..=LONGEST_LATENCY_S).contains(&camera.latency_s)),
         ];
         match wrong.into_iter().find(|(_, good)| !good) {
             None => Ok(camera),

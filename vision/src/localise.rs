@@ -85,6 +85,14 @@ pub(crate) struct FloorPoint {
     sd: f64,
 }
 
+impl FloorPoint {
+    /// The same point from another place: `before` is where it was seen from, as seen from there.
+    pub(crate) fn seen_from(self, before: Pose) -> Self {
+        let [x, y] = before.rotate_to_world(self.at);
+        Self { at: [before.x + x, before.y + y], ..self }
+    }
+}
+
 /// The points of a picture on the floor.
 pub(crate) fn on_floor(camera: &Camera, points: &[LinePoint]) -> Vec<FloorPoint> {
     let place = |point: &LinePoint| {
@@ -117,34 +125,49 @@ pub fn track(map: &Map, camera: &Camera, points: &[LinePoint], predicted: &Estim
     settle(map, &floor, predicted.pose, &prior)
 }
 
-/// Finds the pose without a prediction, best match first. A field looks the same from both ends, so that two poses are
-/// the rule: the caller's last belief of the heading decides.
-#[must_use]
-pub fn relocate(map: &Map, camera: &Camera, points: &[LinePoint]) -> Vec<Estimate> {
-    const KEPT: usize = 24;
-    let floor = on_floor(camera, points);
+/// Poses at which points on the floor fit the map, without a prediction, best match first. A field looks the same from both
+/// ends, so that two poses are the rule.
+pub(crate) fn places(map: &Map, floor: &[FloorPoint]) -> Vec<Estimate> {
+    /// Places that are settled at, and how far apart they begin (m, rad): whatever fits best is one of them, and its
+    /// neighbours are not all of them.
+    const STARTS: usize = 150;
+    const APART: [f64; 2] = [0.4, 0.3];
     if floor.len() < FEWEST {
         return Vec::new();
     }
     let few: Vec<FloorPoint> = floor.iter().step_by((floor.len() / 60).max(1)).copied().collect();
     let mut starts: Vec<(f64, Pose)> = map.grid().map(|pose| (map.cost(&few, pose), pose)).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let apart = |a: Pose, b: Pose, least: [f64; 2]| {
+        (a.x - b.x).hypot(a.y - b.y) > least[0] || wrap_angle(a.theta - b.theta).abs() > least[1]
+    };
+    let mut tried: Vec<Pose> = Vec::new();
     let mut found: Vec<(f64, Estimate)> = Vec::new();
-    for (_, start) in starts.into_iter().take(KEPT * 4) {
-        let Ok(estimate) = settle(map, &floor, start, &Matrix3::zeros()) else { continue };
-        let apart = |other: &(f64, Estimate)| {
-            let (a, b) = (other.1.pose, estimate.pose);
-            (a.x - b.x).hypot(a.y - b.y) > 0.15 || wrap_angle(a.theta - b.theta).abs() > 0.15
-        };
-        if found.iter().all(apart) {
-            found.push((map.cost(&floor, estimate.pose), estimate));
+    for (_, start) in starts {
+        if !tried.iter().all(|other| apart(*other, start, APART)) {
+            continue;
         }
-        if found.len() == KEPT {
+        tried.push(start);
+        if let Ok(estimate) = settle(map, floor, start, &Matrix3::zeros())
+            && found.iter().all(|(_, other)| apart(other.pose, estimate.pose, [0.15; 2]))
+        {
+            found.push((misfit(map, floor, estimate.pose), estimate));
+        }
+        if tried.len() == STARTS {
             break;
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, estimate)| estimate).collect()
+}
+
+/// Negative logarithm of the likelihood of points at a pose, but for a constant: what [`settle`] makes least.
+pub(crate) fn misfit(map: &Map, floor: &[FloorPoint], pose: Pose) -> f64 {
+    let of = |point: &FloorPoint| {
+        let squared = (map.residual(point, pose).0 / point.sd).powi(2);
+        0.5 * squared / (1.0 + squared / (LEVEL * LEVEL)) / DEPENDENT
+    };
+    floor.iter().map(of).sum()
 }
 
 /// Gauss and Newton with weights that fall with the error (iteratively reweighted least squares).

@@ -3,7 +3,11 @@
 //! ```text
 //!  frame ─► usable? ─► detect ─► match around the prediction ─► sure? near the prediction? ─► pose
 //!             no: Unusable                no: Refused, and the robot goes on by odometry
+//!
+//!  Refused again and again: the prediction is wrong ─► all lines of a turn on the spot ─► the pose instead
 //! ```
+
+mod search;
 
 use crate::camera::Camera;
 use crate::field::Field;
@@ -12,6 +16,7 @@ use crate::picture::{Picture, Unusable};
 use crate::{Scene, ball, detect};
 use nalgebra::{Matrix3, Vector3};
 use runs::frames::{Pose, wrap_angle};
+use search::Search;
 
 /// A match is believed where its standard deviations stay below these (m, rad): a robot's radius, and the turn that moves
 /// what is 1 m ahead by as much.
@@ -22,6 +27,11 @@ const DRIFT: [f64; 3] = [0.02, 0.02, 0.02];
 /// Squared distance of a match from its prediction, in standard deviations, beyond which one of the two is wrong: of
 /// 10 000 right ones one is as far (chi-square, three degrees of freedom).
 const FAR: f64 = 21.1;
+
+/// Frames that contradict the prediction, less two for each that agrees, from which the prediction is taken for wrong, and
+/// at most: half a second of a camera at 10 Hz, and as much agreement to have it back. One frame may see another robot.
+const REFUTED: usize = 5;
+const MOST_REFUTED: usize = 10;
 
 /// Why a frame that could be used gives no pose.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -36,6 +46,9 @@ pub enum Refused {
     /// The match is not where the robot can be.
     #[error("the match is {0:.1} standard deviations from where the robot can be: wrong calibration, or lost")]
     Far(f64),
+    /// A match, but the frames before it contradicted the prediction: near a line by chance.
+    #[error("frame after frame contradicted where the robot is believed to be")]
+    Doubted,
 }
 
 impl Refused {
@@ -46,6 +59,7 @@ impl Refused {
             Self::Lines(NoMatch::TooFewPoints(_)) => "too few points on lines",
             Self::Lines(NoMatch::Contradiction(_)) => "most points on lines are not on the map",
             Self::Unsure(_) => "the lines leave place or heading open",
+            Self::Doubted => "the robot is not where it is believed to be",
             Self::Far(_) => "the match of the lines is not where the robot can be: wrong calibration, or lost",
         }
     }
@@ -58,6 +72,14 @@ pub struct Glance {
     pub scene: Scene,
     /// The robot's pose by the lines, the prediction included.
     pub pose: Result<Estimate, Refused>,
+    /// The pose by all lines that a robot saw while it looked round, where its prediction was wrong: in its place, and
+    /// without it.
+    pub instead: Option<Estimate>,
+}
+
+fn is_sure(found: &Estimate) -> bool {
+    let [place, heading] = found.standard_deviations();
+    place <= SURE[0] && heading <= SURE[1]
 }
 
 /// A camera on a robot on a field.
@@ -66,13 +88,15 @@ pub struct OnBoard {
     camera: Camera,
     map: Map,
     before: Option<Picture>,
+    contradictions: usize,
+    search: Option<Search>,
 }
 
 impl OnBoard {
     /// A calibrated camera on a field.
     #[must_use]
     pub fn new(camera: Camera, field: Field) -> Self {
-        Self { camera, map: Map::new(field), before: None }
+        Self { camera, map: Map::new(field), before: None, contradictions: 0, search: None }
     }
 
     /// How it looks at the world.
@@ -103,14 +127,45 @@ impl OnBoard {
         let mut scene = detect(picture, ball::DEFAULT_SCORE);
         scene.balls.retain(|ball| ball.fits(&self.camera, ball::RADIUS));
         let pose = self.pose(&scene, predicted);
-        Ok(Glance { scene, pose })
+        self.doubt(&pose);
+        let instead = self.search.as_mut().and_then(|search| {
+            search.see(&self.camera, &scene.lines, predicted.pose);
+            search.place(&self.map).filter(is_sure)
+        });
+        if instead.is_some() {
+            (self.contradictions, self.search) = (0, None);
+        }
+        if self.search.is_none() && self.refuted() {
+            self.search = Some(Search::from(predicted.pose));
+        }
+        let pose = if self.refuted() { pose.and(Err(Refused::Doubted)) } else { pose };
+        Ok(Glance { scene, pose, instead })
+    }
+
+    /// Whether frame after frame contradicts the predictions: the robot is not where it believes to be, or what it sees is
+    /// not the field.
+    #[must_use]
+    pub fn refuted(&self) -> bool {
+        self.search.is_some() || self.contradictions >= REFUTED
+    }
+
+    fn doubt(&mut self, pose: &Result<Estimate, Refused>) {
+        match pose {
+            Err(Refused::Far(_) | Refused::Lines(NoMatch::Contradiction(_))) => {
+                self.contradictions = (self.contradictions + 1).min(MOST_REFUTED);
+            }
+            Ok(_) => self.contradictions = self.contradictions.saturating_sub(2),
+            Err(_) => {}
+        }
+        if self.contradictions == 0 {
+            self.search = None;
+        }
     }
 
     fn pose(&self, scene: &Scene, predicted: &Estimate) -> Result<Estimate, Refused> {
         let found = track(&self.map, &self.camera, &scene.lines, predicted)?;
-        let sds = found.standard_deviations();
-        if sds[0] > SURE[0] || sds[1] > SURE[1] {
-            return Err(Refused::Unsure(sds));
+        if !is_sure(&found) {
+            return Err(Refused::Unsure(found.standard_deviations()));
         }
         let (at, from) = (found.pose, predicted.pose);
         let off = Vector3::new(at.x - from.x, at.y - from.y, wrap_angle(at.theta - from.theta));

@@ -7,7 +7,7 @@ use runs::frames::{Pose, wrap_angle};
 use vision::camera::Camera;
 use vision::detect;
 use vision::field::Field;
-use vision::localise::{Estimate, Map, NoMatch, body, relocate, track};
+use vision::localise::{Estimate, Map, NoMatch, body, track};
 use vision::picture::Picture;
 use vision::render::{Sensor, Shutter, World, render};
 
@@ -30,10 +30,9 @@ fn off(a: Pose, b: Pose) -> (f64, f64) {
 }
 
 #[test]
-fn lines_correct_a_prediction_and_find_a_lost_robot() {
+fn lines_correct_a_prediction() {
     let map = Map::new(Field::DIVISION_B);
     let prior = Matrix3::from_diagonal(&Vector3::new(0.1_f64.powi(2), 0.1_f64.powi(2), 0.08_f64.powi(2)));
-    let mut relocated = 0;
     for (seed, pose) in POSES.into_iter().enumerate() {
         let truth = body(pose);
         let points = detect(&picture(pose, seed as u64), 0.5).lines;
@@ -47,12 +46,7 @@ fn lines_correct_a_prediction_and_find_a_lost_robot() {
             Vector3::new(found.pose.x - truth.x, found.pose.y - truth.y, wrap_angle(found.pose.theta - truth.theta));
         let squared = (far.transpose() * found.covariance.try_inverse().unwrap() * far)[0];
         assert!(squared < 30.0, "{pose:?}: {squared:.1} normalised squared error");
-        // The field looks the same from its other end.
-        let mirrored = Pose::new(-truth.x, -truth.y, wrap_angle(truth.theta + std::f64::consts::PI));
-        let near = |estimate: &Estimate| [truth, mirrored].iter().any(|t| off(estimate.pose, *t) < (0.1, 0.1));
-        relocated += usize::from(relocate(&map, &camera(), &points).iter().take(2).any(near));
     }
-    assert!(relocated >= 4, "{relocated} of {} found without a prediction", POSES.len());
 }
 
 #[test]

@@ -166,8 +166,13 @@ impl Plant {
     /// The same robot at another place.
     #[must_use]
     pub fn at(mut self, pose: Pose) -> Self {
-        self.walk = Walk::from(pose);
+        self.stand(pose);
         self
+    }
+
+    /// Sets the robot down at another place; its wheels stay as they are.
+    pub fn stand(&mut self, pose: Pose) {
+        self.walk = Walk::from(pose);
     }
 
     /// The same robot in motion, its wheels rolling.

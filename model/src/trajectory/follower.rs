@@ -150,10 +150,10 @@ impl Follower {
         Some(self.step_towards(wanted, pose, dt))
     }
 
-    /// The body twist for the coming `dt` seconds of a robot that must not go on: it brakes and turns at a rate, rad/s. The
-    /// time does not count against its patience.
+    /// The body twist for the coming `dt` seconds of a robot that must not go on: it brakes and turns at a rate, rad/s. Its
+    /// patience begins anew: afterwards it may know that it is farther away than it ever believed.
     pub fn hold(&mut self, pose: Pose, turn: f64, dt: f64) -> Twist {
-        self.nearest_at += dt;
+        (self.nearest, self.nearest_at) = (f64::INFINITY, self.t + dt);
         self.step_towards(([0.0; 2], turn), pose, dt)
     }
 

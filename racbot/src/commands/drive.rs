@@ -12,6 +12,7 @@ use driver::realtime::{Rights, stop_on_signals};
 use driver::recording::{Recorded, Recording, logged_robot};
 use fixed_kin::speed::SpeedMode;
 use model::trajectory::{Arrival, SetPoint};
+use runs::frames::Pose;
 use runs::robot::Robot;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -75,6 +76,11 @@ pub(crate) struct Options {
     #[command(flatten)]
     hidden: super::options::Hidden,
 
+    /// Where the built-in card's robot stands, unknown to the controller [default: where --start says]
+    #[cfg(feature = "simulation")]
+    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true)]
+    stands: Option<Start>,
+
     /// Drive the built-in card in real time, not as fast as it can be computed
     #[cfg(feature = "simulation")]
     #[arg(long)]
@@ -103,6 +109,8 @@ enum Speeds {
 
 /// All that there is to tell.
 struct Report<'a> {
+    /// Where the robot of a built-in card stands at the end.
+    stands: Option<Pose>,
     name: &'a str,
     clock_hz: f64,
     plan: &'a Plan,
@@ -133,6 +141,9 @@ impl Options {
             plan.sure_m = plan.sure_m.or(Some(setting.sure_m()));
         }
         let ready = self.card.ready(Use::Drive, &actual, pace)?;
+        ready.stand(self.stands());
+        #[cfg(feature = "simulation")]
+        let truth = ready.shared.clone();
         #[cfg(feature = "vision")]
         let (ready, refused) = if self.vision.is_onboard() { onboard(ready, setting, pace)? } else { (ready, None) };
         let ReadyCard { name, registers, clock_hz, mut clock, source, .. } = ready;
@@ -164,7 +175,12 @@ impl Options {
             Ok(recorded) => (recorded, None),
             Err(error) => (None, Some(error.to_string())),
         };
+        #[cfg(feature = "simulation")]
+        let stands = truth.map(|card| card.pose());
+        #[cfg(not(feature = "simulation"))]
+        let stands = None;
         let report = Report {
+            stands,
             name: &name,
             clock_hz,
             plan: &plan,
@@ -184,8 +200,8 @@ impl Options {
     #[cfg(feature = "simulation")]
     fn built_in(&self, believed: &Robot) -> Result<(Robot, Pace), Failure> {
         if !self.card.is_built_in() {
-            if self.hidden.is_given() || self.real_time {
-                return Err(Failure::usage("--hidden, --skew-deg and --real-time are for --card virtual"));
+            if self.hidden.is_given() || self.real_time || self.stands.is_some() {
+                return Err(Failure::usage("--hidden, --skew-deg, --stands and --real-time are for --card virtual"));
             }
             return Ok((believed.clone(), Pace::Real));
         }
@@ -195,6 +211,15 @@ impl Options {
     #[cfg(not(feature = "simulation"))]
     fn built_in(&self, believed: &Robot) -> Result<(Robot, Pace), Failure> {
         Ok((believed.clone(), Pace::Real))
+    }
+
+    /// Where the robot of a built-in card stands.
+    fn stands(&self) -> Pose {
+        #[cfg(feature = "simulation")]
+        if let Some(Start(pose)) = self.stands {
+            return pose;
+        }
+        self.start.0
     }
 
     /// Whether something corrects the pose.
@@ -281,6 +306,12 @@ impl Report<'_> {
         };
         text.push('\n');
         text += &entry("ended", &format!("{} after {:.2} s, {outputs}", self.ending(), driven.t));
+        if let Some(stands) = self.stands {
+            let pose = driven.pose;
+            let off = (stands.x - pose.x).hypot(stands.y - pose.y);
+            let place = format!("({:.3}, {:.3}) m by its own belief, in truth {:.0} mm off", pose.x, pose.y, 1e3 * off);
+            text += &entry("stands", &place);
+        }
         let [min, mean, max] = driven.latency.min_mean_max_us();
         let _ =
             writeln!(text, "ticks    {} seen, {} unseen, {} read again", driven.ticks, driven.unseen, driven.reread);
@@ -348,6 +379,7 @@ impl Report<'_> {
             "cleared_stalls": driven.stood.stalls,
             "outputs_off": driven.switched_off.is_ok(), "t_s": driven.t,
             "pose": [driven.pose.x, driven.pose.y, driven.pose.theta],
+            "stands": self.stands.map(|pose| [pose.x, pose.y, pose.theta]),
             "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,
             "looked_round": driven.lost,
             "wake_up_us": { "min": min, "avg": mean, "max": max }, "missed": driven.latency.missed,

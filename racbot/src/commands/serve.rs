@@ -216,6 +216,7 @@ impl Options {
         let plan =
             Plan { start: self.start.0, limit_s: self.seconds.unwrap_or(f64::INFINITY), ..Plan::new(&robot, &[]) };
         let ready = self.card.ready(Use::Drive, &robot, Pace::Real)?;
+        ready.stand(self.start.0);
         let ReadyCard { name, registers, clock_hz, clock, source, .. } = ready;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;

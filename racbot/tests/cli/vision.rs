@@ -176,6 +176,36 @@ fn an_on_board_camera_gives_a_drive_its_poses_and_its_options_are_checked() {
     with(&["--vision", "onboard", "--lens", "lens.toml"]).refused(1, &["lens.toml:1:1: missing field `height`"]);
 }
 
+/// A robot that was told a wrong start: it notices, stops, turns round, finds its place and drives on; or says that it cannot.
+#[test]
+fn a_robot_that_is_not_where_it_was_told_finds_its_place_or_stays_where_it_is() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("there.csv"), "3.4,0.6,1,0,stop\n2.2,-1.0,1,0,stop\n").unwrap();
+    let drive = ["drive", "--card", "virtual", "--setpoints", "there.csv", "--vision", "onboard", "--json"];
+    let told = |start: &str, stands: &str| {
+        racbot(folder.path(), &[&drive[..], &["--start", start, "--stands", stands]].concat())
+    };
+    let found = told("2.4,-1.2,0", "3.44,-0.7,20").done().json();
+    let number = |name: &str, i: usize| found[name][i].as_f64().unwrap();
+    let off = (number("stands", 0) - 2.2).hypot(number("stands", 1) + 1.0);
+    assert!(found["looked_round"] == 1 && off < 0.05, "{off} m: {found}");
+
+    // Far from every line the wheels are all that it has, and soon too little.
+    fs::write(folder.path().join("wide.toml"), "length = 60\nwidth = 60\n").unwrap();
+    fs::write(folder.path().join("there.csv"), "16,10,1,0,stop\n").unwrap();
+    let lost = racbot(folder.path(), &[&drive[..], &["--field", "wide.toml", "--start", "10,10,0"]].concat());
+    assert!(
+        lost.code == Some(1) && lost.stderr.contains("lost: the place is known"),
+        "{} {}",
+        lost.stdout,
+        lost.stderr
+    );
+    let json = lost.json();
+    let way = json["stands"][0].as_f64().unwrap() - 10.0;
+    assert!(json["outputs_off"] == true && (1.0..3.0).contains(&way), "{json}");
+    racbot(folder.path(), &[&drive[..], &["--sure-m", "0"]].concat()).refused(2, &["--sure-m: give metres above 0"]);
+}
+
 #[test]
 fn a_start_without_overhead_camera_leaves_runs_pictures_and_a_page() {
     let folder = tempdir().unwrap();

@@ -5,6 +5,7 @@ use crate::imu::{Chassis, VirtualImu};
 use fixed_kin::AXES;
 use model::imu::Motion;
 use model::plant::Plant;
+use runs::frames::Pose;
 use runs::geometry::GeometryError;
 use runs::robot::Robot;
 
@@ -49,6 +50,10 @@ impl Machine {
     #[must_use]
     pub fn plant(&self) -> &Plant {
         &self.plant
+    }
+
+    pub(super) fn stand(&mut self, pose: Pose) {
+        self.plant.stand(pose);
     }
 
     /// Lets time pass with duties in [−1, 1]; 0 shorts a motor.

@@ -244,6 +244,12 @@ impl VirtualCard {
         &self.machine
     }
 
+    /// Lifts the robot, and sets it down elsewhere; its wheels stay as they are.
+    pub fn stand(&mut self, pose: runs::frames::Pose) {
+        self.settle();
+        self.machine.stand(pose);
+    }
+
     /// A design runs.
     #[must_use]
     pub fn configured(&self) -> bool {

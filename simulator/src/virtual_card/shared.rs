@@ -28,6 +28,11 @@ impl SharedCard {
         self.motion().0
     }
 
+    /// Lifts its robot, and sets it down elsewhere.
+    pub fn stand(&self, pose: Pose) {
+        self.0.borrow_mut().stand(pose);
+    }
+
     /// Where its robot is, and how it moves.
     #[must_use]
     pub fn motion(&self) -> (Pose, Twist) {
