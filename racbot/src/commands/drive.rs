@@ -135,11 +135,11 @@ impl Options {
         let (actual, pace) = self.built_in(&robot)?;
         #[cfg(feature = "vision")]
         let setting = self.vision.setting()?;
-        let mut plan = self.plan(&robot, &set_points);
+        let plan = self.plan(&robot, &set_points);
         #[cfg(feature = "vision")]
-        if self.vision.is_onboard() {
-            plan.sure_m = plan.sure_m.or(Some(setting.sure_m()));
-        }
+        let by_field = self.vision.is_onboard().then(|| setting.sure_m());
+        #[cfg(feature = "vision")]
+        let plan = Plan { sure_m: plan.sure_m.or(by_field), ..plan };
         let ready = self.card.ready(Use::Drive, &actual, pace)?;
         ready.stand(self.stands());
         #[cfg(feature = "simulation")]

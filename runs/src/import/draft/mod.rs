@@ -100,10 +100,15 @@ fn columns(guesses: &[Guess], none: &str) -> String {
 fn unused(rest: &[&Series]) -> String {
     let mut out = String::from(if rest.is_empty() { "" } else { "\n# Not used:\n" });
     for series in rest {
-        let [low, high] = series.range();
+        let [low, high] = series.range().map(readable);
         let _ = writeln!(out, "# {}, {low} to {high}", quoted(&series.name));
     }
     out
+}
+
+/// A number in a remark; some logs hold 2.4e-311 where nothing was measured.
+fn readable(x: f64) -> String {
+    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// A TOML string on one line.
