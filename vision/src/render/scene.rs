@@ -113,6 +113,18 @@ impl World {
         self
     }
 
+    /// With other robots on the floor: black cylinders with a white cover, of the league's greatest size.
+    #[must_use]
+    pub fn with_robots(mut self, places: &[[f64; 2]]) -> Self {
+        for [x, y] in places {
+            let shape = Shape::Cylinder { base: Point::new(*x, *y, 0.0), radius: 0.09, height: 0.15 };
+            self.bodies.push(Body::new(shape, Surface::Plain(plain([0.03; 3]))));
+            let cover = Shape::Cylinder { base: Point::new(*x, *y, 0.1), radius: 0.091, height: 0.03 };
+            self.bodies.push(Body::new(cover, Surface::Plain(plain([0.7; 3]))));
+        }
+        self
+    }
+
     /// Walls of both goals.
     pub(super) fn goals(&mut self, white: Finish) {
         let field = self.field;
