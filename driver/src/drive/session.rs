@@ -1,7 +1,7 @@
 //! A drive tick by tick, for whoever keeps the time.
 
 use super::heading::Feel;
-use super::sure::{Sure, Verdict};
+use super::sure::Sure;
 use super::watch::Watch;
 use super::{Armed, DriveError, Driven, Ending, Fault, Plan, PoseSource, Steer};
 use crate::realtime::{Clock, Latency, Timer};
@@ -170,7 +170,6 @@ struct Seen {
     t: f64,
     pose: Pose,
     camera: Option<Pose>,
-    verdict: Verdict,
 }
 
 enum Step {
@@ -189,7 +188,6 @@ struct State<S> {
     feel: Option<Feel>,
     watch: Watch,
     sure: Option<Sure>,
-    looking: bool,
     before: Snapshot,
     first: u32,
     total: [i64; AXES],
@@ -212,7 +210,6 @@ impl<S: Steer> State<S> {
             feel: None,
             watch: Watch::new(&plan.believed(), scale),
             sure: plan.sure_m.map(Sure::to),
-            looking: false,
             before: Snapshot::default(),
             first: 0,
             total: [0; AXES],
@@ -314,10 +311,8 @@ impl<S: Steer> State<S> {
         let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
         self.driven.slips += u64::from(self.localiser.slips() && !slipped);
         self.driven.pose = pose;
-        let belief = self.localiser.estimate();
-        source.believed(t, &belief);
-        let verdict = self.sure.as_mut().map(|sure| sure.judge(t, &belief, seen.is_some(), source.contradicts()));
-        Seen { t, pose, camera: seen.map(|seen| seen.pose), verdict: verdict.unwrap_or(Verdict::Sure) }
+        source.believed(t, &self.localiser.estimate());
+        Seen { t, pose, camera: seen.map(|seen| seen.pose) }
     }
 
     fn record(&self, recording: Option<&mut Recording>, t: f64, in_force: Twist, scale: &Scale, camera: Option<Pose>) {
@@ -360,10 +355,10 @@ impl<S: Steer> State<S> {
         if ticks == 0 {
             return self.wait_for_tick(armed, scale, host);
         }
-        let Seen { t, pose, camera, verdict } = self.follow(now, ticks, scale, host, source);
+        let Seen { t, pose, camera } = self.follow(now, ticks, scale, host, source);
         let elapsed = scale.tick_s() * f64::from(ticks.min(SILENT_TICKS));
         let in_force = self.command;
-        let wanted = match self.looks(verdict)? {
+        let wanted = match self.looks(t, camera.is_some(), source.contradicts())? {
             Some(rate) => Some(self.steer.hold(pose, rate, elapsed)),
             None => self.steer.command(pose, elapsed),
         };
@@ -386,14 +381,11 @@ impl<S: Steer> State<S> {
     }
 
     /// Rate at which a robot that does not know where it is looks round, rad/s.
-    fn looks(&mut self, verdict: Verdict) -> Result<Option<f64>, Fault> {
-        let looked = std::mem::replace(&mut self.looking, matches!(verdict, Verdict::Look(_)));
-        self.driven.lost += u64::from(self.looking && !looked);
-        match (verdict, &self.sure) {
-            (Verdict::Look(rate), _) => Ok(Some(rate)),
-            (Verdict::Lost(sd_m), Some(sure)) => Err(Fault::Lost { sd_m, limit_m: sure.limit_m() }),
-            _ => Ok(None),
-        }
+    fn looks(&mut self, t: f64, posed: bool, contradicted: bool) -> Result<Option<f64>, Fault> {
+        let Some(sure) = &mut self.sure else { return Ok(None) };
+        let looks = sure.judge(t, &self.localiser.estimate(), posed, contradicted);
+        self.driven.lost = sure.times();
+        looks
     }
 
     /// At rest: there, or given up.

@@ -6,6 +6,7 @@
 //!     └────────────── deviation below half the limit, no contradiction ────────┘            └─► Lost, after TURNS
 //! ```
 
+use super::Fault;
 use model::odometry::Estimate;
 use runs::frames::{Pose, place_sd};
 use std::f64::consts::TAU;
@@ -30,32 +31,33 @@ pub(super) struct Sure {
     way: f64,
     /// Since when the robot is lost, s.
     lost: Option<f64>,
-}
-
-/// What is to be done at this tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict {
-    /// Goes on.
-    Sure,
-    /// Brakes and turns at this rate, rad/s.
-    Look(f64),
-    /// Nothing to be seen tells the place: it is known to a standard deviation, m.
-    Lost(f64),
+    /// How often it was.
+    times: u64,
 }
 
 impl Sure {
     /// Of a place that has to be known to this standard deviation, m.
     pub(super) fn to(limit_m: f64) -> Self {
-        Self { limit_m, before: None, way: 0.0, lost: None }
+        Self { limit_m, before: None, way: 0.0, lost: None, times: 0 }
     }
 
-    /// The limit, m.
-    pub(super) fn limit_m(&self) -> f64 {
-        self.limit_m
+    /// How often the robot was lost so far.
+    pub(super) fn times(&self) -> u64 {
+        self.times
     }
 
-    /// At `t` s: what is believed, whether a pose came at this tick, and whether what is seen contradicts the belief.
-    pub(super) fn judge(&mut self, t: f64, belief: &Estimate, posed: bool, contradicted: bool) -> Verdict {
+    /// At `t` s, by what is believed, whether a pose came at this tick and whether what is seen contradicts the belief: the
+    /// rate at which to look round instead of driving on, rad/s.
+    ///
+    /// # Errors
+    /// [`Fault::Lost`] where looking round told no more.
+    pub(super) fn judge(
+        &mut self,
+        t: f64,
+        belief: &Estimate,
+        posed: bool,
+        contradicted: bool,
+    ) -> Result<Option<f64>, Fault> {
         let moved = self.before.map_or(0.0, |p| (belief.pose.x - p.x).hypot(belief.pose.y - p.y));
         self.before = Some(belief.pose);
         self.way = if posed { 0.0 } else { self.way + moved };
@@ -64,10 +66,14 @@ impl Sure {
         // What is not finite is not known either.
         if sd <= least && !contradicted {
             self.lost = None;
-            return Verdict::Sure;
+            return Ok(None);
         }
+        self.times += u64::from(self.lost.is_none());
         let since = *self.lost.get_or_insert(t);
-        if t - since > TURNS * TAU / LOOKING_RAD_S { Verdict::Lost(sd) } else { Verdict::Look(LOOKING_RAD_S) }
+        if t - since > TURNS * TAU / LOOKING_RAD_S {
+            return Err(Fault::Lost { sd_m: sd, limit_m: self.limit_m });
+        }
+        Ok(Some(LOOKING_RAD_S))
     }
 }
 
@@ -83,25 +89,25 @@ mod tests {
     fn it_stops_at_the_limit_and_goes_on_at_half_of_it() {
         let mut sure = Sure::to(0.15);
         let mut at = |t: f64, sd: f64| sure.judge(t, &believed(0.0, sd), true, false);
-        assert_eq!(at(0.0, 0.14), Verdict::Sure);
-        assert_eq!(at(0.1, 0.16), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(at(0.2, 0.14), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(at(0.3, 0.07), Verdict::Sure);
+        assert_eq!(at(0.0, 0.14).unwrap(), None);
+        assert_eq!(at(0.1, 0.16).unwrap(), Some(LOOKING_RAD_S));
+        assert_eq!(at(0.2, 0.14).unwrap(), Some(LOOKING_RAD_S));
+        assert_eq!(at(0.3, 0.07).unwrap(), None);
         // A turn and a quarter later it has seen all there is, each time anew.
-        assert_eq!(at(1.0, f64::NAN), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(at(8.8, 0.2), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(at(8.9, 0.2), Verdict::Lost(0.2));
+        assert_eq!(at(1.0, f64::NAN).unwrap(), Some(LOOKING_RAD_S));
+        assert_eq!(at(8.8, 0.2).unwrap(), Some(LOOKING_RAD_S));
+        assert!(matches!(at(8.9, 0.2), Err(Fault::Lost { sd_m: 0.2, limit_m: 0.15 })));
     }
 
     #[test]
     fn the_way_without_a_pose_counts_and_so_does_a_contradiction() {
         let mut sure = Sure::to(0.15);
         let mut judged = |x: f64, posed, contradicted| sure.judge(x, &believed(x, 0.02), posed, contradicted);
-        assert_eq!(judged(0.0, true, false), Verdict::Sure);
-        assert_eq!(judged(2.0, false, false), Verdict::Sure);
-        assert_eq!(judged(2.2, false, false), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(judged(2.2, true, false), Verdict::Sure);
-        assert_eq!(judged(2.2, true, true), Verdict::Look(LOOKING_RAD_S));
-        assert_eq!(judged(2.2, true, false), Verdict::Sure);
+        assert_eq!(judged(0.0, true, false).unwrap(), None);
+        assert_eq!(judged(2.0, false, false).unwrap(), None);
+        assert_eq!(judged(2.2, false, false).unwrap(), Some(LOOKING_RAD_S));
+        assert_eq!(judged(2.2, true, false).unwrap(), None);
+        assert_eq!(judged(2.2, true, true).unwrap(), Some(LOOKING_RAD_S));
+        assert_eq!(judged(2.2, true, false).unwrap(), None);
     }
 }
