@@ -24,9 +24,10 @@ use crate::options::{Options, Stage};
 use question::Question;
 use workflow::Workflow;
 
+pub use crate::limits::Limit;
 pub use crate::locate::Located;
 pub use driven::{Driven, Moment};
-pub use found::{Analysis, Leftover, Limit, LinkGap, Named, Verdict};
+pub use found::{Analysis, Leftover, LinkGap, Named, Verdict};
 pub use gaps::overall;
 pub use robot_file::undo;
 

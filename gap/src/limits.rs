@@ -1,6 +1,5 @@
 //! Detection limits: the size from which an effect would be named in these data.
 
-use crate::analysis::Limit;
 use crate::effect::{Link, Parameter};
 use crate::options::Thresholds;
 use crate::problem::Owner;
@@ -9,6 +8,23 @@ use estimation::prior::Role;
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;
+
+/// An effect that is detectable but immaterial, or the limit from which it would be named.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Name of the effect.
+    pub name: String,
+    /// As in `robot.toml`.
+    pub parameter: String,
+    /// Its estimate if everything else unnamed is held near zero.
+    pub estimate: f64,
+    /// Its standard deviation.
+    pub sd: f64,
+    /// Size that is named in nine of ten such data sets.
+    pub limit: f64,
+    /// Materiality threshold.
+    pub material: f64,
+}
 
 /// What an effect must pass to be named, as sizes.
 struct Gates<'a> {

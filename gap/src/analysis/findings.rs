@@ -1,8 +1,9 @@
 //! What the links of a data set gave so far.
 
-use super::found::{Leftover, Limit, Named};
+use super::found::{Leftover, Named};
 use super::study::Outcome;
 use crate::effect::Link;
+use crate::limits::Limit;
 use crate::state::{Active, State};
 
 /// What was found, link by link.

@@ -7,6 +7,7 @@ use crate::drive::DriveResiduals;
 use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::ExactLink;
+use crate::limits::Limit;
 use crate::locate::Located;
 use crate::motion::WindowResiduals;
 use crate::options::Thresholds;
@@ -59,23 +60,6 @@ pub struct Named {
     /// Effects on whose absence its sizes depend: the named ones can do what they do, with a part of what they are free
     /// to do, and how much of it is theirs does not show.
     pub conditional_on: Vec<String>,
-}
-
-/// An effect that is detectable but immaterial, or the limit from which it would be named.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Limit {
-    /// Name of the effect.
-    pub name: String,
-    /// As in `robot.toml`.
-    pub parameter: String,
-    /// Its estimate if everything else unnamed is held near zero.
-    pub estimate: f64,
-    /// Its standard deviation.
-    pub sd: f64,
-    /// Size that is named in nine of ten such data sets.
-    pub limit: f64,
-    /// Materiality threshold.
-    pub material: f64,
 }
 
 /// Structure that no effect of the catalogue explains.

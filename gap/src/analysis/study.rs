@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use runs::robot::Support;
 
-use super::found::{Limit, Named};
+use super::found::Named;
 use crate::drive::Generic;
 use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
+use crate::limits::Limit;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Design, Selection};
