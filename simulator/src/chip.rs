@@ -1,7 +1,7 @@
 //! A whole chip behind its pins: compiled Verilog, or the circuit of a bitstream.
 
 use crate::cosim::{Change, Layout, Session};
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 
 /// A simulated chip whose pins have columns in a [`Layout`].
 pub trait Chip: Send {

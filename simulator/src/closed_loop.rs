@@ -19,7 +19,7 @@ pub use drive::{Drive, Driven};
 pub use driver::drive::{Control, Ending};
 pub use robot::{Moment, VirtualRobot};
 
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 use driver::drive::DriveError;
 use driver::recording::RecordingError;
 use driver::{BoardError, ScaleError};

@@ -5,7 +5,8 @@
 //! their encoders stand still equally long after a tick: record with
 //! [`crate::fpga::BitTrue::with_quiet_clocks`] for backends with pins.
 
-use crate::fpga::{Fpga, FpgaError, Kind};
+use crate::error::FpgaError;
+use crate::fpga::{Fpga, Kind};
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::registers::{

@@ -8,6 +8,7 @@ pub mod circuit;
 pub mod closed_loop;
 pub mod cosim;
 pub mod cross_check;
+mod error;
 pub mod eye;
 pub mod fpga;
 pub mod gateware;

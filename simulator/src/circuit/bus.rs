@@ -2,7 +2,7 @@
 
 use super::Circuit;
 use crate::cosim::Layout;
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 
 /// Clocks that a word may wait for READY#; then the bridge gives up, and reads what the pull-ups say.
 const MAX_WAIT: u32 = 256;

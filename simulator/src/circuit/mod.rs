@@ -12,7 +12,7 @@ mod bus;
 
 use crate::chip::Chip;
 use crate::cosim::{Change, Layout};
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 use bitstream::configuration::Configuration;
 use bitstream::container::Bitstream;
 use bitstream::container::packets::Packets;

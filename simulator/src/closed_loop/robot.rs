@@ -1,6 +1,7 @@
 //! Motors, body, camera and an FPGA, tick by tick, as the driver sees them: registers, a clock, a pose source.
 
-use crate::fpga::{Fpga, FpgaError};
+use crate::error::FpgaError;
+use crate::fpga::Fpga;
 use crate::imu::Chassis;
 use driver::drive::PoseSource;
 use driver::realtime::Clock;

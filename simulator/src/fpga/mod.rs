@@ -19,12 +19,14 @@ mod ports;
 mod rust_hdl;
 mod verilog;
 
+pub use crate::error::FpgaError;
 pub use bit_true::BitTrue;
 pub use decoded::Decoded;
+pub use pin_level::QUIET_CLOCKS;
 pub use rust_hdl::RustHdl;
 pub use verilog::Verilog;
 
-use driver::{BusError, Registers};
+use driver::Registers;
 use fixed_kin::AXES;
 use fixed_kin::format::Duty;
 use fixed_kin::modulation::{Modulation, modulate};
@@ -34,50 +36,6 @@ use fixed_kin::registers::{
 use model::imu::Motion;
 use std::fmt;
 use std::str::FromStr;
-
-/// Clocks after a control tick in which the encoders of the pin-level backends stand still: the
-/// program (980), a snapshot and a commit over the bus, and some.
-pub const QUIET_CLOCKS: u32 = 1_400;
-
-/// A simulation that cannot go on.
-#[derive(Debug, thiserror::Error)]
-pub enum FpgaError {
-    /// A register could not be read or written.
-    #[error(transparent)]
-    Bus(#[from] BusError),
-    /// The co-simulation.
-    #[error(transparent)]
-    Cosim(#[from] crate::cosim::CosimError),
-    /// The circuit of a bitstream.
-    #[error(transparent)]
-    Circuit(#[from] bitstream::simulation::Unsettled),
-    /// Frames that make no circuit.
-    #[error("the frames make no circuit: {0}")]
-    NoCircuit(String),
-    /// The core cannot be emitted.
-    #[error("the core cannot be emitted: {0}")]
-    Emit(String),
-    /// The host took too long.
-    #[error(
-        "{clocks} clocks went by since the control tick, more than the {QUIET_CLOCKS} in which encoders may stand still; use a longer control period"
-    )]
-    Late {
-        /// Clocks since the tick.
-        clocks: u64,
-    },
-    /// A motion that no encoder could follow.
-    #[error(
-        "encoder {axis} would move {counts} counts in a control period of {period} clocks, faster than its filter can follow"
-    )]
-    TooFast {
-        /// Axis, from 1.
-        axis: usize,
-        /// Counts in the period.
-        counts: f64,
-        /// Period in clocks.
-        period: u32,
-    },
-}
 
 /// An FPGA with encoders on its pins.
 pub trait Fpga: Registers {

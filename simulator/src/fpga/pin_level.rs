@@ -6,12 +6,15 @@
 //! ```
 
 use super::edges::{Motion, lines};
-use super::{Fpga, FpgaError, Kind, QUIET_CLOCKS, check_motion};
+use super::{Fpga, FpgaError, Kind, check_motion};
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::registers::{ENCODER_FILTER, MIN_TICK_PERIOD, SNAPSHOT_SEQUENCE, SNAPSHOT_WORDS, TICK_PERIOD};
 use fixed_kin::speed::TIME_BITS;
 
+/// Clocks after a control tick in which the encoders of the pin-level backends stand still: the
+/// program (980), a snapshot and a commit over the bus, and some.
+pub const QUIET_CLOCKS: u32 = 1_400;
 /// Clocks after a tick in which the program certainly ends.
 const PROGRAM_CLOCKS: u64 = 1_000;
 
@@ -129,7 +132,7 @@ impl<C: Chip> Fpga for PinLevel<C> {
         };
         let late = self.chip.clock() - tick;
         if late > u64::from(QUIET_CLOCKS) && self.positions != *positions {
-            return Err(FpgaError::Late { clocks: late });
+            return Err(FpgaError::Late { clocks: late, quiet: QUIET_CLOCKS });
         }
         for (axis, (&from, &to)) in self.positions.iter().zip(positions).enumerate() {
             check_motion(axis, from, to, period, QUIET_CLOCKS, filter)?;

@@ -1,7 +1,8 @@
 //! A configured FPGA in time: clocks pass, encoders turn, duties drive.
 
 use super::Machine;
-use crate::fpga::{BitTrue, Fpga, FpgaError};
+use crate::error::FpgaError;
+use crate::fpga::{BitTrue, Fpga};
 use driver::Registers;
 use fixed_kin::card::Pins;
 use fixed_kin::kicker::State;

@@ -27,7 +27,7 @@ pub use shared::{CameraAbove, SharedCard};
 pub use wiring::Wiring;
 
 use crate::circuit::{committed, decode};
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 use bitstream::container::packets::Packets;
 use driver::pci::{Bar, PciCard, PciError};
 use fixed_kin::registers::NOMINAL_CLOCK_HZ;

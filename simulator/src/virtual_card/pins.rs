@@ -10,7 +10,7 @@ use super::machine::Machine;
 use crate::chip::{Chip, release};
 use crate::circuit::Circuit;
 use crate::cosim::{Change, Session, Verilated};
-use crate::fpga::FpgaError;
+use crate::error::FpgaError;
 use crate::fpga::edges::{Motion, lines};
 use bitstream::netlist::Netlist;
 use fixed_kin::AXES;
