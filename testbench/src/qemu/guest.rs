@@ -7,13 +7,14 @@
 use super::config_space::Window;
 use super::port::{Message, Port};
 use super::remote::{CardDevice, LockedCard, serve};
+use super::running::Running;
 use super::tools::Tools;
 use driver::pci::Ids;
 use std::fs;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, Read};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
@@ -53,35 +54,6 @@ pub struct Outcome {
     pub guest_time: Duration,
     /// Time that it took here.
     pub elapsed: Duration,
-}
-
-/// What can be done to a running machine.
-#[derive(Debug, Default)]
-pub struct Running {
-    monitor: PathBuf,
-}
-
-impl Running {
-    /// Pulls the card out of its slot.
-    ///
-    /// # Errors
-    /// A monitor that does not answer, or refuses.
-    pub fn unplug(&self) -> io::Result<()> {
-        let mut monitor = BufReader::new(UnixStream::connect(&self.monitor)?);
-        let mut line = String::new();
-        monitor.read_line(&mut line)?;
-        for command in
-            [r#"{"execute": "qmp_capabilities"}"#, r#"{"execute": "device_del", "arguments": {"id": "mesa"}}"#]
-        {
-            monitor.get_mut().write_all(command.as_bytes())?;
-            line.clear();
-            monitor.read_line(&mut line)?;
-            if line.contains("\"error\"") {
-                return Err(io::Error::other(line));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Kills QEMU whatever happens.

@@ -8,11 +8,13 @@ mod guest;
 mod initramfs;
 mod port;
 mod remote;
+mod running;
 mod tools;
 
 pub use config_space::{ConfigSpace, Window};
-pub use guest::{Options, Outcome, Running, run};
+pub use guest::{Options, Outcome, run};
 pub use initramfs::Initramfs;
 pub use port::Message;
 pub use remote::{Device, LockedCard, serve};
+pub use running::Running;
 pub use tools::{MissingTool, Tools};

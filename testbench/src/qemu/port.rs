@@ -4,8 +4,8 @@
 //! however long the host takes. What the registers mean: crate `testport`.
 
 use super::config_space::Window;
-use super::guest::Running;
 use super::remote::{Device, LockedCard};
+use super::running::Running;
 use driver::pci::Ids;
 use std::io;
 use std::sync::PoisonError;
