@@ -1,6 +1,6 @@
 //! Every effect of the catalogue: simulated in, and found.
 
-use super::common::{RICH, cut, names, simulate, value, with};
+use super::common::{RICH, cut, names, rolling, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
 use rayon::prelude::*;
@@ -142,6 +142,28 @@ fn the_table_holds_the_whole_catalogue() {
             continue;
         }
         assert!(CASES.iter().any(|c| c.name == effect.name()), "{} has no case", effect.name());
+    }
+}
+
+/// Whole ticks and parts of one alike: an estimator that took a duty to act at the wrong end of its tick would be wrong by a
+/// part of a tick at each. Contacts that creep let a wheel turn before its robot moves, which looks like duties a fifth of
+/// a tick earlier: the interval holds it.
+#[test]
+fn late_duties_are_found_to_a_twentieth_of_a_tick() {
+    let tick = 1.0 / Robot::racbot().control_rate_hz;
+    for (k, late) in [6.0, 8.5, 12.25].map(|ticks| ticks * tick).into_iter().enumerate() {
+        let truth = with(&Robot::racbot(), "actuation-latency", &[("latency_s", late)]);
+        let mut set = simulate(&truth, &RICH, 95 + k as u64);
+        let creeping = analyse(&set, &Options::default()).unwrap();
+        set.runs = RICH.iter().enumerate().map(|(run, m)| rolling(&truth, *m, (10 * k + run) as u64)).collect();
+        let rigid = analyse(&set, &Options::default()).unwrap();
+        for a in [&creeping, &rigid] {
+            assert_eq!(names(a), ["actuation-latency"], "{}", a.terminal_summary());
+        }
+        let off = (value(&rigid, "latency_s") - late) / tick;
+        assert!(off.abs() < 0.05, "{off} ticks off at {late} s:\n{}", rigid.terminal_summary());
+        let held = creeping.effects[0].parameters[0].2.ends().is_some_and(|[low, high]| low < late && late < high);
+        assert!(held, "{late} s:\n{}", creeping.terminal_summary());
     }
 }
 

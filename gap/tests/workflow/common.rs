@@ -32,9 +32,18 @@ pub(super) fn run(truth: &Robot, manoeuvre: Manoeuvre, seed: u64) -> Run {
     if applied.contact == Contact::Rolling {
         applied.contact = Contact::Friction { friction_coefficient: 0.9, creep_s_per_kg: 3e-4 };
     }
+    driven(truth, &applied, manoeuvre, seed)
+}
+
+/// A run of a robot whose contacts roll without creep.
+pub(super) fn rolling(truth: &Robot, manoeuvre: Manoeuvre, seed: u64) -> Run {
+    driven(truth, &Applied::of(truth), manoeuvre, seed)
+}
+
+fn driven(truth: &Robot, applied: &Applied, manoeuvre: Manoeuvre, seed: u64) -> Run {
     let nominal = Robot { effects: Vec::new(), ..truth.clone() };
     let start = Pose::new(0.3, -0.2, 0.4 + seed as f64);
-    let mut run = manoeuvre::simulate(manoeuvre, &applied, &nominal, start, seed).unwrap();
+    let mut run = manoeuvre::simulate(manoeuvre, applied, &nominal, start, seed).unwrap();
     run.name = format!("{}_{seed}", manoeuvre.name());
     run
 }
