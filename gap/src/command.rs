@@ -13,7 +13,8 @@ use crate::words;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
-/// Share of ticks that may differ (a command that arrived within the tick).
+/// Share of ticks that may differ, and of those that may follow the command of the tick before (it arrived within the
+/// tick).
 const WRONG_SHARE: f64 = 0.01;
 /// A hypothesis must remove this share of the error's square.
 const REMOVED: f64 = 0.9;
@@ -37,7 +38,109 @@ pub(crate) fn analyse(
 /// What is read here.
 const COLUMNS: Columns = Columns { command: true, reference: true, ..Columns::NONE };
 
-/// In floating point, by the geometry of `robot.toml`.
+/// Row of the inverse kinematics and sign of every set point.
+type Order = Vec<(usize, f64)>;
+
+/// How late commands act, in ticks of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Late {
+    ticks: usize,
+    /// Whether some act a tick later still: two clocks that slide past each other.
+    or_one_more: bool,
+}
+
+impl Late {
+    /// Of a latency: one that is no whole number of ticks is that of commands some of which act a tick later.
+    fn of(latency_s: f64, tick_s: f64) -> Self {
+        const WHOLE: f64 = 1e-6;
+        let ticks = (latency_s / tick_s).max(0.0);
+        let whole = (ticks + WHOLE).floor();
+        Self { ticks: whole as usize, or_one_more: ticks - whole > WHOLE }
+    }
+}
+
+/// Set points against those of the commands.
+struct Compared {
+    /// RMS beyond rounding of every axis, rad/s.
+    rms: Vec<f64>,
+    /// Set points that were compared, those that are wrong, and those that follow the command a tick older.
+    all: u64,
+    wrong: u64,
+    older: u64,
+}
+
+impl Compared {
+    fn square(&self) -> f64 {
+        self.rms.iter().map(|x| x * x).sum()
+    }
+
+    fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.all.max(1) as f64
+    }
+}
+
+/// The logs and what their set points should be.
+struct Matrix<'a> {
+    robot: &'a Robot,
+    logs: &'a [&'a Log<'a>],
+    rows: Vec<[f64; 3]>,
+    /// What rounding of commands and set points leaves, rad/s.
+    tolerance: f64,
+}
+
+impl Matrix<'_> {
+    fn compared(&self, order: &Order, late: Late) -> Compared {
+        let n = order.len();
+        let mut sums = vec![0.0; n];
+        let (mut count, mut all, mut wrong, mut older) = (0.0_f64, 0, 0, 0);
+        let back = late.ticks + usize::from(late.or_one_more);
+        for (log, part) in self.logs.iter().flat_map(|log| parts(log, COLUMNS).map(move |part| (log, part))) {
+            let run = &part.run;
+            let Some(command) = &run.command else { continue };
+            let ticks = Ticks::with_period(self.robot, run, log.tick_s());
+            let mut steady = 0;
+            for k in part.own.start.saturating_sub(back + 1)..part.own.end {
+                // After a gap it is unknown what was commanded in it.
+                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
+                if steady < back || k < part.own.start {
+                    continue;
+                }
+                count += 1.0;
+                for i in 0..n {
+                    let (row, sign) = order[i];
+                    let off = |ticks: usize| {
+                        let expected = sign * (0..3).map(|j| self.rows[row][j] * command[j][k - ticks]).sum::<f64>();
+                        ((run.reference[i][k] - expected).abs() - self.tolerance).max(0.0)
+                    };
+                    let mut e = off(late.ticks);
+                    if late.or_one_more && e > 0.0 {
+                        let before = off(back);
+                        older += u64::from(before == 0.0);
+                        e = e.min(before);
+                    }
+                    if e.is_finite() {
+                        sums[i] += e * e;
+                        all += 1;
+                        wrong += u64::from(e > 0.0);
+                    }
+                }
+            }
+        }
+        let rms = sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect();
+        Compared { rms, all, wrong, older }
+    }
+
+    /// With a stated latency; a few commands may have arrived within their tick and act in the next.
+    fn stated(&self, order: &Order, late: Late) -> Compared {
+        let or_one_more = self.compared(order, Late { or_one_more: true, ..late });
+        if or_one_more.older as f64 <= WRONG_SHARE * or_one_more.all as f64 {
+            return or_one_more;
+        }
+        self.compared(order, late)
+    }
+}
+
+/// In floating point, by the geometry of `robot.toml` and the order and latency that it states.
 fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLink {
     let n = robot.wheel_count();
     let references = Columns { reference: true, ..Columns::NONE };
@@ -47,112 +150,91 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
     let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
     let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
-    // RMS error of every axis, set points compared, and those that are wrong.
-    let compared = |order: &[(usize, f64)], delay: f64| -> (Vec<f64>, [u64; 2]) {
-        let mut sums = vec![0.0; n];
-        let mut count = 0.0_f64;
-        let (mut all, mut wrong) = (0, 0);
-        for (log, part) in logs.iter().flat_map(|log| parts(log, COLUMNS).map(move |part| (log, part))) {
-            let run = &part.run;
-            let Some(command) = &run.command else { continue };
-            let ticks = Ticks::with_period(robot, run, log.tick_s());
-            let back = (delay / log.tick_s().unwrap_or(1.0)).round() as usize;
-            let mut steady = 0;
-            for k in part.own.start.saturating_sub(back + 1)..part.own.end {
-                // Behind a gap nobody knows what was commanded in it.
-                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
-                if steady < back || k < part.own.start {
-                    continue;
-                }
-                let c = [0, 1, 2].map(|j| command[j][k - back]);
-                count += 1.0;
-                for i in 0..n {
-                    let (row, sign) = order[i];
-                    let expected = sign * (0..3).map(|j| rows[row][j] * c[j]).sum::<f64>();
-                    let e = ((run.reference[i][k] - expected).abs() - tolerance).max(0.0);
-                    if e.is_finite() {
-                        sums[i] += e * e;
-                        all += 1;
-                        wrong += u64::from(e > 0.0);
-                    }
-                }
-            }
-        }
-        (sums.iter().map(|s| (s / count.max(1.0)).sqrt()).collect(), [all, wrong])
-    };
-    let errors = |order: &[(usize, f64)], delay: f64| compared(order, delay).0;
+    let matrix = Matrix { robot, logs, rows, tolerance };
+    let tick = logs[0].tick_s().unwrap_or(0.001);
+    let filed = robot.effect("command-latency").and_then(|e| e.value("latency_s")).map(|s| Late::of(s, tick));
     let straight = given_order(robot, n);
-    let (before, [_, wrong_before]) = compared(&straight, 0.0);
-    let replayed = |order: &[(usize, f64)], delay: f64| {
-        let [ticks, wrong] = compared(order, delay).1;
-        Evidence::Replay { ticks, wrong: [wrong_before, wrong] }
-    };
-    let size = references_rms(logs).max(1e-9);
-    let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
-    let wrong = wrong_share(logs, &rows, &straight, tolerance);
-    let floor = tolerance;
+    let stated = matrix.stated(&straight, filed.unwrap_or_default());
     let mut link = ExactLink {
         link: Link::Command,
         unit: "rad/s",
-        floor,
-        after: before.clone(),
-        before,
-        wrong_share: wrong,
+        floor: tolerance,
+        after: stated.rms.clone(),
+        before: stated.rms.clone(),
+        wrong_share: stated.wrong_share(),
         finding: None,
         unexplained: false,
         replay: None,
     };
-    if wrong <= WRONG_SHARE || total(&link.before).sqrt() < 1e-3 * size {
+    if link.wrong_share <= WRONG_SHARE || stated.square().sqrt() < 1e-3 * references_rms(logs).max(1e-9) {
         return link;
     }
+    let finding = |name: &'static str, wheels, parameters, found: &Compared| {
+        let evidence = Evidence::Replay { ticks: found.all, wrong: [stated.wrong, found.wrong] };
+        Finding { link: Link::Command, name, wheels, parameters, evidence }
+    };
     // Every order and sign of the rows, and every latency.
-    let mut best: (f64, Option<Finding>, Vec<f64>) = (total(&link.before), None, link.before.clone());
+    let mut best: (f64, Option<Finding>, Vec<f64>) = (stated.square() * 0.999, None, Vec::new());
     for order in orders(n) {
-        let e = errors(&order, 0.0);
-        if total(&e) < best.0 * 0.999 {
+        let found = matrix.compared(&order, filed.unwrap_or_default());
+        if found.square() < best.0 {
             let wheels = (0..n).filter(|i| order[*i] != (*i, 1.0)).collect();
-            let parameters = order
-                .iter()
-                .enumerate()
-                .map(|(i, (row, sign))| {
-                    let v = sign * (*row as f64 + 1.0);
-                    (format!("axis_{}", i + 1), v, Interval::Exact)
-                })
-                .collect();
-            let evidence = replayed(&order, 0.0);
-            let finding = Finding { link: Link::Command, name: "wheel-order", wheels, parameters, evidence };
-            best = (total(&e), Some(finding), e);
+            let axis = |(i, (row, sign)): (usize, &(usize, f64))| {
+                (format!("axis_{}", i + 1), sign * (*row as f64 + 1.0), Interval::Exact)
+            };
+            let parameters = order.iter().enumerate().map(axis).collect();
+            best = (found.square(), Some(finding("wheel-order", wheels, parameters, &found)), found.rms);
         }
     }
-    let tick = logs[0].tick_s().unwrap_or(0.001);
-    let most = (LONGEST_S / tick) as usize;
-    let coarse = (most / 60).max(1);
-    let at = |ticks: usize| total(&errors(&straight, ticks as f64 * tick));
-    let start = (0..=most).step_by(coarse).map(|t| (at(t), t)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |b| b.1);
-    let range = start.saturating_sub(coarse)..=(start + coarse).min(most);
-    if let Some((e, ticks)) = range.map(|t| (at(t), t)).min_by(|a, b| a.0.total_cmp(&b.0))
-        && ticks > 0
-        && e < best.0 * 0.999
+    if let Some((late, found)) = latency(&matrix, &straight, (LONGEST_S / tick) as usize)
+        && late != filed.unwrap_or_default()
+        && found.square() < best.0
     {
-        let latency = ticks as f64 * tick;
-        let parameters =
-            vec![("latency_s".to_owned(), latency, Interval::Resolution([latency - 0.5 * tick, latency + 0.5 * tick]))];
-        let evidence = replayed(&straight, latency);
-        let finding =
-            Finding { link: Link::Command, name: "command-latency", wheels: Vec::new(), parameters, evidence };
-        best = (e, Some(finding), errors(&straight, latency));
+        let older = if late.or_one_more { found.older as f64 / found.all as f64 } else { 0.0 };
+        let ends = if late.or_one_more { [0.0, 1.0] } else { [-0.5, 0.5] };
+        let interval = Interval::Resolution(ends.map(|end| (late.ticks as f64 + end) * tick));
+        let parameters = vec![("latency_s".to_owned(), (late.ticks as f64 + older) * tick, interval)];
+        best = (found.square(), Some(finding("command-latency", Vec::new(), parameters, &found)), found.rms);
     }
-    if best.0 < (1.0 - REMOVED) * total(&link.before) {
+    if best.1.is_some() && best.0 < (1.0 - REMOVED) * stated.square() {
         link.after = best.2;
         link.finding = best.1;
     } else {
-        link.unexplained = true;
+        // What a stated effect of this link leaves is its remainder, not a new structure.
+        link.unexplained = filed.is_none();
     }
     link
 }
 
+/// The latency that leaves least, and what it leaves. One that leaves most set points without a command that old
+/// is none: their errors would be those of the few that have one.
+fn latency(matrix: &Matrix, order: &Order, most: usize) -> Option<(Late, Compared)> {
+    /// Share of the set points that must have a command so old.
+    const COMPARED: f64 = 0.5;
+    let all = matrix.compared(order, Late::default()).all as f64;
+    let at = |late: Late| Some(matrix.compared(order, late)).filter(|c| c.all as f64 >= COMPARED * all);
+    let least = |ticks: &mut dyn Iterator<Item = usize>| {
+        let whole = |ticks| Late { ticks, or_one_more: false };
+        ticks.filter_map(|t| Some((whole(t), at(whole(t))?))).min_by(|a, b| a.1.square().total_cmp(&b.1.square()))
+    };
+    let coarse = (most / 60).max(1);
+    let start = least(&mut (0..=most).step_by(coarse))?.0.ticks;
+    let whole = least(&mut (start.saturating_sub(coarse)..=(start + coarse).min(most)))?;
+    // Two ticks in turn explain more than one; they must explain it all.
+    let in_turn = [whole.0.ticks.checked_sub(1), Some(whole.0.ticks)].into_iter().flatten();
+    let in_turn = in_turn.filter_map(|ticks| {
+        let late = Late { ticks, or_one_more: true };
+        Some((late, at(late)?))
+    });
+    let better = in_turn.min_by(|a, b| a.1.square().total_cmp(&b.1.square()));
+    match better {
+        Some(better) if whole.1.wrong_share() > WRONG_SHARE && better.1.wrong_share() <= WRONG_SHARE => Some(better),
+        _ => Some(whole),
+    }
+}
+
 /// Row and sign of every set point, as the robot's file has them.
-fn given_order(robot: &Robot, n: usize) -> Vec<(usize, f64)> {
+fn given_order(robot: &Robot, n: usize) -> Order {
     let given = robot.effect("wheel-order");
     let axis = |i: usize| given.and_then(|e| e.value(&format!("axis_{}", i + 1))).unwrap_or(i as f64 + 1.0);
     let row = |axis: f64| ((axis.abs().round() as usize).clamp(1, n) - 1, if axis < 0.0 { -1.0 } else { 1.0 });
@@ -169,25 +251,6 @@ fn references_rms(logs: &[&Log]) -> f64 {
         }
     }
     (square / count.max(1.0)).sqrt()
-}
-
-fn wrong_share(logs: &[&Log], rows: &[[f64; 3]], order: &[(usize, f64)], tolerance: f64) -> f64 {
-    let (mut wrong, mut all) = (0.0, 0.0_f64);
-    for part in logs.iter().flat_map(|log| parts(log, COLUMNS)) {
-        let run = &part.run;
-        let Some(command) = &run.command else { continue };
-        for k in part.own.clone() {
-            for (i, (row, sign)) in order.iter().enumerate() {
-                let expected = sign * (0..3).map(|j| rows[*row][j] * command[j][k]).sum::<f64>();
-                let e = (run.reference[i][k] - expected).abs();
-                if e.is_finite() {
-                    all += 1.0;
-                    wrong += f64::from(u8::from(e > tolerance));
-                }
-            }
-        }
-    }
-    wrong / all.max(1.0)
 }
 
 /// Every order of `n` wheels with every sign: 48 for three.

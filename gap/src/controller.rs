@@ -38,6 +38,28 @@ struct Law {
     shift: [usize; 2],
 }
 
+impl Law {
+    /// Effects of this link.
+    const EFFECTS: [&str; 4] = ["pi-gain", "integrator-windup", "quantisation", "sample-order"];
+
+    /// The law of `robot.toml` with the effects that it states.
+    fn stated(robot: &Robot, duty_quantum: f64) -> Self {
+        let value = |effect: &str, parameter: &str| robot.effect(effect).and_then(|e| e.value(parameter));
+        let scale = |parameter| 1.0 + value("pi-gain", parameter).unwrap_or(0.0);
+        let mut shift = [0, 0];
+        if let (Some(signal), Some(ticks)) = (value("sample-order", "signal"), value("sample-order", "shift_ticks")) {
+            shift[usize::from(signal != 0.0)] = ticks.max(0.0) as usize;
+        }
+        Self {
+            kp: robot.pi.kp * scale("kp_scale"),
+            ki: robot.pi.ki * scale("ki_scale"),
+            windup: value("integrator-windup", "limit_duty"),
+            duty_quantum: value("quantisation", "duty_quantum").unwrap_or(duty_quantum),
+            shift,
+        }
+    }
+}
+
 /// What is read here.
 const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
 
@@ -65,7 +87,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let logged = quantum(logs, DUTIES, |r| &r.duty);
     let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
     let floor = 0.5 * step.max(logged.min(0.001)) + SLACK;
-    let nominal = Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: step, shift: [0, 0] };
+    let nominal = Law::stated(robot, step);
     let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.rms).collect() };
     let nominally = replay(robot, logs, &nominal, floor);
     let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
@@ -150,14 +172,17 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let named = |name: &str, v: f64| {
         (name.to_owned(), v, Interval::Resolution([v - (1.0 + v) * FINEST_GAIN, v + (1.0 + v) * FINEST_GAIN]))
     };
-    let parameters =
-        vec![named("kp_scale", gains.kp / nominal.kp - 1.0), named("ki_scale", gains.ki / nominal.ki.max(1e-12) - 1.0)];
+    let parameters = vec![
+        named("kp_scale", gains.kp / robot.pi.kp - 1.0),
+        named("ki_scale", gains.ki / robot.pi.ki.max(1e-12) - 1.0),
+    ];
     offer(gains, "pi-gain", parameters);
     if best.0 < (1.0 - REMOVED) * start {
         link.after = best.2;
         link.finding = best.1;
     } else {
-        link.unexplained = true;
+        // What a stated effect of this link leaves is its remainder, not a new structure.
+        link.unexplained = Law::EFFECTS.iter().all(|name| robot.effect(name).is_none());
     }
     link
 }

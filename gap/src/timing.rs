@@ -62,19 +62,34 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
         method: "chi-squared of the stamps' scatter against rounding to ticks",
         p: estimation::statistics::chi2_upper(n * (scatter / floor).powi(2), n).max(f64::MIN_POSITIVE),
     };
-    let finding =
-        named.then(|| Finding { link: Link::Timing, name: "camera-timing", wheels: Vec::new(), parameters, evidence });
     let after = if named { floor.min(scatter) } else { scatter };
+    let is_stated = is_stated(robot, &parameters);
+    let finding = (named && !is_stated).then(|| Finding {
+        link: Link::Timing,
+        name: "camera-timing",
+        wheels: Vec::new(),
+        parameters,
+        evidence,
+    });
     Some(ExactLink {
         link: Link::Timing,
         unit: "s",
         floor,
-        before: vec![scatter],
+        before: vec![if is_stated { after } else { scatter }],
         after: vec![after],
         wrong_share: 0.0,
         finding,
         unexplained: false,
         replay: None,
+    })
+}
+
+/// Whether `robot.toml` states these values, each within what is known of it.
+fn is_stated(robot: &Robot, parameters: &[(String, f64, Interval)]) -> bool {
+    let Some(effect) = robot.effect("camera-timing") else { return false };
+    parameters.iter().all(|(name, _, known)| {
+        let stated = effect.value(name).unwrap_or(0.0);
+        known.ends().is_some_and(|[low, high]| (low..=high).contains(&stated))
     })
 }
 

@@ -237,8 +237,8 @@ fn recorded(archive: &[u8], folder: &Path) {
     assert!(run.duration_s() > 1.0 && run.len() as f64 > 0.98 * expected, "{} of {expected} ticks", run.len());
     let analysis = gap::analyse(&set, &gap::Options::default()).unwrap();
     println!("{}", analysis.terminal_summary());
-    // Not the command link: the guest's time reaches the card in steps, so its clock is measured to some tenths of a
-    // percent only, and while the control loop slides past the card's tick, commands arrive a tick late.
+    // Not the command link: the guest's time reaches the card in steps of a quarter of a tick, so that its clock is measured
+    // to some tenths of a percent, the control loop slides past the card's tick, and a command acts up to two ticks late.
     let replayed = analysis.exact.iter().find(|l| l.link.name() == "controller").and_then(|l| l.replay.as_ref());
     assert!(replayed.is_some_and(|r| r.compared > 2_000 && r.different == 0), "{replayed:?}");
 }

@@ -6,7 +6,7 @@ use runs::Logs;
 use runs::geometry::Geometry;
 use runs::robot::Robot;
 
-use super::order::{ORDER, cabled, wheel_order};
+use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::effect::Effect;
 use crate::exact::ExactLink;
@@ -75,17 +75,7 @@ impl<'a> Question<'a> {
             command::analyse(robot, &self.geometry, logs, remarks),
             controller::analyse(robot, logs, remarks),
         ];
-        let known =
-            |link: &ExactLink| link.finding.as_ref().is_some_and(|f| robot.effect(f.name).is_some() && f.name != ORDER);
-        let news = |mut link: ExactLink| {
-            // What the robot's file already carries is no news.
-            if known(&link) {
-                link.finding = None;
-                link.before.clone_from(&link.after);
-            }
-            link
-        };
-        links.into_iter().flatten().map(news).collect()
+        links.into_iter().flatten().collect()
     }
 
     /// The logs in pieces, everything derived from the wheels by their true order; and that order with its share of the

@@ -8,6 +8,7 @@ mod gravity;
 mod margins;
 mod pairs;
 mod partial;
+mod replayed;
 mod scale;
 
 use common::{RICH, example, names, simulate, value, with};
