@@ -78,7 +78,17 @@ pub(crate) struct Findings<'a> {
 
 /// The cheapest way to tell any of these sets apart; a drive before a measurement.
 pub(crate) fn propose(findings: &Findings, sets: &[Vec<String>]) -> Option<Experiment> {
-    let proposals: Vec<Experiment> = sets.iter().take(MOST_SETS).filter_map(|set| for_set(findings, set)).collect();
+    let mut libraries: Vec<(&str, Option<Library>)> = Vec::new();
+    let mut proposals: Vec<Experiment> = Vec::new();
+    for set in sets.iter().take(MOST_SETS) {
+        let name = set.first().map_or("", String::as_str);
+        let known = libraries.iter().position(|(own, _)| *own == name).unwrap_or_else(|| {
+            libraries.push((name, Library::of(findings, name)));
+            libraries.len() - 1
+        });
+        let drives = libraries[known].1.as_ref().map_or_else(Vec::new, |library| library.drives(set));
+        proposals.extend(for_set(findings, set, drives));
+    }
     let rank = |e: &Experiment| (e.kind != "manoeuvre", e.seconds);
     proposals.into_iter().min_by(|a, b| {
         let ((a, s), (b, t)) = (rank(a), rank(b));
@@ -86,14 +96,13 @@ pub(crate) fn propose(findings: &Findings, sets: &[Vec<String>]) -> Option<Exper
     })
 }
 
-/// The cheapest way to tell a set of names apart, the first of which is named.
-fn for_set(findings: &Findings, set: &[String]) -> Option<Experiment> {
+/// The cheapest way to tell a set of names apart, the first of which is named, by some drives or without.
+fn for_set(findings: &Findings, set: &[String], mut drives: Vec<Experiment>) -> Option<Experiment> {
     let measurement = set
         .iter()
         .filter_map(|n| findings.catalogue.iter().find(|e| e.name() == n))
         .filter_map(|e| e.measurement().map(|(what, minutes)| (what.to_owned(), 60.0 * minutes)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
-    let mut drives = drives(findings, set);
     drives.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let mut drives = drives.into_iter();
     let Some(mut best) = drives.next() else {
@@ -116,42 +125,41 @@ fn for_set(findings: &Findings, set: &[String]) -> Option<Experiment> {
     Some(best)
 }
 
-/// Manoeuvres that separate the set, each with the time it needs.
-fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
-    let Some(own) = findings.active.iter().find(|a| set.first().is_some_and(|n| n == a.effect.name())) else {
-        return Vec::new();
-    };
-    let link = own.link;
-    // The rest of what was found stays as it is.
-    let rest = findings.active.iter().filter(|a| a.effect.name() != own.effect.name());
-    let rest = rest.map(|a| Active { given: true, ..a.clone() }).collect();
-    let state = State { robot: findings.robot.clone(), active: rest };
-    let mut candidates = select::candidates(&state, findings.catalogue, link);
-    let Some(index) = candidates.iter().position(|c| {
-        c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
-    }) else {
-        return Vec::new();
-    };
-    if own.switched() {
-        // Switched on as found; all others start from 0.
-        candidates[index].values = own.values.clone();
-    }
-    let alternatives = hypotheses(&candidates, &set[1..]);
-    if alternatives.is_empty() {
-        return Vec::new();
-    }
-    let Some(design) = on_link(findings, findings.pieces, &state, link, |problem| {
-        Design::new(problem, &state, &candidates, findings.thresholds)
-    }) else {
-        return Vec::new();
-    };
-    let question = Question { own, index, design: &design, alternatives: &alternatives };
-    let old = information(&design.linear);
-    let before = question.sigmas(&old);
-    let applied = Applied::of(findings.found);
-    Manoeuvre::ALL
-        .into_par_iter()
-        .filter_map(|m| {
+/// What the logs and every manoeuvre tell of a named effect.
+struct Library<'a> {
+    own: &'a Active,
+    /// Its place among the candidates.
+    index: usize,
+    /// The logs, linearised with all else that was found.
+    design: Design,
+    /// JᵀJ of the logs.
+    logs: DMatrix<f64>,
+    /// Each manoeuvre, how long it takes in s, and its JᵀJ.
+    manoeuvres: Vec<(Manoeuvre, f64, DMatrix<f64>)>,
+}
+
+impl<'a> Library<'a> {
+    /// Of one of the effects found; every manoeuvre is simulated once, whatever the effect is to be told from.
+    fn of(findings: &Findings<'a>, name: &str) -> Option<Self> {
+        let own = findings.active.iter().find(|a| a.effect.name() == name)?;
+        let link = own.link;
+        // The rest of what was found stays as it is.
+        let rest = findings.active.iter().filter(|a| a.effect.name() != own.effect.name());
+        let rest = rest.map(|a| Active { given: true, ..a.clone() }).collect();
+        let state = State { robot: findings.robot.clone(), active: rest };
+        let mut candidates = select::candidates(&state, findings.catalogue, link);
+        let index = candidates.iter().position(|c| {
+            c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
+        })?;
+        if own.switched() {
+            // Switched on as found; all others start from 0.
+            candidates[index].values = own.values.clone();
+        }
+        let design = on_link(findings, findings.pieces, &state, link, |problem| {
+            Design::new(problem, &state, &candidates, findings.thresholds)
+        })?;
+        let applied = Applied::of(findings.found);
+        let driven = |m: Manoeuvre| {
             let run = manoeuvre::simulate(m, &applied, findings.robot, Pose::new(0.4, -0.3, 0.5), 1).ok()?;
             let seconds = run.duration_s();
             let robot = Robot { support: m.support(), ..findings.robot.clone() };
@@ -159,10 +167,25 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
             let pieces = segments(&robot, &robot.geometry().ok()?, &log, PIECE);
             let there = State { robot, ..state.clone() };
             let linear = on_link(findings, &pieces, &there, link, |p| p.linearise(&there, &candidates))?;
-            let new = information(&linear);
-            let times = (1..=MOST_TIMES).find(|k| question.sigmas(&(&old + &new * *k as f64)) >= SIGMAS)?;
-            let reached = question.sigmas(&(&old + &new * times as f64));
-            let own_set = if m == Manoeuvre::Blocks { ", as a data set of its own with support = \"blocks\"" } else { "" };
+            Some((m, seconds, information(&linear)))
+        };
+        let manoeuvres = Manoeuvre::ALL.into_par_iter().filter_map(driven).collect();
+        Some(Self { own, index, logs: information(&design.linear), design, manoeuvres })
+    }
+
+    /// Manoeuvres that tell the effect from the others of a set, each with the time it needs.
+    fn drives(&self, set: &[String]) -> Vec<Experiment> {
+        let alternatives = hypotheses(&self.design.candidates, &set[1..]);
+        if alternatives.is_empty() {
+            return Vec::new();
+        }
+        let sigmas = |jj: &DMatrix<f64>| self.sigmas(&alternatives, jj);
+        let before = sigmas(&self.logs);
+        let separates = |(m, seconds, new): &(Manoeuvre, f64, DMatrix<f64>)| {
+            let times = (1..=MOST_TIMES).find(|k| sigmas(&(&self.logs + new * *k as f64)) >= SIGMAS)?;
+            let reached = sigmas(&(&self.logs + new * times as f64));
+            let own_set =
+                if *m == Manoeuvre::Blocks { ", as a data set of its own with support = \"blocks\"" } else { "" };
             Some(Experiment {
                 kind: "manoeuvre",
                 what: m.name().to_owned(),
@@ -177,23 +200,13 @@ fn drives(findings: &Findings, set: &[String]) -> Vec<Experiment> {
                 ),
                 others: Vec::new(),
             })
-        })
-        .collect()
-}
+        };
+        self.manoeuvres.par_iter().filter_map(separates).collect()
+    }
 
-/// A named effect against what it may be mistaken for.
-struct Question<'a> {
-    own: &'a Active,
-    /// Its place among the candidates.
-    index: usize,
-    design: &'a Design,
-    alternatives: &'a [Vec<usize>],
-}
-
-impl Question<'_> {
     /// Standard deviations between the effect as found and the best that alternatives can do, with the help
     /// of everything that is held near zero, where JᵀJ of all columns is `jj`.
-    fn sigmas(&self, jj: &DMatrix<f64>) -> f64 {
+    fn sigmas(&self, alternatives: &[Vec<usize>], jj: &DMatrix<f64>) -> f64 {
         let name = self.own.effect.name();
         let columns = self.design.linear.of_candidate(self.index);
         let size = if self.own.switched() {
@@ -204,7 +217,7 @@ impl Question<'_> {
         let variance = self.design.variance;
         let part = |r: &[usize], c: &[usize]| DMatrix::from_fn(r.len(), c.len(), |i, j| jj[(r[i], c[j])] / variance);
         let total = (size.transpose() * part(&columns, &columns) * &size)[0];
-        let nearest = self.alternatives.iter().map(|alternative| {
+        let nearest = alternatives.iter().map(|alternative| {
             let roles = self.design.freeing(alternative);
             let theirs: Vec<usize> = (0..roles.len())
                 .filter(|i| roles[*i] != Role::Out && jj[(*i, *i)] > 0.0)

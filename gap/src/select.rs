@@ -9,9 +9,8 @@ mod spanning;
 mod sure;
 mod undecided;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::effect::{Effect, Link};
@@ -19,6 +18,7 @@ use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use estimation::normal_equations::NormalEquations;
+use estimation::prior::PenalisedFit;
 
 use gates::Gates;
 use join::join;
@@ -58,9 +58,33 @@ pub struct Selection {
     pub costs: f64,
     /// Whether it was chosen with nothing adjusted beside what is named.
     pub bare: bool,
+    /// See [`Selection::alone`].
+    alone: OnceLock<f64>,
 }
 
 impl Selection {
+    /// The same, linearised on other data.
+    pub(crate) fn on(&self, design: Design) -> Self {
+        let (state, alone) = (self.state.clone(), OnceLock::new());
+        Self { state, design, loss: self.loss, costs: self.costs, bare: self.bare, alone }
+    }
+
+    /// The same with nothing adjusted beside what is named.
+    pub(crate) fn stripped(self) -> Self {
+        Self { bare: true, alone: OnceLock::new(), ..self }
+    }
+
+    /// RMS of what its effects leave in units of the noise, fitted with nothing adjusted beside them.
+    fn alone(&self, problem: &Problem) -> f64 {
+        let fitted = || {
+            let mut state = self.state.clone();
+            problem.fit(&mut state);
+            let (square, n) = problem.linearise_nothing(&state).plain();
+            (square / n.max(1.0)).sqrt()
+        };
+        *self.alone.get_or_init(fitted)
+    }
+
     /// Difference of the objectives of two selections, under one variance; negative if this is
     /// the better one.
     fn against(&self, other: &Self) -> f64 {
@@ -101,14 +125,8 @@ fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection, thr
     if problem.link() != Link::Drive || raw(worse) <= thresholds.from_noise {
         return false;
     }
-    let alone = |found: &Selection| {
-        let mut state = found.state.clone();
-        problem.fit(&mut state);
-        let (square, n) = problem.linearise_nothing(&state).plain();
-        (square / n.max(1.0)).sqrt()
-    };
-    let left = alone(worse);
-    left > thresholds.from_noise && thresholds.decided(left, alone(better))
+    let left = worse.alone(problem);
+    left > thresholds.from_noise && thresholds.decided(left, better.alone(problem))
 }
 
 fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
@@ -377,6 +395,7 @@ fn finish(state: State, design: Design, from: usize, thresholds: &Thresholds) ->
         state,
         design,
         bare: false,
+        alone: OnceLock::new(),
     }
 }
 
@@ -428,30 +447,42 @@ fn settle(problem: &Problem, state: &mut State, all: &[Active], thresholds: &Thr
     let mut design = Design::new(problem, state, all, thresholds);
     for _ in 1..ROUNDS {
         let fit = design.base();
-        let Some(next) = stepped(problem, &design, &fit.step, all, thresholds) else { break };
+        let Some(next) = stepped(problem, &design, &fit, all, thresholds) else { break };
         *state = next.state.clone();
         design = next;
     }
     design
 }
 
-/// The design after a step of the named effects, or the half or a quarter of it, that does better; `None` if none
-/// does, or the step is too small to matter.
+/// Decrease of the objective that is worth another linearisation. Explanations that differ by four are a tie, and what a
+/// straight line promises of the last step is in the estimates anyway.
+const WORTH_A_LOOK: f64 = 0.5;
+/// Lengths of a step that are tried: all of it, and where a parabola through that has its minimum.
+const LENGTHS: usize = 2;
+
+/// The design after a step of the named effects, or as much of it as does better; `None` if none does, or it is too
+/// small to matter.
 fn stepped(
     problem: &Problem,
     design: &Design,
-    step: &DVector<f64>,
+    step: &PenalisedFit,
     all: &[Active],
     thresholds: &Thresholds,
 ) -> Option<Design> {
-    for part in [1.0, 0.5, 0.25] {
+    let standing = design.standing();
+    let promised = standing.loss + standing.penalty - step.loss - step.penalty;
+    let (mut part, mut decrease) = (1.0, promised);
+    for _ in 0..LENGTHS {
+        if decrease < WORTH_A_LOOK {
+            return None;
+        }
         let mut largest = 0.0_f64;
         let mut trial = design.state.clone();
         for (j, owner) in design.linear.owners.iter().enumerate() {
             let Owner::Active(index, parameter) = owner else { continue };
             let p = &design.state.active[*index].form.free[*parameter];
             let now = design.state.active[*index].values.get(&p.name);
-            let next = (now + part * step[j]).clamp(p.bounds[0], p.bounds[1]);
+            let next = (now + part * step.step[j]).clamp(p.bounds[0], p.bounds[1]);
             largest = largest.max((next - now).abs() / p.scale);
             trial.active[*index].values.set(&p.name, next);
         }
@@ -460,13 +491,17 @@ fn stepped(
         }
         let next = Design::new(problem, &trial, all, thresholds);
         let variance = design.variance.min(next.variance);
-        let standing = |b: &Design| {
+        let objective = |b: &Design| {
             let fit = b.standing();
             b.linear.equations.loss_after(&fit.step) / variance + fit.penalty
         };
-        if standing(&next) < standing(design) {
+        let change = objective(&next) - objective(design);
+        if change < 0.0 {
             return Some(next);
         }
+        // The parabola with the promised slope at the start that ends where the step did.
+        let bend = (change + 2.0 * part * promised) / (part * part);
+        (part, decrease) = (promised / bend, promised * promised / bend);
     }
     None
 }

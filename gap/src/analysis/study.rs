@@ -293,8 +293,7 @@ fn on_whole(
     thresholds: &Thresholds,
 ) -> (State, Vec<Estimate>, Vec<String>) {
     let design = Design::new(whole, &selection.state, all, thresholds);
-    let &Selection { loss, costs, bare, .. } = selection;
-    let judged = judge(whole, start, Selection { state: selection.state.clone(), design, loss, costs, bare });
+    let judged = judge(whole, start, selection.on(design));
     let Judged { selection, mut written, estimates, .. } = judged;
     let mut refused = Vec::new();
     let kept = |e: &Estimate| {
@@ -480,7 +479,7 @@ fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
     let bare = rms(problem, &bare_state);
     let excess = |r: f64| (r * r - 1.0).max(0.0);
     if excess(bare) < (1.0 - WORSE) * excess(now) && bare > OPEN {
-        let mut fitted = Selection { state: selection.state.clone(), bare: true, ..selection };
+        let mut fitted = selection.stripped();
         for (k, e) in careful.iter().enumerate() {
             fitted.state.active[e.index].values = bare_state.active[from + k].values.clone();
         }

@@ -23,6 +23,9 @@ const REJECT: f64 = 10.0;
 /// Ticks from which derivatives are taken, as a part of the time between two frames; residuals are taken from all ticks.
 /// At 1 kHz and 60 frames/s every fourth tick is left, and what a wheel turns between them is known all the same.
 const PART_OF_FRAME: f64 = 0.25;
+/// Time within which frames share one derivative, s: a linearisation of 100 frames/s takes a third of the time, and the
+/// sizes it gives stay the same to their fourth digit. Frames of a league's camera (60/s) have one each.
+const TOGETHER_S: f64 = 0.03;
 /// Median of the norm of three standard normal numbers.
 const MEDIAN_OF_CHI3: f64 = 1.538_2;
 
@@ -215,48 +218,49 @@ impl<'a> MotionLink<'a> {
         if base.is_empty() {
             return Vec::new();
         }
-        let together = self.windows.len().div_ceil(MOST_CLUSTERS);
+        let neighbours = self.windows.len().div_ceil(MOST_CLUSTERS);
         let mut clusters: Vec<Cluster> = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in by_segment(&self.windows, |w| w.segment) {
             let own = &base[range.clone()];
+            let together = frames_within(TOGETHER_S, own);
+            let grouped: Vec<Grouped> = own.iter().map(|w| Grouped::of(w, together)).collect();
             let columns = if sides.is_empty() {
                 Vec::new()
             } else {
                 let s = self.pieces.get(self.windows[range.start].segment);
-                match s.coarser(PART_OF_FRAME) {
-                    Some(coarse) => self.columns(model, sides, &coarse, own, &range),
-                    None => self.columns(model, sides, &s, own, &range),
+                match s.coarser(PART_OF_FRAME * together as f64) {
+                    Some(coarse) => self.columns(model, sides, &coarse, &grouped),
+                    None => self.columns(model, sides, &s, &grouped),
                 }
             };
             let mut first = 0;
-            let places: Vec<usize> = own
+            let places: Vec<usize> = grouped
                 .iter()
                 .map(|w| {
-                    first += 3 * w.t.len();
-                    first - 3 * w.t.len()
+                    first += 3 * w.frames.len();
+                    first - 3 * w.frames.len()
                 })
                 .collect();
             let part: Vec<Cluster> =
-                own.par_iter().zip(places).map(|(w, first)| self.cluster(w, &columns, first)).collect();
-            Cluster::append(&mut clusters, part, together);
+                grouped.par_iter().zip(places).map(|(w, first)| self.cluster(w, &columns, first)).collect();
+            Cluster::append(&mut clusters, part, neighbours);
         }
         clusters
     }
 
-    /// Derivatives along all sides over some windows of one segment, `[side][3 frames]`, in units of the noise; 0 where
-    /// the wheels cannot drive the robot.
+    /// Derivatives along all sides over some windows of one segment, `[side][3 groups of frames]`, in units of the noise;
+    /// 0 where the wheels cannot drive the robot.
     fn columns(
         &self,
         model: &MotionModel,
         sides: &[(Option<MotionModel>, MotionModel, f64)],
         s: &Segment,
-        base: &[WindowResiduals],
-        range: &Range<usize>,
+        base: &[Grouped],
     ) -> Vec<Vec<f64>> {
-        let rows = 3 * base.iter().map(|w| w.t.len()).sum::<usize>();
+        let rows = 3 * base.iter().map(|w| w.frames.len()).sum::<usize>();
         let Some(path) = Path::new(model, s) else { return vec![vec![0.0; rows]; sides.len()] };
-        let windows: Vec<&[Frame]> = self.windows[range.clone()].iter().map(|w| &s.frames[w.frames.clone()]).collect();
+        let windows: Vec<&[Frame]> = base.iter().map(|w| &w.frames[..]).collect();
         let tracks = path.alone(&windows);
         let start = predicted(model, &tracks, base);
         let column = |low: &[Pose], high: &[Pose], step: f64| {
@@ -312,10 +316,10 @@ impl<'a> MotionLink<'a> {
         all.into_iter().map(|(_, column)| column).collect()
     }
 
-    fn cluster(&self, aligned: &WindowResiduals, columns: &[Vec<f64>], first: usize) -> Cluster {
-        let n = aligned.t.len();
-        let rows = 3 * n;
-        let root: Vec<f64> = aligned.weights.iter().flat_map(|w| [w.sqrt(); 3]).collect();
+    fn cluster(&self, grouped: &Grouped, columns: &[Vec<f64>], first: usize) -> Cluster {
+        let aligned = grouped.of;
+        let rows = 3 * grouped.frames.len();
+        let root: Vec<f64> = grouped.weights.iter().flat_map(|w| [w.sqrt(); 3]).collect();
 
         let mut jacobian = DMatrix::<f64>::zeros(rows, columns.len());
         for (slots, column) in jacobian.as_mut_slice().chunks_exact_mut(rows).zip(columns) {
@@ -323,16 +327,70 @@ impl<'a> MotionLink<'a> {
             slots.iter_mut().zip(own).for_each(|(slot, (x, w))| *slot = x * w);
         }
         let mut residual =
-            DVector::from_iterator(rows, aligned.residuals.iter().flatten().zip(&root).map(|(x, w)| x * w));
+            DVector::from_iterator(rows, grouped.residuals.iter().flatten().zip(&root).map(|(x, w)| x * w));
         let nuisance = DMatrix::from_fn(rows, 3, |r, c| {
-            start_rows(aligned.start, aligned.predicted[r / 3])[r % 3][c] * root[r] / self.noise[r % 3]
+            start_rows(aligned.start, grouped.predicted[r / 3])[r % 3][c] * root[r] / self.noise[r % 3]
         });
         let q = nuisance.qr().q();
         jacobian.as_mut_slice().chunks_exact_mut(rows).for_each(|column| project_out(column, q.as_slice()));
         project_out(residual.as_mut_slice(), q.as_slice());
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
-        Cluster::new(aligned.run, aligned.t[0], (3 * used).saturating_sub(3) as f64, &residual, &jacobian)
+        let n = (3 * used).saturating_sub(3) as f64;
+        let mut cluster = Cluster::new(aligned.run, aligned.t[0], n, &residual, &jacobian);
+        cluster.rr += grouped.scatter;
+        cluster
     }
+}
+
+/// A window whose frames share derivatives in groups, the first frame alone: the window's start pose is there.
+struct Grouped<'a> {
+    of: &'a WindowResiduals,
+    /// Mean times of the groups; without poses.
+    frames: Vec<Frame>,
+    /// Sum of the weights of each group's frames.
+    weights: Vec<f64>,
+    /// Weighted mean residual of each group.
+    residuals: Vec<[f64; 3]>,
+    /// Mean prediction of each group.
+    predicted: Vec<Pose>,
+    /// Weighted sum of squares about those means.
+    scatter: f64,
+}
+
+impl<'a> Grouped<'a> {
+    fn of(window: &'a WindowResiduals, together: usize) -> Self {
+        let n = window.t.len();
+        let groups = 1 + (n - 1).div_ceil(together);
+        let (mut frames, mut weights) = (Vec::with_capacity(groups), Vec::with_capacity(groups));
+        let (mut residuals, mut predicted) = (Vec::with_capacity(groups), Vec::with_capacity(groups));
+        let mut scatter = 0.0;
+        for group in std::iter::once(0..1).chain((1..n).step_by(together).map(|i| i..(i + together).min(n))) {
+            let size = group.len() as f64;
+            let mean = |of: &dyn Fn(usize) -> f64| group.clone().map(of).sum::<f64>() / size;
+            frames.push(Frame { t: mean(&|i| window.t[i]), pose: Pose::default() });
+            let pose = &window.predicted;
+            predicted.push(Pose::new(mean(&|i| pose[i].x), mean(&|i| pose[i].y), mean(&|i| pose[i].theta)));
+            let weight: f64 = window.weights[group.clone()].iter().sum();
+            weights.push(weight);
+            residuals.push([0, 1, 2].map(|j| {
+                if size == 1.0 || weight == 0.0 {
+                    return window.residuals[group.start][j];
+                }
+                let of = |i: usize| (window.weights[i], window.residuals[i][j]);
+                let mean = group.clone().map(of).map(|(w, r)| w * r).sum::<f64>() / weight;
+                scatter += group.clone().map(of).map(|(w, r)| w * (r - mean) * (r - mean)).sum::<f64>();
+                mean
+            }));
+        }
+        Self { of: window, frames, weights, residuals, predicted, scatter }
+    }
+}
+
+/// Frames of some windows that fit into a time, at least 1.
+fn frames_within(seconds: f64, windows: &[WindowResiduals]) -> usize {
+    let lasted: f64 = windows.iter().map(|w| w.t[w.t.len() - 1] - w.t[0]).sum();
+    let intervals = windows.iter().map(|w| w.t.len() - 1).sum::<usize>() as f64;
+    (seconds * intervals / lasted.max(1e-9) + 1e-6).floor().clamp(1.0, 1e6) as usize
 }
 
 /// Takes out of a column what three orthonormal columns, one after the other, span.
@@ -359,14 +417,15 @@ fn project_out(column: &mut [f64], q: &[f64]) {
 }
 
 /// What the camera sees along the tracks of some windows, from start poses already fitted.
-fn predicted(model: &MotionModel, tracks: &[Walk], base: &[WindowResiduals]) -> Vec<Pose> {
+fn predicted(model: &MotionModel, tracks: &[Walk], base: &[Grouped]) -> Vec<Pose> {
     let mut out = Vec::with_capacity(tracks.len());
     let mut rest = tracks;
     for b in base {
-        let (track, after) = rest.split_at(b.t.len());
+        let (track, after) = rest.split_at(b.frames.len());
         rest = after;
-        let from = Walk::from(b.start);
-        out.extend(track.iter().zip(&b.t).map(|(p, t)| drifted(model, model.seen(&from.then(p)), t - b.t[0])));
+        let from = Walk::from(b.of.start);
+        let seen = track.iter().zip(&b.frames);
+        out.extend(seen.map(|(p, f)| drifted(model, model.seen(&from.then(p)), f.t - b.frames[0].t)));
     }
     out
 }
