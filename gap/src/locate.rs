@@ -27,7 +27,7 @@ const WORTH: f64 = 1.3;
 pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Located> {
     let names = ["cam_x", "cam_y", "cam_theta"];
     let units = [("mm", 1e3), ("mm", 1e3), ("degrees", 57.295_779_5)];
-    (0..3)
+    (0..link.axes())
         .filter_map(|i| {
             let used = |w: &WindowResiduals| {
                 w.residuals.iter().zip(&w.weights).filter(|(_, w)| **w > 0.0).map(|(r, _)| r[i]).collect::<Vec<_>>()

@@ -183,7 +183,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         let turn: Vec<f64> = (0..s.t.len() - 1).map(turn).collect();
         s.felt = Felt::of(part, &turn);
     }
-    s.drop_frozen();
+    s.drop_frozen(part.source.positions_only);
     let frames = if place.cut == [false; 2] { s.frames.len() } else { place.stretch_frames };
     s.has_world = frames >= 4 && !s.frames.is_empty();
     s.place(geometry, robot.camera_latency_s, place.pose);
@@ -243,24 +243,25 @@ impl Segment {
 
     /// A frame that repeats the one before to the last digit while the wheels turned is no new
     /// measurement: the tracker lost the robot.
-    fn drop_frozen(&mut self) {
+    fn drop_frozen(&mut self, positions_only: bool) {
         if self.angle.is_empty() {
             return;
         }
+        let same = |a: Pose, b: Pose| a.x == b.x && a.y == b.y && (positions_only || a.theta == b.theta);
         let mut last_new: Option<Frame> = None;
         let frames = std::mem::take(&mut self.frames);
         for frame in frames {
             let repeated = last_new.is_some_and(|last| {
                 let (a, b) = (self.tick_at(last.t), self.tick_at(frame.t));
                 let moved = self.angle.iter().map(|w| (w[b] - w[a]).abs()).fold(0.0, f64::max);
-                last.pose == frame.pose && moved > 0.05
+                same(last.pose, frame.pose) && moved > 0.05
             });
             if !repeated {
                 self.frames.push(frame);
             } else if (self.span[0]..self.span[1]).contains(&frame.t) {
                 self.frozen += 1;
             }
-            if last_new.is_none_or(|last| last.pose != frame.pose) {
+            if last_new.is_none_or(|last| !same(last.pose, frame.pose)) {
                 last_new = Some(frame);
             }
         }

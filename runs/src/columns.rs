@@ -149,7 +149,8 @@ pub(super) const GROUPS: [(Member, usize); 9] = [
     (Column::Speed, 0),
     (Column::Current, 0),
     (Column::Command, 3),
-    (Column::Camera, 3),
+    // GPS, ultra-wideband and single markers have no heading.
+    (Column::Camera, 2),
     (Column::Odometry, 3),
 ];
 /// How many of them, from the first, have a member a wheel.

@@ -169,6 +169,8 @@ struct Reader<'a> {
     run: Run,
     /// Time of the last tick, in this part or the one before.
     last_t: Option<f64>,
+    /// Whether the camera's first sample has a heading.
+    headed: Option<bool>,
     /// Last count of each wheel, once there was one.
     held: Vec<Option<i64>>,
     /// Whether no part was handed on yet.
@@ -234,7 +236,20 @@ impl<'a> Reader<'a> {
         let other = others.map(|s| (s.name.clone(), Vec::new())).collect();
         let run = Run { other, notes, ..Run::with_columns(&columns) };
         let (held, filled) = (vec![None; widths[1]], vec![false; slots.len()]);
-        Ok(Self { path, text, slots, keep_other, separator, filled, run, last_t: None, held, fresh: true, short: None })
+        Ok(Self {
+            path,
+            text,
+            slots,
+            keep_other,
+            separator,
+            filled,
+            run,
+            last_t: None,
+            headed: None,
+            held,
+            fresh: true,
+            short: None,
+        })
     }
 
     fn row(&mut self, record: &ByteRecord) -> Result<(), RunError> {
@@ -354,12 +369,19 @@ impl<'a> Reader<'a> {
         for group in [&mut self.run.gyro, &mut self.run.acceleration].into_iter().flatten() {
             group.iter_mut().for_each(|axis| axis.resize(tick + 1, f64::NAN));
         }
-        match camera.iter().filter(|c| !c.is_nan()).count() {
-            0 => {}
-            3 => self.run.camera.push(CameraSample { tick, pose: Pose::new(camera[0], camera[1], camera[2]) }),
+        match camera.map(|c| !c.is_nan()) {
+            [false, false, false] => {}
+            // A log has headings, or none.
+            [true, true, headed] if *self.headed.get_or_insert(headed) == headed => {
+                self.run.camera.push(CameraSample { tick, pose: Pose::new(camera[0], camera[1], camera[2]) });
+            }
             _ => {
                 let what = "a camera sample has only a part of x, y and theta";
-                let error = RunError::new(self.path, what, "log all three, or none at this tick");
+                let error = RunError::new(
+                    self.path,
+                    what,
+                    "log all three, or none at this tick; without cam_theta throughout, positions are compared alone",
+                );
                 return Err(error.at(self.line(offset), 1).field("cam_x, cam_y, cam_theta"));
             }
         }

@@ -122,7 +122,11 @@ fn errors_say_where_what_and_what_to_do() {
         ("t,t\n0,1\n", "run.csv:1:3: t: stands twice"),
         ("t,enc_1,enc_3\n0,1,1\n", "run.csv:1:1: enc_2: no such column;"),
         ("t,enc_1,enc_2,duty_1\n0,1,1,0\n", "run.csv:1:1: duty_2: no such column; other columns speak of 2"),
-        ("t,cam_x,cam_y\n0,1,1\n", "run.csv:1:1: cam_theta: no such column;"),
+        ("t,cam_x,cam_theta\n0,1,1\n", "run.csv:1:1: cam_y: no such column;"),
+        (
+            "t,cam_x,cam_y,cam_theta\n0,1,1,1\n1,1,1,\n",
+            "run.csv:3:1: cam_x, cam_y, cam_theta: a camera sample has only",
+        ),
         ("t,enc_1\n0,1\n1,two\n", "run.csv:3:3: enc_1: \"two\" is no whole number;"),
         ("t,enc_1\n0,1\n1,2.5\n", "run.csv:3:3: enc_1: \"2.5\" is no whole number;"),
         ("t,enc_1\n0,1\n1,1e300\n", "run.csv:3:3: enc_1: \"1e300\" is no whole number;"),

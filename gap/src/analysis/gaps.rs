@@ -12,7 +12,8 @@ use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::Thresholds;
 use crate::pieces::Pieces;
 
-pub(super) fn motion_gap([before, after]: [f64; 2], noise: [f64; 3], plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
+pub(super) fn motion_gap([before, after]: [f64; 2], link: &MotionLink, plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
+    let (noise, axes) = (link.noise, link.axes());
     let rms = |side: usize, i: usize| {
         noise[i]
             * estimation::statistics::rms(
@@ -27,10 +28,10 @@ pub(super) fn motion_gap([before, after]: [f64; 2], noise: [f64; 3], plots: &[Ve
         link: Link::Motion,
         before,
         after,
-        floor: noise.to_vec(),
-        rms: (0..3).map(|i| [rms(0, i), rms(1, i)]).collect(),
-        units: vec!["m", "m", "rad"],
-        signals: 3,
+        floor: noise[..axes].to_vec(),
+        rms: (0..axes).map(|i| [rms(0, i), rms(1, i)]).collect(),
+        units: vec!["m", "m", "rad"][..axes].to_vec(),
+        signals: axes,
     }
 }
 
@@ -99,7 +100,8 @@ pub(super) fn motion_matters(link: &MotionLink) -> f64 {
     let (robot, [x, y, theta]) = (link.pieces.robot(), link.noise);
     let rolled = link.pieces.speed() * robot.wheel_radius_m * link.window_s;
     let turned = rolled / Sizes::of(robot).rim_m;
-    2.0_f64.max((MATTERS[0] * rolled / x.max(y)).min(MATTERS[1] * turned / theta))
+    let way = MATTERS[0] * rolled / x.max(y);
+    2.0_f64.max(if link.axes() == 2 { way } else { way.min(MATTERS[1] * turned / theta) })
 }
 
 /// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and on a floor what rolling loses.

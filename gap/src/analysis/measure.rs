@@ -158,7 +158,7 @@ impl<'a> Data<'a> {
         if self.has_camera() {
             let plots = [self.motion.residuals(&before.motion(None)), self.motion.residuals(&after.motion(None))];
             let figures = [seen(&before), seen(&after)];
-            out.links.push(gaps::motion_gap(figures, self.motion.noise, &plots));
+            out.links.push(gaps::motion_gap(figures, self.motion, &plots));
             out.driven.frames = Driven::at_frames(self.pieces, &plots[0]);
             out.motion = Some(plots);
         }

@@ -10,7 +10,7 @@ use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::effect::Effect;
 use crate::exact::ExactLink;
-use crate::motion::{MotionLink, MotionModel, WINDOW_S};
+use crate::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
 use crate::options::Options;
 use crate::pieces::{PIECE, Pieces, segments};
 use crate::state::{Active, State};
@@ -43,6 +43,8 @@ pub(super) struct Question<'a> {
     pub(super) catalogue: Vec<Arc<dyn Effect>>,
     /// Standard deviations of a camera pose (m, m, rad).
     pub(super) noise: [f64; 3],
+    /// Length of a window of camera frames, s.
+    window_s: f64,
     geometry: Geometry,
 }
 
@@ -64,7 +66,10 @@ impl<'a> Question<'a> {
             .collect();
         let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
         let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
-        Ok(Self { set, options, robot, catalogue, noise, geometry })
+        let noise = model::fit::with_headings(noise, set.logs.iter().any(|log| log.layout().source.positions_only));
+        let rate = robot.camera_rate_hz;
+        let window_s = if rate > 0.0 { WINDOW_S.max(WINDOW_FRAMES / rate) } else { WINDOW_S };
+        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry })
     }
 
     /// The links that are replayed bit by bit, and what is to be said of them.
@@ -86,7 +91,8 @@ impl<'a> Question<'a> {
             Cut { sample: whole.sample(), whole }
         };
         let (pieces, start) = (cut(&self.geometry), self.filed());
-        let crossed = wheel_order(&MotionLink::new(pieces.searched(), self.noise, WINDOW_S), &start, &self.catalogue);
+        let crossed =
+            wheel_order(&MotionLink::new(pieces.searched(), self.noise, self.window_s), &start, &self.catalogue);
         let found = crossed.as_ref().map(|(active, _)| active);
         let Some(active) = found.or_else(|| start.active.iter().find(|a| cabled(a))) else { return (pieces, crossed) };
         let mut wheels = MotionModel::new(&self.robot);
@@ -99,7 +105,7 @@ impl<'a> Question<'a> {
 
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion_link<'b>(&self, pieces: &'b Pieces<'b>) -> MotionLink<'b> {
-        MotionLink::new(pieces, self.noise, WINDOW_S).felt(&self.filed().motion(None))
+        MotionLink::new(pieces, self.noise, self.window_s).felt(&self.filed().motion(None))
     }
 
     /// The robot as its file has it.

@@ -32,6 +32,9 @@ const MEDIAN_OF_CHI3: f64 = 1.538_2;
 /// Length of a window, s: a league robot drives 0.7 m in it. Over four seconds, slip and creep of the wheels stood far
 /// above the camera's noise on recordings of slower machines, and nothing passed on held-out runs.
 pub const WINDOW_S: f64 = 1.0;
+/// Frames of a camera of fewer a second for which a window is longer: half of them pay for the start pose and for what
+/// is lost at its ends.
+pub const WINDOW_FRAMES: f64 = 8.0;
 
 /// The motion link of a data set.
 pub struct MotionLink<'a> {
@@ -106,6 +109,11 @@ impl<'a> MotionLink<'a> {
     pub fn first(mut self, number: usize) -> Self {
         self.windows.truncate(number);
         self
+    }
+
+    /// Numbers that a frame tells: 2 where the camera gives positions without headings.
+    pub fn axes(&self) -> usize {
+        if self.noise[2] < model::fit::NO_HEADING_RAD { 3 } else { 2 }
     }
 
     /// Number of windows.
@@ -335,7 +343,7 @@ impl<'a> MotionLink<'a> {
         jacobian.as_mut_slice().chunks_exact_mut(rows).for_each(|column| project_out(column, q.as_slice()));
         project_out(residual.as_mut_slice(), q.as_slice());
         let used = aligned.weights.iter().filter(|w| **w > 0.0).count();
-        let n = (3 * used).saturating_sub(3) as f64;
+        let n = (self.axes() * used).saturating_sub(3) as f64;
         let mut cluster = Cluster::new(aligned.run, aligned.t[0], n, &residual, &jacobian);
         cluster.rr += grouped.scatter;
         cluster

@@ -51,6 +51,31 @@ fn missing_columns_narrow_what_is_compared() {
     assert!(matches!(nothing, Err(GapError::NothingToCompare)));
 }
 
+/// GPS, ultra-wideband or a single marker: ways tell sizes and clocks all the same.
+#[test]
+fn positions_without_headings_narrow_what_is_compared() {
+    for (effect, parameter, truth) in
+        [("wheel-radius-common", "scale", 0.04), ("body-radius", "scale", 0.05), ("camera-latency", "latency_s", 0.03)]
+    {
+        let set = simulate(&with(&Robot::racbot(), effect, &[(parameter, truth)]), &[Star, Spin, Chirp, Star], 41);
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("robot.toml"), set.robot.to_toml()).unwrap();
+        for mut run in set.runs {
+            run.duty.clear();
+            run.camera.iter_mut().for_each(|sample| sample.pose.theta = f64::NAN);
+            let file = std::fs::File::create(folder.path().join(format!("{}.csv", run.name))).unwrap();
+            run.write_to(file).unwrap();
+        }
+        let a = done(&DataSet::open(folder.path()).unwrap());
+        assert_eq!(names(&a), [effect], "{}", a.terminal_summary());
+        assert!((value(&a, parameter) - truth).abs() < 0.1 * truth, "{}", a.terminal_summary());
+        let motion = a.links.iter().find(|l| l.link == gap::effect::Link::Motion).unwrap();
+        assert_eq!((motion.signals, motion.units.len()), (2, 2));
+        assert!(motion.after < 1.3, "{}", a.terminal_summary());
+        assert!(a.remarks.iter().any(|r| r.contains("positions have no headings")), "{:?}", a.remarks);
+    }
+}
+
 #[test]
 fn one_run_and_two_seconds_are_read_for_what_they_are_worth() {
     let mut set = example();

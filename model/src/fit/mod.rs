@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 use runs::Run;
 use runs::frames::Pose;
 
-pub use noise::{camera_noise, camera_noise_of};
+pub use noise::{NO_HEADING_RAD, camera_noise, camera_noise_of, with_headings};
 use windows::{Evaluation, Frame, Window};
 
 /// A model that predicts camera poses from the encoders, for any values of its parameters.
@@ -266,6 +266,7 @@ impl<'a> Problem<'a> {
             return Err(FitError::NoWindows);
         }
         let noise = options.noise.unwrap_or_else(|| camera_noise(runs));
+        let noise = with_headings(noise, runs.iter().any(|run| run.source.positions_only));
         Ok(Self { model, runs, windows, noise, scales: model.scales(), unknown_beyond: options.unknown_beyond })
     }
 

@@ -7,6 +7,9 @@ use runs::frames::{Pose, wrap_angle};
 /// Noise below which no real camera is; keeps a noiseless simulation from dividing by zero.
 const FLOOR: [f64; 3] = [1e-5, 1e-5, 1e-5];
 
+/// Noise of a heading that nobody measured, rad: a thousand frames of it tell less than a turn.
+pub const NO_HEADING_RAD: f64 = 100.0;
+
 /// What is assumed where too few frames follow each other: a league camera.
 const USUAL: [f64; 3] = [0.0015, 0.0015, 0.0087];
 /// Longest step over shortest up to which four frames follow each other without a gap; coarse ticks
@@ -21,6 +24,11 @@ const EVEN: f64 = 1.3;
 pub fn camera_noise(runs: &[Run]) -> [f64; 3] {
     let seen = |run: &Run| run.camera.iter().map(|f| (run.t[f.tick], f.pose)).collect::<Vec<_>>();
     camera_noise_of(runs.iter().map(seen))
+}
+
+/// The noise of what a camera reports: a heading that nobody measured tells nothing.
+pub fn with_headings(noise: [f64; 3], positions_only: bool) -> [f64; 3] {
+    if positions_only { [noise[0], noise[1], NO_HEADING_RAD] } else { noise }
 }
 
 /// The same of runs' frames alone, times in s and poses.

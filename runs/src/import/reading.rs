@@ -139,6 +139,7 @@ impl Reading {
         }
         let poses = wanted.iter().zip(&series).filter(|(w, _)| matches!(w.column, Column::Camera(_)));
         let poses = poses.map(|(_, s)| s.t.len()).max().unwrap_or(0);
+        let headed = columns.contains(&Column::Camera(2));
         let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
         for (w, s) in wanted.iter().zip(&series) {
             let mut column = vec![f64::NAN; ticks];
@@ -188,7 +189,8 @@ impl Reading {
         }
         self.frame.turn(&mut run, &mut camera);
         let whole = |(tick, p): (usize, &[f64; 3])| {
-            p.iter().all(|x| x.is_finite()).then(|| CameraSample { tick, pose: Pose::new(p[0], p[1], p[2]) })
+            let known = if headed { &p[..] } else { &p[..2] };
+            known.iter().all(|x| x.is_finite()).then(|| CameraSample { tick, pose: Pose::new(p[0], p[1], p[2]) })
         };
         run.camera = camera.iter().enumerate().filter_map(whole).collect();
         Ok(Made { run, first_s: first as f64 / 1e9, poses })

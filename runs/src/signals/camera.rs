@@ -9,6 +9,11 @@ const FEWEST: usize = 60;
 /// log's rate repeats every second one. A tracker that loses the robot now and then stays below.
 const HABIT: f64 = 0.4;
 
+/// Whether two poses are the same to the last digit; positions have no heading.
+fn same(a: Pose, b: Pose) -> bool {
+    a.x == b.x && a.y == b.y && (a.theta == b.theta || a.theta.is_nan() && b.theta.is_nan())
+}
+
 /// Whether poses are held, and the last of them.
 pub(super) struct Repeats {
     held: bool,
@@ -19,7 +24,7 @@ pub(super) struct Repeats {
 impl Repeats {
     /// By the first part of a log. Frozen poses of a robot that is not tracked come in one long row; held ones in many.
     pub(super) fn of(run: &Run) -> Self {
-        let repeats = run.camera.windows(2).map(|w| w[0].pose == w[1].pose && w[1].tick == w[0].tick + 1);
+        let repeats = run.camera.windows(2).map(|w| same(w[0].pose, w[1].pose) && w[1].tick == w[0].tick + 1);
         let repeats: Vec<bool> = repeats.collect();
         let number = repeats.iter().filter(|r| **r).count();
         let rows = repeats.windows(2).filter(|w| w[1] && !w[0]).count();
@@ -37,7 +42,7 @@ impl Repeats {
             return;
         }
         let last = &mut self.last;
-        run.camera.retain(|sample| last.replace(sample.pose) != Some(sample.pose));
+        run.camera.retain(|sample| !last.replace(sample.pose).is_some_and(|last| same(last, sample.pose)));
     }
 
     /// What was found, said once.

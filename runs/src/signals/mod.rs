@@ -3,6 +3,7 @@
 
 mod camera;
 mod derive;
+mod headings;
 mod held;
 
 use std::f64::consts::TAU;
@@ -49,6 +50,8 @@ pub struct Source {
     pub counts: CountSource,
     /// What the drive of the motors is read from.
     pub duties: DutySource,
+    /// Whether the camera gives positions alone, and headings are where the wheels' way points.
+    pub positions_only: bool,
 }
 
 /// The robot as the columns of its logs show it: with the encoders, wheels and motors that [`Source`] speaks of, and
@@ -124,6 +127,7 @@ pub(crate) struct Reading {
     derive: derive::Derive,
     held: held::Held,
     camera: camera::Repeats,
+    headings: headings::Headings,
 }
 
 impl Reading {
@@ -141,12 +145,13 @@ impl Reading {
         let currents = first.duty.is_empty() && !first.current.is_empty();
         let duties = if currents { DutySource::Currents } else { DutySource::Duties };
         needed(robot, first, counts, path)?;
-        let source = Source { counts, duties };
+        let source = Source { counts, duties, positions_only: headings::Headings::are_missing(first) };
         Ok(Self {
             source,
             derive: derive::Derive::new(source, &as_logged(robot, source, None), robot, first),
             held: held::Held::of(first),
             camera: camera::Repeats::of(first),
+            headings: headings::Headings::of(&as_logged(robot, source, None)),
         })
     }
 
@@ -156,6 +161,13 @@ impl Reading {
         self.held.apply(&mut run);
         self.camera.apply(&mut run);
         self.derive.apply(&mut run);
+        if self.source.positions_only {
+            self.headings.apply(&mut run);
+            run.notes.extend(Some(self.headings.note()).filter(|note| !note.is_empty()));
+        } else {
+            // A log whose first frames come late has no headings for them.
+            run.camera.retain(|sample| !sample.pose.theta.is_nan());
+        }
         run.notes.extend(self.held.note(&run));
         run.notes.extend(self.camera.note(&run));
         run.notes.extend(self.derive.note());

@@ -25,7 +25,11 @@ pub(super) fn text(estimate: &SkewEstimate) -> String {
         let _ = writeln!(text, "wheel {} - {}  {} ± {}", i + 1, j + 1, degrees(difference), degrees(*half));
     }
     let residual = &estimate.residual;
-    let shown = |[x, y, theta]: [f64; 3]| format!("{:.1} mm, {:.1} mm, {}", 1e3 * x, 1e3 * y, degrees(theta));
+    let headed = residual.noise[2] < model::fit::NO_HEADING_RAD;
+    let shown = |[x, y, theta]: [f64; 3]| {
+        let heading = if headed { degrees(theta) } else { "no headings".to_owned() };
+        format!("{:.1} mm, {:.1} mm, {heading}", 1e3 * x, 1e3 * y)
+    };
     let _ = writeln!(text, "residual     {} before", shown(residual.before));
     let _ = writeln!(text, "             {} after", shown(residual.after));
     let _ = writeln!(text, "noise        {}, {} camera frames", shown(residual.noise), residual.frames);

@@ -44,7 +44,9 @@ pub(super) fn join(
         return Err(InputError::new(path, "holds no whole pose", hint).field("truth.columns"));
     }
     let files_s = log.first_s - poses.first_s;
-    let told = agreement::by_motion(&log.run, &seen);
+    // Positions alone do not show a motion in the body's frame.
+    let headed = seen.iter().all(|(_, pose)| !pose.theta.is_nan());
+    let told = headed.then(|| agreement::by_motion(&log.run, &seen));
     let (by, matched) = match truth.clock {
         Clocks::Same => (truth.offset_s - files_s, None),
         Clocks::Own => {
@@ -52,6 +54,9 @@ pub(super) fn join(
             (own[0] - own[1] + truth.offset_s, None)
         }
         Clocks::Match => {
+            let hint = "map cam_theta too, or give clock = \"same\" or \"own\", with an offset_s where it is known";
+            let what = "positions without headings do not tell how the clocks stand to each other";
+            let told = told.as_ref().ok_or_else(|| InputError::new(path, what, hint).field("truth.clock"))?;
             let found = told.as_ref().map_err(|doubt| {
                 let hint = "give clock = \"own\" or an offset_s that brings it within 0.5 s: `gap` finds the rest";
                 let what =
@@ -79,7 +84,7 @@ pub(super) fn join(
         .map(|(t, pose)| (nanoseconds(t + by), *pose))
         .filter(|(k, _)| (nanoseconds(ours[0])..=nanoseconds(ours[1])).contains(k))
         .collect();
-    let apart = told.ok().filter(|_| matched.is_none()).map(|found| found.offset_s - by);
+    let apart = told.and_then(Result::ok).filter(|_| matched.is_none()).map(|found| found.offset_s - by);
     let joined = Joined {
         file: path.to_owned(),
         offset_s,

@@ -183,3 +183,17 @@ fn maps_that_cannot_be_meant_are_refused_with_their_place() {
     let none = Map::parse(COLUMNS, Path::new("map.toml")).unwrap().import(&log, Some(&log)).unwrap_err().to_string();
     assert!(none.contains("has no [truth]"), "{none}");
 }
+
+#[test]
+fn positions_alone_are_joined_where_the_clocks_are_known() {
+    let log: String = (0..40).map(|k| format!("{},{k},{k}\n", 0.1 * f64::from(k))).collect();
+    let seen: String =
+        (0..12).map(|k| format!("{},{},0.5,\n", 0.05 + 0.3 * f64::from(k), 0.1 * f64::from(k))).collect();
+    let files = Files::new(&format!("t,a,b\n{log}"), &format!("t,x,y,yaw\n{seen}"));
+    let columns = "[truth.columns]\ncam_x = \"x\"\ncam_y = \"y\"\n";
+    let run = files.import("clock = \"same\"", columns).unwrap().run;
+    assert_eq!(run.camera.len(), 12);
+    assert!(run.camera.iter().all(|sample| sample.pose.y == 0.5 && sample.pose.theta.is_nan()));
+    let error = files.import("clock = \"match\"", columns).unwrap_err();
+    assert!(error.contains("positions without headings do not tell how the clocks stand"), "{error}");
+}
