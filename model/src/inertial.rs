@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix3x5, Matrix5, Vector3, Vector5};
 
 use crate::fusion::{Correction, FusionOptions, MEMORY_S};
 use crate::imu::{ImuModel, Reading};
@@ -29,22 +29,26 @@ const HOLDING_SPEED: f64 = 0.06;
 const LONGEST_SLIP_S: f64 = 0.6;
 /// Variance of the wheels' displacement while they slip, m² per m: half of it may be wrong.
 const SLIPPING_VARIANCE: f64 = 0.02;
-/// Gyroscope's error of scale that is reckoned with, standard deviation.
-const GYRO_SCALE: f64 = 0.005;
+/// Places in the state after the pose.
+const BIAS: usize = 3;
+const SCALE: usize = 4;
 
-/// Pose and gyroscope's bias with the covariance of their errors (x, y, heading, bias).
+/// Pose, gyroscope's bias (rad/s) and relative error of its scale, with the covariance of their errors in this order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct State {
     pose: Pose,
     bias: f64,
-    covariance: Matrix4<f64>,
+    scale: f64,
+    covariance: Matrix5<f64>,
 }
 
 /// How a tick moved the robot.
 #[derive(Debug, Clone, Copy)]
 struct Step {
-    /// Displacement in the body frame, its turn that of the gyroscope with its bias.
+    /// Displacement in the body frame.
     moved: Twist,
+    /// Whether its turn is that of the gyroscope, with bias and scale as read.
+    felt: bool,
     /// Duration, s.
     dt: f64,
     /// Covariance of the displacement.
@@ -52,7 +56,8 @@ struct Step {
 }
 
 /// Error-state Kalman filter (Solà 2017, in the plane): wheels tell the displacement, the gyroscope the heading, the
-/// camera, late, the pose, and standstill the gyroscope's bias.
+/// camera, late, the pose, and standstill the gyroscope's bias. What the camera says of turns either way parts the error of
+/// the gyroscope's scale from its bias.
 ///
 /// While wheels slip, their displacement is replaced by that of the speed before, changed by the accelerometer. As in
 /// [`crate::fusion::Fusion`], a frame corrects the state at its exposure, and the ticks since are repeated.
@@ -97,15 +102,16 @@ impl Inertial {
         sensor: &ImuModel,
         start: Estimate,
     ) -> Self {
-        let mut covariance = Matrix4::zeros();
+        let mut covariance = Matrix5::zeros();
         covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&start.covariance);
-        covariance[(3, 3)] = (2.0 * sensor.gyro.bias).powi(2);
+        covariance[(BIAS, BIAS)] = (2.0 * sensor.gyro.bias).powi(2);
+        covariance[(SCALE, SCALE)] = sensor.gyro.scale.powi(2);
         Self {
             options,
             odometer: Odometer::new(geometry, counts_per_wheel_rad, options.wheel_variance),
             gyro_noise: sensor.gyro.noise_density * 0.5_f64.sqrt(),
             bias_walk: sensor.gyro.bias_walk,
-            now: State { pose: start.pose, bias: 0.0, covariance },
+            now: State { pose: start.pose, bias: 0.0, scale: 0.0, covariance },
             history: VecDeque::new(),
             window: VecDeque::new(),
             still: 0.0,
@@ -127,10 +133,11 @@ impl Inertial {
         let stands = wheel == Twist::default();
         self.still = if stands { self.still + dt } else { 0.0 };
         let force = [reading.acceleration[0] - self.rest.bias[0], reading.acceleration[1] - self.rest.bias[1]];
-        let omega = reading.gyro[2] - self.now.bias;
+        let turned = self.now.turned(turn, dt);
+        let omega = turned / dt;
         // In the turning body frame speed changes by acceleration and by the turn.
         let gain = [(force[0] + omega * self.velocity[1]) * dt, (force[1] - omega * self.velocity[0]) * dt];
-        self.compare(Compared { wheel, turn: turn - self.now.bias * dt, gain, dt });
+        self.compare(Compared { wheel, turn: turned, gain, dt });
         let mut moved = Twist::new(wheel.vx, wheel.vy, turn);
         let mut noise = increment.covariance;
         if self.slipping.is_some() {
@@ -147,8 +154,8 @@ impl Inertial {
             noise[(i, 2)] = 0.0;
             noise[(2, i)] = 0.0;
         }
-        noise[(2, 2)] = self.gyro_noise.powi(2) * dt + (GYRO_SCALE * turn).powi(2);
-        let step = Step { moved, dt, noise };
+        noise[(2, 2)] = self.gyro_noise.powi(2) * dt;
+        let step = Step { moved, felt: true, dt, noise };
         self.now = self.now.after(&step, self.bias_walk);
         if self.still > STANDING_S {
             self.settle(reading, dt);
@@ -162,12 +169,10 @@ impl Inertial {
         let Some(last) = self.last.replace(t) else { return };
         let dt = t - last;
         let wheel = increment.moved;
-        // The step takes the bias off again.
-        let moved = Twist { omega: wheel.omega + self.now.bias * dt, ..wheel };
         self.velocity = [wheel.vx / dt, wheel.vy / dt];
         (self.still, self.slipping) = (0.0, None);
         self.window.clear();
-        let step = Step { moved, dt, noise: increment.covariance };
+        let step = Step { moved: wheel, felt: false, dt, noise: increment.covariance };
         self.now = self.now.after(&step, self.bias_walk);
         self.keep(t, step);
     }
@@ -194,9 +199,9 @@ impl Inertial {
         }
         let p = self.now.covariance;
         let variance = self.gyro_noise.powi(2) / dt;
-        let gain = p.column(3) / (p[(3, 3)] + variance);
+        let gain = p.column(BIAS) / (p[(BIAS, BIAS)] + variance);
         self.now.correct(&(gain * (reading.gyro[2] - self.now.bias)));
-        self.now.covariance = p - gain * p.row(3);
+        self.now.covariance = p - gain * p.row(BIAS);
     }
 
     /// Looks for slip: turn and change of speed by the wheels against those by the sensor.
@@ -250,7 +255,7 @@ impl Inertial {
         let p = prior.pose;
         let (at, noise) = (alone.pose, alone.covariance);
         let innovation = Vector3::new(at.x - p.x, at.y - p.y, wrap_angle(at.theta - p.theta));
-        let observed = Matrix3x4::<f64>::identity();
+        let observed = Matrix3x5::<f64>::identity();
         let Some(inverse) = (prior.covariance.fixed_view::<3, 3>(0, 0) + noise).try_inverse() else {
             return Correction::Unusable;
         };
@@ -266,14 +271,15 @@ impl Inertial {
         let mut posterior = prior;
         let verdict = if anew {
             posterior.pose = at;
-            posterior.covariance = Matrix4::zeros();
+            posterior.covariance = Matrix5::zeros();
             posterior.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&noise);
-            posterior.covariance[(3, 3)] = prior.covariance[(3, 3)];
+            let sensor = prior.covariance.fixed_view::<2, 2>(BIAS, BIAS).into_owned();
+            posterior.covariance.fixed_view_mut::<2, 2>(BIAS, BIAS).copy_from(&sensor);
             Correction::Restarted
         } else {
             let gain = prior.covariance * observed.transpose() * inverse;
             posterior.correct(&(gain * innovation));
-            let keep = Matrix4::identity() - gain * observed;
+            let keep = Matrix5::identity() - gain * observed;
             posterior.covariance = keep * prior.covariance * keep.transpose() + gain * noise * gain.transpose();
             Correction::Accepted(nis)
         };
@@ -291,20 +297,24 @@ impl Inertial {
     }
 
     /// Takes over a pose and covariance that this filter's own prediction is part of, of now: the match of an on-board
-    /// camera. The gyroscope's bias is corrected by what it has to do with the heading.
+    /// camera. The gyroscope's bias and scale are corrected by what they have to do with the pose.
     pub fn adopt(&mut self, pose: Pose, covariance: Matrix3<f64>) {
         let before = self.now.covariance;
-        let heading = before[(2, 2)];
-        let turned = wrap_angle(pose.theta - self.now.pose.theta);
-        let slope = if heading > 0.0 { before[(3, 2)] / heading } else { 0.0 };
-        self.now.pose = Pose { theta: self.now.pose.theta + turned, ..pose };
-        self.now.bias += slope * turned;
-        let tied = slope * covariance[(2, 2)];
-        self.now.covariance = Matrix4::zeros();
-        self.now.covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&covariance);
-        self.now.covariance[(3, 3)] = before[(3, 3)] - slope * slope * (heading - covariance[(2, 2)]).max(0.0);
-        self.now.covariance[(3, 2)] = tied;
-        self.now.covariance[(2, 3)] = tied;
+        let own = before.fixed_view::<3, 3>(0, 0).into_owned();
+        // A pose known exactly has nothing to do with the sensor.
+        let inverse = own.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let slope = before.fixed_view::<2, 3>(BIAS, 0) * inverse;
+        let p = self.now.pose;
+        let moved = Vector3::new(pose.x - p.x, pose.y - p.y, wrap_angle(pose.theta - p.theta));
+        let sensor = slope * moved;
+        self.now.correct(&Vector5::new(moved.x, moved.y, moved.z, sensor.x, sensor.y));
+        let tied = slope * covariance;
+        let known = before.fixed_view::<2, 2>(BIAS, BIAS) - slope * (own - covariance) * slope.transpose();
+        let now = &mut self.now.covariance;
+        now.fixed_view_mut::<3, 3>(0, 0).copy_from(&covariance);
+        now.fixed_view_mut::<2, 2>(BIAS, BIAS).copy_from(&known);
+        now.fixed_view_mut::<2, 3>(BIAS, 0).copy_from(&tied);
+        now.fixed_view_mut::<3, 2>(0, BIAS).copy_from(&tied.transpose());
         if let Some((_, state, _)) = self.history.back_mut() {
             *state = self.now;
         }
@@ -325,6 +335,11 @@ impl Inertial {
         self.now.bias
     }
 
+    /// Relative error of the gyroscope's scale, and its standard deviation.
+    pub fn gyro_scale(&self) -> [f64; 2] {
+        [self.now.scale, self.now.covariance[(SCALE, SCALE)].sqrt()]
+    }
+
     /// Whether the wheels slip now.
     pub fn slipping(&self) -> bool {
         self.slipping.is_some()
@@ -332,34 +347,44 @@ impl Inertial {
 }
 
 impl State {
+    /// Turn in `dt` s of one as read, rad.
+    fn turned(&self, read: f64, dt: f64) -> f64 {
+        (read - self.bias * dt) / (1.0 + self.scale)
+    }
+
     fn after(mut self, step: &Step, bias_walk: f64) -> Self {
-        let moved = Twist { omega: step.moved.omega - self.bias * step.dt, ..step.moved };
+        let mut f = Matrix5::identity();
+        let mut moved = step.moved;
+        if step.felt {
+            moved.omega = self.turned(step.moved.omega, step.dt);
+            f[(2, BIAS)] = -step.dt / (1.0 + self.scale);
+            f[(2, SCALE)] = -moved.omega / (1.0 + self.scale);
+        }
         let pose = self.pose.compose(displacement(moved));
         let (dx, dy) = (pose.x - self.pose.x, pose.y - self.pose.y);
-        let mut f = Matrix4::identity();
         f[(0, 2)] = -dy;
         f[(1, 2)] = dx;
-        f[(2, 3)] = -step.dt;
         let (s, c) = (self.pose.theta + 0.5 * moved.omega).sin_cos();
         let turn = Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
         self.covariance = f * self.covariance * f.transpose();
         let noise = turn * step.noise * turn.transpose();
         let mut block = self.covariance.fixed_view_mut::<3, 3>(0, 0);
         block += noise;
-        self.covariance[(3, 3)] += bias_walk * bias_walk * step.dt;
+        self.covariance[(BIAS, BIAS)] += bias_walk * bias_walk * step.dt;
         self.pose = pose;
         self
     }
 
-    fn correct(&mut self, error: &Vector4<f64>) {
+    fn correct(&mut self, error: &Vector5<f64>) {
         let p = self.pose;
         self.pose = Pose::new(p.x + error[0], p.y + error[1], p.theta + error[2]);
-        self.bias += error[3];
+        self.bias += error[BIAS];
+        self.scale += error[SCALE];
     }
 }
 
 impl Step {
     fn part(&self, share: f64) -> Self {
-        Self { moved: self.moved.scaled(share), dt: share * self.dt, noise: self.noise * share }
+        Self { moved: self.moved.scaled(share), dt: share * self.dt, noise: self.noise * share, ..*self }
     }
 }

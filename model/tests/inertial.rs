@@ -45,6 +45,8 @@ struct Outcome {
     /// Time in which slip was said though no wheel had slipped for a tenth of a second, and time without slip, s.
     alarm: [f64; 2],
     way: f64,
+    /// Error of the gyroscope's scale, in the standard deviations that the filter states, and plainly.
+    scale: [f64; 2],
 }
 
 /// Set speeds, m/s and rad/s: starts, stops and turns at 2 m/s.
@@ -126,7 +128,11 @@ fn drive(skew: f64, contact: Contact, hard: bool, seed: u64) -> Outcome {
         let truth = plant.pose();
         [wrap_angle(pose.theta - truth.theta).to_degrees(), 1e3 * pose.distance(truth)]
     };
-    Outcome { wheels: error(wheels.pose()), inertial: error(inertial.pose()), noticed_ms, alarm, way }
+    let [[.., true_scale], ..] = imu.gyro_errors();
+    let [scale, sd] = inertial.gyro_scale();
+    let off = scale - true_scale;
+    let scale = [off / sd, off];
+    Outcome { wheels: error(wheels.pose()), inertial: error(inertial.pose()), noticed_ms, alarm, way, scale }
 }
 
 fn rms(values: impl Iterator<Item = f64>) -> f64 {
@@ -150,6 +156,12 @@ fn row(name: &str, skew_deg: f64, contact: Contact, hard: bool) -> ([f64; 2], Op
     let alarm = total(0) / total(1).max(TICK);
     assert!(alarm < 0.2, "{name}: slip is said {:.0} % of the time without slip", 100.0 * alarm);
     let heading = [of(|o| o.wheels[0]), of(|o| o.inertial[0])];
+    // Parts differ by 0.5 %, in turns of four seconds, and the filter knows how well it knows what is left.
+    let [sds, scale] = [of(|o| o.scale[0]), of(|o| o.scale[1])];
+    eprintln!("{name}: scale {scale:.5}, {sds:.2} standard deviations");
+    assert!(scale < 0.001, "{name}: {scale}");
+    // Twenty squares of normal numbers have this mean or less in 999 of 1000 cases (chi-square).
+    assert!(sds < 1.51, "{name}: {sds}");
     let way = outcomes.iter().map(|o| o.way).sum::<f64>() / outcomes.len() as f64;
     assert!(way > 4.0, "{name}: only {way:.1} m");
     let cell = |v: f64, digits: usize| format!("{v:.digits$}");
