@@ -34,7 +34,7 @@ fn a_set_point_is_reached_recorded_and_left_switched_off() {
     let driven = drive(&plan(60.0), &card, Some(&mut recording));
     assert!(matches!(driven.ending, Ending::Finished), "{:?}", driven.ending);
     assert!(matches!(driven.arrivals[..], [Arrival::Reached { .. }]) && driven.switched_off.is_ok());
-    assert!((driven.pose.x - 0.6).hypot(driven.pose.y - 0.4) < 0.02 && !card.armed());
+    assert!((driven.belief.pose.x - 0.6).hypot(driven.belief.pose.y - 0.4) < 0.02 && !card.armed());
     assert_eq!((driven.unseen, driven.reread, driven.refused), (0, 0, 0));
     let recorded = recording.finish().unwrap();
     assert_eq!((recorded.ticks, recorded.lost), (driven.ticks, 0));

@@ -69,7 +69,7 @@ fn who_sees_nothing_stops_looks_round_and_gives_up_switched_off() {
         };
         assert!(*sd_m > *limit_m && fault.to_string().contains("lost"), "{fault}");
         assert!(driven.switched_off.is_ok() && !card.armed() && driven.lost == 1);
-        assert!(driven.pose.x > 0.5 && driven.pose.x < 2.5, "{:?}", driven.pose);
+        assert!(driven.belief.pose.x > 0.5 && driven.belief.pose.x < 2.5, "{:?}", driven.belief.pose);
         // The cause gone, it is armed and driven again.
         let (again, _) = drive(&Plan { control, ..plan() }, &mut Camera::new(99.0..99.0), None);
         assert!(matches!(again.ending, Ending::Finished) && again.lost == 0, "{:?}", again.ending);
@@ -83,7 +83,7 @@ fn who_is_blind_for_a_while_stops_within_its_limits_and_then_arrives() {
     let mut recording = Recording::start(&path, Layout::of_robot(3, true), Existing::Refuse).unwrap();
     let (driven, _) = drive(&plan(), &mut Camera::new(0.5..5.0), Some(&mut recording));
     assert!(matches!(driven.ending, Ending::Finished) && driven.lost == 1, "{:?}", driven.ending);
-    assert!((driven.pose.x - 4.0).hypot(driven.pose.y) < 0.02, "{:?}", driven.pose);
+    assert!((driven.belief.pose.x - 4.0).hypot(driven.belief.pose.y) < 0.02, "{:?}", driven.belief.pose);
     recording.finish().unwrap();
     let run = Run::read(&path).unwrap();
     let [vx, vy, omega] = run.command.as_ref().unwrap();

@@ -71,6 +71,9 @@ impl Odometer {
     }
 }
 
+/// Of the errors of x, y and heading, in world axes: m², m rad, rad².
+pub type Covariance = Matrix3<f64>;
+
 /// A pose and its covariance.
 ///
 /// The covariance is that of the pose's error (x, y, θ) in world axes, m² and rad².
@@ -79,7 +82,7 @@ pub struct Estimate {
     /// Best estimate.
     pub pose: Pose,
     /// Covariance of its error.
-    pub covariance: Matrix3<f64>,
+    pub covariance: Covariance,
 }
 
 impl Estimate {

@@ -6,6 +6,8 @@ mod watcher;
 use crate::terminal::Failure;
 use clap::{Args, ValueEnum};
 use driver::drive::PoseSource;
+use model::odometry::{Covariance, Estimate};
+use runs::frames::Pose;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
@@ -15,9 +17,6 @@ use vision::field::Field;
 /// How well the start is known of a robot that is set down by hand (m, m, rad): as in the starts of
 /// `docs/measured/blackout.md`.
 const START_SD: [f64; 3] = [0.04, 0.04, 0.03];
-
-/// Half of a small robot's diameter of 180 mm by the league's rules, m: what no camera of its own has to beat.
-const LEAST_SURE_M: f64 = 0.09;
 
 /// Who sees the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -56,8 +55,8 @@ impl Vision {
     }
 
     /// How well the controller knows the start with such a camera: what it sees of the field may say otherwise.
-    pub(crate) fn start_sd(&self) -> Option<[f64; 3]> {
-        self.is_onboard().then_some(START_SD)
+    pub(crate) fn start_covariance(&self) -> Option<Covariance> {
+        self.is_onboard().then(|| Estimate::new(Pose::default(), START_SD).covariance)
     }
 
     /// Field and camera, read before anything moves.
@@ -76,10 +75,9 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
-    /// Standard deviation of the place, m, with which a robot that keeps to the lines stays on the carpet: 19 times of 20.
+    /// Standard deviation of the place, m, with which a robot stays on this field's carpet.
     pub(crate) fn sure_m(&self) -> f64 {
-        // Somebody's field without a rim: the robot's own size.
-        (0.5 * self.field.boundary).max(LEAST_SURE_M)
+        self.field.sure_m()
     }
 
     /// The camera of a real robot.
@@ -98,7 +96,7 @@ impl Setting {
         &self,
         card: simulator::virtual_card::SharedCard,
     ) -> Result<(Box<dyn PoseSource>, simulator::eye::SharedEye), Failure> {
-        use simulator::eye::{CardEye, Eye, shared};
+        use simulator::eye::{Eye, RidingEye, shared};
         /// Seconds between two pictures, and the hall's seed.
         const EVERY_S: f64 = 0.1;
         const SEED: u64 = 1;
@@ -106,6 +104,6 @@ impl Setting {
             return Err(Failure::usage("--frames is for a real robot: the built-in card's camera is rendered"));
         }
         let eye = shared(Eye::new(self.lens.unwrap_or_else(Eye::small), self.field, None, SEED));
-        Ok((Box::new(CardEye::new(card, eye.clone(), EVERY_S)), eye))
+        Ok((Box::new(RidingEye::new(card, eye.clone(), EVERY_S)), eye))
     }
 }

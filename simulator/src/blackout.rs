@@ -2,28 +2,24 @@
 //!
 //! Before it starts, the robot believes to stand some centimetres from where it does. It looks, at rest, corrects its pose
 //! by the field's lines and sees the ball. From far away a pixel is worth centimetres, so that it stops before the ball and
-//! looks again; then it drives to the ball and to the coordinates, by the loop that drives a real robot. On the way
-//! [`OnBoard`] joins wheels, gyroscope and the camera's matches to a pose.
+//! looks again; then it drives to the ball and to the coordinates, by the loop that drives a real robot, whose filter joins
+//! wheels, gyroscope and the camera's matches to a pose.
 
 pub mod page;
-mod ride;
-
-pub use ride::OnBoard;
 
 use crate::closed_loop::{Drive, Driven, LoopError};
-use crate::eye::{Eye, Fault, SharedEye, Shot, shared};
+use crate::eye::{Eye, Fault, RidingEye, SharedEye, Shot, shared};
 use crate::fpga::BitTrue;
-use model::camera::CameraModel;
+use crate::imu::VirtualImu;
+use driver::drive::{NoSource, PoseSource};
 use model::plant::Contact;
 use model::trajectory::SetPoint;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::{Pose, Twist};
-use runs::robot::{Layout, Robot};
-use std::cell::Cell;
+use runs::robot::{ImuMount, Layout, Robot, SensorName};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::rc::Rc;
 use vision::field::Field;
 use vision::localise::Estimate;
 use vision::onboard::Glance;
@@ -32,8 +28,8 @@ use vision::onboard::Glance;
 const REACH: f64 = 0.1;
 /// Where the robot believes to stand before it looks: standard deviations, m, m, rad.
 const ASTRAY: [f64; 3] = [0.04, 0.04, 0.03];
-/// Standard deviations of the poses that the control loop gets.
-const POSE_SD: [f64; 3] = [0.01, 0.01, 0.01];
+/// Seconds between two pictures while it drives.
+const PICTURE_EVERY_S: f64 = 0.2;
 /// Speed, m/s.
 const SPEED: f64 = 1.0;
 /// Distance from which the ball's place is good enough to drive to it, m: one row of the demo's camera is worth 10 mm.
@@ -202,7 +198,7 @@ impl Blackout {
     fn search(&self, now: &mut Now, eye: &SharedEye) -> Result<Option<[f64; 2]>, LoopError> {
         let mut last = None;
         for _ in 0..LOOKS {
-            let glance = eye.borrow_mut().look(now.t, now.rest(), &now.belief);
+            let glance = eye.borrow_mut().look(0.0, now.rest(), &now.belief);
             let Ok(glance) = glance else { return Ok(last) };
             if let Ok(found) = glance.pose {
                 now.belief = found;
@@ -239,7 +235,7 @@ impl Blackout {
     /// look there that contradicts or shows nothing ends it: the belief is not good enough to say where to look.
     fn look_round(&self, now: &mut Now, eye: &SharedEye, most: usize) -> Result<(), LoopError> {
         for others in 0..=most {
-            match eye.borrow_mut().look(now.t, now.rest(), &now.belief) {
+            match eye.borrow_mut().look(0.0, now.rest(), &now.belief) {
                 Ok(Glance { pose: Ok(found), .. }) => now.belief = found,
                 _ if others > 0 => return Ok(()),
                 _ => {}
@@ -256,32 +252,39 @@ impl Blackout {
     /// Drives along set points to rest.
     fn drive(&self, now: &mut Now, senses: Senses, eye: &SharedEye, set_points: &[SetPoint]) -> Result<(), LoopError> {
         let mut robot = Robot::racbot();
-        robot.camera_latency_s = 0.0;
-        robot.camera_noise = Some(POSE_SD);
+        let mut card = BitTrue::new();
+        if senses != Senses::Wheels {
+            robot.imu = SensorName::new("icm-42688-p").map(ImuMount::upright);
+            card = card.with_imu(VirtualImu::new(robot.control_rate_hz, self.seed));
+        }
         let mut actual = robot.clone();
         actual.layout = Layout::Rac { body_radius_m: 0.085, skew_rad: self.skew };
         // The controller starts from its belief, the plant from the truth.
         let drive = Drive {
             actual,
             contact: Contact::Friction { friction_coefficient: 0.5, creep_s_per_kg: 0.000_5 },
-            camera: Some(CameraModel::of(&robot)),
-            fused: senses != Senses::Wheels,
+            fused: senses == Senses::Camera,
             start: now.belief.pose,
+            start_covariance: Some(now.belief.covariance),
+            sure_m: (senses == Senses::Camera).then(|| Field::DIVISION_B.sure_m()),
             stands: Some(now.truth),
             limit_s: 20.0,
             seed: self.seed,
             ..Drive::new(&robot, set_points)
         };
-        let end = Rc::new(Cell::new(now.belief));
-        let driven = drive.run_seen_by(
-            BitTrue::new(),
-            |ride| OnBoard::new(ride, &robot, now, senses, Rc::clone(eye), Rc::clone(&end), self.seed),
-            |_| {},
-        )?;
+        eye.borrow_mut().begin(now.t);
+        let source = |ride| -> Box<dyn PoseSource> {
+            match senses {
+                Senses::Camera => Box::new(RidingEye::new(ride, SharedEye::clone(eye), PICTURE_EVERY_S)),
+                _ => Box::new(NoSource),
+            }
+        };
+        let driven = drive.run_seen_by(card, source, |_| {})?;
         if let Some((t, pose)) = driven.track.last() {
             (now.truth, now.t) = (*pose, now.t + t);
         }
-        now.belief = end.get();
+        eye.borrow_mut().begin(now.t);
+        now.belief = Estimate { pose: driven.belief.pose, covariance: driven.belief.covariance, agreeing: 1.0 };
         now.rests.push((now.belief, now.truth));
         now.legs.push(driven);
         Ok(())

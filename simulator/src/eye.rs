@@ -1,5 +1,7 @@
 //! The on-board camera of a simulated robot: a renderer in front of `vision::onboard`, with a camera's faults.
 
+use crate::closed_loop::VirtualRobot;
+use crate::fpga::Fpga;
 use crate::virtual_card::SharedCard;
 use driver::drive::PoseSource;
 use model::measurement::Measurement;
@@ -68,6 +70,8 @@ pub struct Eye {
     shots: Option<Vec<Shot>>,
     /// How often a frame gave no pose, by the reason.
     refused: BTreeMap<String, usize>,
+    /// When the drive that it rides on began, s.
+    began: f64,
 }
 
 impl Eye {
@@ -84,6 +88,7 @@ impl Eye {
             first: None,
             shots: None,
             refused: BTreeMap::new(),
+            began: 0.0,
         }
     }
 
@@ -137,6 +142,11 @@ impl Eye {
         self.onboard.vantage(believed, needed)
     }
 
+    /// Counts the times of pictures from here on, s.
+    pub fn begin(&mut self, t: f64) {
+        self.began = t;
+    }
+
     /// Takes a picture of where the robot is, blurred by how it moves, and looks at it.
     ///
     /// # Errors
@@ -153,7 +163,7 @@ impl Eye {
             *self.refused.entry(why).or_default() += 1;
         }
         if let Some(shots) = &mut self.shots {
-            shots.push(Shot { t, picture, glance: glance.clone(), truth, believed: predicted.pose });
+            shots.push(Shot { t: self.began + t, picture, glance: glance.clone(), truth, believed: predicted.pose });
         }
         glance
     }
@@ -195,10 +205,28 @@ pub fn shared(eye: Eye) -> SharedEye {
     Rc::new(RefCell::new(eye))
 }
 
-/// A camera on the robot of a virtual card, as the source of its poses.
+/// A simulated robot that carries a camera.
+pub trait Carrier {
+    /// Where it is, and how it moves.
+    fn motion(&self) -> (Pose, Twist);
+}
+
+impl Carrier for SharedCard {
+    fn motion(&self) -> (Pose, Twist) {
+        Self::motion(self)
+    }
+}
+
+impl<F: Fpga> Carrier for VirtualRobot<F> {
+    fn motion(&self) -> (Pose, Twist) {
+        (self.pose(), self.twist())
+    }
+}
+
+/// A camera on a simulated robot, as the source of its poses.
 #[derive(Debug)]
-pub struct CardEye {
-    card: SharedCard,
+pub struct RidingEye<C> {
+    carrier: C,
     eye: SharedEye,
     /// Seconds between two pictures, and when the next one is due.
     every: f64,
@@ -210,18 +238,18 @@ pub struct CardEye {
     latency_s: f64,
 }
 
-impl CardEye {
+impl<C: Carrier> RidingEye<C> {
     /// A camera that takes a picture every so many seconds, which is less often than it delivers them late.
     #[must_use]
-    pub fn new(card: SharedCard, eye: SharedEye, every: f64) -> Self {
+    pub fn new(carrier: C, eye: SharedEye, every: f64) -> Self {
         let latency_s = eye.borrow().onboard.camera().latency_s.min(every);
-        Self { card, eye, every, due: 0.0, believed: None, waiting: None, delivered: 0.0, latency_s }
+        Self { carrier, eye, every, due: 0.0, believed: None, waiting: None, delivered: 0.0, latency_s }
     }
 
-    /// Takes a picture, as a card's robot stands and moves, and looks at it.
+    /// Takes a picture, as the robot stands and moves, and looks at it.
     fn look(&self, t: f64, believed: odometry::Estimate) -> Option<Measurement> {
         let predicted = Estimate { pose: believed.pose, covariance: believed.covariance, agreeing: 1.0 };
-        let glance = self.eye.borrow_mut().look(t, self.card.motion(), &predicted).ok()?;
+        let glance = self.eye.borrow_mut().look(t, self.carrier.motion(), &predicted).ok()?;
         let plain = |found: Estimate| odometry::Estimate { pose: found.pose, covariance: found.covariance };
         match glance.instead {
             Some(found) => Some(Measurement::instead(plain(found), t)),
@@ -230,7 +258,7 @@ impl CardEye {
     }
 }
 
-impl PoseSource for CardEye {
+impl<C: Carrier> PoseSource for RidingEye<C> {
     fn arrived(&mut self, t: f64) -> Option<Measurement> {
         if let Some(believed) = self.believed.filter(|_| t >= self.due) {
             self.due = t + self.every;

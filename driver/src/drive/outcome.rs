@@ -4,8 +4,8 @@ use super::Fault;
 use crate::Standing;
 use crate::imu::Imu;
 use crate::realtime::Latency;
+use model::odometry::Estimate;
 use model::trajectory::Arrival;
-use runs::frames::Pose;
 use std::time::Duration;
 
 /// Why a drive ended.
@@ -34,8 +34,8 @@ pub struct Driven {
     pub arrivals: Vec<Arrival>,
     /// Time of the last tick, s.
     pub t: f64,
-    /// Where the robot is believed to be.
-    pub pose: Pose,
+    /// Where the robot is believed to be, and how well that is known.
+    pub belief: Estimate,
     /// Control ticks of the card that the host saw.
     pub ticks: u64,
     /// Control ticks that went by unseen: the host was late.

@@ -7,7 +7,7 @@ use fixed_kin::speed::SpeedMode;
 use model::effects::Applied;
 use model::fusion::FusionOptions;
 use model::localisation::Localiser;
-use model::odometry::Estimate;
+use model::odometry::{Covariance, Estimate};
 use model::trajectory::SetPoint;
 use runs::frames::Pose;
 use runs::geometry::GeometryError;
@@ -25,8 +25,8 @@ pub struct Plan {
     pub control: Control,
     /// Where the robot stands.
     pub start: Pose,
-    /// How well that is known, standard deviations (m, m, rad); without it, as a pose of the robot's camera.
-    pub start_sd: Option<[f64; 3]>,
+    /// How well that is known; without it, as a pose of the robot's camera.
+    pub start_covariance: Option<Covariance>,
     /// Whether poses from outside correct the controller's; else odometry is all it has.
     pub fused: bool,
     /// Standard deviation of the place in its worst direction, m, above which the robot stops and looks round, and gives up
@@ -50,7 +50,7 @@ impl Plan {
             set_points: set_points.to_vec(),
             control: Control::default(),
             start: Pose::default(),
-            start_sd: None,
+            start_covariance: None,
             fused: false,
             sure_m: None,
             settings: Settings { watchdog_s, speed_mode: SpeedMode::Difference, ..defaults },
@@ -98,7 +98,8 @@ impl Plan {
 
     /// What the filter is told of the start.
     fn told(&self, options: &FusionOptions) -> Estimate {
-        Estimate::new(self.start, self.start_sd.unwrap_or(options.camera_noise))
+        let covariance = self.start_covariance.unwrap_or(Estimate::new(self.start, options.camera_noise).covariance);
+        Estimate { pose: self.start, covariance }
     }
 
     /// Conversions for this plan on a card with this clock.

@@ -53,6 +53,7 @@ impl<R: Registers, S: Steer> Session<R, S> {
         if let Some(mount) = &plan.robot.imu {
             let imu = board.start_imu(mount, scale.clock_hz, clock)?;
             state.localiser = plan.localiser_with(Some(&imu))?;
+            state.driven.belief = state.localiser.estimate();
             state.feel = Some(Feel::new(imu));
             state.driven.imu = Some(imu);
             timer = Timer::new(Duration::from_secs_f64(scale.tick_s()), clock);
@@ -202,11 +203,11 @@ struct State<S> {
 
 impl<S: Steer> State<S> {
     fn new(plan: &Plan, steer: S, scale: &Scale) -> Result<Self, DriveError> {
+        let localiser = plan.localiser()?;
         Ok(Self {
             fused: plan.fused,
             limit_s: plan.limit_s,
             steer,
-            localiser: plan.localiser()?,
             feel: None,
             watch: Watch::new(&plan.believed(), scale),
             sure: plan.sure_m.map(Sure::to),
@@ -225,7 +226,7 @@ impl<S: Steer> State<S> {
                 stood: Standing::default(),
                 arrivals: Vec::new(),
                 t: 0.0,
-                pose: plan.start,
+                belief: localiser.estimate(),
                 ticks: 0,
                 unseen: 0,
                 reread: 0,
@@ -239,6 +240,7 @@ impl<S: Steer> State<S> {
                 lost: 0,
                 poses: 0,
             },
+            localiser,
         })
     }
 
@@ -310,8 +312,8 @@ impl<S: Steer> State<S> {
         let slipped = self.localiser.slips();
         let pose = self.localiser.tick(t, &self.total[..self.wheels], seen);
         self.driven.slips += u64::from(self.localiser.slips() && !slipped);
-        self.driven.pose = pose;
-        source.believed(t, &self.localiser.estimate());
+        self.driven.belief = self.localiser.estimate();
+        source.believed(t, &self.driven.belief);
         Seen { t, pose, camera: seen.map(|seen| seen.pose) }
     }
 
@@ -383,7 +385,7 @@ impl<S: Steer> State<S> {
     /// Rate at which a robot that does not know where it is looks round, rad/s.
     fn looks(&mut self, t: f64, posed: bool, contradicted: bool) -> Result<Option<f64>, Fault> {
         let Some(sure) = &mut self.sure else { return Ok(None) };
-        let looks = sure.judge(t, &self.localiser.estimate(), posed, contradicted);
+        let looks = sure.judge(t, &self.driven.belief, posed, contradicted);
         self.driven.lost = sure.times();
         looks
     }

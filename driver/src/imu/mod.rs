@@ -16,7 +16,6 @@ use fixed_kin::imu_spi::{NO_AGE, SNAPSHOT_IMU_WORDS};
 use fixed_kin::registers as map;
 use kinds::GRAVITY;
 use model::imu::{ImuModel, Reading};
-use runs::Run;
 use runs::robot::ImuMount;
 use std::time::Duration;
 
@@ -292,18 +291,6 @@ impl Imu {
         }
         let body = |chip: [f64; 3]| self.mount.axes.map(|axis| axis.of(chip));
         Some(Reading { gyro: body(gyro), acceleration: body(force), temperature_c: celsius, saturated })
-    }
-
-    /// What a drive's filter got at a tick of its log, the bias at rest taken off.
-    #[must_use]
-    pub fn logged(&self, run: &Run, tick: usize) -> Option<Reading> {
-        let (gyro, force) = (run.gyro.as_ref()?, run.acceleration.as_ref()?);
-        let reading = Reading {
-            gyro: [0, 1, 2].map(|i| gyro[i][tick] - self.bias[i]),
-            acceleration: [0, 1, 2].map(|i| force[i][tick]),
-            ..Reading::default()
-        };
-        reading.gyro[2].is_finite().then_some(reading)
     }
 
     /// Age of the words of a snapshot at its tick, s.

@@ -242,7 +242,7 @@ impl Options {
             Speeds::CountAndTime => SpeedMode::CountAndTime,
         };
         #[cfg(feature = "vision")]
-        let plan = Plan { start_sd: self.vision.start_sd(), ..plan };
+        let plan = Plan { start_covariance: self.vision.start_covariance(), ..plan };
         Plan { start: self.start.0, fused: self.fused(), limit_s: self.limit_s, sure_m: self.sure_m, ..plan }
     }
 
@@ -293,7 +293,7 @@ impl Report<'_> {
                 Arrival::Reached { t, miss_m } => (format!("{t:.2} s"), *miss_m),
                 Arrival::Stuck { t, distance_m } => (format!("gave up, {t:.2} s"), *distance_m),
                 Arrival::Pending => {
-                    let pose = driven.pose;
+                    let pose = driven.belief.pose;
                     ("not reached".to_owned(), (point.x - pose.x).hypot(point.y - pose.y))
                 }
             };
@@ -307,7 +307,7 @@ impl Report<'_> {
         text.push('\n');
         text += &entry("ended", &format!("{} after {:.2} s, {outputs}", self.ending(), driven.t));
         if let Some(stands) = self.stands {
-            let pose = driven.pose;
+            let pose = driven.belief.pose;
             let off = (stands.x - pose.x).hypot(stands.y - pose.y);
             let place = format!("({:.3}, {:.3}) m by its own belief, in truth {:.0} mm off", pose.x, pose.y, 1e3 * off);
             text += &entry("stands", &place);
@@ -378,7 +378,7 @@ impl Report<'_> {
             "cleared_faults": driven.stood.faults, "cleared_encoder_errors": driven.stood.encoder_errors,
             "cleared_stalls": driven.stood.stalls,
             "outputs_off": driven.switched_off.is_ok(), "t_s": driven.t,
-            "pose": [driven.pose.x, driven.pose.y, driven.pose.theta],
+            "pose": [driven.belief.pose.x, driven.belief.pose.y, driven.belief.pose.theta],
             "stands": self.stands.map(|pose| [pose.x, pose.y, pose.theta]),
             "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,
             "looked_round": driven.lost,

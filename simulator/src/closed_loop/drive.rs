@@ -5,13 +5,12 @@ use super::{Control, LoopError, VirtualRobot, whole_tick_clock_hz};
 use crate::fpga::Fpga;
 use driver::Board;
 use driver::drive::{Ending, Plan, PoseSource};
-use driver::imu::Imu;
 use driver::realtime::Clock;
 use driver::recording::{Recording, logged_robot};
-use fixed_kin::AXES;
 use fixed_kin::speed::SpeedMode;
 use model::camera::CameraModel;
-use model::localisation::Localiser;
+use model::measurement::Measurement;
+use model::odometry::{Covariance, Estimate};
 use model::plant::{Contact, Deviations, Plant};
 use model::trajectory::{FIG_6, SetPoint, TrajectoryReport};
 use runs::frames::{Pose, Twist};
@@ -45,6 +44,10 @@ pub struct Drive {
     pub fused: bool,
     /// Where the robot starts; controller and camera agree on it.
     pub start: Pose,
+    /// How well that is known, as [`Plan::start_covariance`].
+    pub start_covariance: Option<Covariance>,
+    /// How well the place has to be known to drive on, m, as [`Plan::sure_m`].
+    pub sure_m: Option<f64>,
     /// Where it really stands at the start, if not there.
     pub stands: Option<Pose>,
     /// How it moves when the card is armed.
@@ -71,6 +74,8 @@ impl Drive {
             camera: None,
             fused: false,
             start: Pose::default(),
+            start_covariance: None,
+            sure_m: None,
             stands: None,
             moving: Twist::default(),
             speed_mode: SpeedMode::Difference,
@@ -101,6 +106,8 @@ pub struct Driven {
     pub believed: Vec<Pose>,
     /// Speeds of the wheels as they were, rad/s, `[wheel][tick]`.
     pub wheel_speeds: Vec<Vec<f64>>,
+    /// What it believed of its pose at the end.
+    pub belief: Estimate,
     /// Why it ended.
     pub ending: Ending,
 }
@@ -139,13 +146,13 @@ impl Drive {
             robot = robot.watched_by(camera, self.seed);
         }
         let wheels = self.believed.wheel_count();
-        let memory =
-            MemoryStream::new(Layout::of_robot(wheels, self.camera.is_some()).with_imu(self.believed.imu.is_some()));
+        let posed = self.fused || self.camera.is_some();
+        let memory = MemoryStream::new(Layout::of_robot(wheels, posed).with_imu(self.believed.imu.is_some()));
         let mut recording = Recording::onto(Box::new(memory.clone()), Path::new("run"), wheels)?;
         recording.wait_where_full();
 
         let mut clock = Reported { robot: robot.clone(), progress };
-        let mut source = source(robot.clone());
+        let mut source = Heard { source: source(robot.clone()), believed: Vec::new() };
         let never = AtomicBool::new(false);
         let driven =
             plan.drive(Board::new(robot.clone()), &mut clock, clock_hz, &mut source, Some(&mut recording), &never);
@@ -158,14 +165,16 @@ impl Drive {
         // The last row is that of the last tick.
         let mut history = robot.take_history();
         history.drain(..history.len() - run.len());
+        source.believed.truncate(run.len());
         let track: Vec<_> = run.t.iter().zip(&history).map(|(t, moment)| (*t, moment.pose)).collect();
         let speeds = |wheel: usize| history.iter().map(|moment| moment.wheel_speeds[wheel]).collect();
         Ok(Driven {
             robot: logged_robot(&plan.believed(), &scale, &plan.settings),
             report: TrajectoryReport::new(self.start, &self.set_points, &driven.arrivals, &track, REACHED_M),
             wheel_speeds: (0..wheels).map(speeds).collect(),
-            believed: believed(plan.localiser_with(driven.imu.as_ref())?, driven.imu.as_ref(), &run),
+            believed: source.believed,
             track,
+            belief: driven.belief,
             ending: driven.ending,
             run,
         })
@@ -175,6 +184,8 @@ impl Drive {
         let mut plan = Plan {
             control: self.control,
             start: self.start,
+            start_covariance: self.start_covariance,
+            sure_m: self.sure_m,
             fused: self.fused,
             limit_s: self.limit_s,
             ..Plan::new(&self.believed, &self.set_points)
@@ -184,17 +195,25 @@ impl Drive {
     }
 }
 
-/// Where the controller believed the robot to be, from what it logged.
-fn believed(mut localiser: Localiser, imu: Option<&Imu>, run: &Run) -> Vec<Pose> {
-    let mut camera = run.camera.iter().peekable();
-    let pose = |(tick, t): (usize, &f64)| {
-        let mut counts = [0; AXES];
-        counts.iter_mut().zip(&run.counts).for_each(|(count, column)| *count = column[tick]);
-        let seen = camera.next_if(|sample| sample.tick == tick).map(|sample| sample.pose);
-        localiser.feel(imu.and_then(|imu| imu.logged(run, tick)));
-        localiser.tick(*t, &counts[..run.counts.len()], seen.map(Into::into))
-    };
-    run.t.iter().enumerate().map(pose).collect()
+/// Writes down what the controller believes at every tick.
+struct Heard<S> {
+    source: S,
+    believed: Vec<Pose>,
+}
+
+impl<S: PoseSource> PoseSource for Heard<S> {
+    fn arrived(&mut self, t: f64) -> Option<Measurement> {
+        self.source.arrived(t)
+    }
+
+    fn believed(&mut self, t: f64, belief: &Estimate) {
+        self.believed.push(belief.pose);
+        self.source.believed(t, belief);
+    }
+
+    fn contradicts(&self) -> bool {
+        self.source.contradicts()
+    }
 }
 
 /// A robot's clock that tells how far the drive is.
