@@ -101,8 +101,10 @@ pub struct Motion {
     pub omega: [f64; 3],
     /// Angular acceleration in the body frame, rad/s².
     pub omega_rate: [f64; 3],
-    /// Acceleration of the chassis centre in the body frame, gravity not included, m/s².
+    /// Acceleration of the chassis centre in the body frame, m/s².
     pub acceleration: [f64; 3],
+    /// Gravity along the body's right and forward axes, m/s²: 0 on a level floor.
+    pub downhill: [f64; 2],
     /// Mean of the wheels' absolute speeds, rad/s.
     pub wheel_speed: f64,
 }
@@ -115,6 +117,7 @@ impl Motion {
             omega: mix(self.omega, other.omega),
             omega_rate: mix(self.omega_rate, other.omega_rate),
             acceleration: mix(self.acceleration, other.acceleration),
+            downhill: [0, 1].map(|i| self.downhill[i] + share * (other.downhill[i] - self.downhill[i])),
             wheel_speed: self.wheel_speed + share * (other.wheel_speed - self.wheel_speed),
         }
     }
@@ -219,7 +222,8 @@ impl Imu {
         let (omega, rate) = (Vector3::from(motion.omega), Vector3::from(motion.omega_rate));
         let place = Vector3::from(self.model.place);
         let there = Vector3::from(motion.acceleration) + rate.cross(&place) + omega.cross(&omega.cross(&place));
-        let force = there + Vector3::z() * GRAVITY;
+        let [right, forward] = motion.downhill;
+        let force = there - Vector3::new(right, forward, -GRAVITY);
         let shake = motion.wheel_speed * self.phase.sin();
         let (gyro, a) = self.gyro.read(omega, shake, celsius, dt, &mut self.rng);
         let (acceleration, b) = self.accelerometer.read(force, shake, celsius, dt, &mut self.rng);

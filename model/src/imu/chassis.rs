@@ -26,7 +26,35 @@ impl Chassis {
                 rate(now.vy, before.vy) + now.omega * now.vx,
                 0.0,
             ],
+            downhill: plant.downhill(),
             wheel_speed: sum / f64::from(count.max(1)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Imu, ImuModel};
+    use super::*;
+    use crate::effects::Applied;
+    use crate::plant::GRAVITY;
+    use runs::frames::Pose;
+    use runs::robot::{Effect, EffectParameter, Robot};
+
+    #[test]
+    fn a_robot_at_rest_on_a_slope_feels_the_floor_push_uphill() {
+        let tilt = EffectParameter { value: 0.05, ..EffectParameter::default() };
+        let parameters = [("x_rad".to_owned(), tilt)].into_iter().collect();
+        let effect = Effect { name: "floor-tilt".to_owned(), parameters, ..Effect::default() };
+        let felt = |effects: Vec<Effect>| {
+            let plant = Applied::of(&Robot { effects, ..Robot::racbot() }).plant().unwrap();
+            // Its right points to +y of the field, so that downhill, +x, is behind it.
+            let plant = plant.at(Pose::new(0.0, 0.0, std::f64::consts::FRAC_PI_2));
+            let mut imu = Imu::new(ImuModel::icm_42688_p(1000.0), 3);
+            imu.read(&Chassis::default().motion(&plant, 1e-3)).acceleration
+        };
+        let (tilted, level) = (felt(vec![effect]), felt(Vec::new()));
+        let changed = [0, 1].map(|i| tilted[i] - level[i]);
+        assert!(changed[0].abs() < 0.02 && (changed[1] - 0.05 * GRAVITY).abs() < 0.02, "{changed:?}");
     }
 }

@@ -43,6 +43,13 @@ impl Plant {
         self.push = push;
     }
 
+    /// Gravity along the body's right and forward axes, m/s²: 0 on a level floor.
+    pub fn downhill(&self) -> [f64; 2] {
+        let [x, y] = self.deviations.as_ref().map_or([0.0; 2], |d| d.tilt_rad.map(|tilt| GRAVITY * tilt));
+        let (s, c) = self.walk.pose().theta.sin_cos();
+        [c * x + s * y, -s * x + c * y]
+    }
+
     /// Mass matrix of the platform about the chassis centre.
     pub(super) fn platform(&self) -> Matrix3<f64> {
         let [cx, cy] = self.deviations.as_ref().map_or([0.0; 2], |d| d.centre_of_mass_m);
