@@ -138,6 +138,9 @@ pub struct Conditions {
     pub commands: bool,
     /// Always the robot of the example sets; otherwise three of ten sets have another.
     pub standard_robot: bool,
+    /// An inertial sensor's columns are in the log.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub inertial: bool,
 }
 
 impl Default for Conditions {
@@ -151,6 +154,7 @@ impl Default for Conditions {
             duty: true,
             commands: true,
             standard_robot: false,
+            inertial: false,
         }
     }
 }

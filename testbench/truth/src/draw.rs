@@ -111,6 +111,7 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
             duty: conditions.duty,
             camera: conditions.camera && !conditions.blocks,
             supply: true,
+            inertial: conditions.inertial,
         },
         robot,
         machine,

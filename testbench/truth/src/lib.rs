@@ -23,6 +23,7 @@ mod effects;
 mod error;
 mod excitation;
 mod geometry;
+mod inertial;
 mod log;
 mod machine;
 mod noise;

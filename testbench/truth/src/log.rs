@@ -15,11 +15,13 @@ pub struct Columns {
     pub camera: bool,
     /// `supply_v`.
     pub supply: bool,
+    /// `gyro_z, acc_x, acc_y`.
+    pub inertial: bool,
 }
 
 impl Columns {
     /// Everything.
-    pub const ALL: Self = Self { commands: true, duty: true, camera: true, supply: true };
+    pub const ALL: Self = Self { commands: true, duty: true, camera: true, supply: true, inertial: true };
 }
 
 /// One tick of a log.
@@ -46,6 +48,9 @@ pub struct Log {
     pub rows: Vec<Row>,
     /// Camera samples in order of their rows.
     pub frames: Vec<Frame>,
+    /// Rate of turn (rad/s) and specific force to the right and forward (m/s²) by the inertial sensor, one a row; empty off
+    /// the floor.
+    pub inertial: Vec<[f64; 3]>,
 }
 
 impl Log {
@@ -66,6 +71,10 @@ impl Log {
         }
         if columns.supply {
             out.push_str(",supply_v");
+        }
+        let inertial = columns.inertial && !self.inertial.is_empty();
+        if inertial {
+            out.push_str(",gyro_z,acc_x,acc_y");
         }
         if columns.camera {
             out.push_str(",cam_x,cam_y,cam_theta");
@@ -88,6 +97,9 @@ impl Log {
             }
             if columns.supply {
                 field(row.supply_v, 2);
+            }
+            if inertial {
+                self.inertial[tick].iter().for_each(|&v| field(v, 4));
             }
             if columns.camera {
                 match frames.next_if(|frame| frame.tick == tick) {
@@ -117,13 +129,15 @@ mod tests {
         let row =
             Row { command: [0.1, -0.0, 0.0], refs: vec![1.25], counts: vec![-3], duties: vec![0.125], supply_v: 7.204 };
         let frames = vec![Frame { tick: 1, pose: [0.123_46, -1.0, 3.0] }];
-        let log = Log { rate_hz: 1000.0, rows: vec![row.clone(), row], frames };
+        let inertial = vec![[0.5, -1.25, 0.0]; 2];
+        let log = Log { rate_hz: 1000.0, rows: vec![row.clone(), row], frames, inertial };
         assert_eq!(
             log.to_csv(Columns::ALL),
-            "t,cmd_vx,cmd_vy,cmd_w,ref_1,enc_1,duty_1,supply_v,cam_x,cam_y,cam_theta\n\
-             0,0.1,0,0,1.25,-3,0.125,7.2,,,\n0.001,0.1,0,0,1.25,-3,0.125,7.2,0.1235,-1,3\n"
+            "t,cmd_vx,cmd_vy,cmd_w,ref_1,enc_1,duty_1,supply_v,gyro_z,acc_x,acc_y,cam_x,cam_y,cam_theta\n\
+             0,0.1,0,0,1.25,-3,0.125,7.2,0.5,-1.25,0,,,\n\
+             0.001,0.1,0,0,1.25,-3,0.125,7.2,0.5,-1.25,0,0.1235,-1,3\n"
         );
-        let bare = Columns { commands: false, duty: false, camera: false, supply: false };
+        let bare = Columns { commands: false, duty: false, camera: false, supply: false, inertial: false };
         assert_eq!(log.to_csv(bare), "t,ref_1,enc_1\n0,1.25,-3\n0.001,1.25,-3\n");
     }
 }

@@ -56,6 +56,9 @@ struct Args {
     /// Always the robot of the example sets
     #[arg(long)]
     standard_robot: bool,
+    /// Add the columns of an inertial sensor
+    #[arg(long)]
+    inertial: bool,
     /// Prints every effect with its sizes and stops
     #[arg(long)]
     list: bool,
@@ -101,6 +104,7 @@ fn run(args: &Args) -> Result<(), Error> {
         duty: !args.without.contains(&Group::Duty),
         commands: !args.without.contains(&Group::Commands),
         standard_robot: args.standard_robot,
+        inertial: args.inertial,
     };
     let kinds = if args.kind.is_empty() { vec![Kind::Mixed] } else { args.kind.clone() };
     let mut sets = Vec::new();

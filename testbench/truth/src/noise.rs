@@ -17,12 +17,16 @@ pub(crate) enum Stream {
     Excitation,
     /// Ablations of the finished data.
     Ablation,
+    /// Tolerances of the inertial sensor.
+    Part,
     /// Ground noise of run n.
     Ground(u32),
     /// Camera noise of run n.
     Camera(u32),
     /// Electronics of run n: supply noise, lost edges.
     Electronics(u32),
+    /// The inertial sensor's noise in run n.
+    Inertial(u32),
 }
 
 impl Stream {
@@ -33,9 +37,11 @@ impl Stream {
             Self::Effect => 3,
             Self::Excitation => 4,
             Self::Ablation => 5,
+            Self::Part => 6,
             Self::Ground(run) => 1000 + 10 * u64::from(run),
             Self::Camera(run) => 1001 + 10 * u64::from(run),
             Self::Electronics(run) => 1002 + 10 * u64::from(run),
+            Self::Inertial(run) => 1003 + 10 * u64::from(run),
         }
     }
 }

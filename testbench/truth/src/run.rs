@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::camera::film;
 use crate::controller::Control;
 use crate::disturbance::Hit;
+use crate::inertial::felt;
 use crate::log::{Log, Row};
 use crate::machine::Machine;
 use crate::noise::{Coloured, Stream, normal, stream};
@@ -111,12 +112,13 @@ pub fn simulate_run(robot: &Robot, machine: &Machine, drive: &Drive, seed: u64, 
             }
         }
     }
+    let inertial = if machine.blocks { Vec::new() } else { felt(machine, &track, rate, rows.len(), (seed, number)) };
     let frames = if machine.blocks {
         Vec::new()
     } else {
         film(&machine.camera, &track, rate, rows.len(), &mut stream(seed, Stream::Camera(number)))
     };
-    Log { rate_hz: rate, rows, frames }
+    Log { rate_hz: rate, rows, frames, inertial }
 }
 
 fn remember(track: &mut Track, plant: &Plant<'_>, machine: &Machine) {

@@ -186,3 +186,29 @@ fn lost_edges_make_the_wheels_turn_further_than_they_count() {
     assert!((counted - 1.5 * 1.7).abs() < 0.1, "the loop follows what it counts: {counted}");
     assert!((seen / counted - 1.0 / 0.9).abs() < 0.02, "turned {seen}, counted {counted}");
 }
+
+/// At rest an inertial sensor feels the floor push uphill, and tells the same otherwise.
+#[test]
+fn a_standing_robot_feels_the_slope() {
+    for seed in 0..3 {
+        let (with, without) = pair(seed, "floor-tilt");
+        let start = [0.4, -0.2, 0.9];
+        let drive = Drive {
+            name: "rest".to_owned(),
+            commands: vec![[0.0; 3]; 60],
+            period_s: 1.0 / 60.0,
+            start,
+            hits: Vec::new(),
+        };
+        let log = |case: &Case| simulate_run(&case.robot, &case.machine, &drive, case.seed, 0).inertial;
+        let (felt, level) = (log(&with), log(&without));
+        let part = felt.len() / 2..felt.len();
+        let n = part.len() as f64;
+        let mean = |i: usize| part.clone().map(|k| felt[k][i] - level[k][i]).sum::<f64>() / n;
+        let tilt = ["x_rad", "y_rad"].map(|name| truth::GRAVITY * parameter(&with, name));
+        let (sin, cos) = start[2].sin_cos();
+        let uphill = [-cos * tilt[0] - sin * tilt[1], sin * tilt[0] - cos * tilt[1]];
+        assert!((mean(1) - uphill[0]).abs() < 0.02 && (mean(2) - uphill[1]).abs() < 0.02, "{seed}: {uphill:?}");
+        assert!(mean(0).abs() < 0.01, "{seed}");
+    }
+}
