@@ -1,5 +1,6 @@
 //! What an inertial sensor lets the workflow see: detection limits with and without it, controls, and hidden effects
-//! with their intervals. Writes `docs/measured/gap-sensor-limits.md` and `gap-sensor-named.md`.
+//! with their intervals. Writes `docs/measured/gap-sensor-limits.md`, `gap-sensor-named.md`, `gap-sensor-drive.md` and
+//! `gap-sensor-ties.md`; with the last part of one of these names as argument that one alone.
 
 #[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/sensor/felt.rs"]
@@ -8,7 +9,8 @@ mod felt;
 use felt::{Hidden, blind, done, estimate, names, numb, sensor, set, truth};
 use gap::Analysis;
 use measured::Table;
-use model::manoeuvre::Manoeuvre::{self, Chirp, Spin};
+use model::manoeuvre::Manoeuvre::{self, Chirp, Spin, StopAndGo};
+use model::plant::Contact;
 use runs::DataSet;
 
 const DRIVES: [Manoeuvre; 2] = [Spin, Chirp];
@@ -18,8 +20,27 @@ const CONTROLS: u64 = 10;
 const EACH: u64 = 3;
 const COMMAND: &str = "cargo bench -p gap --bench sensor";
 
-/// Effects whose limits a sensor may change: name, parameter, factor to the unit of the table, and that unit.
-const ROWS: [(&str, &str, f64, &str); 15] = [
+/// Name, parameter, factor to the unit of the table, and that unit.
+type Row = (&'static str, &'static str, f64, &'static str);
+/// Drives that push the wheels to what they hold.
+const HARD: [Manoeuvre; 3] = [Spin, Chirp, StopAndGo];
+
+/// Effects of the drive whose limits a sensor may change.
+const DRIVE_ROWS: [Row; 10] = [
+    ("floor-tilt", "x_rad", 57.295_78, "°"),
+    ("floor-tilt", "y_rad", 57.295_78, "°"),
+    ("robot-mass", "scale", 100.0, "%"),
+    ("yaw-inertia", "scale", 100.0, "%"),
+    ("centre-of-mass", "x_m", 1e3, "mm"),
+    ("centre-of-mass", "y_m", 1e3, "mm"),
+    ("torque-constant", "scale", 100.0, "%"),
+    ("rotor-inertia", "scale", 100.0, "%"),
+    ("coulomb-friction", "torque_nm", 1e3, "mNm"),
+    ("viscous-friction", "coefficient_nms", 1e3, "mNm s"),
+];
+
+/// Effects whose limits a sensor may change.
+const ROWS: [Row; 15] = [
     ("body-radius", "scale", 100.0, "%"),
     ("wheel-radius", "scale_1", 100.0, "%"),
     ("wheel-radius-common", "scale", 100.0, "%"),
@@ -37,25 +58,76 @@ const ROWS: [(&str, &str, f64, &str); 15] = [
     ("imu-mount", "y_m", 1e3, "mm"),
 ];
 
+/// A row of limits: the worst of the seeds, or a dash.
+fn row((name, parameter, factor, unit): &Row, columns: &[Vec<Analysis>]) -> Vec<String> {
+    let cell = |all: &Vec<Analysis>| {
+        let of = |a: &Analysis| a.limits.iter().find(|l| l.name == *name && l.parameter == *parameter).map(|l| l.limit);
+        let known: Vec<f64> = all.iter().filter_map(of).collect();
+        let worst = known.iter().copied().fold(0.0, f64::max);
+        if known.len() < all.len() { "–".to_owned() } else { format!("{:.2}", factor * worst) }
+    };
+    std::iter::once(format!("{name} `{parameter}`, {unit}")).chain(columns.iter().map(cell)).collect()
+}
+
 fn limits() -> Vec<Vec<String>> {
     let analysed = |of: &dyn Fn(DataSet) -> DataSet| -> Vec<Analysis> {
         (0..LIMITS).map(|k| done(&of(set(&truth(&[], 20 + k), &DRIVES, 20 + k)))).collect()
     };
     let columns = [analysed(&numb), analysed(&|set| set), analysed(&blind)];
-    let row = |(name, parameter, factor, unit): &(&str, &str, f64, &str)| {
-        let cell = |all: &Vec<Analysis>| {
-            let of =
-                |a: &Analysis| a.limits.iter().find(|l| l.name == *name && l.parameter == *parameter).map(|l| l.limit);
-            let known: Vec<f64> = all.iter().filter_map(of).collect();
-            // The worst of the seeds.
-            let worst = known.iter().copied().fold(0.0, f64::max);
-            if known.len() < all.len() { "–".to_owned() } else { format!("{:.2}", factor * worst) }
+    ROWS.iter().map(|of| row(of, &columns)).collect()
+}
+
+/// A hall that holds wheels well, and one on which hard starts make them slip.
+const FLOORS: [f64; 2] = [0.9, 0.3];
+
+fn drive_limits() -> Vec<Vec<String>> {
+    let analysed = |friction: f64, of: &dyn Fn(DataSet) -> DataSet| -> Vec<Analysis> {
+        let hall = |k: u64| {
+            let contact = Contact::Friction { friction_coefficient: friction, creep_s_per_kg: 3e-4 };
+            model::effects::Applied { contact, ..truth(&[], 20 + k) }
         };
-        let mut row = vec![format!("{name} `{parameter}`, {unit}")];
-        row.extend(columns.iter().map(cell));
-        row
+        (0..LIMITS).map(|k| done(&of(set(&hall(k), &HARD, 20 + k)))).collect()
     };
-    ROWS.iter().map(row).collect()
+    let columns: Vec<Vec<Analysis>> =
+        FLOORS.iter().flat_map(|friction| [analysed(*friction, &numb), analysed(*friction, &|set| set)]).collect();
+    for (k, a) in columns.iter().enumerate() {
+        println!("{k}: {:?}", a.iter().map(names).collect::<Vec<_>>());
+    }
+    DRIVE_ROWS.iter().map(|of| row(of, &columns)).collect()
+}
+
+/// What is hidden in the drive, and what the logs have: with the duties, and the camera or not.
+const TIES: [(&str, &[Hidden], bool); 8] = [
+    ("floor-tilt 1.1° and -0.8°", &[("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.014)])], true),
+    ("floor-tilt 1.1° and -0.8°, no camera", &[("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.014)])], false),
+    ("centre-of-mass 12 and -9 mm", &[("centre-of-mass", &[("x_m", 0.012), ("y_m", -0.009)])], true),
+    ("robot-mass +20 %", &[("robot-mass", &[("scale", 0.2)])], true),
+    ("torque-constant -12 %", &[("torque-constant", &[("scale", -0.12)])], true),
+    ("coulomb-friction 10 mNm", &[("coulomb-friction", &[("torque_nm", 0.01)])], true),
+    ("wheel-slip 0.25", &[("wheel-slip", &[("friction_coefficient", 0.25)])], true),
+    ("wheel-slip 0.25, no camera", &[("wheel-slip", &[("friction_coefficient", 0.25)])], false),
+];
+
+fn ties() -> Vec<Vec<String>> {
+    let said = |a: &Analysis| {
+        let ties: Vec<String> = a.alternatives.iter().map(|set| set.join(" + ")).collect();
+        let named = if names(a).is_empty() { "nothing".to_owned() } else { names(a).join(", ") };
+        if ties.is_empty() { named } else { format!("{named} ({})", ties.join("; ")) }
+    };
+    let case = |(what, hidden, seen): &(&str, &[Hidden], bool)| {
+        let of = |k: u64| {
+            let data = set(&truth(hidden, 80 + k), &HARD, 80 + k);
+            if *seen { data } else { blind(data) }
+        };
+        let cell = |felt: bool| {
+            let mut all: Vec<String> =
+                (0..LIMITS).map(|k| said(&done(&if felt { of(k) } else { numb(of(k)) }))).collect();
+            all.dedup();
+            all.join(" / ")
+        };
+        vec![(*what).to_owned(), cell(false), cell(true)]
+    };
+    TIES.iter().map(case).collect()
 }
 
 /// Parameters, and their true values for a part.
@@ -136,18 +208,48 @@ fn main() {
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    Table {
+    let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let wanted = |name: &str| asked.is_empty() || asked.iter().any(|a| a == name);
+    if wanted("drive") {
+        Table {
+            name: "gap-sensor-drive",
+            title: "Size of the drive's effects named in nine of ten such data sets (a spin, a chirp, hard starts; worst of 2 seeds), by what the log has and what the floor holds",
+            command: COMMAND,
+            columns: &[
+                "effect",
+                "friction 0.9, camera",
+                "camera and inertial sensor",
+                "friction 0.3, camera",
+                "camera and inertial sensor",
+            ],
+        }
+        .write(&drive_limits());
+    }
+    if wanted("ties") {
+        Table {
+            name: "gap-sensor-ties",
+            title: "What is said of effects of the drive with and without the sensor's columns, 2 seeds; ties in brackets",
+            command: COMMAND,
+            columns: &["hidden", "without sensor", "with sensor"],
+        }
+        .write(&ties());
+    }
+    if wanted("limits") {
+        Table {
         name: "gap-sensor-limits",
         title: "Size named in nine of ten such data sets (a spin and a chirp, worst of 2 seeds), by what the log has",
         command: COMMAND,
         columns: &["effect", "camera", "camera and inertial sensor", "inertial sensor alone"],
     }
     .write(&limits());
-    Table {
+    }
+    if wanted("named") {
+        Table {
         name: "gap-sensor-named",
         title: "Hidden in robots with camera and inertial sensor, each with another part of its type: named, and nothing else or in its place",
         command: COMMAND,
         columns: &["hidden", "data sets", "right", "intervals that hold the truth"],
     }
     .write(&named());
+    }
 }

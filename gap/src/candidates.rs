@@ -12,8 +12,20 @@ pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> V
 
 /// The same for logs of these sizes.
 pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, sizes: &Sizes) -> Vec<Active> {
+    let acts = |e: &dyn Effect| e.link() == link || e.also() == Some(link);
+    candidates_of(state, catalogue, link, sizes, acts)
+}
+
+/// Every form of the effects that act, each to be fitted on a link; of those only that the robot can have.
+pub fn candidates_of(
+    state: &State,
+    catalogue: &[Arc<dyn Effect>],
+    link: Link,
+    sizes: &Sizes,
+    acts: impl Fn(&dyn Effect) -> bool,
+) -> Vec<Active> {
     let wanted = catalogue.iter().filter(|e| {
-        (e.link() == link || e.also() == Some(link)) && !state.active.iter().any(|a| a.effect.name() == e.name())
+        acts(e.as_ref()) && !state.active.iter().any(|a| a.effect.name() == e.name())
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
             && crate::effects::fits(e.name(), &state.robot)

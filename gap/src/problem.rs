@@ -84,9 +84,8 @@ impl Problem<'_> {
         let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);
         if let Self::Motion(MotionLink { inertial: Some(link), .. }) = self {
             // One regression for all that the wheels are seen by.
-            let felt = catalogue.iter().filter(|e| link.shows(e.as_ref())).cloned().collect::<Vec<_>>();
-            let felt = crate::candidates::candidates_in(state, &felt, Link::Gyroscope, &sizes);
-            all.extend(felt.into_iter().map(|a| Active { link: self.link(), ..a }));
+            let felt = |e: &dyn Effect| link.shows(e);
+            all.extend(crate::candidates::candidates_of(state, catalogue, self.link(), &sizes, felt));
         }
         if matches!(self, Self::Motion(link) if !link.pieces.have_duties()) {
             // What lags by its mass: where no drive is compared, nobody vouches for a mass.

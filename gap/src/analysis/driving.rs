@@ -32,7 +32,7 @@ impl Workflow<'_> {
         };
         self.scatter(&link);
         self.thresholds.drive_correlation = correlation;
-        let here = self.not_for_a_camera();
+        let here = self.not_seen();
         let (selection, floor) = self.drive_chosen(&mut link, &here);
         options.reached(Stage::DriveChosen);
         let least = gaps::floor_of_scatter(&link, &floor, &self.thresholds);
@@ -78,11 +78,12 @@ impl Workflow<'_> {
         }
     }
 
-    /// The catalogue without what a camera would have shown: that is not deduced from duties.
-    fn not_for_a_camera(&self) -> Vec<Arc<dyn Effect>> {
+    /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties.
+    fn not_seen(&self) -> Vec<Arc<dyn Effect>> {
         let shown = |e: &Arc<dyn Effect>| {
             let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
-            e.also() == Some(Link::Drive) && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
+            let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
+            drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
     }

@@ -34,7 +34,14 @@ impl Findings {
         self.found.extend(outcome.written.active[from..].iter().cloned());
         self.named.extend(outcome.named);
         self.alternatives.extend(outcome.sets);
-        self.limits.extend(outcome.limits);
+        for limit in outcome.limits {
+            // What shows on two links is named on either.
+            match self.limits.iter_mut().find(|l| l.name == limit.name && l.parameter == limit.parameter) {
+                Some(known) if known.limit <= limit.limit => {}
+                Some(known) => *known = limit,
+                None => self.limits.push(limit),
+            }
+        }
         self.leave(link, outcome.leftovers);
         self.ambiguous |= outcome.ambiguous;
         self.refused.extend(outcome.refused);

@@ -186,6 +186,10 @@ fn shown_on(active: &Active, problem: &Problem) -> Link {
         // Place and heading of a sensor are the accelerometer's to tell.
         Link::Gyroscope if on_place && active.effect.also() == Some(Link::Accelerometer) => Link::Accelerometer,
         link if link.is_inertial() => link,
+        // What wheels and camera do not show, but a sensor beside them.
+        Link::Drive if problem.link() == Link::Motion => {
+            active.effect.also().filter(|also| also.is_inertial()).unwrap_or(Link::Motion)
+        }
         _ => problem.link(),
     }
 }

@@ -5,6 +5,7 @@ use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
+use crate::motion::MotionModel;
 
 /// A floor that is not level.
 pub(super) struct FloorTilt;
@@ -26,6 +27,10 @@ impl Effect for FloorTilt {
         Link::Drive
     }
 
+    fn also(&self) -> Option<Link> {
+        Some(Link::Accelerometer)
+    }
+
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let _ = robot;
         vec![Form::whole(vec![
@@ -37,6 +42,11 @@ impl Effect for FloorTilt {
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (x, y, weight) = (values.get("x_rad"), values.get("y_rad"), model.mass * GRAVITY);
         model.loads.push(Box::new(move |now, loads| loads.push_world(now.heading, [weight * x, weight * y])));
+    }
+
+    fn motion(&self, values: &Values, model: &mut MotionModel) {
+        model.slope_rad[0] += values.get("x_rad");
+        model.slope_rad[1] += values.get("y_rad");
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

@@ -129,10 +129,9 @@ impl<'a> InertialLink<'a> {
         self.channels.iter().any(|c| c.link() == link)
     }
 
-    /// Whether an effect of the sensor shows in its axes.
+    /// Whether an effect shows in its axes.
     pub fn shows(&self, effect: &dyn Effect) -> bool {
-        let links = [Some(effect.link()), effect.also()];
-        effect.link().is_inertial() && links.into_iter().flatten().any(|link| self.has(link))
+        [Some(effect.link()), effect.also()].into_iter().flatten().any(|link| self.has(link))
     }
 
     /// Scatter of what is left from increment to increment, and what the contacts of the wheels are not known to.

@@ -1,5 +1,7 @@
 //! What a model's wheels say that an inertial sensor on the body goes through.
 
+use model::plant::GRAVITY;
+
 use super::Sensor;
 use crate::motion::{MotionModel, Path};
 use crate::segment::{Segment, smooth_speeds};
@@ -26,6 +28,8 @@ struct Moved {
     across: [f64; 2],
     /// ∫ ω², rad²/s.
     outwards: f64,
+    /// ∫ gravity along the body's axes, m/s.
+    fallen: [f64; 2],
 }
 
 impl<'a> Ride<'a> {
@@ -53,6 +57,8 @@ impl<'a> Ride<'a> {
             &changed
         };
         let columns = path.columns();
+        let slope = model.slope_rad.map(|slope| GRAVITY * slope);
+        let mut pulled = [0.0; 2];
         let mut out: Vec<Moved> = Vec::with_capacity(segment.t.len() / every + 1);
         for k in (0..segment.t.len()).step_by(every) {
             let mut twist = [0.0; 3];
@@ -65,13 +71,20 @@ impl<'a> Ride<'a> {
             let mean = |a: f64, b: f64| 0.5 * dt * (a + b);
             let across = [0, 1].map(|i| before.across[i] + mean(omega * twist[i], before.omega * before.velocity[i]));
             let outwards = before.outwards + mean(omega * omega, before.omega * before.omega);
-            out.push(Moved { velocity: [x, y], omega, across, outwards });
+            let mut fallen = before.fallen;
+            if slope != [0.0; 2] {
+                let (s, c) = segment.heading[k].sin_cos();
+                let now = [c * slope[0] + s * slope[1], c * slope[1] - s * slope[0]];
+                fallen = [0, 1].map(|i| before.fallen[i] + mean(now[i], pulled[i]));
+                pulled = now;
+            }
+            out.push(Moved { velocity: [x, y], omega, across, outwards, fallen });
         }
         out
     }
 
     /// What the axes of a sensor gain from tick `from` to tick `to` at their stamps: turns of the gyroscope, rad, and
-    /// speeds of the accelerometer without gravity, m/s.
+    /// speeds of the accelerometer on a floor of the model's slope, m/s.
     pub(super) fn gained(&self, sensor: &Sensor, delay_s: f64, from: usize, to: usize) -> [f64; 6] {
         let t = &self.segment.t;
         let lasted = t[to] - t[from];
@@ -90,8 +103,8 @@ impl<'a> Ride<'a> {
             b - a
         };
         let ([px, py], spun, outwards) = (sensor.place_m, m(|m| m.omega), m(|m| m.outwards));
-        let x = m(|m| m.velocity[0]) - m(|m| m.across[1]) - px * outwards - py * spun;
-        let y = m(|m| m.velocity[1]) + m(|m| m.across[0]) - py * outwards + px * spun;
+        let x = m(|m| m.velocity[0] - m.across[1] - m.fallen[0]) - px * outwards - py * spun;
+        let y = m(|m| m.velocity[1] + m.across[0] - m.fallen[1]) - py * outwards + px * spun;
         let force = sensor.seen([x, y, 0.0]);
         [gyro[0], gyro[1], gyro[2], force[0], force[1], force[2]]
     }

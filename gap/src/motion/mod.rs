@@ -45,6 +45,8 @@ pub struct MotionModel {
     pub observe: Vec<Observe>,
     /// The inertial sensor.
     pub sensor: Sensor,
+    /// Slope of the floor downhill in the world, rad: an accelerometer feels it, the wheels do not.
+    pub slope_rad: [f64; 2],
     /// Age of the counts at their tick, s.
     pub encoder_lag_s: f64,
     /// Drift of the camera's origin, m/s.
@@ -92,6 +94,7 @@ impl MotionModel {
             angles: Vec::new(),
             observe: Vec::new(),
             sensor: Sensor::of(robot),
+            slope_rad: [0.0; 2],
             encoder_lag_s: 0.0,
             drift: [0.0; 2],
             clock_drift: 0.0,

@@ -110,6 +110,25 @@ fn without_a_camera_the_gyroscope_tells_the_body_radius() {
 }
 
 #[test]
+fn a_tilted_floor_is_felt() {
+    let hidden = truth(&[("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.014)])], 14);
+    let data = set(&hidden, &[Spin, Chirp], 14);
+    let told = |a: &Analysis| {
+        assert_eq!((a.verdict, names(a)), (Verdict::MissingEffect, vec!["floor-tilt"]), "{}", a.terminal_summary());
+        holds(a, "x_rad", 0.02);
+        holds(a, "y_rad", -0.014);
+        let [before, after] = link(a, Link::Accelerometer);
+        assert!(before > 1.5 && after < 1.3, "{before} {after}");
+    };
+    told(&done(&data));
+    // Wheels and camera say nothing of it, the motors' duties do; the sensor does without either.
+    let mut without_duties = data;
+    without_duties.runs.iter_mut().for_each(|run| run.duty.clear());
+    assert_eq!(names(&done(&numb(without_duties.clone()))), Vec::<&str>::new());
+    told(&done(&without_duties));
+}
+
+#[test]
 fn parts_within_their_tolerances_are_not_named() {
     for part in [11, 12] {
         let a = done(&set(&truth(&[], part), &[Spin, Chirp], part));
