@@ -96,8 +96,10 @@ fn drive_limits() -> Vec<Vec<String>> {
     DRIVE_ROWS.iter().map(|of| row(of, &columns)).collect()
 }
 
+const SLIPPERY: Hidden = ("wheel-slip", &[("friction_coefficient", 0.3)]);
+
 /// What is hidden in the drive, and what the logs have: with the duties, and the camera or not.
-const TIES: [(&str, &[Hidden], bool); 8] = [
+const TIES: [(&str, &[Hidden], bool); 10] = [
     ("floor-tilt 1.1° and -0.8°", &[("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.014)])], true),
     ("floor-tilt 1.1° and -0.8°, no camera", &[("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.014)])], false),
     ("centre-of-mass 12 and -9 mm", &[("centre-of-mass", &[("x_m", 0.012), ("y_m", -0.009)])], true),
@@ -105,6 +107,8 @@ const TIES: [(&str, &[Hidden], bool); 8] = [
     ("torque-constant -12 %", &[("torque-constant", &[("scale", -0.12)])], true),
     ("coulomb-friction 10 mNm", &[("coulomb-friction", &[("torque_nm", 0.01)])], true),
     ("wheel-slip 0.25", &[("wheel-slip", &[("friction_coefficient", 0.25)])], true),
+    ("wheel-slip 0.3 and robot-mass +20 %", &[SLIPPERY, ("robot-mass", &[("scale", 0.2)])], true),
+    ("wheel-slip 0.3 and torque-constant -12 %", &[SLIPPERY, ("torque-constant", &[("scale", -0.12)])], true),
     ("wheel-slip 0.25, no camera", &[("wheel-slip", &[("friction_coefficient", 0.25)])], false),
 ];
 

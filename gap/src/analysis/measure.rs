@@ -113,13 +113,15 @@ impl<'a> Data<'a> {
     /// The drive link under a model, above the floor that this model leaves.
     pub(super) fn drive(&self, state: &State, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'a>> {
         let mut link = DriveLink::new(self.pieces, &state.drive(None))?;
-        link.mask_slip(&state.motion(None));
+        let motion = state.motion(None);
+        link.mask_slip(&motion);
         if state.active.iter().any(|a| a.effect.name() == "wheel-slip") {
             // Where the law of slip did not catch what slipped, Newton's law has no body to push.
             let misses = Misses::new(seen, FAR_AMISS);
             link.mask_times(|run, t| misses.are_near(run, t));
         }
         let model = state.drive(None);
+        link.feel(&model, &motion.sensor);
         let mut residuals = link.residuals(&model)?;
         let (mut floor, mut correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
         link.noise = floor;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use model::plant::GRAVITY;
 use runs::frames::Twist;
 use runs::robot::Support;
 
@@ -115,6 +116,15 @@ pub(super) struct Base<'a> {
     prepared: Vec<Vec<Vec<f64>>>,
 }
 
+/// In which axes the body's motion is told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Axes {
+    /// Its own: they turn with it, and gravity pulls.
+    Body,
+    /// Those of an accelerometer, which feels forces alone.
+    Inertial,
+}
+
 /// Signals of a wheel.
 const SIGNALS: usize = 6;
 
@@ -124,7 +134,7 @@ impl<'a> Base<'a> {
         let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
         let room = if with_signals { segment.t.len() * (SIGNALS * model.wheels.len() + 4) } else { 0 };
         let mut signals = Vec::with_capacity(room);
-        let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals));
+        let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals), Axes::Body);
         Self { model, segment, forces, signals, prepared }
     }
 
@@ -254,11 +264,23 @@ impl DriveModel {
     /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
     pub fn forces(&self, s: &Segment) -> Vec<f64> {
         let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
-        self.evaluate(s, &prepared, None)
+        self.evaluate(s, &prepared, None, Axes::Body)
+    }
+
+    /// The same without gravity and what turning axes add: what an accelerometer feels.
+    pub(super) fn felt_forces(&self, s: &Segment) -> Vec<f64> {
+        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
+        self.evaluate(s, &prepared, None, Axes::Inertial)
     }
 
     /// The same; writes down what loads look at, if that is asked for.
-    fn evaluate(&self, s: &Segment, prepared: &[Vec<Vec<f64>>], mut signals: Option<&mut Vec<f64>>) -> Vec<f64> {
+    fn evaluate(
+        &self,
+        s: &Segment,
+        prepared: &[Vec<Vec<f64>>],
+        mut signals: Option<&mut Vec<f64>>,
+        axes_of: Axes,
+    ) -> Vec<f64> {
         let n = self.wheels.len();
         let width = n + 3;
         let ticks = s.t.len();
@@ -358,11 +380,14 @@ impl DriveModel {
                 winding[i] = axes[i].gain * duty[i] * supply - axes[i].damping * raw;
             }
             loads.clear();
-            if self.support == Support::Floor {
+            if self.support == Support::Floor && axes_of == Axes::Body {
                 let [cx, cy] = self.centre_of_mass;
                 let (px, py) = (self.mass * (twist.vx - twist.omega * cy), self.mass * (twist.vy + twist.omega * cx));
                 loads.body =
                     [twist.omega * py, -twist.omega * px, -self.mass * twist.omega * (cx * twist.vx + cy * twist.vy)];
+                if self.slope_rad != [0.0; 2] {
+                    loads.push_world(s.heading[k], self.slope_rad.map(|slope| self.mass * GRAVITY * slope));
+                }
             }
             if !self.loads.is_empty() {
                 let now = Instant {

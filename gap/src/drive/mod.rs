@@ -6,6 +6,7 @@
 //! unexplained torque per wheel and test function, Nm at the wheel shaft.
 
 mod columns;
+mod felt;
 mod floor;
 mod forces;
 mod free_run;
@@ -71,6 +72,8 @@ pub struct DriveModel {
     pub yaw_inertia: f64,
     /// Centre of mass in the body frame, m.
     pub centre_of_mass: [f64; 2],
+    /// Slope of the floor downhill in the world, rad.
+    pub slope_rad: [f64; 2],
     /// Motor turns per wheel turn.
     pub gear_ratio: f64,
     /// Motors and gears.
@@ -115,6 +118,7 @@ impl DriveModel {
             mass: robot.mass_kg,
             yaw_inertia: robot.yaw_inertia_kg_m2,
             centre_of_mass: [0.0; 2],
+            slope_rad: [0.0; 2],
             gear_ratio: robot.gear_ratio,
             axes: vec![axis; n],
             duty_delay_s: 0.0,
@@ -130,8 +134,9 @@ impl DriveModel {
 
     /// Whether it is `base` with further effects that change nothing but loads and offsets.
     fn only_loads_more(&self, base: &Self) -> bool {
-        let numbers =
-            |m: &Self| (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.gear_ratio, m.duty_delay_s);
+        let numbers = |m: &Self| {
+            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, m.duty_delay_s)
+        };
         self.effects.starts_with(&base.effects)
             && numbers(self) == numbers(base)
             && self.wheels == base.wheels
@@ -150,6 +155,11 @@ impl DriveModel {
     /// Inertia of a rotor at its wheel's shaft, kg m².
     fn rotor_at_wheel(&self, wheel: usize) -> f64 {
         self.gear_ratio.powi(2) * self.axes[wheel].rotor_inertia
+    }
+
+    /// Inertia of a wheel with its rotor, kg m² at the wheel's shaft.
+    fn spinning_inertia(&self, wheel: usize) -> f64 {
+        self.rotor_at_wheel(wheel) + self.axes[wheel].load_inertia
     }
 
     /// Inertia that moves in the play of a gear, at the wheel's shaft, kg m²: the rotor's, or none where the file gives
@@ -182,7 +192,7 @@ impl DriveModel {
     pub fn mechanics(&self) -> Option<Mechanics> {
         let geometry = self.geometry()?;
         let rows = self.wheel_speed_per_twist(&geometry);
-        let spin: Vec<f64> = (0..self.axes.len()).map(|i| self.rotor_at_wheel(i) + self.axes[i].load_inertia).collect();
+        let spin: Vec<f64> = (0..self.axes.len()).map(|i| self.spinning_inertia(i)).collect();
         if self.support == Support::Blocks {
             let inertia = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(&spin));
             let inverse = inertia.clone().try_inverse()?;

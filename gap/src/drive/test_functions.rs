@@ -10,6 +10,7 @@ use super::columns::{Column, Columns, Side};
 use super::forces::Base;
 use super::{DriveModel, Mechanics};
 use crate::effect::Sizes;
+use crate::inertial::Sensor;
 use crate::pieces::Pieces;
 use crate::segment::Segment;
 use crate::thresholds;
@@ -37,34 +38,44 @@ pub struct DriveLink<'a> {
     pub noise: Vec<f64>,
     /// What torques and speeds are large beside.
     pub sizes: Sizes,
-    test_functions: Vec<TestFunction>,
+    pub(super) test_functions: Vec<TestFunction>,
     columns: Columns,
+    /// What an inertial sensor tells where wheels slip.
+    pub(super) felt: Option<BodyFelt>,
+}
+
+/// An inertial sensor, and the noise of what it tells of a test function: to the right and forward, m/s².
+pub(super) struct BodyFelt {
+    pub(super) sensor: Sensor,
+    pub(super) noise: [f64; 2],
 }
 
 /// One test function on one segment.
 #[derive(Debug, Clone)]
-struct TestFunction {
-    segment: usize,
+pub(super) struct TestFunction {
+    pub(super) segment: usize,
     /// Where it begins and how long it is, s.
     start: f64,
     length: f64,
     /// Its first tick, on which it is 0, and its number of intervals from tick to tick.
-    first: usize,
+    pub(super) first: usize,
     intervals: usize,
     /// 1 where the wheel turned, 0 where it may have been stuck.
     weights: Vec<f64>,
     /// Share of the test function in which it may have been stuck, one a wheel.
     stuck: Vec<f64>,
+    /// Whether a wheel slips in it.
+    pub(super) slips: bool,
     /// Cluster, unique over all segments.
-    cluster: usize,
+    pub(super) cluster: usize,
 }
 
 /// A test function's weights.
-struct Shape {
+pub(super) struct Shape {
     /// Of the angles: second differences of the test function, from the test function's first tick.
-    angle: Vec<f64>,
+    pub(super) angle: Vec<f64>,
     /// Of the intervals from tick to tick, summing to 1.
-    force: Vec<f64>,
+    pub(super) force: Vec<f64>,
 }
 
 /// Unexplained torques.
@@ -130,8 +141,15 @@ impl<'a> DriveLink<'a> {
             return None;
         }
         let sizes = Sizes::of(pieces.robot());
-        let mut link =
-            Self { pieces, inertia, noise: vec![1.0; n], sizes, test_functions, columns: Columns::default() };
+        let mut link = Self {
+            pieces,
+            inertia,
+            noise: vec![1.0; n],
+            sizes,
+            test_functions,
+            columns: Columns::default(),
+            felt: None,
+        };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         link.sizes.test_function_s = link.length();
         link.sizes.run_s = longest;
@@ -171,6 +189,7 @@ impl<'a> DriveLink<'a> {
                         > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[test_function.first])
                 });
                 if slips {
+                    test_function.slips = true;
                     test_function.weights.fill(0.0);
                 }
             }
@@ -249,7 +268,7 @@ impl<'a> DriveLink<'a> {
     }
 
     /// Test functions of each segment.
-    fn by_segment(&self) -> Vec<Range<usize>> {
+    pub(super) fn by_segment(&self) -> Vec<Range<usize>> {
         let mut first = 0;
         self.test_functions
             .chunk_by(|a, b| a.segment == b.segment)
@@ -261,7 +280,7 @@ impl<'a> DriveLink<'a> {
     }
 
     /// The shapes of some test functions of one segment.
-    fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
+    pub(super) fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
         self.test_functions[range.clone()].par_iter().map(|b| b.shape(s)).collect()
     }
 
@@ -522,6 +541,7 @@ impl<'a> DriveLink<'a> {
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
                 first += part.len();
             }
+            clusters.extend(self.felt_clusters(model, sides, s, &range, &shapes));
         }
         clusters
     }
@@ -536,7 +556,9 @@ impl TestFunction {
             return None;
         }
         let (weights, stuck) = (vec![0.0; wheels], vec![0.0; wheels]);
-        let mut test_function = Self { segment, start, length, first, intervals: end - first, weights, stuck, cluster };
+        let slips = false;
+        let mut test_function =
+            Self { segment, start, length, first, intervals: end - first, weights, stuck, slips, cluster };
         let force = test_function.shape(s).force;
         if !force.iter().all(|w| w.is_finite()) {
             return None;

@@ -1,6 +1,5 @@
 //! `floor-tilt`: a floor that is not level.
 
-use model::plant::GRAVITY;
 use runs::robot::Robot;
 
 use crate::drive::DriveModel;
@@ -40,8 +39,8 @@ impl Effect for FloorTilt {
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let (x, y, weight) = (values.get("x_rad"), values.get("y_rad"), model.mass * GRAVITY);
-        model.loads.push(Box::new(move |now, loads| loads.push_world(now.heading, [weight * x, weight * y])));
+        model.slope_rad[0] += values.get("x_rad");
+        model.slope_rad[1] += values.get("y_rad");
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

@@ -7,7 +7,7 @@ mod felt;
 use felt::{blind, done, estimate, names, numb, sensor, set, truth};
 use gap::effect::Link;
 use gap::{Analysis, Verdict, undo};
-use model::manoeuvre::Manoeuvre::{Chirp, Spin};
+use model::manoeuvre::Manoeuvre::{Chirp, Spin, StopAndGo};
 use runs::DataSet;
 use runs::robot::Robot;
 
@@ -126,6 +126,23 @@ fn a_tilted_floor_is_felt() {
     without_duties.runs.iter_mut().for_each(|run| run.duty.clear());
     assert_eq!(names(&done(&numb(without_duties.clone()))), Vec::<&str>::new());
     told(&done(&without_duties));
+}
+
+/// Where wheels slip they tell nothing of what the motors move; the sensor does.
+#[test]
+fn on_a_slippery_floor_the_sensor_tells_the_mass() {
+    const SLIP: (&str, &[(&str, f64)]) = ("wheel-slip", &[("friction_coefficient", 0.3)]);
+    let drives = [Spin, Chirp, StopAndGo];
+    let limit = |a: &Analysis| {
+        assert_eq!(names(a), ["wheel-slip"], "{}", a.terminal_summary());
+        a.limits.iter().find(|l| l.name == "robot-mass").map_or(f64::INFINITY, |l| l.limit)
+    };
+    let light = set(&truth(&[SLIP], 15), &drives, 15);
+    let [with, without] = [limit(&done(&light)), limit(&done(&numb(light)))];
+    assert!(with < 0.12 && with < 0.6 * without, "{with} {without}");
+    let heavy = done(&set(&truth(&[SLIP, ("robot-mass", &[("scale", 0.2)])], 16), &drives, 16));
+    assert!(names(&heavy).contains(&"robot-mass"), "{}", heavy.terminal_summary());
+    holds(&heavy, "scale", 0.2);
 }
 
 #[test]
