@@ -158,6 +158,12 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
     let said = units::in_name(&series.name);
     let number = number(&words);
     let axis = axis(&words);
+    // Where a motor should be is no column, and no encoder's.
+    let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
+    let wanted = any(&["goal", "target", "desired", "ref", "reference", "setpoint"]);
+    if wanted && axis.is_none() && any(&["position", "pos", "angle"]) {
+        return None;
+    }
     let has = |kind: Kind| {
         let known = WORDS.iter().find(|(k, _)| *k == kind).map_or(&[][..], |(_, names)| names);
         known.iter().any(|name| words.contains(name) || name.contains('_') && lower.contains(name))
@@ -211,9 +217,10 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     let wheel = words.iter().any(|w| CORNERS.contains(w) || ["left", "right", "motor", "wheel", "joint"].contains(w));
     match words {
         [_] if axis.is_some() => Some(Kind::Camera),
-        _ if words.contains(&"velocity") || words.contains(&"speed") || words.contains(&"rpm") => {
-            wheel.then_some(Kind::Speed)
-        }
+        // A body has a velocity, too, but turns no revolutions a minute.
+        _ if words.contains(&"rpm") => Some(Kind::Speed),
+        _ if words.contains(&"velocity") || words.contains(&"speed") => wheel.then_some(Kind::Speed),
+        _ if words.iter().any(|w| ["voltage", "volts", "volt"].contains(w)) => Some(volts(series)),
         // What somebody told a motor, or its mode, is no encoder's.
         _ if words
             .iter()
@@ -223,6 +230,12 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         }
         _ => (wheel && whole && axis.is_none()).then_some(Kind::Counts),
     }
+}
+
+/// Whose volts they are: a supply neither stands at 0 nor turns round, and at half of its voltage a battery is empty.
+fn volts(series: &Series) -> Kind {
+    let [low, high] = series.range();
+    if low > 0.5 * high { Kind::Supply } else { Kind::Duty }
 }
 
 /// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.
@@ -264,6 +277,8 @@ fn by_range(column: Column, series: &Series) -> &'static str {
     match column {
         Column::Camera(0 | 1) if most > 50.0 => "mm",
         Column::Camera(2) if most > 30.0 => "deg",
+        Column::Duty(_) if spaced(&series.name).to_lowercase().contains("volt") => "V",
+        Column::Speed(_) if words(&spaced(&series.name).to_lowercase()).contains(&"rpm") => "rpm",
         Column::Duty(_) if most > 1.001 && most <= 100.0 => "percent",
         Column::Counts(_) if series.values.iter().filter(|x| x.fract() != 0.0).count() * 2 > series.values.len() => {
             "rad"

@@ -89,6 +89,15 @@ fn columns(guesses: &[Guess], none: &str) -> String {
                 "{{ from = {}, unit = \"{unit}\", counts_per_rev = 65536 }} # what the encoder counts a turn",
                 quoted(&series.name)
             ),
+            "V" if matches!(column, Column::Duty(_)) => {
+                let [low, high] = series.range();
+                let most = low.abs().max(high.abs());
+                let share = if most > 0.0 { format!("{:.4}", 1.0 / most) } else { "1".to_owned() };
+                format!(
+                    "{{ from = {}, scale = {share} }} # of {most} V, the most in this file: write 1 / supply_v",
+                    quoted(&series.name)
+                )
+            }
             unit => format!("{{ from = {}, unit = \"{unit}\" }}", quoted(&series.name)),
         };
         let _ = writeln!(out, "{} = {value}", column.name());
@@ -100,10 +109,19 @@ fn columns(guesses: &[Guess], none: &str) -> String {
 fn unused(rest: &[&Series]) -> String {
     let mut out = String::from(if rest.is_empty() { "" } else { "\n# Not used:\n" });
     for series in rest {
+        let hint = if unsigned(series) { "; 16 bits read without their sign? wraps = 65536" } else { "" };
         let [low, high] = series.range().map(readable);
-        let _ = writeln!(out, "# {}, {low} to {high}", quoted(&series.name));
+        let _ = writeln!(out, "# {}, {low} to {high}{hint}", quoted(&series.name));
     }
     out
+}
+
+/// Whether a series jumps between both ends of 16 bits, as a signed number does that was read without its sign.
+fn unsigned(series: &Series) -> bool {
+    let ends = |x: &f64| x.fract() == 0.0 && (0.0..65536.0).contains(x);
+    // Nine tenths of the 65536 values: no duty passes from one end to the other in a row.
+    let jumps = |w: &[f64]| (w[1] - w[0]).abs() > 0.9 * 65536.0;
+    series.values.iter().all(ends) && series.values.windows(2).any(jumps)
 }
 
 /// A number in a remark; some logs hold 2.4e-311 where nothing was measured.

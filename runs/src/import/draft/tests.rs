@@ -124,3 +124,27 @@ fn two_files_make_one_map() {
     }
     Map::parse(&map, Path::new("map.toml")).unwrap();
 }
+
+#[test]
+fn a_servo_and_a_motor_on_a_bench_are_understood() {
+    let servo = drafted(
+        "timestamp,position,speed,load,input_volts,goal_position",
+        ["0.000,0.5,0,3,7.3,0.5", "0.005,0.25,1,65534,7.4,0.75", "0.010,0.125,1,65533,7.3,1.5"],
+    );
+    for line in [
+        "enc_1 = { from = \"position\", unit = \"rad\"",
+        "supply_v = \"input_volts\"",
+        "# \"goal_position\", 0.5 to 1.5\n",
+        "# \"load\", 3 to 65534; 16 bits read without their sign? wraps = 65536",
+    ] {
+        assert!(servo.contains(line), "{line}\n{servo}");
+    }
+    assert!(!servo.contains("enc_2"), "{servo}");
+    let motor = drafted("time,voltage,rpm", ["0.00,0,0", "0.01,-8,-120", "0.02,4,60"]);
+    for line in [
+        "speed_1 = { from = \"rpm\", unit = \"rpm\" }",
+        "duty_1 = { from = \"voltage\", scale = 0.1250 } # of 8 V, the most in this file: write 1 / supply_v",
+    ] {
+        assert!(motor.contains(line), "{line}\n{motor}");
+    }
+}
