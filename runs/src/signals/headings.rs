@@ -72,13 +72,11 @@ impl Headings {
     }
 
     /// What was done, said once.
-    pub(super) fn note(&mut self) -> String {
-        if std::mem::replace(&mut self.said, true) {
-            return String::new();
-        }
-        "the camera's positions have no headings: ways are compared, and turns as far as they bend them; where the robot \
-         points is taken from its wheels"
-            .to_owned()
+    pub(super) fn note(&mut self) -> Option<String> {
+        let new = !std::mem::replace(&mut self.said, true);
+        let what = "the camera's positions have no headings: ways are compared, and turns as far as they bend them; where \
+                    the robot points is taken from its wheels";
+        new.then(|| what.to_owned())
     }
 }
 

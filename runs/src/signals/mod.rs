@@ -163,7 +163,7 @@ impl Reading {
         self.derive.apply(&mut run);
         if self.source.positions_only {
             self.headings.apply(&mut run);
-            run.notes.extend(Some(self.headings.note()).filter(|note| !note.is_empty()));
+            run.notes.extend(self.headings.note());
         } else {
             // A log whose first frames come late has no headings for them.
             run.camera.retain(|sample| !sample.pose.theta.is_nan());
