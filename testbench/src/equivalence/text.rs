@@ -6,7 +6,7 @@ use super::json::{Bit, Cell, Module, indexed};
 use super::memories::{Lane, Wanted, lanes};
 use super::miter::{Miter, ONE, Side, ZERO};
 use super::netlist::{Became, Gates, signal};
-use super::{Equivalence, Starts};
+use super::verdict::{Equivalence, Starts};
 use bitstream::flow::netlist::Signal;
 use std::collections::HashMap;
 
