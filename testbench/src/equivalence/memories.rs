@@ -123,11 +123,11 @@ fn lane<'a>(memory: &'a Memory, first: usize, wanted: &Wanted) -> Result<Lane<'a
     if ports.iter().any(|port| port.enable != Signal::Constant(true) || port.reset != Signal::Constant(false)) {
         return Err("a port that is not always enabled, or has a reset".into());
     }
-    let never = |port: &&&MemoryPort| port.write == Signal::Constant(false);
+    let never = |port: &MemoryPort| port.write == Signal::Constant(false);
     let (reader, writer) = match ports[..] {
         [port] => (port, wanted.writes.then_some(port)),
         // The writing port's own output shows what it writes: it must not be the one that is read.
-        [one, other] if wanted.writes => match (never(&&one), never(&&other)) {
+        [one, other] if wanted.writes => match (never(one), never(other)) {
             (true, false) => (one, Some(other)),
             (false, true) => (other, Some(one)),
             _ => return Err("no port that only reads beside one that writes".into()),
@@ -137,12 +137,12 @@ fn lane<'a>(memory: &'a Memory, first: usize, wanted: &Wanted) -> Result<Lane<'a
     if writer.is_some_and(|writer| writer.clock != reader.clock) {
         return Err("two clocks".into());
     }
-    if !wanted.writes && !never(&&reader) {
+    if !wanted.writes && !never(reader) {
         return Err("a memory that is only read is written".into());
     }
     for port in ports {
-        let beyond = port.address.iter().skip(wanted.address);
-        if port.address.len() < wanted.address || beyond.into_iter().any(|pin| *pin != Signal::Constant(false)) {
+        let beyond = |pin: &Signal| *pin != Signal::Constant(false);
+        if port.address.len() < wanted.address || port.address.iter().skip(wanted.address).any(beyond) {
             return Err("address pins that the memory does not have are not 0".into());
         }
     }
