@@ -67,8 +67,15 @@ fn positions_without_headings_narrow_what_is_compared() {
             run.write_to(file).unwrap();
         }
         let a = done(&DataSet::open(folder.path()).unwrap());
-        assert_eq!(names(&a), [effect], "{}", a.terminal_summary());
-        assert!((value(&a, parameter) - truth).abs() < 0.1 * truth, "{}", a.terminal_summary());
+        // Wheels that are all larger by the same, or within the stated tie every wheel by itself.
+        let tied = |set: &Vec<String>| set.iter().any(|n| n == effect) && set.iter().any(|n| *n == names(&a)[0]);
+        assert!(
+            names(&a) == [effect] || names(&a).len() == 1 && a.alternatives.iter().any(tied),
+            "{}",
+            a.terminal_summary()
+        );
+        let near = |found: f64| (found - truth).abs() < 0.1 * truth;
+        assert!(a.effects[0].parameters.iter().all(|p| near(p.1)), "{parameter}: {}", a.terminal_summary());
         let motion = a.links.iter().find(|l| l.link == gap::effect::Link::Motion).unwrap();
         assert_eq!((motion.signals, motion.units.len()), (2, 2));
         assert!(motion.after < 1.3, "{}", a.terminal_summary());
