@@ -12,6 +12,8 @@
     reason = "registers and snapshot are raw words; masks stand beside each cast"
 )]
 
+mod plain;
+
 use crate::AXES;
 use crate::commit::{Commit, Group};
 use crate::control::{
@@ -25,6 +27,7 @@ use crate::registers as map;
 use crate::safety::{self, Safety};
 use crate::speed::{EncoderSample, SpeedMode, TIME_BITS};
 use crate::stall::{self, Stall, Window};
+use plain::Plain;
 
 /// What reaches the card from outside, at a control tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,61 +46,6 @@ pub struct Pins {
     pub kicker_full: bool,
     /// What the inertial sensor would send.
     pub imu: imu_spi::Sample,
-}
-
-/// Plain registers.
-#[derive(Clone, Copy, Debug)]
-struct Plain {
-    tick_period: u32,
-    mode: u32,
-    encoder_filter: u32,
-    pwm_period: u32,
-    pwm_blanking: u32,
-    watchdog_timeout: u32,
-    encoder_fault_mask: u32,
-    kicker_control: u32,
-    kicker_pulse: u32,
-    kicker_lockout: u32,
-    kicker_charge_timeout: u32,
-    clocks_per_microsecond: u32,
-    leds: u32,
-    set_point_timeout: u32,
-    stall_window: u32,
-    stall_compare: u32,
-    interrupt_enable: u32,
-    imu_control: u32,
-}
-
-impl Plain {
-    fn of(&mut self, register: &map::Register) -> Option<(&mut u32, u32)> {
-        let bits = match register.kind {
-            map::Kind::Unsigned(bits) => bits,
-            map::Kind::Fields(fields) => fields.iter().map(|field| field.width).sum(),
-            map::Kind::Fixed(_) | map::Kind::Text => return None,
-        };
-        let place = match register.offset {
-            o if o == map::TICK_PERIOD.offset => &mut self.tick_period,
-            o if o == map::MODE.offset => &mut self.mode,
-            o if o == map::ENCODER_FILTER.offset => &mut self.encoder_filter,
-            o if o == map::PWM_PERIOD.offset => &mut self.pwm_period,
-            o if o == map::PWM_BLANKING.offset => &mut self.pwm_blanking,
-            o if o == map::WATCHDOG_TIMEOUT.offset => &mut self.watchdog_timeout,
-            o if o == map::ENCODER_FAULT_MASK.offset => &mut self.encoder_fault_mask,
-            o if o == map::KICKER_CONTROL.offset => &mut self.kicker_control,
-            o if o == map::KICKER_PULSE.offset => &mut self.kicker_pulse,
-            o if o == map::KICKER_LOCKOUT.offset => &mut self.kicker_lockout,
-            o if o == map::KICKER_CHARGE_TIMEOUT.offset => &mut self.kicker_charge_timeout,
-            o if o == map::CLOCKS_PER_MICROSECOND.offset => &mut self.clocks_per_microsecond,
-            o if o == map::LEDS.offset => &mut self.leds,
-            o if o == map::SET_POINT_TIMEOUT.offset => &mut self.set_point_timeout,
-            o if o == map::STALL_WINDOW.offset => &mut self.stall_window,
-            o if o == map::STALL_COMPARE.offset => &mut self.stall_compare,
-            o if o == map::INTERRUPT_ENABLE.offset => &mut self.interrupt_enable,
-            o if o == map::IMU_CONTROL.offset => &mut self.imu_control,
-            _ => return None,
-        };
-        Some((place, u32::MAX >> (32 - bits)))
-    }
 }
 
 /// See the module.
@@ -150,26 +98,7 @@ impl Card {
             index_waiting: 0,
             index_seen: 0,
             index_clear: 0,
-            plain: Plain {
-                tick_period: map::TICK_PERIOD.reset,
-                mode: map::MODE.reset,
-                encoder_filter: map::ENCODER_FILTER.reset,
-                pwm_period: map::PWM_PERIOD.reset,
-                pwm_blanking: map::PWM_BLANKING.reset,
-                watchdog_timeout: map::WATCHDOG_TIMEOUT.reset,
-                encoder_fault_mask: map::ENCODER_FAULT_MASK.reset,
-                kicker_control: map::KICKER_CONTROL.reset,
-                kicker_pulse: map::KICKER_PULSE.reset,
-                kicker_lockout: map::KICKER_LOCKOUT.reset,
-                kicker_charge_timeout: map::KICKER_CHARGE_TIMEOUT.reset,
-                clocks_per_microsecond: map::CLOCKS_PER_MICROSECOND.reset,
-                leds: map::LEDS.reset,
-                set_point_timeout: map::SET_POINT_TIMEOUT.reset,
-                stall_window: map::STALL_WINDOW.reset,
-                stall_compare: map::STALL_COMPARE.reset,
-                interrupt_enable: map::INTERRUPT_ENABLE.reset,
-                imu_control: map::IMU_CONTROL.reset,
-            },
+            plain: Plain::new(),
             content_hash,
             target: map::BOARD_4I65,
             configuration: [[0; CONFIGURATION_WORDS]; 2],
@@ -216,7 +145,7 @@ impl Card {
     /// Control period in clocks, as in force.
     #[must_use]
     pub fn tick_period(&self) -> u32 {
-        self.plain.tick_period.max(map::MIN_TICK_PERIOD)
+        self.plain.of(&map::TICK_PERIOD).max(map::MIN_TICK_PERIOD)
     }
 
     /// Clocks since configuration, wrapping.
@@ -238,20 +167,26 @@ impl Card {
     /// The register from which on the sensor is read at every tick, if it is.
     #[must_use]
     pub fn imu_reads(&self) -> Option<u8> {
-        let control = self.plain.imu_control;
+        let control = self.plain.of(&map::IMU_CONTROL);
         map::IMU_ENABLE.is_set(control).then(|| map::IMU_FIRST.of(control) as u8)
+    }
+
+    /// PWM period in clocks.
+    #[must_use]
+    pub fn pwm_period(&self) -> u16 {
+        self.plain.of(&map::PWM_PERIOD) as u16
     }
 
     /// Encoder filter in clocks, for whoever makes edges.
     #[must_use]
     pub fn encoder_filter(&self) -> u8 {
-        self.plain.encoder_filter as u8
+        self.plain.of(&map::ENCODER_FILTER) as u8
     }
 
     /// Whether the outputs may be on.
     #[must_use]
     pub fn armed(&self) -> bool {
-        self.status() & 1 == 1
+        self.safety.outputs().armed
     }
 
     /// Reads the register at a byte offset; reserved and unaligned ones read zero.
@@ -262,8 +197,8 @@ impl Card {
             return self.read_snapshot(usize::from(offset - map::SNAPSHOT_SEQUENCE.offset) / 4);
         }
         let Some((register, index)) = map::lookup(offset) else { return 0 };
-        if let Some((place, _)) = self.plain.of(register) {
-            return *place;
+        if let Some(word) = self.plain.read(register) {
+            return word;
         }
         match register.offset {
             o if o == map::CONTENT_HASH.offset => self.content_hash,
@@ -347,20 +282,18 @@ impl Card {
         if register.access == map::Access::LockedWhileArmed && self.armed() {
             return;
         }
-        if let Some((place, mask)) = self.plain.of(register) {
-            *place = data & mask;
+        if self.plain.write(register, data) {
             if register.offset == map::KICKER_CONTROL.offset {
                 self.kicker.clock(&self.kicker_inputs());
             }
             return;
         }
-        let quiet = self.safety_inputs();
         match register.offset {
             o if o == map::ARM.offset => {
-                self.safety.clock(&safety::Inputs { arm_write: true, arm_data: data, ..quiet });
+                self.safety.clock(&safety::Inputs { arm_write: true, arm_data: data, ..self.safety_inputs() });
             }
             o if o == map::FAULTS.offset && data != 0 => {
-                self.safety.clock(&safety::Inputs { clear_faults: data as u8, ..quiet });
+                self.safety.clock(&safety::Inputs { clear_faults: data as u8, ..self.safety_inputs() });
                 self.kicker.clock(&kicker::Inputs { clear: true, ..self.kicker_inputs() });
             }
             o if o == map::ENCODER_ERROR.offset => self.encoder_errors &= !(data as u8),
@@ -373,7 +306,7 @@ impl Card {
             o if o == map::INDEX_ARM.offset => self.arm_index(data),
             o if o == map::INTERRUPT_STATUS.offset => self.interrupt(false, data as u8),
             o if o == map::RADIO.offset => self.by_radio = map::RADIO_SELECT.of(data) == 1,
-            o if o == map::IMU_ACCESS.offset => self.imu.access(self.plain.imu_control, data),
+            o if o == map::IMU_ACCESS.offset => self.imu.access(self.plain.of(&map::IMU_CONTROL), data),
             o if o == map::COMMIT_SET_POINTS.offset => self.commit(Group::SetPoints, data),
             o if o == map::COMMIT_CONFIGURATION.offset => self.commit(Group::Configuration, data),
             o if o == map::KICKER_FIRE.offset && data == map::KICKER_FIRE_WORD => {
@@ -424,18 +357,18 @@ impl Card {
     /// The line to the bridge, low = interrupt.
     #[must_use]
     pub fn int_n(&self) -> bool {
-        u32::from(self.interrupt.outputs().status) & self.plain.interrupt_enable == 0
+        u32::from(self.interrupt.outputs().status) & self.plain.of(&map::INTERRUPT_ENABLE) == 0
     }
 
     /// Whether the kicker's capacitor is being discharged.
     #[must_use]
     pub fn kicker_discharges(&self) -> bool {
-        let holds = map::KICKER_HOLD.of(self.plain.kicker_control) == 1 && !self.safety.outputs().stopped;
+        let holds = map::KICKER_HOLD.is_set(self.plain.of(&map::KICKER_CONTROL)) && !self.safety.outputs().stopped;
         !self.armed() && !holds
     }
 
     fn tick_inputs(&mut self, safe: safety::Outputs) -> TickInputs {
-        let mode = |field: map::Field| field.of(self.plain.mode) == 1;
+        let mode = |field: map::Field| field.of(self.plain.of(&map::MODE)) == 1;
         let speed_mode = if mode(map::MODE_COUNT_AND_TIME) { SpeedMode::CountAndTime } else { SpeedMode::Difference };
         let set_point_mode = if mode(map::MODE_TWIST) { SetPointMode::Twist } else { SetPointMode::Wheels };
         let odometry = mode(map::MODE_ODOMETRY);
@@ -450,7 +383,7 @@ impl Card {
             set_points: self.set_points[self.commit.bank(Group::SetPoints)],
             set_points_valid: safe.setpoints_valid,
             armed: safe.armed,
-            pwm_period: self.plain.pwm_period as u16,
+            pwm_period: self.pwm_period(),
         }
     }
 
@@ -476,11 +409,11 @@ impl Card {
     /// Counts of the tick, the end of a window, and the drive from now on, in the order of the clocks.
     fn judge_stalls(&mut self, outputs: &TickOutputs) {
         let enable = self.safety.outputs().armed;
-        let window = self.window.tick(self.plain.stall_window as u16);
+        let window = self.window.tick(self.plain.of(&map::STALL_WINDOW) as u16);
+        let threshold = self.plain.of(&map::STALL_COMPARE) as u16;
+        let quiet = stall::Inputs { enable, threshold, ..stall::Inputs::default() };
         for (axis, detector) in self.stalls.iter_mut().enumerate() {
             let moved = outputs.moved[axis];
-            let quiet =
-                stall::Inputs { enable, threshold: self.plain.stall_compare as u16, ..stall::Inputs::default() };
             for _ in 0..moved.unsigned_abs() {
                 let before = *detector;
                 detector.clock(&stall::Inputs { step: true, up: moved > 0, ..quiet });
@@ -500,7 +433,12 @@ impl Card {
 
     fn interrupt(&mut self, done: bool, clear: u8) {
         let armed = self.safety.outputs().armed;
-        self.interrupt.clock(&interrupt::Inputs { done, armed, enable: self.plain.interrupt_enable as u8, clear });
+        self.interrupt.clock(&interrupt::Inputs {
+            done,
+            armed,
+            enable: self.plain.of(&map::INTERRUPT_ENABLE) as u8,
+            clear,
+        });
     }
 
     /// The safety block for some clocks; the interrupt sees what they changed.
@@ -529,7 +467,7 @@ impl Card {
             *word = component as u32;
         }
         words[23] = self.sequence;
-        self.imu.tick(self.plain.imu_control, &self.pins.imu, &mut words[map::SNAPSHOT_WORDS..]);
+        self.imu.tick(self.plain.of(&map::IMU_CONTROL), &self.pins.imu, &mut words[map::SNAPSHOT_WORDS..]);
         self.latest = bank;
     }
 
@@ -559,10 +497,10 @@ impl Card {
     fn safety_inputs(&self) -> safety::Inputs {
         safety::Inputs {
             emergency_stop: self.pins.emergency_stop,
-            watchdog_timeout: self.plain.watchdog_timeout,
-            encoder_fault: u32::from(self.encoder_errors) & self.plain.encoder_fault_mask != 0,
-            stall_fault: self.stalled() & self.plain.encoder_fault_mask != 0,
-            set_point_timeout: self.plain.set_point_timeout as u16,
+            watchdog_timeout: self.plain.of(&map::WATCHDOG_TIMEOUT),
+            encoder_fault: u32::from(self.encoder_errors) & self.plain.of(&map::ENCODER_FAULT_MASK) != 0,
+            stall_fault: self.stalled() & self.plain.of(&map::ENCODER_FAULT_MASK) != 0,
+            set_point_timeout: self.plain.of(&map::SET_POINT_TIMEOUT) as u16,
             ..safety::Inputs::default()
         }
     }
@@ -570,21 +508,21 @@ impl Card {
     fn kicker_inputs(&self) -> kicker::Inputs {
         kicker::Inputs {
             enable: self.armed(),
-            charge_request: map::KICKER_CHARGE.of(self.plain.kicker_control) == 1,
-            arm_on_ball: map::KICKER_ARM_ON_BALL.of(self.plain.kicker_control) == 1,
-            charge_timeout: self.plain.kicker_charge_timeout,
-            pulse: self.plain.kicker_pulse as u16,
-            lockout: self.plain.kicker_lockout,
+            charge_request: map::KICKER_CHARGE.is_set(self.plain.of(&map::KICKER_CONTROL)),
+            arm_on_ball: map::KICKER_ARM_ON_BALL.is_set(self.plain.of(&map::KICKER_CONTROL)),
+            charge_timeout: self.plain.of(&map::KICKER_CHARGE_TIMEOUT),
+            pulse: self.plain.of(&map::KICKER_PULSE) as u16,
+            lockout: self.plain.of(&map::KICKER_LOCKOUT),
             ball: self.pins.ball,
             full: self.pins.kicker_full,
-            by_time: map::KICKER_BY_TIME.of(self.plain.kicker_control) == 1,
+            by_time: map::KICKER_BY_TIME.is_set(self.plain.of(&map::KICKER_CONTROL)),
             ..kicker::Inputs::default()
         }
     }
 
     fn advance_kicker(&mut self, clocks: u32) {
         let quiet = self.kicker_inputs();
-        for _ in 0..clocks / kicker::microsecond_clocks(self.plain.clocks_per_microsecond) {
+        for _ in 0..clocks / kicker::microsecond_clocks(self.plain.of(&map::CLOCKS_PER_MICROSECOND)) {
             let before = self.kicker;
             self.kicker.clock(&kicker::Inputs { microsecond: true, ..quiet });
             self.kicker.clock(&quiet);

@@ -209,6 +209,24 @@ impl Register {
         self.offset + 4 * index as u16
     }
 
+    /// Bits that a write keeps and a read gives back, of a register that is memory and nothing else; 0 of any other.
+    #[must_use]
+    pub const fn kept(&self) -> u32 {
+        let memory = matches!(self.access, Access::ReadWrite | Access::LockedWhileArmed);
+        match self.kind {
+            Kind::Unsigned(bits) if memory && self.live == 0 => u32::MAX >> (32 - bits),
+            Kind::Fields(fields) if memory && self.live == 0 => {
+                let (mut kept, mut i) = (0, 0);
+                while i < fields.len() {
+                    kept |= fields[i].place(u32::MAX);
+                    i += 1;
+                }
+                kept
+            }
+            _ => 0,
+        }
+    }
+
     /// Word address, as the local bus counts.
     #[must_use]
     pub const fn word_address(&self) -> u16 {
