@@ -413,15 +413,7 @@ impl Card {
         let threshold = self.plain.of(&map::STALL_COMPARE) as u16;
         let quiet = stall::Inputs { enable, threshold, ..stall::Inputs::default() };
         for (axis, detector) in self.stalls.iter_mut().enumerate() {
-            let moved = outputs.moved[axis];
-            for _ in 0..moved.unsigned_abs() {
-                let before = *detector;
-                detector.clock(&stall::Inputs { step: true, up: moved > 0, ..quiet });
-                // The net count is at its end: more of the same change nothing.
-                if *detector == before {
-                    break;
-                }
-            }
+            detector.step(enable, outputs.moved[axis]);
             detector.clock(&stall::Inputs { window, ..quiet });
             detector.clock(&stall::Inputs { load: true, compare: outputs.modulation[axis].compare, ..quiet });
         }

@@ -67,6 +67,19 @@ impl Stall {
         self.outputs
     }
 
+    /// Clocks with one step each, so many up (or, negative, down) and no other strobe; equal to as many calls of
+    /// [`Self::clock`].
+    #[expect(clippy::cast_possible_truncation, reason = "the net count is clamped to a few counts")]
+    pub fn step(&mut self, enable: bool, counts: i32) {
+        if counts != 0 {
+            let end = i32::from(self.net).saturating_add(counts);
+            let most = i32::from(STALL_COUNTS - 1);
+            self.moved |= end.unsigned_abs() > most.unsigned_abs();
+            self.net = end.clamp(-most, most) as i8;
+            self.driven &= enable;
+        }
+    }
+
     /// The output after the last clock.
     #[must_use]
     pub fn outputs(&self) -> Outputs {
@@ -166,6 +179,22 @@ mod tests {
     }
 
     proptest! {
+        /// Steps at once are as many clocks, whatever came before.
+        #[test]
+        fn steps_at_once_equal_clocks(
+            net in -3..=3_i8, bits in 0..16_u8, counts in prop_oneof![-12..=12_i32, Just(i32::MIN), Just(i32::MAX)]
+        ) {
+            let bit = |n: u8| bits >> n & 1 == 1;
+            let (mut at_once, enable) = (Stall { net, moved: bit(0), driven: bit(1), outputs: Outputs { stalled: bit(2) } }, bit(3));
+            let mut clocked = at_once;
+            at_once.step(enable, counts);
+            // Twelve clocks are more than from one end of the net count to the other: the rest change nothing.
+            for _ in 0..counts.unsigned_abs().min(12) {
+                clocked.clock(&Inputs { step: true, up: counts > 0, enable, ..Inputs::default() });
+            }
+            prop_assert_eq!(at_once, clocked);
+        }
+
         /// Against plain counting: moved is |net| having reached four.
         #[test]
         fn equals_plain_counting(steps in prop::collection::vec(-1..=1_i32, 0..200)) {
