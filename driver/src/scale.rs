@@ -286,8 +286,13 @@ fn power_of_two(exponent: i32) -> f64 {
 
 /// The nearest word; no number is zero, which stands still.
 fn nearest(value: f64) -> i32 {
+    // A number this large has no place for a fraction, so the sum is rounded, ties to even; `round_ties_even` is a
+    // function call.
+    const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
     let limit = f64::from(1 << (WORD_BITS - 1));
-    if value.is_nan() { 0 } else { value.round_ties_even().clamp(-limit, limit - 1.0) as i32 }
+    let nearest = (value.clamp(-limit, limit - 1.0) + WHOLE) - WHOLE;
+    // No number becomes zero here.
+    nearest as i32
 }
 
 fn fit(what: &'static str, wheel: usize, format: Format, value: f64) -> Result<i32, ScaleError> {

@@ -7,13 +7,13 @@
 
 use crate::error::FpgaError;
 use crate::fpga::{Fpga, Kind};
+use crate::imu::VirtualImu;
 use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::registers::{
     self as map, SNAPSHOT_FAULTS, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_STATUS, SNAPSHOT_TIME,
     SNAPSHOT_WORDS, STATUS_ARMED, TICK_PERIOD,
 };
-use model::imu::Motion;
 use std::fmt;
 
 const STATUS_WORD: usize = (SNAPSHOT_STATUS.offset - SNAPSHOT_SEQUENCE.offset) as usize / 4;
@@ -80,8 +80,8 @@ impl<F: Fpga> Registers for Traced<F> {
 }
 
 impl<F: Fpga> Fpga for Traced<F> {
-    fn feel(&mut self, motion: &Motion, clock_hz: f64) {
-        self.inner.feel(motion, clock_hz);
+    fn imu(&mut self) -> Option<&mut VirtualImu> {
+        self.inner.imu()
     }
     fn kind(&self) -> Kind {
         self.inner.kind()

@@ -15,7 +15,7 @@ use model::trajectory::SetPoint;
 use runs::frames::wrap_angle;
 use runs::robot::{ImuMount, Layout, Robot, SensorName};
 use simulator::closed_loop::{Drive, Driven, LoopError, VirtualRobot};
-use simulator::fpga::BitTrue;
+use simulator::fpga::{BitTrue, Fpga};
 use simulator::imu::{ImuFault, VirtualImu};
 use std::time::Duration;
 

@@ -143,8 +143,9 @@ impl<F: Fpga> Inside<F> {
         for (position, now) in positions.iter_mut().zip(self.plant.encoder_after()) {
             *position = *now;
         }
-        let motion = self.chassis.motion(&self.plant, self.period_s);
-        self.fpga.feel(&motion, NOMINAL_CLOCK_HZ.into());
+        if let Some(sensor) = self.fpga.imu() {
+            sensor.feel(&self.chassis.motion(&self.plant, self.period_s), NOMINAL_CLOCK_HZ.into());
+        }
         self.fpga.advance(&positions)?;
         let duty = self.fpga.duties()?;
         self.plant.step(&duty, self.supply_v, self.period_s);

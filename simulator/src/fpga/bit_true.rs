@@ -7,8 +7,6 @@ use driver::{BusError, Registers};
 use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::control::TickOutputs;
-use fixed_kin::registers::PWM_PERIOD;
-use model::imu::Motion;
 
 /// `fixed_kin::card::Card` with encoders.
 #[derive(Clone, Debug)]
@@ -47,11 +45,6 @@ impl BitTrue {
     pub fn with_imu(mut self, sensor: VirtualImu) -> Self {
         self.imu = Some(sensor);
         self
-    }
-
-    /// The sensor on its pins.
-    pub fn imu(&mut self) -> Option<&mut VirtualImu> {
-        self.imu.as_mut()
     }
 
     /// The same with encoders that stand still for some clocks after each tick, as before pin-level
@@ -103,10 +96,8 @@ impl Fpga for BitTrue {
         Ok(())
     }
 
-    fn feel(&mut self, motion: &Motion, clock_hz: f64) {
-        if let Some(sensor) = &mut self.imu {
-            sensor.feel(motion, clock_hz);
-        }
+    fn imu(&mut self) -> Option<&mut VirtualImu> {
+        self.imu.as_mut()
     }
 
     fn quiet_clocks(&self) -> u32 {
@@ -117,7 +108,7 @@ impl Fpga for BitTrue {
         if !self.card.armed() {
             return Ok([0.0; AXES]);
         }
-        let period = self.card.read(PWM_PERIOD.offset) as u16;
+        let period = self.card.pwm_period();
         Ok(self.outputs.modulation.map(|modulation| super::share(modulation, period)))
     }
 }

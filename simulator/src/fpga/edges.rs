@@ -8,7 +8,7 @@ use fixed_kin::encoder::edge_delay;
 use fixed_kin::speed::{EncoderSample, TIME_BITS};
 
 /// A change of the lines by one count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
     /// Rising clock edges between the tick and the first that samples the new level.
     pub clock: u32,
@@ -91,8 +91,9 @@ pub struct Counter {
     /// Position at the last tick.
     pub position: f64,
     sample: EncoderSample,
-    /// Edges of the last period that were still in the filter at its tick.
-    late: [Option<(u32, Edge)>; 4],
+    /// Edges of the last period that were still in the filter at its tick, and how many.
+    late: [(u32, Edge); 4],
+    waiting: usize,
 }
 
 impl Counter {
@@ -102,23 +103,25 @@ impl Counter {
         let motion = Motion::new(self.position, to, period, quiet);
         self.position = to;
         let before = now.wrapping_sub(period);
-        for (time, edge) in self.late.into_iter().flatten() {
+        if let Some(&(time, edge)) = self.late[..self.waiting].last() {
             self.count(time, edge);
         }
-        self.late = [None; 4];
         // The edge sampled at clock m after the tick is counted at m + delay, in time for the next
         // tick if that is before it.
         let mut counted = motion.len();
-        while counted > 0 && motion.edge(counted - 1).clock + 1 + delay >= period {
+        while counted > 0 {
+            let last = motion.edge(counted - 1);
+            if last.clock + 1 + delay < period {
+                self.count(before.wrapping_add(1 + last.clock + delay), last);
+                break;
+            }
             counted -= 1;
         }
-        if counted > 0 {
-            let last = motion.edge(counted - 1);
-            self.count(before.wrapping_add(1 + last.clock + delay), last);
-        }
+        self.waiting = 0;
         for (slot, index) in self.late.iter_mut().zip(counted..motion.len()) {
             let edge = motion.edge(index);
-            *slot = Some((before.wrapping_add(1 + edge.clock + delay), edge));
+            *slot = (before.wrapping_add(1 + edge.clock + delay), edge);
+            self.waiting += 1;
         }
         self.sample
     }

@@ -1,8 +1,8 @@
 //! A boxed or borrowed FPGA is an FPGA.
 
 use super::{Fpga, FpgaError, Kind};
+use crate::imu::VirtualImu;
 use fixed_kin::AXES;
-use model::imu::Motion;
 
 macro_rules! forward {
     ($($fpga:ty),*) => {$(
@@ -13,8 +13,8 @@ macro_rules! forward {
             fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError> {
                 (**self).advance(positions)
             }
-            fn feel(&mut self, motion: &Motion, clock_hz: f64) {
-                (**self).feel(motion, clock_hz);
+            fn imu(&mut self) -> Option<&mut VirtualImu> {
+                (**self).imu()
             }
             fn quiet_clocks(&self) -> u32 {
                 (**self).quiet_clocks()

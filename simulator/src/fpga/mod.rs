@@ -26,6 +26,7 @@ pub use pin_level::QUIET_CLOCKS;
 pub use rust_hdl::RustHdl;
 pub use verilog::Verilog;
 
+use crate::imu::VirtualImu;
 use driver::Registers;
 use fixed_kin::AXES;
 use fixed_kin::format::Duty;
@@ -33,7 +34,6 @@ use fixed_kin::modulation::{Modulation, modulate};
 use fixed_kin::registers::{
     PWM_PERIOD, Register, SNAPSHOT_DUTY, SNAPSHOT_SEQUENCE, SNAPSHOT_STATUS, SNAPSHOT_WORDS, STATUS_ARMED,
 };
-use model::imu::Motion;
 use std::fmt;
 use std::str::FromStr;
 
@@ -49,8 +49,10 @@ pub trait Fpga: Registers {
     /// [`FpgaError`] where the simulation fails or an encoder moves too fast.
     fn advance(&mut self, positions: &[f64; AXES]) -> Result<(), FpgaError>;
 
-    /// How the chassis moves in the coming period, for an inertial sensor on the pins, if there is one.
-    fn feel(&mut self, _motion: &Motion, _clock_hz: f64) {}
+    /// The inertial sensor on the pins, if there is one.
+    fn imu(&mut self) -> Option<&mut VirtualImu> {
+        None
+    }
 
     /// Clocks at the start of a period in which encoders stand still.
     fn quiet_clocks(&self) -> u32;

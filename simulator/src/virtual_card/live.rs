@@ -92,7 +92,9 @@ impl Live for BitTrueLive {
             if let Some(sensor) = machine.take_imu() {
                 self.fpga = std::mem::take(&mut self.fpga).with_imu(sensor);
             }
-            self.fpga.feel(&machine.motion(), clock_hz);
+            if let Some(sensor) = self.fpga.imu() {
+                sensor.feel(&machine.motion(), clock_hz);
+            }
             if let Err(error) = self.fpga.advance(&machine.positions()) {
                 self.failed = Some(error.to_string());
                 return Err(error);
