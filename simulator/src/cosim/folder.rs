@@ -6,7 +6,6 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// The folder for build results: `RACBOT_COSIM_DIR`, else Cargo's scratch folder for tests, else
 /// `tmp` beside the running program's target folder, else the system's.
@@ -36,9 +35,12 @@ pub fn cached(
     if done.join("done").is_file() {
         return Ok(done);
     }
-    // Tests run in parallel and share designs: the second must find what the first has built.
-    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-    let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    // Tests share designs, in threads and in processes: the second waits for what the first builds. The system frees the lock
+    // of a process that dies; where a file system has no locks, both build, and one folder serves both.
+    std::fs::create_dir_all(&root).map_err(CosimError::file("create", &root))?;
+    let lock = root.join(format!("{name}-{:016x}.lock", hash.finish()));
+    let turn = std::fs::File::create(&lock).map_err(CosimError::file("create", &lock))?;
+    let _ = turn.lock();
     if done.join("done").is_file() {
         return Ok(done);
     }
@@ -118,4 +120,34 @@ pub fn must(tool: &str, arguments: &[&str], folder: &Path, what: &str) -> Result
 pub fn both(output: &Output) -> String {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     text(&output.stdout) + &text(&output.stderr)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn the_same_content_is_built_once_and_others_side_by_side() {
+        let mark = format!("{}", std::process::id());
+        let built = AtomicU32::new(0);
+        let together = std::sync::Barrier::new(2);
+        let build = &|content: &str| {
+            let of = |_: &Path| {
+                built.fetch_add(1, Ordering::Relaxed);
+                together.wait(); // two different contents are inside at once, or this never ends
+                std::thread::sleep(Duration::from_millis(50));
+                Ok(())
+            };
+            cached("folder-test", &[&mark, content], of).unwrap()
+        };
+        let folders: Vec<PathBuf> = std::thread::scope(|threads| {
+            let running: Vec<_> =
+                ["a", "b", "a", "b", "a"].map(|c| threads.spawn(move || build(c))).into_iter().collect();
+            running.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        assert_eq!(built.into_inner(), 2);
+        assert!(folders[0] == folders[2] && folders[0] != folders[1]);
+        folders.iter().for_each(|folder| drop(std::fs::remove_dir_all(folder)));
+    }
 }

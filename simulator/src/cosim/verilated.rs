@@ -100,10 +100,38 @@ impl Verilated {
 }
 
 fn compile(folder: &Path, name: &str) -> Result<(), CosimError> {
-    let mut arguments = VERILATOR.to_vec();
+    let objects = folder.join("obj");
+    std::fs::create_dir_all(&objects).map_err(CosimError::file("create", &objects))?;
+    let library = library()?;
+    for object in LIBRARY {
+        let to = objects.join(object);
+        std::fs::copy(library.join("obj").join(object), &to).map_err(CosimError::file("copy an object to", &to))?;
+    }
+    make(folder, name, &LIBRARY)
+}
+
+/// The objects of Verilator's own library, the same for every model: half of what a small one takes to compile.
+const LIBRARY: [&str; 2] = ["verilated.o", "verilated_threads.o"];
+
+/// A folder with [`LIBRARY`], compiled once for a version of Verilator: that of an empty model.
+fn library() -> Result<PathBuf, CosimError> {
+    let version = folder::must("verilator", &["--version"], Path::new("."), "its version")?;
+    let content = [&*String::from_utf8_lossy(&version.stdout), &VERILATOR.join(" ")];
+    folder::cached("verilator-library", &content, |folder| {
+        folder::write(&folder.join("design.v"), "")?;
+        folder::write(&folder.join("wrapper.v"), "module cosim_harness (input wire c0); endmodule\n")?;
+        folder::write(&folder.join("harness.cpp"), "int main() { return 0; }\n")?;
+        make(folder, "Verilator's library", &[])
+    })
+}
+
+/// Compiles what is in `folder`, but for the objects that are `ready` there.
+fn make(folder: &Path, name: &str, ready: &[&str]) -> Result<(), CosimError> {
     // The library part of Verilator runs once a process: not worth the compiler's time.
-    arguments.extend(["obj", "-MAKEFLAGS", "OPT_FAST=-O2 OPT_SLOW=-O0 OPT_GLOBAL=-O1"]);
-    arguments.extend(["-CFLAGS", "-I..", "wrapper.v", "design.v", "harness.cpp"]);
+    let mut flags = "OPT_FAST=-O2 OPT_SLOW=-O0 OPT_GLOBAL=-O1".to_owned();
+    flags.extend(ready.iter().map(|object| format!(" -o {object}")));
+    let mut arguments = VERILATOR.to_vec();
+    arguments.extend(["obj", "-MAKEFLAGS", &flags, "-CFLAGS", "-I..", "wrapper.v", "design.v", "harness.cpp"]);
     folder::must("verilator", &arguments, folder, name)?;
     Ok(())
 }
