@@ -102,7 +102,7 @@ pub enum Transfer {
 /// Notes every transfer of the bus inside.
 #[derive(Debug)]
 pub struct Recorder<R> {
-    /// The bus.
+    /// Carries out what is recorded.
     pub inner: R,
     /// What went over it since this was last emptied.
     pub transfers: Vec<Transfer>,

@@ -61,7 +61,7 @@ pub enum ScaleError {
     /// A parameter that its format cannot hold.
     #[error("{what} of wheel {wheel} does not fit the card: {source}")]
     OutOfRange {
-        /// Parameter.
+        /// Name of the parameter.
         what: &'static str,
         /// Wheel, from 1.
         wheel: usize,

@@ -84,7 +84,7 @@ pub enum State {
 /// Pins, strobes and registers the kicker sees at one clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inputs {
-    /// Armed.
+    /// The outputs are armed; else nothing fires.
     pub enable: bool,
     /// Strobe, once a microsecond.
     pub microsecond: bool,

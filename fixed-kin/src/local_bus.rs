@@ -93,7 +93,7 @@ enum Phase {
     Answer,
 }
 
-/// The state.
+/// Where it is between two clocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocalBus {
     phase: Phase,

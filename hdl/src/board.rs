@@ -132,7 +132,7 @@ pub struct Assignment {
     pub bit: Option<u8>,
     /// Where it goes.
     pub place: Place,
-    /// How.
+    /// Kind of its buffer.
     pub buffer: Buffer,
 }
 
@@ -155,7 +155,7 @@ pub enum BoardError {
     PinTwice {
         /// One of them.
         first: String,
-        /// The other.
+        /// Port that has the pin too.
         second: String,
         /// Number of the FPGA's pin that both want.
         pin: u8,

@@ -82,7 +82,7 @@ impl<const N: usize> Block for Setting<N> {
 pub struct Preset<const N: usize, const V: u64> {
     /// Next value.
     pub d: Signal<In, Bits<N>>,
-    /// Value.
+    /// What was stored at the last rising edge.
     pub q: Signal<Out, Bits<N>>,
     /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,

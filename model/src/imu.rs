@@ -44,7 +44,7 @@ pub struct Triad {
 /// A type of sensor, mounted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuModel {
-    /// Gyroscope.
+    /// Errors of the three rates of turn.
     pub gyro: Triad,
     /// Specific force on three axes, m/s².
     pub accelerometer: Triad,

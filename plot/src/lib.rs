@@ -198,7 +198,7 @@ impl Series {
         Self::new(label, points, Mark::Steps)
     }
 
-    /// Dots.
+    /// A dot for each pair, not joined.
     pub fn points(label: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
         Self::new(label, points, Mark::Points)
     }

@@ -14,7 +14,7 @@ use std::path::Path;
 #[cfg(feature = "simulation")]
 const VIRTUAL: &str = "virtual";
 
-/// The card.
+/// Options that choose the card and its clock.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct CardOptions {
     /// PCI slot of the card, as lspci names it; without it the only Mesa 4I65 there is

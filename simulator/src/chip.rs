@@ -5,7 +5,7 @@ use crate::error::FpgaError;
 
 /// A simulated chip whose pins have columns in a [`Layout`].
 pub trait Chip: Send {
-    /// The columns.
+    /// Columns of its stimulus and of its response.
     fn layout(&self) -> &Layout;
 
     /// Rising edges of the local bus clock since configuration.

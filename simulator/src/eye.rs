@@ -49,7 +49,7 @@ impl Fault {
 pub struct Shot {
     /// When, s.
     pub t: f64,
-    /// The frame.
+    /// What the camera saw then.
     pub picture: Picture,
     /// What was found, or why the frame could not be used.
     pub glance: Result<Glance, Unusable>,

@@ -35,7 +35,7 @@ pub enum BlindError {
     /// The file of scores cannot be read or written.
     #[error("{path}: {why}")]
     Scores {
-        /// The file.
+        /// File that holds the scores, or was to.
         path: std::path::PathBuf,
         /// What is wrong with it, and where.
         why: String,

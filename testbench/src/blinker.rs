@@ -11,7 +11,7 @@ use simulator::gateware::constraints;
 /// What it answers on the bus: `BLNK`.
 pub const WORD: u32 = 0x424C_4E4B;
 
-/// The file.
+/// Its bitstream, by this flow.
 ///
 /// # Panics
 /// Without yosys.

@@ -26,7 +26,7 @@ pub struct Proof {
     pub name: &'static str,
     /// In words, for the table.
     pub claim: &'static str,
-    /// The module.
+    /// Module it is claimed of.
     pub module: &'static str,
     /// Assertions, assumptions and what they need, in the scope of the module.
     pub checker: &'static str,
@@ -80,7 +80,7 @@ pub enum FormalError {
     NoModule {
         /// As in the table of claims.
         proof: &'static str,
-        /// The module.
+        /// Module it was claimed of.
         module: &'static str,
     },
     /// An edit that does not find its place.
@@ -88,7 +88,7 @@ pub enum FormalError {
     NoPlace {
         /// As in the table of claims.
         proof: &'static str,
-        /// The module.
+        /// Module it was claimed of.
         module: &'static str,
         /// What was to be replaced in the Verilog.
         text: &'static str,

@@ -62,7 +62,7 @@ impl Region {
 /// A ball in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Where.
+    /// Box around it.
     pub region: Region,
     /// Odds that it is one, as a probability from 0 to 1.
     pub score: f64,
@@ -91,7 +91,7 @@ impl Ball {
 /// A candidate with what is known of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    /// Where.
+    /// Box around it.
     pub region: Region,
     /// What speaks for and against a ball.
     pub features: Features,

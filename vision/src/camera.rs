@@ -19,7 +19,7 @@ const UNDISTORTION_STEPS: usize = 8;
 pub struct Camera {
     /// Pixels a row.
     pub width: usize,
-    /// Rows.
+    /// Height of the picture, pixels.
     pub height: usize,
     /// Focal lengths in x and y, pixels; they differ where pixels are not square.
     pub focal: [f64; 2],

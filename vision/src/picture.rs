@@ -41,7 +41,7 @@ pub enum Unusable {
     Size {
         /// Pixels a row.
         width: usize,
-        /// Rows.
+        /// Height, pixels.
         height: usize,
     },
     /// Not the size that the camera was calibrated at.
@@ -49,7 +49,7 @@ pub enum Unusable {
     NotCalibrated {
         /// Pixels a row.
         width: usize,
-        /// Rows.
+        /// Height, pixels.
         height: usize,
         /// Pixels a row in the calibration.
         expected_width: usize,
@@ -99,7 +99,7 @@ impl Picture {
         self.width
     }
 
-    /// Rows.
+    /// Height, pixels.
     #[must_use]
     pub fn height(&self) -> usize {
         self.height

@@ -26,7 +26,7 @@ pub enum Controller {
     Follower(Box<Follower>),
     /// The paper's.
     Paper {
-        /// Steers.
+        /// Turns set points and poses into velocities of the body.
         motion: MotionController,
         /// Set points.
         points: Vec<SetPoint>,

@@ -34,7 +34,7 @@ pub struct Kick {
 /// A kick that did not happen.
 #[derive(Debug, thiserror::Error)]
 pub enum KickError {
-    /// The card.
+    /// A transfer to the card failed.
     #[error(transparent)]
     Board(#[from] BoardError),
     /// A pulse that cannot be.

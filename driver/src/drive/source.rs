@@ -32,7 +32,7 @@ impl<S: PoseSource + ?Sized> PoseSource for Box<S> {
     }
 }
 
-/// Nobody.
+/// A source without measurements: the robot drives by its wheels alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoSource;
 

@@ -5,7 +5,7 @@ use crate::BoardError;
 /// A sensor that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ImuError {
-    /// The card.
+    /// A transfer to the card failed.
     #[error(transparent)]
     Board(#[from] BoardError),
     /// The design has no reader.
@@ -58,7 +58,7 @@ pub enum ImuError {
          robot moves"
     )]
     Range {
-        /// Magnitude.
+        /// Length of the vector of acceleration at rest, m/s².
         measured: f64,
     },
     /// Gravity is not where `axes` says.

@@ -311,7 +311,7 @@ impl Imu {
         self.mount.heading
     }
 
-    /// The type.
+    /// Part number and register table that the sensor answered with.
     #[must_use]
     pub fn kind(&self) -> &'static Kind {
         self.kind

@@ -11,7 +11,7 @@ const READINGS: u32 = 8;
 /// A clock that cannot be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum ClockError {
-    /// The registers.
+    /// A register could not be read.
     #[error(transparent)]
     Bus(#[from] BusError),
     /// An access the system refused.

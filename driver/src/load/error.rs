@@ -85,7 +85,7 @@ pub enum LoadError {
     /// Failed, and the FPGA could not be cleared.
     #[error("{error}; and the FPGA could not be cleared ({still}): cut the motors' power")]
     Unsafe {
-        /// The failure.
+        /// What went wrong first, before the card could be brought to a safe state.
         error: Box<LoadError>,
         /// Why clearing failed.
         still: String,

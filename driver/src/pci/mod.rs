@@ -43,7 +43,7 @@ impl Bar {
         self as usize
     }
 
-    /// Bytes.
+    /// Length of the window, bytes.
     #[must_use]
     pub const fn size(self) -> u32 {
         match self {
@@ -72,7 +72,7 @@ impl fmt::Display for Bar {
 pub struct PciError {
     /// `read` or `write`.
     pub action: &'static str,
-    /// Window.
+    /// Window that was accessed.
     pub bar: Bar,
     /// Byte offset in it.
     pub offset: u32,

@@ -16,7 +16,7 @@ pub struct Ids {
     pub device: u16,
     /// Vendor of the card.
     pub subsystem_vendor: u16,
-    /// The card.
+    /// Which board of that vendor.
     pub subsystem_device: u16,
 }
 

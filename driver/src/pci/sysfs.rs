@@ -15,9 +15,9 @@ pub enum OpenError {
     /// A file of the card.
     #[error("{}: {cause}{}", .path.display(), hint(.cause))]
     File {
-        /// Which.
+        /// File of sysfs that was used.
         path: PathBuf,
-        /// Why.
+        /// What the system answered.
         cause: io::Error,
     },
     /// A kernel driver holds it.

@@ -25,7 +25,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(10);
 pub struct RecordingError {
     /// Where the recording goes.
     pub file: PathBuf,
-    /// Why.
+    /// What the system answered.
     pub cause: io::Error,
 }
 

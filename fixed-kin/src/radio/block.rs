@@ -39,7 +39,7 @@ pub struct Outputs {
     pub offer: bool,
     /// Its word address.
     pub address: u16,
-    /// The word.
+    /// What is written there.
     pub data: u32,
     /// The radio commands.
     pub selected: bool,

@@ -29,7 +29,7 @@ pub enum FrameError {
         /// Bytes there are.
         bytes: usize,
     },
-    /// Damaged.
+    /// The CRC does not fit the bytes before it.
     Checksum,
     /// No frame reaches this register.
     Register {

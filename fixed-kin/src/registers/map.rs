@@ -126,7 +126,7 @@ pub const CONTENT_HASH: Register = register(
     0,
     "hash of the emitted Verilog with this constant zeroed; the reset value is the one in `rac4i65.v`",
 );
-/// Axes.
+/// How many axes were built in.
 pub const AXIS_COUNT: Register =
     register("axis_count", 0x014, Access::ReadOnly, Kind::Unsigned(8), AXES as u32, "axes of the core");
 /// Free-running time.
@@ -154,7 +154,7 @@ pub const TICK_PERIOD: Register = register(
     "control period in clocks, at least 1000",
 )
 .zero("acts as 1000, like everything below");
-/// Modes.
+/// Modes of all axes; each bit has a name of its own.
 pub const MODE: Register = register(
     "mode",
     0x024,
@@ -641,7 +641,7 @@ pub const INDEX_POSITION: Register = array(
     Kind::Unsigned(32),
     "counts at the last captured index, in the frame before it was cleared, two's complement",
 );
-/// Integrators.
+/// State of the integral parts, one an axis.
 pub const INTEGRALS: Register =
     array("integrals", 0x790, AXES, Access::ReadOnly, DUTY, "integrators of the speed loops; not part of a snapshot");
 /// Snapshot: sequence number.

@@ -82,7 +82,7 @@ pub struct Field {
     pub name: &'static str,
     /// Lowest bit.
     pub bit: u32,
-    /// Bits.
+    /// How many bits it has.
     pub width: u32,
     /// What it says.
     pub text: &'static str,

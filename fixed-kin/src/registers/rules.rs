@@ -7,7 +7,7 @@ use crate::radio;
 pub struct Rule {
     /// Name, in `snake_case`.
     pub name: &'static str,
-    /// The rule.
+    /// What a writer must keep to, one sentence.
     pub text: &'static str,
 }
 

@@ -22,7 +22,7 @@ pub struct Crc<const N: usize, const TAPS: u64> {
     pub shift: Signal<In, Bit>,
     /// The next bit of the line.
     pub line: Signal<In, Bit>,
-    /// The register.
+    /// Remainder of the bits so far.
     pub state: Signal<Out, Bits<N>>,
 
     register: DFF<Bits<N>>,

@@ -37,7 +37,7 @@ use rust_hdl::prelude::*;
 pub struct Kicker {
     /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Armed.
+    /// The outputs are armed; else nothing fires.
     pub enable: Signal<In, Bit>,
     /// Strobe, once a microsecond.
     pub microsecond: Signal<In, Bit>,

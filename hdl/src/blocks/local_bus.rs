@@ -33,7 +33,7 @@ use rust_hdl::prelude::*;
 /// The block; its bit-true twin is [`fixed_kin::local_bus::LocalBus`].
 #[derive(LogicBlock)]
 pub struct LocalBus {
-    /// LCLK.
+    /// LCLK of the bridge, 33 MHz; all state changes at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Address strobe, active low.
     pub ads_n: Signal<In, Bit>,

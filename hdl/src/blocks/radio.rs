@@ -49,7 +49,7 @@ pub struct RadioAt<const HALF: u64, const WHOLE: u64> {
     pub offer: Signal<Out, Bit>,
     /// Its word address.
     pub address: Signal<Out, Bits<14>>,
-    /// The word.
+    /// What is written there.
     pub data: Signal<Out, Bits<32>>,
     /// The radio commands.
     pub selected: Signal<Out, Bit>,

@@ -66,7 +66,7 @@ pub struct Sequencer {
     pub bus_read_data: Signal<Out, Bits<32>>,
     /// The bus wants to write.
     pub bus_write: Signal<In, Bit>,
-    /// What.
+    /// What it wants to write.
     pub bus_write_data: Signal<In, Bits<32>>,
     /// A write of the bus would have to wait in this clock.
     pub bus_blocked: Signal<Out, Bit>,

@@ -17,7 +17,7 @@ use rust_hdl::prelude::*;
 pub struct SerialReceiver<const HALF: u64, const WHOLE: u64> {
     /// All state changes at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// The line.
+    /// Received bits, from a pin: asynchronous, high at rest.
     pub rx: Signal<In, Bit>,
     /// A new byte may begin.
     pub enable: Signal<In, Bit>,

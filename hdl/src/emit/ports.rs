@@ -29,7 +29,7 @@ pub struct Port {
 /// All ports of a module, in the order of its header.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ports {
-    /// The ports.
+    /// In the order of the module's header.
     pub list: Vec<Port>,
     /// Names of those inputs that are clocks.
     pub clocks: Vec<String>,
@@ -49,7 +49,7 @@ pub enum PortError {
     /// A port that the harness cannot carry.
     #[error("port `{port}` of module `{module}`: {reason}")]
     Unsupported {
-        /// The module.
+        /// Module whose header was read.
         module: String,
         /// Name in the Verilog.
         port: String,

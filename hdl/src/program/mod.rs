@@ -27,7 +27,7 @@ pub const PROGRAM_WORDS: usize = 512;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Op {
-    /// Nothing.
+    /// A step that changes nothing.
     Nop,
     /// acc = m.
     Load,
@@ -55,7 +55,7 @@ pub enum Op {
     Input,
     /// output port = acc.
     Output,
-    /// Branch.
+    /// Branch in any case.
     Jump,
     /// Branch where acc = 0.
     JumpZero,

@@ -27,7 +27,7 @@ use runs::robot::{Effect, Robot};
 pub struct Applied {
     /// The true robot, without `[[effect]]` tables.
     pub robot: Robot,
-    /// The floor.
+    /// Wheels on the floor: friction and creep.
     pub contact: Contact,
     /// What `robot` cannot say about the true one.
     pub deviations: Deviations,
@@ -35,7 +35,7 @@ pub struct Applied {
     pub camera: CameraModel,
     /// What the inertial sensor is like, where the robot has one.
     pub imu: ImuDeviations,
-    /// The controller.
+    /// Where the controller's numbers differ from those of `robot`.
     pub control: ControlDeviations,
     /// Standard deviation of a camera stamp about its capture time, s.
     pub stamp_jitter_s: f64,

@@ -74,7 +74,7 @@ pub enum FitError {
 pub struct Fit {
     /// Names of the parameters.
     pub names: Vec<String>,
-    /// Estimates.
+    /// One for each name, in its unit.
     pub parameters: Vec<f64>,
     /// Covariance of the estimates: robust against anything that is correlated within a window
     /// (cluster-robust by window), and nowhere below what the camera noise alone explains.

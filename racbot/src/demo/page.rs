@@ -3,7 +3,7 @@
 use super::Report;
 use plot::page::{Page, Table};
 
-/// The page.
+/// The report as one file of HTML, with the pictures inside.
 pub(super) fn html(report: &Report) -> String {
     let mut page = Page::new("racbot demo");
     page.links([

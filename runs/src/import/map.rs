@@ -55,7 +55,7 @@ struct Derive {
 /// A run, and how its poses came from a second file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
-    /// The run.
+    /// What could be read, in the project's units and frames.
     pub run: Run,
     /// What was joined to it.
     pub joined: Option<Joined>,

@@ -25,7 +25,7 @@ impl Effect {
 /// One fitted number.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EffectParameter {
-    /// Estimate.
+    /// As it was fitted, in the unit of the effect's description.
     pub value: f64,
     /// 95 % confidence interval, low and high.
     pub ci95: Option<[f64; 2]>,

@@ -6,7 +6,7 @@ use super::Robot;
 pub(super) struct Field {
     /// Table it stands in: empty for the top, else `motor` or `pi`.
     pub(super) table: &'static str,
-    /// Key.
+    /// Key within that table.
     pub(super) name: &'static str,
     /// What it means, for error messages and as a comment where the key does not carry its unit.
     pub(super) meaning: &'static str,

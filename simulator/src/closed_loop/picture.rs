@@ -12,9 +12,9 @@ const POINTS: usize = 700;
 /// One curve of a [`trajectory`] picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a> {
-    /// Legend.
+    /// Name in the legend.
     pub label: &'a str,
-    /// The drive.
+    /// Where the robot went.
     pub driven: &'a Driven,
     /// Its colour.
     pub color: Color,

@@ -9,7 +9,7 @@ pub enum CosimError {
     /// A program that is not installed.
     #[error("`{tool}` is not installed or not on PATH; on Debian: apt-get install {package}")]
     MissingTool {
-        /// The program.
+        /// Program that was called.
         tool: String,
         /// The Debian package that has it.
         package: &'static str,
@@ -19,13 +19,13 @@ pub enum CosimError {
         "`{tool}` is not on PATH; ./test.sh installs it from PyPI into target/python, then: PATH=target/python/bin:$PATH"
     )]
     MissingPythonTool {
-        /// The program.
+        /// Program that was called.
         tool: String,
     },
     /// A program that ran and failed.
     #[error("{tool} failed on {what} (files kept in {}):\n{output}", folder.display())]
     Tool {
-        /// The program.
+        /// Program that was called.
         tool: String,
         /// What it was given.
         what: String,
@@ -39,7 +39,7 @@ pub enum CosimError {
     File {
         /// What was tried.
         action: &'static str,
-        /// Where.
+        /// File or folder.
         path: PathBuf,
         /// Why not.
         source: std::io::Error,
@@ -66,13 +66,13 @@ pub enum CosimError {
         words: usize,
         /// Words in a row.
         columns: usize,
-        /// The columns.
+        /// Names of the inputs, in their order.
         names: String,
     },
     /// The simulation stopped answering.
     #[error("the simulation of {name} ended early ({source}); it printed: {output}")]
     Ended {
-        /// The design.
+        /// Design that the program runs.
         name: String,
         /// What reading or writing said.
         source: std::io::Error,
@@ -82,9 +82,9 @@ pub enum CosimError {
     /// An output that is neither 0 nor 1.
     #[error("{name}: output `{port}` is `{value}` at step {step}: a signal was never given a value")]
     Unknown {
-        /// The design.
+        /// Design with the undefined value.
         name: String,
-        /// The output.
+        /// Output that carries it.
         port: String,
         /// The digits as printed.
         value: String,
@@ -100,13 +100,13 @@ pub enum CosimError {
         operation: String,
         /// What happened.
         reason: &'static str,
-        /// When.
+        /// Clock at which it happened, from 0.
         clock: u64,
     },
     /// A Verilog text that does not pass the gate.
     #[error("{name}: {} finding(s) that may hide a wrong circuit:\n{}", findings.len(), findings.join("\n"))]
     Lint {
-        /// The design.
+        /// Design that was checked.
         name: String,
         /// The findings, one a line.
         findings: Vec<String>,

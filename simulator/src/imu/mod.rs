@@ -94,7 +94,7 @@ impl ImuFault {
     ];
 }
 
-/// The sensor.
+/// A six-axis sensor behind SPI, bit for bit, with the errors of a real one.
 #[derive(Clone, Debug)]
 pub struct VirtualImu {
     part: Imu,

@@ -5,7 +5,7 @@ use super::VirtualImu;
 /// A sensor behind its four lines.
 #[derive(Clone, Debug)]
 pub struct SpiPins {
-    /// The sensor.
+    /// What answers the bus.
     pub sensor: VirtualImu,
     sclk: bool,
     selected: bool,

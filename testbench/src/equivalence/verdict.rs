@@ -5,7 +5,7 @@
 pub struct Starts {
     /// The netlist's are the same.
     pub equal: usize,
-    /// Another.
+    /// The netlist's differ.
     pub different: usize,
     /// The text leaves it open: that none of these reaches a pin undefined, simulation with four states shows.
     pub open: usize,

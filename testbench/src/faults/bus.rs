@@ -15,7 +15,7 @@ pub enum Trouble {
     Delay,
 }
 
-/// When.
+/// What happens to which transfers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BusFault {
     /// At the read of this number, from 0.

@@ -27,7 +27,7 @@ impl Initramfs {
         self
     }
 
-    /// The archive.
+    /// Ends the archive and gives its bytes.
     #[must_use]
     pub fn finish(mut self) -> Vec<u8> {
         self.entry("TRAILER!!!", 0, &[]);

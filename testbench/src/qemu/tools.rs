@@ -15,7 +15,7 @@ pub struct MissingTool {
 #[derive(Clone, Debug)]
 pub struct Tools {
     root: PathBuf,
-    /// Linux.
+    /// Linux image that QEMU starts.
     pub kernel: PathBuf,
     /// A static shell for the guest.
     pub busybox: PathBuf,

@@ -189,7 +189,7 @@ pub struct Case {
     pub robot: Robot,
     /// What is true.
     pub machine: Machine,
-    /// The runs.
+    /// One log each.
     pub drives: Vec<Drive>,
     /// Columns in the log.
     pub columns: Columns,

@@ -20,7 +20,7 @@ pub enum Error {
     Diverged {
         /// Seed of the case.
         seed: u64,
-        /// The run.
+        /// Log that was to be written.
         file: String,
         /// First tick without a state.
         tick: usize,

@@ -20,7 +20,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Everything.
+    /// All columns there are.
     pub const ALL: Self = Self { commands: true, duty: true, camera: true, supply: true, inertial: true };
 }
 

@@ -188,7 +188,7 @@ pub struct Machine {
     pub centre_height_m: f64,
     /// Every wheel.
     pub wheels: Vec<Wheel>,
-    /// The floor.
+    /// Friction and tilt of the floor.
     pub ground: Ground,
     /// Motors and battery.
     pub power: Power,

@@ -28,7 +28,7 @@ pub use outside::outside;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Link {
-    /// Stamps.
+    /// Time stamps of the log.
     Timing,
     /// Command to set point.
     Command,
