@@ -1,7 +1,7 @@
 //! The netlist of the real family: what yosys makes of a design for the Spartan-II, as a design again.
 //!
 //! ```text
-//! Verilog ──► yosys synth_xilinx -family xcv ──► cells (LUT4, MUXCY, FDRE, RAMB4…) ──┬─► simulation
+//! Verilog ──► yosys by the flow's script ────► cells (LUT4, MUXCY, FDRE, RAMB4…) ──┬─► simulation
 //!                       models: yosys' own cells_sim.v, and cells/ramb4.v of ours ───┘
 //!                                                                                  └─► longest paths
 //! ```
@@ -13,6 +13,7 @@ mod paths;
 
 pub use paths::{Path, Paths};
 
+use bitstream::flow::synthesis;
 use simulator::cosim::{CosimError, folder};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -33,14 +34,14 @@ pub struct Netlist {
 }
 
 impl Netlist {
-    /// Synthesises `top`, once per content.
+    /// Synthesises `top` as the flow does, once per content.
     ///
     /// # Errors
     /// A missing yosys, or a design that it does not take.
     pub fn of(verilog: &str, top: &str) -> Result<Self, CosimError> {
         let script = format!(
-            "read_verilog design.v; synth_xilinx -family xcv -top {top} -flatten; write_verilog -noattr netlist.v; \
-             write_json netlist.json"
+            "read_verilog design.v; {}; write_verilog -noattr netlist.v; write_json netlist.json",
+            synthesis::commands(top)
         );
         let folder = folder::cached(&format!("netlist-{top}"), &[verilog, &script], |folder| {
             folder::write(&folder.join("design.v"), verilog)?;

@@ -4,11 +4,17 @@ use super::{FlowError, Progress, Stage};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What yosys is told. Cells are mapped with carry chains, wide multiplexers, block memories, buffers of pads
-/// and of clocks.
+/// What yosys does between reading a design and writing its netlist. Cells are mapped with carry chains, wide
+/// multiplexers, block memories, buffers of pads and of clocks.
+#[must_use]
+pub fn commands(top: &str) -> String {
+    format!("synth_xilinx -family xcv -top {top} -flatten")
+}
+
+/// The whole script, from `design.v` to `netlist.json`.
 #[must_use]
 pub fn script(top: &str) -> String {
-    format!("read_verilog design.v; synth_xilinx -family xcv -top {top} -flatten; write_json netlist.json")
+    format!("read_verilog design.v; {}; write_json netlist.json", commands(top))
 }
 
 /// Synthesises a design in a folder of its own; the netlist as JSON.
