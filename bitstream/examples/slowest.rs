@@ -32,13 +32,23 @@ fn main() {
     println!("{} slices", packed.slices().count());
     let wires = if arguments.len() > 4 {
         let design = Design { logic: &logic, packed: &packed, nets: &nets, graph: &graph, constraints: &constraints };
-        let mut tell = |_: bitstream::flow::Stage, _: u32, text: &str| eprintln!("{text}");
-        let mut progress = Progress::new(&mut tell);
+        let mut line = |_: bitstream::flow::Stage, _: u32, text: &str| eprintln!("{text}");
+        let mut progress = Progress::new(&mut line);
         let device = Device::xc2s200();
         let placement = Placement::of(device, &design, number(3).into(), &mut progress).expect("a placement");
         let estimate = Report::of(&graph, &placement.estimate(&nets, &Reach::of(device)));
-        println!("estimated after placement: {} ps", estimate.domains[0].worst[0].delay);
-        Routing::of(device, &design, &placement, &mut progress).expect("a routing").delays
+        // Pads are due by an offset, so that the least slack is seldom of the slowest path between registers.
+        let tell = |when: &str, report: &Report| {
+            for domain in &report.domains {
+                let inside = domain.inside.as_ref().map_or(0, |path| path.delay);
+                let slack = domain.worst.first().map_or(0, TimedPath::slack);
+                println!("{when}, {}: {inside} ps between registers, least slack {slack} ps", domain.port);
+            }
+        };
+        tell("placed", &estimate);
+        let routed = Routing::of(device, &design, &placement, &mut progress).expect("a routing").delays;
+        tell("routed", &Report::of(&graph, &routed));
+        routed
     } else {
         vec![number(3); graph.connections()]
     };
