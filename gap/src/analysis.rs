@@ -13,6 +13,7 @@ mod patterns;
 mod question;
 mod robot_file;
 mod study;
+mod truth;
 mod workflow;
 mod writing;
 
@@ -52,13 +53,14 @@ pub fn analyse_logs(set: &Logs, options: &Options) -> Result<Analysis, GapError>
 }
 
 fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
-    let question = Question::new(set, options)?;
+    let mut question = Question::new(set, options)?;
     let mut remarks = set.notes();
     let exact = question.exact_links(&mut remarks);
     let (pieces, crossed) = question.cut();
     if pieces.whole.is_empty() {
         return Err(GapError::NothingToCompare);
     }
+    remarks.extend(question.judge_poses(pieces.searched(), crossed.as_ref().map(|(active, _)| active)));
     let whole = question.motion_link(&pieces.whole);
     let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched()));
     let mut workflow = Workflow::new(&question, &whole, sample.as_ref(), crossed, remarks);

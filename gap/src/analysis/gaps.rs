@@ -97,11 +97,16 @@ const MATTERS: [f64; 2] = [0.0095, 0.0038];
 
 /// Gap of the motion link that matters, in noise floors.
 pub(super) fn motion_matters(link: &MotionLink) -> f64 {
-    let (robot, [x, y, theta]) = (link.pieces.robot(), link.noise);
+    let ([x, y, theta], [way, turn]) = (link.noise, agreement(link));
+    let way = way / x.max(y);
+    2.0_f64.max(if link.axes() == 2 { way } else { way.min(turn / theta) })
+}
+
+/// Way, m, and turn, rad, of a window up to which wheels and poses part without that it matters.
+pub(super) fn agreement(link: &MotionLink) -> [f64; 2] {
+    let robot = link.pieces.robot();
     let rolled = link.pieces.speed() * robot.wheel_radius_m * link.window_s;
-    let turned = rolled / Sizes::of(robot).rim_m;
-    let way = MATTERS[0] * rolled / x.max(y);
-    2.0_f64.max(if link.axes() == 2 { way } else { way.min(MATTERS[1] * turned / theta) })
+    [MATTERS[0] * rolled, MATTERS[1] * rolled / Sizes::of(robot).rim_m]
 }
 
 /// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and on a floor what rolling loses.

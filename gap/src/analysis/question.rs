@@ -108,6 +108,20 @@ impl<'a> Question<'a> {
         MotionLink::new(pieces, self.noise, self.window_s).felt(&self.filed().motion(None))
     }
 
+    /// Takes for the noise of poses that were smoothed what they know at best, and says so.
+    pub(super) fn judge_poses(&mut self, pieces: &Pieces, crossed: Option<&Active>) -> Option<String> {
+        if self.robot.camera_noise.is_some() {
+            return None;
+        }
+        let link = MotionLink::new(pieces, self.noise, self.window_s);
+        let mut start = self.filed();
+        start.active.extend(crossed.cloned());
+        let noise = super::truth::smoothed(&link, &start, &self.catalogue)?;
+        let said = super::truth::said(self.noise, noise);
+        self.noise = noise;
+        Some(said)
+    }
+
     /// The robot as its file has it.
     fn filed(&self) -> State {
         State { robot: self.robot.clone(), active: given(&self.robot, &self.catalogue) }

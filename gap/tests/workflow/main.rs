@@ -10,6 +10,7 @@ mod pairs;
 mod partial;
 mod replayed;
 mod scale;
+mod smoothed;
 
 use common::{RICH, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};

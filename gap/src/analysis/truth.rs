@@ -1,0 +1,105 @@
+//! What a pose knows at best, where it was smoothed before it was logged.
+//!
+//! Poses from SLAM, a filter or a spline follow each other without any scatter, and so the scatter of neighbours says
+//! nothing of them: they err by millimetres or centimetres that last for seconds. That shows against the wheels alone,
+//! once everything about wheels, marker and clocks is fitted that can be.
+
+use std::sync::Arc;
+
+use estimation::statistics::median;
+
+use super::gaps::agreement;
+use crate::effect::{Effect, Link};
+use crate::motion::{MotionLink, WindowResiduals};
+use crate::problem::Problem;
+use crate::state::{Active, State};
+
+/// Floors that a window leaves beside every effect from which neighbouring poses do not tell their noise: the scatter
+/// of motion capture is exceeded 1.3 to 6 times by rollers and contacts (nine recordings of three machines), that of a
+/// pose by SLAM some 400 times.
+const BEYOND_WHEELS: f64 = 10.0;
+/// Residuals that the error of such a pose makes in a window, along one axis: a drift and a bend. Their median RMS is
+/// 0.83 of the standard deviation.
+const MEDIAN_OF_TWO: f64 = 0.832_6;
+
+/// Standard deviations of a pose (m, m, rad) whose neighbours scatter less than it errs, none above what matters: beyond
+/// that wheels and pose do not agree, whatever the pose is. `None` where neighbours tell its noise.
+pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<[f64; 3]> {
+    if link.is_empty() || all(&link.residuals(&start.motion(None)), link) <= BEYOND_WHEELS {
+        return None;
+    }
+    let problem = Problem::Motion(link);
+    let mut state = start.clone();
+    state.active.iter_mut().for_each(|a| a.given = true);
+    let free = everything(&problem, &state, catalogue);
+    // One linear step tells most recordings apart.
+    let linear = problem.linearise(&state, &free);
+    let columns: Vec<usize> = (0..linear.owners.len()).collect();
+    let step = linear.equations.solve(&columns);
+    let left = |c: &estimation::normal_equations::Cluster| (c.loss_after(&step) / c.n.max(1.0)).max(0.0).sqrt();
+    if median(&mut linear.equations.clusters.iter().map(left).collect::<Vec<f64>>()) <= BEYOND_WHEELS {
+        return None;
+    }
+    state.active.extend(free);
+    problem.fit(&mut state);
+    let left = link.residuals(&state.motion(None));
+    let [way, turn] = agreement(link);
+    let [x, y, theta] = link.noise;
+    let placed = typical(&left, &[(0, x), (1, y)]);
+    let pointed = typical(&left, &[(2, theta)]);
+    let headings = link.axes() == 3;
+    if placed <= BEYOND_WHEELS * x.max(y) && !(headings && pointed > BEYOND_WHEELS * theta) {
+        return None;
+    }
+    let known = |noise: f64, errs: f64, matters: f64| noise.max(errs.min(matters));
+    let heading = if headings { known(theta, pointed, turn) } else { theta };
+    Some([known(x, placed, way), known(y, placed, way), heading])
+}
+
+/// What is said of such a floor.
+pub(super) fn said(before: [f64; 3], now: [f64; 3]) -> String {
+    let mut parts = Vec::new();
+    if now[..2] != before[..2] {
+        parts.push(format!("{:.1} mm where neighbouring ones scatter by {:.2}", 1e3 * now[0], 1e3 * before[0]));
+    }
+    if now[2] != before[2] {
+        let [now, before] = [now[2], before[2]].map(f64::to_degrees);
+        parts.push(format!("{now:.2} degrees where neighbouring ones scatter by {before:.3}"));
+    }
+    format!(
+        "the poses were smoothed or come from a map: whatever is fitted, the wheels leave {} or more. That is taken as \
+         what they know, and nothing smaller is told",
+        parts.join(" and ")
+    )
+}
+
+/// All effects of wheels, marker and clocks at once, each in its largest form.
+fn everything(problem: &Problem, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+    let mut all: Vec<Active> = Vec::new();
+    for a in problem.candidates(state, catalogue) {
+        let grows = a.effect.link() == Link::Motion && !a.effect.probe() && !a.switched() && !a.form.free.is_empty();
+        if !grows {
+            continue;
+        }
+        match all.iter_mut().find(|b| b.effect.name() == a.effect.name()) {
+            Some(b) if b.form.free.len() >= a.form.free.len() => {}
+            Some(b) => *b = a,
+            None => all.push(a),
+        }
+    }
+    all
+}
+
+/// Typical RMS of a window over all axes, in floors.
+fn all(windows: &[WindowResiduals], link: &MotionLink) -> f64 {
+    typical(windows, &[(0, 1.0), (1, 1.0), (2, 1.0)][..link.axes()])
+}
+
+/// Standard deviation of residuals in some axes, each in a unit of its own, by the window in the middle.
+fn typical(windows: &[WindowResiduals], axes: &[(usize, f64)]) -> f64 {
+    let rms = |w: &WindowResiduals| {
+        let used = w.residuals.iter().zip(&w.weights).filter(|(_, weight)| **weight > 0.0);
+        estimation::statistics::rms(used.flat_map(|(r, _)| axes.iter().map(|(i, unit)| r[*i] * unit)))
+    };
+    median(&mut windows.iter().map(rms).collect::<Vec<f64>>()) / MEDIAN_OF_TWO
+}

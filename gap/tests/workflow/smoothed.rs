@@ -1,0 +1,83 @@
+//! Poses that were smoothed, or drift as those of a map do: neighbouring ones show nothing of what they err.
+
+use std::f64::consts::{PI, TAU};
+
+use gap::{Analysis, Options, Verdict, analyse};
+use model::manoeuvre::Manoeuvre::{Chirp, Spin, Star};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use runs::Run;
+use runs::robot::Robot;
+
+use super::common::{names, simulate, with};
+
+/// Full width of the window that smooths the poses, s.
+const SMOOTHED_S: f64 = 0.3;
+/// Time over which they keep their error, s, and that error (m, m, rad).
+const KEPT_S: f64 = 2.0;
+const ERRS: [f64; 3] = [0.012, 0.012, 0.03];
+
+/// What a filter on a map makes of the camera's poses.
+fn mapped(run: &mut Run, seed: u64) {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let t: Vec<f64> = run.camera.iter().map(|s| run.t[s.tick]).collect();
+    let mut turn = 0.0;
+    let poses: Vec<[f64; 3]> = run
+        .camera
+        .iter()
+        .map(|s| {
+            turn += runs::frames::wrap_angle(s.pose.theta - turn);
+            [s.pose.x, s.pose.y, turn]
+        })
+        .collect();
+    // Errors as sums of waves of every length that lasts.
+    let waves: Vec<[(f64, f64); 3]> = (0..12)
+        .map(|_| std::array::from_fn(|_| (random.random_range(0.1..1.0) / KEPT_S, random.random_range(0.0..TAU))))
+        .collect();
+    for (i, sample) in run.camera.iter_mut().enumerate() {
+        let near: Vec<(f64, usize)> = (0..t.len())
+            .map(|k| (2.0 * (t[k] - t[i]) / SMOOTHED_S, k))
+            .filter(|(x, _)| x.abs() < 1.0)
+            .map(|(x, k)| (1.0 + (PI * x).cos(), k))
+            .collect();
+        let whole: f64 = near.iter().map(|(w, _)| w).sum();
+        let [x, y, theta] = [0, 1, 2].map(|j| {
+            let smooth = near.iter().map(|(w, k)| w * poses[*k][j]).sum::<f64>() / whole;
+            let error: f64 = waves.iter().map(|w| (TAU * w[j].0 * t[i] + w[j].1).sin()).sum();
+            smooth + ERRS[j] * error * (2.0_f64 / 12.0).sqrt()
+        });
+        (sample.pose.x, sample.pose.y, sample.pose.theta) = (x, y, runs::frames::wrap_angle(theta));
+    }
+}
+
+fn seen(robot: &Robot, seed: u64) -> Analysis {
+    let mut set = simulate(robot, &[Star, Spin, Chirp, Star], seed);
+    for (k, run) in set.runs.iter_mut().enumerate() {
+        run.duty.clear();
+        mapped(run, 10 * seed + k as u64);
+    }
+    analyse(&set, &Options::default()).unwrap()
+}
+
+#[test]
+fn poses_of_a_map_name_what_they_show_and_agree_where_they_show_nothing() {
+    for seed in [50, 52] {
+        let a = seen(&Robot::racbot(), seed);
+        assert_eq!((a.verdict, names(&a)), (Verdict::Agrees, vec![]), "{}", a.terminal_summary());
+        let said = "the poses were smoothed or come from a map";
+        assert!(a.remarks.iter().any(|r| r.starts_with(said)), "{:?}", a.remarks);
+
+        let a = seen(&with(&Robot::racbot(), "wheel-radius-common", &[("scale", 0.05)]), seed);
+        assert!(matches!(a.verdict, Verdict::MissingEffect | Verdict::Ambiguous), "{}", a.terminal_summary());
+        // Wheels that are all larger by the same, or each by itself.
+        assert!(
+            names(&a) == ["wheel-radius-common"] || names(&a) == ["wheel-radius"],
+            "{seed}: {}",
+            a.terminal_summary()
+        );
+        for (name, v, interval) in &a.effects[0].parameters {
+            let [low, high] = interval.ends().unwrap();
+            assert!(low < 0.05 && 0.05 < high && high - low < 0.06, "{seed} {name}: {v}, {low} to {high}");
+        }
+    }
+}
