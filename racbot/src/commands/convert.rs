@@ -3,8 +3,9 @@
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
 use runs::CLOCK_OFF_S;
-use runs::import::{Clock, Imported, Joined, Map, Table, draft, draft_two};
-use serde_json::json;
+use runs::error::InputError;
+use runs::import::{Clock, Drive, Imported, Joined, Map, Table, draft, draft_two, drives};
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Options of `convert`.
@@ -17,8 +18,9 @@ The pose may be in a second file, of motion capture or another camera, on a cloc
 docs/book/src/log-format.md has all of it."
 )]
 pub(crate) struct Options {
-    /// Map, file to read, file to write (*.csv or *.mcap); with --list the file to read alone
-    #[arg(value_name = "MAP IN OUT", required = true, num_args = 1..=3)]
+    /// Map, file to read, file to write (*.csv or *.mcap); or map, files or folders to read, and the folder to write to;
+    /// with --list the file to read alone
+    #[arg(value_name = "MAP IN OUT", required = true, num_args = 1..)]
     files: Vec<PathBuf>,
 
     /// List the series of a file
@@ -29,7 +31,8 @@ pub(crate) struct Options {
     #[arg(long)]
     draft: bool,
 
-    /// Second file, with the pose; else the one that the map's [truth] names
+    /// Second file, with the pose; else the one that the map's [truth] names. Of several logs a pattern: {stem}, {number}
+    /// and {folder} are the log's
     #[arg(long, value_name = "FILE", conflicts_with = "list")]
     truth: Option<PathBuf>,
 
@@ -45,7 +48,8 @@ impl Options {
             [file] if self.draft => self.draft(file, None),
             [file, map] if self.draft => self.draft(file, Some(map)),
             _ if self.draft => Err(Failure::usage("--draft: give the file to read, and the map to write")),
-            [map, file, out] => self.convert(map, file, out),
+            [map, file, out] if !(is_folder(out) || file.is_dir()) => self.convert(map, file, out),
+            [map, files @ .., folder] if !files.is_empty() => self.convert_all(map, files, folder),
             _ => Err(Failure::usage(
                 "give a map, a file to read and a file to write; `racbot convert --draft IN map.toml` writes a first \
                  map, `racbot convert --list IN` shows what a file holds",
@@ -74,12 +78,64 @@ impl Options {
 
     fn convert(&self, map: &Path, file: &Path, out: &Path) -> Result<Answer, Failure> {
         if !out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("mcap")) {
-            return Err(Failure::about(out, "is neither *.csv nor *.mcap; runs are one of the two"));
+            return Err(Failure::about(
+                out,
+                "is neither *.csv nor *.mcap; runs are one of the two, and a folder for several ends with /",
+            ));
         }
         self.target.check_free([out])?;
-        let Imported { run, joined } = Map::load(map)?.import(file, self.truth.as_deref())?;
+        let (text, json) = self.written(&Map::load(map)?, file, self.truth.as_deref(), out)?;
+        Ok(Answer { text, json, wrong: None })
+    }
+
+    /// Every file a run in the folder; what cannot be read is left out, and said.
+    fn convert_all(&self, map: &Path, files: &[PathBuf], folder: &Path) -> Result<Answer, Failure> {
+        if folder.extension().is_some() && !is_folder(folder) {
+            let what = "of several files give the folder for their runs last, such as set/";
+            return Err(Failure::usage(format!("{}: {what}", folder.display())));
+        }
+        let map = Map::load(map)?;
+        let pattern = self.truth.as_ref().map(|truth| truth.to_string_lossy());
+        let all = drives(&map, files, pattern.as_deref(), folder)?;
+        if let (Some(pattern), true) = (&pattern, all.len() > 1)
+            && !["{stem}", "{number}", "{folder}"].iter().any(|part| pattern.contains(part))
+        {
+            return Err(Failure::usage(format!(
+                "--truth {pattern}: one for all; of several logs {{stem}}, {{number}} or {{folder}} say whose it is"
+            )));
+        }
+        self.target.check_free(all.iter().map(|drive| &drive.run))?;
+        let (mut text, mut done, mut failed) = (String::new(), Vec::new(), Vec::new());
+        for Drive { log, truth, run } in &all {
+            match self.written(&map, log, truth.as_deref(), run) {
+                Ok((said, json)) => {
+                    text += &said;
+                    done.push(json);
+                }
+                Err(error) => {
+                    let said = error.to_string();
+                    // An error about the map or the second file says not whose.
+                    let said = if error.file == *log { said } else { format!("{}: {said}", log.display()) };
+                    text += &wrapped(&format!("left out: {said}"), 2);
+                    failed.push((log, said));
+                }
+            }
+        }
+        let names: Vec<String> = failed.iter().map(|(log, _)| log.display().to_string()).collect();
+        let wrong = match &failed[..] {
+            [] => None,
+            [(_, said)] => Some(format!("{} of {} files is left out: {said}", failed.len(), all.len())),
+            _ => Some(format!("{} of {} files are left out: {}", failed.len(), all.len(), names.join(", "))),
+        };
+        let failed: Vec<Value> = failed.iter().map(|(log, said)| json!({ "file": log, "why": said })).collect();
+        Ok(Answer { text, json: json!({ "runs": done, "left_out": failed }), wrong })
+    }
+
+    /// Converts one file, and says what came of it.
+    fn written(&self, map: &Map, file: &Path, truth: Option<&Path>, out: &Path) -> Result<(String, Value), InputError> {
+        let Imported { run, joined } = map.import(file, truth)?;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
-            std::fs::create_dir_all(folder).map_err(|error| runs::error::InputError::io(folder, &error))?;
+            std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
         }
         run.save(out, self.target.existing())?;
         let mut text = wrapped(
@@ -104,8 +160,13 @@ impl Options {
                 "before": j.outside[0], "after": j.outside[1], "incomplete": j.incomplete, "alike": j.alike,
             })),
         });
-        Ok(Answer { text, json, wrong: None })
+        Ok((text, json))
     }
+}
+
+/// Whether a path is meant as a folder.
+fn is_folder(path: &Path) -> bool {
+    path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::MAIN_SEPARATOR)
 }
 
 /// How the poses of a second file came into a run.

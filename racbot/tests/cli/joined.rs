@@ -102,6 +102,44 @@ fn two_files_in_an_empty_folder_become_a_run_or_an_error_that_helps() {
 }
 
 #[test]
+fn a_folder_of_logs_becomes_a_folder_of_runs_in_one_call() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let logs = path.join("logs");
+    fs::create_dir(&logs).unwrap();
+    for run in 1..=3 {
+        let original = Run::read(data(&format!("runs/wheel-skew/run_{run:02}.csv"))).unwrap();
+        split(&original, &logs, &format!("drive{run}"), 100.0 * f64::from(run));
+    }
+    racbot(path, &["convert", "--draft", "logs/drive1.csv", "map.toml", "--truth", "logs/drive1_mocap.tsv"]).done();
+    let map = fs::read_to_string(path.join("map.toml")).unwrap();
+    // A drive there and back does not tell its offset.
+    fs::write(path.join("map.toml"), map.replace("clock = \"match\"", "clock = \"own\"")).unwrap();
+    let json = racbot(path, &["--json", "convert", "map.toml", "logs", "set/"]).json();
+    let runs: Vec<&str> = json["runs"].as_array().unwrap().iter().map(|r| r["run"].as_str().unwrap()).collect();
+    assert_eq!(runs, ["set/drive1.csv", "set/drive2.csv", "set/drive3.csv"], "{json}");
+    for (run, r) in (1..).zip(json["runs"].as_array().unwrap()) {
+        assert_eq!(r["truth"]["file"], format!("logs/drive{run}_mocap.tsv"), "{r}");
+        assert!(Run::read(path.join(format!("set/drive{run}.csv"))).unwrap().camera.len() > 100);
+    }
+    // What is there stays, before anything is written.
+    racbot(path, &["convert", "map.toml", "logs", "set/"]).refused(1, &["set/drive1.csv", "exists already"]);
+    // A log that cannot be read is left out and named; the others are there.
+    fs::write(logs.join("drive2.csv"), "t,motor1_ticks\n0,1\n1,nothing\n").unwrap();
+    let bad = racbot(path, &["convert", "map.toml", "logs/drive1.csv", "logs/drive2.csv", "again/"]);
+    bad.refused(1, &["1 of 2 files is left out", "logs/drive2.csv"]);
+    assert!(path.join("again/drive1.csv").exists() && !path.join("again/drive2.csv").exists());
+    let one =
+        ["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "more/", "--truth", "logs/drive1_mocap.tsv"];
+    racbot(path, &one).refused(2, &["one for all", "{stem}"]);
+    let each =
+        ["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "more/", "--truth", "logs/{stem}_mocap.tsv"];
+    racbot(path, &each).done().fits_80_columns();
+    racbot(path, &["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "out.csv"])
+        .refused(2, &["out.csv", "folder"]);
+}
+
+#[test]
 fn a_differential_drive_has_the_inertia_that_the_help_promises() {
     let folder = tempdir().unwrap();
     let duties = data("real/robojackets-excitation/run_01.csv");

@@ -137,11 +137,19 @@ impl Map {
             }
             return Ok(Imported { run: self.run(&self.log.table(log)?, log)?, joined: None });
         };
-        let named = || second.beside(log).map_err(|e| InputError { file: self.path.clone(), ..e });
-        let file = truth.map_or_else(named, |file| Ok(file.to_owned()))?;
+        let file = truth.map_or_else(|| self.second(second, log), |file| Ok(file.to_owned()))?;
         let table = self.log.table(log)?;
         let poses = second.reading.table(&file)?;
         self.joined([(&table, log), (&poses, &file)], second)
+    }
+
+    /// The second file that the map has for a log, if it has one.
+    pub fn truth_of(&self, log: &Path) -> Option<PathBuf> {
+        self.second(self.truth.as_ref()?, log).ok()
+    }
+
+    fn second(&self, truth: &Truth, log: &Path) -> Result<PathBuf, InputError> {
+        truth.beside(log).map_err(|e| InputError { file: self.path.clone(), ..e })
     }
 
     fn joined(&self, [log, truth]: [(&Table, &Path); 2], second: &Truth) -> Result<Imported, InputError> {

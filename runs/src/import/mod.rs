@@ -12,6 +12,7 @@ mod fill;
 mod frame;
 mod join;
 mod json;
+mod many;
 mod map;
 mod reading;
 mod ros2;
@@ -31,6 +32,7 @@ use crate::error::{InputError, nearest};
 pub use agreement::Agreement;
 pub use draft::{draft, draft_two};
 pub use join::Joined;
+pub use many::{Drive, drives};
 pub use map::{Imported, Map};
 pub use ssl::{field_size, is_game_log};
 

@@ -15,7 +15,7 @@ use crate::error::InputError;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Text {
-    /// Its name, from the log's folder; `{stem}` is the log's name without its ending, `{number}` the last number in it.
+    /// Its name, from the log's folder; see [`filled`].
     file: Option<String>,
     #[serde(default)]
     clock: Clocks,
@@ -82,26 +82,47 @@ impl Truth {
 
     /// The file that belongs to a log.
     pub(super) fn beside(&self, log: &Path) -> Result<PathBuf, InputError> {
-        let fail = |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint).field("truth.file"));
         let Some(pattern) = &self.file else {
             let hint = "write file = \"{stem}_mocap.csv\", from the log's folder, or name it with --truth FILE";
-            return fail("the map does not say which file".to_owned(), hint);
+            let what = "the map does not say which file";
+            return Err(InputError::new(Path::new(""), what, hint).field("truth.file"));
         };
-        let stem = stem(log);
-        let number = number(&stem);
-        if pattern.contains(NUMBER) && number.is_none() {
-            return fail(format!("{stem:?} has no number"), "use {stem}, or name the file with --truth FILE");
-        }
-        let name = pattern.replace(STEM, &stem).replace(NUMBER, number.unwrap_or_default());
+        let name = filled(pattern, log).map_err(|e| e.field("truth.file"))?;
         Ok(log.parent().unwrap_or(Path::new("")).join(name))
     }
 }
 
+/// A pattern's name for a log: `{stem}` is the log's name without its ending, `{number}` the last number in it, `{folder}` the
+/// name of the folder that it is in.
+///
+/// # Errors
+/// [`InputError`] where the log has no number, or is in no folder that has a name.
+pub(super) fn filled(pattern: &str, log: &Path) -> Result<String, InputError> {
+    let fail = |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint));
+    let stem = stem(log);
+    let number = number(&stem);
+    if pattern.contains(NUMBER) && number.is_none() {
+        return fail(format!("{stem:?} has no number"), "use {stem}, or name the file with --truth FILE");
+    }
+    let folder = folder(log);
+    if pattern.contains(FOLDER) && folder.is_none() {
+        return fail(format!("{} is in no folder with a name", log.display()), "give the log with its folder");
+    }
+    let name = pattern.replace(STEM, &stem).replace(NUMBER, number.unwrap_or_default());
+    Ok(name.replace(FOLDER, &folder.unwrap_or_default()))
+}
+
+/// The name of the folder of a file.
+pub(super) fn folder(file: &Path) -> Option<String> {
+    Some(file.parent()?.file_name()?.to_string_lossy().into_owned())
+}
+
 const STEM: &str = "{stem}";
 const NUMBER: &str = "{number}";
+const FOLDER: &str = "{folder}";
 
 /// A name without its endings.
-fn stem(file: &Path) -> String {
+pub(super) fn stem(file: &Path) -> String {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
@@ -156,6 +177,7 @@ mod tests {
             ("../vicon/take {number}.tsv", "logs/v2_run007.csv", "logs/../vicon/take 007.tsv"),
             ("truth.json", "x.log.gz", "truth.json"),
             ("{stem}.csv", "game.log.gz", "game.csv"),
+            ("../truth/{folder}.csv", "set/walk/odom.csv", "set/walk/../truth/walk.csv"),
         ] {
             assert_eq!(beside(pattern, log).unwrap(), file);
         }
