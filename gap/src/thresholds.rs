@@ -83,7 +83,8 @@ pub const SEEN: f64 = 2.0;
 pub const HIDDEN: f64 = 0.2;
 /// Share of the explained gap that the inexactness of a law may leave as structure.
 pub const LAW_LEAVES: f64 = 0.05;
-/// Share of a link's gap that must be left at most once its effects stand in the file.
+/// Share of a link's gap that must be left at most once its effects stand in the file; on the motion link what the fit
+/// must close held out decides.
 pub const FALLS: f64 = 0.98;
 /// Control periods between two rows of a log beyond which its times are in another unit.
 pub const ODD_ROWS: f64 = 300.0;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use estimation::statistics::median;
 
-use super::gaps::agreement;
+use super::gaps::{FAR, agreement};
 use crate::effect::{Effect, Link};
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::problem::Problem;
@@ -18,14 +18,23 @@ use crate::state::{Active, State};
 /// of motion capture is exceeded 1.3 to 6 times by rollers and contacts (nine recordings of three machines), that of a
 /// pose by SLAM some 400 times.
 const BEYOND_WHEELS: f64 = 10.0;
+/// What matters in a window, in the scatter of neighbouring poses, from which they are too smooth for a tracker: a league's
+/// camera has 13 at most, motion capture 10 to 20, poses by SLAM 800.
+const FINER: f64 = 30.0;
 /// Residuals that the error of such a pose makes in a window, along one axis: a drift and a bend. Their median RMS is
 /// 0.83 of the standard deviation.
 const MEDIAN_OF_TWO: f64 = 0.832_6;
 
 /// Standard deviations of a pose (m, m, rad) whose neighbours scatter less than it errs, none above what matters: beyond
-/// that wheels and pose do not agree, whatever the pose is. `None` where neighbours tell its noise.
+/// that wheels and pose do not agree, whatever the pose is. `None` where neighbours tell its noise, and where wheels and
+/// pose part so far that neither can be believed.
 pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<[f64; 3]> {
-    if link.is_empty() || all(&link.residuals(&start.motion(None)), link) <= BEYOND_WHEELS {
+    let ([way, turn], [x, y, theta]) = (agreement(link), link.noise);
+    let headings = link.axes() == 3;
+    // A camera whose noise is near what matters tells it: what its frames and the wheels leave then is the robot's.
+    let finer = [(x.max(y), way), (theta, turn)].map(|(noise, matters)| FINER * noise <= matters);
+    let smooth = finer[0] || headings && finer[1];
+    if link.is_empty() || !smooth || all(&link.residuals(&start.motion(None)), link) <= BEYOND_WHEELS {
         return None;
     }
     let problem = Problem::Motion(link);
@@ -43,12 +52,10 @@ pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Ef
     state.active.extend(free);
     problem.fit(&mut state);
     let left = link.residuals(&state.motion(None));
-    let [way, turn] = agreement(link);
-    let [x, y, theta] = link.noise;
     let placed = typical(&left, &[(0, x), (1, y)]);
-    let pointed = typical(&left, &[(2, theta)]);
-    let headings = link.axes() == 3;
-    if placed <= BEYOND_WHEELS * x.max(y) && !(headings && pointed > BEYOND_WHEELS * theta) {
+    let pointed = if headings { typical(&left, &[(2, theta)]) } else { 0.0 };
+    let beyond = finer[0] && placed > BEYOND_WHEELS * x.max(y) || finer[1] && pointed > BEYOND_WHEELS * theta;
+    if !beyond || placed > FAR * way || pointed > FAR * turn {
         return None;
     }
     let known = |noise: f64, errs: f64, matters: f64| noise.max(errs.min(matters));
@@ -60,7 +67,8 @@ pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Ef
 pub(super) fn said(before: [f64; 3], now: [f64; 3]) -> String {
     let mut parts = Vec::new();
     if now[..2] != before[..2] {
-        parts.push(format!("{:.1} mm where neighbouring ones scatter by {:.2}", 1e3 * now[0], 1e3 * before[0]));
+        let [now, before] = [now, before].map(|noise| 1e3 * noise[0].max(noise[1]));
+        parts.push(format!("{now:.1} mm where neighbouring ones scatter by {before:.2}"));
     }
     if now[2] != before[2] {
         let [now, before] = [now[2], before[2]].map(f64::to_degrees);

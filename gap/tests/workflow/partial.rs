@@ -51,20 +51,25 @@ fn missing_columns_narrow_what_is_compared() {
     assert!(matches!(nothing, Err(GapError::NothingToCompare)));
 }
 
+/// A set as read from logs that have positions alone, and no duties.
+fn positions(set: DataSet) -> DataSet {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("robot.toml"), set.robot.to_toml()).unwrap();
+    for mut run in set.runs {
+        run.duty.clear();
+        run.camera.iter_mut().for_each(|sample| sample.pose.theta = f64::NAN);
+        let file = std::fs::File::create(folder.path().join(format!("{}.csv", run.name))).unwrap();
+        run.write_to(file).unwrap();
+    }
+    DataSet::open(folder.path()).unwrap()
+}
+
 /// GPS, ultra-wideband or a single marker: ways tell sizes and clocks all the same.
 #[test]
 fn positions_without_headings_narrow_what_is_compared() {
     for (effect, parameter, truth) in [("wheel-radius-common", "scale", 0.04), ("camera-latency", "latency_s", 0.03)] {
         let set = simulate(&with(&Robot::racbot(), effect, &[(parameter, truth)]), &[Star, Spin, Chirp, Star], 41);
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("robot.toml"), set.robot.to_toml()).unwrap();
-        for mut run in set.runs {
-            run.duty.clear();
-            run.camera.iter_mut().for_each(|sample| sample.pose.theta = f64::NAN);
-            let file = std::fs::File::create(folder.path().join(format!("{}.csv", run.name))).unwrap();
-            run.write_to(file).unwrap();
-        }
-        let a = done(&DataSet::open(folder.path()).unwrap());
+        let a = done(&positions(set));
         // Wheels that are all larger by the same, or within the stated tie every wheel by itself.
         let tied = |set: &Vec<String>| set.iter().any(|n| n == effect) && set.iter().any(|n| *n == names(&a)[0]);
         assert!(
@@ -79,6 +84,23 @@ fn positions_without_headings_narrow_what_is_compared() {
         assert!(motion.after < 1.3, "{}", a.terminal_summary());
         assert!(a.remarks.iter().any(|r| r.contains("positions have no headings")), "{:?}", a.remarks);
     }
+}
+
+/// Turns show in positions as far as they bend ways: little of the noise goes with them, and yet they are named.
+#[test]
+fn a_body_radius_is_named_by_positions_alone_from_the_limit_that_is_printed() {
+    let seen = |scale: f64| {
+        let drives = [Star, Spin, Chirp, Manoeuvre::Square, Star, Chirp];
+        done(&positions(simulate(&with(&Robot::racbot(), "body-radius", &[("scale", scale)]), &drives, 43)))
+    };
+    let nothing = seen(0.0);
+    assert_eq!((nothing.verdict, names(&nothing)), (gap::Verdict::Agrees, vec![]), "{}", nothing.terminal_summary());
+    let limit = nothing.limits.iter().find(|l| l.name == "body-radius").unwrap().limit;
+    assert!(limit < 0.06, "{limit}");
+    let found = seen(1.2 * limit);
+    assert_eq!(names(&found), ["body-radius"], "{}", found.terminal_summary());
+    let interval = found.effects[0].parameters[0].2.ends().unwrap();
+    assert!(interval[0] < 1.2 * limit && 1.2 * limit < interval[1], "{interval:?}");
 }
 
 #[test]
