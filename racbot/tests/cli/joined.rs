@@ -127,7 +127,9 @@ fn a_folder_of_logs_becomes_a_folder_of_runs_in_one_call() {
     // A log that cannot be read is left out and named; the others are there.
     fs::write(logs.join("drive2.csv"), "t,motor1_ticks\n0,1\n1,nothing\n").unwrap();
     let bad = racbot(path, &["convert", "map.toml", "logs/drive1.csv", "logs/drive2.csv", "again/"]);
-    bad.refused(1, &["1 of 2 files is left out", "logs/drive2.csv"]);
+    assert_eq!(bad.code, Some(1), "{}", bad.stderr);
+    assert!(bad.stdout.contains("left out: logs/drive2.csv: ") && bad.stdout.contains("again/drive1.csv: "));
+    assert!(bad.stderr.contains("1 of 2 files is left out: logs/drive2.csv: "), "{}", bad.stderr);
     assert!(path.join("again/drive1.csv").exists() && !path.join("again/drive2.csv").exists());
     let one =
         ["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "more/", "--truth", "logs/drive1_mocap.tsv"];
