@@ -171,7 +171,7 @@ impl Configuration {
         chosen.map(|choice| choice.name).ok_or_else(|| bad_pattern(device, tile, attribute, pattern))
     }
 
-    /// Chooses.
+    /// Sets an attribute of a tile to one of its choices.
     ///
     /// # Errors
     /// When the tile has no such attribute, or it no such choice.

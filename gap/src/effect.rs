@@ -104,7 +104,7 @@ impl Parameter {
 pub struct Form {
     /// Wheels it acts on, from 0; empty for the whole robot.
     pub wheels: Vec<usize>,
-    /// Fitted.
+    /// Parameters that are estimated.
     pub free: Vec<Parameter>,
     /// Held at values that were not fitted.
     pub fixed: Vec<(String, f64)>,

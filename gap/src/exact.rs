@@ -8,7 +8,7 @@ use crate::evidence::{Evidence, Interval};
 /// An effect on a link that can be replayed to the last digit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Where.
+    /// Link it was found on.
     pub link: Link,
     /// Name of the effect.
     pub name: &'static str,
@@ -23,7 +23,7 @@ pub struct Finding {
 /// How well a deterministic link agrees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactLink {
-    /// Where.
+    /// Link the figures are of.
     pub link: Link,
     /// Unit of the figures below.
     pub unit: &'static str,

@@ -64,7 +64,7 @@ pub(crate) struct Findings<'a> {
     pub found: &'a Robot,
     /// What was found, with values.
     pub active: &'a [Active],
-    /// The logs.
+    /// Pieces of the logs that are compared.
     pub pieces: &'a Pieces<'a>,
     /// Camera noise, and that of a test function of the drive, Nm.
     pub noise: ([f64; 3], &'a [f64]),

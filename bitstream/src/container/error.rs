@@ -87,7 +87,7 @@ pub enum Fault {
     /// A packet that cannot be.
     #[error("the packet at byte {offset:#x} ({word:#010x}) {why}; the file is damaged")]
     Packet {
-        /// Where.
+        /// Offset in the file, bytes.
         offset: usize,
         /// Its header.
         word: u32,
@@ -99,17 +99,17 @@ pub enum Fault {
         "the frame length register is set to {found} at byte {offset:#x}, {PART} has frames of {FRAME_WORDS} words; the file is for another device"
     )]
     FrameLength {
-        /// Where.
+        /// Offset in the file, bytes.
         offset: usize,
         /// What is written to it.
         found: u32,
     },
-    /// The CRC.
+    /// A stored checksum that is not that of the words before it.
     #[error(
         "the CRC word at byte {offset:#x} does not match: {stored:#06x} stored, {computed:#06x} computed; the file is damaged"
     )]
     Crc {
-        /// Where.
+        /// Offset in the file, bytes.
         offset: usize,
         /// In the file.
         stored: u16,

@@ -78,7 +78,7 @@ impl Attribute {
 pub enum PipKind {
     /// A choice of a multiplexer, which may need its driver switched on.
     Mux {
-        /// The multiplexer.
+        /// Index of the attribute that sets the multiplexer.
         attribute: u16,
         /// Index into the attribute's choices.
         choice: u8,
@@ -177,7 +177,7 @@ pub struct TileClass {
     pub(super) wires: Vec<(u8, Name)>,
     /// What the configuration sets.
     pub attributes: Vec<Attribute>,
-    /// Switches.
+    /// Programmable connections between its wires.
     pub pips: Vec<ClassPip>,
     /// Basic elements.
     pub bels: Vec<ClassBel>,

@@ -29,7 +29,7 @@ choices! {
 choices! {
     /// What holds a pad that nobody drives.
     Pull {
-        /// Nothing.
+        /// The pad floats.
         None = "NONE",
         /// A weak resistor to VCCO.
         Up = "PULLUP",

@@ -41,7 +41,7 @@ pub enum FlowError {
     Constraint {
         /// Number of the line, from 1.
         line: usize,
-        /// The line.
+        /// Its text.
         text: String,
     },
     /// A port that has no usable pin.
@@ -69,7 +69,7 @@ pub enum FlowError {
     /// Synthesis failed.
     #[error("synthesis: {what}")]
     Synthesis {
-        /// Why.
+        /// What yosys said.
         what: String,
     },
     /// A rule of the device is broken: a fault of the flow.
@@ -86,7 +86,7 @@ pub enum FlowError {
     Full {
         /// Of what.
         what: &'static str,
-        /// Needed.
+        /// How many the design needs.
         used: usize,
         /// There are.
         there: usize,

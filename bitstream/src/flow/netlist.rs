@@ -144,11 +144,11 @@ pub struct Pad {
 /// Multiplexer of the carry: `output = select ? carry : data`.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct CarryMux {
-    /// Propagate.
+    /// Propagate: 1 passes the carry on, 0 takes `data`.
     pub select: Signal,
     /// From the bit below, or into the chain.
     pub carry: Signal,
-    /// Generate.
+    /// Generate: the carry out where nothing is propagated.
     pub data: Signal,
     /// Carry out.
     pub output: Net,
@@ -161,7 +161,7 @@ pub struct CarryXor {
     pub input: Signal,
     /// From the bit below, or into the chain.
     pub carry: Signal,
-    /// Sum.
+    /// Sum of this bit.
     pub output: Net,
 }
 
@@ -191,7 +191,7 @@ pub struct Netlist {
     pub luts: Vec<Lut>,
     /// Carry multiplexers.
     pub carry_muxes: Vec<CarryMux>,
-    /// Sums.
+    /// Gates that add the carry to a sum.
     pub carry_xors: Vec<CarryXor>,
     /// Wide multiplexers.
     pub wide_muxes: Vec<WideMux>,

@@ -22,7 +22,7 @@ pub enum Part {
 /// A pin of a part.
 #[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub struct Pin {
-    /// Whose.
+    /// Part of the packed design that it belongs to.
     pub part: Part,
     /// Its name in the device.
     pub name: Cow<'static, str>,
@@ -33,9 +33,9 @@ pub struct Pin {
 pub struct Routed {
     /// Which net of the logic.
     pub net: Net,
-    /// Driver.
+    /// The one pin that drives it.
     pub source: Pin,
-    /// Readers.
+    /// All pins that read it.
     pub sinks: Vec<Pin>,
 }
 

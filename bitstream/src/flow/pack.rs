@@ -29,7 +29,7 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// Packs.
+    /// Puts the cells of a netlist into slices, pads and memories.
     ///
     /// # Errors
     /// More slices than the device has.

@@ -53,7 +53,7 @@ impl Proof {
     }
 }
 
-/// Compares.
+/// Compares what was asked for with what the decoded bits do.
 #[must_use]
 pub fn prove(
     device: &Device,

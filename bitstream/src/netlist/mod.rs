@@ -62,7 +62,7 @@ pub struct Cell {
 pub enum CellKind {
     /// A table of 16 bits: bit {3, 2, 1, 0 of the inputs} is the output.
     Lut {
-        /// The bits.
+        /// Output for inputs of this value, bit by bit.
         table: u16,
         /// Inputs 0..4, which are F1..F4 or G1..G4.
         inputs: [Signal; 4],
@@ -71,7 +71,7 @@ pub enum CellKind {
     },
     /// Another name of a signal: the output of an element that passes it on.
     Alias {
-        /// The signal.
+        /// What it stands for.
         input: Signal,
         /// Its other name.
         output: NetId,
@@ -80,7 +80,7 @@ pub enum CellKind {
     Mux {
         /// What it is in the slice.
         role: MuxRole,
-        /// Chooses.
+        /// Which of the two inputs passes.
         select: Signal,
         /// Passed when `select` is 1.
         one: Signal,
@@ -128,7 +128,7 @@ pub enum CellKind {
         write_address: [Signal; 4],
         /// Where it reads.
         read_address: [Signal; 4],
-        /// Written.
+        /// Bit that is stored.
         data: Signal,
         /// Clock; writes at its rising edge.
         clock: Signal,
@@ -142,7 +142,7 @@ pub enum CellKind {
     Bus {
         /// Buffers: what they drive, and 1 while they are off.
         drivers: Vec<(Signal, Signal)>,
-        /// The bus.
+        /// Net that all of them drive.
         output: NetId,
     },
     /// 4096 bits behind two ports.

@@ -69,7 +69,7 @@ impl Channel {
 /// How well a model fits one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// Which.
+    /// Channel of the sensor.
     pub channel: Channel,
     /// Residual in noise floors.
     pub floors: f64,

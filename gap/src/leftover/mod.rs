@@ -102,7 +102,7 @@ struct Wheel {
     segment: Vec<usize>,
     /// Middle of each, s.
     t: Vec<f64>,
-    /// Nm.
+    /// Torque that nothing explains, Nm.
     torque: Vec<f64>,
     /// Direction of rotation.
     sign: Vec<f64>,

@@ -23,7 +23,7 @@ pub struct Design {
     pub state: State,
     /// Candidates with a column each parameter.
     pub candidates: Vec<Active>,
-    /// Columns.
+    /// Derivatives of the residuals by what may be estimated.
     pub linear: Linear,
     /// Variance of the residuals in units of the assumed noise.
     pub variance: f64,
@@ -40,7 +40,7 @@ pub struct Trial {
     pub candidate: usize,
     /// Decrease of the objective, complexity paid for.
     pub gain: f64,
-    /// Estimates.
+    /// Estimates of its parameters, in their order.
     pub values: Vec<f64>,
     /// Whether any of them is material.
     pub material: bool,

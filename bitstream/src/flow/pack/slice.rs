@@ -84,7 +84,7 @@ impl Half {
 /// What the bypass pin is used for.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Bypass {
-    /// Nothing.
+    /// The input is not used.
     #[default]
     Free,
     /// Data of the half's flip-flop.

@@ -49,7 +49,7 @@ pub(super) struct Grid {
     tenants: Vec<u32>,
 }
 
-/// Nobody.
+/// Mark of a site without a part.
 pub(super) const FREE: u32 = u32::MAX;
 
 impl Grid {

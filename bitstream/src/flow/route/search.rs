@@ -8,7 +8,7 @@ use crate::flow::fabric::{Fabric, Way};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Nobody.
+/// Mark of a wire that was not reached.
 const NONE: u32 = u32::MAX;
 /// Lowest cost of a cell's distance on the way, in 1/256 of a price: what the search may hope for.
 const HOPE_PRICE: u64 = 2 * 256;

@@ -49,7 +49,7 @@ pub(super) struct End {
 /// Places with arrival times, and the delays between them.
 #[derive(Clone, Debug)]
 pub struct Graph {
-    /// Domains.
+    /// One for each clock net.
     pub clocks: Vec<Clock>,
     /// First connection of every general net.
     pub first: Vec<u32>,
