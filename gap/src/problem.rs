@@ -187,6 +187,14 @@ impl Problem<'_> {
         others.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
     }
 
+    /// Whether an effect changes what the motors have to move.
+    pub fn changes_inertia(&self, state: &State, effect: &Active) -> bool {
+        let inertia = |state: &State| state.drive(None).mechanics().map(|m| m.inertia);
+        let mut with = state.clone();
+        with.active.push(effect.moved(0, effect.form.free[0].scale));
+        inertia(state) != inertia(&with)
+    }
+
     /// Whether one state does worse than another where an effect cannot buy anything: in a free simulation, or, if it
     /// changes what is to be moved, in the torque of its own inertia.
     pub fn runs_away(&self, state: &State, other: &State, thresholds: &Thresholds) -> bool {

@@ -5,6 +5,7 @@ mod design;
 mod gates;
 mod join;
 mod plain;
+mod simpler;
 mod spanning;
 mod sure;
 mod undecided;
@@ -106,12 +107,14 @@ pub fn select(
     // What is left far above the noise is not a little of everything: another search in which next to nothing is
     // adjusted without a name.
     let left = raw(&best);
-    if problem.link() != Link::Drive || left < thresholds.far_left {
-        return best;
-    }
-    let other = searched(problem, start, &[], &all, &thresholds.narrow());
-    let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
-    if named(&other) && raw(&other) < thresholds.as_well * left { other } else { best }
+    let best = if problem.link() == Link::Drive && left >= thresholds.far_left {
+        let other = searched(problem, start, &[], &all, &thresholds.narrow());
+        let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
+        if named(&other) && raw(&other) < thresholds.as_well * left { other } else { best }
+    } else {
+        best
+    };
+    simpler::of_two(problem, start, &best, &all, thresholds).unwrap_or(best)
 }
 
 /// RMS of the residuals in units of the noise.

@@ -144,7 +144,9 @@ pub(super) fn study<'a>(
         ambiguous |= alternatives.ambiguous && !own.is_empty();
         sets.extend(own);
         let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
-        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all, thresholds)) {
+        // With nothing adjusted no margin of another law says what else would do.
+        let open = if selection.bare { thresholds.from_noise } else { thresholds.far_left };
+        for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all, thresholds, open)) {
             let name = at.map_or("", |at| other.active[at].effect.name());
             let pair = vec![active.effect.name().to_owned(), name.to_owned()];
             if !sets.contains(&pair) {

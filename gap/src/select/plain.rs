@@ -73,7 +73,7 @@ pub(crate) fn plain(
     // Of laws between which the data do not decide the first of the catalogue: friction before a bridge.
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     for index in from..state.active.len() {
-        let others = undecided(problem, &state, index, all, thresholds).into_iter();
+        let others = undecided(problem, &state, index, all, thresholds, thresholds.far_left).into_iter();
         if let Some(first) = others.min_by_key(|s| rank(&s.active[index]))
             && rank(&first.active[index]) < rank(&state.active[index])
         {
@@ -188,13 +188,19 @@ fn shared(penalised: &Penalised, roles: &[Role], nuisance: &[bool]) -> Vec<f64> 
 
 /// Held-out sum of squares of a state whose effects are fitted, and the number of residuals.
 pub(crate) fn held_out(problem: &Problem, state: &State) -> (f64, f64) {
+    let (clusters, n) = losses(problem, state);
+    (clusters.iter().sum(), n)
+}
+
+/// The same by clusters.
+pub(super) fn losses(problem: &Problem, state: &State) -> (Vec<f64>, f64) {
     let linear = problem.linearise(state, &[]);
     let roles: Vec<Role> =
         linear.owners.iter().map(|o| if matches!(o, Owner::Active(..)) { Role::Free } else { Role::Out }).collect();
     let nuisance: Vec<bool> =
         linear.owners.iter().map(|o| matches!(o, Owner::Active(i, _) if state.active[*i].effect.nuisance())).collect();
     let losses = shared(&Penalised::new(&linear.equations, 1.0), &roles, &nuisance);
-    let plain = losses.iter().zip(&linear.equations.clusters).map(|(l, c)| l / c.weight).sum();
+    let plain = losses.iter().zip(&linear.equations.clusters).map(|(l, c)| l / c.weight).collect();
     (plain, linear.equations.plain().1)
 }
 

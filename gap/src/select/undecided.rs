@@ -8,20 +8,21 @@ use crate::state::{Active, State};
 
 /// The state with an effect replaced by each other one, of no more parameters, that leaves hardly more: where much is
 /// left whatever is named, no law is exact and a little more or less of it says nothing. In the order of the catalogue;
-/// nothing where little is left, or on the link of geometry, whose laws are exact.
+/// nothing where less than `far` floors are left, or on the link of geometry, whose laws are exact.
 pub(crate) fn undecided(
     problem: &Problem,
     state: &State,
     index: usize,
     all: &[Active],
     thresholds: &Thresholds,
+    far: f64,
 ) -> Vec<State> {
     let excess = |state: &State| {
         let (square, n) = problem.linearise_nothing(state).plain();
         (square - n, n)
     };
     let (left, n) = excess(state);
-    if problem.link() != Link::Drive || left + n < thresholds.far_left.powi(2) * n {
+    if problem.link() != Link::Drive || left + n < far.powi(2) * n {
         return Vec::new();
     }
     let own = &state.active[index];

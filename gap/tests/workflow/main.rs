@@ -4,6 +4,7 @@ mod catalogue;
 mod common;
 mod drive;
 mod experiment;
+mod flywheel;
 mod gravity;
 mod margins;
 mod pairs;

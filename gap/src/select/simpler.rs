@@ -1,0 +1,136 @@
+//! Two laws of the drive in place of what is named, where they predict held-out runs better by themselves.
+//!
+//! Beside margins for everything that is not named a bridge that is not linear, with friction of Stribeck, passes for dry
+//! and viscous friction. What tells them apart is what each leaves on runs that it was not fitted to, nothing adjusted.
+
+use rayon::prelude::*;
+
+use super::plain::losses;
+use super::{Selection, finish_bare, is_material, stopped};
+use crate::effect::Link;
+use crate::options::Thresholds;
+use crate::problem::{Owner, Problem};
+use crate::state::{Active, State};
+use estimation::prior::{Penalised, Role};
+
+/// Pairs that are fitted, of those that promise most by a straight line.
+const FITTED: usize = 16;
+
+/// What a state leaves on held-out runs, by clusters, and how much of it is more than noise.
+struct Left {
+    clusters: Vec<f64>,
+    n: f64,
+}
+
+impl Left {
+    fn of(problem: &Problem, state: &State) -> Self {
+        let (clusters, n) = losses(problem, state);
+        Self { clusters, n }
+    }
+
+    fn sum(&self) -> f64 {
+        self.clusters.iter().sum()
+    }
+
+    fn excess(&self) -> f64 {
+        self.sum() - self.n
+    }
+
+    /// By how much it is more than another, in standard deviations of that over the clusters.
+    fn above(&self, other: &Self) -> f64 {
+        let differences = || self.clusters.iter().zip(&other.clusters).map(|(a, b)| a - b);
+        let spread = differences().map(|d| d * d).sum::<f64>().sqrt();
+        differences().sum::<f64>() / spread.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Two laws of a parameter each in place of named ones of no fewer parameters, where those leave much above the noise:
+/// fewer parameters that leave less, or as many that leave less over all clusters. Of pairs between which the data do
+/// not decide the first of the catalogue.
+pub(super) fn of_two(
+    problem: &Problem,
+    start: &State,
+    found: &Selection,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let from = start.active.len();
+    let named: Vec<&Active> = found.state.active[from..].iter().filter(|a| a.is_named()).collect();
+    let parameters: usize = named.iter().map(|a| a.form.free.len()).sum();
+    if problem.link() != Link::Drive || parameters < 2 {
+        return None;
+    }
+    let mut bare = start.clone();
+    bare.active.extend(named.into_iter().cloned());
+    problem.fit(&mut bare);
+    let now = Left::of(problem, &bare);
+    if now.sum() < thresholds.from_noise.powi(2) * now.n {
+        return None;
+    }
+    let laws = laws(problem, start, all);
+    let sound = |state: &State| {
+        let own = from..state.active.len();
+        let whole = |a: &Active| is_material(a, &a.parameters()) && !stopped(a);
+        state.active[from..].iter().all(whole)
+            && !problem.runs_away(state, start, thresholds)
+            && !own.into_iter().any(|i| problem.is_cancelled(state, i, start, thresholds))
+    };
+    let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
+    let better: Vec<([usize; 2], State, Left)> = promising(problem, start, &laws)
+        .into_iter()
+        .filter_map(|pair| {
+            let mut state = start.clone();
+            state.active.extend(pair.map(|i| laws[i].clone()));
+            problem.fit(&mut state);
+            let left = Left::of(problem, &state);
+            (sound(&state) && now.above(&left) > needed).then_some((pair, state, left))
+        })
+        .collect();
+    let least = better.iter().map(|(.., left)| left.excess()).fold(f64::INFINITY, f64::min);
+    let near = |left: &Left| left.sum() <= thresholds.from_noise.powi(2) * left.n;
+    let as_good = |left: &Left| near(left) || left.excess() <= (1.0 + thresholds.undecided) * least.max(0.0);
+    let (_, state, _) = better.into_iter().filter(|(.., left)| as_good(left)).min_by_key(|(pair, ..)| *pair)?;
+    Some(finish_bare(problem, state, from, all, thresholds))
+}
+
+/// The laws of one parameter that change no inertia, in the order of the catalogue: what moves less is no explanation of
+/// what drives it.
+fn laws(problem: &Problem, start: &State, all: &[Active]) -> Vec<Active> {
+    let mut laws: Vec<Active> = Vec::new();
+    let single = |a: &&Active| {
+        let [p] = &a.form.free[..] else { return false };
+        !a.effect.probe() && !a.switched() && !a.effect.nuisance() && p.material.is_finite()
+    };
+    for a in all.iter().filter(single) {
+        let known = start.active.iter().chain(&laws).any(|o| o.effect.name() == a.effect.name());
+        if !known && !problem.changes_inertia(start, a) {
+            laws.push(a.clone());
+        }
+    }
+    laws
+}
+
+/// Pairs of laws that leave least of held-out runs by a straight line.
+fn promising(problem: &Problem, start: &State, laws: &[Active]) -> Vec<[usize; 2]> {
+    let linear = problem.linearise(start, laws);
+    let penalised = Penalised::new(&linear.equations, 1.0);
+    let told = |c: &usize| linear.of_candidate(*c).iter().all(|j| penalised.information(*j) > 0.0);
+    let told: Vec<usize> = (0..laws.len()).filter(told).collect();
+    let pairs = told.iter().enumerate().flat_map(|(i, a)| told[i + 1..].iter().map(|b| [*a, *b]));
+    let mut rated: Vec<(f64, [usize; 2])> = pairs
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .map(|pair| {
+            let role = |owner: &Owner| match owner {
+                Owner::Active(..) => Role::Free,
+                Owner::Candidate(c, _) if pair.contains(c) => Role::Free,
+                _ => Role::Out,
+            };
+            let roles: Vec<Role> = linear.owners.iter().map(role).collect();
+            (penalised.held_out(&roles).iter().sum::<f64>(), pair)
+        })
+        .collect();
+    rated.retain(|(left, _)| left.is_finite());
+    rated.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rated.into_iter().take(FITTED).map(|(_, pair)| pair).collect()
+}
