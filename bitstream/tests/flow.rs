@@ -9,7 +9,7 @@ use bitstream::flow::netlist::Netlist;
 use bitstream::flow::prove::prove;
 use bitstream::flow::timing::decoded::longest;
 use bitstream::flow::{Built, FlowError, Progress, build};
-use bitstream::netlist::extract;
+use bitstream::netlist::{CellKind, Signal, extract};
 use serde_json::{Map, Value, json};
 
 /// A netlist of yosys under construction; nets are numbers from 2 up, as yosys has them.
@@ -177,6 +177,24 @@ fn a_flipped_bit_is_seen_by_the_decoder_or_by_the_proof() {
     }
     // YB is not used.
     assert!(!differs(&slice("YBMUX"), 0));
+}
+
+#[test]
+fn a_decoded_table_that_reads_itself_is_a_loop_of_logic() {
+    let source = counter(8);
+    let built = source.build(1).unwrap();
+    let netlist = Netlist::from_yosys(&source.json(), "top").unwrap();
+    let constraints = Constraints::parse(&source.constraints).unwrap();
+    let device = Device::xc2s200();
+    let mut decoded = extract(device, &built.configuration).unwrap();
+    let tables = decoded.cells.iter_mut().filter_map(|cell| match &mut cell.kind {
+        CellKind::Lut { inputs, output, .. } => Some((inputs, *output)),
+        _ => None,
+    });
+    let (inputs, output) = tables.into_iter().next().expect("a table");
+    inputs[0] = Signal::Net(output);
+    let proof = prove(device, &netlist, &constraints, &built.drivers, &decoded);
+    assert!(proof.differences[0].starts_with("the decoded circuit has a loop of logic at "), "{:?}", proof.differences);
 }
 
 #[test]

@@ -74,6 +74,10 @@ pub fn prove(
         prover.proof.differences.push(format!("the netlist has a loop of logic at {}", gold.nets[net.index()]));
         return prover.proof;
     }
+    if let Some(id) = prover.gate.looped() {
+        prover.differ(format!("the decoded circuit has a loop of logic at {}", gate.nets[id.0 as usize]));
+        return prover.proof;
+    }
     prover.pads(device, gold, constraints, gate);
     while let Some(id) = prover.todo.pop() {
         prover.net(id, gold, gate);

@@ -51,32 +51,9 @@ impl<'a> Gold<'a> {
 
     /// A net on a loop of logic, if there is one.
     pub(super) fn looped(&self) -> Option<Net> {
-        // 1 is being visited, 2 is done.
-        let mut state: BTreeMap<Net, u8> = BTreeMap::new();
-        for start in self.logic.keys() {
-            let mut stack = vec![(*start, false)];
-            while let Some((net, left)) = stack.pop() {
-                if left {
-                    state.insert(net, 2);
-                    continue;
-                }
-                match state.get(&net) {
-                    Some(2) => continue,
-                    Some(_) => return Some(net),
-                    None => {}
-                }
-                state.insert(net, 1);
-                stack.push((net, true));
-                for input in self.inputs(net).into_iter().filter_map(Signal::net) {
-                    match state.get(&input) {
-                        Some(1) => return Some(input),
-                        None if self.is_logic(input) => stack.push((input, false)),
-                        _ => {}
-                    }
-                }
-            }
-        }
-        None
+        let read =
+            |net| self.inputs(net).into_iter().filter_map(Signal::net).filter(|net| self.is_logic(*net)).collect();
+        looped(self.logic.keys().copied(), read)
     }
 
     /// Nets under a signal at which it is cut; nets in `open` are looked into.
@@ -162,6 +139,19 @@ impl<'a> Gate<'a> {
         }
         let cuts = names.values().copied().filter(|net| gold.is_logic(*net)).collect();
         Self { cells, names, cuts }
+    }
+
+    /// A net on a loop of logic, if there is one: nothing else here looks for an end of it.
+    pub(super) fn looped(&self) -> Option<NetId> {
+        let logic = |id: &NetId| self.cells.contains_key(id) && !self.is_element(*id);
+        let read = |id| {
+            let nets = inputs(self.cells[&id]).into_iter().filter_map(|signal| match signal {
+                netlist::Signal::Net(id) | netlist::Signal::Not(id) => Some(id),
+                netlist::Signal::Zero | netlist::Signal::One => None,
+            });
+            nets.filter(logic).collect()
+        };
+        looped(self.cells.keys().copied().filter(logic), read)
     }
 
     pub(super) fn flip_flop(&self, id: NetId) -> Option<&'a netlist::FlipFlop> {
@@ -258,6 +248,34 @@ impl<'a> Gate<'a> {
     }
 }
 
+/// A node that reads itself, at once or through others, among all that `starts` lead to.
+fn looped<N: Copy + Ord>(starts: impl Iterator<Item = N>, read: impl Fn(N) -> Vec<N>) -> Option<N> {
+    // Whether a node is done; those that are not are being visited.
+    let mut done: BTreeMap<N, bool> = BTreeMap::new();
+    for start in starts {
+        let mut stack = vec![(start, false)];
+        while let Some((node, left)) = stack.pop() {
+            if left {
+                done.insert(node, true);
+                continue;
+            }
+            if done.contains_key(&node) {
+                continue;
+            }
+            done.insert(node, false);
+            stack.push((node, true));
+            for input in read(node) {
+                match done.get(&input) {
+                    Some(false) => return Some(input),
+                    Some(true) => {}
+                    None => stack.push((input, false)),
+                }
+            }
+        }
+    }
+    None
+}
+
 fn inputs(kind: &CellKind) -> Vec<netlist::Signal> {
     match kind {
         CellKind::Alias { input, .. } => vec![*input],
@@ -284,5 +302,18 @@ fn outputs(kind: &CellKind) -> Vec<NetId> {
             memory.ports.iter().flat_map(|port| port.output.iter().flatten().copied()).collect()
         }
         CellKind::Dll(dll) => dll.outputs.iter().map(|output| output.1).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::looped;
+
+    #[test]
+    fn a_loop_is_found_and_a_net_that_is_read_twice_is_none() {
+        let among = |reads: &'static [&'static [usize]]| looped(0..reads.len(), |node| reads[node].to_vec());
+        assert_eq!(among(&[&[1, 2], &[3], &[1, 3], &[]]), None);
+        assert_eq!(among(&[&[0]]), Some(0));
+        assert!(among(&[&[], &[2], &[0, 3], &[1]]).is_some());
     }
 }
