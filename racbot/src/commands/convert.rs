@@ -4,7 +4,7 @@ use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
 use runs::CLOCK_OFF_S;
 use runs::error::InputError;
-use runs::import::{Clock, Drive, Imported, Joined, Map, Table, draft, draft_two, drives};
+use runs::import::{Clock, Imported, Joined, Map, Table, draft, draft_two, drives};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -88,7 +88,7 @@ impl Options {
         Ok(Answer { text, json, wrong: None })
     }
 
-    /// Every file a run in the folder; what cannot be read is left out, and said.
+    /// Every file, and every recording in one, a run in the folder; what cannot be read is left out, and said.
     fn convert_all(&self, map: &Path, files: &[PathBuf], folder: &Path) -> Result<Answer, Failure> {
         if folder.extension().is_some() && !is_folder(folder) {
             let what = "of several files give the folder for their runs last, such as set/";
@@ -106,26 +106,36 @@ impl Options {
         }
         self.target.check_free(all.iter().map(|drive| &drive.run))?;
         let (mut text, mut done, mut failed) = (String::new(), Vec::new(), Vec::new());
-        for Drive { log, truth, run } in &all {
-            match self.written(&map, log, truth.as_deref(), run) {
-                Ok((said, json)) => {
-                    text += &said;
-                    done.push(json);
-                }
-                Err(error) => {
-                    let said = error.to_string();
-                    // An error about the map or the second file says not whose.
-                    let said = if error.file == *log { said } else { format!("{}: {said}", log.display()) };
-                    text += &wrapped(&format!("left out: {said}"), 2);
-                    failed.push((log, said));
+        for drive in &all {
+            let log = &drive.log;
+            let recordings = map.recordings(log).map_or_else(
+                |error| vec![(None, Err(error))],
+                |some| some.into_iter().map(|(name, map)| (name, Ok(map))).collect(),
+            );
+            for (recording, map) in recordings {
+                let run = recording.as_ref().map_or_else(|| drive.run.clone(), |name| drive.run_of(name));
+                match map.and_then(|map| self.written(&map, log, drive.truth.as_deref(), &run)) {
+                    Ok((said, json)) => {
+                        text += &said;
+                        done.push(json);
+                    }
+                    Err(error) => {
+                        let said = error.to_string();
+                        // An error about the map or the second file says not whose.
+                        let said = if error.file == *log { said } else { format!("{}: {said}", log.display()) };
+                        let said = recording.map_or(said.clone(), |name| format!("{said} (recording {name})"));
+                        text += &wrapped(&format!("left out: {said}"), 2);
+                        failed.push((log, said));
+                    }
                 }
             }
         }
+        let total = done.len() + failed.len();
         let names: Vec<String> = failed.iter().map(|(log, _)| log.display().to_string()).collect();
         let wrong = match &failed[..] {
             [] => None,
-            [(_, said)] => Some(format!("{} of {} files is left out: {said}", failed.len(), all.len())),
-            _ => Some(format!("{} of {} files are left out: {}", failed.len(), all.len(), names.join(", "))),
+            [(_, said)] => Some(format!("1 of {total} runs is left out: {said}")),
+            _ => Some(format!("{} of {total} runs are left out: {}", failed.len(), names.join(", "))),
         };
         let failed: Vec<Value> = failed.iter().map(|(log, said)| json!({ "file": log, "why": said })).collect();
         Ok(Answer { text, json: json!({ "runs": done, "left_out": failed }), wrong })

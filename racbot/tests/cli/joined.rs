@@ -129,7 +129,7 @@ fn a_folder_of_logs_becomes_a_folder_of_runs_in_one_call() {
     let bad = racbot(path, &["convert", "map.toml", "logs/drive1.csv", "logs/drive2.csv", "again/"]);
     assert_eq!(bad.code, Some(1), "{}", bad.stderr);
     assert!(bad.stdout.contains("left out: logs/drive2.csv: ") && bad.stdout.contains("again/drive1.csv: "));
-    assert!(bad.stderr.contains("1 of 2 files is left out: logs/drive2.csv: "), "{}", bad.stderr);
+    assert!(bad.stderr.contains("1 of 2 runs is left out: logs/drive2.csv: "), "{}", bad.stderr);
     assert!(path.join("again/drive1.csv").exists() && !path.join("again/drive2.csv").exists());
     let one =
         ["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "more/", "--truth", "logs/drive1_mocap.tsv"];
@@ -139,6 +139,36 @@ fn a_folder_of_logs_becomes_a_folder_of_runs_in_one_call() {
     racbot(path, &each).done().fits_80_columns();
     racbot(path, &["convert", "map.toml", "logs/drive1.csv", "logs/drive3.csv", "out.csv"])
         .refused(2, &["out.csv", "folder"]);
+}
+
+#[test]
+fn the_tests_of_a_characterised_machine_are_runs_of_one_map() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let mut tests = Vec::new();
+    for (begins, (test, volts)) in
+        [("fast-backward", -7.0), ("fast-forward", 7.0), ("slow-backward", -0.25)].iter().enumerate()
+    {
+        let row = |k: u32| {
+            let t = 0.005 * f64::from(k);
+            let u = if test.starts_with("slow") { volts * t } else { *volts };
+            format!("[{}, {u}, {}, {}]", 100.0 * begins as f64 + t, 8.0 * u * t, 8.0 * u)
+        };
+        tests.push(format!("\"{test}\": [{}]", (0..400).map(row).collect::<Vec<_>>().join(", ")));
+    }
+    fs::write(path.join("sysid.json"), format!("{{{}, \"sysid\": true, \"test\": \"Simple\"}}", tests.join(", ")))
+        .unwrap();
+    racbot(path, &["convert", "--draft", "sysid.json", "map.toml"]).done().fits_80_columns();
+    let map = fs::read_to_string(path.join("map.toml")).unwrap();
+    assert!(map.contains("enc_1 = { from = \"position (rev)\", unit = \"rev\""), "{map}");
+    assert!(map.contains("duty_1 = { from = \"motor_voltage\", scale = 0.1429 }"), "{map}");
+    racbot(path, &["convert", "map.toml", "sysid.json", "run.csv"]).refused(1, &["3 recordings", "give a folder"]);
+    let json = racbot(path, &["--json", "convert", "map.toml", "sysid.json", "set/"]).json();
+    let runs: Vec<&str> = json["runs"].as_array().unwrap().iter().map(|r| r["run"].as_str().unwrap()).collect();
+    assert_eq!(runs, ["set/sysid_fast-backward.csv", "set/sysid_fast-forward.csv", "set/sysid_slow-backward.csv"]);
+    let fast = Run::read(path.join("set/sysid_fast-forward.csv")).unwrap();
+    assert_eq!((fast.len(), fast.t[1]), (400, 0.005));
+    assert!((fast.duty[0][200] - 1.0).abs() < 1e-3 && fast.counts[0][200] == (56.0 * 65_536.0) as i64);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::rows::{self, Rows};
 use super::sheet::numbered;
-use super::{Clock, Table};
+use super::{Clock, Table, sysid};
 use crate::error::InputError;
 
 /// From so many numbers on an array is a column of a log; below, a vector of one sample: the longest usual one is the
@@ -46,8 +46,24 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     let whole = if values.len() == 1 { values.remove(0) } else { Value::Array(values) };
     let mut found = Vec::new();
     search(&whole, "", &mut found);
-    let alone = found.len() == 1;
     let mut table = Table::default();
+    if let Some(names) = tests(&whole, &found).filter(|names| clock.column.is_none_or(|time| names.contains(&time))) {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        if let Some(mut rows) = Rows::new("", &names, clock) {
+            for (number, test) in found.iter().enumerate() {
+                if number > 0 {
+                    rows.restart(&mut table, number + 1);
+                }
+                for (line, row) in (1..).zip(&test.rows) {
+                    rows.push(&mut table, line, |i| row.get(i).copied().flatten());
+                }
+                table.recordings.push(test.place.clone());
+            }
+            table.time = rows.time();
+            return Ok(table);
+        }
+    }
+    let alone = found.len() == 1;
     let mut timeless = None;
     for one in &found {
         let prefix = if alone || one.place.is_empty() { String::new() } else { format!("{}/", one.place) };
@@ -67,6 +83,13 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         Some(error) if table.series.is_empty() => Err(error),
         _ => Ok(table),
     }
+}
+
+/// What the columns of all tables are, where the file is a characterisation of a machine, with a table each test.
+fn tests(whole: &Value, found: &[Found]) -> Option<&'static [&'static str]> {
+    let width = found.first()?.columns.len();
+    let alike = |test: &Found| test.columns.len() == width && test.columns == numbered(width);
+    sysid::columns(whole, width).filter(|_| found.iter().all(alike))
 }
 
 /// The same bytes with null where Python writes NaN and Infinity, which no JSON has.
@@ -241,6 +264,35 @@ mod tests {
         let read = table(&columns);
         assert_eq!(names(&read), ["speed", "xy/1", "xy/2", "other/u"]);
         assert_eq!((read.find("xy/2").unwrap().values[3], read.find("other/u").unwrap().values[0]), (4.0, 9.0));
+    }
+
+    #[test]
+    fn tests_of_a_machine_are_recordings_with_names() {
+        let of = |fast: &str, slow: &str| {
+            format!(r#"{{"fast-forward": [{fast}], "slow-forward": [{slow}], "test": "Simple"}}"#)
+        };
+        // The second test was recorded after the first: the time goes on.
+        let text = of("[5.0, 7, 0.5, 1], [5.02, 7, 0.6, 2]", "[9.0, 1, 0.7, 1], [9.02, 1, 0.8, 2], [9.04, 1, 0.9, 2]");
+        let read = |recording| {
+            let clock = Clock { recording, ..Clock::default() };
+            Table::of_bytes(text.as_bytes(), Path::new("sysid.json"), None, &clock)
+        };
+        let all = read(None).unwrap();
+        assert_eq!(names(&all), ["motor_voltage", "position (rev)", "motor_velocity (rev/s)"]);
+        assert_eq!(all.recordings, ["fast-forward", "slow-forward"]);
+        assert_eq!(all.restart.map(|restart| restart.recordings), Some(2));
+        let slow = read(Some(2)).unwrap();
+        assert_eq!(slow.find("position (rev)").unwrap().values, [0.7, 0.8, 0.9]);
+        assert!(read(Some(3)).unwrap_err().to_string().contains("has no recording 3"));
+        // Rows of a width that nobody writes keep their numbers, and tables of two widths are no tests of one machine.
+        let other = |text: &str| {
+            let clock = Clock { column: Some("column_1"), ..Clock::default() };
+            let table = Table::of_bytes(text.as_bytes(), Path::new("x.json"), None, &clock).unwrap();
+            table.series.iter().map(|s| s.name.clone()).collect::<Vec<_>>()
+        };
+        assert!(other(&of("[1, 2, 3, 4, 5]", "[2, 2, 3, 4, 5]")).contains(&"slow-forward/column_5".to_owned()));
+        let two = r#"{"fast-forward": [[1, 2, 3, 4]], "slow-forward": [[1, 2, 3], [2, 3, 4]]}"#;
+        assert!(other(two).contains(&"fast-forward/column_4".to_owned()));
     }
 
     #[test]

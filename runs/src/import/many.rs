@@ -18,6 +18,15 @@ pub struct Drive {
     pub run: PathBuf,
 }
 
+impl Drive {
+    /// The run's file of one recording of several.
+    pub fn run_of(&self, recording: &str) -> PathBuf {
+        let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
+        let name: String = recording.chars().map(plain).collect();
+        self.run.with_file_name(format!("{}_{name}.csv", stem(&self.run)))
+    }
+}
+
 /// What becomes of `files`, each a log or a folder of logs, in a folder of runs. A run is called as its log, after its
 /// folder, too, where several logs are called alike; the second file of another is no log. `truth` is a pattern as the
 /// map's `truth.file`, but from here.

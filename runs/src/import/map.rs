@@ -143,6 +143,26 @@ impl Map {
         self.joined([(&table, log), (&poses, &file)], second)
     }
 
+    /// The recordings of a log: what each is called, and the map that reads it alone. One without a name, where the log
+    /// holds no more or the map says which.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn recordings(&self, log: &Path) -> Result<Vec<(Option<String>, Self)>, InputError> {
+        let alone = vec![(None, self.clone())];
+        if self.log.time.recording.is_some() {
+            return Ok(alone);
+        }
+        let table = self.log.table(log)?;
+        let Some(restart) = table.restart else { return Ok(alone) };
+        let one = |number: usize| {
+            let mut map = self.clone();
+            map.log.time.recording = Some(number);
+            (Some(table.recordings.get(number - 1).cloned().unwrap_or_else(|| number.to_string())), map)
+        };
+        Ok((1..=restart.recordings).map(one).collect())
+    }
+
     /// The second file that the map has for a log, if it has one.
     pub fn truth_of(&self, log: &Path) -> Option<PathBuf> {
         self.second(self.truth.as_ref()?, log).ok()

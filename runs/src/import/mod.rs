@@ -19,6 +19,7 @@ mod ros2;
 mod rows;
 mod sheet;
 mod ssl;
+mod sysid;
 mod time;
 mod track;
 mod truth;
@@ -56,6 +57,8 @@ pub struct Table {
     pub time: Option<(String, f64)>,
     /// That it holds several recordings.
     pub restart: Option<Restart>,
+    /// What the file calls them, in their order, where it does.
+    pub recordings: Vec<String>,
     index: std::collections::HashMap<String, usize>,
 }
 

@@ -60,8 +60,11 @@ impl Reading {
         let fail = |e: InputError| InputError { file: path.to_owned(), ..e };
         if let Some(restart) = table.restart.filter(|_| self.time.recording.is_none()) {
             let what = format!("its time starts again: it holds {} recordings", restart.recordings);
-            let its = if self.pose_alone { "truth.time" } else { "time" };
-            let hint = format!("make a run of each: recording = 1 in the map's [{its}], then 2, ...");
+            let hint = if self.pose_alone {
+                "say which: recording = 1 in the map's [truth.time], or 2, ..."
+            } else {
+                "give a folder to write to, which gets a run of each, or recording = 1 in the map's [time], then 2, ..."
+            };
             return Err(InputError::new(path, what, hint).at(restart.line, 1));
         }
         let mut wanted = wanted(&self.columns).map_err(fail)?;

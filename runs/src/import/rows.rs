@@ -84,6 +84,14 @@ impl<'a> Rows<'a> {
         self.at.map(|at| (at, self.names[at].as_str()))
     }
 
+    /// Begins the next recording, whose first row has this line or number.
+    pub(super) fn restart(&mut self, table: &mut Table, line: usize) {
+        self.recording += 1;
+        self.first = None;
+        let restart = table.restart.get_or_insert(Restart { line, recordings: 1 });
+        restart.recordings = restart.recordings.max(self.recording);
+    }
+
     /// Adds a row of which `line` is the line, or the number; one without time is none.
     pub(super) fn push(&mut self, table: &mut Table, line: usize, row: impl Fn(usize) -> Option<f64>) {
         let t = match self.at {
@@ -95,16 +103,10 @@ impl<'a> Rows<'a> {
         };
         self.rows += 1.0;
         // Rows that overtook others are no restart: it goes back over half of what was recorded.
-        if self.first.is_none() {
-            self.last = t; // it may be negative
+        if self.first.is_some_and(|first| t < self.last - 0.5 * (self.last - first)) {
+            self.restart(table, line);
         }
-        let first = *self.first.get_or_insert(t);
-        if t < self.last - 0.5 * (self.last - first) {
-            self.recording += 1;
-            self.first = Some(t);
-            let restart = table.restart.get_or_insert(Restart { line, recordings: 1 });
-            restart.recordings = restart.recordings.max(self.recording);
-        }
+        self.first.get_or_insert(t); // it may be negative
         self.last = t;
         if self.clock.recording.is_some_and(|wanted| wanted != self.recording) {
             return;
@@ -151,8 +153,8 @@ mod tests {
         let error = made(COLUMNS, STEPS).unwrap_err();
         assert_eq!(
             error,
-            "in.csv:6:1: its time starts again: it holds 2 recordings; make a run of each: recording = 1 in the map's \
-             [time], then 2, ..."
+            "in.csv:6:1: its time starts again: it holds 2 recordings; give a folder to write to, which gets a \
+             run of each, or recording = 1 in the map's [time], then 2, ..."
         );
         let of = |n: usize| made(&format!("[time]\nrecording = {n}\n{COLUMNS}"), STEPS);
         assert_eq!(
