@@ -84,7 +84,7 @@ impl Options {
             ));
         }
         self.target.check_free([out])?;
-        let (text, json) = self.written(&Map::load(map)?, file, self.truth.as_deref(), out)?;
+        let (text, json) = self.written(Map::load(map)?.import(file, self.truth.as_deref())?, out)?;
         Ok(Answer { text, json, wrong: None })
     }
 
@@ -108,13 +108,10 @@ impl Options {
         let (mut text, mut done, mut failed) = (String::new(), Vec::new(), Vec::new());
         for drive in &all {
             let log = &drive.log;
-            let recordings = map.recordings(log).map_or_else(
-                |error| vec![(None, Err(error))],
-                |some| some.into_iter().map(|(name, map)| (name, Ok(map))).collect(),
-            );
-            for (recording, map) in recordings {
+            let each = map.import_each(log, drive.truth.as_deref());
+            for (recording, imported) in each.unwrap_or_else(|error| vec![(None, Err(error))]) {
                 let run = recording.as_ref().map_or_else(|| drive.run.clone(), |name| drive.run_of(name));
-                match map.and_then(|map| self.written(&map, log, drive.truth.as_deref(), &run)) {
+                match imported.and_then(|imported| self.written(imported, &run)) {
                     Ok((said, json)) => {
                         text += &said;
                         done.push(json);
@@ -141,9 +138,9 @@ impl Options {
         Ok(Answer { text, json: json!({ "runs": done, "left_out": failed }), wrong })
     }
 
-    /// Converts one file, and says what came of it.
-    fn written(&self, map: &Map, file: &Path, truth: Option<&Path>, out: &Path) -> Result<(String, Value), InputError> {
-        let Imported { run, joined } = map.import(file, truth)?;
+    /// Writes a run, and says what came of it.
+    fn written(&self, imported: Imported, out: &Path) -> Result<(String, Value), InputError> {
+        let Imported { run, joined } = imported;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
         }

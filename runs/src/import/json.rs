@@ -54,9 +54,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
                 if number > 0 {
                     rows.restart(&mut table, number + 1);
                 }
-                for (line, row) in (1..).zip(&test.rows) {
-                    rows.push(&mut table, line, |i| row.get(i).copied().flatten());
-                }
+                test.put(&mut rows, &mut table);
                 table.recordings.push(test.place.clone());
             }
             table.time = rows.time();
@@ -74,9 +72,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
             });
             continue;
         };
-        for (line, row) in (1..).zip(&one.rows) {
-            rows.push(&mut table, line, |i| row.get(i).copied().flatten());
-        }
+        one.put(&mut rows, &mut table);
         table.time = table.time.take().or(rows.time());
     }
     match timeless {
@@ -88,7 +84,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
 /// What the columns of all tables are, where the file is a characterisation of a machine, with a table each test.
 fn tests(whole: &Value, found: &[Found]) -> Option<&'static [&'static str]> {
     let width = found.first()?.columns.len();
-    let alike = |test: &Found| test.columns.len() == width && test.columns == numbered(width);
+    let alike = |test: &Found| test.columns == numbered(width);
     sysid::columns(whole, width).filter(|_| found.iter().all(alike))
 }
 
@@ -179,6 +175,13 @@ fn holds_column(value: &Value) -> bool {
 }
 
 impl Found {
+    /// Its rows as samples of a table.
+    fn put(&self, rows: &mut Rows, table: &mut Table) {
+        for (line, row) in (1..).zip(&self.rows) {
+            rows.push(table, line, |i| row.get(i).copied().flatten());
+        }
+    }
+
     /// Of rows, each of named values.
     fn of<'a>(place: &str, rows: impl Iterator<Item = Vec<(&'a str, &'a Value)>>) -> Self {
         let mut index: HashMap<String, usize> = HashMap::new();

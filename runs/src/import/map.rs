@@ -61,6 +61,9 @@ pub struct Imported {
     pub joined: Option<Joined>,
 }
 
+/// What a recording of a log is called, and what came of it.
+pub type Recording = (Option<String>, Result<Imported, InputError>);
+
 impl Map {
     /// Reads a map.
     ///
@@ -129,36 +132,38 @@ impl Map {
     /// # Errors
     /// [`InputError`] as [`Table::read`] and [`Map::run`] for either file, and where they have no time in common.
     pub fn import(&self, log: &Path, truth: Option<&Path>) -> Result<Imported, InputError> {
+        self.imported(&self.log.table(log)?, log, truth)
+    }
+
+    fn imported(&self, table: &Table, log: &Path, truth: Option<&Path>) -> Result<Imported, InputError> {
         let Some(second) = &self.truth else {
             if let Some(file) = truth {
                 let what = format!("has no [truth], which says what {} holds", file.display());
                 let hint = "racbot convert --draft LOG map.toml --truth FILE writes a map of two files";
                 return Err(InputError::new(&self.path, what, hint));
             }
-            return Ok(Imported { run: self.run(&self.log.table(log)?, log)?, joined: None });
+            return Ok(Imported { run: self.run(table, log)?, joined: None });
         };
         let file = truth.map_or_else(|| self.second(second, log), |file| Ok(file.to_owned()))?;
-        let table = self.log.table(log)?;
         let poses = second.reading.table(&file)?;
-        self.joined([(&table, log), (&poses, &file)], second)
+        self.joined([(table, log), (&poses, &file)], second)
     }
 
-    /// The recordings of a log: what each is called, and the map that reads it alone. One without a name, where the log
-    /// holds no more or the map says which.
+    /// The same of every recording of a log, with what it is called: without a name where the log holds no more or the map
+    /// says which.
     ///
     /// # Errors
-    /// As [`Table::read`].
-    pub fn recordings(&self, log: &Path) -> Result<Vec<(Option<String>, Self)>, InputError> {
-        let alone = vec![(None, self.clone())];
-        if self.log.time.recording.is_some() {
-            return Ok(alone);
-        }
+    /// As [`Table::read`] for the log.
+    pub fn import_each(&self, log: &Path, truth: Option<&Path>) -> Result<Vec<Recording>, InputError> {
         let table = self.log.table(log)?;
-        let Some(restart) = table.restart else { return Ok(alone) };
+        let Some(restart) = table.restart.filter(|_| self.log.time.recording.is_none()) else {
+            return Ok(vec![(None, self.imported(&table, log, truth))]);
+        };
         let one = |number: usize| {
             let mut map = self.clone();
             map.log.time.recording = Some(number);
-            (Some(table.recordings.get(number - 1).cloned().unwrap_or_else(|| number.to_string())), map)
+            let name = table.recordings.get(number - 1).cloned().unwrap_or_else(|| number.to_string());
+            (Some(name), map.import(log, truth))
         };
         Ok((1..=restart.recordings).map(one).collect())
     }

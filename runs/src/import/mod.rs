@@ -34,7 +34,7 @@ pub use agreement::Agreement;
 pub use draft::{draft, draft_two};
 pub use join::Joined;
 pub use many::{Drive, drives};
-pub use map::{Imported, Map};
+pub use map::{Imported, Map, Recording};
 pub use ssl::{field_size, is_game_log};
 
 /// Samples of one quantity.
