@@ -21,12 +21,12 @@ pub(crate) struct Options {
     #[arg(long, value_name = "DIR", default_value = GENERATED)]
     generated: PathBuf,
 
-    /// Control ticks to simulate in rust-hdl, clock by clock
+    /// Control ticks to simulate in rust-hdl, clock by clock, of each of two drives
     #[arg(long, value_name = "N", default_value_t = TICKS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     ticks: u32,
 }
 
-const TICKS: u32 = 40;
+const TICKS: u32 = 12;
 const OUT: &str = "out/demo";
 const GENERATED: &str = "generated";
 

@@ -15,10 +15,11 @@ use runs::robot::{Layout, Robot};
 use serde_json::json;
 use simulator::closed_loop::picture::{Curve, speeds, trajectory};
 use simulator::closed_loop::{Drive, Driven};
-use simulator::cross_check::{Traced, play};
+use simulator::cross_check::{CrossCheck, Trace, Traced, play};
 use simulator::fpga::{BitTrue, QUIET_CLOCKS, RustHdl};
 use simulator::replay::picture::duties;
 use simulator::replay::{Part as RunPart, WheelAgreement, lsb, replay};
+use std::panic::resume_unwind;
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,6 +29,9 @@ const SHIPPED_ROBOT: &str = include_str!("../../../data/runs/wheel-skew/robot.to
 
 /// Control rate of the cross-check, Hz: short periods, so that many ticks fit into few clocks.
 const CROSS_CHECK_RATE_HZ: f64 = 8_000.0;
+
+/// How the robot moves as each drive of the cross-check begins, for the first set point: a bend, and backwards out of a turn.
+const CROSS_CHECKED: [Twist; 2] = [Twist::new(0.6, 0.5, 0.5), Twist::new(-0.6, 0.3, -2.0)];
 
 impl Report {
     /// Is `generated/` what the gateware emits today?
@@ -133,35 +137,36 @@ impl Report {
         });
     }
 
-    /// Some ticks of a drive through the rust-hdl simulation, all of them compared.
+    /// Some ticks of two drives through the rust-hdl simulation, side by side, all of them compared.
     pub(crate) fn cross_check(&mut self, ticks: u32) -> Result<(), Failure> {
-        let mut drive = Drive {
-            speed_mode: SpeedMode::CountAndTime,
-            limit_s: f64::from(ticks) / CROSS_CHECK_RATE_HZ,
-            // Straight into the bend before the second set point.
-            moving: Twist::new(0.6, 0.5, 0.5),
-            ..Drive::fig_6()
-        };
-        drive.believed.control_rate_hz = CROSS_CHECK_RATE_HZ;
-        let mut traced = Traced::new(BitTrue::new().with_quiet_clocks(QUIET_CLOCKS));
-        drive.run(&mut traced, |_| {}).map_err(Failure::data)?;
-        let trace = traced.into_trace();
-
-        let progress = Progress::new("rust-hdl, clock by clock", trace.periods.len() as u64);
+        let traces: Vec<Trace> = CROSS_CHECKED.iter().map(|&moving| traced(moving, ticks)).collect::<Result<_, _>>()?;
+        let progress = Progress::new("rust-hdl, clock by clock", traces.iter().map(|t| t.periods.len() as u64).sum());
         let begun = Instant::now();
-        let check = play(&trace, RustHdl::new(), |done| progress.at(done as u64)).map_err(Failure::data)?;
-        let clocks_per_s = check.clocks as f64 / begun.elapsed().as_secs_f64();
+        let checks: Vec<CrossCheck> = std::thread::scope(|scope| {
+            let progress = &progress;
+            let threads: Vec<_> = traces
+                .iter()
+                .map(|trace| scope.spawn(move || play(trace, RustHdl::new(), |_| progress.step())))
+                .collect();
+            let ended = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+            ended.collect::<Result<_, _>>().map_err(Failure::data)
+        })?;
 
-        let good = check.difference.is_none();
-        let outcome = check.difference.map_or_else(|| "0 words differ".to_owned(), |difference| difference.to_string());
+        let sum = |of: fn(&CrossCheck) -> u64| checks.iter().map(of).sum::<u64>();
+        let (ticks, clocks) = (sum(|check| check.ticks as u64), sum(|check| check.clocks));
+        let (words, live_words) = (sum(|check| check.words as u64), sum(|check| check.live_words as u64));
+        let clocks_per_s = clocks as f64 / begun.elapsed().as_secs_f64();
+        let difference = checks.iter().find_map(|check| check.difference).map(|difference| difference.to_string());
+        let good = difference.is_none();
+        let outcome = difference.clone().unwrap_or_else(|| "0 words differ".to_owned());
         let details = vec![
-            format!("{} ticks, {} clocks, {} words: {outcome}", check.ticks, check.clocks, check.words),
-            format!("{} words change from tick to tick", check.live_words),
-            format!("{} clocks/s simulated", ratio(clocks_per_s)),
+            format!("{ticks} ticks, {clocks} clocks, {words} words: {outcome}"),
+            format!("{live_words} words change from tick to tick"),
+            format!("{} clocks/s simulated, two drives at once", ratio(clocks_per_s)),
         ];
         let figures = json!({
-            "ticks": check.ticks, "clocks": check.clocks, "words": check.words, "live_words": check.live_words,
-            "difference": check.difference.map(|difference| difference.to_string()), "clocks_per_s": clocks_per_s,
+            "drives": checks.len(), "ticks": ticks, "clocks": clocks, "words": words, "live_words": live_words,
+            "difference": difference, "clocks_per_s": clocks_per_s,
         });
         self.parts.push(Part { name: "against rust-hdl", details, good, outcome, figures });
         Ok(())
@@ -205,6 +210,20 @@ impl Report {
         });
         Ok(())
     }
+}
+
+/// A drive of so many ticks, and what the bit-true FPGA made of it.
+fn traced(moving: Twist, ticks: u32) -> Result<Trace, Failure> {
+    let mut drive = Drive {
+        speed_mode: SpeedMode::CountAndTime,
+        limit_s: f64::from(ticks) / CROSS_CHECK_RATE_HZ,
+        moving,
+        ..Drive::fig_6()
+    };
+    drive.believed.control_rate_hz = CROSS_CHECK_RATE_HZ;
+    let mut fpga = Traced::new(BitTrue::new().with_quiet_clocks(QUIET_CLOCKS));
+    drive.run(&mut fpga, |_| {}).map_err(Failure::data)?;
+    Ok(fpga.into_trace())
 }
 
 /// Two significant figures, with thousands apart.

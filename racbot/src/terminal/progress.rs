@@ -24,6 +24,11 @@ impl Progress {
     pub(crate) fn at(&self, done: u64) {
         self.0.set_position(done);
     }
+
+    /// One more step is done, by any thread.
+    pub(crate) fn step(&self) {
+        self.0.inc(1);
+    }
 }
 
 impl Drop for Progress {
