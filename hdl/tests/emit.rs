@@ -6,6 +6,7 @@ use hdl::emit::ports::Ports;
 use hdl::emit::token::{Kind, tokens};
 use hdl::emit::{hash, top, ucf, verilog};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 use std::collections::BTreeSet;
 
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]

@@ -3,6 +3,7 @@
 
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 use simulator::cosim::{CosimError, Ports, Verilated, icarus, lint};
 
 /// Signed subtraction with a widening cast: right in rust-hdl's simulation, one bit short in its

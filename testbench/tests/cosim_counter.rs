@@ -2,6 +2,7 @@
 
 use hdl::sim::cycle;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 use simulator::cosim::{Change, Clocks, Levels, Ports, Verilated, icarus, lint};
 use std::ops::ControlFlow;
 

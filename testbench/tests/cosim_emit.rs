@@ -5,6 +5,7 @@ use hdl::blocks::local_bus::LocalBus;
 use hdl::board::{Assignment, Board, Buffer, Place};
 use hdl::emit::{top, verilog};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 use simulator::cosim::{BusConfig, BusOperation, Ports, Verilated, icarus, lint};
 use std::collections::HashMap;
 

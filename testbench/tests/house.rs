@@ -219,7 +219,7 @@ fn the_robots_binary_links_no_simulation() {
     let text = String::from_utf8(output.stdout).unwrap();
     let linked: BTreeSet<&str> = text.lines().filter_map(|line| line.split(' ').next()).collect();
     assert!(linked.contains("driver") && linked.contains("fixed-kin"), "{linked:?}");
-    for none in ["simulator", "gap", "plot", "testbench", "hdl", "rust-hdl", "vision"] {
+    for none in ["simulator", "gap", "plot", "testbench", "hdl", "rust-hdl-core", "vision"] {
         assert!(!linked.contains(none), "the robot's binary links {none}");
     }
 }

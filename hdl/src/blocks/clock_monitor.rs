@@ -16,6 +16,7 @@
 use crate::primitives::Literal;
 use fixed_kin::clock_monitor::{RECOVERY_TOGGLES, SILENT_CLOCKS};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The clock monitor; see the head of this file.
 #[derive(LogicBlock, Default)]

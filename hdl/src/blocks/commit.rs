@@ -15,6 +15,7 @@ use crate::primitives::{Literal, Preset};
 use fixed_kin::control::{CONFIGURATION_WORDS, SET_POINT_WORDS};
 use fixed_kin::registers::CHECKSUM_SEED;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

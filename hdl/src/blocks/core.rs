@@ -42,6 +42,7 @@ use crate::primitives::Literal;
 use crate::program::{OutputPort, control_tick};
 use fixed_kin::registers::{ARM, RADIO};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

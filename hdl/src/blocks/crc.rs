@@ -10,6 +10,7 @@
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module; `TAPS` are in the order of the line.
 #[derive(LogicBlock, Default)]

@@ -11,6 +11,7 @@
 use crate::primitives::Literal;
 use fixed_kin::word::WORD_MAX;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Clocks that `busy` is high.
 pub const DIVISION_STEPS: u32 = 35;

@@ -20,6 +20,7 @@
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Two-flop synchroniser and glitch filter of one pin.
 ///

@@ -23,6 +23,7 @@
 
 use crate::primitives::{Literal, Memory};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

@@ -10,6 +10,7 @@
 //! configuration. Serves `interrupt_enable`, `interrupt_status`; the twin is `fixed_kin::interrupt::Interrupt`.
 
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

@@ -31,6 +31,7 @@ use super::encoder::GlitchFilter;
 use crate::primitives::Literal;
 use fixed_kin::kicker::{BALL_FILTER_US, CHARGE_GAP_US, COMMUTATION_US, MAXIMUM_PULSE_US, MINIMUM_LOCKOUT_US, State};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The kicker block; see the head of this file.
 #[derive(LogicBlock, Default)]

@@ -29,6 +29,7 @@
 
 use fixed_kin::local_bus::{LAST_ADDRESS, OFFER_CLOCKS};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The block; its bit-true twin is [`fixed_kin::local_bus::LocalBus`].
 #[derive(LogicBlock)]

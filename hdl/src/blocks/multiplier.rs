@@ -14,6 +14,7 @@
 use crate::primitives::Literal;
 use fixed_kin::word::{Scale, WORD_MAX, WORD_MIN};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The scales in the order of the port `scale`.
 pub const SCALES: [Scale; 5] = [Scale::COEFFICIENT, Scale::FINE, Scale::WIDE, Scale::PERIOD, Scale::COUNTS];

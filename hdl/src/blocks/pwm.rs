@@ -38,6 +38,7 @@
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The PWM block; see the head of this file.
 #[derive(LogicBlock, Default)]

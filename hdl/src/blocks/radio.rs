@@ -22,6 +22,7 @@ use super::serial_receiver::SerialReceiver;
 use crate::primitives::{Literal, Memory, Preset};
 use fixed_kin::radio::{CLOCKS_PER_BIT, CRC_BYTES, CRC_RESIDUE, CRC_TAPS, GAP_BYTES, HEAD, STRAP_CLOCKS, WRITE_BYTES};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The radio at the rate of its line.
 pub type Radio = RadioAt<{ CLOCKS_PER_BIT as u64 / 2 - 1 }, { CLOCKS_PER_BIT as u64 - 1 }>;

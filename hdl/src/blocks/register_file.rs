@@ -15,6 +15,7 @@ use fixed_kin::registers::{
     DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, VERSION,
 };
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

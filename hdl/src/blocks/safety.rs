@@ -28,6 +28,7 @@ use super::encoder::GlitchFilter;
 use crate::primitives::Literal;
 use fixed_kin::safety::{ARM_FIRST, ARM_SECOND, EMERGENCY_STOP_FILTER, Fault};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 type FaultBit<const F: u64> = Literal<8, F>;
 

@@ -28,6 +28,7 @@ use crate::program;
 use fixed_kin::AXES;
 use fixed_kin::word::{WORD_MAX, WORD_MIN};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

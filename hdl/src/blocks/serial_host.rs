@@ -20,6 +20,7 @@ use super::serial_receiver::SerialReceiver;
 use crate::primitives::Literal;
 use fixed_kin::serial_host::{CLOCKS_PER_BIT, FRAME_TIMEOUT};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

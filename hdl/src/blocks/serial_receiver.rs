@@ -11,6 +11,7 @@
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module; `HALF` and `WHOLE` are the clocks of half a bit and of a bit, each less one.
 #[derive(LogicBlock, Default)]

@@ -14,6 +14,7 @@
 
 use crate::primitives::Literal;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

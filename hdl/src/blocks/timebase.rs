@@ -11,6 +11,7 @@ use crate::primitives::{Literal, Preset};
 use fixed_kin::kicker::MICROSECOND_CLOCKS;
 use fixed_kin::registers::{DEFAULT_TICK_PERIOD, MIN_TICK_PERIOD};
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock, Default)]

@@ -13,6 +13,7 @@
 use crate::primitives::{Literal, Rom};
 use fixed_kin::pose::SINE;
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// See the module.
 #[derive(LogicBlock)]
