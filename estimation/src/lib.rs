@@ -24,6 +24,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod normal_equations;
+pub mod parallel;
 pub mod prior;
 pub mod sign_flips;
 pub mod statistics;

@@ -178,7 +178,7 @@ fn capital(text: &str) -> String {
 mod tests {
     use std::path::Path;
 
-    use rayon::prelude::*;
+    use estimation::parallel::each;
 
     use super::*;
 
@@ -202,8 +202,8 @@ mod tests {
         }
         let mut pages = vec![("effects.md".to_owned(), list)];
         let drawn: Vec<(&Description, Option<String>)> = all
-            .par_iter()
-            .map(|d| (d, picture::picture(&d.name, d.links[0], crate::effects::find(&d.name).as_deref())))
+            .iter()
+            .zip(each(&all, &|d| picture::picture(&d.name, d.links[0], crate::effects::find(&d.name).as_deref())))
             .collect();
         for (d, picture) in drawn {
             pages.push((format!("effects/{}.md", d.name), page(d, picture.is_some())));

@@ -8,10 +8,10 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
+use estimation::parallel::each;
 use model::effects::Applied;
 use model::manoeuvre::{self, Manoeuvre};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use runs::frames::Pose;
 use runs::robot::Robot;
 use runs::{Log, Run};
@@ -159,7 +159,8 @@ impl<'a> Library<'a> {
             Design::new(problem, &state, &candidates, findings.thresholds)
         })?;
         let applied = Applied::of(findings.found);
-        let driven = |m: Manoeuvre| {
+        let driven = |m: &Manoeuvre| {
+            let m = *m;
             let run = manoeuvre::simulate(m, &applied, findings.robot, Pose::new(0.4, -0.3, 0.5), 1).ok()?;
             let seconds = run.duration_s();
             let robot = Robot { support: m.support(), ..findings.robot.clone() };
@@ -169,7 +170,7 @@ impl<'a> Library<'a> {
             let linear = on_link(findings, &pieces, &there, link, |p| p.linearise(&there, &candidates))?;
             Some((m, seconds, information(&linear)))
         };
-        let manoeuvres = Manoeuvre::ALL.into_par_iter().filter_map(driven).collect();
+        let manoeuvres = each(&Manoeuvre::ALL, &driven).into_iter().flatten().collect();
         Some(Self { own, index, logs: information(&design.linear), design, manoeuvres })
     }
 
@@ -201,7 +202,7 @@ impl<'a> Library<'a> {
                 others: Vec::new(),
             })
         };
-        self.manoeuvres.par_iter().filter_map(separates).collect()
+        each(&self.manoeuvres, &separates).into_iter().flatten().collect()
     }
 
     /// Standard deviations between the effect as found and the best that alternatives can do, with the help

@@ -12,7 +12,7 @@ mod undecided;
 
 use std::sync::{Arc, OnceLock};
 
-use rayon::prelude::*;
+use estimation::parallel::each;
 
 use crate::effect::{Effect, Link};
 use crate::options::Thresholds;
@@ -312,19 +312,16 @@ fn short_subset(design: &Design, thresholds: &Thresholds) -> Option<Vec<usize>> 
             s.iter().skip(i + 1).all(|b| design.candidates[*a].effect.name() != design.candidates[*b].effect.name())
         })
     };
-    let rated: Vec<(f64, Vec<usize>)> = subsets
-        .into_par_iter()
-        .filter(distinct)
-        .filter_map(|s| {
-            let fit = design.fit(&s);
-            let sound = s.iter().all(|c| {
-                let v = design.values(&fit, *c);
-                design.within_bounds(*c, &v, &fit) && design.material(*c, &v)
-            });
-            sound.then(|| (design.objective(&fit, &s, thresholds), s))
-        })
-        .collect();
-    rated.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|r| r.1)
+    subsets.retain(distinct);
+    let rated = each(&subsets, &|s| {
+        let fit = design.fit(s);
+        let sound = s.iter().all(|c| {
+            let v = design.values(&fit, *c);
+            design.within_bounds(*c, &v, &fit) && design.material(*c, &v)
+        });
+        sound.then(|| (design.objective(&fit, s, thresholds), s.clone()))
+    });
+    rated.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(|r| r.1)
 }
 
 /// Adds effects one after the other to those of a design, those before `from` not its own.

@@ -4,8 +4,8 @@
 //!
 //! While wheels roll this is the law of the drive link once more, with the same torques and their errors: it is left out.
 
+use estimation::parallel::each;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
-use rayon::prelude::*;
 use std::ops::Range;
 
 use super::test_functions::{BodyFelt, DriveLink, Shape, TestFunction};
@@ -109,15 +109,12 @@ impl DriveLink<'_> {
         };
         let left = |model: &DriveModel| self.felt_left(model, sensor, s, range, shapes);
         let Some(base) = left(model) else { return Vec::new() };
-        let columns: Vec<Vec<Left>> = sides
-            .par_iter()
-            .map(|side| {
-                let low = side.low.as_ref().map_or_else(|| Some(base.clone()), left);
-                let Some((low, high)) = low.zip(left(&side.high)) else { return vec![[0.0; 2]; base.len()] };
-                // What a model explains more is left less.
-                low.iter().zip(&high).map(|(low, high)| [0, 1].map(|i| (low[i] - high[i]) / side.step)).collect()
-            })
-            .collect();
+        let columns: Vec<Vec<Left>> = each(sides, &|side| {
+            let low = side.low.as_ref().map_or_else(|| Some(base.clone()), left);
+            let Some((low, high)) = low.zip(left(&side.high)) else { return vec![[0.0; 2]; base.len()] };
+            // What a model explains more is left less.
+            low.iter().zip(&high).map(|(low, high)| [0, 1].map(|i| (low[i] - high[i]) / side.step)).collect()
+        });
         let mut clusters = Vec::new();
         let mut first = 0;
         for part in own.chunk_by(|a, b| a.cluster == b.cluster) {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::columns::{Column, Columns, Side};
 use super::forces::Base;
@@ -281,7 +281,7 @@ impl<'a> DriveLink<'a> {
 
     /// The shapes of some test functions of one segment.
     pub(super) fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
-        self.test_functions[range.clone()].par_iter().map(|b| b.shape(s)).collect()
+        each(&self.test_functions[range.clone()], &|b| b.shape(s))
     }
 
     /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
@@ -340,11 +340,11 @@ impl<'a> DriveLink<'a> {
     /// Torques that the measured accelerations take of a model, Nm, one a test function.
     pub fn done(&self, model: &DriveModel) -> Vec<DVector<f64>> {
         let Some(Mechanics { inertia, .. }) = model.mechanics() else { return Vec::new() };
-        let part = |range: Range<usize>| {
+        let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            self.measured_part(&s, &range, &self.shapes(&s, &range))
+            self.measured_part(&s, range, &self.shapes(&s, range))
         };
-        let measured = self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().concat();
+        let measured = each(&self.by_segment(), &part).concat();
         measured.into_iter().map(|a| &inertia * a).collect()
     }
 
@@ -411,14 +411,14 @@ impl<'a> DriveLink<'a> {
     }
 
     fn residuals_in(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<DriveResiduals> {
-        let part = |range: Range<usize>| -> Option<Vec<Vec<f64>>> {
+        let part = |range: &Range<usize>| -> Option<Vec<Vec<f64>>> {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            let shapes = self.shapes(&s, &range);
-            let measured = self.measured_part(&s, &range, &shapes);
-            let left = self.unexplained_part(model, &s, &range, &shapes, (&model.forces(&s), inertia), &measured)?;
+            let shapes = self.shapes(&s, range);
+            let measured = self.measured_part(&s, range, &shapes);
+            let left = self.unexplained_part(model, &s, range, &shapes, (&model.forces(&s), inertia), &measured)?;
             Some(left.iter().map(|torque| torque.iter().copied().collect()).collect())
         };
-        let torque: Option<Vec<_>> = self.by_segment().into_par_iter().map(part).collect();
+        let torque: Option<Vec<_>> = each(&self.by_segment(), &part).into_iter().collect();
         Some(DriveResiduals {
             run: self.test_functions.iter().map(|b| self.pieces.run(b.segment)).collect(),
             at: self.test_functions.iter().map(|b| (b.segment, b.middle())).collect(),
@@ -430,15 +430,15 @@ impl<'a> DriveLink<'a> {
     /// Means of several quantities over every test function, `[quantity][test function]`; `of` writes them down for one
     /// tick.
     pub fn means(&self, quantities: usize, of: impl Fn(&Segment, usize, &mut [f64]) + Sync) -> Vec<Vec<f64>> {
-        let part = |range: Range<usize>| {
+        let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            let shapes = self.shapes(&s, &range);
+            let shapes = self.shapes(&s, range);
             let mut values = vec![0.0; quantities * s.t.len()];
             for (k, row) in values.chunks_mut(quantities).enumerate() {
                 of(&s, k, row);
             }
             let mut means = vec![vec![0.0; range.len()]; quantities];
-            for (place, (b, shape)) in self.test_functions[range].iter().zip(&shapes).enumerate() {
+            for (place, (b, shape)) in self.test_functions[range.clone()].iter().zip(&shapes).enumerate() {
                 for (j, w) in shape.force.iter().enumerate() {
                     let row = &values[(b.first + j) * quantities..][..quantities];
                     means.iter_mut().zip(row).for_each(|(mean, x)| mean[place] += w * x);
@@ -446,17 +446,17 @@ impl<'a> DriveLink<'a> {
             }
             means
         };
-        let parts: Vec<Vec<Vec<f64>>> = self.by_segment().into_par_iter().map(part).collect();
+        let parts: Vec<Vec<Vec<f64>>> = each(&self.by_segment(), &part);
         (0..quantities).map(|q| parts.iter().flat_map(|p| &p[q]).copied().collect()).collect()
     }
 
     /// Something of the middle tick of every test function.
     pub fn at_middles<T: Send>(&self, of: impl Fn(&Segment, usize) -> T + Sync) -> Vec<T> {
-        let part = |range: Range<usize>| {
+        let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            self.test_functions[range].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
+            self.test_functions[range.clone()].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
         };
-        self.by_segment().into_par_iter().map(part).collect::<Vec<_>>().into_iter().flatten().collect()
+        each(&self.by_segment(), &part).into_iter().flatten().collect()
     }
 
     /// Weights, `[test function][wheel]`.
@@ -492,38 +492,34 @@ impl<'a> DriveLink<'a> {
             let known: Vec<Option<Column>> = sides.iter().map(|side| self.columns.find(range.start, side)).collect();
             let start = Base::new(model, s, known.iter().any(Option::is_none));
             let Some(base) = left(model, &start.forces) else { return Vec::new() };
-            let columns: Vec<Option<Column>> = sides
-                .par_iter()
-                .zip(known)
-                .map(|(side, known)| {
-                    if known.is_some() {
-                        return known;
-                    }
-                    let added = |model: &DriveModel| self.added_part(model, &start, &range, &shapes);
-                    let only_more =
-                        side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
-                    let mut column = Vec::with_capacity(range.len() * n);
-                    let mut keep = |low: Option<&DVector<f64>>, high: &DVector<f64>| {
-                        column.extend((0..n).map(|i| (high[i] - low.map_or(0.0, |low| low[i])) / side.step));
+            let columns: Vec<Option<Column>> = numbered(sides.len(), &|i| {
+                let side = &sides[i];
+                if known[i].is_some() {
+                    return known[i].clone();
+                }
+                let added = |model: &DriveModel| self.added_part(model, &start, &range, &shapes);
+                let only_more = side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
+                let mut column = Vec::with_capacity(range.len() * n);
+                let mut keep = |low: Option<&DVector<f64>>, high: &DVector<f64>| {
+                    column.extend((0..n).map(|i| (high[i] - low.map_or(0.0, |low| low[i])) / side.step));
+                };
+                if let Some((low, high)) = only_more {
+                    let high = high.iter().enumerate();
+                    high.for_each(|(b, high)| keep(low.as_ref().map(|low| &low[b]), high));
+                } else {
+                    let low = match &side.low {
+                        Some(low) => Some(left(low, &low.forces(s))?),
+                        None => None,
                     };
-                    if let Some((low, high)) = only_more {
-                        let high = high.iter().enumerate();
-                        high.for_each(|(b, high)| keep(low.as_ref().map(|low| &low[b]), high));
-                    } else {
-                        let low = match &side.low {
-                            Some(low) => Some(left(low, &low.forces(s))?),
-                            None => None,
-                        };
-                        let high = left(&side.high, &side.high.forces(s))?;
-                        let low = low.as_ref().unwrap_or(&base);
-                        // What a model explains more is left less.
-                        low.iter().zip(&high).for_each(|(low, high)| keep(Some(high), low));
-                    }
-                    let column = Arc::new(column);
-                    self.columns.keep(range.start, side, &column);
-                    Some(column)
-                })
-                .collect();
+                    let high = left(&side.high, &side.high.forces(s))?;
+                    let low = low.as_ref().unwrap_or(&base);
+                    // What a model explains more is left less.
+                    low.iter().zip(&high).for_each(|(low, high)| keep(Some(high), low));
+                }
+                let column = Arc::new(column);
+                self.columns.keep(range.start, side, &column);
+                Some(column)
+            });
             let mut first = 0;
             for part in self.test_functions[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
                 let rows = part.len() * n;

@@ -1,7 +1,7 @@
 //! Windows of a sensor's signals: floors, residuals and their derivatives.
 
+use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::ride::Ride;
 use super::{Felt, Integral};
@@ -207,23 +207,20 @@ impl<'a> InertialLink<'a> {
                 })
             };
             // `[side][window][increment]`
-            let columns: Vec<Vec<Vec<[f64; 6]>>> = sides
-                .par_iter()
-                .map(|(low, high, step)| {
-                    let low = low.as_ref().map_or_else(|| Some(base.clone()), predict);
-                    let Some((low, high)) = low.zip(predict(high)) else {
-                        return own.iter().map(|w| vec![[0.0; 6]; w.nodes.len() - 1]).collect();
-                    };
-                    let slope = |(a, b): (&[f64; 6], &[f64; 6])| std::array::from_fn(|i| (b[i] - a[i]) / step);
-                    let window = |(a, b): (&Vec<[f64; 6]>, &Vec<[f64; 6]>)| a.iter().zip(b).map(slope).collect();
-                    low.iter().zip(&high).map(window).collect()
-                })
-                .collect();
-            let cluster = |(i, w): (usize, &Window)| {
+            let columns: Vec<Vec<Vec<[f64; 6]>>> = each(sides, &|(low, high, step)| {
+                let low = low.as_ref().map_or_else(|| Some(base.clone()), predict);
+                let Some((low, high)) = low.zip(predict(high)) else {
+                    return own.iter().map(|w| vec![[0.0; 6]; w.nodes.len() - 1]).collect();
+                };
+                let slope = |(a, b): (&[f64; 6], &[f64; 6])| std::array::from_fn(|i| (b[i] - a[i]) / step);
+                let window = |(a, b): (&Vec<[f64; 6]>, &Vec<[f64; 6]>)| a.iter().zip(b).map(slope).collect();
+                low.iter().zip(&high).map(window).collect()
+            });
+            let cluster = |i: usize| {
                 let columns: Vec<&[[f64; 6]]> = columns.iter().map(|c| &c[i][..]).collect();
-                w.cluster(&base[i], &columns)
+                own[i].cluster(&base[i], &columns)
             };
-            let part: Vec<Cluster> = own.par_iter().enumerate().map(cluster).collect();
+            let part: Vec<Cluster> = numbered(own.len(), &cluster);
             Cluster::append(&mut clusters, part, together);
         }
         clusters

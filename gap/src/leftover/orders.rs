@@ -11,8 +11,8 @@ use std::f64::consts::{PI, TAU};
 use super::{FALSE_ALARM, Structure};
 use crate::drive::{DriveLink, DriveModel};
 use crate::segment::Segment;
+use estimation::parallel::each;
 use estimation::statistics::{chi2_upper, median};
-use rayon::prelude::*;
 
 /// Length of a block, s.
 const BLOCK_S: f64 = 0.25;
@@ -92,8 +92,7 @@ pub(super) fn orders(
         }
         let Some(raw) = link.raw(model, index) else { continue };
         for (wheel, slots) in demodulated.iter_mut().enumerate() {
-            let new: Vec<Vec<Block>> =
-                candidates.par_iter().map(|o| demodulate(index, &s, &raw, wheel, *o, stride)).collect();
+            let new: Vec<Vec<Block>> = each(&candidates, &|o| demodulate(index, &s, &raw, wheel, *o, stride));
             let rolling = |blocks: Vec<Block>| blocks.into_iter().filter(|b| !slips(index, b.ticks.0..b.ticks.1));
             slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(rolling(blocks)));
         }

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use rayon::prelude::*;
 use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
@@ -128,31 +128,35 @@ impl<'a> MotionLink<'a> {
 
     /// Residuals of every window, start poses fitted, outliers weighted down.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
-        let parts: Option<Vec<Vec<Aligned>>> = by_segment(&self.windows, |w| w.segment)
-            .into_par_iter()
-            .map(|range| {
-                let s = self.pieces.get(self.windows[range.start].segment);
-                let path = Path::new(model, &s)?;
-                let aligned = |w: &Window| {
-                    let frames = &s.frames[w.frames.clone()];
-                    let mut track = Vec::with_capacity(frames.len());
-                    path.track(frames, &mut track);
-                    let aligned = self.align(model, s.run, frames, &track, None);
-                    ((track, frames.to_vec()), aligned)
-                };
-                Some(self.windows[range].par_iter().map(aligned).collect())
-            })
-            .collect();
+        let part = |range: &Range<usize>| {
+            let s = self.pieces.get(self.windows[range.start].segment);
+            let path = Path::new(model, &s)?;
+            let aligned = |w: &Window| {
+                let frames = &s.frames[w.frames.clone()];
+                let mut track = Vec::with_capacity(frames.len());
+                path.track(frames, &mut track);
+                let aligned = self.align(model, s.run, frames, &track, None);
+                ((track, frames.to_vec()), aligned)
+            };
+            Some(each(&self.windows[range.clone()], &aligned))
+        };
+        let parts: Option<Vec<Vec<Aligned>>> =
+            each(&by_segment(&self.windows, |w| w.segment), &part).into_iter().collect();
         let (tracks, mut all): (Vec<Walked>, Vec<WindowResiduals>) =
             parts.unwrap_or_default().into_iter().flatten().unzip();
         // An outlier is a frame unlike its neighbours; a misfit they share is what is looked for.
-        let out: Vec<Vec<f64>> =
-            all.par_iter().map(|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i)).collect()).collect();
+        let out: Vec<Vec<f64>> = each(&all, &|w| (0..w.residuals.len()).map(|i| apart(&w.residuals, i)).collect());
         let spread = (estimation::statistics::median(&mut out.concat()) / MEDIAN_OF_CHI3).max(1.0);
-        all.par_iter_mut().zip(tracks.par_iter().zip(out)).for_each(|(w, ((track, frames), out))| {
-            let weights: Vec<f64> = out.into_iter().map(|out| weight(out / spread)).collect();
-            if weights.iter().any(|x| *x < 1.0) {
-                *w = self.align(model, w.run, frames, track, Some(weights));
+        let again = |i: usize| {
+            let ((track, frames), weights) =
+                (&tracks[i], out[i].iter().map(|out| weight(out / spread)).collect::<Vec<_>>());
+            let outliers = weights.iter().any(|x| *x < 1.0);
+            outliers.then(|| self.align(model, all[i].run, frames, track, Some(weights)))
+        };
+        let again = numbered(all.len(), &again);
+        all.iter_mut().zip(again).for_each(|(w, again)| {
+            if let Some(again) = again {
+                *w = again
             }
         });
         all
@@ -250,8 +254,7 @@ impl<'a> MotionLink<'a> {
                     first - 3 * w.frames.len()
                 })
                 .collect();
-            let part: Vec<Cluster> =
-                grouped.par_iter().zip(places).map(|(w, first)| self.cluster(w, &columns, first)).collect();
+            let part: Vec<Cluster> = numbered(grouped.len(), &|i| self.cluster(&grouped[i], &columns, places[i]));
             Cluster::append(&mut clusters, part, neighbours);
         }
         clusters
@@ -318,8 +321,9 @@ impl<'a> MotionLink<'a> {
             let both = low.zip(predict(high));
             (*i, both.map_or_else(|| vec![0.0; rows], |(low, high)| column(&low, &high, *step)))
         };
-        let mut all: Vec<(usize, Vec<f64>)> = others.par_iter().map(alone).collect();
-        all.par_extend(beside.par_chunks(LANES / 2).chain(turned.par_chunks(LANES / 2)).flat_map_iter(together));
+        let mut all: Vec<(usize, Vec<f64>)> = each(&others, &alone);
+        let parts: Vec<&[usize]> = beside.chunks(LANES / 2).chain(turned.chunks(LANES / 2)).collect();
+        all.extend(each(&parts, &|part| together(part)).into_iter().flatten());
         all.sort_by_key(|(i, _)| *i);
         all.into_iter().map(|(_, column)| column).collect()
     }

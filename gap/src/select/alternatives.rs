@@ -1,8 +1,8 @@
 //! What a named effect cannot be told from, how sure it is, and the figures of its link.
 
 use estimation::normal_equations::Cluster;
+use estimation::parallel::each;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::{ALIKE, DOUBTFUL, Design, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
 use crate::options::Thresholds;
@@ -219,19 +219,20 @@ fn pair_alternatives(
     let base = design.base();
     let from = base.loss + base.penalty;
     let best = |pairs: Vec<[usize; 2]>, material: &(dyn Fn(usize, &[f64]) -> bool + Sync)| {
-        let gains: Vec<(f64, [usize; 2])> = pairs
-            .into_par_iter()
-            .filter(|[a, b]| effect(*a) != effect(*b))
-            .filter_map(|pair| {
-                let fit = design.fit(&pair);
-                let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
-                let sound = pair.iter().all(|c| {
-                    let v = design.values(&fit, *c);
-                    design.within_bounds(*c, &v, &fit) && material(*c, &v)
-                });
-                (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, pair))
-            })
-            .collect();
+        let gain = |pair: &[usize; 2]| {
+            let pair = *pair;
+            if effect(pair[0]) == effect(pair[1]) {
+                return None;
+            }
+            let fit = design.fit(&pair);
+            let gain = from - fit.loss - fit.penalty - thresholds.cost(1);
+            let sound = pair.iter().all(|c| {
+                let v = design.values(&fit, *c);
+                design.within_bounds(*c, &v, &fit) && material(*c, &v)
+            });
+            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, pair))
+        };
+        let gains: Vec<(f64, [usize; 2])> = each(&pairs, &gain).into_iter().flatten().collect();
         let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
         let parameters =
             |g: &&(f64, [usize; 2])| g.1.iter().map(|c| design.candidates[*c].form.free.len()).sum::<usize>();

@@ -2,8 +2,8 @@
 
 use std::ops::Index;
 
+use estimation::parallel::numbered;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::ALIKE;
 use crate::options::Thresholds;
@@ -501,17 +501,16 @@ impl Design {
         let base = self.base();
         let from = base.loss + base.penalty;
         let penalised = self.penalised();
-        let mut trials: Vec<Trial> = (0..self.candidates.len())
-            .into_par_iter()
-            .filter(|c| self.linear.of_candidate(*c).iter().all(|j| self.linear.equations.tells(*j)))
-            .filter(|c| !self.is_active(*c))
-            .filter_map(|c| {
-                let (_, fit, beyond) = self.inside(&penalised, c)?;
-                let values = self.values(&fit, c);
-                let gain = from - self.objective(&fit, &[c], thresholds);
-                Some(Trial { candidate: c, gain, material: self.material(c, &values), values, beyond })
-            })
-            .collect();
+        let trial = |c: usize| {
+            if self.is_active(c) || !self.linear.of_candidate(c).iter().all(|j| self.linear.equations.tells(*j)) {
+                return None;
+            }
+            let (_, fit, beyond) = self.inside(&penalised, c)?;
+            let values = self.values(&fit, c);
+            let gain = from - self.objective(&fit, &[c], thresholds);
+            Some(Trial { candidate: c, gain, material: self.material(c, &values), values, beyond })
+        };
+        let mut trials: Vec<Trial> = numbered(self.candidates.len(), &trial).into_iter().flatten().collect();
         // Equals keep the order of the catalogue.
         trials.sort_by(|a, b| (b.gain - 1e-6 * b.candidate as f64).total_cmp(&(a.gain - 1e-6 * a.candidate as f64)));
         trials

@@ -5,7 +5,7 @@
 //! the objective ends in many parameters. Here an effect is worth naming for what it predicts on runs that it was not
 //! fitted to, nothing else adjusted, and every further parameter has a price.
 
-use rayon::prelude::*;
+use estimation::parallel::numbered;
 
 use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
 use crate::effect::Link;
@@ -132,40 +132,38 @@ fn best(
     let penalised_parts = Penalised::new(&by_parts, 1.0);
     let base_parts = penalised_parts.held_out(&roles_with(&[]));
     let total: f64 = base.iter().sum();
-    let promises: Vec<Promise> = (0..candidates.len())
-        .into_par_iter()
-        .filter_map(|c| {
-            let a = &candidates[c];
-            let columns = linear.of_candidate(c);
-            if columns.iter().map(|j| penalised.information(*j)).any(|known| known.is_nan() || known <= 0.0) {
-                return None;
-            }
-            let roles = roles_with(&columns);
-            let fit = penalised.fit(&roles);
-            let values: Vec<f64> = columns.iter().map(|j| fit.step[*j]).collect();
-            let inside = a.form.free.iter().zip(&values).all(|(p, v)| *v >= p.bounds[0] && *v <= p.bounds[1]);
-            if !inside || !(small || is_material(a, &values)) {
-                return None;
-            }
-            let (without, with) = if a.effect.nuisance() {
-                (&base_parts, penalised_parts.held_out(&roles))
-            } else {
-                (&base, shared(&penalised, &roles, &nuisance))
-            };
-            let differences: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
-            let sum: f64 = differences.iter().sum();
-            let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
-            let parameters = a.form.free.len();
-            let price = SHARE * total * parameters as f64;
-            (sum >= price && sum >= thresholds.held_out_t * spread).then_some(Promise {
-                candidate: indices[c],
-                score: sum - price,
-                explains: sum,
-                parameters,
-                values,
-            })
+    let promise = |c: usize| {
+        let a = &candidates[c];
+        let columns = linear.of_candidate(c);
+        if columns.iter().map(|j| penalised.information(*j)).any(|known| known.is_nan() || known <= 0.0) {
+            return None;
+        }
+        let roles = roles_with(&columns);
+        let fit = penalised.fit(&roles);
+        let values: Vec<f64> = columns.iter().map(|j| fit.step[*j]).collect();
+        let inside = a.form.free.iter().zip(&values).all(|(p, v)| *v >= p.bounds[0] && *v <= p.bounds[1]);
+        if !inside || !(small || is_material(a, &values)) {
+            return None;
+        }
+        let (without, with) = if a.effect.nuisance() {
+            (&base_parts, penalised_parts.held_out(&roles))
+        } else {
+            (&base, shared(&penalised, &roles, &nuisance))
+        };
+        let differences: Vec<f64> = without.iter().zip(&with).map(|(a, b)| a - b).collect();
+        let sum: f64 = differences.iter().sum();
+        let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
+        let parameters = a.form.free.len();
+        let price = SHARE * total * parameters as f64;
+        (sum >= price && sum >= thresholds.held_out_t * spread).then_some(Promise {
+            candidate: indices[c],
+            score: sum - price,
+            explains: sum,
+            parameters,
+            values,
         })
-        .collect();
+    };
+    let promises: Vec<Promise> = numbered(candidates.len(), &promise).into_iter().flatten().collect();
     let most = promises.iter().map(|p| p.score).fold(0.0, f64::max);
     // What is as good explains as much; a law of the drive does not leave far more, either.
     let laws = problem.link() == Link::Drive;

@@ -3,7 +3,7 @@
 //! Beside margins for everything that is not named a bridge that is not linear, with friction of Stribeck, passes for dry
 //! and viscous friction. What tells them apart is what each leaves on runs that it was not fitted to, nothing adjusted.
 
-use rayon::prelude::*;
+use estimation::parallel::each;
 
 use super::plain::losses;
 use super::{Selection, finish_bare, is_material, stopped};
@@ -117,19 +117,16 @@ fn promising(problem: &Problem, start: &State, laws: &[Active]) -> Vec<[usize; 2
     let told = |c: &usize| linear.of_candidate(*c).iter().all(|j| penalised.information(*j) > 0.0);
     let told: Vec<usize> = (0..laws.len()).filter(told).collect();
     let pairs = told.iter().enumerate().flat_map(|(i, a)| told[i + 1..].iter().map(|b| [*a, *b]));
-    let mut rated: Vec<(f64, [usize; 2])> = pairs
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .map(|pair| {
-            let role = |owner: &Owner| match owner {
-                Owner::Active(..) => Role::Free,
-                Owner::Candidate(c, _) if pair.contains(c) => Role::Free,
-                _ => Role::Out,
-            };
-            let roles: Vec<Role> = linear.owners.iter().map(role).collect();
-            (penalised.held_out(&roles).iter().sum::<f64>(), pair)
-        })
-        .collect();
+    let rate = |pair: &[usize; 2]| {
+        let role = |owner: &Owner| match owner {
+            Owner::Active(..) => Role::Free,
+            Owner::Candidate(c, _) if pair.contains(c) => Role::Free,
+            _ => Role::Out,
+        };
+        let roles: Vec<Role> = linear.owners.iter().map(role).collect();
+        (penalised.held_out(&roles).iter().sum::<f64>(), *pair)
+    };
+    let mut rated: Vec<(f64, [usize; 2])> = each(&pairs.collect::<Vec<_>>(), &rate);
     rated.retain(|(left, _)| left.is_finite());
     rated.sort_by(|a, b| a.0.total_cmp(&b.0));
     rated.into_iter().take(FITTED).map(|(_, pair)| pair).collect()
