@@ -72,9 +72,11 @@ impl DriveLink<'_> {
             let mean = |of: &dyn Fn(usize) -> f64| {
                 shape.force.iter().enumerate().map(|(j, w)| w * of(b.first + j)).sum::<f64>()
             };
-            let rate = |i: &Integral, k: usize| i.between(k, k + 1) / (s.t[k + 1] - s.t[k]);
+            // What a tick felt stands in a later row.
+            let gain = |i: &Integral, from: usize, to: usize| i.between_late(&s.t, from, to, sensor.latency_s);
+            let rate = |i: &Integral, k: usize| gain(i, k, k + 1) / (s.t[k + 1] - s.t[k]);
             let spun = mean(&|k| rate(turn, k).powi(2));
-            let spins = accelerated(b, shape, |k| turn.between(b.first, k));
+            let spins = accelerated(b, shape, |k| gain(turn, b.first, k));
             let body = Rotation3::from_scaled_axis(Vector3::from(sensor.turned_rad))
                 * Vector3::new(mean(&|k| rate(right, k)), mean(&|k| rate(forward, k)), 0.0);
             // From the sensor's place to the centre of mass.

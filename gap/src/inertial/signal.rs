@@ -23,6 +23,24 @@ impl Integral {
     pub fn between(&self, from: usize, to: usize) -> f64 {
         if self.broken[from] == self.broken[to] { self.sum[to] - self.sum[from] } else { f64::NAN }
     }
+
+    /// What was gained from one tick to another by readings so much later, s; NaN where a part of it was not measured.
+    pub fn between_late(&self, t: &[f64], from: usize, to: usize, late: f64) -> f64 {
+        if late == 0.0 {
+            return self.between(from, to);
+        }
+        let interval = |k: usize| {
+            let time = t[k] + late;
+            let next = t.partition_point(|t| *t <= time);
+            (next > 0 && next < t.len()).then(|| (next - 1, (time - t[next - 1]) / (t[next] - t[next - 1])))
+        };
+        let Some(((a, from), (b, to))) = interval(from).zip(interval(to)) else { return f64::NAN };
+        if self.broken[a] != self.broken[b + 1] {
+            return f64::NAN;
+        }
+        let at = |k: usize, share: f64| self.sum[k] + share * (self.sum[k + 1] - self.sum[k]);
+        at(b, to) - at(a, from)
+    }
 }
 
 /// Integrates the axes of a sensor; `turn` is what the wheels turn the robot from each tick to the next, rad. An axis

@@ -19,14 +19,19 @@ pub(super) fn robot() -> Robot {
     Robot { imu: SensorName::new("icm-42688-p").map(ImuMount::upright), ..Robot::racbot() }
 }
 
-/// The same as it truly is, with one part of the sensor's type.
-pub(super) fn truth(hidden: &[Hidden], part: u64) -> Applied {
+/// Effects as a robot's file has them.
+pub(super) fn effects(hidden: &[Hidden]) -> Vec<Effect> {
     let effect = |(name, parameters): &Hidden| {
         let parameter =
             |(n, v): &(&str, f64)| ((*n).to_owned(), EffectParameter { value: *v, ..EffectParameter::default() });
         Effect { name: (*name).to_owned(), parameters: parameters.iter().map(parameter).collect(), ..Effect::default() }
     };
-    let mut applied = Applied::of(&Robot { effects: hidden.iter().map(effect).collect(), ..robot() });
+    hidden.iter().map(effect).collect()
+}
+
+/// The same as it truly is, with one part of the sensor's type.
+pub(super) fn truth(hidden: &[Hidden], part: u64) -> Applied {
+    let mut applied = Applied::of(&Robot { effects: effects(hidden), ..robot() });
     assert!(applied.unsupported.is_empty(), "{:?}", applied.unsupported);
     applied.imu.part = part;
     if applied.contact == Contact::Rolling {

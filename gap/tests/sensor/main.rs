@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "shared with the bench of detection limits")]
 mod felt;
 
-use felt::{blind, done, estimate, names, numb, sensor, set, truth};
+use felt::{Hidden, blind, done, effects, estimate, names, numb, sensor, set, truth};
 use gap::effect::Link;
 use gap::{Analysis, Verdict, undo};
 use model::manoeuvre::Manoeuvre::{Chirp, Spin, StopAndGo};
@@ -131,7 +131,8 @@ fn a_tilted_floor_is_felt() {
 /// Where wheels slip they tell nothing of what the motors move; the sensor does.
 #[test]
 fn on_a_slippery_floor_the_sensor_tells_the_mass() {
-    const SLIP: (&str, &[(&str, f64)]) = ("wheel-slip", &[("friction_coefficient", 0.3)]);
+    const SLIP: Hidden = ("wheel-slip", &[("friction_coefficient", 0.3)]);
+    const HEAVY: Hidden = ("robot-mass", &[("scale", 0.2)]);
     let drives = [Spin, Chirp, StopAndGo];
     let limit = |a: &Analysis| {
         assert_eq!(names(a), ["wheel-slip"], "{}", a.terminal_summary());
@@ -140,9 +141,14 @@ fn on_a_slippery_floor_the_sensor_tells_the_mass() {
     let light = set(&truth(&[SLIP], 15), &drives, 15);
     let [with, without] = [limit(&done(&light)), limit(&done(&numb(light)))];
     assert!(with < 0.12 && with < 0.6 * without, "{with} {without}");
-    let heavy = done(&set(&truth(&[SLIP, ("robot-mass", &[("scale", 0.2)])], 16), &drives, 16));
-    assert!(names(&heavy).contains(&"robot-mass"), "{}", heavy.terminal_summary());
-    holds(&heavy, "scale", 0.2);
+    // Readings of a known age tell it, too.
+    for late in [&[][..], &[("imu-latency", &[("latency_s", 0.03)][..])]] {
+        let mut data = set(&truth(&[&[SLIP, HEAVY], late].concat(), 16), &drives, 16);
+        data.robot.effects = effects(late);
+        let heavy = done(&data);
+        assert!(names(&heavy).contains(&"robot-mass"), "{}", heavy.terminal_summary());
+        holds(&heavy, "scale", 0.2);
+    }
 }
 
 #[test]
