@@ -67,7 +67,7 @@ fn the_flow_makes_the_committed_bytes() {
         let inside = domain.inside.as_ref().expect("paths between registers");
         assert!(domain.worst[0].slack() > 0, "{} is too slow: {:?}", domain.port, domain.worst[0]);
         assert!(100 * inside.delay <= MOST_PERCENT * domain.period, "{}: {inside:?}", domain.port);
-        for (what, path) in [("registers and memories", inside), ("pads, and all by slack", &domain.worst[0])] {
+        for (what, path) in domain.told() {
             let wires = path.steps.iter().map(|step| i64::from(step.wire)).sum();
             let last = path.steps.iter().rev().map(|step| name(step.net)).find(|name| !name.starts_with('$'));
             rows.push(vec![

@@ -1,4 +1,4 @@
-//! The placed design as a picture: slices and memories coloured by block, pads, the slowest path.
+//! The placed design as a picture: slices and memories coloured by block, pads, the path with the least slack.
 
 use super::build::Built;
 use super::nets::{Part, Routed};
@@ -96,7 +96,7 @@ fn block(net: &str) -> Option<String> {
     (!top.starts_with('$') && levels.next().is_some()).then(|| format!("{top}.{block}"))
 }
 
-/// The slowest path as a line through the parts that it visits.
+/// The path with the least slack, by its share of the period, as a line through the parts that it visits.
 fn path(svg: &mut String, built: &Built) {
     let worst = built.timing.domains.iter().filter_map(|domain| Some((domain.worst.first()?, domain.period)));
     let worst = worst.max_by_key(|(path, period)| u64::from(path.delay) * 1_000 / u64::from(*period));
@@ -145,7 +145,7 @@ fn legend(svg: &mut String, ranked: &[(usize, String)], colour: impl Fn(&str) ->
     }
     line(row + 1, "#777777", "block memories");
     line(row + 2, "#222222", "pads");
-    line(row + 3, "#000000", "slowest path: the line");
+    line(row + 3, "#000000", "the path with the least slack: the line");
 }
 
 #[cfg(test)]

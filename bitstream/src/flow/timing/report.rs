@@ -49,6 +49,14 @@ pub struct DomainReport {
     pub inside: Option<TimedPath>,
 }
 
+impl DomainReport {
+    /// The paths that a report shows, each with what it goes between: the slowest inside, and the one with the least slack.
+    pub fn told(&self) -> impl Iterator<Item = (&'static str, &TimedPath)> {
+        let inside = self.inside.iter().map(|path| ("registers and memories", path));
+        inside.chain(self.worst.first().map(|path| ("pads, and all by slack", path)))
+    }
+}
+
 /// Timing of a design.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Report {

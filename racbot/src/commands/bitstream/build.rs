@@ -2,7 +2,7 @@
 
 use crate::terminal::progress::Progress as Bar;
 use crate::terminal::{Answer, Failure, Table, Target};
-use bitstream::flow::timing::DomainReport;
+use bitstream::flow::timing::{DomainReport, TimedPath};
 use bitstream::flow::{Built, Progress, SLICES, Stage, floorplan, synthesis};
 use clap::Args;
 use hdl::design::{COMMITTED_VERILOG, NAME};
@@ -105,13 +105,14 @@ fn text(built: &Built, bytes: usize) -> String {
     ] {
         table.row([name.to_owned(), number.to_string(), of.to_string()]);
     }
-    let mut clocks = Table::new(1, &["clock", "period ns", "slowest ns", "slack ns", "steps"]);
+    let mut clocks = Table::new(2, &["clock", "between", "period ns", "path ns", "slack ns", "steps"]);
+    let ns = |ps: i64| format!("{:.2}", ps as f64 / 1e3);
     for domain in &built.timing.domains {
-        let Some(worst) = domain.worst.first() else { continue };
-        let ns = |ps: i64| format!("{}.{:02}", ps / 1_000, ps.abs() % 1_000 / 10);
-        let slack = if worst.slack() < 0 { format!("-{}", ns(-worst.slack())) } else { ns(worst.slack()) };
-        let steps = worst.steps.len().to_string();
-        clocks.row([domain.port.clone(), ns(domain.period.into()), ns(worst.delay.into()), slack, steps]);
+        for (row, (between, path)) in domain.told().enumerate() {
+            let port = if row == 0 { domain.port.clone() } else { String::new() };
+            let (delay, steps) = (ns(path.delay.into()), path.steps.len().to_string());
+            clocks.row([port, between.to_owned(), ns(domain.period.into()), delay, ns(path.slack()), steps]);
+        }
     }
     format!(
         "{}\n{} nets on {} wires, legal after {} rounds\nat most {} pass gates in series and {} wires joined by them\n\n\
@@ -138,15 +139,18 @@ fn text(built: &Built, bytes: usize) -> String {
 fn report(built: &Built, bytes: usize, seed: u64) -> Value {
     let used = &built.resources;
     let clock = |domain: &DomainReport| {
-        let paths = domain.worst.iter().map(|path| {
+        let told = |path: &TimedPath| {
             let steps = path.steps.iter().map(|step| {
                 let net = step.net.map_or("(carry)", |net| &built.logic.nets[net.index()]);
                 json!({ "net": net, "driven_ps": step.driven, "wire_ps": step.wire })
             });
             let steps: Vec<Value> = steps.collect();
             json!({ "delay_ps": path.delay, "due_ps": path.due, "slack_ps": path.slack(), "steps": steps })
-        });
-        json!({ "port": domain.port, "period_ps": domain.period, "worst": paths.collect::<Vec<_>>() })
+        };
+        let worst: Vec<Value> = domain.worst.iter().map(told).collect();
+        json!({
+            "port": domain.port, "period_ps": domain.period, "slowest_inside": domain.inside.as_ref().map(told), "worst": worst,
+        })
     };
     json!({
         "bytes": bytes,
