@@ -146,16 +146,17 @@ fn lane<'a>(memory: &'a Memory, first: usize, wanted: &Wanted) -> Result<Lane<'a
             return Err("address pins that the memory does not have are not 0".into());
         }
     }
-    let bits = first..first + reader.width;
-    if bits.end > wanted.width {
-        return Err("wider than what is left of the memory".into());
+    // A block may be wider than what is left. Its other outputs are any value to the circuit.
+    let bits = first..wanted.width.min(first + reader.width);
+    if bits.is_empty() {
+        return Err("nothing is left of the memory".into());
     }
     Ok(Lane { memory, bits, reader, writer })
 }
 
 impl Lane<'_> {
-    /// The nets of its output, lowest bit first.
+    /// The nets of its output that are bits of the memory, lowest bit first.
     pub(super) fn outputs(&self) -> impl Iterator<Item = Option<Net>> {
-        self.reader.output.iter().copied()
+        self.reader.output.iter().copied().take(self.bits.len())
     }
 }
