@@ -162,7 +162,7 @@ module rac4i65_core (
     wire bus_ready_n;
     wire [13:0] bus_address_2;
     wire bus_read;
-
+    reg [31:0] bus_read_data_2;
     wire bus_write_2;
     wire [31:0] bus_write_data_2;
 
@@ -173,6 +173,8 @@ module rac4i65_core (
 
     wire [31:0] registers_written;
     wire [31:0] registers_read_data;
+
+    wire [23:0] registers_kept_data;
 
     reg [31:0] registers_commits;
 
@@ -221,6 +223,7 @@ module rac4i65_core (
     wire decoder_in_memory;
     wire decoder_in_imu;
     wire [7:0] decoder_memory_address;
+    wire [7:0] decoder_staging_address;
     wire decoder_stages_set_point;
     wire decoder_stages_configuration;
     wire decoder_snapshot_first;
@@ -279,6 +282,7 @@ module rac4i65_core (
     wire [31:0] sequencer_output_data;
 
     wire [31:0] sequencer_bus_read_data;
+
     reg sequencer_bus_write;
 
     wire sequencer_bus_blocked;
@@ -566,7 +570,7 @@ module rac4i65_core (
         .ready_n(bus_ready_n),
         .address(bus_address_2),
         .read(bus_read),
-        .read_data(read_q_q),
+        .read_data(bus_read_data_2),
         .write(bus_write_2),
         .write_data(bus_write_data_2),
         .write_busy(blocked),
@@ -580,6 +584,8 @@ module rac4i65_core (
         .data(write_data),
         .written(registers_written),
         .read_data(registers_read_data),
+        .was_in_page(read_page_q),
+        .kept_data(registers_kept_data),
         .armed(safety_armed),
         .board(board),
         .clock_hz(clock_hz),
@@ -650,6 +656,7 @@ module rac4i65_core (
         .in_memory(decoder_in_memory),
         .in_imu(decoder_in_imu),
         .memory_address(decoder_memory_address),
+        .staging_address(decoder_staging_address),
         .stages_set_point(decoder_stages_set_point),
         .stages_configuration(decoder_stages_configuration),
         .snapshot_first(decoder_snapshot_first),
@@ -743,6 +750,7 @@ module rac4i65_core (
         .output_data(sequencer_output_data),
         .bus_address(decoder_memory_address),
         .bus_read_data(sequencer_bus_read_data),
+        .bus_write_address(decoder_staging_address),
         .bus_write(sequencer_bus_write),
         .bus_write_data(staged),
         .bus_blocked(sequencer_bus_blocked),
@@ -1180,6 +1188,7 @@ module rac4i65_core (
     always @(*) sequencer_bus_write = staging & (radio_turn | (bus_write_2 & ~radio_selected));
     always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
     always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
+    always @(*) bus_read_data_2 = read_q_q | ((registers_kept_data) & 32'hffffffff);
 
     always @(*) begin
         imu_enable = registers_imu_control[32'h0];
@@ -1534,6 +1543,9 @@ module rac4i65_core_bus (
     reg drive_d;
     wire drive_q;
 
+    reg claiming_d;
+    wire claiming_q;
+
     reg [13:0] word_d;
     wire [13:0] word_q;
 
@@ -1562,6 +1574,7 @@ module rac4i65_core_bus (
     rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
     rac4i65_core_dff_1 last (.d(last_d), .q(last_q), .clock(clock));
     rac4i65_core_dff_1 drive (.d(drive_d), .q(drive_q), .clock(clock));
+    rac4i65_core_dff_1 claiming (.d(claiming_d), .q(claiming_q), .clock(clock));
     rac4i65_core_dff_14 word (.d(word_d), .q(word_q), .clock(clock));
     rac4i65_core_dff_6 held (.d(held_d), .q(held_q), .clock(clock));
     rac4i65_core_dff_32 to_host (.d(to_host_d), .q(to_host_q), .clock(clock));
@@ -1577,6 +1590,7 @@ module rac4i65_core_bus (
         writing_d = writing_q;
         last_d = last_q;
         drive_d = drive_q;
+        claiming_d = claiming_q;
         word_d = word_q;
         held_d = held_q;
         fetch_d = 1'b0;
@@ -1584,6 +1598,7 @@ module rac4i65_core_bus (
         take_d = pending_q;
         collect_d = 1'b0;
         offer_d = collect_q;
+        claiming_d = collect_q;
         answer_d = take_q;
         last_d = (last_q | ~blast_n) & ~answer_q;
         if (fetch_q) begin
@@ -1592,6 +1607,7 @@ module rac4i65_core_bus (
         if (offer_q) begin
             if (write_busy & ~expired) begin
                 offer_d = 1'b1;
+                claiming_d = 1'b1;
                 held_d = next_held;
             end
             else begin
@@ -1606,6 +1622,7 @@ module rac4i65_core_bus (
             else begin
                 word_d = next_word;
                 fetch_d = ~writing_q;
+                claiming_d = ~writing_q;
                 collect_d = writing_q;
             end
         end
@@ -1613,6 +1630,7 @@ module rac4i65_core_bus (
             word_d = lad_in[(32'h2)+:(14)];
             writing_d = lw_r;
             fetch_d = ~lw_r;
+            claiming_d = ~lw_r;
             pending_d = 1'b0;
             take_d = 1'b0;
             collect_d = lw_r;
@@ -1655,7 +1673,7 @@ module rac4i65_core_bus (
     always @(*) read = fetch_q;
     always @(*) write = offer_q & ~write_busy;
     always @(*) write_data = from_host_q;
-    always @(*) claims = fetch_q | offer_q;
+    always @(*) claims = claiming_q;
     always @(*) overrun = offer_q & write_busy & expired;
 endmodule
 
@@ -1666,6 +1684,8 @@ module rac4i65_core_registers (
     input wire [31:0] data,
     output reg [31:0] written,
     output reg [31:0] read_data,
+    input wire was_in_page,
+    output reg [23:0] kept_data,
     input wire armed,
     input wire [31:0] board,
     input wire [31:0] clock_hz,
@@ -1717,6 +1737,14 @@ module rac4i65_core_registers (
 );
 
     // Constants
+    localparam other_page = 7'b1000000;
+    localparam bits_10 = 24'h3ff;
+    localparam bits_11 = 24'h7ff;
+    localparam bits_13 = 24'h1fff;
+    localparam bits_14 = 24'h3fff;
+    localparam bits_16 = 24'hffff;
+    localparam bits_20 = 24'hfffff;
+    localparam bits_24 = 24'hffffff;
     localparam cookie = 32'h52414334;
     localparam version = 32'h20003;
     localparam blocks = 32'h1ff444;
@@ -1726,7 +1754,7 @@ module rac4i65_core_registers (
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'hd19576f8;
+    localparam content_hash = 32'h931b468a;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1798,8 +1826,15 @@ module rac4i65_core_registers (
     reg [31:0] word_d;
     wire [31:0] word_q;
 
+    wire [23:0] kept_read_data;
+
+    reg [23:0] kept_write_data;
+    reg kept_write_enable;
+
     // Intermediate values
     reg unlocked;
+    reg [6:0] at;
+    reg [23:0] mask;
 
     // Parts
     rac4i65_core_dff_24_from_8235 tick_period_q (.d(tick_period_q_d), .q(tick_period_q_q), .clock(clock));
@@ -1841,6 +1876,14 @@ module rac4i65_core_registers (
     rac4i65_core_dff_1 writing (.d(writing_d), .q(writing_q), .clock(clock));
     rac4i65_core_dff_6 place (.d(place_d), .q(place_q), .clock(clock));
     rac4i65_core_dff_32 word (.d(word_d), .q(word_q), .clock(clock));
+    rac4i65_core_registers_kept kept(
+        .clock(clock),
+        .read_address(at),
+        .read_data(kept_read_data),
+        .write_address(at),
+        .write_data(kept_write_data),
+        .write_enable(kept_write_enable)
+    );
 
     always @(*) begin
         tick_period_q_d = tick_period_q_q;
@@ -1875,12 +1918,14 @@ module rac4i65_core_registers (
         clear_stall = no_axes;
         index_arm = no_axes;
         clear_interrupt = no_causes;
+        kept_write_enable = 1'b0;
         if (writing_q) begin
             case (place_q)
                 8:
                 begin
                     if (unlocked) begin
                         tick_period_q_d = word_q[(32'h0)+:(24)];
+                        kept_write_enable = 1'b1;
                         tick_period_written = 1'b1;
                     end
                 end
@@ -1900,18 +1945,21 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         pwm_period_q_d = word_q[(32'h0)+:(13)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 12:
                 begin
                     if (unlocked) begin
                         pwm_blanking_q_d = word_q[(32'h0)+:(10)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 13:
                 begin
                     if (unlocked) begin
                         watchdog_timeout_q_d = word_q[(32'h0)+:(24)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 14:
@@ -1952,17 +2000,20 @@ module rac4i65_core_registers (
                 26:
                 begin
                     kicker_pulse_q_d = word_q[(32'h0)+:(14)];
+                    kept_write_enable = 1'b1;
                 end
                 27:
                 begin
                     if (unlocked) begin
                         kicker_lockout_q_d = word_q[(32'h0)+:(20)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 28:
                 begin
                     if (unlocked) begin
                         kicker_charge_timeout_q_d = word_q[(32'h0)+:(24)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 30:
@@ -1979,18 +2030,21 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         set_point_timeout_q_d = word_q[(32'h0)+:(16)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 33:
                 begin
                     if (unlocked) begin
                         stall_window_q_d = word_q[(32'h0)+:(16)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 34:
                 begin
                     if (unlocked) begin
                         stall_compare_q_d = word_q[(32'h0)+:(13)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 35:
@@ -2018,6 +2072,7 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         imu_control_q_d = word_q[(32'h0)+:(11)];
+                        kept_write_enable = 1'b1;
                     end
                 end
                 42:
@@ -2067,10 +2122,6 @@ module rac4i65_core_registers (
             begin
                 read_q_d = blocks;
             end
-            8:
-            begin
-                read_q_d = ((tick_period_q_q) & 32'hffffffff);
-            end
             9:
             begin
                 read_q_d = ((mode_q_q) & 32'hffffffff);
@@ -2078,18 +2129,6 @@ module rac4i65_core_registers (
             10:
             begin
                 read_q_d = ((encoder_filter_q_q) & 32'hffffffff);
-            end
-            11:
-            begin
-                read_q_d = ((pwm_period_q_q) & 32'hffffffff);
-            end
-            12:
-            begin
-                read_q_d = ((pwm_blanking_q_q) & 32'hffffffff);
-            end
-            13:
-            begin
-                read_q_d = ((watchdog_timeout_q_q) & 32'hffffffff);
             end
             15:
             begin
@@ -2123,18 +2162,6 @@ module rac4i65_core_registers (
             begin
                 read_q_d = ((kicker_control_q_q) & 32'hffffffff);
             end
-            26:
-            begin
-                read_q_d = ((kicker_pulse_q_q) & 32'hffffffff);
-            end
-            27:
-            begin
-                read_q_d = ((kicker_lockout_q_q) & 32'hffffffff);
-            end
-            28:
-            begin
-                read_q_d = ((kicker_charge_timeout_q_q) & 32'hffffffff);
-            end
             29:
             begin
                 read_q_d = ((kicker_status) & 32'hffffffff);
@@ -2146,18 +2173,6 @@ module rac4i65_core_registers (
             31:
             begin
                 read_q_d = ((leds_q_q) & 32'hffffffff);
-            end
-            32:
-            begin
-                read_q_d = ((set_point_timeout_q_q) & 32'hffffffff);
-            end
-            33:
-            begin
-                read_q_d = ((stall_window_q_q) & 32'hffffffff);
-            end
-            34:
-            begin
-                read_q_d = ((stall_compare_q_q) & 32'hffffffff);
             end
             35:
             begin
@@ -2178,10 +2193,6 @@ module rac4i65_core_registers (
             40:
             begin
                 read_q_d = ((radio) & 32'hffffffff);
-            end
-            41:
-            begin
-                read_q_d = ((imu_control_q_q) & 32'hffffffff);
             end
             43:
             begin
@@ -2211,6 +2222,58 @@ module rac4i65_core_registers (
 
     always @(*) unlocked = ~armed;
     always @(*) written = word_q;
+
+    always @(*) begin
+        at = ((place_q) & 7'h7f);
+        if (~was_in_page) begin
+            at = ((place_q) & 7'h7f) | other_page;
+        end
+    end
+
+    always @(*) kept_data = kept_read_data;
+
+    always @(*) begin
+        case (place_q)
+            11:
+            begin
+                mask = bits_13;
+            end
+            12:
+            begin
+                mask = bits_10;
+            end
+            26:
+            begin
+                mask = bits_14;
+            end
+            27:
+            begin
+                mask = bits_20;
+            end
+            32:
+            begin
+                mask = bits_16;
+            end
+            33:
+            begin
+                mask = bits_16;
+            end
+            34:
+            begin
+                mask = bits_13;
+            end
+            41:
+            begin
+                mask = bits_11;
+            end
+            default:
+            begin
+                mask = bits_24;
+            end
+        endcase
+    end
+
+    always @(*) kept_write_data = word_q[(32'h0)+:(24)] & mask;
     always @(*) read_data = read_q_q;
     always @(*) tick_period = tick_period_q_q;
     always @(*) mode = mode_q_q;
@@ -2231,6 +2294,156 @@ module rac4i65_core_registers (
     always @(*) interrupt_enable = interrupt_enable_q_q;
     always @(*) index_clear = index_clear_q_q;
     always @(*) imu_control = imu_control_q_q;
+endmodule
+
+module rac4i65_core_registers_kept (
+    input wire clock,
+    input wire [6:0] read_address,
+    output reg [23:0] read_data,
+    input wire [6:0] write_address,
+    input wire [23:0] write_data,
+    input wire write_enable
+);
+
+    (* no_rw_check *)
+    reg [23:0] mem [0:127];
+
+    initial begin
+        read_data = 24'h0;
+        mem[0] = 24'h0;
+        mem[1] = 24'h0;
+        mem[2] = 24'h0;
+        mem[3] = 24'h0;
+        mem[4] = 24'h0;
+        mem[5] = 24'h0;
+        mem[6] = 24'h0;
+        mem[7] = 24'h0;
+        mem[8] = 24'h8235;
+        mem[9] = 24'h0;
+        mem[10] = 24'h0;
+        mem[11] = 24'h0;
+        mem[12] = 24'h21;
+        mem[13] = 24'h196e6b;
+        mem[14] = 24'h0;
+        mem[15] = 24'h0;
+        mem[16] = 24'h0;
+        mem[17] = 24'h0;
+        mem[18] = 24'h0;
+        mem[19] = 24'h0;
+        mem[20] = 24'h0;
+        mem[21] = 24'h0;
+        mem[22] = 24'h0;
+        mem[23] = 24'h0;
+        mem[24] = 24'h0;
+        mem[25] = 24'h0;
+        mem[26] = 24'h0;
+        mem[27] = 24'h0;
+        mem[28] = 24'h0;
+        mem[29] = 24'h0;
+        mem[30] = 24'h0;
+        mem[31] = 24'h0;
+        mem[32] = 24'h1e;
+        mem[33] = 24'hc8;
+        mem[34] = 24'h0;
+        mem[35] = 24'h0;
+        mem[36] = 24'h0;
+        mem[37] = 24'h0;
+        mem[38] = 24'h0;
+        mem[39] = 24'h0;
+        mem[40] = 24'h0;
+        mem[41] = 24'h0;
+        mem[42] = 24'h0;
+        mem[43] = 24'h0;
+        mem[44] = 24'h0;
+        mem[45] = 24'h0;
+        mem[46] = 24'h0;
+        mem[47] = 24'h0;
+        mem[48] = 24'h0;
+        mem[49] = 24'h0;
+        mem[50] = 24'h0;
+        mem[51] = 24'h0;
+        mem[52] = 24'h0;
+        mem[53] = 24'h0;
+        mem[54] = 24'h0;
+        mem[55] = 24'h0;
+        mem[56] = 24'h0;
+        mem[57] = 24'h0;
+        mem[58] = 24'h0;
+        mem[59] = 24'h0;
+        mem[60] = 24'h0;
+        mem[61] = 24'h0;
+        mem[62] = 24'h0;
+        mem[63] = 24'h0;
+        mem[64] = 24'h0;
+        mem[65] = 24'h0;
+        mem[66] = 24'h0;
+        mem[67] = 24'h0;
+        mem[68] = 24'h0;
+        mem[69] = 24'h0;
+        mem[70] = 24'h0;
+        mem[71] = 24'h0;
+        mem[72] = 24'h0;
+        mem[73] = 24'h0;
+        mem[74] = 24'h0;
+        mem[75] = 24'h0;
+        mem[76] = 24'h0;
+        mem[77] = 24'h0;
+        mem[78] = 24'h0;
+        mem[79] = 24'h0;
+        mem[80] = 24'h0;
+        mem[81] = 24'h0;
+        mem[82] = 24'h0;
+        mem[83] = 24'h0;
+        mem[84] = 24'h0;
+        mem[85] = 24'h0;
+        mem[86] = 24'h0;
+        mem[87] = 24'h0;
+        mem[88] = 24'h0;
+        mem[89] = 24'h0;
+        mem[90] = 24'h0;
+        mem[91] = 24'h0;
+        mem[92] = 24'h0;
+        mem[93] = 24'h0;
+        mem[94] = 24'h0;
+        mem[95] = 24'h0;
+        mem[96] = 24'h0;
+        mem[97] = 24'h0;
+        mem[98] = 24'h0;
+        mem[99] = 24'h0;
+        mem[100] = 24'h0;
+        mem[101] = 24'h0;
+        mem[102] = 24'h0;
+        mem[103] = 24'h0;
+        mem[104] = 24'h0;
+        mem[105] = 24'h0;
+        mem[106] = 24'h0;
+        mem[107] = 24'h0;
+        mem[108] = 24'h0;
+        mem[109] = 24'h0;
+        mem[110] = 24'h0;
+        mem[111] = 24'h0;
+        mem[112] = 24'h0;
+        mem[113] = 24'h0;
+        mem[114] = 24'h0;
+        mem[115] = 24'h0;
+        mem[116] = 24'h0;
+        mem[117] = 24'h0;
+        mem[118] = 24'h0;
+        mem[119] = 24'h0;
+        mem[120] = 24'h0;
+        mem[121] = 24'h0;
+        mem[122] = 24'h0;
+        mem[123] = 24'h0;
+        mem[124] = 24'h0;
+        mem[125] = 24'h0;
+        mem[126] = 24'h0;
+        mem[127] = 24'h0;
+    end
+
+    always @(posedge clock) begin
+        read_data <= mem[read_address];
+        if (write_enable) mem[write_address] <= write_data;
+    end
 endmodule
 
 module rac4i65_core_timebase (
@@ -2358,6 +2571,7 @@ module rac4i65_core_decoder (
     output reg in_memory,
     output reg in_imu,
     output reg [7:0] memory_address,
+    output reg [7:0] staging_address,
     output reg stages_set_point,
     output reg stages_configuration,
     output reg snapshot_first,
@@ -2398,6 +2612,8 @@ module rac4i65_core_decoder (
     reg [5:0] index;
     reg [7:0] wide;
     reg [7:0] set_point;
+    reg [7:0] staged_set_point;
+    reg [7:0] staged_configuration;
     reg [7:0] base;
     reg [7:0] bank;
 
@@ -2469,6 +2685,27 @@ module rac4i65_core_decoder (
     end
 
     always @(*) memory_address = base | bank;
+
+    always @(*) begin
+        staged_set_point = set_point;
+        if (~set_point_bank) begin
+            staged_set_point = set_point | set_points_1;
+        end
+    end
+
+    always @(*) begin
+        staged_configuration = wide;
+        if (~configuration_bank) begin
+            staged_configuration = wide | configuration_1;
+        end
+    end
+
+    always @(*) begin
+        staging_address = staged_configuration;
+        if (page[32'h1]) begin
+            staging_address = staged_set_point;
+        end
+    end
 endmodule
 
 module rac4i65_core_place (
@@ -3440,6 +3677,7 @@ module rac4i65_core_sequencer (
     output reg [31:0] output_data,
     input wire [7:0] bus_address,
     output reg [31:0] bus_read_data,
+    input wire [7:0] bus_write_address,
     input wire bus_write,
     input wire [31:0] bus_write_data,
     output reg bus_blocked,
@@ -3998,7 +4236,7 @@ module rac4i65_core_sequencer (
     always @(*) place_word = write_address[(32'h0)+:(5)];
 
     always @(*) begin
-        memory_write_address = bus_address;
+        memory_write_address = bus_write_address;
         memory_write_data = bus_write_data;
         if (storing_q) begin
             memory_write_address = store_address_q;
@@ -4166,7 +4404,7 @@ module rac4i65_core_sequencer_rom (
         mem[130] = 16'h0;
         mem[131] = 16'hd0b4;
         mem[132] = 16'h6007;
-        mem[133] = 16'h7918;
+        mem[133] = 16'h791a;
         mem[134] = 16'hb800;
         mem[135] = 16'h58b5;
         mem[136] = 16'hc1c;
@@ -4189,10 +4427,10 @@ module rac4i65_core_sequencer_rom (
         mem[153] = 16'h58b8;
         mem[154] = 16'h20b7;
         mem[155] = 16'h0;
-        mem[156] = 16'h7915;
+        mem[156] = 16'h7917;
         mem[157] = 16'h8b7;
         mem[158] = 16'h50b4;
-        mem[159] = 16'h8915;
+        mem[159] = 16'h8917;
         mem[160] = 16'h8b5;
         mem[161] = 16'h1ca4;
         mem[162] = 16'h0;
@@ -4309,19 +4547,19 @@ module rac4i65_core_sequencer_rom (
         mem[273] = 16'h1000;
         mem[274] = 16'h707a;
         mem[275] = 16'hb000;
-        mem[276] = 16'h707a;
-        mem[277] = 16'h8b2;
-        mem[278] = 16'h5ca4;
-        mem[279] = 16'h70a8;
-        mem[280] = 16'hb800;
-        mem[281] = 16'h8b0;
-        mem[282] = 16'he414;
-        mem[283] = 16'h1000;
-        mem[284] = 16'h58b8;
-        mem[285] = 16'h5ca4;
-        mem[286] = 16'h70a8;
-        mem[287] = 16'h0;
-        mem[288] = 16'h0;
+        mem[276] = 16'h907a;
+        mem[277] = 16'h20be;
+        mem[278] = 16'h707a;
+        mem[279] = 16'h8b2;
+        mem[280] = 16'h5ca4;
+        mem[281] = 16'h70a8;
+        mem[282] = 16'hb800;
+        mem[283] = 16'h8b0;
+        mem[284] = 16'he414;
+        mem[285] = 16'h1000;
+        mem[286] = 16'h58b8;
+        mem[287] = 16'h5ca4;
+        mem[288] = 16'h70a8;
         mem[289] = 16'h0;
         mem[290] = 16'h0;
         mem[291] = 16'h0;
@@ -5050,23 +5288,24 @@ module rac4i65_core_sequencer_divider (
     // Constants
     localparam no_steps = 6'b0;
     localparam one_step = 6'b1;
-    localparam two_steps = 6'b10;
-    localparam all_steps = 6'b100011;
-    localparam zero_25 = 25'h0;
-    localparam zero = 32'h0;
-    localparam one = 32'h1;
-    localparam three_clear = 3'b0;
-    localparam word_max = 32'h1fffffff;
+    localparam word_steps = 6'b11101;
+    localparam all_steps = 6'b100001;
+    localparam bit_0 = 26'h1;
+    localparam word_bit_0 = 29'h1;
+    localparam sign_of_29 = 32'he0000000;
 
     // Pins of the parts
     reg [24:0] remainder_d;
     wire [24:0] remainder_q;
 
-    reg [31:0] bits_d;
-    wire [31:0] bits_q;
+    reg last_bit_d;
+    wire last_bit_q;
 
-    reg [24:0] divisor_d;
-    wire [24:0] divisor_q;
+    reg [28:0] bits_d;
+    wire [28:0] bits_q;
+
+    reg [23:0] divisor_d;
+    wire [23:0] divisor_q;
 
     reg [5:0] steps_d;
     wire [5:0] steps_q;
@@ -5077,64 +5316,54 @@ module rac4i65_core_sequencer_divider (
     reg overflow_d;
     wire overflow_q;
 
-    reg checking_d;
-    wire checking_q;
-
     // Intermediate values
+    reg sign;
+    reg [15:0] inverted;
+    reg [15:0] magnitude;
     reg running;
-    reg [24:0] minuend;
+    reg [25:0] minuend;
     reg [25:0] difference;
-    reg [24:0] magnitude;
-    reg [2:0] bits_top;
-    reg [31:0] clipped;
+    reg goes;
+    reg sets;
 
     // Parts
     rac4i65_core_dff_25 remainder (.d(remainder_d), .q(remainder_q), .clock(clock));
-    rac4i65_core_dff_32 bits (.d(bits_d), .q(bits_q), .clock(clock));
-    rac4i65_core_dff_25 divisor (.d(divisor_d), .q(divisor_q), .clock(clock));
+    rac4i65_core_dff_1 last_bit (.d(last_bit_d), .q(last_bit_q), .clock(clock));
+    rac4i65_core_dff_29 bits (.d(bits_d), .q(bits_q), .clock(clock));
+    rac4i65_core_dff_24_2 divisor (.d(divisor_d), .q(divisor_q), .clock(clock));
     rac4i65_core_dff_6 steps (.d(steps_d), .q(steps_q), .clock(clock));
     rac4i65_core_dff_1 negative (.d(negative_d), .q(negative_q), .clock(clock));
     rac4i65_core_dff_1 overflow (.d(overflow_d), .q(overflow_q), .clock(clock));
-    rac4i65_core_dff_1 checking (.d(checking_d), .q(checking_q), .clock(clock));
 
     always @(*) begin
         remainder_d = remainder_q;
+        last_bit_d = last_bit_q;
         bits_d = bits_q;
         divisor_d = divisor_q;
         steps_d = steps_q;
         negative_d = negative_q;
         overflow_d = overflow_q;
-        checking_d = checking_q;
         if (running) begin
             steps_d = steps_q - one_step;
-            checking_d = 1'b0;
-            if (steps_q == two_steps) begin
-                bits_d = clipped;
-            end
-            else if (steps_q == one_step) begin
-                if (negative_q) begin
-                    bits_d = zero - bits_q;
-                end
-            end
-            else if (checking_q) begin
-                overflow_d = ~difference[32'h19];
-            end
-            else if (difference[32'h19]) begin
-                remainder_d = minuend;
-                bits_d = bits_q << 32'h1;
-            end
-            else begin
+            last_bit_d = 1'b0;
+            remainder_d = minuend[(32'h0)+:(25)];
+            bits_d = bits_q << 32'h1;
+            if (goes) begin
                 remainder_d = difference[(32'h0)+:(25)];
-                bits_d = (bits_q << 32'h1) | one;
+            end
+            if (sets ^ negative_q) begin
+                bits_d = (bits_q << 32'h1) | word_bit_0;
+            end
+            if (goes & (steps_q > word_steps)) begin
+                overflow_d = 1'b1;
             end
         end
         else if (start) begin
-            remainder_d = magnitude;
-            divisor_d = ((denominator[(32'h0)+:(24)]) & 25'h1ffffff);
-            bits_d = zero;
-            negative_d = numerator[32'h1f];
+            remainder_d = ((magnitude[(32'h1)+:(15)]) & 25'h1ffffff);
+            last_bit_d = magnitude[32'h0];
+            negative_d = sign;
+            divisor_d = denominator[(32'h0)+:(24)];
             overflow_d = 1'b0;
-            checking_d = 1'b1;
             steps_d = all_steps;
         end
     end
@@ -5143,30 +5372,30 @@ module rac4i65_core_sequencer_divider (
     always @(*) busy = running;
 
     always @(*) begin
-        minuend = remainder_q << 32'h1;
-        if (checking_q) begin
-            minuend = remainder_q;
+        minuend = ((remainder_q) & 26'h3ffffff) << 32'h1;
+        if (last_bit_q) begin
+            minuend = (((remainder_q) & 26'h3ffffff) << 32'h1) | bit_0;
         end
     end
 
-    always @(*) difference = ((minuend) & 26'h3ffffff) - ((divisor_q) & 26'h3ffffff);
+    always @(*) difference = minuend - ((divisor_q) & 26'h3ffffff);
+    always @(*) goes = ~difference[32'h19];
+    always @(*) sets = goes | overflow_q;
+    always @(*) sign = numerator[32'hf];
 
     always @(*) begin
-        magnitude = numerator[(32'h0)+:(25)];
-        if (numerator[32'h1f]) begin
-            magnitude = zero_25 - numerator[(32'h0)+:(25)];
+        inverted = numerator[(32'h0)+:(16)];
+        if (sign) begin
+            inverted = ~numerator[(32'h0)+:(16)];
         end
     end
 
-    always @(*) begin
-        bits_top = bits_q[(32'h1d)+:(3)];
-        quotient = bits_q;
-    end
+    always @(*) magnitude = inverted + ((sign) & 16'hffff);
 
     always @(*) begin
-        clipped = bits_q;
-        if (overflow_q | (bits_top != three_clear)) begin
-            clipped = word_max;
+        quotient = ((bits_q) & 32'hffffffff);
+        if (negative_q) begin
+            quotient = ((bits_q) & 32'hffffffff) | sign_of_29;
         end
     end
 endmodule
@@ -5717,11 +5946,16 @@ module rac4i65_core_radio (
     reg [7:0] dropped_count_d;
     wire [7:0] dropped_count_q;
 
+    reg [7:0] ahead_d;
+    wire [7:0] ahead_q;
+
+    reg check_right_d;
+    wire check_right_q;
+
     // Intermediate values
     reg settled;
     reg silent;
     reg boundary;
-    reg [7:0] ahead;
     reg fresh;
     reg whole;
     reg accepts;
@@ -5784,6 +6018,8 @@ module rac4i65_core_radio (
     rac4i65_core_dff_32 word (.d(word_d), .q(word_q), .clock(clock));
     rac4i65_core_dff_8 accepted_count (.d(accepted_count_d), .q(accepted_count_q), .clock(clock));
     rac4i65_core_dff_8 dropped_count (.d(dropped_count_d), .q(dropped_count_q), .clock(clock));
+    rac4i65_core_dff_8 ahead (.d(ahead_d), .q(ahead_q), .clock(clock));
+    rac4i65_core_dff_1 check_right (.d(check_right_d), .q(check_right_q), .clock(clock));
 
     always @(*) begin
         low_1_d = low_1_q;
@@ -5953,6 +6189,16 @@ module rac4i65_core_radio (
         end
     end
 
+    always @(*) begin
+        ahead_d = ahead_q;
+        ahead_d = number_q - last_number_q;
+    end
+
+    always @(*) begin
+        check_right_d = check_right_q;
+        check_right_d = check_state == residue;
+    end
+
     always @(*) settled = settling_q == strap_end;
     always @(*) heard = receiver_byte_done & listening_q;
     always @(*) value = receiver_value;
@@ -5960,9 +6206,8 @@ module rac4i65_core_radio (
     always @(*) last_write = count_q == total_q;
     always @(*) length_fits = (value != no_byte) & ~value[32'h7] & ~(value[32'h6] & value[32'h5]);
     always @(*) boundary = silent & ~playing_q & (~listening_q | (stage_q != at_head));
-    always @(*) ahead = number_q - last_number_q;
-    always @(*) fresh = (ahead != no_byte) & ~(armed & ahead[32'h7]);
-    always @(*) whole = (stage_q == at_end) & (check_state == residue);
+    always @(*) fresh = (ahead_q != no_byte) & ~(armed & ahead_q[32'h7]);
+    always @(*) whole = (stage_q == at_end) & check_right_q;
 
     always @(*) begin
         page = ((code_q[(32'h0)+:(6)]) & 14'h3fff);
@@ -8195,6 +8440,21 @@ module rac4i65_core_dff_28 (
 
     initial begin
         q = 28'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_29 (
+    input wire [28:0] d,
+    output reg [28:0] q,
+    input wire clock
+);
+
+    initial begin
+        q = 29'h0;
     end
 
     always @(posedge clock) begin

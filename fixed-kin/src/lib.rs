@@ -37,7 +37,7 @@
 //! # Clocks of a control tick
 //!
 //! One sequencer, one serial multiplier and one divider serve all axes. A multiplication takes 2 +
-//! digits clocks, a division 36, both beside other work: the parts of an axis are woven into each other.
+//! digits clocks, a division 34, both beside other work: the parts of an axis are woven into each other.
 //!
 //! | part | multiplications | beside |
 //! |---|---|---|
@@ -49,7 +49,7 @@
 //! | PI with feed-forward | 11 + 2 × 14 | |
 //! | PWM compare | 9 | |
 //! | pose, once for all axes | 11 + 2 × 14 + 4 × 11 | |
-//! | **all of four axes, pose and snapshot** | | **980** clocks at most, measured |
+//! | **all of four axes, pose and snapshot** | | **981** clocks at most, measured |
 //!
 //! The measure holds the worst of a random walk and of a drive in which every axis captures an index
 //! and creeps without an edge at every tick. The shortest control period is

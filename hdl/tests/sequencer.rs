@@ -77,7 +77,7 @@ impl Bench {
     }
 
     fn write(&mut self, address: usize, word: i32) {
-        self.sequencer.bus_address.next = address.to_bits();
+        self.sequencer.bus_write_address.next = address.to_bits();
         self.sequencer.bus_write_data.next = u64::from(word as u32).to_bits();
         self.sequencer.bus_write.next = true;
         cycle(&mut self.sequencer, |s, level| s.clock.next = level.into());

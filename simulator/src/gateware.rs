@@ -10,8 +10,8 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream.
-pub const SEED: u64 = 1;
+/// Seed of the committed bitstream: of 1 and 2 the one with the greater least slack (-1.52 and 2.26 ns).
+pub const SEED: u64 = 2;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 

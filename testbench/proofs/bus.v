@@ -27,7 +27,8 @@ always @(*) begin
     if (!ready_n) assert (formal_open);
     if (lad_drive) assert (formal_open && formal_reads && !formal_strobe);
     if (read) assert (formal_open && formal_reads);
-    if (read || write) assert (claims);
+    assert (claims == (fetch_q || offer_q));
+    assert (!(read && write));
     if (write) assert (formal_open && !formal_reads && formal_written >= 1);
     // Invariants that carry the induction.
     assert (formal_open == (fetch_q || pending_q || take_q || collect_q || offer_q || answer_q));

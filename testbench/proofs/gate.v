@@ -3,7 +3,12 @@
 wire formal_on = |pwm || (registers_mode[3] && |dir) || !(&enable_n) || !kicker_charge_n || !kicker_trigger_n;
 // Who commands: a host that does not reaches two registers, and the radio never in a clock of the bus.
 always @(*) begin
-    assume (!bus_write_2 || bus_claims);  // proof "bus"
+    // Proof "bus".
+    assume (!(bus_write_2 || bus_read) || bus_claims);
+    assume (!(bus_write_2 && bus_read));
+    // What the copy of the registers gives after a clock that writes it is never wanted: nothing is written in
+    // the clock in which a read begins.
+    if (bus_read) assert (!registers_write);
     if (radio_selected && sequencer_bus_write) assert (radio_turn);
     if (radio_selected && registers_write && !radio_turn)
         assert (index == at_arm || index == at_radio);

@@ -47,6 +47,16 @@ always @(posedge clock) begin
     if (accepts) formal_last <= formal_sequence;
 end
 
+// A clock ago.
+reg [31:0] formal_crc_before = 0;
+reg [7:0] formal_ahead_before = 0;
+reg formal_silent_before = 0;
+always @(posedge clock) begin
+    formal_crc_before <= formal_crc;
+    formal_ahead_before <= number_q - last_number_q;
+    formal_silent_before <= silent;
+end
+
 reg [6:0] formal_words = 0;  // of the frame that acts, not yet taken
 reg formal_stands = 0;       // the word offered was not taken at the last edge
 reg [39:0] formal_word;
@@ -66,6 +76,11 @@ always @(*) begin
     // Invariants that carry the induction.
     assert (quiet_q <= gap);
     assert (check_state == formal_crc);
+    assert (check_right_q == (formal_crc_before == FORMAL_RESIDUE));
+    assert (ahead_q == formal_ahead_before);
+    if (silent && !formal_silent_before) assert (formal_crc == formal_crc_before);
+    if (formal_silent_before && listening_q) assert (stage_q == at_head);
+    if (listening_q && stage_q >= at_crc) assert (ahead_q == formal_ahead);
     if (receiver_hearing) assert (quiet_q == 0);
     if (formal_hears_before || formal_low_before) assert (quiet_q == 0);
     assert (formal_last == last_number_q);

@@ -29,6 +29,6 @@ always @(*) begin
     if (valid_q && op == 3) assert (!subtracting && saturates_d);
     if (valid_q && op == 4) assert (subtracting && saturates_d);
     if (bus_write) assert (bus_write_taken == !bus_blocked);
-    if (bus_write_taken) assert (memory_write_enable && memory_write_address == bus_address);
+    if (bus_write_taken) assert (memory_write_enable && memory_write_address == bus_write_address);
     if (storing_q) assert (bus_blocked && memory_write_data == accumulator_q);
 end

@@ -108,7 +108,7 @@ fn clock_monitor() {
 #[test]
 fn arithmetic() {
     check("multiplier", Multiplier::default(), 330, 120);
-    check("divider", Divider::default(), 260, 130);
+    check("divider", Divider::default(), 130, 130);
     check("trigonometry", Trigonometry::default(), 60, 35);
     check("sequencer", Sequencer::new(&control_tick()), 1_200, 450);
 }
@@ -123,7 +123,7 @@ fn bus_and_registers() {
     check("serial_host", SerialHost::default(), 300, 170);
     check("radio", Radio::default(), 300, 330);
     check("timebase", Timebase::default(), 180, 130);
-    check("register_file", RegisterFile::default(), 500, 320);
+    check("register_file", RegisterFile::new(0), 420, 320);
 }
 
 /// 66 % of the 4704 lookup tables and flip-flops of the XC2S200.

@@ -353,6 +353,7 @@ impl Logic for Core {
         self.radio.select_write.next = self.registers.select_radio.val();
         self.radio.select.next = self.registers.written.val().get_bit(0);
         self.sequencer.bus_address.next = self.decoder.memory_address.val();
+        self.sequencer.bus_write_address.next = self.decoder.staging_address.val();
         self.sequencer.bus_write_data.next = self.staged.val();
         self.sequencer.bus_write.next =
             self.staging.val() & (self.radio_turn.val() | (self.bus.write.val() & !self.radio.selected.val()));
@@ -381,7 +382,8 @@ impl Logic for Core {
         if self.read_imu.q.val() {
             self.read_q.d.next = bit_cast::<32, 16>(self.imu.read_data.val());
         }
-        self.bus.read_data.next = self.read_q.q.val();
+        self.registers.was_in_page.next = self.read_page.q.val();
+        self.bus.read_data.next = self.read_q.q.val() | bit_cast::<32, 24>(self.registers.kept_data.val());
 
         // Inertial sensor.
         self.imu.tick.next = self.tick.val();

@@ -30,6 +30,9 @@ const fn index(register: &Register) -> u64 {
     (register.offset / 4 % 64) as u64
 }
 
+/// The two pages that a write stages differ in bit 1 alone, which chooses the address.
+const _: () = assert!(page(&SET_POINTS) == page(&CONFIGURATION) | 2 && page(&CONFIGURATION) & 2 == 0);
+
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Decoder {
@@ -49,6 +52,8 @@ pub struct Decoder {
     pub in_imu: Signal<Out, Bit>,
     /// Address in the sequencer's memory.
     pub memory_address: Signal<Out, Bits<8>>,
+    /// The same of a word that a write would stage, with less in its way; anything where none would.
+    pub staging_address: Signal<Out, Bits<8>>,
     /// A write would stage a set point.
     pub stages_set_point: Signal<Out, Bit>,
     /// A write would stage a word of the configuration.
@@ -62,6 +67,8 @@ pub struct Decoder {
     index: Signal<Local, Bits<6>>,
     wide: Signal<Local, Bits<8>>,
     set_point: Signal<Local, Bits<8>>,
+    staged_set_point: Signal<Local, Bits<8>>,
+    staged_configuration: Signal<Local, Bits<8>>,
     base: Signal<Local, Bits<8>>,
     bank: Signal<Local, Bits<8>>,
 
@@ -153,5 +160,18 @@ impl Logic for Decoder {
             self.base.next = self.place.address.val();
         }
         self.memory_address.next = self.base.val() | self.bank.val();
+
+        self.staged_set_point.next = self.set_point.val();
+        if !self.set_point_bank.val() {
+            self.staged_set_point.next = self.set_point.val() | self.set_points_1.val();
+        }
+        self.staged_configuration.next = self.wide.val();
+        if !self.configuration_bank.val() {
+            self.staged_configuration.next = self.wide.val() | self.configuration_1.val();
+        }
+        self.staging_address.next = self.staged_configuration.val();
+        if self.page.val().get_bit(1) {
+            self.staging_address.next = self.staged_set_point.val();
+        }
     }
 }

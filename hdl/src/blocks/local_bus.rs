@@ -76,6 +76,8 @@ pub struct LocalBus {
     writing: DFF<Bit>,
     last: DFF<Bit>,
     drive: DFF<Bit>,
+    // `fetch` or `offer`, without a table between.
+    claiming: DFF<Bit>,
     word: DFF<Bits<14>>,
     held: DFF<Bits<6>>,
     to_host: DFF<Bits<32>>,
@@ -119,6 +121,7 @@ impl Default for LocalBus {
             writing: DFF::default(),
             last: DFF::default(),
             drive: DFF::default(),
+            claiming: DFF::default(),
             word: DFF::default(),
             held: DFF::default(),
             to_host: DFF::default(),
@@ -140,8 +143,8 @@ impl Logic for LocalBus {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(
-            self, clock, fetch, pending, take, collect, offer, answer, writing, last, drive, word, held, to_host,
-            from_host
+            self, clock, fetch, pending, take, collect, offer, answer, writing, last, drive, claiming, word, held,
+            to_host, from_host
         );
         self.next_word.next = self.word.q.val() + self.one_word.val();
         self.next_held.next = self.held.q.val() + self.one_held.val();
@@ -153,6 +156,7 @@ impl Logic for LocalBus {
         self.take.d.next = self.pending.q.val();
         self.collect.d.next = false;
         self.offer.d.next = self.collect.q.val();
+        self.claiming.d.next = self.collect.q.val();
         self.answer.d.next = self.take.q.val();
         self.last.d.next = (self.last.q.val() | !self.blast_n.val()) & !self.answer.q.val();
         if self.fetch.q.val() {
@@ -167,6 +171,7 @@ impl Logic for LocalBus {
         if self.offer.q.val() {
             if self.write_busy.val() & !self.expired.val() {
                 self.offer.d.next = true;
+                self.claiming.d.next = true;
                 self.held.d.next = self.next_held.val();
             } else {
                 self.answer.d.next = true;
@@ -179,6 +184,7 @@ impl Logic for LocalBus {
             } else {
                 self.word.d.next = self.next_word.val();
                 self.fetch.d.next = !self.writing.q.val();
+                self.claiming.d.next = !self.writing.q.val();
                 self.collect.d.next = self.writing.q.val();
             }
         }
@@ -186,6 +192,7 @@ impl Logic for LocalBus {
             self.word.d.next = self.lad_in.val().get_bits::<14>(2);
             self.writing.d.next = self.lw_r.val();
             self.fetch.d.next = !self.lw_r.val();
+            self.claiming.d.next = !self.lw_r.val();
             self.pending.d.next = false;
             self.take.d.next = false;
             self.collect.d.next = self.lw_r.val();
@@ -203,7 +210,7 @@ impl Logic for LocalBus {
         self.read.next = self.fetch.q.val();
         self.write.next = self.offer.q.val() & !self.write_busy.val();
         self.write_data.next = self.from_host.q.val();
-        self.claims.next = self.fetch.q.val() | self.offer.q.val();
+        self.claims.next = self.claiming.q.val();
         self.overrun.next = self.offer.q.val() & self.write_busy.val() & self.expired.val();
     }
 }

@@ -86,11 +86,12 @@ pub struct RadioAt<const HALF: u64, const WHOLE: u64> {
     word: DFF<Bits<32>>,
     accepted_count: DFF<Bits<8>>,
     dropped_count: DFF<Bits<8>>,
+    ahead: DFF<Bits<8>>,
+    check_right: DFF<Bit>,
 
     settled: Signal<Local, Bit>,
     silent: Signal<Local, Bit>,
     boundary: Signal<Local, Bit>,
-    ahead: Signal<Local, Bits<8>>,
     fresh: Signal<Local, Bit>,
     whole: Signal<Local, Bit>,
     accepts: Signal<Local, Bit>,
@@ -140,7 +141,19 @@ impl<const HALF: u64, const WHOLE: u64> Logic for RadioAt<HALF, WHOLE> {
         clock!(self, clock, receiver, check, memory);
         dff_setup!(self, clock, low_1, low_2, robot_1, robot_number, settling, steady, commands);
         dff_setup!(self, clock, quiet, listening, stage, inner, count, total, number, last_number);
-        dff_setup!(self, clock, pointer, playing, offering, code, word, accepted_count, dropped_count);
+        dff_setup!(
+            self,
+            clock,
+            pointer,
+            playing,
+            offering,
+            code,
+            word,
+            accepted_count,
+            dropped_count,
+            ahead,
+            check_right
+        );
 
         // Straps. Inverted before the first flip-flop, so that power-up means "the host commands".
         self.low_1.d.next = !self.host_select.val();
@@ -265,9 +278,12 @@ impl<const HALF: u64, const WHOLE: u64> Logic for RadioAt<HALF, WHOLE> {
         self.boundary.next = self.silent.val()
             & !self.playing.q.val()
             & (!self.listening.q.val() | (self.stage.q.val() != self.at_head.val()));
-        self.ahead.next = self.number.q.val() - self.last_number.q.val();
-        self.fresh.next = (self.ahead.val() != self.no_byte.val()) & !(self.armed.val() & self.ahead.val().get_bit(7));
-        self.whole.next = (self.stage.q.val() == self.at_end.val()) & (self.check.state.val() == self.residue.val());
+        // Number and CRC stand for longer than a silence takes: what a clock ago was said of them still holds.
+        self.ahead.d.next = self.number.q.val() - self.last_number.q.val();
+        self.check_right.d.next = self.check.state.val() == self.residue.val();
+        self.fresh.next =
+            (self.ahead.q.val() != self.no_byte.val()) & !(self.armed.val() & self.ahead.q.val().get_bit(7));
+        self.whole.next = (self.stage.q.val() == self.at_end.val()) & self.check_right.q.val();
         self.accepts.next = false;
         if self.boundary.val() {
             self.listening.d.next = true;

@@ -4,18 +4,39 @@
 //! |---|---|
 //! | locked while armed | a write while `armed` is ignored |
 //! | write only | a strobe in the clock after the write, with `written` |
-//! | read | `read_data` one clock after `address` |
+//! | read | `read_data` one clock after `address`, `kept_data` two; the word is both, ored |
+//!
+//! Wide registers that only keep what was written are read from a copy in block memory: it holds the bits that
+//! they have, and is written with them. It is read a clock late, at the address that a write would have then; nobody
+//! may want what it gives after a clock that writes.
 //!
 //! The case labels are word addresses of `fixed_kin::registers`; a test walks all of them.
 
-use crate::primitives::{Literal, Preset, Setting};
+use crate::primitives::{Literal, Memory, Preset, Setting};
 use fixed_kin::AXES;
 use fixed_kin::registers::{
     BLOCKS_VALUE, COOKIE_VALUE, DEFAULT_SET_POINT_TIMEOUT, DEFAULT_STALL_WINDOW, DEFAULT_TICK_PERIOD,
-    DEFAULT_WATCHDOG_TIMEOUT, KICKER_FIRE_WORD, VERSION,
+    DEFAULT_WATCHDOG_TIMEOUT, IMU_CONTROL, KICKER_CHARGE_TIMEOUT, KICKER_FIRE_WORD, KICKER_LOCKOUT, KICKER_PULSE,
+    PWM_BLANKING, PWM_PERIOD, Register, SET_POINT_TIMEOUT, STALL_COMPARE, STALL_WINDOW, TICK_PERIOD, VERSION,
+    WATCHDOG_TIMEOUT,
 };
 use rust_hdl::prelude::*;
 use rust_hdl_widgets::prelude::*;
+
+/// Registers that are read from the copy in block memory.
+const COPIED: [&Register; 11] = [
+    &TICK_PERIOD,
+    &PWM_PERIOD,
+    &PWM_BLANKING,
+    &WATCHDOG_TIMEOUT,
+    &KICKER_PULSE,
+    &KICKER_LOCKOUT,
+    &KICKER_CHARGE_TIMEOUT,
+    &SET_POINT_TIMEOUT,
+    &STALL_WINDOW,
+    &STALL_COMPARE,
+    &IMU_CONTROL,
+];
 
 /// See the module.
 #[derive(LogicBlock, Default)]
@@ -30,8 +51,12 @@ pub struct RegisterFile {
     pub data: Signal<In, Bits<32>>,
     /// What was written in the last clock.
     pub written: Signal<Out, Bits<32>>,
-    /// The word at `address` of the last clock.
+    /// The word at `address` of the last clock, but of a copied register.
     pub read_data: Signal<Out, Bits<32>>,
+    /// `address` of the last clock was in this page.
+    pub was_in_page: Signal<In, Bit>,
+    /// The copied register at `address` of the clock before the last, 0 where there is none.
+    pub kept_data: Signal<Out, Bits<24>>,
     /// Outputs may be on.
     pub armed: Signal<In, Bit>,
 
@@ -154,8 +179,20 @@ pub struct RegisterFile {
     writing: DFF<Bit>,
     place: DFF<Bits<6>>,
     word: DFF<Bits<32>>,
+    kept: Memory<24, 7>,
 
     unlocked: Signal<Local, Bit>,
+    at: Signal<Local, Bits<7>>,
+    mask: Signal<Local, Bits<24>>,
+
+    other_page: Literal<7, 0x40>,
+    bits_10: Literal<24, 0x3FF>,
+    bits_11: Literal<24, 0x7FF>,
+    bits_13: Literal<24, 0x1FFF>,
+    bits_14: Literal<24, 0x3FFF>,
+    bits_16: Literal<24, 0xFFFF>,
+    bits_20: Literal<24, 0xF_FFFF>,
+    bits_24: Literal<24, 0xFF_FFFF>,
 
     cookie: Literal<32, { COOKIE_VALUE as u64 }>,
     version: Literal<32, { VERSION as u64 }>,
@@ -174,7 +211,11 @@ impl RegisterFile {
     /// Registers at their reset values, with the hash of the emitted Verilog.
     #[must_use]
     pub fn new(content_hash: u32) -> Self {
-        Self { content_hash: Setting::new(content_hash.into()), ..Self::default() }
+        let mut initial = [0; 64];
+        for register in COPIED {
+            initial[usize::from(register.word_address())] = register.reset;
+        }
+        Self { content_hash: Setting::new(content_hash.into()), kept: Memory::new(&initial), ..Self::default() }
     }
 }
 
@@ -228,11 +269,51 @@ impl Logic for RegisterFile {
         self.place.d.next = self.address.val();
         self.word.d.next = self.data.val();
         self.written.next = self.word.q.val();
+        self.at.next = bit_cast::<7, 6>(self.place.q.val());
+        if !self.was_in_page.val() {
+            self.at.next = bit_cast::<7, 6>(self.place.q.val()) | self.other_page.val();
+        }
+        self.kept.clock.next = self.clock.val();
+        self.kept.read_address.next = self.at.val();
+        self.kept.write_address.next = self.at.val();
+        self.kept.write_enable.next = false;
+        self.kept_data.next = self.kept.read_data.val();
+        match self.place.q.val().index() {
+            11 => {
+                self.mask.next = self.bits_13.val();
+            } // PWM_PERIOD
+            12 => {
+                self.mask.next = self.bits_10.val();
+            } // PWM_BLANKING
+            26 => {
+                self.mask.next = self.bits_14.val();
+            } // KICKER_PULSE
+            27 => {
+                self.mask.next = self.bits_20.val();
+            } // KICKER_LOCKOUT
+            32 => {
+                self.mask.next = self.bits_16.val();
+            } // SET_POINT_TIMEOUT
+            33 => {
+                self.mask.next = self.bits_16.val();
+            } // STALL_WINDOW
+            34 => {
+                self.mask.next = self.bits_13.val();
+            } // STALL_COMPARE
+            41 => {
+                self.mask.next = self.bits_11.val();
+            } // IMU_CONTROL
+            _ => {
+                self.mask.next = self.bits_24.val();
+            } // TICK_PERIOD, WATCHDOG_TIMEOUT, KICKER_CHARGE_TIMEOUT
+        }
+        self.kept.write_data.next = self.word.q.val().get_bits::<24>(0) & self.mask.val();
         if self.writing.q.val() {
             match self.place.q.val().index() {
                 8 => {
                     if self.unlocked.val() {
                         self.tick_period_q.d.next = self.word.q.val().get_bits::<24>(0);
+                        self.kept.write_enable.next = true;
                         self.tick_period_written.next = true;
                     }
                 } // TICK_PERIOD
@@ -249,16 +330,19 @@ impl Logic for RegisterFile {
                 11 => {
                     if self.unlocked.val() {
                         self.pwm_period_q.d.next = self.word.q.val().get_bits::<13>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // PWM_PERIOD
                 12 => {
                     if self.unlocked.val() {
                         self.pwm_blanking_q.d.next = self.word.q.val().get_bits::<10>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // PWM_BLANKING
                 13 => {
                     if self.unlocked.val() {
                         self.watchdog_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // WATCHDOG_TIMEOUT
                 14 => {
@@ -290,15 +374,18 @@ impl Logic for RegisterFile {
                 } // KICKER_FIRE
                 26 => {
                     self.kicker_pulse_q.d.next = self.word.q.val().get_bits::<14>(0);
+                    self.kept.write_enable.next = true;
                 } // KICKER_PULSE
                 27 => {
                     if self.unlocked.val() {
                         self.kicker_lockout_q.d.next = self.word.q.val().get_bits::<20>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // KICKER_LOCKOUT
                 28 => {
                     if self.unlocked.val() {
                         self.kicker_charge_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // KICKER_CHARGE_TIMEOUT
                 30 => {
@@ -312,16 +399,19 @@ impl Logic for RegisterFile {
                 32 => {
                     if self.unlocked.val() {
                         self.set_point_timeout_q.d.next = self.word.q.val().get_bits::<16>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // SET_POINT_TIMEOUT
                 33 => {
                     if self.unlocked.val() {
                         self.stall_window_q.d.next = self.word.q.val().get_bits::<16>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // STALL_WINDOW
                 34 => {
                     if self.unlocked.val() {
                         self.stall_compare_q.d.next = self.word.q.val().get_bits::<13>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // STALL_COMPARE
                 35 => {
@@ -344,6 +434,7 @@ impl Logic for RegisterFile {
                 41 => {
                     if self.unlocked.val() {
                         self.imu_control_q.d.next = self.word.q.val().get_bits::<11>(0);
+                        self.kept.write_enable.next = true;
                     }
                 } // IMU_CONTROL
                 42 => {
@@ -380,23 +471,11 @@ impl Logic for RegisterFile {
             7 => {
                 self.read_q.d.next = self.blocks.val();
             }
-            8 => {
-                self.read_q.d.next = bit_cast::<32, 24>(self.tick_period_q.q.val());
-            }
             9 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.mode_q.q.val());
             }
             10 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.encoder_filter_q.q.val());
-            }
-            11 => {
-                self.read_q.d.next = bit_cast::<32, 13>(self.pwm_period_q.q.val());
-            }
-            12 => {
-                self.read_q.d.next = bit_cast::<32, 10>(self.pwm_blanking_q.q.val());
-            }
-            13 => {
-                self.read_q.d.next = bit_cast::<32, 24>(self.watchdog_timeout_q.q.val());
             }
             15 => {
                 self.read_q.d.next = bit_cast::<32, 8>(self.faults.val());
@@ -422,15 +501,6 @@ impl Logic for RegisterFile {
             24 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.kicker_control_q.q.val());
             }
-            26 => {
-                self.read_q.d.next = bit_cast::<32, 14>(self.kicker_pulse_q.q.val());
-            }
-            27 => {
-                self.read_q.d.next = bit_cast::<32, 20>(self.kicker_lockout_q.q.val());
-            }
-            28 => {
-                self.read_q.d.next = bit_cast::<32, 24>(self.kicker_charge_timeout_q.q.val());
-            }
             29 => {
                 self.read_q.d.next = bit_cast::<32, 8>(self.kicker_status.val());
             }
@@ -439,15 +509,6 @@ impl Logic for RegisterFile {
             }
             31 => {
                 self.read_q.d.next = bit_cast::<32, 8>(self.leds_q.q.val());
-            }
-            32 => {
-                self.read_q.d.next = bit_cast::<32, 16>(self.set_point_timeout_q.q.val());
-            }
-            33 => {
-                self.read_q.d.next = bit_cast::<32, 16>(self.stall_window_q.q.val());
-            }
-            34 => {
-                self.read_q.d.next = bit_cast::<32, 13>(self.stall_compare_q.q.val());
             }
             35 => {
                 self.read_q.d.next = bit_cast::<32, 4>(self.stall.val());
@@ -463,9 +524,6 @@ impl Logic for RegisterFile {
             }
             40 => {
                 self.read_q.d.next = bit_cast::<32, 24>(self.radio.val());
-            }
-            41 => {
-                self.read_q.d.next = bit_cast::<32, 11>(self.imu_control_q.q.val());
             }
             43 => {
                 self.read_q.d.next = bit_cast::<32, 9>(self.imu_status.val());

@@ -61,10 +61,12 @@ pub struct Sequencer {
     /// With what.
     pub output_data: Signal<Out, Bits<32>>,
 
-    /// Memory address of the bus, banks included.
+    /// Memory address that the bus reads, banks included.
     pub bus_address: Signal<In, Bits<8>>,
     /// What stands there after the last clock.
     pub bus_read_data: Signal<Out, Bits<32>>,
+    /// Memory address that the bus writes, banks included.
+    pub bus_write_address: Signal<In, Bits<8>>,
     /// The bus wants to write.
     pub bus_write: Signal<In, Bit>,
     /// What it wants to write.
@@ -417,7 +419,7 @@ impl Logic for Sequencer {
         if self.write_address.val().get_bits::<2>(6) == self.region_3.val() {
             self.store_address.d.next = self.place.address.val();
         }
-        self.memory.write_address.next = self.bus_address.val();
+        self.memory.write_address.next = self.bus_write_address.val();
         self.memory.write_data.next = self.bus_write_data.val();
         if self.storing.q.val() {
             self.memory.write_address.next = self.store_address.q.val();

@@ -5,7 +5,7 @@
 //!
 //! An instruction has 16 bits: operation in 15:11, bit 10 = "add the axis number to the address", bit 9 the
 //! condition of a [`Op::LoadIf`], address or immediate in 7:0, branch target in 8:0. Every instruction takes one
-//! clock, but: a taken branch two, a product 2 + digits and a quotient 36 from their start, less what is done in
+//! clock, but: a taken branch two, a product 2 + digits and a quotient 34 from their start, less what is done in
 //! between. So the parts of the tick are woven: a product is started, something else done, then it is asked for.
 //! A sum stands in the accumulator a clock late and a stored word in the memory another clock later; only a
 //! store may come at once. Where the program asks sooner, the assembler puts a [`Op::Nop`].
@@ -69,9 +69,9 @@ pub enum Op {
     NextAxis,
     /// End of the control tick.
     Halt,
-    /// Starts acc·2³² / m; the program goes on.
+    /// Starts acc·2³² / m, acc of 16 bits; the program goes on.
     Divide,
-    /// acc = the quotient, when it is there.
+    /// acc = the quotient when it is there, less one where the numerator was negative.
     Quotient,
     /// acc = the product, when it is there.
     Product,

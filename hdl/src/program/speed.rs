@@ -71,7 +71,7 @@ pub(super) fn start(p: &mut Assembler) {
     p.store(CASE);
 }
 
-/// The quotient, or the last speed within ± the quotient, or zero.
+/// The quotient, or the last speed within ± the quotient, or zero. The divider gives a negative one less one.
 pub(super) fn finish(p: &mut Assembler) {
     let [plain, still, rising, done] = [(); 4].map(|()| p.label());
     p.load(CASE).jump(Op::JumpZero, plain).jump(Op::JumpNegative, still);
@@ -82,5 +82,8 @@ pub(super) fn finish(p: &mut Assembler) {
     p.store(SPEED).store(SNAPSHOT_SPEED);
     p.aside(rising, done, |p| p.minimum(SCRATCH));
     p.aside(still, done, |p| p.immediate(0));
-    p.aside(plain, done, |p| p.quotient());
+    p.aside(plain, done, move |p| {
+        p.quotient().jump(Op::JumpNotNegative, done);
+        p.op(Op::Subtract, ALL_ONES)
+    });
 }

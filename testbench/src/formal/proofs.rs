@@ -265,7 +265,7 @@ pub const PROOFS: &[Proof] = &[
             ("FORMAL_RESIDUE = 32'hdebb20e3", "FORMAL_RESIDUE = 32'hffffffff"),
         ],
         mutants: &[
-            mutant("forgives damage", "(stage_q == at_end) & (check_state == residue)", "stage_q == at_end"),
+            mutant("forgives damage", "(stage_q == at_end) & check_right_q", "stage_q == at_end"),
             mutant("any length", "refuses = ~length_fits", "refuses = 1'b0"),
             mutant("a broken byte is none", "refuses = receiver_broken & listening_q", "refuses = 1'b0"),
         ],
@@ -325,13 +325,13 @@ pub const PROOFS: &[Proof] = &[
     },
     Proof {
         mutants: &[
-            mutant("overflow unseen", "overflow_d = ~difference[32'h19]", "overflow_d = 1'b0"),
+            mutant("overflow unseen", "overflow_d = 1'b1", "overflow_d = 1'b0"),
             mutant("sign lost", "if (negative_q) begin", "if (1'b0) begin"),
         ],
         ..proof(
             "divider",
             "rac4i65_core_sequencer_divider",
-            "the quotient is a clamped word with the sign of the numerator, also for a zero divisor",
+            "the quotient is a clamped word with the sign of the numerator, less one where that is negative, also for a zero divisor",
             include_str!("../../proofs/divider.v"),
         )
     },
