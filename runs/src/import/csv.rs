@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::rows::{self, Rows};
 use super::sheet::{Sheet, numbered};
-use super::{Clock, Table, heading};
+use super::{Clock, Table, heading, units};
 use crate::error::InputError;
 
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
@@ -31,17 +31,33 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         }
         rows
     };
+    // Whether the record at hand is a row that was read with the header.
+    let mut ahead = false;
     if !tagged {
         let names = match names {
             Some(names) => names,
             None if next(&mut record)? => {
-                record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
+                let texts = |record: &::csv::ByteRecord| -> Vec<String> {
+                    record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
+                };
+                let mut names = texts(&record);
+                for row in 0..=HEADERS {
+                    ahead = next(&mut record)?;
+                    let wordy = |record: &::csv::ByteRecord| {
+                        record.iter().any(|f| !f.is_empty()) && record.iter().all(|f| number(f, separator).is_none())
+                    };
+                    if !ahead || row == HEADERS || !wordy(&record) {
+                        break;
+                    }
+                    with_units(&mut names, &texts(&record));
+                }
+                names
             }
             None => return Err(InputError::new(path, "is empty", "give a file with rows of numbers")),
         };
         kinds.push((Vec::new(), begin("", names)));
     }
-    while next(&mut record)? {
+    while std::mem::take(&mut ahead) || next(&mut record)? {
         let tag = if tagged { record.get(0).unwrap_or_default() } else { b"" };
         let at = kinds.iter().position(|(known, _)| known == tag).unwrap_or_else(|| {
             let names = numbered(record.len());
@@ -68,6 +84,23 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     Ok(table)
 }
 
+/// Most rows of words after that with the names: units, and short names.
+const HEADERS: usize = 2;
+
+/// Puts the units of a row, if that is what most of its fields are, behind names that say none: `Time [ms]`.
+fn with_units(names: &mut [String], row: &[String]) {
+    let known = |unit: &str| units::in_name(&format!("x [{unit}]")).is_some();
+    let said = row.iter().filter(|field| !field.is_empty());
+    if 2 * said.clone().filter(|unit| known(unit)).count() < said.count() {
+        return;
+    }
+    for (name, unit) in names.iter_mut().zip(row) {
+        if known(unit) && units::in_name(name).is_none() {
+            *name += &format!(" [{unit}]");
+        }
+    }
+}
+
 fn number(field: &[u8], separator: u8) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?;
     if separator == b',' { text.parse().ok() } else { text.replace(',', ".").parse().ok() }
@@ -92,5 +125,29 @@ fn headings(table: &mut Table) {
         for (t, yaw) in times.into_iter().zip(yaws) {
             table.push(&format!("{stem}yaw"), t, yaw);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Result<Table, InputError> {
+        read(text.as_bytes(), Path::new("x.csv"), &Clock::default())
+    }
+
+    #[test]
+    fn rows_of_units_and_short_names_belong_to_the_header() {
+        let text = "Time;1st motor position;2nd motor position;Angle;State\nms;ticks;ticks;deg;\nt;m1pos;m2pos;ang;s\n\
+                    0,5;1;2;90;on\n20,5;3;5;91;on\n";
+        let read = table(text).unwrap();
+        assert_eq!(read.time, Some(("Time [ms]".to_owned(), 1e-3)));
+        assert_eq!(read.find("1st motor position [ticks]").unwrap().values, [1.0, 3.0]);
+        assert_eq!(read.find("Angle [deg]").unwrap().t, [0.0005, 0.0205]);
+        // Two of words that are no units change no name, and a table that never has a number is refused.
+        let plain = table("t,a\nfirst,second\n0,1\n1,2\n").unwrap();
+        assert_eq!(plain.find("a").unwrap().values, [1.0, 2.0]);
+        let error = table("t,a\nx,y\nx,y\nx,y\nx,y\n").unwrap_err().to_string();
+        assert!(error.contains("x.csv:4:1") && error.contains("is no time"), "{error}");
     }
 }

@@ -23,6 +23,7 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
     if !seen.is_empty() {
         let camera = |g: &mut Guess| matches!(g.column, Column::Camera(_));
         rest.extend(guesses.extract_if(.., camera).map(|g| g.series));
+        reckoned(table.0, &mut guesses, &mut rest);
     }
     let mut out = log(table.0, &guesses, &rest);
     let file = quoted(&truth::pattern(table.1, poses.1));
@@ -36,6 +37,23 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
     out.push_str("\n[truth.columns]\n");
     out += &columns(&seen, "# cam_x = \"...\"\n# cam_y = \"...\"\n# cam_theta = \"...\"\n");
     out + &unused(&other)
+}
+
+/// Beside a file with the pose, the poses of a log without wheels are the robot's own odometry.
+fn reckoned<'a>(table: &'a Table, guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
+    let moves = |g: &Guess| matches!(g.column, Column::Counts(_) | Column::Speed(_) | Column::Odometry(_));
+    if guesses.iter().any(moves) {
+        return;
+    }
+    let (own, _) = pose(table);
+    rest.retain(|series| own.iter().all(|g| g.series.name != series.name));
+    guesses.retain(|guess| own.iter().all(|g| g.series.name != guess.series.name));
+    let odometry = |g: Guess<'a>| match g.column {
+        Column::Camera(i) => Guess { column: Column::Odometry(i), ..g },
+        _ => g,
+    };
+    guesses.extend(own.into_iter().map(odometry));
+    guesses.sort_by_key(|g| g.column);
 }
 
 /// How two clocks seem to stand: the same where their times lie over each other, and not just because both count from 0.

@@ -148,3 +148,42 @@ fn a_servo_and_a_motor_on_a_bench_are_understood() {
         assert!(motor.contains(line), "{line}\n{motor}");
     }
 }
+
+#[test]
+fn odometry_and_ground_truth_are_known_by_what_their_axes_are_written_with() {
+    let rows = ["0.0,0,0,0,0.1,0.2,0.3", "0.1,0,0,0,0.1,0.2,0.3", "0.2,0,0,0,0.1,0.2,0.3"];
+    for (header, odometry, truth) in [
+        ("t,ox,oy,oth,gtx,gty,gtth", "oth", "gtth"),
+        ("t,odo_x,odo_y,odo_theta,gt_x,gt_y,gt_theta", "odo_theta", "gt_theta"),
+        ("t,x_odom,y_odom,th_odom,x_true,y_true,th_true", "th_odom", "th_true"),
+        ("time,o_x,o_y,o_yaw,viconX,viconY,viconYaw", "o_yaw", "viconYaw"),
+        ("time,xodom,yodom,thodom,optitrack x,optitrack y,optitrack phi", "thodom", "optitrack phi"),
+    ] {
+        let map = drafted(header, rows);
+        let lines = [format!("odom_theta = \"{odometry}\""), format!("cam_theta = \"{truth}\"")];
+        assert!(lines.iter().all(|line| map.contains(line)), "{header}\n{map}");
+    }
+    // No axis of anything.
+    let map = drafted("t,enc_1,both,other,oxy,max", ["0,7,1,2,3,4", "1,7,2,3,4,5", "3,7,3,4,5,6"]);
+    assert!(!map.contains("\nodom_") && !map.contains("\ncam_"), "{map}");
+}
+
+/// A mower on a lawn of 70 m, whose file of poses has the same names as its odometry.
+#[test]
+fn poses_beside_a_file_with_the_pose_are_odometry_and_a_lawn_is_no_field_in_millimetres() {
+    let log = |drift: f64| {
+        let rows = (0..200).map(|k| 0.2 * f64::from(k)).map(|t| {
+            format!("{:.1},{:.4},{:.4},{:.4}\n", 3000.0 + t, 2.0 * t - 10.0, 1.5 * t * (1.0 + drift), 0.64 + drift)
+        });
+        "Time,X_pose,Y_pose,Heading\n".to_owned() + &rows.collect::<String>()
+    };
+    let table = |text: &str| {
+        Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock { rows: true, ..Clock::default() }).unwrap()
+    };
+    let (odometry, truth) = (table(&log(0.01)), table(&log(0.0)));
+    let map = draft_two([(&odometry, Path::new("odom.csv")), (&truth, Path::new("gt.csv"))]);
+    for line in ["odom_x = \"X_pose\"", "odom_theta = \"Heading\"", "cam_x = \"X_pose\"", "cam_theta = \"Heading\""] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    Map::parse(&map, Path::new("map.toml")).unwrap();
+}
