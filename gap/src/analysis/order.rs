@@ -20,7 +20,7 @@ pub(super) fn cabled(active: &Active) -> bool {
 /// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
 pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
     let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
-    if link.is_empty() || start.active.iter().any(cabled) {
+    if link.is_empty() || start.active.iter().any(cabled) || !crate::effects::fits(ORDER, &start.robot) {
         return None;
     }
     let problem = Problem::Motion(link);

@@ -6,8 +6,8 @@ use runs::robot::{Robot, Support};
 /// are a turned marker plate.
 const NOT_ON_ONE_AXLE: [&str; 5] = ["wheel-skew", "wheel-angle", "roller-friction", "roller-ripple", "sideways-creep"];
 /// What is said of single wheels or their contact, which dead reckoning does not show. A common radius (the scale of the
-/// way and of the turn) and a body radius (the scale of the turn alone) remain.
-const NOT_BY_DEAD_RECKONING: [&str; 12] = [
+/// way and of the turn), a body radius (the scale of the turn alone) and the scale of what moves sideways remain.
+const NOT_BY_DEAD_RECKONING: [&str; 11] = [
     "wheel-skew",
     "wheel-radius",
     "wheel-angle",
@@ -19,8 +19,9 @@ const NOT_BY_DEAD_RECKONING: [&str; 12] = [
     "wheel-order",
     "roller-ripple",
     "roller-friction",
-    "sideways-creep",
 ];
+/// What dead reckoning has, and counts of wheels have not: there the wheels have names of their own for it.
+const ONLY_BY_DEAD_RECKONING: [&str; 2] = ["odometry-curl", "odometry-drift"];
 
 /// What acts on the body, at the contact with the floor, or follows the way, none of which there is while the wheels are off the floor.
 const NOT_ON_BLOCKS: [&str; 12] = [
@@ -50,6 +51,9 @@ pub(crate) fn fits(name: &str, robot: &Robot) -> bool {
     if runs::is_dead_reckoning(robot) {
         return !NOT_BY_DEAD_RECKONING.contains(&name);
     }
+    if ONLY_BY_DEAD_RECKONING.contains(&name) {
+        return false;
+    }
     let differential = robot.geometry().is_ok_and(|g| g.is_differential());
     !(differential && NOT_ON_ONE_AXLE.contains(&name))
 }
@@ -77,6 +81,10 @@ mod tests {
             ("wheel-radius", [true, true, false]),
             ("body-radius", [true, true, true]),
             ("camera-latency", [true, true, true]),
+            ("sideways-creep", [true, false, true]),
+            ("odometry-curl", [false, false, true]),
+            ("odometry-drift", [false, false, true]),
+            ("wheel-order", [true, true, false]),
         ] {
             assert_eq!([&robot, &two, &reckoned].map(|r| fits(name, r)), on, "{name}");
             assert!(crate::effects::find(name).is_some(), "{name}");

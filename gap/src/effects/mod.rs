@@ -33,6 +33,8 @@ mod lens_distortion;
 mod marker_heading;
 mod marker_offset;
 mod motor_heating;
+mod odometry_curl;
+mod odometry_drift;
 mod probes;
 mod robot_mass;
 mod roller_friction;
@@ -74,6 +76,8 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(wheel_creep::WheelCreep),
         Box::new(wheel_slip::WheelSlip),
         Box::new(sideways_creep::SidewaysCreep),
+        Box::new(odometry_curl::OdometryCurl),
+        Box::new(odometry_drift::OdometryDrift),
         Box::new(roller_ripple::RollerRipple),
         Box::new(camera_latency::CameraLatency),
         Box::new(camera_scale::CameraScale),
@@ -141,12 +145,14 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 33] = [
+    const NAMES: [(&str, &[&str]); 35] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
         ("body-radius", &["scale"]),
         ("sideways-creep", &["scale"]),
+        ("odometry-curl", &["forward_rad_per_m", "sideways_rad_per_m"]),
+        ("odometry-drift", &["rate_rad_s"]),
         ("encoder-scale", &["scale", "scale_#"]),
         ("camera-scale", &["scale"]),
         ("torque-constant", &["scale"]),

@@ -57,6 +57,8 @@ pub struct MotionModel {
     pub clock_offset_s: Vec<f64>,
     /// Sideways (body x) motion per that by the wheels.
     pub sideways_scale: f64,
+    /// Turn per body displacement (x, y) beside that by the wheels, rad/m.
+    pub curl: [f64; 2],
     /// Age of a frame beyond `latency_s` per speed of the robot, s²/m.
     pub speed_delay: f64,
     /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
@@ -100,6 +102,7 @@ impl MotionModel {
             clock_drift: 0.0,
             clock_offset_s: Vec::new(),
             sideways_scale: 1.0,
+            curl: [0.0; 2],
             speed_delay: 0.0,
             inertia: crate::drive::DriveModel::new(robot)
                 .mechanics()
@@ -116,7 +119,11 @@ impl MotionModel {
     pub fn columns(&self) -> Option<Vec<[f64; 3]>> {
         let geometry = Geometry::new(self.wheels.clone(), self.wheel_radius_m).ok()?;
         let columns = geometry.direct().column_iter().zip(&self.distance_scale);
-        Some(columns.map(|(c, s)| [c[0] * s * self.sideways_scale, c[1] * s, c[2] * s]).collect())
+        let moved = columns.map(|(c, s)| {
+            let [x, y] = [c[0] * s * self.sideways_scale, c[1] * s];
+            [x, y, c[2] * s + self.curl[0] * x + self.curl[1] * y]
+        });
+        Some(moved.collect())
     }
 
     /// The wheel angles of a segment with all changes; borrowed if there are none.

@@ -7,6 +7,7 @@ fn unit(name: &str) -> (f64, &'static str) {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
     match stem {
         _ if name.ends_with("_nm_per_rad") => (1e3, " mNm/rad"),
+        _ if name.ends_with("_rad_per_m") => (1e3, " mrad/m"),
         _ if name.ends_with("_rad_s") => (1.0, " rad/s"),
         _ if name.ends_with("_rad") => (180.0 / std::f64::consts::PI, "°"),
         _ if name.ends_with("_nms") => (1e6, " µNm s"),
@@ -25,8 +26,9 @@ fn unit(name: &str) -> (f64, &'static str) {
 
 /// The SI unit that a parameter's name ends in; empty for a ratio.
 pub(crate) fn si(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 16] = [
+    const UNITS: [(&str, &str); 17] = [
         ("_nm_per_rad", "N m/rad"),
+        ("_rad_per_m", "rad/m"),
         ("_rad_s", "rad/s"),
         ("_rad_m", "rad m"),
         ("_rad", "rad"),

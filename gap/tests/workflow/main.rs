@@ -7,6 +7,7 @@ mod experiment;
 mod flywheel;
 mod gravity;
 mod margins;
+mod odometry;
 mod pairs;
 mod partial;
 mod replayed;
