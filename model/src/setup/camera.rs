@@ -27,6 +27,9 @@ const FITS: f64 = 0.35;
 /// Share of the squared way of the wheels below which a robot did not turn, or did nothing else: what a camera's noise or
 /// a marker beside the centre then make of the rest says nothing.
 const LITTLE: f64 = 0.02;
+/// Share of the camera's turn that the best way to read a log leaves at most, from which the robot turned: noise follows
+/// no wheels. Orders of the wheels that say it did not turn must then answer for that, too.
+const TURNED: f64 = 0.5;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;
 
@@ -49,6 +52,9 @@ struct Fit {
     spin: Option<f64>,
     /// Share of the motion that is left.
     left: f64,
+    /// The same of the way alone, and of the turn alone.
+    left_way: f64,
+    left_turn: f64,
     /// How many things would have to be wrong.
     wrong: f64,
 }
@@ -69,18 +75,29 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     }
     let every = moving.len().div_ceil(MOST);
     let moving: Vec<Sample> = moving.into_iter().step_by(every).collect();
+    // Dead reckoning has no wheels that could be in another order.
+    let mut orders = orders(robot.wheel_count());
+    orders.truncate(if runs::is_dead_reckoning(robot) { 1 } else { orders.len() });
     let mut fits = Vec::new();
     for degrees in [false, true] {
         for (clockwise, down) in [(false, false), (true, false), (false, true), (true, true)] {
             let reading = Reading { degrees, clockwise, down };
             let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
-            for order in orders(robot.wheel_count()) {
-                fits.push(fit(&geometry, rim, &moving, &seen, reading, order));
+            for order in &orders {
+                fits.push(fit(&geometry, rim, &moving, &seen, reading, order.clone()));
             }
         }
     }
-    let best = fits.iter().map(|f| f.left).fold(f64::INFINITY, f64::min);
-    let equal = |f: &&Fit| f.left <= EQUAL.0 * best + EQUAL.1;
+    if fits.iter().any(|f| f.spin.is_some() && f.left_turn < TURNED) {
+        for f in fits.iter_mut().filter(|f| f.spin.is_none()) {
+            f.left = 0.5 * (f.left + f.left_turn);
+        }
+    }
+    let least = |of: fn(&Fit) -> f64| fits.iter().map(of).fold(f64::INFINITY, f64::min);
+    let (best, best_way) = (least(|f| f.left), least(|f| f.left_way));
+    // Noisy turns do not excuse a way that another reading leaves nothing of.
+    let as_good = |left: f64, best: f64| left <= EQUAL.0 * best + EQUAL.1;
+    let equal = |f: &&Fit| as_good(f.left, best) && as_good(f.left_way, best_way);
     let found = fits.iter().filter(equal).min_by(|a, b| (a.wrong + a.left).total_cmp(&(b.wrong + b.left)));
     found.map_or_else(Vec::new, |fit| named(robot, fit, before))
 }
@@ -141,7 +158,7 @@ fn fit(
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
     let wrong = camera + f64::from(u8::from(reading.degrees)) + quarter + 0.6 * swapped + 1.2 * reversed;
-    Fit { reading, order, scale, turn, spin: turns.then_some(spin), left, wrong }
+    Fit { reading, order, scale, turn, spin: turns.then_some(spin), left, left_way: left_t, left_turn: left_r, wrong }
 }
 
 fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
