@@ -156,7 +156,7 @@ impl<'a> MotionLink<'a> {
         let again = numbered(all.len(), &again);
         all.iter_mut().zip(again).for_each(|(w, again)| {
             if let Some(again) = again {
-                *w = again
+                *w = again;
             }
         });
         all
