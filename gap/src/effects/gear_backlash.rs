@@ -110,6 +110,10 @@ fn between(model: &DriveModel, segment: &Segment, wheel: usize, half: f64) -> Ve
             let now = place;
             let Some(next) = segment.t.get(k + 1) else { return now };
             let tick = next - segment.t[k];
+            if torque[k] == 0.0 && rotor == 0.0 {
+                // Nothing moves it.
+                return now;
+            }
             if torque[k].abs() * tick * tick > 8.0 * half * rotor {
                 // Across within half a tick.
                 (place, speed) = (half * smooth_sign(torque[k], NO_FLANK * usual), 0.0);
