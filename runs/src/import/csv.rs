@@ -4,9 +4,12 @@
 use std::path::Path;
 
 use super::rows::{self, Rows};
-use super::sheet::{Sheet, numbered};
-use super::{Clock, Table, heading, units};
+use super::sheet::{Sheet, numbered, with_units};
+use super::{Clock, Table, heading};
 use crate::error::InputError;
+
+/// Rows without a number below the names at most, and before the numbers: units, and short names.
+const HEADER_ROWS: usize = 3;
 
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
@@ -24,6 +27,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     // Kinds of rows, each with its columns: one, but where every line begins with a word that says what it is.
     let mut kinds: Vec<(Vec<u8>, Option<Rows>)> = Vec::new();
     let mut timeless = None;
+    // Whether a row is read and not looked at yet.
+    let mut pending = false;
     let mut begin = |prefix: &str, names: Vec<String>| {
         let rows = Rows::new(prefix, &names, clock);
         if rows.is_none() {
@@ -31,33 +36,29 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         }
         rows
     };
-    // Whether the record at hand is a row that was read with the header.
-    let mut ahead = false;
     if !tagged {
-        let names = match names {
+        let texts = |record: &::csv::ByteRecord| -> Vec<String> {
+            record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
+        };
+        let mut names = match names {
             Some(names) => names,
-            None if next(&mut record)? => {
-                let texts = |record: &::csv::ByteRecord| -> Vec<String> {
-                    record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
-                };
-                let mut names = texts(&record);
-                for row in 0..=HEADERS {
-                    ahead = next(&mut record)?;
-                    let wordy = |record: &::csv::ByteRecord| {
-                        record.iter().any(|f| !f.is_empty()) && record.iter().all(|f| number(f, separator).is_none())
-                    };
-                    if !ahead || row == HEADERS || !wordy(&record) {
-                        break;
-                    }
-                    with_units(&mut names, &texts(&record));
-                }
-                names
-            }
+            None if next(&mut record)? => texts(&record),
             None => return Err(InputError::new(path, "is empty", "give a file with rows of numbers")),
         };
+        // Below the names may stand their units, and other names.
+        for _ in 0..HEADER_ROWS {
+            pending = next(&mut record)?;
+            let fields = texts(&record);
+            if !pending || fields.iter().all(String::is_empty) || record.iter().any(|f| number(f, separator).is_some())
+            {
+                break;
+            }
+            names = with_units(names, &fields);
+            pending = false;
+        }
         kinds.push((Vec::new(), begin("", names)));
     }
-    while std::mem::take(&mut ahead) || next(&mut record)? {
+    while std::mem::take(&mut pending) || next(&mut record)? {
         let tag = if tagged { record.get(0).unwrap_or_default() } else { b"" };
         let at = kinds.iter().position(|(known, _)| known == tag).unwrap_or_else(|| {
             let names = numbered(record.len());
@@ -84,26 +85,13 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     Ok(table)
 }
 
-/// Most rows of words after that with the names: units, and short names.
-const HEADERS: usize = 2;
-
-/// Puts the units of a row, if that is what most of its fields are, behind names that say none: `Time [ms]`.
-fn with_units(names: &mut [String], row: &[String]) {
-    let known = |unit: &str| units::in_name(&format!("x [{unit}]")).is_some();
-    let said = row.iter().filter(|field| !field.is_empty());
-    if 2 * said.clone().filter(|unit| known(unit)).count() < said.count() {
-        return;
-    }
-    for (name, unit) in names.iter_mut().zip(row) {
-        if known(unit) && units::in_name(name).is_none() {
-            *name += &format!(" [{unit}]");
-        }
-    }
-}
-
 fn number(field: &[u8], separator: u8) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?;
-    if separator == b',' { text.parse().ok() } else { text.replace(',', ".").parse().ok() }
+    if separator == b',' {
+        text.strip_suffix(';').unwrap_or(text).parse().ok()
+    } else {
+        text.replace(',', ".").parse().ok()
+    }
 }
 
 /// Quaternions, four columns whose names differ in their last letter only, give headings: `.../orientation/z` and its

@@ -94,6 +94,8 @@ impl<'a> Rows<'a> {
 
     /// Adds a row of which `line` is the line, or the number; one without time is none.
     pub(super) fn push(&mut self, table: &mut Table, line: usize, row: impl Fn(usize) -> Option<f64>) {
+        // Some writers have NaN where there is no number.
+        let row = |i: usize| row(i).filter(|x| !x.is_nan());
         let t = match self.at {
             Some(at) => match row(at) {
                 Some(t) => t,

@@ -46,13 +46,16 @@ impl<'a> Sheet<'a> {
             separator = b';'; // beside which a decimal comma is one
         }
         let fields = fields(first, blanks, separator);
-        let said = before.last().map(|line| self::fields(line, blanks, separator));
+        let mut said = before.iter().rev().map(|line| self::fields(line, blanks, separator));
+        let mut said = || said.next().filter(|said| said.len() == fields.len() && said.len() > 1);
         let names = if fields.iter().any(|field| !is_number(field, separator)) {
             None
-        } else if let Some(said) = said.filter(|said| said.len() == fields.len() && said.len() > 1) {
-            Some(said)
         } else {
-            Some(numbered(fields.len()))
+            // Units may stand in a line of their own below the names.
+            let named = said().and_then(|last| {
+                if last.iter().all(|f| is_unit(f)) { said().map(|names| with_units(names, &last)) } else { Some(last) }
+            });
+            Some(named.unwrap_or_else(|| numbered(fields.len())))
         };
         let rows = if blanks || !before.is_empty() { Cow::Owned(plain(bytes, blanks)) } else { Cow::Borrowed(bytes) };
         // Of one such line its word is the name of the column of time, and numbers name the others.
@@ -71,8 +74,30 @@ fn remark(line: &[u8]) -> Option<&[u8]> {
     REMARKS.iter().find_map(|mark| line.strip_prefix(mark.as_bytes())).map(<[u8]>::trim_ascii)
 }
 
+/// Whether a field is a unit alone: `[V]`, `(turns/s)`.
+fn is_unit(field: &str) -> bool {
+    field.starts_with('[') && field.ends_with(']') || field.starts_with('(') && field.ends_with(')')
+}
+
+/// Names with the units of a line below them, bare or in brackets, where they have none; what is no unit adds nothing.
+pub(super) fn with_units(names: Vec<String>, units: &[String]) -> Vec<String> {
+    let none = String::new();
+    let one = |(name, unit): (String, &String)| {
+        let inside = unit.trim_matches(['[', ']', '(', ')']).trim();
+        let with = format!("{name} [{inside}]");
+        let known = super::units::in_name(&with).is_some() && super::units::in_name(&name).is_none();
+        if known && !name.is_empty() { with } else { name }
+    };
+    names.into_iter().zip(units.iter().chain(std::iter::repeat(&none))).map(one).collect()
+}
+
+/// A line without what some writers close it with.
+fn open(line: &[u8], separator: u8) -> &[u8] {
+    if separator == b',' { line.strip_suffix(b";").unwrap_or(line) } else { line }
+}
+
 fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
-    let text = String::from_utf8_lossy(line);
+    let text = String::from_utf8_lossy(open(line, separator));
     if blanks {
         return text.split_whitespace().map(str::to_owned).collect();
     }
@@ -125,6 +150,7 @@ mod tests {
         assert_eq!(sheet("0\t1\n"), (names(&["column_1", "column_2"]), "0\t1\n".into(), '\t'));
         assert_eq!(sheet("% made 2019, for us\nt;a\n0;1,5\n"), (None, "\nt;a\n0;1,5\n".into(), ';'));
         assert_eq!(sheet("# t,a\n0,1\n# pause\n1,2\n"), (names(&["t", "a"]), "\n0,1\n\n1,2\n".into(), ','));
+        assert_eq!(sheet("% by me\n% t,u\n% [#],[V]\nnan,nan;\n0,1;\n").0, names(&["t", "u [V]"]));
         assert_eq!(sheet("").0, None);
     }
 }

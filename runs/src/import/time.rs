@@ -13,6 +13,8 @@ use crate::error::InputError;
 pub(super) struct Time {
     column: Option<String>,
     unit: Option<String>,
+    /// In place of a unit: so many of the column are a second.
+    per_second: Option<f64>,
     /// Rows a second, of a file without a column of time.
     rate_hz: Option<f64>,
     /// Which recording of a file with several, from 1.
@@ -55,6 +57,17 @@ impl Time {
             if self.column.is_some() || self.unit.is_some() {
                 return fail("there is a column of time, or none".to_owned(), "give column and unit, or rate_hz");
             }
+        }
+        if let Some(ticks) = self.per_second {
+            let fail =
+                |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint).field("time.per_second"));
+            if !(ticks.is_finite() && ticks > 0.0) {
+                return fail(format!("{ticks} of them are no second"), "such as per_second = 8000");
+            }
+            if self.unit.is_some() || self.rate_hz.is_some() {
+                return fail("is beside a unit or rate_hz".to_owned(), "give one of them");
+            }
+            return Ok(Some(ticks.recip()));
         }
         let Some(unit) = self.unit.as_deref() else { return Ok(None) };
         units::of_time(unit).map(Some).ok_or_else(|| {

@@ -56,6 +56,8 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
         "°" | "degrees" | "grad" => "deg",
         "°/s" | "dps" => "deg/s",
         "ticks" => "counts",
+        "turns" | "revs" | "revolutions" => "rev",
+        "turns/s" | "rps" => "rev/s",
         "pct" => "percent",
         "meters" | "metres" => "m",
         other => other,
@@ -64,6 +66,23 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
     // A bare letter at the end is rather a name's: `pos_m`, but `motor_A`.
     let sure = |unit: &&'static str| unit.len() > 1 || said == *unit;
     UNITS.iter().find(same).map(|(unit, _)| *unit).filter(sure)
+}
+
+/// Whether a unit can be one of what `ours` is a unit of: seconds of milliseconds, no inches of amperes.
+pub(super) fn is_like(unit: &str, ours: &str) -> bool {
+    const KINDS: [&[&str]; 10] = [
+        &["s", "ms", "us", "ns"],
+        &["m", "cm", "mm", "in"],
+        &["rad", "deg", "rev"],
+        &["m/s", "mm/s", "cm/s"],
+        &["rad/s", "deg/s", "rpm", "rev/s"],
+        &["m/s2", "g"],
+        &["V", "mV"],
+        &["A", "mA"],
+        &["1", "percent", "%", "permille", ""],
+        &["counts", "lines"],
+    ];
+    KINDS.iter().any(|kind| kind.contains(&unit) && kind.contains(&ours))
 }
 
 /// How many seconds a unit of time is.

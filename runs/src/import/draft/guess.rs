@@ -209,6 +209,10 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
     if wanted && axis.is_none() && any(&["position", "pos", "angle"]) {
         return None;
     }
+    // Times, and what a satellite receiver says of its own.
+    if axis.is_none() && any(&["time", "timestamp", "gnss", "gps"]) {
+        return None;
+    }
     let has = |kind: Kind| {
         let known = WORDS.iter().find(|(k, _)| *k == kind).map_or(&[][..], |(_, names)| names);
         known.iter().any(|name| words.contains(name) || name.contains('_') && lower.contains(name))
@@ -227,6 +231,10 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
     } else {
         kind
     };
+    // Of several that nobody numbered one is the motor's: a controller has currents of its supply and of both axes.
+    if matches!(kind, Kind::Duty | Kind::Current) && number.is_none() && wheels[kind as usize] > 0 {
+        return None;
+    }
     let mut wheel = || {
         let next = &mut wheels[kind as usize];
         let wheel = number.unwrap_or(*next);
@@ -252,8 +260,25 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
 
 /// The unit that its name says, or its range; none where it is ours.
 fn unit(column: Column, series: &Series) -> &'static str {
-    let said = units::in_name(&series.name).filter(|unit| *unit != column.unit());
+    let said = units::in_name(&series.name).filter(|unit| *unit != column.unit() && fits(column, unit));
     said.unwrap_or_else(|| by_range(column, series))
+}
+
+/// Whether a column can have a unit: `current_in` is in no inches.
+fn fits(column: Column, unit: &str) -> bool {
+    let kinds: &[&str] = match column {
+        Column::Counts(_) => &["counts", "rad", "m"],
+        Column::Duty(_) => &["V", "1"],
+        Column::Speed(_) | Column::Reference(_) | Column::Measured(_) | Column::Gyro(_) => &["rad/s", "m/s"],
+        Column::Command(_) => &["m/s", "rad/s"],
+        Column::Camera(0 | 1) | Column::Odometry(0 | 1) => &["m"],
+        Column::Camera(_) | Column::Odometry(_) => &["rad"],
+        Column::Current(_) => &["A"],
+        Column::Supply => &["V"],
+        Column::Acceleration(_) => &["m/s2"],
+        Column::Time | Column::ImuTemperature | Column::Other => &[],
+    };
+    kinds.iter().any(|ours| units::is_like(unit, ours))
 }
 
 /// Series without a telling word: bare corners of a robot are its encoders, bare x, y and yaw the camera's.
@@ -265,7 +290,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         // A body has a velocity, too, but turns no revolutions a minute.
         _ if words.contains(&"rpm") => Some(Kind::Speed),
         _ if words.contains(&"velocity") || words.contains(&"speed") => wheel.then_some(Kind::Speed),
-        _ if words.iter().any(|w| ["voltage", "volts", "volt"].contains(w)) => Some(volts(series)),
+        _ if words.iter().any(|w| ["voltage", "volts", "volt"].contains(w)) => volts(series),
         // What somebody told a motor, or its mode, is no encoder's.
         _ if words
             .iter()
@@ -273,14 +298,19 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         {
             None
         }
+        _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
         _ => (wheel && whole && axis.is_none()).then_some(Kind::Counts),
     }
 }
 
-/// Whose volts they are: a supply neither stands at 0 nor turns round, and at half of its voltage a battery is empty.
-fn volts(series: &Series) -> Kind {
+/// Whose volts they are: a supply neither stands at 0 nor turns round, and at half of its voltage a battery is empty. What
+/// is 0 throughout was not measured.
+fn volts(series: &Series) -> Option<Kind> {
     let [low, high] = series.range();
-    if low > 0.5 * high { Kind::Supply } else { Kind::Duty }
+    if low == 0.0 && high == 0.0 {
+        return None;
+    }
+    Some(if low > 0.5 * high { Kind::Supply } else { Kind::Duty })
 }
 
 /// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.

@@ -82,7 +82,8 @@ fn time(table: &Table, name: &str) -> String {
         let longest = table.series.iter().max_by_key(|s| s.t.len()).map_or(&[][..], |s| &s.t);
         return format!("\n[{name}]\ncolumn = {}\nunit = \"{}\"\n", quoted(column), time_unit(longest, *unit));
     }
-    if !table.series.iter().all(|s| s.t.iter().zip(0..).all(|(t, row)| *t == f64::from(row))) {
+    // Rows are numbered where there is no time; some have no sample of a series.
+    if !table.series.iter().all(|s| s.t.iter().all(|t| t.fract() == 0.0)) {
         return String::new();
     }
     match increasing(table) {

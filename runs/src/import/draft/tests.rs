@@ -187,3 +187,65 @@ fn poses_beside_a_file_with_the_pose_are_odometry_and_a_lawn_is_no_field_in_mill
     }
     Map::parse(&map, Path::new("map.toml")).unwrap();
 }
+
+#[test]
+fn a_controller_s_own_log_and_a_test_stand_are_understood() {
+    let names =
+        "ms_today;input_voltage;current_motor;current_in;duty_cycle;d_axis_voltage;gnss_posTime;encoder_position";
+    let log = drafted(names, ["100;54;2.5;0.5;0;-0.03;7;0.5", "150;53;7;1;0.5;1.5;7;1.25", "200;54;3;1;0.25;1;8;2.5"]);
+    for line in
+        ["duty_1 = \"duty_cycle\"\n", "current_1 = \"current_motor\"\n", "# \"current_in\"", "# \"gnss_posTime\""]
+    {
+        assert!(log.contains(line), "{line}\n{log}");
+    }
+    let stand = drafted(
+        "time [s],a1 q-axis cmd [A],a1 position [rad],a1 q-axis [A],ina1 voltage [V],ina1 current [A]",
+        ["0.000,1,0.5,0.9,0,0", "0.005,2,0.6,1.9,0,0", "0.010,1,0.75,1,0,0"],
+    );
+    for line in ["current_1 = \"a1 q-axis [A]\"\n", "enc_1 = { from = \"a1 position [rad]\"", "# \"a1 q-axis cmd [A]\""]
+    {
+        assert!(stand.contains(line), "{line}\n{stand}");
+    }
+    assert!(!stand.contains("duty_1"), "{stand}");
+}
+
+#[test]
+fn units_below_the_names_and_rows_of_nan_are_no_numbers() {
+    let text =
+        "Time;1st motor position;1st motor current;\nms;ticks;A;\nt;m1pos;m1cur;\n0.5;0;0.1;\n30.5;7;0.2;\n60;9;0.1;\n";
+    let read = |text: &str| {
+        let clock = Clock { rows: true, ..Clock::default() };
+        draft(&Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &clock).unwrap())
+    };
+    let map = read(text);
+    for line in [
+        "column = \"Time [ms]\"\nunit = \"ms\"",
+        "enc_1 = \"1st motor position [ticks]\"",
+        "current_1 = \"1st motor current [A]\"",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let text =
+        "%by me\n%timestep,voltage,position\n%[#],[V],[turns]\nnan,nan,nan;\n11,0.5,0.25;\n68,1,0.5;\n114,2,1.5;\n";
+    let map = read(text);
+    for line in [
+        "column = \"timestep\"",
+        "duty_1 = { from = \"voltage [V]\", scale = 0.5000 }",
+        "enc_1 = { from = \"position [turns]\", unit = \"rev\"",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let map = format!(
+        "[time]\ncolumn = \"timestep\"\nper_second = 8000\n[columns]\nduty_1 = {{ from = \"voltage [V]\", scale = 0.5 }}\n\
+         enc_1 = {{ from = \"position [turns]\", unit = \"rev\", counts_per_rev = 4 }}\n"
+    );
+    let map = Map::parse(&map, Path::new("map.toml")).unwrap();
+    let table = Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &map.time().unwrap()).unwrap();
+    let run = map.run(&table, Path::new("x.csv")).unwrap();
+    assert_eq!((run.t, run.counts), (vec![0.0, 57.0 / 8000.0, 103.0 / 8000.0], vec![vec![1, 2, 6]]));
+    let error = |time: &str| {
+        Map::parse(time, Path::new("map.toml")).and_then(|m| m.time().map(|_| ())).unwrap_err().to_string()
+    };
+    assert!(error("[time]\nper_second = 0\n").contains("0 of them are no second"));
+    assert!(error("[time]\nper_second = 8000\nunit = \"ms\"\n").contains("is beside a unit"));
+}
