@@ -167,6 +167,11 @@ pub trait Effect: Send + Sync {
     fn is_load(&self) -> bool {
         false
     }
+    /// Whether it acts before the current of a motor and changes that alone: where currents are logged, nothing is left of
+    /// it.
+    fn before_current(&self) -> bool {
+        false
+    }
     /// Whether it only probes for structure and is never named.
     fn probe(&self) -> bool {
         false

@@ -65,6 +65,24 @@ pub struct Pieces<'a> {
     recent: Mutex<VecDeque<(usize, Arc<Segment>)>>,
     /// Speed of the wheels while they turned, rad/s.
     speed: f64,
+    /// How what drives the wheels is looked at.
+    driving: Driving,
+}
+
+/// How the logs of a drive are looked at, settled before anything is fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Driving {
+    /// Whether what drives the wheels was measured: at a row it is what the row says, and goes straight to the next; else
+    /// it is held until then.
+    pub measured: bool,
+    /// Length of a test function, s.
+    pub test_function_s: f64,
+}
+
+impl Default for Driving {
+    fn default() -> Self {
+        Self { measured: false, test_function_s: crate::drive::TEST_FUNCTION_S }
+    }
 }
 
 /// Where a segment lies, and what it needs to know of the log before it.
@@ -93,6 +111,7 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
         kept: Vec::new(),
         recent: Mutex::default(),
         speed: crate::segment::usual_speed(robot, logs),
+        driving: Driving::default(),
     };
     for (run, log) in logs.iter().enumerate() {
         let tick = log.tick_s();
@@ -107,6 +126,27 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
 }
 
 impl<'a> Pieces<'a> {
+    /// The same, looked at in another way.
+    #[must_use]
+    pub(crate) fn driven(&self, driving: Driving) -> Self {
+        Self {
+            robot: self.robot.clone(),
+            geometry: self.geometry.clone(),
+            logs: self.logs,
+            stamps: self.stamps.clone(),
+            all: self.all.clone(),
+            kept: self.kept.iter().map(|_| OnceLock::new()).collect(),
+            recent: Mutex::default(),
+            speed: self.speed,
+            driving,
+        }
+    }
+
+    /// How the drive is looked at.
+    pub(crate) fn driving(&self) -> Driving {
+        self.driving
+    }
+
     /// Short pieces spread evenly over the logs, of every run at least one; `None` where these would be more than half
     /// of them.
     pub fn sample(&self) -> Option<Self> {
@@ -114,6 +154,7 @@ impl<'a> Pieces<'a> {
             return None;
         }
         let mut sample = segments(&self.robot, &self.geometry, self.logs, SAMPLED);
+        sample.driving = self.driving;
         let strata = (SAMPLE / SAMPLED).min(sample.len());
         let each = sample.len() as f64 / strata as f64;
         let mut taken: Vec<usize> =
@@ -342,6 +383,7 @@ impl<'a> Pieces<'a> {
             frames: frames.map(|i| Frame { t: self.stamps[p.run][i], pose: seen[i].pose }).collect(),
             before: &p.history[..p.before],
             speed: self.speed,
+            measured: self.driving.measured,
         };
         segment(&self.robot, &self.geometry, &part, place)
     }

@@ -199,15 +199,20 @@ impl Problem<'_> {
     /// changes what is to be moved, in the torque of its own inertia.
     pub fn runs_away(&self, state: &State, other: &State, thresholds: &Thresholds) -> bool {
         let Self::Drive(link) = self else { return false };
-        let (one, other) = (state.drive(None), other.drive(None));
-        let worse = |of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64| match (of(&one), of(&other)) {
-            (Some(one), Some(other)) => crate::drive::further(&one, &other, sigmas),
-            (None, _) => true,
-            (_, None) => false,
-        };
-        let moves = |m: &DriveModel| m.mechanics().map(|m| m.inertia);
-        moves(&one) != moves(&other) && worse(&|m| crate::drive::in_own_torque(link, m), 0.0)
-            || worse(&|m| crate::drive::runaway(link, m), thresholds.runaway)
+        let models = [state, other].map(|s| s.drive(None));
+        let [one, other] = models.each_ref().map(|m| m.mechanics().map(|m| m.inertia));
+        one != other && worse(&models, &|m| crate::drive::in_own_torque(link, m), 0.0)
+            || self.goes_astray(&models, thresholds)
+    }
+
+    /// The same of free simulations alone: for what does the same as something that was looked at already.
+    pub fn strays(&self, state: &State, other: &State, thresholds: &Thresholds) -> bool {
+        self.goes_astray(&[state, other].map(|s| s.drive(None)), thresholds)
+    }
+
+    fn goes_astray(&self, models: &[DriveModel; 2], thresholds: &Thresholds) -> bool {
+        let Self::Drive(link) = self else { return false };
+        worse(models, &|m| crate::drive::runaway(link, m), thresholds.runaway)
     }
 
     /// Whether an effect of a state opens the gap far beyond that of `start` if it alone is taken out: then the others
@@ -274,5 +279,14 @@ impl Problem<'_> {
             }
         }
         loss
+    }
+}
+
+/// Whether the first of two models is worse by some measure of them, one a run.
+fn worse([one, other]: &[DriveModel; 2], of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64) -> bool {
+    match (of(one), of(other)) {
+        (Some(one), Some(other)) => crate::drive::further(&one, &other, sigmas),
+        (None, _) => true,
+        (_, None) => false,
     }
 }

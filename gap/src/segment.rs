@@ -89,6 +89,8 @@ pub(crate) struct Place<'a> {
     pub(crate) before: &'a [(f64, Vec<f64>)],
     /// Speed of the wheels of the data set while they turned, rad/s.
     pub(crate) speed: f64,
+    /// Whether what drives the wheels was measured at the rows.
+    pub(crate) measured: bool,
 }
 
 /// Speed of the wheels while they turned, rad/s: how long they stood makes no difference. Of a long log some parts are
@@ -158,7 +160,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     // Duties of motors that nobody described predict nothing.
     if part.duty.len() == n && runs::drive_lacks(robot).is_empty() {
         s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
-        if between_rows(robot, &t) {
+        if place.measured || between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
         }
     }

@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
-use runs::Logs;
 use runs::geometry::Geometry;
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
+use runs::{DutySource, Logs};
 
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
+use crate::drive::{DriveLink, DriveModel, Generic};
 use crate::effect::Effect;
 use crate::exact::ExactLink;
 use crate::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
 use crate::options::Options;
-use crate::pieces::{PIECE, Pieces, segments};
+use crate::pieces::{Driving, PIECE, Pieces, segments};
 use crate::state::{Active, State};
+use crate::thresholds::NO_NOISE;
 use crate::{GapError, command, controller, effects, timing};
 
 /// Logs in pieces, and a sample of long ones.
@@ -28,10 +30,73 @@ impl<'a> Cut<'a> {
         self.sample.as_ref().unwrap_or(&self.whole)
     }
 
+    /// The same, looked at in another way.
+    fn driven(&self, driving: Driving) -> Self {
+        Self { whole: self.whole.driven(driving), sample: self.sample.as_ref().map(|s| s.driven(driving)) }
+    }
+
     /// Whether that is not all.
     pub(super) fn is_sampled(&self) -> bool {
         self.sample.is_some()
     }
+}
+
+/// Longest test function, s.
+const LONGEST_S: f64 = 3.0;
+
+/// How the logs of a drive are looked at.
+///
+/// Currents are measured, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
+/// functions of speed and current. Test functions of an axis alone that scatters too much get longer as long as they tell
+/// more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
+/// machine do hardly at all.
+fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
+    let alone = robot.support == Support::Blocks;
+    if !currents && !alone {
+        return Driving::default();
+    }
+    // Without effects of the file: so that it is the same before something was found and after.
+    let model = DriveModel::new(robot);
+    let look = |driving: Driving| {
+        let pieces = held.searched().driven(driving);
+        let mut link = DriveLink::new(&pieces, &model)?;
+        let columns = Generic::columns_of_wheel(&link);
+        let enough = link.len() >= FEWEST_PER_COLUMN * columns;
+        (link.noise, _) = crate::drive::floor(&link, &link.residuals(&model)?, link.sizes.drive_nm);
+        let noise = link.noise.iter().copied().fold(0.0, f64::max);
+        Some(Look {
+            tells: link.tells(&model),
+            length: link.length(),
+            loud: noise > NO_NOISE * link.sizes.drive_nm,
+            enough,
+        })
+    };
+    let mut chosen = Driving::default();
+    let Some(mut now) = look(chosen) else { return chosen };
+    let measured = Driving { measured: true, ..chosen };
+    if currents && let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
+        (chosen, now) = (measured, other);
+    }
+    while alone && now.loud && 2.0 * now.length <= LONGEST_S {
+        let longer = Driving { test_function_s: 2.0 * now.length, ..chosen };
+        let Some(next) = look(longer).filter(|next| next.enough && next.tells > now.tells) else { break };
+        (chosen, now) = (longer, next);
+    }
+    chosen
+}
+
+/// Test functions that a column of the smooth functions beside which a floor is found needs.
+const FEWEST_PER_COLUMN: usize = 3;
+
+/// What a way of looking at a drive shows.
+struct Look {
+    tells: f64,
+    /// Length of a test function, s.
+    length: f64,
+    /// Whether it scatters too much to show smaller effects.
+    loud: bool,
+    /// Whether there are enough test functions to know the noise.
+    enough: bool,
 }
 
 /// A data set and what is asked of it.
@@ -46,6 +111,8 @@ pub(super) struct Question<'a> {
     /// Length of a window of camera frames, s.
     window_s: f64,
     geometry: Geometry,
+    /// Whether currents drive the wheels, and no duties.
+    currents: bool,
 }
 
 impl<'a> Question<'a> {
@@ -59,8 +126,10 @@ impl<'a> Question<'a> {
                 return Err(GapError::Effect(format!("{name}: wheels: there is no wheel {wheel}, the robot has {n}")));
             }
         }
+        let currents = set.logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
         let catalogue = effects::catalogue_for(set.logs.len())
             .into_iter()
+            .filter(|e| !(currents && e.before_current()))
             .map(Arc::from)
             .chain(options.effects.iter().cloned())
             .collect();
@@ -69,7 +138,7 @@ impl<'a> Question<'a> {
         let noise = model::fit::with_headings(noise, set.logs.iter().any(|log| log.layout().source.positions_only));
         let rate = robot.camera_rate_hz;
         let window_s = if rate > 0.0 { WINDOW_S.max(WINDOW_FRAMES / rate) } else { WINDOW_S };
-        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry })
+        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry, currents })
     }
 
     /// The links that are replayed bit by bit, and what is to be said of them.
@@ -86,11 +155,14 @@ impl<'a> Question<'a> {
     /// The logs in pieces, everything derived from the wheels by their true order; and that order with its share of the
     /// squared gap, if it is not the file's.
     pub(super) fn cut(&self) -> (Cut<'a>, Option<(Active, f64)>) {
+        let start = self.filed();
         let cut = |geometry: &Geometry| {
             let whole = segments(&self.robot, geometry, &self.set.logs, PIECE);
-            Cut { sample: whole.sample(), whole }
+            let held = Cut { sample: whole.sample(), whole };
+            let driving = driving(&held, &self.robot, self.currents);
+            if driving == Driving::default() { held } else { held.driven(driving) }
         };
-        let (pieces, start) = (cut(&self.geometry), self.filed());
+        let pieces = cut(&self.geometry);
         let crossed =
             wheel_order(&MotionLink::new(pieces.searched(), self.noise, self.window_s), &start, &self.catalogue);
         let found = crossed.as_ref().map(|(active, _)| active);

@@ -92,9 +92,9 @@ pub struct DriveResiduals {
 }
 
 impl<'a> DriveLink<'a> {
-    /// Lays test functions of the usual length over the segments.
+    /// Lays test functions of the length that is settled for these logs over the segments.
     pub fn new(pieces: &'a Pieces<'a>, nominal: &DriveModel) -> Option<Self> {
-        Self::with_test_functions(pieces, nominal, TEST_FUNCTION_S)
+        Self::with_test_functions(pieces, nominal, pieces.driving().test_function_s)
     }
 
     /// Lays test functions of a length in s over the segments.
@@ -170,6 +170,17 @@ impl<'a> DriveLink<'a> {
             wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
         });
         estimation::statistics::rms(counted)
+    }
+
+    /// What the test functions tell of the motors' torques: how many count, times the squared ratio of those torques to
+    /// the noise, over all wheels.
+    pub fn tells(&self, model: &DriveModel) -> f64 {
+        let given = self.motors_gave(model).powi(2);
+        let of = |i: usize| {
+            let counted = self.test_functions.iter().filter(|b| b.weights[i] > 0.0).count();
+            counted as f64 * given / self.noise[i].powi(2).max(f64::MIN_POSITIVE)
+        };
+        (0..self.noise.len()).map(of).sum()
     }
 
     /// Leaves out test functions in which a wheel slips by what the motion link found: Newton's law in wheel

@@ -25,6 +25,10 @@ impl Effect for BatterySag {
         Link::Drive
     }
 
+    fn before_current(&self) -> bool {
+        true
+    }
+
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let s = Sizes::of(robot);
         let unit = robot.supply_v / (s.stall_a * robot.wheel_count() as f64);

@@ -30,6 +30,10 @@ impl Effect for DeadBand {
         Link::Drive
     }
 
+    fn before_current(&self) -> bool {
+        true
+    }
+
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
         let duty = |bounds| Parameter::new("duty", 0.01, bounds, 0.03);
         let whole = |at| Form::whole(vec![duty([0.005, 0.5]).from(at)]).fixing(PASSES, 1.0);

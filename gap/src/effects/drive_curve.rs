@@ -25,6 +25,10 @@ impl Effect for DriveCurve {
         Link::Drive
     }
 
+    fn before_current(&self) -> bool {
+        true
+    }
+
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
         vec![Form::whole(vec![Parameter::new("curvature", 0.05, [-1.0, 1.0], 0.12)])]
     }

@@ -43,7 +43,8 @@ impl Effect for JointSpring {
                 let preloads = [-PRELOADS * stiffest, PRELOADS * stiffest];
                 [
                     Parameter::new(stiffness, 0.01 * drive / reach, [0.0, stiffest], 0.03 * drive / reach),
-                    Parameter::new(wheel_name("preload", *i, "nm"), 0.01 * drive, preloads, 0.03 * drive),
+                    // Where it is slack is no size: without a stiffness there is no spring.
+                    Parameter::new(wheel_name("preload", *i, "nm"), 0.01 * drive, preloads, f64::INFINITY),
                 ]
             };
             Form { free: wheels.iter().flat_map(spring).collect(), wheels, fixed: Vec::new() }

@@ -33,6 +33,10 @@ impl Effect for MotorHeating {
         Link::Drive
     }
 
+    fn before_current(&self) -> bool {
+        true
+    }
+
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         self.forms_in(robot, &Sizes::of(robot))
     }

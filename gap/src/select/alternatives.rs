@@ -68,10 +68,14 @@ pub fn alternatives(
         .fold(0.0, f64::max);
     // The same signal matters as much under any name.
     let twin = |c: usize| found.design.is_twin(c, index);
+    // What the named ones can do only with this one does its part where they are fitted beside it.
+    let shared = shared(&found.design, index);
     // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
     let counts = |name: &str| {
         let of_name = |c: &usize| found.design.candidates[*c].effect.name() == name;
-        !found.bare || (0..found.design.candidates.len()).filter(of_name).any(twin)
+        !found.bare
+            || (0..found.design.candidates.len()).filter(of_name).any(twin)
+            || own.form.free.len() == 1 && shared.iter().any(|s| s == name)
     };
     let mut sets: Vec<Vec<String>> = Vec::new();
     let mut ambiguous = false;
@@ -102,14 +106,20 @@ pub fn alternatives(
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
         let values = state.active[index].parameters();
-        if stopped(&state.active[index]) || problem.runs_away(&state, &without, thresholds) {
+        // A heavier rotor scatters more in its own torque, by as much as motors that are weaker scatter less: what does
+        // the same as the named ones together is judged as they were.
+        let same = own.form.free.len() == 1 && shared.contains(&alternative_name);
+        let astray = if same { Problem::strays } else { Problem::runs_away };
+        if stopped(&state.active[index]) || astray(problem, &state, &without, thresholds) {
             continue;
         }
         let alternative = finish(state, settled, index, thresholds);
         let own_cost = thresholds.cost(own.form.free.len());
         let alternative_cost = thresholds.cost(candidate.form.free.len());
         // Without the price of parameters: what the data say.
-        let difference = alternative.against(found) + own_cost - alternative_cost;
+        let settled = alternative.against(found) + own_cost - alternative_cost;
+        // Of what does the same what is held near zero has other sizes, and other penalties, with each.
+        let difference = if same { own_gain - t.gain } else { settled };
         let tie = thresholds.tie(own_gain).max(TIED);
         if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &alternative, found, thresholds)
         {
@@ -131,7 +141,7 @@ pub fn alternatives(
     let spanning = super::spanning::spanning_pairs(&found.design, index);
     let pair = pair_alternatives(&design, &trials, &spanning, &told, own_gain, thresholds);
     sets.extend(pair.filter(|(spanned, _)| *spanned || !found.bare).map(|p| p.1));
-    let shared = shared(&found.design, index).into_iter().filter(|other| !told.contains(other)).collect();
+    let shared = shared.into_iter().filter(|other| !told.contains(other)).collect();
     Alternatives { design, sets, ambiguous, shared }
 }
 

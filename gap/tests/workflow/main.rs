@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod common;
+mod currents;
 mod drive;
 mod experiment;
 mod flywheel;
