@@ -235,11 +235,9 @@ fn units_below_the_names_and_rows_of_nan_are_no_numbers() {
     ] {
         assert!(map.contains(line), "{line}\n{map}");
     }
-    let map = format!(
-        "[time]\ncolumn = \"timestep\"\nper_second = 8000\n[columns]\nduty_1 = {{ from = \"voltage [V]\", scale = 0.5 }}\n\
-         enc_1 = {{ from = \"position [turns]\", unit = \"rev\", counts_per_rev = 4 }}\n"
-    );
-    let map = Map::parse(&map, Path::new("map.toml")).unwrap();
+    let map = "[time]\ncolumn = \"timestep\"\nper_second = 8000\n[columns]\nduty_1 = { from = \"voltage [V]\", scale = 0.5 }\n\
+         enc_1 = { from = \"position [turns]\", unit = \"rev\", counts_per_rev = 4 }\n";
+    let map = Map::parse(map, Path::new("map.toml")).unwrap();
     let table = Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &map.time().unwrap()).unwrap();
     let run = map.run(&table, Path::new("x.csv")).unwrap();
     assert_eq!((run.t, run.counts), (vec![0.0, 57.0 / 8000.0, 103.0 / 8000.0], vec![vec![1, 2, 6]]));
