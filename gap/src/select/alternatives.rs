@@ -118,8 +118,9 @@ pub fn alternatives(
         let alternative_cost = thresholds.cost(candidate.form.free.len());
         // Without the price of parameters: what the data say.
         let settled = alternative.against(found) + own_cost - alternative_cost;
-        // Of what does the same what is held near zero has other sizes, and other penalties, with each.
-        let difference = if same { own_gain - t.gain } else { settled };
+        // Of what does the same what is held near zero has other sizes, and other penalties, with each: it is tied where
+        // either says so.
+        let difference = if same { settled.min(own_gain - t.gain) } else { settled };
         let tie = thresholds.tie(own_gain).max(TIED);
         if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &alternative, found, thresholds)
         {

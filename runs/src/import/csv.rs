@@ -9,7 +9,7 @@ use super::{Clock, Table, heading};
 use crate::error::InputError;
 
 /// Rows without a number below the names at most, and before the numbers: units, and short names.
-const HEADER_ROWS: usize = 3;
+const HEADER_ROWS: usize = 2;
 
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
