@@ -1,6 +1,7 @@
 //! The whole workflow on one data set.
 
 mod answer;
+mod clocks;
 mod driven;
 mod driving;
 mod findings;
@@ -56,6 +57,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut question = Question::new(set, options)?;
     let mut remarks = set.notes();
     let exact = question.exact_links(&mut remarks);
+    remarks.extend(question.judge_clocks());
     let (pieces, crossed) = question.cut();
     if pieces.whole.is_empty() {
         return Err(GapError::NothingToCompare);

@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
+use model::fit::clocks::FEW_RUNS;
 use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
 use runs::{DutySource, Logs};
 
+use super::clocks;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::drive::{DriveLink, DriveModel, Generic};
 use crate::effect::Effect;
+use crate::effects::camera_clock::CameraClock;
 use crate::exact::ExactLink;
 use crate::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
 use crate::options::Options;
@@ -111,6 +114,8 @@ pub(super) struct Question<'a> {
     /// Length of a window of camera frames, s.
     window_s: f64,
     geometry: Geometry,
+    /// Whether causes are to be looked for in every run.
+    every_run: bool,
     /// Whether currents drive the wheels, and no duties.
     currents: bool,
 }
@@ -138,7 +143,7 @@ impl<'a> Question<'a> {
         let noise = model::fit::with_headings(noise, set.logs.iter().any(|log| log.layout().source.positions_only));
         let rate = robot.camera_rate_hz;
         let window_s = if rate > 0.0 { WINDOW_S.max(WINDOW_FRAMES / rate) } else { WINDOW_S };
-        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry, currents })
+        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry, every_run: true, currents })
     }
 
     /// The links that are replayed bit by bit, and what is to be said of them.
@@ -152,13 +157,31 @@ impl<'a> Question<'a> {
         links.into_iter().flatten().collect()
     }
 
+    /// Leaves out a clock of each run where there are many runs and one clock does for all, and says so; then not every
+    /// run need be looked at for causes either.
+    pub(super) fn judge_clocks(&mut self) -> Option<String> {
+        let (runs, name) = (self.set.logs.len(), CameraClock::NAME);
+        if runs <= FEW_RUNS || self.robot.effects.iter().any(|e| e.name == name) {
+            return None;
+        }
+        let pieces = segments(&self.robot, &self.geometry, &self.set.logs, PIECE);
+        self.every_run = clocks::differ(&MotionLink::new(&pieces, self.noise, self.window_s), &self.filed());
+        if self.every_run {
+            return None;
+        }
+        self.catalogue.retain(|e| e.name() != name);
+        pieces
+            .have_frames()
+            .then(|| format!("One clock does for the camera in all {runs} runs: {name} was not looked for."))
+    }
+
     /// The logs in pieces, everything derived from the wheels by their true order; and that order with its share of the
     /// squared gap, if it is not the file's.
     pub(super) fn cut(&self) -> (Cut<'a>, Option<(Active, f64)>) {
         let start = self.filed();
         let cut = |geometry: &Geometry| {
             let whole = segments(&self.robot, geometry, &self.set.logs, PIECE);
-            let held = Cut { sample: whole.sample(), whole };
+            let held = Cut { sample: whole.sample(self.every_run), whole };
             let driving = driving(&held, &self.robot, self.currents);
             if driving == Driving::default() { held } else { held.driven(driving) }
         };

@@ -1,13 +1,12 @@
 //! `camera-latency`: a camera frame that is older than its stamp.
 
+use model::fit::clocks::MATTERS_S;
 use runs::CLOCK_OFF_S;
 use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
-/// Age of a camera frame that matters, s: a robot at 1 m/s is then 3 mm off, twice a league camera's noise.
-const MATERIAL_S: f64 = 0.003;
 /// Share of a tick that rounding of stamps to the next tick gives a latency of its own.
 const ROUNDING_TICKS: f64 = 0.6;
 /// Difference of camera's and ticks' rates up to which they are in step, so that no stamp is rounded.
@@ -17,9 +16,9 @@ const EARLY_S: f64 = 0.3;
 
 /// Age of a camera frame that matters on a robot: frames stand at ticks of the log, and where these are not the
 /// camera's own, their age is not known to better than the rounding.
-pub(super) fn material(robot: &Robot) -> f64 {
+pub(crate) fn material(robot: &Robot) -> f64 {
     let in_step = (robot.camera_rate_hz / robot.control_rate_hz - 1.0).abs() < IN_STEP;
-    if in_step { MATERIAL_S } else { MATERIAL_S.max(ROUNDING_TICKS / robot.control_rate_hz) }
+    if in_step { MATTERS_S } else { MATTERS_S.max(ROUNDING_TICKS / robot.control_rate_hz) }
 }
 
 /// A camera frame that is older than its stamp.

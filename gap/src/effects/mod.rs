@@ -7,7 +7,7 @@ mod asymmetric_friction;
 mod battery_sag;
 mod body_radius;
 pub(crate) mod camera_clock;
-mod camera_latency;
+pub(crate) mod camera_latency;
 mod camera_scale;
 mod camera_timing;
 mod carpet_grain;

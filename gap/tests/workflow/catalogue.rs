@@ -184,6 +184,29 @@ fn clocks_that_differ_from_run_to_run_are_found() {
     }
 }
 
+/// Of many runs each has a clock only where they differ: one parameter a run is then worth its time.
+#[test]
+fn of_many_runs_clocks_that_differ_are_found() {
+    let robot = with(&Robot::racbot(), "wheel-skew", &[("skew_1_rad", 0.08)]);
+    let drives = [RICH[0], RICH[1]].repeat(model::fit::clocks::FEW_RUNS / 2 + 1);
+    let mut set = simulate(&robot, &drives, 93);
+    set.runs.iter_mut().for_each(|run| cut(run, 4.0));
+    let one = analyse(&set, &Options::default()).unwrap();
+    assert_eq!(names(&one), ["wheel-skew"], "{}", one.terminal_summary());
+    assert!(!one.tried.iter().any(|name| name == "camera-clock"));
+    let late = |run: usize| 8 * (7 * run % 11);
+    for (k, run) in set.runs.iter_mut().enumerate() {
+        run.camera.retain(|c| c.tick + late(k) < run.t.len());
+        run.camera.iter_mut().for_each(|c| c.tick += late(k));
+    }
+    let other = analyse(&set, &Options::default()).unwrap();
+    assert!(names(&other).contains(&"camera-clock"), "{}", other.terminal_summary());
+    // Offsets sum to 0.
+    let usual = (0..set.runs.len()).map(late).sum::<usize>() as f64 / set.runs.len() as f64;
+    let wanted = 1e-3 * (late(20) as f64 - usual);
+    assert!((value(&other, "offset_21_s") - wanted).abs() < 0.003, "{}", other.terminal_summary());
+}
+
 /// A robot that moves 5 % further sideways than its wheels say, step by step from frame to frame.
 #[test]
 fn rollers_that_give_way_are_found() {

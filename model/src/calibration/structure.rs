@@ -11,7 +11,7 @@ use runs::Run;
 use runs::robot::Robot;
 
 use super::{KinematicModel, KinematicParameter};
-use crate::fit::{FitError, FitOptions, WindowEquations, window_equations};
+use crate::fit::{FitError, FitOptions, WindowEquations, clocks, window_equations};
 
 /// Blocks into which the logs are cut, where they are long enough, and the folds these make. More blocks are no more
 /// independent of each other; five folds are usual.
@@ -105,12 +105,11 @@ impl Part {
         matches!(self, Self::EachRadius | Self::Skews)
     }
 
-    fn tells(self, robot: &Robot, runs: usize) -> bool {
+    fn tells(self, robot: &Robot) -> bool {
         let differential = robot.geometry().is_ok_and(|g| g.is_differential());
         match self {
             // Wheels without rollers hold the robot sideways, and no camera sees along which line they point.
             Self::Sideways | Self::Skews => !differential,
-            Self::Clocks => runs > 1,
             _ => true,
         }
     }
@@ -134,11 +133,13 @@ pub(super) fn with(parts: &[Part], part: Part) -> Vec<Part> {
 /// [`FitError`] if there is nothing to compare.
 pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Result<(Vec<Part>, usize), FitError> {
     let wheels = robot.wheel_count();
-    let every: Vec<Part> = Part::ALL.into_iter().filter(|part| part.tells(robot, runs.len())).collect();
+    let clocked = runs.len() > 1 && (runs.len() <= clocks::FEW_RUNS || clocks_differ(robot, runs, options)?);
+    let of_clocks = |part: &Part| *part != Part::Clocks || clocked;
+    let every: Vec<Part> = Part::ALL.into_iter().filter(|part| part.tells(robot) && of_clocks(part)).collect();
     let all = parameters(&every, wheels, runs.len());
     let model = KinematicModel::new(robot, all.clone());
     // Clocks set by hand would hide all else from other runs: one for each until the end.
-    let mut chosen = vec![if runs.len() > 1 { Part::Clocks } else { Part::Latency }];
+    let mut chosen = vec![if clocked { Part::Clocks } else { Part::Latency }];
     let mut values = DVector::zeros(all.len());
     let mut blocks = 0;
     let mut stages = [false, true].into_iter().peekable();
@@ -184,6 +185,21 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
         (chosen, values) = (next, moved);
     }
     Ok((chosen, blocks))
+}
+
+/// Whether one clock does not do for all runs.
+fn clocks_differ(robot: &Robot, runs: &[Run], options: &FitOptions) -> Result<bool, FitError> {
+    let model = KinematicModel::new(robot, vec![KinematicParameter::CameraLatency]);
+    let scale = KinematicParameter::CameraLatency.scale();
+    let equations = window_equations(&model, runs, &[0.0], options)?;
+    let age = |of_run: &[WindowEquations]| {
+        let mut sum = WindowEquations::none(1, of_run[0].run);
+        of_run.iter().for_each(|part| sum.add(part, 1.0));
+        let n = 3.0 * (runs[sum.run].camera.len() as f64 - of_run.len() as f64);
+        clocks::age(sum.information[(0, 0)] / (scale * scale), sum.score[0] / scale, sum.squares, n)
+    };
+    let ages: Vec<[f64; 2]> = equations.chunk_by(|a, b| a.run == b.run).filter_map(age).collect();
+    Ok(clocks::differ(&ages, clocks::MATTERS_S))
 }
 
 /// The choices with one part more, or two: a marker off the centre can hide a radius, and a radius the marker.

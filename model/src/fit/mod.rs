@@ -6,6 +6,7 @@
 //! not add up over a run, and no start pose has to be known. Parameters act on the prediction,
 //! never on the measurement.
 
+pub mod clocks;
 mod noise;
 mod windows;
 
