@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 mod picture;
+mod stranger;
 mod twins;
 
 use std::fmt::Write as _;
@@ -12,6 +13,8 @@ use runs::robot::{Effect as Written, EffectParameter, Robot};
 use crate::effect::{Effect, Link};
 use crate::effects::{catalogue_for, exact_equation};
 use crate::report::{short, unit};
+
+pub use stranger::{Stranger, strangers};
 
 /// Effects of the links that are replayed instead of fitted.
 const EXACT: [(&str, Link, &[&str]); 5] = [
@@ -78,8 +81,8 @@ pub fn descriptions() -> Vec<Description> {
 
 fn describe(effect: &dyn Effect, robot: &Robot) -> Description {
     let mut parameters: Vec<Range> = Vec::new();
-    // Wheels have the same bounds; one of each name stands for all.
     let plain = |name: &str| name.chars().map(|c| if c.is_ascii_digit() { 'i' } else { c }).collect::<String>();
+    // Wheels have the same bounds; one of each name stands for all.
     for p in effect.forms(robot).iter().flat_map(|form| &form.free) {
         let numbered = p.name.split('_').any(|part| part.parse::<usize>().is_ok());
         let name = if numbered { plain(&p.name) } else { p.name.clone() };

@@ -100,12 +100,16 @@ pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
 
 /// The known name closest to `name`, if it is close enough to be a slip of the keyboard.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    known
-        .iter()
-        .map(|k| (strsim::levenshtein(name, k), *k))
-        .min()
-        .filter(|(distance, k)| *distance <= 2 + k.len() / 4)
-        .map(|(_, k)| k)
+    closest(name, known).filter(|(distance, k)| *distance <= 2 + k.len() / 4).map(|(_, k)| k)
+}
+
+/// The same where `name` may be somebody's own as well: two letters wrong at most.
+pub fn slip<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    closest(name, known).filter(|(distance, _)| *distance <= 2).map(|(_, k)| k)
+}
+
+fn closest<'a>(name: &str, known: &[&'a str]) -> Option<(usize, &'a str)> {
+    known.iter().map(|k| (strsim::levenshtein(name, k), *k)).min()
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use runs::{DutySource, Logs};
 use super::clocks;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
+use crate::catalogue::strangers;
 use crate::drive::{DriveLink, DriveModel, Generic};
 use crate::effect::Effect;
 use crate::effects::camera_clock::CameraClock;
@@ -124,6 +125,9 @@ impl<'a> Question<'a> {
     pub(super) fn new(set: &'a Logs<'a>, options: &'a Options) -> Result<Self, GapError> {
         let robot = completed(&set.robot, &set.logs);
         let geometry = robot.geometry().map_err(|e| GapError::Robot(e.to_string()))?;
+        if let Some(found) = strangers(&robot, &options.effects).first() {
+            return Err(GapError::Effect(format!("{}; {}", found.what, found.hint)));
+        }
         for effect in &options.effects {
             let wheels = effect.forms(&robot).into_iter().flat_map(|f| f.wheels);
             if let Some(wheel) = wheels.filter(|w| *w >= robot.wheel_count()).max() {

@@ -1,5 +1,6 @@
 //! `racbot gap`
 
+use super::options::known_effects;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
@@ -56,25 +57,38 @@ impl Options {
         }
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
         let set = super::check::open(folder, self.robot.as_deref())?;
+        let own = self.own()?;
+        let file = self.robot.clone().unwrap_or_else(|| folder.join("robot.toml"));
+        known_effects(&file, &set.robot, Some(&own))?;
         let hints = super::check::first_stage(folder, &set, self.target.forced())?;
         let out = self.target.place(self.out.as_deref(), "out/gap");
         self.target.check_free(["gap.json", "report.html", "robot.toml"].map(|name| out.join(name)))?;
         let bar = Progress::new("looking for the missing effect", 100);
         let progress: gap::options::Progress = Box::new(move |share| bar.at((100.0 * share).round() as u64));
-        let mut options =
-            gap::Options { robot_file: self.robot.clone(), progress: Some(progress), ..gap::Options::default() };
-        for file in &self.effect {
-            let effect = UserEffect::load(file).map_err(Failure::excerpt)?;
-            if options.effects.iter().any(|e| e.name() == effect.name()) {
-                return Err(Failure::about(file, format!("name: a second effect is called {}", effect.name())));
-            }
-            options.effects.push(Arc::new(effect));
-        }
+        let options = gap::Options {
+            robot_file: self.robot.clone(),
+            progress: Some(progress),
+            effects: own,
+            ..gap::Options::default()
+        };
         let analysis = gap::analyse_logs(&set, &options).map_err(|error| Failure::about(folder, error))?;
         drop(options);
         analysis.save(&out, self.target.existing()).map_err(Failure::data)?;
         let text = format!("{hints}{}\nreport in {}\n", analysis.terminal_summary().trim_end(), out.display());
         Ok(Answer { text, json: analysis.to_json(), wrong: None })
+    }
+
+    /// The user's own effects.
+    fn own(&self) -> Result<Vec<Arc<dyn Effect>>, Failure> {
+        let mut effects: Vec<Arc<dyn Effect>> = Vec::new();
+        for file in &self.effect {
+            let effect = UserEffect::load(file).map_err(Failure::excerpt)?;
+            if effects.iter().any(|e| e.name() == effect.name()) {
+                return Err(Failure::about(file, format!("name: a second effect is called {}", effect.name())));
+            }
+            effects.push(Arc::new(effect));
+        }
+        Ok(effects)
     }
 
     fn undo(&self, name: &str) -> Result<Answer, Failure> {

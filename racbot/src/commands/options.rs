@@ -2,10 +2,12 @@
 
 use crate::terminal::Failure;
 use clap::Args;
-use model::effects::Applied;
+use gap::catalogue::strangers;
+use gap::effect::Effect;
 use runs::error::InputError;
 use runs::robot::{Layout, Robot};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A list of angles in degrees, such as `4,-3,2`.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,13 +56,7 @@ impl Hidden {
             let what = format!("has {} wheels, but the robot {}", actual.wheel_count(), believed.wheel_count());
             return Err(InputError::new(file, what, "hide a robot with as many wheels").into());
         }
-        let unread = Applied::unread(&actual);
-        if let Some((effect, parameter)) = unread.first() {
-            let what = format!("effect {effect}: nothing reads its parameter {parameter}");
-            return Err(
-                InputError::new(file, what, "correct its name; `racbot gap` writes them as they are read").into()
-            );
-        }
+        known_effects(file, &actual, None)?;
         Ok(actual)
     }
 }
@@ -93,4 +89,13 @@ fn skewed(robot: &Robot, skew: &Degrees) -> Result<Robot, Failure> {
 /// A robot's file, or the built-in robot.
 pub(crate) fn load_robot(file: Option<&Path>) -> Result<Robot, InputError> {
     file.map_or_else(|| Ok(Robot::racbot()), Robot::load)
+}
+
+/// Refuses a robot's file with an effect, or a parameter of one, that nothing reads; `own` are the user's effects, `None`
+/// where any may be one.
+pub(crate) fn known_effects(file: &Path, robot: &Robot, own: Option<&[Arc<dyn Effect>]>) -> Result<(), InputError> {
+    let all = strangers(robot, own.unwrap_or_default());
+    let Some(found) = all.iter().find(|s| !s.own || own.is_some()) else { return Ok(()) };
+    let text = std::fs::read_to_string(file).map_err(|error| InputError::io(file, &error))?;
+    Err(Robot::fault_of_effect(&text, file, found.effect, found.parameter.as_deref(), &found.what, &found.hint))
 }

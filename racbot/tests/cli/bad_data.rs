@@ -137,6 +137,43 @@ fn an_effect_of_ones_own_that_is_none_is_shown_with_a_caret() {
 }
 
 #[test]
+fn effects_that_nothing_reads_are_refused_with_line_and_column() {
+    let folder = tempdir().unwrap();
+    data_set(folder.path(), "t,enc_1,enc_2,enc_3\n0,0,0,0\n0.001,0,0,0\n");
+    let lines = robot_toml().lines().count();
+    let table = [
+        (
+            "viscous-frictoin",
+            "coefficient_nms",
+            3,
+            1,
+            "effect.name: viscous-frictoin is no effect",
+            "viscous-friction?",
+        ),
+        (
+            "wheel-skew",
+            "skew_1_rat",
+            5,
+            1,
+            "effect.parameters.skew_1_rat: wheel-skew has no",
+            "did you mean skew_1_rad?",
+        ),
+    ];
+    for (name, parameter, line, column, what, hint) in table {
+        let effect = format!("\n[[effect]]\nname = \"{name}\"\n[effect.parameters]\n{parameter} = 0.01\n");
+        fs::write(folder.path().join("robot.toml"), robot_toml() + &effect).unwrap();
+        let place = format!("robot.toml:{}:{column}: {what}", lines + line);
+        for command in [&["check", "."][..], &["gap", "."], &["simulate", "--hidden", "robot.toml"]] {
+            racbot(folder.path(), command).refused(1, &[&place, hint]);
+        }
+    }
+    // One that gap wrote for an effect of somebody's own is none of the catalogue's.
+    let own = "\n[[effect]]\nname = \"air-drag\"\n[effect.parameters]\nb = 0.01\n";
+    fs::write(folder.path().join("robot.toml"), robot_toml() + own).unwrap();
+    racbot(folder.path(), &["gap", "."]).refused(1, &["air-drag is no effect", "comes with --effect FILE"]);
+}
+
+#[test]
 fn a_manoeuvre_does_not_join_another_robots_data() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("robot.toml"), robot_toml().replace("mass_kg = 2.4", "mass_kg = 3.4")).unwrap();

@@ -201,6 +201,19 @@ impl Robot {
         parse::robot(text, path, true)
     }
 
+    /// A complaint about an effect of the text of a `robot.toml`, by its index from 0, with the place of its name or of one
+    /// of its parameters: what an effect means is known elsewhere.
+    pub fn fault_of_effect(
+        text: &str,
+        path: &Path,
+        effect: usize,
+        parameter: Option<&str>,
+        what: &str,
+        hint: &str,
+    ) -> InputError {
+        parse::fault_of_effect(text, path, (effect, parameter), what, hint)
+    }
+
     /// Reads a `robot.toml` that need not say everything: [`Robot::missing`] has what it leaves out.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use super::fields::{BODY, FIELDS, Range, SYNONYMS};
 use super::layout::layout;
 use super::section::{Section, Source, number, whole};
 use super::{Effect, EffectParameter, Layout, PiParameters, Robot, Support, WHEELS, imu};
-use crate::error::InputError;
+use crate::error::{InputError, line_and_column};
 
 /// Keys beside [`FIELDS`].
 const OTHER_KEYS: &[(&str, &str)] = &[
@@ -171,6 +171,33 @@ fn effects(top: &Section) -> Result<Vec<Effect>, InputError> {
             effect(&section, plain.as_table().cloned().unwrap_or_default())
         })
         .collect()
+}
+
+/// A complaint about an effect of a file, by its index from 0, at its name or at one of its parameters.
+pub(super) fn fault_of_effect(
+    text: &str,
+    path: &Path,
+    (effect, parameter): (usize, Option<&str>),
+    what: &str,
+    hint: &str,
+) -> InputError {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let nowhere = || InputError::new(path, what, hint);
+    let Ok(root) = DeTable::parse(text) else { return nowhere() };
+    let list = root.get_ref().get("effect").and_then(|list| list.get_ref().as_array());
+    let Some(table) = list.and_then(|list| list.get(effect)).and_then(|value| value.get_ref().as_table()) else {
+        return nowhere();
+    };
+    let keys = match parameter {
+        None => Some(table),
+        Some(_) => table.get("parameters").and_then(|value| value.get_ref().as_table()),
+    };
+    let key = parameter.unwrap_or("name");
+    let Some((found, _)) = keys.and_then(|keys| keys.iter().find(|(name, _)| name.get_ref() == key)) else {
+        return nowhere();
+    };
+    let (line, column) = line_and_column(text, found.span().start);
+    nowhere().at(line, column).field(parameter.map_or("effect.name".to_owned(), |p| format!("effect.parameters.{p}")))
 }
 
 fn effect(section: &Section, mut other: toml::Table) -> Result<Effect, InputError> {
