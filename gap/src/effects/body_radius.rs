@@ -27,7 +27,7 @@ impl Effect for BodyRadius {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("scale", 0.01, [-0.3, 0.3], 0.006)])]
+        vec![Form::whole(vec![Parameter::new("scale", 0.01, super::SIZES, 0.006)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

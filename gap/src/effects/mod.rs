@@ -53,6 +53,8 @@ mod wheel_skew;
 mod wheel_slip;
 mod yaw_inertia;
 
+use model::setup::TRUE_RATIO;
+
 use crate::effect::Effect;
 
 pub(crate) use fits::fits;
@@ -61,6 +63,9 @@ pub(crate) use fits::fits;
 pub fn catalogue() -> Vec<Box<dyn Effect>> {
     catalogue_for(0)
 }
+
+/// By how much a size of a robot may differ from its drawing: beyond that `check` takes the drawing for another robot's.
+const SIZES: [f64; 2] = [1.0 / TRUE_RATIO - 1.0, TRUE_RATIO - 1.0];
 
 /// The same for a data set of this many runs: some effects have parameters of each run.
 pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {

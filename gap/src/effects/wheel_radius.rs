@@ -27,7 +27,7 @@ impl Effect for WheelRadius {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let p = |i| Parameter::new(wheel_name("scale", i, ""), 0.01, [-0.3, 0.3], 0.004);
+        let p = |i| Parameter::new(wheel_name("scale", i, ""), 0.01, super::SIZES, 0.004);
         let mut forms = Form::alone(robot, p);
         forms.push(Form::each(robot, p));
         forms

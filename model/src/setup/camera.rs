@@ -7,6 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use nalgebra::{Matrix3, Vector3};
 use runs::Log;
 use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
@@ -27,9 +28,16 @@ const FITS: f64 = 0.35;
 /// Share of the squared way of the wheels below which a robot did not turn, or did nothing else: what a camera's noise or
 /// a marker beside the centre then make of the rest says nothing.
 const LITTLE: f64 = 0.02;
+/// The same of the way that a camera sees of a robot which by the counts only turns: a marker half way to the rim has a
+/// fifth, and skewed wheels lead a robot astray that spins.
+const ASTRAY: f64 = 0.2;
 /// Share of the camera's turn that the best way to read a log leaves at most, from which the robot turned: noise follows
 /// no wheels. Orders of the wheels that say it did not turn must then answer for that, too.
 const TURNED: f64 = 0.5;
+/// Share of the squared turns by the counts that ways do not follow, from which both are told apart.
+const ALONG: f64 = 0.2;
+/// Acceleration of a rim that no floor passes on to a robot, m/s²: a coefficient of friction of 1.
+const GRAVITY: f64 = 9.81;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;
 
@@ -48,7 +56,12 @@ struct Fit {
     /// Camera's displacement per displacement by the counts: scale and turn, rad.
     scale: f64,
     turn: f64,
-    /// Camera's turn per turn by the counts; none where the robot hardly turns.
+    /// Relative standard error of that scale.
+    error: f64,
+    /// Whether the robot turns, by the counts, and by the camera.
+    turns: bool,
+    seen_to_turn: bool,
+    /// Camera's turn per turn by the counts; none where the robot hardly turns, or only as its ways have it.
     spin: Option<f64>,
     /// Share of the motion that is left.
     left: f64,
@@ -88,8 +101,8 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
             }
         }
     }
-    if fits.iter().any(|f| f.spin.is_some() && f.left_turn < TURNED) {
-        for f in fits.iter_mut().filter(|f| f.spin.is_none()) {
+    if fits.iter().any(|f| f.turns && f.seen_to_turn && f.left_turn < TURNED) {
+        for f in fits.iter_mut().filter(|f| !f.turns) {
             f.left = 0.5 * (f.left + f.left_turn);
         }
     }
@@ -99,7 +112,15 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     let as_good = |left: f64, best: f64| left <= EQUAL.0 * best + EQUAL.1;
     let equal = |f: &&Fit| as_good(f.left, best) && as_good(f.left_way, best_way);
     let found = fits.iter().filter(equal).min_by(|a, b| (a.wrong + a.left).total_cmp(&(b.wrong + b.left)));
-    found.map_or_else(Vec::new, |fit| named(robot, fit, before))
+    let mut mistakes = found.map_or_else(Vec::new, |fit| named(robot, fit, before));
+    let gained = robot.wheel_radius_m * moving.iter().map(|s| s.acceleration).fold(0.0, f64::max);
+    if gained > GRAVITY {
+        for mistake in &mut mistakes {
+            mistake.what += &format!(", or wheels slip: rims gain {} m/s², more than a floor holds", short(gained));
+            mistake.nameable = true;
+        }
+    }
+    mistakes
 }
 
 /// Displacement in the body, and turn, by the camera.
@@ -123,6 +144,8 @@ fn fit(
 ) -> Fit {
     let (mut pp, mut re, mut im, mut bb) = (0.0, 0.0, 0.0, 0.0);
     let (mut ww, mut wt, mut tt) = (0.0, 0.0, 0.0);
+    // Of turn and way by the counts, and with the camera's turn.
+    let (mut information, mut score) = (Matrix3::zeros(), Vector3::zeros());
     let mut turned = vec![0.0; order.len()];
     for (s, ([bx, by], turn)) in samples.iter().zip(seen) {
         for (i, (wheel, sign)) in order.iter().enumerate() {
@@ -136,15 +159,21 @@ fn fit(
         ww += p.omega * p.omega;
         wt += p.omega * turn;
         tt += turn * turn;
+        let by_counts = Vector3::new(p.omega, p.vx, p.vy);
+        information += by_counts * by_counts.transpose();
+        score += by_counts * *turn;
     }
     let left_t = if bb > 0.0 { 1.0 - (re * re + im * im) / (pp * bb).max(1e-300) } else { 1.0 };
-    let (scale, spin) = (re.hypot(im) / pp.max(1e-300), wt / ww.max(1e-300));
+    let scale = re.hypot(im) / pp.max(1e-300);
+    let error = (left_t.max(0.0) / (1.0 - left_t).max(1e-9) / (2.0 * samples.len() as f64)).sqrt();
     // A turn must be positive: a negative one is another reading.
     let left_r = if tt > 0.0 { 1.0 - wt.max(0.0).powi(2) / (ww * tt).max(1e-300) } else { 1.0 };
     // Lengths by the counts say how much of the motion is a turn.
-    let share = rim * rim * ww / (rim * rim * ww + pp).max(1e-300);
-    let turns = share > LITTLE;
-    let goes = bb > LITTLE * (bb + rim * rim * tt);
+    let share = |of: f64, other: f64| of / (of + other).max(1e-300);
+    let (turned_rim, seen_rim) = (rim * rim * ww, rim * rim * tt);
+    let turns = share(turned_rim, pp) > LITTLE;
+    let seen_to_turn = share(seen_rim, bb) > LITTLE;
+    let goes = share(bb, seen_rim) > if share(pp, turned_rim) > LITTLE { LITTLE } else { ASTRAY };
     let left = match (goes, turns) {
         (true, true) => 0.5 * (left_t + left_r),
         (false, true) => left_r,
@@ -153,12 +182,39 @@ fn fit(
     let image = reading.clockwise && reading.down;
     let camera = if image { 1.0 } else { f64::from(u8::from(reading.clockwise)) + f64::from(u8::from(reading.down)) };
     let only_turns = turns && !goes;
-    let (scale, turn) = if only_turns { (spin, 0.0) } else { (scale, im.atan2(re)) };
+    let (scale, turn) = if only_turns { (wt / ww.max(1e-300), 0.0) } else { (scale, im.atan2(re)) };
+    let spin = if only_turns { Some(scale) } else { spin(&information, &score).filter(|_| turns) };
     let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
     let wrong = camera + f64::from(u8::from(reading.degrees)) + quarter + 0.6 * swapped + 1.2 * reversed;
-    Fit { reading, order, scale, turn, spin: turns.then_some(spin), left, left_way: left_t, left_turn: left_r, wrong }
+    Fit {
+        reading,
+        order,
+        scale,
+        turn,
+        error,
+        turns,
+        seen_to_turn,
+        spin,
+        left,
+        left_way: left_t,
+        left_turn: left_r,
+        wrong,
+    }
+}
+
+/// Camera's turn per turn by the counts beside what skewed wheels make of ways: true turns are a linear function of turns
+/// and ways by the counts. `None` where a
+/// robot drives one curve, along which turns and ways are one.
+fn spin(information: &Matrix3<f64>, score: &Vector3<f64>) -> Option<f64> {
+    let unit = information.diagonal().map(|x| x.sqrt().max(1e-300));
+    let scaled = information.component_div(&(unit * unit.transpose()));
+    // A direction without motion, such as sideways on two wheels, asks for nothing.
+    let inverse = (scaled + Matrix3::identity() * 1e-9).try_inverse()?;
+    let own = 1.0 / inverse[(0, 0)];
+    let solved = inverse * score.component_div(&unit);
+    (own > ALONG).then(|| solved[0] / unit[0])
 }
 
 fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
@@ -242,6 +298,7 @@ fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
                     "check the distances of the wheels from the centre (a diameter?)",
                 ));
             }
+            None if common => found.push(of_all_distances(robot, fit)),
             None => {
                 let what = format!(
                     "the camera sees {} times the distance and {} times the turn that the counts say: the robot.toml of \
@@ -255,4 +312,23 @@ fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
         }
     }
     found
+}
+
+/// Ways and turns by the counts that are wrong by one factor which is that of no mistake made often.
+fn of_all_distances(robot: &Robot, fit: &Fit) -> Mistake {
+    let (factor, size) = if fit.scale > 1.0 { (fit.scale, "short") } else { (1.0 / fit.scale, "long") };
+    let what = format!(
+        "all distances and turns by the counts are {} times too {size} (95 %: {} to {})",
+        short(factor),
+        short(factor * (1.0 - 2.0 * fit.error)),
+        short(factor * (1.0 + 2.0 * fit.error)),
+    );
+    let remedy = format!(
+        "measure a wheel, and write wheel_radius_m = {} if that is its radius; else gear_ratio = {} or \
+         encoder_counts_per_motor_rev = {}",
+        short(robot.wheel_radius_m * fit.scale),
+        short(robot.gear_ratio / fit.scale),
+        short(robot.encoder_counts_per_motor_rev / fit.scale),
+    );
+    Mistake::new("robot-file", "robot.toml", what, remedy)
 }

@@ -44,7 +44,7 @@ impl Mistake {
 
 /// Ratio to nominal that a robot may truly have: a radius, a lever or a camera's scale wrong by two fifths is no drawing
 /// error any more, and the nearest mistake (a diameter for a radius) is a factor of 2.
-pub(crate) const TRUE_RATIO: f64 = 1.45;
+pub const TRUE_RATIO: f64 = 1.45;
 /// Relative width about a ratio by which a mistake is recognised.
 pub(crate) const NEAR: f64 = 0.22;
 

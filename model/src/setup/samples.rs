@@ -1,6 +1,6 @@
 //! What wheels, camera and commands say of the same stretches of time.
 
-use runs::frames::Pose;
+use runs::frames::{Pose, wrap_angle};
 use runs::robot::Robot;
 use runs::{Columns, Log};
 
@@ -60,6 +60,8 @@ pub(super) struct Sample {
     pub(super) from: Pose,
     pub(super) to: Pose,
     pub(super) turned: Vec<f64>,
+    /// Greatest acceleration of a wheel, rad/s² by robot.toml.
+    pub(super) acceleration: f64,
 }
 
 /// Stretches of a log between camera frames, at the lag of the camera at which the wheels tell its speed best.
@@ -80,22 +82,33 @@ pub(super) fn of_camera(robot: &Robot, log: &Log) -> Vec<Sample> {
     }
     let every = pairs.len().div_ceil(MOST).max(1);
     let pairs: Vec<(usize, usize)> = pairs.into_iter().step_by(every).collect();
-    let way = |(i, j): &(usize, usize)| frames[*i].pose.distance(frames[*j].pose);
-    let ways: Vec<f64> = pairs.iter().map(way).collect();
+    let between = |of: &dyn Fn(&Pose, &Pose) -> f64| -> Vec<f64> {
+        pairs.iter().map(|(i, j)| of(&frames[*i].pose, &frames[*j].pose)).collect()
+    };
+    let ways = between(&|a, b| a.distance(*b));
+    let turns = between(&|a, b| wrap_angle(b.theta - a.theta).abs());
     let steps = (LAGS_S.0 / LAGS_S.1).round() as i32;
-    // The wheels' mean turn follows the way whatever their order, signs and sizes.
+    // The wheels' mean turn follows the way, or the turn, whatever their order, signs and sizes.
     let fit = |lag: f64| -> f64 {
-        let turns = pairs.iter().map(|(i, j)| {
+        let turned = pairs.iter().map(|(i, j)| {
             let turned = wheels.turned(frames[*i].t - lag, frames[*j].t - lag)?;
             Some(turned.iter().map(|a| a * a).sum::<f64>().sqrt())
         });
-        correlation(ways.iter().copied().zip(turns).filter_map(|(w, t)| Some((w, t?))))
+        let turned: Vec<Option<f64>> = turned.collect();
+        let follows = |seen: &[f64]| {
+            correlation(seen.iter().copied().zip(&turned).filter_map(|(seen, turned)| Some((seen, (*turned)?))))
+        };
+        follows(&ways).max(follows(&turns))
     };
     let best = (-steps..=steps).map(|k| f64::from(k) * LAGS_S.1).map(|lag| (fit(lag), lag));
     let lag = best.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1);
     let sample = |(i, j): &(usize, usize)| {
         let turned = wheels.turned(frames[*i].t - lag, frames[*j].t - lag)?;
-        Some(Sample { from: frames[*i].pose, to: frames[*j].pose, turned })
+        let [from, to] = [i, j].map(|k| frames[*k].t - lag);
+        let first = wheels.turned(from, 0.5 * (from + to))?;
+        let change = turned.iter().zip(&first).map(|(all, first)| (all - 2.0 * first).abs()).fold(0.0, f64::max);
+        let acceleration = change / (0.5 * (to - from)).powi(2);
+        Some(Sample { from: frames[*i].pose, to: frames[*j].pose, turned, acceleration })
     };
     pairs.iter().filter_map(sample).collect()
 }

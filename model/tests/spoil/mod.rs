@@ -157,6 +157,12 @@ pub(crate) const SPOILS: &[Spoil] = &[
         },
     },
     Spoil {
+        name: "wheels of another size",
+        kinds: &["robot-file"],
+        shows: camera,
+        make: |robot, _| robot.wheel_radius_m *= 0.55,
+    },
+    Spoil {
         name: "supply of another battery",
         kinds: &["supply"],
         shows: duties,
