@@ -1,8 +1,8 @@
 //! Set points, commands, duties and supply against the counts.
 
 use nalgebra::{Matrix3, Vector3};
-use runs::robot::Robot;
-use runs::{Columns, Log, Run, drive_lacks};
+use runs::robot::{Robot, Support};
+use runs::{Columns, DutySource, Log, Run, drive_lacks};
 
 use super::samples::{Wheels, correlation};
 use super::{Mistake, common_ratio, is_true, near, short};
@@ -17,6 +17,10 @@ const BY_SPEED: f64 = 0.96;
 /// Time over which a wheel that follows its set point does not change its speed by as much as that: one that lags by 0.1 s
 /// is then no tenth off.
 const SETTLED_S: f64 = 1.0;
+/// Share of the time that an axis turns each way, from which a sign must show.
+const BOTH_WAYS: f64 = 0.1;
+/// Correlation with the size of the speed from which a column follows it.
+const SIZE: f64 = 0.3;
 /// Spans by which commands may run ahead.
 const LAGS: usize = 6;
 /// Samples from which anything is said.
@@ -41,6 +45,8 @@ struct Signals {
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let mut found = Vec::new();
     let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();
+    let currents = logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
+    found.extend(unsigned(robot, &signals, if currents { "current" } else { "duty" }));
     found.extend(references(robot, &signals));
     found.extend(commands(robot, &signals));
     found.extend(supply(robot, &signals));
@@ -99,6 +105,32 @@ fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
 fn slope(pairs: &[(f64, f64)]) -> f64 {
     let (xx, xy) = pairs.iter().fold((0.0, 0.0), |(xx, xy), (x, y)| (xx + x * x, xy + x * y));
     xy / xx
+}
+
+/// What drives an axis without its sign: never negative though the axis turns both ways. On an axis alone a load that pulls
+/// one way holds it positive as well; there it must be as large backwards as forwards, too.
+fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
+    let axes = signals.iter().map(|s| s.duty.len().min(s.speed.len())).max()?;
+    let of = |i: usize| -> Vec<(f64, f64)> {
+        let logs = signals.iter().filter(|s| i < s.duty.len());
+        let pairs = logs.flat_map(|s| s.duty[i].iter().copied().zip(s.speed[i].iter().copied()));
+        pairs.filter(|(duty, speed)| duty.is_finite() && speed.abs() > 1e-6).collect()
+    };
+    let lost = |i: &usize| {
+        let pairs = of(*i);
+        let back = pairs.iter().filter(|(_, speed)| *speed < 0.0).count();
+        let both = back.min(pairs.len() - back) as f64 >= BOTH_WAYS * pairs.len() as f64;
+        let size = correlation(pairs.iter().map(|(duty, speed)| (*duty, speed.abs())));
+        let sense = correlation(pairs.iter().copied());
+        let positive = pairs.iter().all(|(duty, _)| *duty >= 0.0);
+        let no_load = robot.support == Support::Floor || size > SIZE && size > 2.0 * sense.abs();
+        pairs.len() >= FEWEST && both && positive && no_load && pairs.iter().any(|(duty, _)| *duty > 0.0)
+    };
+    let wheel = (0..axes).find(lost)?;
+    let what = "it is never negative though the axis turns both ways: its sign is lost".to_owned();
+    let remedy =
+        "log it with its sign; where only its size is measured, give it that of the command or of the motor's voltage";
+    Some(Mistake::new("drive-unsigned", &format!("{stem}_{}", wheel + 1), what, remedy.to_owned()))
 }
 
 /// Set points in another unit, or speeds that are wrong beside them.

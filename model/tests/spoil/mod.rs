@@ -163,6 +163,12 @@ pub(crate) const SPOILS: &[Spoil] = &[
         make: |robot, _| robot.wheel_radius_m *= 0.55,
     },
     Spoil {
+        name: "duties without their sign",
+        kinds: &["drive-unsigned"],
+        shows: duties,
+        make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.duty).flatten().for_each(|d| *d = d.abs()),
+    },
+    Spoil {
         name: "supply of another battery",
         kinds: &["supply"],
         shows: duties,
