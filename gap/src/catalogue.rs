@@ -81,8 +81,8 @@ pub fn descriptions() -> Vec<Description> {
 
 fn describe(effect: &dyn Effect, robot: &Robot) -> Description {
     let mut parameters: Vec<Range> = Vec::new();
-    let plain = |name: &str| name.chars().map(|c| if c.is_ascii_digit() { 'i' } else { c }).collect::<String>();
     // Wheels have the same bounds; one of each name stands for all.
+    let plain = |name: &str| name.chars().map(|c| if c.is_ascii_digit() { 'i' } else { c }).collect::<String>();
     for p in effect.forms(robot).iter().flat_map(|form| &form.free) {
         let numbered = p.name.split('_').any(|part| part.parse::<usize>().is_ok());
         let name = if numbered { plain(&p.name) } else { p.name.clone() };

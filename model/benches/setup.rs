@@ -29,25 +29,32 @@ fn main() {
     };
     let mut rows = Vec::new();
     let mut said = Vec::new();
-    let mut good = |name: &str, kinds: Vec<(u64, String)>| {
-        let number = kinds.len();
-        let mut wrong = 0;
+    let mut good = |name: &str, kinds: &[(u64, String)], alone: bool| {
+        let (mut number, mut wrong) = (0, 0);
         for (seed, kind) in kinds {
-            let set = set(seed, &kind);
-            let mistakes = found(set.robot, &set.runs);
-            // An order of wheels that is hidden is there to be found.
-            let other = mistakes.iter().filter(|m| !m.nameable);
-            said.extend(other.clone().map(|m| format!("{kind} seed {seed}: {}", m.sentence())));
-            wrong += usize::from(other.count() > 0);
+            let set = set(*seed, kind);
+            for runs in set.runs.chunks(if alone { 1 } else { set.runs.len() }) {
+                let mistakes = found(set.robot.clone(), runs);
+                // An order of wheels that is hidden is there to be found.
+                let other = mistakes.iter().filter(|m| !m.nameable);
+                said.extend(
+                    other.clone().map(|m| format!("{name}, {kind} seed {seed}, {}: {}", runs[0].name, m.sentence())),
+                );
+                (number, wrong) = (number + 1, wrong + usize::from(other.count() > 0));
+            }
         }
         rows.push([name, &number.to_string(), &wrong.to_string(), "none"].map(str::to_owned).to_vec());
     };
-    good("hiding nothing", (0..EFFECT_FREE).map(|i| (7000 + i, "effect-free".to_owned())).collect());
+    let nothing: Vec<(u64, String)> = (0..EFFECT_FREE).map(|i| (7000 + i, "effect-free".to_owned())).collect();
     let effects = truth::catalogue();
     let hidden = |(i, e): (usize, &truth::Entry)| {
         [0, 1].map(|k| (7500 + 2 * i as u64 + k, format!("single:{}:{MIDDLE}", e.name)))
     };
-    good("hiding one effect", effects.enumerate().flat_map(hidden).collect());
+    let one: Vec<(u64, String)> = effects.enumerate().flat_map(hidden).collect();
+    good("hiding nothing", &nothing, false);
+    good("hiding one effect", &one, false);
+    good("one run alone, hiding nothing", &nothing, true);
+    good("one run alone, hiding one effect", &one, true);
     let sets: Vec<DataSet> = (0..SPOILED).map(|i| set(8000 + i, "effect-free")).collect();
     for spoil in SPOILS {
         let can: Vec<&DataSet> = sets.iter().filter(|set| (spoil.shows)(set)).collect();

@@ -75,7 +75,6 @@ pub fn strangers(robot: &Robot, own: &[Arc<dyn Effect>]) -> Vec<Stranger> {
                 || simulated && !unread.contains(&(name.clone(), parameter.clone()))
         };
         let (parameter, _) = written.parameters.iter().find(|(parameter, _)| !known(parameter))?;
-        names.dedup();
         let listed: Vec<&str> = names.iter().map(String::as_str).collect();
         Some(Stranger {
             effect,

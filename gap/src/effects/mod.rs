@@ -59,13 +59,13 @@ use crate::effect::Effect;
 
 pub(crate) use fits::fits;
 
+/// By how much a size of a robot may differ from its drawing: beyond that `check` takes the drawing for another robot's.
+const SIZES: [f64; 2] = [1.0 / TRUE_RATIO - 1.0, TRUE_RATIO - 1.0];
+
 /// All effects fitted on the motion and drive links, in the order in which equals are named.
 pub fn catalogue() -> Vec<Box<dyn Effect>> {
     catalogue_for(0)
 }
-
-/// By how much a size of a robot may differ from its drawing: beyond that `check` takes the drawing for another robot's.
-const SIZES: [f64; 2] = [1.0 / TRUE_RATIO - 1.0, TRUE_RATIO - 1.0];
 
 /// The same for a data set of this many runs: some effects have parameters of each run.
 pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {

@@ -205,8 +205,7 @@ fn fit(
 }
 
 /// Camera's turn per turn by the counts beside what skewed wheels make of ways: true turns are a linear function of turns
-/// and ways by the counts. `None` where a
-/// robot drives one curve, along which turns and ways are one.
+/// and ways by the counts. `None` where a robot drives one curve, along which turns and ways are one.
 fn spin(information: &Matrix3<f64>, score: &Vector3<f64>) -> Option<f64> {
     let unit = information.diagonal().map(|x| x.sqrt().max(1e-300));
     let scaled = information.component_div(&(unit * unit.transpose()));
