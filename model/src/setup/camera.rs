@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Vector3};
 use runs::Log;
+use runs::frames::Twist;
 use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
 
@@ -58,11 +59,10 @@ struct Fit {
     turn: f64,
     /// Relative standard error of that scale.
     error: f64,
-    /// Whether the robot turns, by the counts, and by the camera.
+    /// Whether the robot turns, by the counts, and by the camera; and whether it goes anywhere.
     turns: bool,
     seen_to_turn: bool,
-    /// Camera's turn per turn by the counts; none where the robot hardly turns, or only as its ways have it.
-    spin: Option<f64>,
+    goes: bool,
     /// Share of the motion that is left.
     left: f64,
     /// The same of the way alone, and of the turn alone.
@@ -112,7 +112,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     let as_good = |left: f64, best: f64| left <= EQUAL.0 * best + EQUAL.1;
     let equal = |f: &&Fit| as_good(f.left, best) && as_good(f.left_way, best_way);
     let found = fits.iter().filter(equal).min_by(|a, b| (a.wrong + a.left).total_cmp(&(b.wrong + b.left)));
-    let mut mistakes = found.map_or_else(Vec::new, |fit| named(robot, fit, before));
+    let mut mistakes = found.map_or_else(Vec::new, |fit| named(robot, fit, spin(&geometry, &moving, fit), before));
     let gained = robot.wheel_radius_m * moving.iter().map(|s| s.acceleration).fold(0.0, f64::max);
     if gained > GRAVITY {
         for mistake in &mut mistakes {
@@ -144,14 +144,9 @@ fn fit(
 ) -> Fit {
     let (mut pp, mut re, mut im, mut bb) = (0.0, 0.0, 0.0, 0.0);
     let (mut ww, mut wt, mut tt) = (0.0, 0.0, 0.0);
-    // Of turn and way by the counts, and with the camera's turn.
-    let (mut information, mut score) = (Matrix3::zeros(), Vector3::zeros());
     let mut turned = vec![0.0; order.len()];
     for (s, ([bx, by], turn)) in samples.iter().zip(seen) {
-        for (i, (wheel, sign)) in order.iter().enumerate() {
-            turned[*wheel] = sign * s.turned[i];
-        }
-        let p = geometry.twist(&turned);
+        let p = by_counts(geometry, &order, s, &mut turned);
         pp += p.vx * p.vx + p.vy * p.vy;
         re += bx * p.vx + by * p.vy;
         im += by * p.vx - bx * p.vy;
@@ -159,9 +154,6 @@ fn fit(
         ww += p.omega * p.omega;
         wt += p.omega * turn;
         tt += turn * turn;
-        let by_counts = Vector3::new(p.omega, p.vx, p.vy);
-        information += by_counts * by_counts.transpose();
-        score += by_counts * *turn;
     }
     let left_t = if bb > 0.0 { 1.0 - (re * re + im * im) / (pp * bb).max(1e-300) } else { 1.0 };
     let scale = re.hypot(im) / pp.max(1e-300);
@@ -183,7 +175,6 @@ fn fit(
     let camera = if image { 1.0 } else { f64::from(u8::from(reading.clockwise)) + f64::from(u8::from(reading.down)) };
     let only_turns = turns && !goes;
     let (scale, turn) = if only_turns { (wt / ww.max(1e-300), 0.0) } else { (scale, im.atan2(re)) };
-    let spin = if only_turns { Some(scale) } else { spin(&information, &score).filter(|_| turns) };
     let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
@@ -196,7 +187,7 @@ fn fit(
         error,
         turns,
         seen_to_turn,
-        spin,
+        goes,
         left,
         left_way: left_t,
         left_turn: left_r,
@@ -204,9 +195,31 @@ fn fit(
     }
 }
 
+/// Displacement by the counts, the wheels in some order; `turned` is room for their turns.
+fn by_counts(geometry: &Geometry, order: &[(usize, f64)], s: &Sample, turned: &mut [f64]) -> Twist {
+    for (i, (wheel, sign)) in order.iter().enumerate() {
+        turned[*wheel] = sign * s.turned[i];
+    }
+    geometry.twist(turned)
+}
+
 /// Camera's turn per turn by the counts beside what skewed wheels make of ways: true turns are a linear function of turns
-/// and ways by the counts. `None` where a robot drives one curve, along which turns and ways are one.
-fn spin(information: &Matrix3<f64>, score: &Vector3<f64>) -> Option<f64> {
+/// and ways by the counts. `None` where a robot hardly turns, or drives one curve, along which turns and ways are one.
+fn spin(geometry: &Geometry, samples: &[Sample], fit: &Fit) -> Option<f64> {
+    if !fit.turns {
+        return None;
+    }
+    if !fit.goes {
+        return Some(fit.scale);
+    }
+    let (mut information, mut score) = (Matrix3::zeros(), Vector3::zeros());
+    let mut turned = vec![0.0; fit.order.len()];
+    for s in samples {
+        let p = by_counts(geometry, &fit.order, s, &mut turned);
+        let row = Vector3::new(p.omega, p.vx, p.vy);
+        information += row * row.transpose();
+        score += row * body(s, fit.reading).1;
+    }
     let unit = information.diagonal().map(|x| x.sqrt().max(1e-300));
     let scaled = information.component_div(&(unit * unit.transpose()));
     // A direction without motion, such as sideways on two wheels, asks for nothing.
@@ -216,7 +229,7 @@ fn spin(information: &Matrix3<f64>, score: &Vector3<f64>) -> Option<f64> {
     (own > ALONG).then(|| solved[0] / unit[0])
 }
 
-fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
+fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec<Mistake> {
     let mut found = Vec::new();
     let new = |kind, column: &str, what: String, remedy: &str| Mistake::new(kind, column, what, remedy.to_owned());
     if fit.left > FITS {
@@ -273,7 +286,7 @@ fn named(robot: &Robot, fit: &Fit, before: &[Mistake]) -> Vec<Mistake> {
                       forward, write x_m = -y, y_m = x and drive_rad + pi/2";
         found.push(new("heading-axis", "cam_theta", what, remedy));
     }
-    let spin = fit.spin.unwrap_or(fit.scale);
+    let spin = spin.unwrap_or(fit.scale);
     let told = |kinds: &[&str]| before.iter().any(|m| kinds.contains(&m.kind));
     let distances = ["wheel-diameter", "encoder-counts", "gear-ratio"];
     // Where distances by the counts are wrong, too, turns tell how far.

@@ -103,8 +103,8 @@ pub(super) fn of_camera(robot: &Robot, log: &Log) -> Vec<Sample> {
     let best = (-steps..=steps).map(|k| f64::from(k) * LAGS_S.1).map(|lag| (fit(lag), lag));
     let lag = best.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1);
     let sample = |(i, j): &(usize, usize)| {
-        let turned = wheels.turned(frames[*i].t - lag, frames[*j].t - lag)?;
         let [from, to] = [i, j].map(|k| frames[*k].t - lag);
+        let turned = wheels.turned(from, to)?;
         let first = wheels.turned(from, 0.5 * (from + to))?;
         let change = turned.iter().zip(&first).map(|(all, first)| (all - 2.0 * first).abs()).fold(0.0, f64::max);
         let acceleration = change / (0.5 * (to - from)).powi(2);

@@ -28,15 +28,18 @@ pub(super) fn open(folder: &Path, robot: Option<&Path>) -> Result<Logs<'static>,
     })
 }
 
+/// The robot's file of a data set, or another.
+#[cfg(feature = "simulation")]
+pub(super) fn robot_file(folder: &Path, robot: Option<&Path>) -> PathBuf {
+    robot.map_or_else(|| folder.join("robot.toml"), Path::to_owned)
+}
+
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let set = open(&self.data_set, self.robot.as_deref())?;
         // The robot's own binary, which simulates nothing, has no catalogue.
         #[cfg(feature = "simulation")]
-        {
-            let file = self.robot.clone().unwrap_or_else(|| self.data_set.join("robot.toml"));
-            super::options::known_effects(&file, &set.robot, None)?;
-        }
+        super::options::known_effects(&robot_file(&self.data_set, self.robot.as_deref()), &set.robot, None)?;
         let found = mistakes(&set);
         let mut text = String::new();
         for note in set.notes() {

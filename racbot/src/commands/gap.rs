@@ -58,8 +58,7 @@ impl Options {
         let Some(folder) = &self.data_set else { return Err(Failure::usage("<DATASET> is missing")) };
         let set = super::check::open(folder, self.robot.as_deref())?;
         let own = self.own()?;
-        let file = self.robot.clone().unwrap_or_else(|| folder.join("robot.toml"));
-        known_effects(&file, &set.robot, Some(&own))?;
+        known_effects(&super::check::robot_file(folder, self.robot.as_deref()), &set.robot, Some(&own))?;
         let hints = super::check::first_stage(folder, &set, self.target.forced())?;
         let out = self.target.place(self.out.as_deref(), "out/gap");
         self.target.check_free(["gap.json", "report.html", "robot.toml"].map(|name| out.join(name)))?;
