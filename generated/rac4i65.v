@@ -250,6 +250,8 @@ module rac4i65_core (
     reg safety_stall_fault;
 
     wire safety_armed;
+    wire safety_stops;
+    wire safety_off;
     wire safety_setpoints_valid;
     wire [7:0] safety_faults;
     wire [7:0] safety_first_fault;
@@ -705,6 +707,8 @@ module rac4i65_core (
         .tick(tick),
         .set_point_timeout(registers_set_point_timeout),
         .armed(safety_armed),
+        .stops(safety_stops),
+        .off(safety_off),
         .setpoints_valid(safety_setpoints_valid),
         .faults(safety_faults),
         .first_fault(safety_first_fault),
@@ -958,6 +962,7 @@ module rac4i65_core (
     rac4i65_core_drives drives_0(
         .clock(lclk),
         .enable(safety_armed),
+        .stops(safety_stops),
         .period(registers_pwm_period),
         .blanking(registers_pwm_blanking),
         .load(drives_0_load),
@@ -973,6 +978,7 @@ module rac4i65_core (
     rac4i65_core_drives drives_1(
         .clock(lclk),
         .enable(safety_armed),
+        .stops(safety_stops),
         .period(registers_pwm_period),
         .blanking(registers_pwm_blanking),
         .load(drives_1_load),
@@ -988,6 +994,7 @@ module rac4i65_core (
     rac4i65_core_drives drives_2(
         .clock(lclk),
         .enable(safety_armed),
+        .stops(safety_stops),
         .period(registers_pwm_period),
         .blanking(registers_pwm_blanking),
         .load(drives_2_load),
@@ -1003,6 +1010,7 @@ module rac4i65_core (
     rac4i65_core_drives drives_3(
         .clock(lclk),
         .enable(safety_armed),
+        .stops(safety_stops),
         .period(registers_pwm_period),
         .blanking(registers_pwm_blanking),
         .load(drives_3_load),
@@ -1453,19 +1461,24 @@ module rac4i65_core (
 
     always @(*) begin
         pwm = pwm_pins;
-        enable_n = all;
-        if (safety_armed & alive) begin
-            enable_n = none;
-        end
-        else begin
+        if (~alive) begin
             pwm = none;
         end
     end
 
     always @(*) begin
         dir = dir_pins;
-        if (registers_mode[32'h3] & ~(safety_armed & alive)) begin
+        if (registers_mode[32'h3] & ~alive) begin
             dir = none;
+        end
+    end
+
+    always @(*) shut = safety_off | ~alive;
+
+    always @(*) begin
+        enable_n = none;
+        if (shut) begin
+            enable_n = all;
         end
     end
 
@@ -1478,9 +1491,8 @@ module rac4i65_core (
         kicker_by_time = registers_kicker_control[32'h3];
     end
 
-    always @(*) kicker_charge_n = ~(kicker_charge & safety_armed & alive);
-    always @(*) kicker_trigger_n = ~(kicker_trigger & safety_armed & alive);
-    always @(*) shut = ~(safety_armed & alive);
+    always @(*) kicker_charge_n = ~(kicker_charge & ~shut);
+    always @(*) kicker_trigger_n = ~(kicker_trigger & ~shut);
     always @(*) holds = registers_kicker_control[32'h2] & ~safety_stopped & alive;
     always @(*) kicker_discharge = shut & ~holds;
     always @(*) registers_radio = ((radio_selected) & 24'hffffff) | (((radio_accepted) & 24'hffffff) << 32'h8) | (((radio_dropped) & 24'hffffff) << 32'h10);
@@ -1754,7 +1766,7 @@ module rac4i65_core_registers (
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h931b468a;
+    localparam content_hash = 32'h0662772f;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -3002,6 +3014,8 @@ module rac4i65_core_safety (
     input wire tick,
     input wire [15:0] set_point_timeout,
     output reg armed,
+    output reg stops,
+    output reg off,
     output reg setpoints_valid,
     output reg [7:0] faults,
     output reg [7:0] first_fault,
@@ -3043,6 +3057,9 @@ module rac4i65_core_safety (
 
     reg is_armed_d;
     wire is_armed_q;
+
+    reg is_off_d;
+    wire is_off_q;
 
     reg has_setpoint_d;
     wire has_setpoint_q;
@@ -3086,6 +3103,7 @@ module rac4i65_core_safety (
     rac4i65_core_dff_16 age (.d(age_d), .q(age_q), .clock(clock));
     rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(clock));
     rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(clock));
+    rac4i65_core_dff_1_from_1 is_off (.d(is_off_d), .q(is_off_q), .clock(clock));
     rac4i65_core_dff_1 has_setpoint (.d(has_setpoint_d), .q(has_setpoint_q), .clock(clock));
     rac4i65_core_dff_8 sticky (.d(sticky_d), .q(sticky_q), .clock(clock));
     rac4i65_core_dff_8 first (.d(first_d), .q(first_q), .clock(clock));
@@ -3159,6 +3177,11 @@ module rac4i65_core_safety (
     always @(*) arms = is_second_word & first_word_q & ~standing;
 
     always @(*) begin
+        is_off_d = (~stays_armed);
+        stops = ~stays_armed;
+    end
+
+    always @(*) begin
         event_watchdog = none;
         if (bitten) begin
             event_watchdog = watchdog_bit;
@@ -3210,6 +3233,7 @@ module rac4i65_core_safety (
     always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused | event_stall;
     always @(*) first_kept = first_q & ~clear_faults;
     always @(*) armed = is_armed_q;
+    always @(*) off = is_off_q[32'h0];
     always @(*) setpoints_valid = has_setpoint_q;
     always @(*) faults = sticky_q;
     always @(*) first_fault = first_q;
@@ -7838,6 +7862,7 @@ endmodule
 module rac4i65_core_drives (
     input wire clock,
     input wire enable,
+    input wire stops,
     input wire [12:0] period,
     input wire [9:0] blanking,
     input wire load,
@@ -7956,7 +7981,7 @@ module rac4i65_core_drives (
 
     always @(*) begin
         pwm_pin_d = pwm_pin_q;
-        pwm_pin_d = permitted & running & aligned & ~(coming_q > active_compare_q);
+        pwm_pin_d = permitted & ~stops & running & aligned & ~(coming_q > active_compare_q);
     end
 
     always @(*) begin
@@ -8005,6 +8030,21 @@ module rac4i65_core_dff_1 (
 
     initial begin
         q = 1'h0;
+    end
+
+    always @(posedge clock) begin
+        q <= d;
+    end
+endmodule
+
+module rac4i65_core_dff_1_from_1 (
+    input wire d,
+    output reg q,
+    input wire clock
+);
+
+    initial begin
+        q = 1'h1;
     end
 
     always @(posedge clock) begin

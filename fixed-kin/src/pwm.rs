@@ -7,7 +7,7 @@
 //!
 //! | what | clocks |
 //! |---|---|
-//! | `enable` low to `pwm` low | 1 |
+//! | `enable` low or `stops` to `pwm` low | 1 |
 //! | `load` to a change at the pin | 2 after the next period start, up to period + 2 |
 //! | `period_start` before the first clock of a period at the pin | 1 |
 //! | `pwm` low before `dir` changes, and after it | at least blanking + 1 |
@@ -32,6 +32,8 @@ pub const BLANKING_MASK: u16 = 0x3FF;
 pub struct Inputs {
     /// Outputs may be on; false forces `pwm` low and forgets the set point.
     pub enable: bool,
+    /// Level: the outputs are off after this clock; forces `pwm` low with them, a clock before `enable` does.
+    pub stops: bool,
     /// Period in clocks, 13 bits; 0 = off.
     pub period: u16,
     /// Blanking in clocks, 10 bits.
@@ -118,6 +120,7 @@ impl Pwm {
         }
         self.settled = inputs.enable && !turns && (before.settled || long_quiet);
         self.pulse = inputs.enable
+            && !inputs.stops
             && period != 0
             && aligned
             && (before.settled || long_quiet)
@@ -140,6 +143,7 @@ mod tests {
 
     const OFF: Inputs = Inputs {
         enable: false,
+        stops: false,
         period: 0,
         blanking: 0,
         load: false,

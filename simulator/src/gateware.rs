@@ -10,8 +10,9 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream: of 1 and 2 the one with the greater least slack (-1.52 and 2.26 ns).
-pub const SEED: u64 = 2;
+/// Seed of the committed bitstream: of 1 to 8 the one with the greatest least slack (3.20 ns; the others 0.26 to
+/// 3.16 ns). Whoever changes the gateware tries them again.
+pub const SEED: u64 = 4;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 

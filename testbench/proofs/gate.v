@@ -1,6 +1,9 @@
-// The one gate that everything passes which can move a motor or fire the kicker: not armed, or no
-// bus clock, and every pin is off.
+// Whatever can move a motor or fire the kicker: not armed, or no bus clock, and every pin is off.
 wire formal_on = |pwm || (registers_mode[3] && |dir) || !(&enable_n) || !kicker_charge_n || !kicker_trigger_n;
+reg formal_stops = 1;
+always @(posedge lclk) formal_stops <= safety_stops;
+// Proof "safety".
+always @(*) assume (safety_armed == !formal_stops && safety_off == formal_stops);
 // Who commands: a host that does not reaches two registers, and the radio never in a clock of the bus.
 always @(*) begin
     // Proof "bus".

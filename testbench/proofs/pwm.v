@@ -10,7 +10,7 @@ always @(*) begin
     if (up_down && pwm) assert (!formal_reverse);
 end
 
-reg formal_running = 0, formal_pwm, formal_dir, formal_enable;
+reg formal_running = 0, formal_pwm, formal_dir, formal_enable, formal_stops = 1;
 reg [9:0] formal_blanking;
 reg [10:0] formal_low = 0;  // clocks before this one for which pwm was low
 reg [10:0] formal_age = 0;  // clocks before this one since dir changed
@@ -22,6 +22,7 @@ always @(posedge clock) begin
     formal_pwm <= formal_pulse;
     formal_dir <= formal_reverse;
     formal_enable <= enable;
+    formal_stops <= stops;
     formal_blanking <= blanking;
     formal_low <= formal_pulse ? 11'd0 : formal_low + !(&formal_low);
     formal_age <= formal_since + !(&formal_since);
@@ -37,4 +38,6 @@ always @(*) if (formal_running) begin
     if (settled_q) assert (formal_since >= blanking);
     if (!formal_enable) assert (!settled_q && quiet_q == 0);
 end
+// After a clock with `stops` there is no pulse at either pin, whatever the mode.
+always @(*) if (formal_stops) assert (!pwm && (!up_down || !dir));
 always @(*) if (!formal_running) assert (!formal_pulse && !settled_q && quiet_q == 0);

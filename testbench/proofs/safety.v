@@ -5,6 +5,7 @@
 // the arm register (writes come two clocks apart: bus.v).
 reg formal_running = 0, formal_armed = 0, formal_released = 0, formal_fault = 1, formal_write = 0;
 reg [23:0] formal_timeout = 0;
+reg formal_stops = 1;
 reg formal_stopped = 1;         // the filtered emergency stop (filter.v: 18 clocks behind the pin)
 reg [24:0] formal_silence = 0;  // clocks since the last pet, or since the time-out changed
 reg formal_first = 0;           // the last write to the arm register was its first word
@@ -20,6 +21,7 @@ wire formal_second = arm_write && arm_data == 32'h41524d32;
 always @(posedge clock) begin
     formal_running <= 1;
     formal_armed <= armed;
+    formal_stops <= stops;
     formal_fault <= encoder_fault || stall_fault || external_fault;
     formal_timeout <= watchdog_timeout;
     formal_stopped <= !released_value;
@@ -39,6 +41,8 @@ always @(*) begin
     if (formal_running && (formal_armed || formal_write || arm_write)) assume (watchdog_timeout == formal_timeout);
     if (!formal_running) assert (!armed && !setpoints_valid);
     if (formal_stopped || formal_fault) assert (!armed);
+    // What the pins see of it.
+    assert (armed == !formal_stops && off == formal_stops);
     assert (released_pin == !emergency_stop && released_tick && !released_load);
     if (armed) assert (formal_silence <= watchdog_timeout);
     if (armed && !formal_armed) assert (formal_released);

@@ -4,11 +4,12 @@ use super::{FlowError, Progress, Stage};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What yosys does between reading a design and writing its netlist. Cells are mapped with carry chains, wide
-/// multiplexers, block memories, buffers of pads and of clocks.
+/// What yosys does between reading a design and writing its netlist. Cells are mapped with carry chains, block
+/// memories, buffers of pads and of clocks; without multiplexers of tables, which take more tables here than
+/// multiplexers made of tables do.
 #[must_use]
 pub fn commands(top: &str) -> String {
-    format!("synth_xilinx -family xcv -top {top} -flatten")
+    format!("synth_xilinx -family xcv -top {top} -flatten -nowidelut")
 }
 
 /// The whole script, from `design.v` to `netlist.json`.

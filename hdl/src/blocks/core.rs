@@ -11,8 +11,9 @@
 //!
 //! Ports carry the names and levels of the pins, but for `lad`, which the emitted top file joins
 //! from `lad_in`, `lad_out` and `lad_drive`, and for `board` and `clock_hz`, two constants by which each
-//! board's top says whose pins are driven. Whatever can move a motor or fire the kicker passes
-//! one gate at the end: `armed` and a live clock, seen by the monitor on the crystal. The kicker's
+//! board's top says whose pins are driven. Whatever can move a motor or fire the kicker is off at the pins in
+//! the clock in which `armed` is low (the pulses fall with it in their own flip-flops, all else passes a gate),
+//! and at once without a live clock, seen by the monitor on the crystal. The kicker's
 //! capacitor is discharged, active high as an unconfigured pin is, whenever that gate is shut, unless
 //! the host asked to hold the charge and neither the emergency stop nor a dead clock overrules it.
 //!
@@ -561,6 +562,7 @@ impl Logic for Core {
         self.alive.next = !self.monitor.lclk_dead.val();
         for i in 0..4 {
             self.drives[i].enable.next = self.safety.armed.val();
+            self.drives[i].stops.next = self.safety.stops.val();
             self.drives[i].period.next = self.registers.pwm_period.val();
             self.drives[i].blanking.next = self.registers.pwm_blanking.val();
             self.drives[i].compare.next = self.compare.val();
@@ -611,14 +613,16 @@ impl Logic for Core {
             | (bit_cast::<4, 1>(self.drives[3].dir.val().into()) << 3);
         self.pwm.next = self.pwm_pins.val();
         self.dir.next = self.dir_pins.val();
-        if self.registers.mode.val().get_bit(3) & !(self.safety.armed.val() & self.alive.val()) {
+        self.shut.next = self.safety.off.val() | !self.alive.val();
+        if !self.alive.val() {
+            self.pwm.next = self.none.val();
+        }
+        if self.registers.mode.val().get_bit(3) & !self.alive.val() {
             self.dir.next = self.none.val();
         }
-        self.enable_n.next = self.all.val();
-        if self.safety.armed.val() & self.alive.val() {
-            self.enable_n.next = self.none.val();
-        } else {
-            self.pwm.next = self.none.val();
+        self.enable_n.next = self.none.val();
+        if self.shut.val() {
+            self.enable_n.next = self.all.val();
         }
 
         // Safety and kicker.
@@ -646,10 +650,9 @@ impl Logic for Core {
         self.kicker.full.next = self.kicker_full.val();
         self.kicker.by_time.next = self.registers.kicker_control.val().get_bit(3);
         self.kicker.clear.next = self.registers.clear_kicker.val();
-        self.kicker_charge_n.next = !(self.kicker.charge.val() & self.safety.armed.val() & self.alive.val());
-        self.kicker_trigger_n.next = !(self.kicker.trigger.val() & self.safety.armed.val() & self.alive.val());
+        self.kicker_charge_n.next = !(self.kicker.charge.val() & !self.shut.val());
+        self.kicker_trigger_n.next = !(self.kicker.trigger.val() & !self.shut.val());
 
-        self.shut.next = !(self.safety.armed.val() & self.alive.val());
         self.holds.next =
             self.registers.kicker_control.val().get_bit(2) & !self.safety.stopped.val() & self.alive.val();
         self.kicker_discharge.next = self.shut.val() & !self.holds.val();

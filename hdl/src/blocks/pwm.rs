@@ -31,7 +31,8 @@
 //!
 //! Timing: the pin is one clock behind the phase; `period_start` is high in the clock before the
 //! first clock of a period at the pin. `enable` low takes `pwm` low in one clock, clears shadow
-//! and active set point and holds `dir`; the blanking time runs again after it. The phase runs on
+//! and active set point and holds `dir`; the blanking time runs again after it. `stops` takes `pwm` low
+//! in the clock in which `enable` falls, so that the pin needs no gate for it. The phase runs on
 //! while disabled. `sync` starts a period; the core syncs the axes a quarter of a period apart, so that
 //! they do not draw their pulses from the supply together. A compare of zero asks for no
 //! direction. Serves `pwm_period`, `pwm_blanking`, `mode`. Limits: period up to 8191 clocks (4 kHz at 33 MHz), blanking up to 1023 (30 µs).
@@ -47,6 +48,8 @@ pub struct Pwm {
     pub clock: Signal<In, Clock>,
     /// Outputs may be on.
     pub enable: Signal<In, Bit>,
+    /// The outputs are off at the next clock.
+    pub stops: Signal<In, Bit>,
     /// Period in clocks; 0 = off.
     pub period: Signal<In, Bits<13>>,
     /// Blanking in clocks.
@@ -146,6 +149,7 @@ impl Logic for Pwm {
         self.permitted.next = self.enable.val() & (self.settled.q.val() | self.long_quiet.val());
         self.settled.d.next = self.permitted.val() & !self.turns.val();
         self.pwm_pin.d.next = self.permitted.val()
+            & !self.stops.val()
             & self.running.val()
             & self.aligned.val()
             & !(self.coming.q.val() > self.active_compare.q.val());

@@ -25,7 +25,7 @@
 //! Limits: the longest time-out is 2²⁴ − 1 clocks, 0.5 s at 33 MHz.
 
 use super::encoder::GlitchFilter;
-use crate::primitives::Literal;
+use crate::primitives::{Literal, Preset};
 use fixed_kin::safety::{ARM_FIRST, ARM_SECOND, EMERGENCY_STOP_FILTER, Fault};
 use rust_hdl::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -63,6 +63,10 @@ pub struct Safety {
     pub set_point_timeout: Signal<In, Bits<16>>,
     /// The outputs of the card may be on.
     pub armed: Signal<Out, Bit>,
+    /// `armed` is low after this clock.
+    pub stops: Signal<Out, Bit>,
+    /// Not armed: a flip-flop for the pins alone, so that their paths are short.
+    pub off: Signal<Out, Bit>,
     /// A set point has come since arming.
     pub setpoints_valid: Signal<Out, Bit>,
     /// Sticky faults.
@@ -78,6 +82,7 @@ pub struct Safety {
     is_stopped: Signal<Local, Bit>,
     first_word: DFF<Bit>,
     is_armed: DFF<Bit>,
+    is_off: Preset<1, 1>,
     has_setpoint: DFF<Bit>,
     sticky: DFF<Bits<8>>,
     first: DFF<Bits<8>>,
@@ -115,7 +120,7 @@ pub struct Safety {
 impl Logic for Safety {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, released);
+        clock!(self, clock, released, is_off);
         dff_setup!(self, clock, remaining, age, first_word, is_armed, has_setpoint, sticky, first);
 
         // Inverted before its first flop, so that the power-up zero means "stopped".
@@ -159,6 +164,8 @@ impl Logic for Safety {
             self.first_word.d.next = false;
         }
         self.is_armed.d.next = self.stays_armed.val();
+        self.is_off.d.next = (!self.stays_armed.val()).into();
+        self.stops.next = !self.stays_armed.val();
         self.has_setpoint.d.next = self.stays_armed.val()
             & ((self.has_setpoint.q.val() & !self.stale.val()) | (self.is_armed.q.val() & self.pet.val()));
 
@@ -205,6 +212,7 @@ impl Logic for Safety {
         }
 
         self.armed.next = self.is_armed.q.val();
+        self.off.next = self.is_off.q.val().get_bit(0);
         self.setpoints_valid.next = self.has_setpoint.q.val();
         self.faults.next = self.sticky.q.val();
         self.first_fault.next = self.first.q.val();

@@ -7,7 +7,7 @@ use fixed_kin::pwm::{BLANKING_MASK, Inputs, Outputs, PERIOD_MASK};
 use rand::RngExt;
 use rust_hdl::prelude::*;
 
-columns!(Inputs { enable, period, blanking, load, compare, direction, sync, up_down });
+columns!(Inputs { enable, stops, period, blanking, load, compare, direction, sync, up_down });
 columns!(Outputs { pwm, dir, period_start, position });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
@@ -16,6 +16,7 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
     block.connect_all();
     move |inputs| {
         block.enable.next = inputs.enable;
+        block.stops.next = inputs.stops;
         block.period.next = inputs.period.to_bits();
         block.blanking.next = inputs.blanking.to_bits();
         block.load.next = inputs.load;
@@ -74,8 +75,9 @@ pub fn stimulus(seed: u64, clocks: usize) -> Vec<Inputs> {
                 direction ^= random.random_range(0..8) < reversal_of_8;
             }
             let enable = random.random_range(0..4_096) >= drop_of_4096;
+            let stops = random.random_range(0..4_096) < drop_of_4096;
             let sync = random.random_range(0..1_024) < sync_of_1024;
-            rows.push(Inputs { enable, period, blanking, load, compare, direction, sync, up_down });
+            rows.push(Inputs { enable, stops, period, blanking, load, compare, direction, sync, up_down });
         }
     }
     rows.truncate(clocks);

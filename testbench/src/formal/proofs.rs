@@ -17,7 +17,8 @@ pub const PROOFS: &[Proof] = &[
             mutant("turns at once", "& long_quiet & ~pwm_pin_q", "& ~pwm_pin_q"),
             mutant("rises at once", "enable & (settled_q | long_quiet)", "enable"),
             mutant("up and down together", "dir = pwm_pin_q & dir_pin_q", "dir = pwm_pin_q"),
-            mutant("ignores the enable", "permitted & running & aligned", "running & aligned"),
+            mutant("ignores the enable", "permitted & ~stops & running", "~stops & running"),
+            mutant("outlasts the arming", "permitted & ~stops & running", "permitted & running"),
         ],
         ..proof(
             "pwm",
@@ -34,6 +35,7 @@ pub const PROOFS: &[Proof] = &[
             mutant("a fault does not disarm", "stays_armed = is_armed_q & ~standing", "stays_armed = is_armed_q"),
             mutant("one word arms", "is_second_word & first_word_q & ~standing", "is_second_word & ~standing"),
             mutant("no watchdog", "standing = bitten | is_stopped", "standing = is_stopped"),
+            mutant("the pins stay on", "is_off_d = (~stays_armed)", "is_off_d = (~is_armed_q)"),
             mutant("a stall does not count", " | stall_fault | external_fault", " | external_fault"),
             mutant("set points last for ever", "has_setpoint_q & ~stale", "has_setpoint_q"),
             mutant(
@@ -69,7 +71,6 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_monitor",
             "rac4i65_core_sequencer",
             "rac4i65_core_encoders",
-            "rac4i65_core_drives",
             "rac4i65_core_stalls",
             "rac4i65_core_trigonometry",
             "rac4i65_core_interrupt",
@@ -79,13 +80,15 @@ pub const PROOFS: &[Proof] = &[
         mutants: &[
             mutant("two masters", "radio_turn = radio_offer & ~bus_claims", "radio_turn = radio_offer"),
             mutant("the host commands always", "(bus_write_2 & ~radio_selected)", "bus_write_2"),
-            mutant("a dead clock keeps the bridges on", "if (safety_armed & alive) begin", "if (safety_armed) begin"),
-            mutant("discharges while armed", "kicker_discharge = shut & ~holds", "kicker_discharge = ~holds"),
+            mutant("a dead clock keeps the bridges on", "shut = safety_off | ~alive", "shut = safety_off"),
+            mutant("a dead clock keeps the pulses on", "if (~alive) begin", "if (1'b0) begin"),
             mutant(
-                "the trigger passes unarmed",
-                "~(kicker_trigger & safety_armed & alive)",
-                "~(kicker_trigger & alive)",
+                "a drive is not told",
+                "drives_2(\n        .clock(lclk),\n        .enable(safety_armed),\n        .stops(safety_stops)",
+                "drives_2(\n        .clock(lclk),\n        .enable(safety_armed),\n        .stops(1'b0)",
             ),
+            mutant("discharges while armed", "kicker_discharge = shut & ~holds", "kicker_discharge = ~holds"),
+            mutant("the trigger passes unarmed", "~(kicker_trigger & ~shut)", "~(kicker_trigger & alive)"),
         ],
         ..proof(
             "gate",
