@@ -1766,7 +1766,7 @@ module rac4i65_core_registers (
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h0662772f;
+    localparam content_hash = 32'h67e12795;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -3233,7 +3233,7 @@ module rac4i65_core_safety (
     always @(*) events = event_watchdog | event_stop | event_encoder | event_commit | event_external | event_refused | event_stall;
     always @(*) first_kept = first_q & ~clear_faults;
     always @(*) armed = is_armed_q;
-    always @(*) off = is_off_q[32'h0];
+    always @(*) off = |is_off_q;
     always @(*) setpoints_valid = has_setpoint_q;
     always @(*) faults = sticky_q;
     always @(*) first_fault = first_q;

@@ -10,9 +10,9 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream: of 1 to 8 the one with the greatest least slack (3.20 ns; the others 0.26 to
-/// 3.16 ns). Whoever changes the gateware tries them again.
-pub const SEED: u64 = 4;
+/// Seed of the committed bitstream: of 1 to 8 the one with the greatest least slack (3.32 ns; the others 1.20 to
+/// 2.88 ns). Whoever changes the gateware tries them again.
+pub const SEED: u64 = 5;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 

@@ -212,7 +212,7 @@ impl Logic for Safety {
         }
 
         self.armed.next = self.is_armed.q.val();
-        self.off.next = self.is_off.q.val().get_bit(0);
+        self.off.next = self.is_off.q.val().any();
         self.setpoints_valid.next = self.has_setpoint.q.val();
         self.faults.next = self.sticky.q.val();
         self.first_fault.next = self.first.q.val();
