@@ -112,10 +112,14 @@ pub struct Inputs {
 }
 
 /// Outputs of the block after a clock.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outputs {
     /// The outputs of the card may be on.
     pub armed: bool,
+    /// `armed` is low after the next clock, if the inputs stay as they are.
+    pub stops: bool,
+    /// Not `armed`.
+    pub off: bool,
     /// A set point has come since arming and has not timed out.
     pub setpoints_valid: bool,
     /// Sticky faults, bits as in [`Fault`].
@@ -124,6 +128,13 @@ pub struct Outputs {
     pub first_fault: u8,
     /// The emergency stop stands, synchronised and filtered.
     pub stopped: bool,
+}
+
+impl Default for Outputs {
+    /// Those from configuration to the first clock.
+    fn default() -> Self {
+        Self { armed: false, stops: true, off: true, setpoints_valid: false, faults: 0, first_fault: 0, stopped: true }
+    }
 }
 
 /// State of the safety block.
@@ -154,22 +165,19 @@ impl Safety {
             self.age = before.age + 1;
         }
 
-        let bitten = before.remaining == 0;
-        let stopped = !before.released.value;
-        let broken = inputs.encoder_fault || inputs.stall_fault || inputs.external_fault;
-        let standing = bitten || stopped || broken;
-        let second_word = inputs.arm_write && inputs.arm_data == ARM_SECOND;
-        let arms = second_word && before.first_word && !standing;
-        let refused = second_word && !arms;
-
-        self.first_word = !standing && if inputs.arm_write { inputs.arm_data == ARM_FIRST } else { before.first_word };
-        self.outputs.armed = if inputs.arm_write { arms } else { before.outputs.armed && !standing };
+        let armed = before.stays_armed(inputs);
+        let refused = inputs.arm_write && inputs.arm_data == ARM_SECOND && !armed;
+        let word = if inputs.arm_write { inputs.arm_data == ARM_FIRST } else { before.first_word };
+        self.first_word = word && !before.standing(inputs);
+        self.outputs.armed = armed;
+        self.outputs.off = !armed;
+        self.outputs.stops = !self.stays_armed(inputs);
         let kept = before.outputs.setpoints_valid && !stale;
         self.outputs.setpoints_valid = self.outputs.armed && (kept || (before.outputs.armed && inputs.pet));
         self.outputs.stopped = !self.released.value;
 
-        let events = Fault::Watchdog.when(bitten)
-            | Fault::EmergencyStop.when(stopped)
+        let events = Fault::Watchdog.when(before.remaining == 0)
+            | Fault::EmergencyStop.when(!before.released.value)
             | Fault::Encoder.when(inputs.encoder_fault)
             | Fault::CommitChecksum.when(inputs.commit_fault)
             | Fault::External.when(inputs.external_fault)
@@ -181,6 +189,19 @@ impl Safety {
             first => first,
         };
         self.outputs
+    }
+
+    /// Whether something keeps the outputs off at the next clock.
+    fn standing(&self, inputs: &Inputs) -> bool {
+        let broken = inputs.encoder_fault || inputs.stall_fault || inputs.external_fault;
+        self.remaining == 0 || !self.released.value || broken
+    }
+
+    /// Whether the outputs are armed after the next clock.
+    fn stays_armed(&self, inputs: &Inputs) -> bool {
+        let asked =
+            if inputs.arm_write { inputs.arm_data == ARM_SECOND && self.first_word } else { self.outputs.armed };
+        asked && !self.standing(inputs)
     }
 
     /// The outputs after the last clock.

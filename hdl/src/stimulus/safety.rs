@@ -21,7 +21,7 @@ columns!(Inputs {
     tick,
     set_point_timeout,
 });
-columns!(Outputs { armed, setpoints_valid, faults, first_fault, stopped });
+columns!(Outputs { armed, stops, off, setpoints_valid, faults, first_fault, stopped });
 
 /// The rust-hdl block, fresh from configuration: one call is one clock.
 pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
@@ -43,6 +43,8 @@ pub fn hardware() -> impl FnMut(&Inputs) -> Outputs {
         cycle(&mut block, |b, level| b.clock.next = level.into());
         Outputs {
             armed: block.armed.val(),
+            stops: block.stops.val(),
+            off: block.off.val(),
             setpoints_valid: block.setpoints_valid.val(),
             faults: block.faults.val().to_u8(),
             first_fault: block.first_fault.val().to_u8(),
