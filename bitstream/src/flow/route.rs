@@ -40,8 +40,12 @@ const PRESSURE_GROWTH: u64 = 22;
 /// Largest pressure.
 const LAST_PRESSURE: u64 = 1 << 20;
 
-/// Power of the weights of slow connections.
-const POWER: u32 = 5;
+/// Power of the weights of slow connections. With the fifth the paths a little faster than the slowest give way too
+/// far, and are the slowest then.
+const POWER: u32 = 3;
+/// A net with a connection of this weight is routed again in every round, shared or not: its way was chosen when its
+/// neighbours' were not known.
+const URGENT: u16 = 200;
 
 /// A routed design.
 #[derive(Clone, Debug)]
@@ -83,8 +87,9 @@ impl Routing {
             for net in &order {
                 let first = design.graph.first[*net] as usize;
                 let ends = &terminals.general[*net];
-                let shared = round == 0 || general[*net].wires(ends.source).any(|wire| congestion.is_shared(wire));
-                if !shared {
+                let urgent = weights[first..first + ends.sinks.len()].iter().any(|weight| *weight >= URGENT);
+                let shared = || general[*net].wires(ends.source).any(|wire| congestion.is_shared(wire));
+                if !(round == 0 || urgent || shared()) {
                     continue;
                 }
                 general[*net].wires(ends.source).for_each(|wire| congestion.leave(wire));
