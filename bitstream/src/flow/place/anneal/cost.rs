@@ -116,6 +116,12 @@ impl<'a> Costs<'a> {
 
     /// All costs anew, with new weights.
     pub(super) fn recount(&mut self, weights: Vec<u16>) {
+        let counted = !self.weights.is_empty();
+        for net in 0..self.nets.len() {
+            // What moves changed step by step is what stands there.
+            debug_assert!(!counted || self.nets[net].bounds == self.bounds(net));
+            debug_assert!(!counted || self.nets[net].time == self.time(net));
+        }
         self.weights = weights;
         for net in 0..self.nets.len() {
             self.nets[net].bounds = self.bounds(net);
@@ -221,4 +227,17 @@ fn widen(bounds: &mut Bounds, at: (u8, u8)) {
 fn length(factor: i64, bounds: Bounds) -> i64 {
     let cells = i64::from(bounds[1] - bounds[0]) + i64::from(bounds[3] - bounds[2]);
     cells * factor * LENGTH / 64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_widens_and_costs_its_two_sides() {
+        let mut bounds = [5, 5, 7, 7];
+        widen(&mut bounds, (3, 9));
+        assert_eq!(bounds, [3, 5, 7, 9]);
+        assert_eq!(length(64, bounds), 4 * LENGTH);
+    }
 }
