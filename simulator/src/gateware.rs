@@ -10,9 +10,9 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream: of 1 to 8 the one with the greatest least slack (3.32 ns; the others 1.20 to
-/// 2.88 ns). Whoever changes the gateware tries them again.
-pub const SEED: u64 = 5;
+/// Seed of the committed bitstream: of 1 to 5 the one with the greatest least slack (3.92 ns; the others 1.48 to
+/// 3.24 ns). Whoever changes the gateware tries them again.
+pub const SEED: u64 = 1;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 
