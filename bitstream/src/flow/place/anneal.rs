@@ -169,7 +169,7 @@ impl<'a, 'b> Annealer<'a, 'b> {
         (0..tries).filter(|_| self.try_move(temperature, window)).count()
     }
 
-    /// A temperature at which most moves are taken, from the mean change of random moves.
+    /// A temperature at which many moves are taken, from the mean change of random moves.
     fn first_temperature(&mut self) -> i64 {
         let tries = 500;
         let mut sum = 0;
@@ -293,9 +293,9 @@ impl<'a, 'b> Annealer<'a, 'b> {
             || (temperature > 0 && change <= temperature.saturating_mul(draw) / 1_024)
             || temperature >= ANY;
         if taken {
-            self.costs.take()
+            self.costs.take();
         } else {
-            self.costs.leave()
+            self.costs.leave();
         }
         taken
     }
