@@ -13,7 +13,7 @@ use testbench::netlist::Netlist;
 
 const COMMAND: &str = "cargo test --release -p testbench --test bitstream_build";
 /// Most of the period that a path between registers may take, %: what was reached, and a step of placing more.
-const MOST_PERCENT: u32 = 86;
+const MOST_PERCENT: u32 = 80;
 const RESOURCES: Table<'_> = Table {
     name: "bitstream-resources",
     title: "What the design takes of the XC2S200",
