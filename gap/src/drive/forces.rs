@@ -230,7 +230,8 @@ impl DriveModel {
         self.axes.iter().map(of).collect()
     }
 
-    /// Largest torque with which each wheel may stick, Nm, at the start of a segment.
+    /// Largest torque with which each wheel may stick, Nm, at the start of a segment: of friction, and of a bridge that does
+    /// nothing at small duties, which near rest does the same.
     pub(super) fn standing_friction(&self, s: &Segment) -> Vec<f64> {
         let n = self.wheels.len();
         let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
@@ -258,7 +259,23 @@ impl DriveModel {
         };
         let (forwards, backwards) = (turning(1.0), turning(-1.0));
         let loads = forwards.iter().zip(&backwards).map(|(a, b)| 0.5 * (b - a).max(0.0));
-        loads.zip(&self.axes).map(|(load, axis)| load + self.gear_ratio * axis.friction).collect()
+        let constants = self.constants();
+        let idle = (0..n).map(|i| constants[i].gain * s.supply[0] * self.idle_duty(i));
+        let friction = loads.zip(&self.axes).map(|(load, axis)| load + self.gear_ratio * axis.friction);
+        friction.zip(idle).map(|(friction, idle)| friction + idle).collect()
+    }
+
+    /// Largest duty at which a wheel's bridge does nothing.
+    fn idle_duty(&self, wheel: usize) -> f64 {
+        /// Halvings of the whole range of duties.
+        const STEPS: i32 = 12;
+        let (mut idle, mut acts) = (0.0, 1.0);
+        for _ in 0..STEPS {
+            let duty = 0.5 * (idle + acts);
+            let passed = self.duty_maps.iter().fold(duty, |u, map| map(wheel, u));
+            if passed < 0.01 * duty { idle = duty } else { acts = duty }
+        }
+        idle
     }
 
     /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
@@ -319,12 +336,16 @@ impl DriveModel {
                     let mut sum = [0.0; 3];
                     for (column, speed) in columns.iter().zip(&s.speed) {
                         for (sum, c) in sum.iter_mut().zip(column) {
-                            *sum += c * speed[k];
+                            *sum += c * over_row(speed, k);
                         }
                     }
                     Twist::new(sum[0], sum[1], sum[2])
                 }
-                None => s.twist[k],
+                None => {
+                    let (at, next) = (s.twist[k], s.twist[k + 1]);
+                    let mean = |a: f64, b: f64| 0.5 * (a + b);
+                    Twist::new(mean(at.vx, next.vx), mean(at.vy, next.vy), mean(at.omega, next.omega))
+                }
             };
             for i in 0..n {
                 let mut u = if self.duty_delay_s == 0.0 {
@@ -336,11 +357,11 @@ impl DriveModel {
                     u = map(i, u);
                 }
                 duty[i] = u;
-                sign[i] = s.sign[i][k];
+                sign[i] = over_row(&s.sign[i], k);
                 if bare {
                     continue;
                 }
-                speed[i] = self.axes[i].encoder_scale * s.speed[i][k];
+                speed[i] = self.axes[i].encoder_scale * over_row(&s.speed[i], k);
                 sideways[i] = free[i][0] * twist.vx + free[i][1] * twist.vy + free[i][2] * twist.omega;
             }
             let mut supply = s.supply[k];
@@ -426,6 +447,11 @@ impl DriveModel {
         }
         out
     }
+}
+
+/// Mean from a tick to the next of a signal that is known at the ticks: a load acts for as long as the duty of its row.
+fn over_row(values: &[f64], k: usize) -> f64 {
+    0.5 * (values[k] + values[k + 1])
 }
 
 /// A held signal `ticks` ago, 0 before its start.
