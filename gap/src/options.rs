@@ -46,6 +46,8 @@ pub struct Thresholds {
     pub undecided: f64,
     /// [`thresholds::FROM_NOISE`].
     pub from_noise: f64,
+    /// [`thresholds::TOLD`].
+    pub told: f64,
     /// [`thresholds::LEAST_TOGETHER`].
     pub least_together: f64,
     /// [`thresholds::CANCELS`].
@@ -77,6 +79,7 @@ impl Default for Thresholds {
             as_well: thresholds::AS_WELL,
             undecided: thresholds::UNDECIDED,
             from_noise: thresholds::FROM_NOISE,
+            told: thresholds::TOLD,
             least_together: thresholds::LEAST_TOGETHER,
             cancels: thresholds::CANCELS,
         }

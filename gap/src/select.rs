@@ -4,6 +4,7 @@ mod alternatives;
 mod design;
 mod gates;
 mod join;
+mod left;
 mod plain;
 mod simpler;
 mod spanning;
@@ -23,6 +24,7 @@ use estimation::prior::PenalisedFit;
 
 use gates::Gates;
 use join::join;
+use left::Left;
 
 pub use crate::candidates::candidates;
 pub use crate::state::is_material;
@@ -60,7 +62,7 @@ pub struct Selection {
     /// Whether it was chosen with nothing adjusted beside what is named.
     pub bare: bool,
     /// See [`Selection::alone`].
-    alone: OnceLock<f64>,
+    alone: OnceLock<Left>,
 }
 
 impl Selection {
@@ -75,15 +77,13 @@ impl Selection {
         Self { bare: true, alone: OnceLock::new(), ..self }
     }
 
-    /// RMS of what its effects leave in units of the noise, fitted with nothing adjusted beside them.
-    fn alone(&self, problem: &Problem) -> f64 {
-        let fitted = || {
+    /// What its effects leave, fitted with nothing adjusted beside them.
+    fn alone(&self, problem: &Problem) -> &Left {
+        self.alone.get_or_init(|| {
             let mut state = self.state.clone();
             problem.fit(&mut state);
-            let (square, n) = problem.linearise_nothing(&state).plain();
-            (square / n.max(1.0)).sqrt()
-        };
-        *self.alone.get_or_init(fitted)
+            Left::fitted(problem, &state)
+        })
     }
 
     /// Difference of the objectives of two selections, under one variance; negative if this is
@@ -125,11 +125,12 @@ fn raw(found: &Selection) -> f64 {
 
 /// Whether a law of the drive leaves far more than another, each fitted with nothing adjusted beside it.
 fn leaves_far_more(problem: &Problem, worse: &Selection, better: &Selection, thresholds: &Thresholds) -> bool {
-    if problem.link() != Link::Drive || raw(worse) <= thresholds.from_noise {
-        return false;
-    }
-    let left = worse.alone(problem);
-    left > thresholds.from_noise && thresholds.decided(left, better.alone(problem))
+    problem.link() == Link::Drive && worse.alone(problem).far_above(better.alone(problem), thresholds)
+}
+
+/// Whether a law of the drive leaves no more than another, next to noise, each fitted with nothing adjusted beside it.
+fn leaves_as_little(problem: &Problem, law: &Selection, other: &Selection, thresholds: &Thresholds) -> bool {
+    problem.link() == Link::Drive && law.alone(problem).is_as_little(other.alone(problem), thresholds)
 }
 
 fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], thresholds: &Thresholds) -> Selection {
@@ -275,7 +276,10 @@ fn swap(
             }
             let clear = more <= fewer && leaves_far_more(problem, &best, &alternative, thresholds);
             let needed = if simpler || clear { tie } else { -tie };
-            if alternative.against(&best) < needed && !problem.runs_away(&alternative.state, &without, thresholds) {
+            let even = || simpler && leaves_as_little(problem, &alternative, &best, thresholds);
+            if (alternative.against(&best) < needed || even())
+                && !problem.runs_away(&alternative.state, &without, thresholds)
+            {
                 best = alternative;
                 changed = true;
                 break;

@@ -62,6 +62,7 @@ const VARIANTS: &[(&str, &str, Change)] = &[
     ("sticks", "halved", |t| t.sticks *= 0.5),
     ("sticks_often", "off", |t| t.sticks_often = f64::INFINITY),
     ("from_noise", "off", |t| t.from_noise = f64::INFINITY),
+    ("told", "off", |t| t.told = f64::INFINITY),
     ("runaway", "off", |t| t.runaway = f64::INFINITY),
     ("law_share", "off", |t| t.law_share = 0.0),
     ("law_share", "doubled", |t| t.law_share *= 2.0),

@@ -484,7 +484,7 @@ fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
     problem.fit(&mut bare_state);
     let bare = rms(problem, &bare_state);
     let excess = |r: f64| (r * r - 1.0).max(0.0);
-    if excess(bare) < (1.0 - WORSE) * excess(now) && bare > OPEN {
+    if excess(bare) < (1.0 - WORSE) * excess(now) && now > OPEN {
         let mut fitted = selection.stripped();
         for (k, e) in careful.iter().enumerate() {
             fitted.state.active[e.index].values = bare_state.active[from + k].values.clone();

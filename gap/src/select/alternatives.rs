@@ -122,7 +122,10 @@ pub fn alternatives(
         // either says so.
         let difference = if same { settled.min(own_gain - t.gain) } else { settled };
         let tie = thresholds.tie(own_gain).max(TIED);
-        if own.form.free.len() <= candidate.form.free.len() && leaves_far_more(problem, &alternative, found, thresholds)
+        // What does the same here differs by how exact the laws are.
+        if !twin(t.candidate)
+            && own.form.free.len() <= candidate.form.free.len()
+            && leaves_far_more(problem, &alternative, found, thresholds)
         {
             continue;
         }

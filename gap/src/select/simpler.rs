@@ -5,7 +5,7 @@
 
 use estimation::parallel::each;
 
-use super::plain::losses;
+use super::left::Left;
 use super::{Selection, finish_bare, is_material, stopped};
 use crate::effect::Link;
 use crate::options::Thresholds;
@@ -15,34 +15,6 @@ use estimation::prior::{Penalised, Role};
 
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;
-
-/// What a state leaves on held-out runs, by clusters, and how much of it is more than noise.
-struct Left {
-    clusters: Vec<f64>,
-    n: f64,
-}
-
-impl Left {
-    fn of(problem: &Problem, state: &State) -> Self {
-        let (clusters, n) = losses(problem, state);
-        Self { clusters, n }
-    }
-
-    fn sum(&self) -> f64 {
-        self.clusters.iter().sum()
-    }
-
-    fn excess(&self) -> f64 {
-        self.sum() - self.n
-    }
-
-    /// By how much it is more than another, in standard deviations of that over the clusters.
-    fn above(&self, other: &Self) -> f64 {
-        let differences = || self.clusters.iter().zip(&other.clusters).map(|(a, b)| a - b);
-        let spread = differences().map(|d| d * d).sum::<f64>().sqrt();
-        differences().sum::<f64>() / spread.max(f64::MIN_POSITIVE)
-    }
-}
 
 /// Two laws of a parameter each in place of named ones of no fewer parameters, where those leave much above the noise:
 /// fewer parameters that leave less, or as many that leave less over all clusters. Of pairs between which the data do
@@ -64,7 +36,7 @@ pub(super) fn of_two(
     bare.active.extend(named.into_iter().cloned());
     problem.fit(&mut bare);
     let now = Left::of(problem, &bare);
-    if now.sum() < thresholds.from_noise.powi(2) * now.n {
+    if !now.is_far(thresholds) {
         return None;
     }
     let laws = laws(problem, start, all);
@@ -87,8 +59,8 @@ pub(super) fn of_two(
         })
         .collect();
     let least = better.iter().map(|(.., left)| left.excess()).fold(f64::INFINITY, f64::min);
-    let near = |left: &Left| left.sum() <= thresholds.from_noise.powi(2) * left.n;
-    let as_good = |left: &Left| near(left) || left.excess() <= (1.0 + thresholds.undecided) * least.max(0.0);
+    let as_good =
+        |left: &Left| !left.is_far(thresholds) || left.excess() <= (1.0 + thresholds.undecided) * least.max(0.0);
     let (_, state, _) = better.into_iter().filter(|(.., left)| as_good(left)).min_by_key(|(pair, ..)| *pair)?;
     Some(finish_bare(problem, state, from, all, thresholds))
 }

@@ -1,0 +1,62 @@
+//! What a state leaves by itself, nothing adjusted beside it.
+
+use super::plain::losses;
+use crate::options::Thresholds;
+use crate::problem::Problem;
+use crate::state::State;
+
+/// What a state leaves, by clusters, and how much of it is more than noise.
+pub(super) struct Left {
+    clusters: Vec<f64>,
+    n: f64,
+}
+
+impl Left {
+    /// What it leaves on held-out runs.
+    pub(super) fn of(problem: &Problem, state: &State) -> Self {
+        let (clusters, n) = losses(problem, state);
+        Self { clusters, n }
+    }
+
+    /// The same on the runs that the state was fitted to.
+    pub(super) fn fitted(problem: &Problem, state: &State) -> Self {
+        let equations = problem.linearise_nothing(state);
+        let clusters = equations.clusters.iter().map(|c| c.rr / c.weight).collect();
+        Self { clusters, n: equations.plain().1 }
+    }
+
+    fn sum(&self) -> f64 {
+        self.clusters.iter().sum()
+    }
+
+    pub(super) fn excess(&self) -> f64 {
+        self.sum() - self.n
+    }
+
+    /// By how much it is more than another, in standard deviations of that over the clusters.
+    pub(super) fn above(&self, other: &Self) -> f64 {
+        let differences = || self.clusters.iter().zip(&other.clusters).map(|(a, b)| a - b);
+        let spread = differences().map(|d| d * d).sum::<f64>().sqrt();
+        differences().sum::<f64>() / spread.max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether it is far from the noise.
+    pub(super) fn is_far(&self, thresholds: &Thresholds) -> bool {
+        self.sum() > thresholds.from_noise.powi(2) * self.n
+    }
+
+    /// Whether it is far more than what another law leaves, which is hardly more than noise.
+    ///
+    /// Of two laws that differ by d at every residual, one of which leaves noise alone, the other leaves d² more, give or
+    /// take twice |d| noise: half the root of what it leaves more is its distance in standard deviations.
+    pub(super) fn far_above(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        let more = (self.sum() - other.sum()) / thresholds.drive_correlation;
+        0.5 * more.max(0.0).sqrt() > thresholds.told && other.excess().max(0.0) < thresholds.undecided * self.excess()
+    }
+
+    /// Whether it is no more than what another law leaves, but for what makes a tie, and no more than noise.
+    pub(super) fn is_as_little(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        let noise = thresholds.ties[0] * thresholds.drive_correlation;
+        !self.is_far(thresholds) && self.excess() < (1.0 + thresholds.undecided) * other.excess().max(0.0) + noise
+    }
+}
