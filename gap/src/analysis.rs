@@ -7,6 +7,7 @@ mod driving;
 mod findings;
 mod found;
 mod gaps;
+mod look;
 mod measure;
 mod misses;
 mod order;

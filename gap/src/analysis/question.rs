@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use model::fit::clocks::FEW_RUNS;
 use runs::geometry::Geometry;
-use runs::robot::{Robot, Support};
+use runs::robot::Robot;
 use runs::{DutySource, Logs};
 
 use super::clocks;
+use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::catalogue::strangers;
-use crate::drive::{DriveLink, DriveModel, Generic};
 use crate::effect::Effect;
 use crate::effects::camera_clock::CameraClock;
 use crate::exact::ExactLink;
@@ -19,7 +19,6 @@ use crate::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
 use crate::options::Options;
 use crate::pieces::{Driving, PIECE, Pieces, segments};
 use crate::state::{Active, State};
-use crate::thresholds::NO_NOISE;
 use crate::{GapError, command, controller, effects, timing};
 
 /// Logs in pieces, and a sample of long ones.
@@ -43,64 +42,6 @@ impl<'a> Cut<'a> {
     pub(super) fn is_sampled(&self) -> bool {
         self.sample.is_some()
     }
-}
-
-/// Longest test function, s.
-const LONGEST_S: f64 = 3.0;
-
-/// How the logs of a drive are looked at.
-///
-/// Currents are measured, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
-/// functions of speed and current. Test functions of an axis alone that scatters too much get longer as long as they tell
-/// more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
-/// machine do hardly at all.
-fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
-    let alone = robot.support == Support::Blocks;
-    if !currents && !alone {
-        return Driving::default();
-    }
-    // Without effects of the file: so that it is the same before something was found and after.
-    let model = DriveModel::new(robot);
-    let look = |driving: Driving| {
-        let pieces = held.searched().driven(driving);
-        let mut link = DriveLink::new(&pieces, &model)?;
-        let columns = Generic::columns_of_wheel(&link);
-        let enough = link.len() >= FEWEST_PER_COLUMN * columns;
-        (link.noise, _) = crate::drive::floor(&link, &link.residuals(&model)?, link.sizes.drive_nm);
-        let noise = link.noise.iter().copied().fold(0.0, f64::max);
-        Some(Look {
-            tells: link.tells(&model),
-            length: link.length(),
-            loud: noise > NO_NOISE * link.sizes.drive_nm,
-            enough,
-        })
-    };
-    let mut chosen = Driving::default();
-    let Some(mut now) = look(chosen) else { return chosen };
-    let measured = Driving { measured: true, ..chosen };
-    if currents && let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
-        (chosen, now) = (measured, other);
-    }
-    while alone && now.loud && 2.0 * now.length <= LONGEST_S {
-        let longer = Driving { test_function_s: 2.0 * now.length, ..chosen };
-        let Some(next) = look(longer).filter(|next| next.enough && next.tells > now.tells) else { break };
-        (chosen, now) = (longer, next);
-    }
-    chosen
-}
-
-/// Test functions that a column of the smooth functions beside which a floor is found needs.
-const FEWEST_PER_COLUMN: usize = 3;
-
-/// What a way of looking at a drive shows.
-struct Look {
-    tells: f64,
-    /// Length of a test function, s.
-    length: f64,
-    /// Whether it scatters too much to show smaller effects.
-    loud: bool,
-    /// Whether there are enough test functions to know the noise.
-    enough: bool,
 }
 
 /// A data set and what is asked of it.
