@@ -31,6 +31,8 @@ struct Axis {
     rows: [f64; 2],
     late: f64,
     seconds: f64,
+    /// Whether the amplifier holds what a row tells it until the next; else a row says what the current was.
+    held: bool,
 }
 
 /// A brushless motor alone.
@@ -45,6 +47,7 @@ const MOTOR: Axis = Axis {
     rows: [0.004, 0.011],
     late: 1e-3,
     seconds: 40.0,
+    held: false,
 };
 
 fn run(axis: Axis, seed: u64) -> Run {
@@ -58,15 +61,18 @@ fn run(axis: Axis, seed: u64) -> Run {
     let mut run = Run { name: format!("run_{seed}"), ..Run::default() };
     let (mut angle, mut speed, mut t, mut next) = (0.0_f64, 0.0_f64, 0.0, 0.0);
     let (mut currents, mut counted) = (Vec::new(), Vec::new());
+    let mut told = 0.0;
     let step = 1e-4;
     while t < axis.seconds {
         if t >= next {
             next += rng.random_range(axis.rows[0]..=axis.rows[1]);
             run.t.push(t + axis.late * rng.random_range(0.0..1.0));
-            currents.push(wave(t) + 0.01 * axis.most * rng.random_range(-1.0..1.0));
+            told = wave(t);
+            currents.push(told + 0.01 * axis.most * rng.random_range(-1.0..1.0));
             counted.push((angle / TAU * axis.counts).floor() as i64);
         }
-        let torque = axis.kt * wave(t) - axis.viscous * speed;
+        let current = if axis.held { told } else { wave(t) };
+        let torque = axis.kt * current - axis.viscous * speed;
         let sticks = speed == 0.0 && torque.abs() < axis.dry;
         let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
         let after = if sticks { 0.0 } else { speed + step * (torque - axis.dry * sense) / axis.inertia };
@@ -134,6 +140,28 @@ fn friction_behind_measured_currents_is_no_play_and_no_bridge() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// Friction has its size whether the currents were measured or are what the amplifier was told and holds.
+#[test]
+fn friction_has_its_size_behind_measured_and_behind_held_currents() {
+    let axis = Axis { fastest: 8.0, rows: [0.0198, 0.0202], late: 2e-4, ..MOTOR };
+    let faults: Vec<String> = (41..44_u64)
+        .flat_map(|seed| [(seed, false), (seed, true)])
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .flat_map(|(seed, held)| {
+            let a = done(Axis { held, ..axis }, 1.0, seed);
+            let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
+            let mut faults: Vec<String> = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)]
+                .iter()
+                .filter_map(|(n, t)| fault(&a, n, *t))
+                .collect();
+            faults.extend(other.map(|n| format!("{n} is named")));
+            faults.into_iter().map(|f| format!("{seed} held {held}: {f}")).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// With friction of unknown size a rotor as heavy as the motor is weaker does the same.
 #[test]
 fn a_weaker_motor_and_a_heavier_rotor_are_a_tie_behind_currents() {
@@ -161,6 +189,7 @@ fn a_heavy_axis_with_a_coarse_encoder_is_looked_at_for_longer() {
         rows: [0.03, 0.1],
         late: 0.004,
         seconds: 120.0,
+        held: false,
     };
     let faults: Vec<String> = (31..34_u64)
         .into_par_iter()
