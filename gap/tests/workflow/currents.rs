@@ -85,14 +85,15 @@ fn run(axis: Axis, seed: u64) -> Run {
     run
 }
 
-/// A data set with a file that has so much of the inertia.
-fn done(axis: Axis, known: f64, seed: u64) -> Analysis {
+/// A data set with a file that has so much of the inertia and of the dry friction.
+fn done(axis: Axis, [inertia, friction]: [f64; 2], seed: u64) -> Analysis {
     let text = format!(
         "encoder_counts_per_wheel_rev = {}\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\nwheel_inertia_kg_m2 = 0\n[motor]\n\
-         torque_constant = {}\nrotor_inertia = {}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+         torque_constant = {}\nrotor_inertia = {}\nfriction_torque = {}\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
         axis.counts,
         axis.kt,
-        known * axis.inertia
+        inertia * axis.inertia,
+        friction * axis.dry
     );
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("robot.toml"), text).unwrap();
@@ -124,7 +125,7 @@ fn friction_behind_measured_currents_is_no_play_and_no_bridge() {
     let faults: Vec<String> = (1..4_u64)
         .into_par_iter()
         .flat_map(|seed| {
-            let a = done(MOTOR, 1.0, seed);
+            let a = done(MOTOR, [1.0, 0.0], seed);
             let named = names(&a);
             let mut faults = Vec::new();
             for other in ["gear-backlash", "dead-band", "drive-curve", "battery-sag", "motor-heating"] {
@@ -149,7 +150,7 @@ fn friction_has_its_size_behind_measured_and_behind_held_currents() {
         .collect::<Vec<_>>()
         .into_par_iter()
         .flat_map(|(seed, held)| {
-            let a = done(Axis { held, ..axis }, 1.0, seed);
+            let a = done(Axis { held, ..axis }, [1.0, 0.0], seed);
             let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
             let mut faults: Vec<String> = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)]
                 .iter()
@@ -162,11 +163,26 @@ fn friction_has_its_size_behind_measured_and_behind_held_currents() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// A file that says two and a half times the friction is told that it is too much, and by how much.
+#[test]
+fn friction_that_the_file_has_too_much_of_is_taken_back() {
+    let faults: Vec<String> = (51..54_u64)
+        .into_par_iter()
+        .flat_map(|seed| {
+            let a = done(MOTOR, [1.0, 2.5], seed);
+            let sizes = [("coulomb-friction", -1.5 * MOTOR.dry), ("viscous-friction", MOTOR.viscous)];
+            let faults = sizes.into_iter().filter_map(|(n, t)| fault(&a, n, t));
+            faults.map(|f| format!("{seed}: {f}")).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// With friction of unknown size a rotor as heavy as the motor is weaker does the same.
 #[test]
 fn a_weaker_motor_and_a_heavier_rotor_are_a_tie_behind_currents() {
     for (seed, known) in [(21, 0.6), (22, 0.75)] {
-        let a = done(Axis { fastest: 8.0, ..MOTOR }, known, seed);
+        let a = done(Axis { fastest: 8.0, ..MOTOR }, [known, 0.0], seed);
         let both = ["torque-constant", "rotor-inertia"];
         let named = names(&a).iter().any(|n| both.contains(n));
         let tied = a.alternatives.iter().any(|set| both.iter().all(|n| set.iter().any(|s| s == n)));
@@ -194,7 +210,7 @@ fn a_heavy_axis_with_a_coarse_encoder_is_looked_at_for_longer() {
     let faults: Vec<String> = (31..34_u64)
         .into_par_iter()
         .flat_map(|seed| {
-            let a = done(vehicle, 1.0, seed);
+            let a = done(vehicle, [1.0, 0.0], seed);
             let other = names(&a).iter().any(|n| !["coulomb-friction", "viscous-friction"].contains(n));
             let sizes = [("coulomb-friction", vehicle.dry), ("viscous-friction", vehicle.viscous)];
             let mut faults: Vec<String> =
