@@ -15,15 +15,16 @@ const TWINS: &[(&str, &[&str], &[&str])] = &[
     ("encoder-scale", &["encoder-loss", "wheel-radius", "wheel-radius-common"], &["camera-scale"]),
     ("heading-drag", &[], &["coulomb-friction"]),
     ("marker-heading", &["wheel-angle", "wheel-skew"], &[]),
-    ("motor-heating", &["battery-sag", "robot-mass", "torque-constant"], &["rotor-inertia"]),
-    ("robot-mass", &["motor-heating", "torque-constant"], &["rotor-inertia"]),
-    ("rotor-inertia", &[], &["motor-heating", "robot-mass"]),
-    ("torque-constant", &["motor-heating", "robot-mass"], &[]),
+    ("motor-heating", &["battery-sag", "robot-mass", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
+    ("robot-mass", &["motor-heating", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
+    ("rotor-inertia", &[], &["motor-heating", "robot-mass", "winding-resistance"]),
+    ("torque-constant", &["motor-heating", "robot-mass", "winding-resistance"], &[]),
     ("wheel-angle", &["wheel-skew"], &[]),
     ("wheel-creep", &[], &["actuation-latency", "camera-latency", "encoder-lag"]),
     ("wheel-radius", &["encoder-loss", "encoder-scale"], &[]),
     ("wheel-radius-common", &["encoder-scale", "wheel-radius"], &["camera-scale"]),
     ("wheel-skew", &["wheel-angle"], &[]),
+    ("winding-resistance", &["battery-sag", "motor-heating", "robot-mass", "torque-constant"], &["rotor-inertia"]),
 ];
 
 /// What cannot be told from an effect: by drives of many kinds, and besides by one without turns.

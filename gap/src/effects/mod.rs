@@ -51,6 +51,7 @@ mod wheel_radius;
 mod wheel_radius_common;
 mod wheel_skew;
 mod wheel_slip;
+mod winding_resistance;
 mod yaw_inertia;
 
 use model::setup::TRUE_RATIO;
@@ -107,6 +108,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(dead_band::DeadBand),
         Box::new(drive_curve::DriveCurve),
         Box::new(torque_constant::TorqueConstant),
+        Box::new(winding_resistance::WindingResistance),
         Box::new(battery_sag::BatterySag),
         Box::new(motor_heating::MotorHeating),
         Box::new(robot_mass::RobotMass),
@@ -150,7 +152,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 35] = [
+    const NAMES: [(&str, &[&str]); 36] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -161,6 +163,7 @@ mod tests {
         ("encoder-scale", &["scale", "scale_#"]),
         ("camera-scale", &["scale"]),
         ("torque-constant", &["scale"]),
+        ("winding-resistance", &["scale"]),
         ("robot-mass", &["scale"]),
         ("yaw-inertia", &["scale"]),
         ("rotor-inertia", &["scale"]),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{names, simulate, with};
+use super::common::{RICH, names, simulate, with};
 use super::scale::servo;
 use estimation::statistics::rms;
 use gap::drive::{DriveLink, DriveModel};
@@ -11,6 +11,7 @@ use gap::options::Thresholds;
 use gap::pieces::{PIECE, segments};
 use gap::problem::Problem;
 use gap::state::{Active, State};
+use gap::{Interval, Options, analyse};
 use model::manoeuvre::Manoeuvre;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -44,8 +45,20 @@ fn left(link: &DriveLink, model: &DriveModel) -> f64 {
     rms(counted.filter(|(_, weight)| **weight > 0.0).map(|(torque, _)| *torque))
 }
 
+/// Motors on thin cables accelerate a robot as a heavier one, and turn it as one harder to turn: one cause, and not two.
+#[test]
+fn resistance_is_named_and_no_mass_with_inertia() {
+    for (seed, scale) in [(1, 0.4), (2, -0.3), (3, 0.25)] {
+        let truth = with(&Robot::racbot(), "winding-resistance", &[("scale", scale)]);
+        let a = analyse(&simulate(&truth, &RICH, seed), &Options::default()).unwrap();
+        assert_eq!(names(&a), ["winding-resistance"], "{seed}: {}", a.terminal_summary());
+        let Interval::Ci95([low, high]) = a.effects[0].parameters[0].2 else { panic!("{:?}", a.effects[0]) };
+        assert!((low..=high).contains(&scale), "{seed}: {low} to {high} instead of {scale}");
+    }
+}
+
 /// Frictions, and what takes torque away as friction does: near-twins of the truth below.
-const TAKE_TORQUE: [&str; 13] = [
+const TAKE_TORQUE: [&str; 14] = [
     "coulomb-friction",
     "viscous-friction",
     "stribeck-friction",
@@ -58,6 +71,7 @@ const TAKE_TORQUE: [&str; 13] = [
     "battery-sag",
     "motor-heating",
     "torque-constant",
+    "winding-resistance",
     "probe-late-friction",
 ];
 

@@ -26,6 +26,7 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
             robot.motor.torque_constant *= scale;
             robot.motor.back_emf_constant = Some(back_emf);
         }
+        "winding-resistance" => robot.motor.resistance_ohm *= scale,
         "robot-mass" => robot.mass_kg *= scale,
         "yaw-inertia" => robot.yaw_inertia_kg_m2 *= scale,
         "rotor-inertia" => robot.motor.rotor_inertia *= scale,

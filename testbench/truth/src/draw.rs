@@ -17,8 +17,9 @@ use crate::robot::Robot;
 use crate::run::Drive;
 
 /// Pairs that look alike in most logs, or nearly cancel.
-pub const LOOK_ALIKES: [[&str; 2]; 12] = [
+pub const LOOK_ALIKES: [[&str; 2]; 13] = [
     ["robot-mass", "torque-constant"],
+    ["robot-mass", "winding-resistance"],
     ["camera-latency", "wheel-creep"],
     ["wheel-radius-common", "camera-scale"],
     ["wheel-skew", "marker-heading"],

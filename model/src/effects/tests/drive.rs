@@ -141,6 +141,7 @@ fn figures_of_motor_and_gear() {
     let strong = robot("torque-constant", &[("scale", 0.1)]);
     close(strong.motor.torque_constant, 0.007_612, 1e-9);
     close(strong.motor.back_emf(), 0.007_612, 1e-9);
+    close(robot("winding-resistance", &[("scale", 0.5)]).motor.resistance_ohm, 2.91, 1e-9);
     close(robot("rotor-inertia", &[("scale", 1.0)]).motor.rotor_inertia, 5.4e-7, 1e-9);
     close(robot("gear-efficiency", &[("scale", -0.08)]).gear_efficiency, 0.8, 1e-9);
 }

@@ -37,6 +37,11 @@ pub(super) const DRIVE: &[Entry] = &[
         hand.machine.power.torque_constant *= 1.0 + scale;
         Found::whole([("scale", scale)])
     }),
+    entry("winding-resistance", [0.05, 0.10, 0.18, 0.30, 0.60], "scale (relative), windings and cables", |hand| {
+        let scale = hand.signed();
+        hand.machine.power.resistance_ohm *= 1.0 + scale;
+        Found::whole([("scale", scale)])
+    }),
     entry(
         "battery-sag",
         [0.09, 0.15, 0.30, 0.55, 1.00],
