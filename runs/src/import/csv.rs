@@ -1,5 +1,6 @@
 //! Any text table with a column of time; empty fields and texts are no samples. PlotJuggler's exports have the time in
-//! `__time`. Lines that begin with a word, such as `ODOM 0.1 2.5`, are one table a word: `ODOM/column_2`.
+//! `__time`. Lines that begin with a word, such as `ODOM 0.1 2.5`, are one table a word: `ODOM/column_2`. Numbers that follow
+//! their names, `t,340,PWM,60`, are a table with those names.
 
 use std::path::Path;
 
@@ -122,6 +123,15 @@ mod tests {
 
     fn table(text: &str) -> Result<Table, InputError> {
         read(text.as_bytes(), Path::new("x.csv"), &Clock::default())
+    }
+
+    #[test]
+    fn numbers_behind_their_names_are_columns() {
+        let read =
+            table("=~=~= a terminal's log =~=~=\nt,1,PWM,0,v,0.5\nt,2,PWM,9,v,0.7\nt,3,PWM,-9,v,\nt,4,PWM,1,v,1\n")
+                .unwrap();
+        assert_eq!(read.find("PWM").unwrap().values, [0.0, 9.0, 1.0]);
+        assert_eq!(read.find("v").unwrap().t, [1.0, 2.0, 4.0]);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod fill;
 mod frame;
 mod join;
 mod json;
+mod labelled;
 mod many;
 mod map;
 mod reading;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::read::separator;
 
 /// What begins a line that is a remark.
-const REMARKS: [&str; 3] = ["#", "%", "//"];
+const REMARKS: [&str; 4] = ["#", "%", "//", "=~=~"]; // the last is a terminal's
 
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
@@ -27,6 +27,9 @@ pub(super) fn numbered(columns: usize) -> Vec<String> {
 impl<'a> Sheet<'a> {
     pub(super) fn of(bytes: &'a [u8]) -> Self {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if let Some((names, rows)) = super::labelled::table(bytes) {
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
         let mut before = Vec::new();
         let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
         let mut first: &[u8] = &[];
