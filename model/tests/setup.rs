@@ -9,9 +9,9 @@ use model::manoeuvre::{Manoeuvre, simulate};
 use model::setup::Mistake;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use runs::DataSet;
 use runs::frames::{Pose, Twist, displacement};
 use runs::robot::{Robot, Support};
+use runs::{CountSource, DataSet, Source, as_logged};
 use spoil::{SPOILS, found};
 
 const SETS: [&str; 5] = [
@@ -77,6 +77,36 @@ fn every_mistake_is_found_on_every_set_that_can_show_it() {
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// A log of wheel speeds has no encoder to look at: gear and counts have no part in its ways.
+#[test]
+fn speeds_of_another_shaft_or_unit_are_told_as_such() {
+    let said = |factor: f64| {
+        let mut set = open("runs/wheel-skew");
+        let source = Source { counts: CountSource::Speeds, ..Source::default() };
+        let virtual_counts = as_logged(&set.robot, source, None).counts_per_wheel_rad();
+        let scale = factor * virtual_counts / set.robot.counts_per_wheel_rad();
+        for run in &mut set.runs {
+            run.source = source;
+            run.reference.clear();
+            run.duty.clear();
+            run.measured.clear();
+            run.counts.iter_mut().flatten().for_each(|n| *n = (*n as f64 * scale).round() as i64);
+        }
+        let sentences = found(set.robot.clone(), &set.runs).iter().map(Mistake::sentence).collect::<Vec<_>>();
+        sentences.join("\n")
+    };
+    assert_eq!(said(1.0), "");
+    let gear = open("runs/wheel-skew").robot.gear_ratio;
+    for (factor, expected) in [
+        (gear, "speeds of the motors"),
+        (60.0 / std::f64::consts::TAU, "turns per minute"),
+        (1.6, "else the speeds are of another shaft or unit: multiply them by 0.6"),
+    ] {
+        let said = said(factor);
+        assert!(said.contains(expected) && !said.contains("encoder_counts"), "{factor}: {said}");
+    }
 }
 
 /// On blocks the body does not move: nobody has to weigh it before its battery can be doubted.

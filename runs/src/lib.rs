@@ -31,7 +31,9 @@ pub use log::{Log, Seen};
 pub use logs::Logs;
 pub use mcap::McapStream;
 pub use part::Columns;
-pub use signals::{CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning};
+pub use signals::{
+    CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning, is_from_speeds,
+};
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
 
 /// How far the clocks of a robot and its camera may be apart in a run, s: `gap` looks for no more.

@@ -288,7 +288,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
     }
     let spin = spin.unwrap_or(fit.scale);
     let told = |kinds: &[&str]| before.iter().any(|m| kinds.contains(&m.kind));
-    let distances = ["wheel-diameter", "encoder-counts", "gear-ratio"];
+    let distances = ["wheel-diameter", "encoder-counts", "gear-ratio", "speed-unit"];
     // Where distances by the counts are wrong, too, turns tell how far.
     let own = if is_true(spin) { 1.0 } else { spin.clamp(0.05, 20.0) };
     let unit = [(1000.0, "millimetres"), (100.0, "centimetres")];
@@ -318,13 +318,20 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
                     short(fit.scale),
                     short(spin)
                 );
-                let remedy = "check wheel_radius_m, gear_ratio and encoder_counts_per_motor_rev";
+                let remedy = match (runs::is_dead_reckoning(robot), runs::is_from_speeds(robot)) {
+                    (true, _) => ODOMETRY,
+                    (_, true) => "check wheel_radius_m and the unit of the speeds",
+                    _ => "check wheel_radius_m, gear_ratio and encoder_counts_per_motor_rev",
+                };
                 found.push(new("robot-file", "robot.toml", what, remedy));
             }
         }
     }
     found
 }
+
+/// What to look at where dead reckoning is off as a whole.
+const ODOMETRY: &str = "check the units of odom_x, odom_y and odom_theta";
 
 /// Ways and turns by the counts that are wrong by one factor which is that of no mistake made often.
 fn of_all_distances(robot: &Robot, fit: &Fit) -> Mistake {
@@ -335,12 +342,22 @@ fn of_all_distances(robot: &Robot, fit: &Fit) -> Mistake {
         short(factor * (1.0 - 2.0 * fit.error)),
         short(factor * (1.0 + 2.0 * fit.error)),
     );
-    let remedy = format!(
-        "measure a wheel, and write wheel_radius_m = {} if that is its radius; else gear_ratio = {} or \
-         encoder_counts_per_motor_rev = {}",
-        short(robot.wheel_radius_m * fit.scale),
-        short(robot.gear_ratio / fit.scale),
-        short(robot.encoder_counts_per_motor_rev / fit.scale),
-    );
+    let radius = short(robot.wheel_radius_m * fit.scale);
+    let remedy = if runs::is_dead_reckoning(robot) {
+        ODOMETRY.to_owned()
+    } else if runs::is_from_speeds(robot) {
+        format!(
+            "measure a wheel, and write wheel_radius_m = {radius} if that is its radius; else the speeds are of another \
+             shaft or unit: multiply them by {}",
+            short(fit.scale)
+        )
+    } else {
+        format!(
+            "measure a wheel, and write wheel_radius_m = {radius} if that is its radius; else gear_ratio = {} or \
+             encoder_counts_per_motor_rev = {}",
+            short(robot.gear_ratio / fit.scale),
+            short(robot.encoder_counts_per_motor_rev / fit.scale),
+        )
+    };
     Mistake::new("robot-file", "robot.toml", what, remedy)
 }

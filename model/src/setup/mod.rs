@@ -11,8 +11,8 @@ mod orders;
 mod samples;
 mod time;
 
-use runs::Logs;
 use runs::robot::Robot;
+use runs::{Logs, is_dead_reckoning, is_from_speeds};
 
 pub use orders::orders;
 
@@ -74,26 +74,54 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
 
 /// What stands in the file under the name of a common ratio of all distances, if it explains it.
 pub(crate) fn common_ratio(robot: &Robot, ratio: f64) -> Option<Mistake> {
+    if is_dead_reckoning(robot) {
+        return None;
+    }
+    let diameter = (0.5, {
+        let what =
+            format!("all distances by the counts are {:.2} times too long: it looks like a diameter", 1.0 / ratio);
+        let remedy = format!("write wheel_radius_m = {}", short(robot.wheel_radius_m / 2.0));
+        Mistake::new("wheel-diameter", "wheel_radius_m", what, remedy)
+    });
+    let mut kinds = vec![diameter];
+    kinds.extend(if is_from_speeds(robot) { of_speeds(robot, ratio) } else { of_counts(robot, ratio) });
+    let off = |of: f64| (ratio / of).ln().abs();
+    kinds.into_iter().filter(|(of, _)| near(ratio, *of)).min_by(|a, b| off(a.0).total_cmp(&off(b.0))).map(|(_, m)| m)
+}
+
+/// Speeds of another shaft or in another unit, which encoder and gear have no part in.
+fn of_speeds(robot: &Robot, ratio: f64) -> Vec<(f64, Mistake)> {
     let gear = robot.gear_ratio;
-    let mut kinds: Vec<(f64, Mistake)> = vec![
-        (0.5, {
-            let what =
-                format!("all distances by the counts are {:.2} times too long: it looks like a diameter", 1.0 / ratio);
-            let remedy = format!("write wheel_radius_m = {}", short(robot.wheel_radius_m / 2.0));
-            Mistake::new("wheel-diameter", "wheel_radius_m", what, remedy)
-        }),
-        (0.25, {
-            let what = format!(
-                "all distances by the counts are {:.2} times too long: counts without their x4 decoding",
-                1.0 / ratio
-            );
-            let remedy = format!(
-                "write encoder_counts_per_motor_rev = {}, four for every line of the encoder",
-                short(4.0 * robot.encoder_counts_per_motor_rev)
-            );
-            Mistake::new("encoder-counts", "encoder_counts_per_motor_rev", what, remedy)
-        }),
-    ];
+    let kind = |of: f64, looks: &str, remedy: String| {
+        let what = format!("the wheels' speeds are {} times what they drive: {looks}", short(1.0 / ratio));
+        (of, Mistake::new("speed-unit", "speed_1", what, remedy))
+    };
+    let mut kinds = vec![kind(
+        std::f64::consts::TAU / 60.0,
+        "turns per minute",
+        "write rad/s at the wheel (divide by 9.5493), or name the unit to `racbot convert`".to_owned(),
+    )];
+    if gear.ln().abs() > 0.5 {
+        let remedy = format!("divide them by gear_ratio, {}: they are rad/s at the wheel", short(gear));
+        kinds.push(kind(1.0 / gear, "speeds of the motors", remedy));
+    }
+    kinds
+}
+
+/// Counts of another number for a turn of the wheel.
+fn of_counts(robot: &Robot, ratio: f64) -> Vec<(f64, Mistake)> {
+    let gear = robot.gear_ratio;
+    let mut kinds: Vec<(f64, Mistake)> = vec![(0.25, {
+        let what = format!(
+            "all distances by the counts are {:.2} times too long: counts without their x4 decoding",
+            1.0 / ratio
+        );
+        let remedy = format!(
+            "write encoder_counts_per_motor_rev = {}, four for every line of the encoder",
+            short(4.0 * robot.encoder_counts_per_motor_rev)
+        );
+        Mistake::new("encoder-counts", "encoder_counts_per_motor_rev", what, remedy)
+    })];
     if (gear * gear).ln().abs() > 0.5 {
         let what = format!(
             "all distances by the counts are {:.2} times too long, the square of the gear ratio: it is upside down",
@@ -102,8 +130,7 @@ pub(crate) fn common_ratio(robot: &Robot, ratio: f64) -> Option<Mistake> {
         let remedy = format!("write gear_ratio = {}, motor turns per wheel turn", short(1.0 / gear));
         kinds.push((gear * gear, Mistake::new("gear-ratio", "gear_ratio", what, remedy)));
     }
-    let off = |of: f64| (ratio / of).ln().abs();
-    kinds.into_iter().filter(|(of, _)| near(ratio, *of)).min_by(|a, b| off(a.0).total_cmp(&off(b.0))).map(|(_, m)| m)
+    kinds
 }
 
 /// Four digits.

@@ -115,6 +115,11 @@ pub fn is_dead_reckoning(robot: &Robot) -> bool {
     matches!(&robot.layout, Layout::Wheels(wheels) if wheels[..] == virtual_wheels())
 }
 
+/// Whether a robot's counts are integrated wheel speeds, see [`as_logged`]: gear and encoder have no part in them.
+pub fn is_from_speeds(robot: &Robot) -> bool {
+    !is_dead_reckoning(robot) && (robot.counts_per_wheel_rad() / VIRTUAL_COUNTS_PER_RAD - 1.0).abs() < 1e-9
+}
+
 /// Wheels that measure vx, vy and vx + arm · ω.
 fn virtual_wheels() -> [Wheel; 3] {
     let wheel = |y_m: f64, drive_rad: f64| Wheel { x_m: 0.0, y_m, drive_rad, roller_rad: 0.0 };
