@@ -12,6 +12,7 @@ mod camera_scale;
 mod camera_timing;
 mod carpet_grain;
 mod centre_of_mass;
+mod coasting_bridge;
 mod coulomb_friction;
 mod dead_band;
 mod drive_curve;
@@ -107,6 +108,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(roller_friction::RollerFriction),
         Box::new(dead_band::DeadBand),
         Box::new(drive_curve::DriveCurve),
+        Box::new(coasting_bridge::CoastingBridge),
         Box::new(torque_constant::TorqueConstant),
         Box::new(winding_resistance::WindingResistance),
         Box::new(battery_sag::BatterySag),

@@ -69,6 +69,7 @@ const CASES: &[Case] = &[
     case("roller-friction", &[("force_n", 0.5)], ("force_n", 0.25), &RICH, &[]),
     case("dead-band", &[("duty", 0.12)], ("duty", 0.25), &SLOW, &[]),
     case("drive-curve", &[("curvature", 0.4)], ("curvature", 0.25), &HARD, &[]),
+    case("coasting-bridge", &[("share", 0.6)], ("share", 0.25), &HARD, &[]),
     case("torque-constant", &[("scale", -0.15)], ("scale", 0.25), &HARD, &[]),
     case("battery-sag", &[("resistance_ohm", 0.25)], ("resistance_ohm", 0.4), &HARD, &[]),
     case("motor-heating", &[("rise", 1.5), ("time_s", 8.0)], ("rise", 0.4), &HARD, &[]),

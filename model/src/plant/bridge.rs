@@ -47,8 +47,10 @@ impl Plant {
                 supply = ((supply + ohm * idle) / (1.0 + ohm * slope)).max(0.0);
             }
         }
+        let coasting = self.deviations.as_deref().map_or(0.0, |d| d.coasting);
         for ((wheel, axis), u) in self.wheels.iter_mut().zip(&self.axes).zip(&acting) {
-            wheel.drive = axis.winding_torque(u * supply, 0.0);
+            let open = coasting * (1.0 - u.abs()) * axis.damping * wheel.speed;
+            wheel.drive = axis.winding_torque(u * supply, 0.0) + open;
         }
         self.acting = acting;
     }

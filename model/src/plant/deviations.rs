@@ -27,6 +27,8 @@ pub struct Deviations {
     pub dead_band_passes: bool,
     /// Duty u acts as u (1 + curvature (|u| − 1)).
     pub curvature: f64,
+    /// Share of the time between pulses in which the bridge is open, and nothing brakes.
+    pub coasting: f64,
     /// Age of the duty that acts, s.
     pub duty_delay_s: f64,
     /// Supply: what it lacks at no load (V), and its resistance (Ω).
