@@ -49,7 +49,7 @@ fn pairs(line: &str) -> Option<Vec<(&str, &str)>> {
     let is_name =
         |word: &str| word.starts_with(|c: char| c.is_alphabetic() || c == '_') && word.parse::<f64>().is_err();
     let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let whole = words.len() >= 4 && words.len() % 2 == 0;
+    let whole = words.len() >= 4 && words.len().is_multiple_of(2);
     let pairs: Vec<(&str, &str)> = words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
     (whole && pairs.iter().all(|(name, number)| is_name(name) && is_number(number))).then_some(pairs)
 }
