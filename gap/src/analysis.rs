@@ -2,6 +2,7 @@
 
 mod answer;
 mod clocks;
+mod cut;
 mod driven;
 mod driving;
 mod findings;

@@ -2,7 +2,7 @@
 
 use runs::robot::{Robot, Support};
 
-use super::question::Cut;
+use super::cut::Cut;
 use crate::drive::{DriveLink, DriveModel, Generic};
 use crate::pieces::Driving;
 use crate::thresholds::NO_NOISE;

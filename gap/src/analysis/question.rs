@@ -8,6 +8,7 @@ use runs::robot::Robot;
 use runs::{DutySource, Logs};
 
 use super::clocks;
+use super::cut::Cut;
 use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
@@ -20,29 +21,6 @@ use crate::options::Options;
 use crate::pieces::{Driving, PIECE, Pieces, segments};
 use crate::state::{Active, State};
 use crate::{GapError, command, controller, effects, timing};
-
-/// Logs in pieces, and a sample of long ones.
-pub(super) struct Cut<'a> {
-    pub(super) whole: Pieces<'a>,
-    sample: Option<Pieces<'a>>,
-}
-
-impl<'a> Cut<'a> {
-    /// What causes are looked for in.
-    pub(super) fn searched(&self) -> &Pieces<'a> {
-        self.sample.as_ref().unwrap_or(&self.whole)
-    }
-
-    /// The same, looked at in another way.
-    fn driven(&self, driving: Driving) -> Self {
-        Self { whole: self.whole.driven(driving), sample: self.sample.as_ref().map(|s| s.driven(driving)) }
-    }
-
-    /// Whether that is not all.
-    pub(super) fn is_sampled(&self) -> bool {
-        self.sample.is_some()
-    }
-}
 
 /// A data set and what is asked of it.
 pub(super) struct Question<'a> {
