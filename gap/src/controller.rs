@@ -17,6 +17,9 @@ mod replay;
 const WRONG_SHARE: f64 = 0.005;
 /// A hypothesis must remove this share of the error's square.
 const REMOVED: f64 = 0.8;
+/// And leave at most this share of the wrong ticks wrong. True gains, found to 0.05 %, left 0.6 of them; with a gear ratio in
+/// the file that was 19 % off, gains without an integrator removed 0.9 of the square and left 1.01.
+const LEFT_WRONG: f64 = 0.8;
 /// How far the arithmetic of another controller may stray: fixed-point or single-precision numbers, that an
 /// integrator adds up.
 const SLACK: f64 = 5e-5;
@@ -114,9 +117,10 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     }
     let mut best: (f64, Option<Finding>, Vec<f64>) = (start, None, link.before.clone());
     let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, Interval)>| {
-        let e = rms(&law);
-        if total(&e) < best.0 * 0.999 {
-            let now = replay(robot, logs, &law, floor);
+        let now = replay(robot, logs, &law, floor);
+        let e: Vec<f64> = now.iter().map(|wheel| wheel.rms).collect();
+        let mends = wrong_ticks(&now) as f64 <= LEFT_WRONG * wrong_ticks(&nominally) as f64;
+        if mends && total(&e) < best.0 * 0.999 {
             let ticks = now.iter().map(|w| w.ticks).sum();
             let evidence = Evidence::Replay { ticks, wrong: [wrong_ticks(&nominally), wrong_ticks(&now)] };
             let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };

@@ -102,3 +102,15 @@ fn a_latency_that_compares_nothing_is_not_named() {
     assert!(!names(&a).contains(&"command-latency"), "{}", a.terminal_summary());
     assert!(a.unexplained.iter().any(|u| u.link == Link::Command), "{}", a.terminal_summary());
 }
+
+/// With another gear ratio in the file every speed that the loop sees is wrong: no gains replay that, though some leave a
+/// tenth of the error's square.
+#[test]
+fn gains_that_replay_nothing_are_not_named() {
+    let set = set(&Robot::racbot());
+    for gear_ratio in [4.4, 3.4] {
+        let a = analysed(&set, Robot { gear_ratio, ..Robot::racbot() });
+        assert!(!names(&a).contains(&"pi-gain"), "{gear_ratio}: {}", a.terminal_summary());
+        assert!(a.unexplained.iter().any(|u| u.link == Link::Controller), "{gear_ratio}: {:?}", a.unexplained);
+    }
+}
