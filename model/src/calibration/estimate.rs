@@ -51,7 +51,7 @@ pub struct SkewEstimate {
     pub parts: Vec<Part>,
     /// Radii, marker and clocks, where it asks for any.
     pub sizes: Sizes,
-    /// Everything that was fitted, by name.
+    /// Everything that was fitted, by name; empty where there is no estimate.
     pub fitted: Vec<(KinematicParameter, f64)>,
     /// How well the camera is predicted.
     pub residual: Residual,
@@ -77,6 +77,12 @@ pub struct Residual {
 }
 
 impl SkewEstimate {
+    /// Whether nothing at all could be found out; the remarks say why.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.fitted.is_empty()
+    }
+
     /// `{"skew_rad", "ci95", "common_identifiable", "residual": {...}, ...}`.
     pub fn to_json(&self) -> serde_json::Value {
         let r = &self.residual;

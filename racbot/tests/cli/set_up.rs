@@ -224,3 +224,20 @@ fn a_strangers_log_becomes_a_run_by_a_drafted_map() {
     let list = racbot(folder.path(), &["convert", "--list", "bare.csv"]).done();
     assert!(list.stdout.contains("a  2 samples, 1.000000 to 3.000000"), "{}", list.stdout);
 }
+
+/// Where nothing could be found out, nothing is to be typed into a firmware.
+#[test]
+fn a_calibration_without_an_estimate_prints_no_arrays() {
+    let folder = tempdir().unwrap();
+    let from = data("runs/wheel-skew");
+    fs::copy(from.join("robot.toml"), folder.path().join("robot.toml")).unwrap();
+    for mut run in runs::DataSet::open(&from).unwrap().runs {
+        run.camera.clear();
+        run.save(folder.path().join(format!("{}.csv", run.name)), runs::output::Existing::Refuse).unwrap();
+    }
+    let outcome = racbot(folder.path(), &["calibrate", "."]).done().fits_80_columns();
+    assert!(outcome.stdout.starts_with("The logs have no camera poses"), "{}", outcome.stdout);
+    for absent in ["static const float", "95 % from", "residual"] {
+        assert!(!outcome.stdout.contains(absent), "{absent}: {}", outcome.stdout);
+    }
+}

@@ -12,7 +12,7 @@ fn degrees(rad: f64) -> String {
 pub(super) fn text(estimate: &SkewEstimate) -> String {
     let mut text = String::new();
     // The wheels of a differential drive have no skew that a camera shows.
-    if !estimate.differences.is_empty() {
+    if !estimate.differences.is_empty() && !estimate.is_none() {
         let mut table = Table::new(1, &["wheel", "skew", "95 % from", "to"]);
         for (wheel, (skew, [low, high])) in estimate.skew_rad.iter().zip(&estimate.ci95).enumerate() {
             table.row([(wheel + 1).to_string(), degrees(*skew), degrees(*low), degrees(*high)]);
@@ -20,7 +20,7 @@ pub(super) fn text(estimate: &SkewEstimate) -> String {
         text = table.render();
         text.push('\n');
     }
-    for (i, j, half) in &estimate.differences {
+    for (i, j, half) in estimate.differences.iter().filter(|_| !estimate.is_none()) {
         let difference = estimate.skew_rad[*i] - estimate.skew_rad[*j];
         let _ = writeln!(text, "wheel {} - {}  {} ± {}", i + 1, j + 1, degrees(difference), degrees(*half));
     }
@@ -30,11 +30,13 @@ pub(super) fn text(estimate: &SkewEstimate) -> String {
         let heading = if headed { degrees(theta) } else { "no headings".to_owned() };
         format!("{:.1} mm, {:.1} mm, {heading}", 1e3 * x, 1e3 * y)
     };
-    let _ = writeln!(text, "residual     {} before", shown(residual.before));
-    let _ = writeln!(text, "             {} after", shown(residual.after));
-    let _ = writeln!(text, "noise        {}, {} camera frames", shown(residual.noise), residual.frames);
+    if residual.frames > 0 {
+        let _ = writeln!(text, "residual     {} before", shown(residual.before));
+        let _ = writeln!(text, "             {} after", shown(residual.after));
+        let _ = writeln!(text, "noise        {}, {} camera frames", shown(residual.noise), residual.frames);
+    }
     for remark in &estimate.remarks {
-        text.push('\n');
+        text.extend((!text.is_empty()).then_some('\n'));
         text += &wrapped(remark, 0);
     }
     text

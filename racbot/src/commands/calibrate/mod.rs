@@ -111,6 +111,9 @@ impl Options {
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
         let mut text = hints + &estimate::text(&estimate);
+        if estimate.is_none() {
+            return Ok((Answer { text, json: estimate.to_json(), wrong: None }, Calibrated::not_at_all(&found)));
+        }
         // Logs come from robots of any kind; words and drives are for those that the card can drive.
         let whole = set.robot.missing.is_empty();
         let card = if whole { Calibrated::new(&set.robot, &found, &found).ok() } else { None };

@@ -15,6 +15,8 @@ pub(super) struct Calibrated {
     robot: Robot,
     /// The FPGA's configuration bank, offsets and words.
     words: Vec<(u16, i32)>,
+    /// Whether there is something to type into a firmware.
+    found: bool,
     pictures: Vec<(&'static str, String)>,
     #[cfg(feature = "simulation")]
     path_errors_m: [f64; 3],
@@ -34,10 +36,16 @@ impl Calibrated {
         Self {
             robot: calibrated.clone(),
             words: Vec::new(),
+            found: true,
             pictures: Vec::new(),
             #[cfg(feature = "simulation")]
             path_errors_m: [f64::NAN; 3],
         }
+    }
+
+    /// A robot of which nothing was found out: its file as it was.
+    pub(super) fn not_at_all(nominal: &Robot) -> Self {
+        Self { found: false, ..Self::without_card(nominal) }
     }
 
     /// Fig. 6 with ideal geometry, before and after, on odometry alone.
@@ -61,13 +69,13 @@ impl Calibrated {
         ];
         let pictures = vec![("trajectory.svg", trajectory("Before and after calibration", &FIG_6, &curves))];
         let path_errors_m = [&ideal, &before, &after].map(|driven| driven.report.path_error_rms_m);
-        Ok(Self { robot: calibrated.clone(), words, pictures, path_errors_m })
+        Ok(Self { robot: calibrated.clone(), words, found: true, pictures, path_errors_m })
     }
 
     /// Drives need the simulation.
     #[cfg(not(feature = "simulation"))]
     fn drive(_: &Robot, _: &Robot, calibrated: &Robot, words: Vec<(u16, i32)>) -> Result<Self, Failure> {
-        Ok(Self { robot: calibrated.clone(), words, pictures: Vec::new() })
+        Ok(Self { robot: calibrated.clone(), words, found: true, pictures: Vec::new() })
     }
 
     /// Path errors (RMS, m) of those drives.
@@ -90,7 +98,7 @@ impl Calibrated {
 
     /// What its owner types into a program of his own.
     pub(super) fn firmware(&self) -> Option<Firmware> {
-        Firmware::of(&self.robot).ok()
+        self.found.then(|| Firmware::of(&self.robot).ok()).flatten()
     }
 
     /// What stands in `index.html`: the answer as the terminal shows it, what to type in, the pictures.
