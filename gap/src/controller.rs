@@ -96,6 +96,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
     let wrong = nominally.iter().map(Replayed::wrong_share).fold(0.0, f64::max);
     let wrong_ticks = |wheels: &[Replayed]| wheels.iter().map(|w| w.wrong).sum::<u64>();
+    let wrong_before = wrong_ticks(&nominally);
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -119,10 +120,11 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, Interval)>| {
         let now = replay(robot, logs, &law, floor);
         let e: Vec<f64> = now.iter().map(|wheel| wheel.rms).collect();
-        let mends = wrong_ticks(&now) as f64 <= LEFT_WRONG * wrong_ticks(&nominally) as f64;
+        let wrong_now = wrong_ticks(&now);
+        let mends = wrong_now as f64 <= LEFT_WRONG * wrong_before as f64;
         if mends && total(&e) < best.0 * 0.999 {
             let ticks = now.iter().map(|w| w.ticks).sum();
-            let evidence = Evidence::Replay { ticks, wrong: [wrong_ticks(&nominally), wrong_ticks(&now)] };
+            let evidence = Evidence::Replay { ticks, wrong: [wrong_before, wrong_now] };
             let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };
             best = (total(&e), Some(finding), e);
         }

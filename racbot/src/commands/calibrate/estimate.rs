@@ -12,7 +12,8 @@ fn degrees(rad: f64) -> String {
 pub(super) fn text(estimate: &SkewEstimate) -> String {
     let mut text = String::new();
     // The wheels of a differential drive have no skew that a camera shows.
-    if !estimate.differences.is_empty() && !estimate.is_none() {
+    let differences = if estimate.is_none() { &[][..] } else { &estimate.differences };
+    if !differences.is_empty() {
         let mut table = Table::new(1, &["wheel", "skew", "95 % from", "to"]);
         for (wheel, (skew, [low, high])) in estimate.skew_rad.iter().zip(&estimate.ci95).enumerate() {
             table.row([(wheel + 1).to_string(), degrees(*skew), degrees(*low), degrees(*high)]);
@@ -20,7 +21,7 @@ pub(super) fn text(estimate: &SkewEstimate) -> String {
         text = table.render();
         text.push('\n');
     }
-    for (i, j, half) in estimate.differences.iter().filter(|_| !estimate.is_none()) {
+    for (i, j, half) in differences {
         let difference = estimate.skew_rad[*i] - estimate.skew_rad[*j];
         let _ = writeln!(text, "wheel {} - {}  {} ± {}", i + 1, j + 1, degrees(difference), degrees(*half));
     }
