@@ -218,7 +218,7 @@ impl DriveModel {
             let rotor = g * g * a.rotor_inertia;
             Axis {
                 gain,
-                damping: gain * a.back_emf * g * a.encoder_scale,
+                damping: a.braking(g) * a.encoder_scale,
                 coulomb: g * a.friction,
                 loss: a.gear_loss,
                 passed: match self.support {

@@ -17,10 +17,7 @@ use super::{DriveLink, DriveModel, DriveResiduals};
 pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     let mechanics = model.mechanics()?;
     let residuals = link.residuals(model)?;
-    let damping = model.axes.iter().map(|a| {
-        let per_speed = model.gear_ratio.powi(2) * a.torque_constant * a.back_emf / a.resistance;
-        per_speed * a.encoder_scale
-    });
+    let damping = model.axes.iter().map(|a| a.braking(model.gear_ratio) * a.encoder_scale);
     let damping = DVector::from_iterator(model.axes.len(), damping);
     // Test functions overlap by half: each stands for that much of the log.
     Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))

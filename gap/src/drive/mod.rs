@@ -58,6 +58,13 @@ pub struct AxisModel {
     pub encoder_scale: f64,
 }
 
+impl AxisModel {
+    /// Torque by which the back-EMF brakes a wheel behind such a gear, Nm per rad/s.
+    pub fn braking(&self, gear_ratio: f64) -> f64 {
+        gear_ratio * self.torque_constant / self.resistance * self.back_emf * gear_ratio
+    }
+}
+
 /// Everything between duty and wheel motion; effects change it.
 pub struct DriveModel {
     /// Wheels as they really are.

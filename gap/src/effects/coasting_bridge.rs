@@ -35,10 +35,7 @@ impl Effect for CoastingBridge {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let share = values.get("share");
-        let g = model.gear_ratio;
-        let braking =
-            |a: &crate::drive::AxisModel| g * g * a.torque_constant * a.back_emf * a.encoder_scale / a.resistance;
-        let braking: Vec<f64> = model.axes.iter().map(braking).collect();
+        let braking: Vec<f64> = model.axes.iter().map(|a| a.braking(model.gear_ratio)).collect();
         model.loads.push(Box::new(move |now, loads| {
             for (i, braking) in braking.iter().enumerate() {
                 loads.wheel[i] += share * braking * (1.0 - now.duty[i].abs()) * now.speed[i];
