@@ -2,6 +2,7 @@
 
 mod answer;
 mod clocks;
+mod counts;
 mod cut;
 mod driven;
 mod driving;
@@ -69,6 +70,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched()));
     let mut workflow = Workflow::new(&question, &whole, sample.as_ref(), crossed, remarks);
     options.reached(Stage::Exact);
+    workflow.counts(&exact);
     workflow.motion();
     workflow.drive();
     let replayed = workflow.exact(&exact);

@@ -11,7 +11,10 @@ use crate::parts::parts;
 use crate::words;
 use replay::{Replayed, replay};
 
+mod counts;
 mod replay;
+
+pub(crate) use counts::with_other_counts;
 
 /// Share of ticks that may differ by more than rounding.
 const WRONG_SHARE: f64 = 0.005;
@@ -39,6 +42,8 @@ struct Law {
     duty_quantum: f64,
     /// Ticks by which the counts and the set points used are older than logged.
     shift: [usize; 2],
+    /// Counts a wheel turn that speeds are reckoned with, in those of the file.
+    counts: f64,
 }
 
 impl Law {
@@ -59,38 +64,50 @@ impl Law {
             windup: value("integrator-windup", "limit_duty"),
             duty_quantum: value("quantisation", "duty_quantum").unwrap_or(duty_quantum),
             shift,
+            counts: 1.0 + value(ENCODER_SCALE, LOOP_SCALE).unwrap_or(0.0),
         }
     }
 }
+
+/// The one effect that says how many counts a wheel turn has, and the number that the controller takes for it.
+pub(crate) const ENCODER_SCALE: &str = "encoder-scale";
+pub(crate) const LOOP_SCALE: &str = "loop_scale";
 
 /// What is read here.
 const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
 
 /// Replays the duties of every run and wheel; says why where it cannot.
 pub(crate) fn analyse(robot: &Robot, logs: &[Log], remarks: &mut Vec<String>) -> Option<ExactLink> {
-    let n = robot.wheel_count();
-    let whole = |log: &&Log| {
-        let has = log.layout();
-        has.reference.len() == n && has.counts.len() == n && has.duty.len() == n
-    };
-    let mut logs: Vec<&Log> = logs.iter().filter(whole).collect();
-    // The file of another machine may say nothing of a speed loop.
-    let no_loop = robot.pi.kp == 0.0 && robot.pi.ki == 0.0 && robot.pi.arithmetic.is_none();
-    if logs.is_empty() || no_loop {
+    let logs = with_loops(robot, logs);
+    if logs.is_empty() {
         return None;
     }
     words::controller(robot, &logs).or_law(WRONG_SHARE, remarks, || {
-        logs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+        let logs = at_rate(robot, logs);
         (!logs.is_empty()).then(|| analyse_law(robot, &logs))
     })
 }
 
+/// Logs with all that a speed loop has; none where the file, as that of another machine may, says nothing of one.
+fn with_loops<'a>(robot: &Robot, logs: &'a [Log<'a>]) -> Vec<&'a Log<'a>> {
+    let n = robot.wheel_count();
+    let no_loop = robot.pi.kp == 0.0 && robot.pi.ki == 0.0 && robot.pi.arithmetic.is_none();
+    let whole = |log: &&Log| {
+        let has = log.layout();
+        !no_loop && has.reference.len() == n && has.counts.len() == n && has.duty.len() == n
+    };
+    logs.iter().filter(whole).collect()
+}
+
+/// Those of them with a row for every period of the loop.
+fn at_rate<'a>(robot: &Robot, mut logs: Vec<&'a Log<'a>>) -> Vec<&'a Log<'a>> {
+    logs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+    logs
+}
+
 /// In floating point, by the law of `robot.toml`.
 fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
-    let logged = quantum(logs, DUTIES, |r| &r.duty);
-    let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
-    let floor = 0.5 * step.max(logged.min(0.001)) + SLACK;
-    let nominal = Law::stated(robot, step);
+    let ([logged, step, floor], nominal) = stated(robot, logs);
     let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.rms).collect() };
     let nominally = replay(robot, logs, &nominal, floor);
     let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
@@ -183,6 +200,11 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         named("ki_scale", gains.ki / robot.pi.ki.max(1e-12) - 1.0),
     ];
     offer(gains, "pi-gain", parameters);
+    // Where another law replays it all, two of them would.
+    let replayed = best.1.as_ref().is_some_and(|f| f.evidence.wrong_share().is_some_and(|share| share <= WRONG_SHARE));
+    if !replayed && let Some(counted) = counts::counted(robot, logs, &nominal, floor) {
+        best = (total(&counted.rms), Some(counted.finding(wrong_before)), counted.rms);
+    }
     if best.0 < (1.0 - REMOVED) * start {
         link.after = best.2;
         link.finding = best.1;
@@ -191,6 +213,13 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         link.unexplained = Law::EFFECTS.iter().all(|name| robot.effect(name).is_none());
     }
     link
+}
+
+/// The step of the logged duties, that of the loop, what rounding leaves of them, and the law of `robot.toml`.
+fn stated(robot: &Robot, logs: &[&Log]) -> ([f64; 3], Law) {
+    let logged = quantum(logs, DUTIES, |r| &r.duty);
+    let step = robot.duty_quantum.unwrap_or(if logged > 0.0 { logged.min(0.001) } else { 0.0 });
+    ([logged, step, 0.5 * step.max(logged.min(0.001)) + SLACK], Law::stated(robot, step))
 }
 
 const DUTIES: Columns = Columns { duty: true, ..Columns::NONE };

@@ -38,6 +38,14 @@ impl Evidence {
         }
     }
 
+    /// Share of the replayed ticks that are wrong with the effect, where signals were replayed.
+    pub fn wrong_share(&self) -> Option<f64> {
+        match self {
+            Self::Replay { ticks, wrong } => Some(wrong[1] as f64 / (*ticks).max(1) as f64),
+            Self::Test { .. } | Self::Pattern { .. } => None,
+        }
+    }
+
     /// As it stands in `gap.json` and `robot.toml`.
     pub fn kind(&self) -> &'static str {
         match self {

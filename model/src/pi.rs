@@ -66,6 +66,12 @@ impl SpeedLoop {
         Self { law, speed_per_count: robot.control_rate_hz / robot.counts_per_wheel_rad(), integral: 0.0, count: 0 }
     }
 
+    /// The same reckoning with `share` times the counts that a wheel turn has by the robot's file.
+    #[must_use]
+    pub fn counting(self, share: f64) -> Self {
+        Self { speed_per_count: self.speed_per_count / share, ..self }
+    }
+
     /// One tick: set point (rad/s at the wheel) and cumulative count to duty.
     pub fn step(&mut self, reference: f64, count: i64) -> f64 {
         let speed = count.wrapping_sub(self.count) as f64 * self.speed_per_count;

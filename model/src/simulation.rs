@@ -73,7 +73,10 @@ impl VirtualRobot {
         };
         Ok(Self {
             plant: applied.plant()?.at(start),
-            loops: vec![SpeedLoop::with_law(robot, applied.control.law(robot)); n],
+            loops: vec![
+                SpeedLoop::with_law(robot, applied.control.law(robot)).counting(1.0 + applied.control.counts);
+                n
+            ],
             control: applied.control.clone(),
             camera: Camera::new(applied.camera, seed),
             robot: robot.clone(),

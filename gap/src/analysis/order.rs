@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::found::Named;
+use crate::controller::ENCODER_SCALE;
 use crate::effect::{Effect, Link, Values};
 use crate::evidence::{Evidence, Interval};
 use crate::motion::MotionLink;
@@ -11,6 +12,9 @@ use crate::state::{Active, State};
 
 /// The one effect with two sides: cables on the motion link, set points on the command link.
 pub(super) const ORDER: &str = "wheel-order";
+
+/// Effects that one link shows a side of and another link the other, each by parameters of its own.
+pub(super) const TWO_SIDED: [&str; 2] = [ORDER, ENCODER_SCALE];
 
 /// Whether an effect says where the cables of the wheels are.
 pub(super) fn cabled(active: &Active) -> bool {

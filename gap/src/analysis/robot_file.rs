@@ -6,7 +6,7 @@ use runs::robot::{Effect as RobotEffect, EffectParameter, Robot, Support};
 use runs::{Columns, Log, Logs, as_logged};
 
 use super::found::Named;
-use super::order::ORDER;
+use super::order::TWO_SIDED;
 use crate::effect::{Effect, Values};
 use crate::evidence::Interval;
 use crate::options::Options;
@@ -135,7 +135,7 @@ pub(super) fn with_effects(robot: &Robot, named: &[Named], alternatives: &[Vec<S
         let mut effect = RobotEffect { name: n.name.clone(), wheels: n.wheels.clone(), parameters, other };
         if let Some(at) = out.effects.iter().position(|e| e.name == n.name) {
             let before = out.effects.remove(at);
-            if n.name == ORDER {
+            if TWO_SIDED.contains(&n.name.as_str()) {
                 // The other side of it stays.
                 let news: Vec<String> = effect.parameters.iter().map(|(name, _)| name.clone()).collect();
                 effect.parameters.extend(before.parameters.into_iter().filter(|(name, _)| !news.contains(name)));

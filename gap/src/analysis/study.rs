@@ -76,16 +76,23 @@ pub(super) fn chosen(
     }
     let all = problem.candidates(start, catalogue);
     let Some(plain) = select::plain(problem, start, &all, thresholds, false) else { return selection };
-    let named = |s: &Selection| {
-        let mut state = start.clone();
-        state.active.extend(s.state.active[from..].iter().filter(|a| a.is_named()).cloned());
-        let parameters: usize = state.active[from..].iter().map(|a| a.form.free.len()).sum();
-        problem.fit(&mut state);
-        (select::held_out(problem, &state).0, parameters)
-    };
-    let ((loss, parameters), (other, others)) = (named(&selection), named(&plain));
-    let needed = if others < parameters { 1.0 + BETTER } else { 1.0 - BETTER };
-    if other < needed * loss { plain } else { selection }
+    let needed = [&selection, &plain].map(|s| needed(problem, start, s));
+    if is_better(needed[1], needed[0]) { plain } else { selection }
+}
+
+/// What a selection needs: the held-out sum of squares that its names alone leave, and their parameters.
+pub(super) fn needed(problem: &Problem, start: &State, selection: &Selection) -> (f64, usize) {
+    let from = start.active.len();
+    let mut state = start.clone();
+    state.active.extend(selection.state.active[from..].iter().filter(|a| a.is_named()).cloned());
+    let parameters = state.active[from..].iter().map(|a| a.form.free.len()).sum();
+    problem.fit(&mut state);
+    (select::held_out(problem, &state).0, parameters)
+}
+
+/// Whether the first of two selections is better: with fewer parameters as good as the other, else better than it.
+pub(super) fn is_better((loss, parameters): (f64, usize), (other, others): (f64, usize)) -> bool {
+    loss < other * if parameters < others { 1.0 + BETTER } else { 1.0 - BETTER }
 }
 
 /// Root mean square of the residuals of a state in floors.

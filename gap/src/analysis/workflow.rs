@@ -3,13 +3,15 @@
 use runs::Logs;
 use runs::robot::Support;
 
+use super::counts::{self, Wrong};
 use super::findings::Findings;
 use super::found::{LinkGap, Named};
 use super::gaps;
 use super::measure::Data;
-use super::order::{ORDER, order_named};
+use super::order::{TWO_SIDED, order_named};
 use super::question::Question;
 use super::study::{chosen, study};
+use crate::controller::with_other_counts;
 use crate::effect::Link;
 use crate::effects;
 use crate::exact::{ExactLink, Finding};
@@ -77,6 +79,30 @@ impl<'a> Workflow<'a> {
         self.sample.map(|_| self.data)
     }
 
+    /// Counts a wheel turn that the controller reckons with, if they are not the file's.
+    pub(super) fn counts(&mut self, links: &[ExactLink]) {
+        let told = |link: &'_ ExactLink| {
+            Some((exact_named(link.finding.as_ref()?, link), counts::of_loop(link.finding.as_ref()?)?))
+        };
+        let Some((named, scale)) = links.iter().find_map(told) else { return };
+        let robot = &self.question.robot;
+        let wrong = counts::whose(scale, self);
+        let turn = std::f64::consts::TAU * robot.counts_per_wheel_rad();
+        self.findings.remarks.push(counts::said(&wrong, scale, turn));
+        if let Wrong::File(active) = wrong {
+            self.findings.named.push(counts::both_sides(named));
+            self.findings.found.push(active.clone());
+            self.start.active.push(active);
+        }
+    }
+
+    /// What the controller says of a radius that the camera does not tell from counts.
+    fn shared_counts(&mut self) {
+        let scale = counts::for_radius(&self.findings.named, &self.findings.alternatives);
+        let replayed = scale.and_then(|s| with_other_counts(&self.question.robot, self.data.logs, s));
+        self.findings.remarks.extend(replayed.map(|(ticks, wrong)| counts::shared(ticks, wrong)));
+    }
+
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
@@ -90,6 +116,7 @@ impl<'a> Workflow<'a> {
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);
+            self.shared_counts();
         }
         if !self.data.has_camera() {
             self.findings.remarks.push(missing(self.question.set));
@@ -99,9 +126,15 @@ impl<'a> Workflow<'a> {
 
     /// Takes over what the replayed links gave; their gaps.
     pub(super) fn exact(&mut self, links: &[ExactLink]) -> Vec<LinkGap> {
+        self.findings.remarks.extend(counts::geared(&self.findings.named, self.question.robot.gear_ratio));
         for link in links {
             let findings = &mut self.findings;
-            let is_new = |f: &&Finding| f.name == ORDER || !findings.named.iter().any(|n| n.name == f.name);
+            // Of an effect with two sides the other one may have its name.
+            let is_same = |n: &Named, f: &Finding| {
+                let side = |n: &Named| f.parameters.iter().all(|(p, ..)| n.parameters.iter().any(|(own, ..)| own == p));
+                n.name == f.name && (!TWO_SIDED.contains(&f.name) || side(n))
+            };
+            let is_new = |f: &&Finding| !findings.named.iter().any(|n| is_same(n, f));
             if let Some(f) = link.finding.as_ref().filter(is_new) {
                 findings.named.push(exact_named(f, link));
             } else if link.unexplained {

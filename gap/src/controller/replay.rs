@@ -93,7 +93,7 @@ impl Replayed {
 /// Replays every wheel's loop.
 pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec<Replayed> {
     let rate = robot.control_rate_hz;
-    let per_count = rate / robot.counts_per_wheel_rad();
+    let per_count = rate / (robot.counts_per_wheel_rad() * law.counts);
     let half = floor.max(0.5 * law.duty_quantum + SLACK);
     let rounded = |u: f64| {
         let u = u.clamp(-1.0, 1.0);
@@ -182,7 +182,7 @@ mod tests {
     }
 
     fn nominal(robot: &Robot) -> Law {
-        Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: 0.001, shift: [0, 0] }
+        Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: 0.001, shift: [0, 0], counts: 1.0 }
     }
 
     const FLOOR: f64 = 0.000_5 + SLACK;
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn bounds_hold_the_integrator_wherever_it_is_held() {
-        let law = Law { kp: 0.02, ki: 30.0, windup: None, duty_quantum: 0.0, shift: [0, 0] };
+        let law = Law { kp: 0.02, ki: 30.0, windup: None, duty_quantum: 0.0, shift: [0, 0], counts: 1.0 };
         let pi = model::pi::PiLaw { kp: law.kp, ki: law.ki, rate_hz: 1000.0, duty_quantum: 0.0, integral_limit: None };
         let (mut truth, mut bounds) = (0.4, Integral { low: -0.9, high: 1.3 });
         for k in 0..3_000 {

@@ -15,7 +15,7 @@ impl Effect for EncoderScale {
     }
 
     fn equation(&self) -> &str {
-        "a wheel turn gives (1 + scale_i) times the counts stated: wrong counts per turn or gear ratio"
+        "a wheel turn gives (1 + scale_i) times the counts stated, and the controller reckons with (1 + loop_scale) times them: wrong counts per turn or gear ratio"
     }
 
     fn reference(&self) -> &str {

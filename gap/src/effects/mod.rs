@@ -132,6 +132,7 @@ pub fn exact_equation(name: &str) -> &'static str {
         "command-latency" => "set point at t follows the command at t - latency_s",
         "wheel-order" => "set point i follows row |axis_i| of the inverse kinematics, inverted where negative",
         "pi-gain" => "gains of the speed loop are kp (1 + kp_scale), ki (1 + ki_scale)",
+        "encoder-scale" => "the controller reckons with (1 + loop_scale) times the counts stated",
         "integrator-windup" => "the integrator is not held at saturation but stops at limit_duty",
         "quantisation" => "duties are rounded to duty_quantum",
         "sample-order" => {

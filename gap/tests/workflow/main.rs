@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod common;
+mod counts;
 mod currents;
 mod drive;
 mod experiment;

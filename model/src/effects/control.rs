@@ -20,6 +20,8 @@ pub struct ControlDeviations {
     pub command_latency_s: f64,
     /// Row of the inverse kinematics, from 1, that each set point follows, inverted where negative.
     pub order: Vec<f64>,
+    /// Counts a wheel turn that its speeds are reckoned with, relative to those stated.
+    pub counts: f64,
 }
 
 impl ControlDeviations {
@@ -40,6 +42,13 @@ impl ControlDeviations {
         let row = self.order.get(i).copied().unwrap_or(i as f64 + 1.0);
         let index = (row.abs().round() as usize).clamp(1, believed.wheel_count()) - 1;
         row.signum() * believed.wheel_speed(index, command)
+    }
+}
+
+/// What the controller takes for the counts of a wheel turn, beside what the encoder gives.
+pub(super) fn reckoned(effect: &Effect, control: &mut ControlDeviations) {
+    if effect.name == "encoder-scale" {
+        control.counts += effect.value("loop_scale").unwrap_or(0.0);
     }
 }
 

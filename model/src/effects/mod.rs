@@ -60,6 +60,7 @@ impl Applied {
             if effect.name == "camera-timing" {
                 applied.stamp_jitter_s = effect.value("jitter_s").unwrap_or(0.0);
             }
+            control::reckoned(effect, &mut applied.control);
             let known = geometry::cables(effect, &mut applied.robot)
                 || geometry::apply(effect, &mut applied.robot)
                 || plant::apply(effect, &mut applied)

@@ -32,6 +32,10 @@ fn gains_and_ages() {
         let run = log("sample-order", &[("signal", signal), ("shift_ticks", 2.0)]);
         assert!(replayed(&run, &nominal, age) < 1e-12 && replayed(&run, &nominal, [0, 0]) > 0.01);
     }
+    let mut counting = nominal.clone();
+    counting.encoder_counts_per_motor_rev *= 1.1;
+    let run = log("encoder-scale", &[("loop_scale", 0.1)]);
+    assert!(replayed(&run, &counting, [0, 0]) < 1e-12 && replayed(&run, &nominal, [0, 0]) > 0.01);
     let coarse = log("quantisation", &[("duty_quantum", 0.05)]);
     assert!(coarse.duty.iter().flatten().all(|d| (d / 0.05 - (d / 0.05).round()).abs() < 1e-9));
 }

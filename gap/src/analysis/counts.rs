@@ -1,0 +1,127 @@
+//! `encoder-scale` as the controller's duties and the camera tell it together.
+//!
+//! Counts a wheel turn stand in three places: in the file, in the controller, in the encoder. Camera and wheels tell the
+//! file from the encoder, but not from a radius; the controller's own duties tell its number from the file's.
+
+use super::found::Named;
+use super::gaps;
+use super::study::{chosen, is_better, needed};
+use super::workflow::Workflow;
+use crate::controller::{ENCODER_SCALE, LOOP_SCALE};
+use crate::effect::{Form, Link, Values};
+use crate::evidence::Interval;
+use crate::exact::Finding;
+use crate::problem::Problem;
+use crate::state::{Active, State};
+
+const SCALE: &str = "scale";
+
+/// Whose number of counts is wrong.
+pub(super) enum Wrong {
+    /// The file's: the camera has that of the controller.
+    File(Active),
+    /// The controller's: the camera has that of the file.
+    Controller,
+    /// No camera tells, or it has neither.
+    Untold,
+}
+
+/// The scale that a replay found in the controller.
+pub(super) fn of_loop(finding: &Finding) -> Option<f64> {
+    finding.parameters.iter().find(|(name, ..)| name == LOOP_SCALE).map(|(_, scale, _)| *scale)
+}
+
+/// Whose it is, where the controller reckons with a `scale` more counts than the file has: the file's, where what is seen
+/// beside needs fewer names by the controller's number; the controller's, where it needs fewer by the file's.
+pub(super) fn whose(scale: f64, workflow: &Workflow) -> Wrong {
+    let (link, start, catalogue) = (workflow.searched().motion, &workflow.start, workflow.data.catalogue);
+    let stated = start.active.iter().any(|a| a.effect.name() == ENCODER_SCALE);
+    let Some(effect) = catalogue.iter().find(|e| e.name() == ENCODER_SCALE && !stated && workflow.data.has_motion)
+    else {
+        return Wrong::Untold;
+    };
+    let values = Values(vec![(SCALE.to_owned(), scale), (LOOP_SCALE.to_owned(), scale)]);
+    let form = Form { wheels: Vec::new(), free: Vec::new(), fixed: values.0.clone() };
+    let mended = Active { given: true, values, ..Active::new(effect.clone(), form) };
+    let mut other = start.clone();
+    other.active.push(mended.clone());
+    let problem = Problem::Motion(link);
+    let needed = |start: &State| {
+        let matters = gaps::motion_matters(link);
+        needed(&problem, start, &chosen(&problem, start, &[], catalogue, &workflow.thresholds, matters))
+    };
+    let [by_file, by_loop] = [start, &other].map(needed);
+    if by_loop.1 < by_file.1 && is_better(by_loop, by_file) {
+        Wrong::File(mended)
+    } else if by_file.1 < by_loop.1 && is_better(by_file, by_loop) {
+        Wrong::Controller
+    } else {
+        Wrong::Untold
+    }
+}
+
+/// The name with both its sides, where the file alone is wrong: the replay knows the encoder's scale as it knows the
+/// controller's.
+pub(super) fn both_sides(mut named: Named) -> Named {
+    let replayed = named.parameters.iter().find(|(name, ..)| name == LOOP_SCALE).cloned();
+    named.parameters.extend(replayed.map(|(_, scale, within)| (SCALE.to_owned(), scale, within)));
+    named.parameters.sort_by(|a, b| b.0.cmp(&a.0));
+    named
+}
+
+/// What it means, with the counts a wheel turn of the file.
+pub(super) fn said(wrong: &Wrong, scale: f64, counts: f64) -> String {
+    let numbers = format!("{:.1} counts a wheel turn, where the file has {counts:.1}", counts * (1.0 + scale));
+    match wrong {
+        Wrong::File(_) => format!(
+            "The controller reckons with {numbers}, and by the camera it is right: counts a turn or gear ratio are wrong in \
+             the file, and not the radius."
+        ),
+        Wrong::Controller => format!(
+            "The controller reckons with {numbers}, and by the camera the file is right: its number is wrong in the \
+             controller, whose wheels turn {:.4} times as fast as it orders.",
+            1.0 + scale
+        ),
+        Wrong::Untold => {
+            format!("The controller reckons with {numbers}; which of the two is right no camera tells in these logs.")
+        }
+    }
+}
+
+/// What a wrong number of counts and motors that are off by the same share are together, with the file's gear ratio.
+pub(super) fn geared(named: &[Named], gear_ratio: f64) -> Option<String> {
+    let of = |n: &Named, name: &str| n.parameters.iter().find(|(p, ..)| p == name).cloned();
+    let counts =
+        named.iter().filter(|n| n.name == ENCODER_SCALE).find_map(|n| of(n, SCALE).zip(of(n, LOOP_SCALE)))?.0.1;
+    let motor = named.iter().find(|n| n.name == "torque-constant").and_then(|n| of(n, SCALE))?;
+    let [low, high] = motor.2.ends()?;
+    (low..=high).contains(&counts).then(|| {
+        format!(
+            "A gear ratio of {:.4} instead of {gear_ratio:.4} does what {ENCODER_SCALE} and torque-constant do together; then \
+             neither the encoders nor the motors are wrong in the file.",
+            gear_ratio * (1.0 + counts)
+        )
+    })
+}
+
+/// What the controller says of a radius that wheels and camera do not tell from counts; `ticks` of it were replayed, so
+/// many of them wrong with the file's counts and with others.
+pub(super) fn shared(ticks: u64, wrong: [u64; 2]) -> String {
+    format!(
+        "The controller reckons with the file's counts a turn: {} of {ticks} ticks replay wrong with them, {} with those \
+         that the camera would have. Were it {ENCODER_SCALE}, and not the radius, both would have the same wrong number.",
+        wrong[0], wrong[1]
+    )
+}
+
+/// Scale of the counts that would do what a radius does.
+pub(super) fn for_radius(named: &[Named], sets: &[Vec<String>]) -> Option<f64> {
+    const RADIUS: &str = "wheel-radius-common";
+    let tied = sets.iter().any(|s| [RADIUS, ENCODER_SCALE].iter().all(|n| s.iter().any(|x| x == n)));
+    let radius = named.iter().find(|n| tied && n.name == RADIUS && n.link == Link::Motion)?;
+    radius
+        .parameters
+        .iter()
+        .find(|(name, ..)| name == SCALE)
+        .map(|(_, r, _): &(String, f64, Interval)| 1.0 / (1.0 + r) - 1.0)
+}

@@ -1,0 +1,162 @@
+//! Counts a wheel turn stand in the file, in the controller and in the encoder: whose number is wrong.
+
+use super::common::{RICH, names, simulate, value, with};
+use gap::effect::Link;
+use gap::evidence::Evidence;
+use gap::{Analysis, Options, Verdict, analyse};
+use runs::DataSet;
+use runs::robot::{Effect, EffectParameter, Robot};
+
+/// By how much more counts the encoder gives than the file says, or the controller reckons with; each on a seed of its own.
+const SIZES: [f64; 6] = [0.03, -0.03, 0.1, -0.1, 0.25, -0.2];
+
+fn analysed(set: &DataSet) -> Analysis {
+    analyse(set, &Options::default()).unwrap()
+}
+
+/// Duties as a controller rounds them that says how.
+fn rounded(robot: &Robot) -> Robot {
+    Robot { duty_quantum: Some(0.001), ..robot.clone() }
+}
+
+/// The file's number of counts a turn is another than the robot's, which its controller knows.
+fn miscounted(mut set: DataSet, size: f64) -> DataSet {
+    set.robot.encoder_counts_per_motor_rev /= 1.0 + size;
+    set
+}
+
+fn before(a: &Analysis, link: Link) -> f64 {
+    a.links.iter().find(|l| l.link == link).map_or(f64::NAN, |l| l.before)
+}
+
+/// The file that was written, read again, gives what was said it would.
+fn agrees_again(set: &DataSet, first: &Analysis) {
+    let again = analysed(&DataSet { robot: first.robot.clone(), ..set.clone() });
+    assert_eq!((again.verdict, names(&again)), (Verdict::Agrees, vec![]), "{}", again.terminal_summary());
+    for link in &first.links {
+        let read = before(&again, link.link);
+        assert!((read / link.after - 1.0).abs() < 1e-6, "{:?}: {} then {read}", link.link, link.after);
+    }
+}
+
+fn said(a: &Analysis, what: &str) -> bool {
+    a.remarks.iter().any(|r| r.contains(what))
+}
+
+#[test]
+fn a_file_with_other_counts_than_controller_and_camera_is_wrong_and_not_the_radius() {
+    for (k, size) in SIZES.into_iter().enumerate() {
+        let robot = if k % 2 == 0 { Robot::racbot() } else { rounded(&Robot::racbot()) };
+        let set = miscounted(simulate(&robot, &RICH, 70 + k as u64), size);
+        let a = analysed(&set);
+        let text = a.terminal_summary();
+        assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["encoder-scale"]), "{text}");
+        assert!(a.alternatives.is_empty() && a.unexplained.is_empty() && a.next_experiment.is_none(), "{text}");
+        for parameter in ["scale", "loop_scale"] {
+            let known = a.effects[0].parameters.iter().find(|p| p.0 == parameter).unwrap();
+            let [low, high] = known.2.ends().unwrap();
+            assert!((known.1 - size).abs() < 3e-4 && low <= size && size <= high, "{known:?}: {text}");
+        }
+        let Evidence::Replay { ticks, wrong: [with_files, left] } = a.effects[0].evidence else { panic!("{text}") };
+        assert!(ticks > 50_000 && with_files > ticks / 3 && left < ticks / 1000, "{ticks} {with_files} {left}");
+        assert!(said(&a, "wrong in the file, and not the radius"), "{text}");
+        agrees_again(&set, &a);
+    }
+}
+
+#[test]
+fn a_gear_ratio_is_no_radius_either() {
+    let mut set = simulate(&Robot::racbot(), &RICH, 76);
+    set.robot.gear_ratio *= 1.15;
+    let a = analysed(&set);
+    assert!(names(&a).contains(&"encoder-scale"), "{}", a.terminal_summary());
+    assert!(!names(&a).contains(&"wheel-radius-common"), "{}", a.terminal_summary());
+    assert!((value(&a, "scale") - (1.0 / 1.15 - 1.0)).abs() < 3e-4, "{}", a.terminal_summary());
+    assert!(said(&a, "A gear ratio of 3.71"), "{:?}", a.remarks);
+}
+
+#[test]
+fn a_controller_with_other_counts_than_file_and_camera_is_wrong_itself() {
+    for (k, size) in SIZES.into_iter().enumerate() {
+        let robot = if k % 2 == 1 { Robot::racbot() } else { rounded(&Robot::racbot()) };
+        let set = simulate(&with(&robot, "encoder-scale", &[("loop_scale", size)]), &RICH, 80 + k as u64);
+        let a = analysed(&set);
+        let text = a.terminal_summary();
+        assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["encoder-scale"]), "{text}");
+        assert_eq!((a.effects[0].link, a.effects[0].parameters.len()), (Link::Controller, 1), "{text}");
+        assert!((value(&a, "loop_scale") - size).abs() < 3e-4, "{text}");
+        assert!(said(&a, "its number is wrong in the controller"), "{text}");
+        agrees_again(&set, &a);
+    }
+}
+
+#[test]
+fn a_radius_stays_tied_with_counts_that_are_wrong_twice_and_the_replay_is_told() {
+    for (k, size) in SIZES.into_iter().enumerate() {
+        let set = simulate(&with(&Robot::racbot(), "wheel-radius-common", &[("scale", size)]), &RICH, 90 + k as u64);
+        let a = analysed(&set);
+        assert_eq!(names(&a), ["wheel-radius-common"], "{}", a.terminal_summary());
+        assert!(said(&a, "The controller reckons with the file's counts a turn: 0 of"), "{:?}", a.remarks);
+    }
+    // Nobody's number is the encoder's: the same motion, and the same duties.
+    let set = simulate(&with(&Robot::racbot(), "encoder-scale", &[("scale", 0.1)]), &RICH, 96);
+    let a = analysed(&set);
+    let tie = ["wheel-radius-common", "encoder-scale"];
+    assert!(a.alternatives.iter().any(|s| tie.iter().all(|n| s.iter().any(|x| x == n))), "{}", a.terminal_summary());
+}
+
+/// Beside them, radii and skews that are none of the controller's.
+#[test]
+fn counts_are_told_beside_what_else_moves_the_camera() {
+    let effect = |name: &str, parameters: &[(&str, f64)]| {
+        let value = |v: f64| EffectParameter { value: v, ..EffectParameter::default() };
+        let parameters = parameters.iter().map(|(n, v)| ((*n).to_owned(), value(*v))).collect();
+        Effect { name: name.to_owned(), parameters, ..Effect::default() }
+    };
+    let besides = [
+        effect("wheel-skew", &[("skew_1_rad", 0.07), ("skew_2_rad", -0.05), ("skew_3_rad", 0.035)]),
+        effect("body-radius", &[("scale", 0.05)]),
+        effect("wheel-radius", &[("scale_2", 0.03)]),
+    ];
+    for (k, beside) in besides.into_iter().enumerate() {
+        let name = beside.name.clone();
+        let truth = Robot { effects: vec![beside], ..Robot::racbot() };
+        let size = [0.05, -0.1, 0.15][k];
+        let a = analysed(&miscounted(simulate(&truth, &RICH, 100 + k as u64), size));
+        let mut found = names(&a);
+        found.sort_unstable();
+        let mut both = vec![name.as_str(), "encoder-scale"];
+        both.sort_unstable();
+        assert_eq!(found, both, "{size}: {}", a.terminal_summary());
+        assert!((value(&a, "loop_scale") - size).abs() < 3e-4, "{}", a.terminal_summary());
+        assert!(said(&a, "wrong in the file"), "{:?}", a.remarks);
+    }
+}
+
+/// What shows no counts of the controller's says nothing of them.
+#[test]
+fn without_a_loop_by_counts_nothing_of_the_controllers_number_is_said() {
+    let set = miscounted(simulate(&Robot::racbot(), &RICH, 110), 0.1);
+    let mut no_gains = set.clone();
+    (no_gains.robot.pi.kp, no_gains.robot.pi.ki) = (0.0, 0.0);
+    // The loop's own speeds, whatever they were made of.
+    let mut measured = set.clone();
+    let per_count = Robot::racbot().control_rate_hz / Robot::racbot().counts_per_wheel_rad();
+    for run in &mut measured.runs {
+        let speeds = |c: &Vec<i64>| {
+            let moved = |k: usize| c[k] - k.checked_sub(1).map_or(0, |before| c[before]);
+            (0..c.len()).map(|k| moved(k) as f64 * per_count).collect()
+        };
+        run.measured = run.counts.iter().map(speeds).collect();
+    }
+    // Another law that nobody knows.
+    let mut other_law = set;
+    for run in &mut other_law.runs {
+        run.duty.iter_mut().flatten().for_each(|d| *d = d.signum() * d.abs().powf(1.3));
+    }
+    for set in [no_gains, measured, other_law] {
+        let a = analysed(&set);
+        assert!(!said(&a, "The controller reckons"), "{:?}", a.remarks);
+        assert!(a.effects.iter().all(|e| e.parameters.iter().all(|p| p.0 != "loop_scale")), "{}", a.terminal_summary());
+    }
+}
