@@ -15,6 +15,7 @@ mod misses;
 mod order;
 mod patterns;
 mod question;
+mod ratios;
 mod robot_file;
 mod study;
 mod truth;

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use super::gaps;
 use super::measure::{Data, Drive};
 use super::misses::{FAR, Misses};
-use super::patterns;
 use super::study::{self, Outcome, chosen, study};
 use super::workflow::Workflow;
+use super::{patterns, ratios};
 use crate::drive::DriveLink;
 use crate::effect::{Effect, Link};
 use crate::options::Stage;
@@ -20,34 +20,58 @@ use crate::thresholds::{FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
 
-impl Workflow<'_> {
+impl<'a> Workflow<'a> {
     /// Duties to encoders.
     pub(super) fn drive(&mut self) {
         let options = self.question.options;
-        let Some(Drive { mut link, correlation, .. }) = self.searched().drive(&self.start, self.seen.as_ref()) else {
+        let mut here = self.not_seen();
+        let Some(mut link) = self.drive_link() else {
             let none = "No duties in the logs (or none that belong to the wheels): the drive link is not compared.";
             self.findings.remarks.push(none.to_owned());
             options.reached(Stage::DriveStudied);
             return;
         };
         self.scatter(&link);
-        self.thresholds.drive_correlation = correlation;
-        let here = self.not_seen();
-        let (selection, floor) = self.drive_chosen(&mut link, &here);
-        options.reached(Stage::DriveChosen);
-        let least = gaps::floor_of_scatter(&link, &floor, &self.thresholds);
-        let problem = Problem::Drive(&link);
-        let found = selection.state.clone();
-        let all = OnceCell::new();
-        let made = || self.beyond().and_then(|data| self.whole_drive(data, &link, &found));
-        let whole = || all.get_or_init(made).as_ref().map(Problem::Drive);
-        let far = gaps::FAR * least;
-        let mut outcome = study(&problem, &whole, &self.start, selection, &here, &self.thresholds, far);
-        outcome.held_out /= least;
+        let mut outcome = self.drive_studied(&mut link, &here);
+        if self.question.currents {
+            let support = self.question.robot.support;
+            if ratios::are_named_on_both_sides(&outcome.named, support) {
+                here.retain(|e| e.name() != ratios::TORQUE_CONSTANT);
+                if let Some(again) = self.drive_link() {
+                    link = again;
+                    outcome = self.drive_studied(&mut link, &here);
+                    self.findings.remarks.push(ratios::said(support));
+                }
+            }
+            ratios::tie(&mut outcome, &self.start, &link.sizes);
+        }
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.findings.take(outcome, Link::Drive, from);
         options.reached(Stage::DriveStudied);
+    }
+
+    /// The drive of what is looked at above its own floor; none without duties.
+    fn drive_link(&mut self) -> Option<DriveLink<'a>> {
+        let Drive { link, correlation, .. } = self.searched().drive(&self.start, self.seen.as_ref())?;
+        self.thresholds.drive_correlation = correlation;
+        Some(link)
+    }
+
+    /// What is found on the drive.
+    fn drive_studied(&mut self, link: &mut DriveLink<'a>, here: &[Arc<dyn Effect>]) -> Outcome {
+        let (selection, floor) = self.drive_chosen(link, here);
+        self.question.options.reached(Stage::DriveChosen);
+        let least = gaps::floor_of_scatter(link, &floor, &self.thresholds);
+        let problem = Problem::Drive(link);
+        let found = selection.state.clone();
+        let all = OnceCell::new();
+        let made = || self.beyond().and_then(|data| self.whole_drive(data, link, &found));
+        let whole = || all.get_or_init(made).as_ref().map(Problem::Drive);
+        let far = gaps::FAR * least;
+        let mut outcome = study(&problem, &whole, &self.start, selection, here, &self.thresholds, far);
+        outcome.held_out /= least;
+        outcome
     }
 
     /// The drive of all data with the noise of what was searched.

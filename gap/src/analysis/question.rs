@@ -37,7 +37,7 @@ pub(super) struct Question<'a> {
     /// Whether causes are to be looked for in every run.
     every_run: bool,
     /// Whether currents drive the wheels, and no duties.
-    currents: bool,
+    pub(super) currents: bool,
 }
 
 impl<'a> Question<'a> {

@@ -222,3 +222,32 @@ fn a_heavy_axis_with_a_coarse_encoder_is_looked_at_for_longer() {
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// Torque constant, inertia and friction times one factor change nothing: a rotor 5 % heavier than in the file was named
+/// with a motor 20 % stronger and a rotor 27 % heavier. Sizes are beside the file's torque constant, and who has a size is
+/// tied with it; a file that has no viscous friction is told that alone.
+#[test]
+fn behind_currents_a_common_factor_of_motor_and_rotor_is_not_named() {
+    let heavier = [(0.0, 0.006), (0.85, 0.0), (1.2, 0.006), (1.0, 0.0)].map(|(known, viscous)| (0.95, known, viscous));
+    let right = [(1.0, 1.0, 0.006), (1.0, 1.0, 0.0)];
+    let cases: Vec<_> = heavier.into_iter().chain(right).flat_map(|c| [200_u64, 202].map(|seed| (c, seed))).collect();
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .flat_map(|((inertia, known, viscous), seed)| {
+            let axis = Axis { viscous, seconds: 20.0, ..MOTOR };
+            let a = done(axis, [inertia, known], seed);
+            let both = ["torque-constant", "rotor-inertia"];
+            let named: Vec<&str> = names(&a).into_iter().filter(|n| both.contains(n)).collect();
+            let tied = a.alternatives.iter().any(|set| both.iter().all(|n| set.iter().any(|s| s == n)));
+            let mut faults: Vec<String> = Vec::new();
+            faults.extend((named.len() > 1 || named.len() == 1 && !tied).then(|| format!("{named:?} tied {tied}")));
+            faults.extend((inertia == 1.0 && !named.is_empty()).then(|| format!("{named:?} on a right file")));
+            faults.extend(if viscous > 0.0 { fault(&a, "viscous-friction", viscous) } else { None });
+            let rotor = named.contains(&"rotor-inertia");
+            faults.extend(if rotor { fault(&a, "rotor-inertia", 1.0 / inertia - 1.0) } else { None });
+            let case = format!("{inertia} {known} {viscous} {seed}");
+            faults.into_iter().map(|f| format!("{case}: {f}")).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}

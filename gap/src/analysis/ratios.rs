@@ -1,0 +1,81 @@
+//! Behind measured currents only ratios show: the torque constant, all inertia and all friction times one factor change
+//! nothing.
+
+use runs::robot::{Robot, Support};
+
+use super::found::Named;
+use super::study::Outcome;
+use crate::effect::Sizes;
+use crate::effects;
+use crate::state::{Active, State};
+
+/// The one that all others are told relative to.
+pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
+const ROTOR_INERTIA: &str = "rotor-inertia";
+/// Frictions that the factor may change without a name, as long as what a file has of them is small.
+const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
+
+fn inertias(support: Support) -> &'static [&'static str] {
+    match support {
+        Support::Blocks => &[ROTOR_INERTIA],
+        Support::Floor => &["robot-mass", "yaw-inertia"],
+    }
+}
+
+fn scale(named: &[Named], name: &str) -> Option<f64> {
+    let parameters = &named.iter().find(|n| n.name == name)?.parameters;
+    parameters.iter().find(|(p, ..)| p == "scale").map(|(_, value, _)| *value)
+}
+
+/// Whether both sides of a ratio are named: then their common factor is chosen by what is not named.
+pub(super) fn are_named_on_both_sides(named: &[Named], support: Support) -> bool {
+    let all = std::iter::once(TORQUE_CONSTANT).chain(inertias(support).iter().copied());
+    all.into_iter().all(|name| named.iter().any(|n| n.name == name))
+}
+
+/// What is said then.
+pub(super) fn said(support: Support) -> String {
+    format!(
+        "Behind currents only ratios show: {TORQUE_CONSTANT} and {} could be named with any common factor. Sizes are those \
+         beside the file's torque constant.",
+        inertias(support).join(" and ")
+    )
+}
+
+/// Ties a rotor that is named with the torque constant that does the same, or the other way round, where the factor
+/// between them asks no friction for more than goes without a name. `start` is the model without what is named.
+pub(super) fn tie(outcome: &mut Outcome, start: &State, sizes: &Sizes) {
+    let robot = &start.robot;
+    let [motor, rotor] = [TORQUE_CONSTANT, ROTOR_INERTIA].map(|name| scale(&outcome.named, name));
+    let (own, other, factor) = match (motor, rotor) {
+        (Some(s), None) => (TORQUE_CONSTANT, ROTOR_INERTIA, 1.0 / (1.0 + s)),
+        (None, Some(s)) => (ROTOR_INERTIA, TORQUE_CONSTANT, 1.0 / (1.0 + s * rotors_share(robot))),
+        _ => return,
+    };
+    if robot.support != Support::Blocks || !FRICTIONS.iter().all(|name| is_free(name, outcome, start, sizes, factor)) {
+        return;
+    }
+    let set = vec![own.to_owned(), other.to_owned()];
+    if !outcome.sets.contains(&set) {
+        outcome.sets.push(set);
+    }
+    outcome.ambiguous = true;
+}
+
+/// Share of the rotors in what turns on blocks.
+fn rotors_share(robot: &Robot) -> f64 {
+    let rotor = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
+    rotor / (rotor + robot.wheel_inertia_kg_m2).max(f64::MIN_POSITIVE)
+}
+
+/// Whether a friction may take the factor: it is named anyway, or what the model has of it changes by less than what
+/// matters.
+fn is_free(name: &str, outcome: &Outcome, start: &State, sizes: &Sizes, factor: f64) -> bool {
+    let robot = &start.robot;
+    let form = effects::find(name).and_then(|e| e.forms_in(robot, sizes).into_iter().next());
+    let Some(parameter) = form.and_then(|f| f.free.into_iter().next()) else { return false };
+    let of_motor = if name == FRICTIONS[0] { robot.gear_ratio * robot.motor.friction_torque } else { 0.0 };
+    let given = |a: &Active| a.values.0.iter().map(|(_, v)| v.abs()).sum::<f64>();
+    let stated: f64 = start.active.iter().filter(|a| a.effect.name() == name).map(given).sum();
+    outcome.named.iter().any(|n| n.name == name) || (factor - 1.0).abs() * (of_motor + stated) < parameter.material
+}
