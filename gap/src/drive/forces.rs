@@ -27,6 +27,8 @@ pub struct Instant<'a> {
     pub sign: &'a [f64],
     /// Torque of the winding at the wheel shaft, Nm.
     pub winding: &'a [f64],
+    /// Torque of it by which the back-EMF brakes, Nm per rad/s of the wheel.
+    pub braking: &'a [f64],
     /// Speed of the contact point in the direction in which the rollers roll, m/s.
     pub sideways: &'a [f64],
     /// Body twist.
@@ -162,6 +164,7 @@ impl<'a> Base<'a> {
         let mut out = vec![vec![0.0; s.t.len()]; n + 3];
         let mut loads = Loads::none(n);
         let axes = self.model.constants();
+        let braking = self.model.braking();
         let sliding_per_turning = self.model.sliding_per_turning();
         for (k, signals) in self.signals.chunks_exact(SIGNALS * n + 4).enumerate() {
             let (by_wheel, whole) = signals.split_at(SIGNALS * n);
@@ -175,6 +178,7 @@ impl<'a> Base<'a> {
                 speed: wheel(1),
                 sign: wheel(2),
                 winding: wheel(3),
+                braking: &braking,
                 sideways: wheel(4),
                 twist: Twist::new(whole[0], whole[1], whole[2]),
                 heading: s.heading[k],
@@ -211,6 +215,11 @@ impl DriveModel {
         crate::thresholds::SLIDES * self.wheel_radius_m
     }
 
+    /// Torque by which the back-EMF brakes each wheel, Nm per rad/s.
+    fn braking(&self) -> Vec<f64> {
+        self.axes.iter().map(|a| a.braking(self.gear_ratio)).collect()
+    }
+
     fn constants(&self) -> Vec<Axis> {
         let g = self.gear_ratio;
         let of = |a: &super::AxisModel| {
@@ -236,6 +245,7 @@ impl DriveModel {
         let n = self.wheels.len();
         let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
         let still = vec![0.0; n];
+        let braking = self.braking();
         let turning = |sense: f64| {
             let now = Instant {
                 segment: s,
@@ -246,6 +256,7 @@ impl DriveModel {
                 speed: &still,
                 sign: &vec![sense; n],
                 winding: &still,
+                braking: &braking,
                 sideways: &still,
                 twist: Twist::default(),
                 heading: s.heading[0],
@@ -327,6 +338,7 @@ impl DriveModel {
         // Only terms and maps look at more than duties and counts.
         let bare = self.loads.is_empty() && self.supply_maps.is_empty() && signals.is_none();
         let axes = self.constants();
+        let braking = self.braking();
         for k in 0..ticks - 1 {
             let dt = s.t[k + 1] - s.t[k];
             let per_dt = 1.0 / dt;
@@ -380,6 +392,7 @@ impl DriveModel {
                         speed: &speed,
                         sign: &sign,
                         winding: &winding,
+                        braking: &braking,
                         sideways: &sideways,
                         twist,
                         heading: s.heading[k],
@@ -420,6 +433,7 @@ impl DriveModel {
                     speed: &speed,
                     sign: &sign,
                     winding: &winding,
+                    braking: &braking,
                     sideways: &sideways,
                     twist,
                     heading: s.heading[k],

@@ -35,9 +35,9 @@ impl Effect for CoastingBridge {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let share = values.get("share");
-        let braking: Vec<f64> = model.axes.iter().map(|a| a.braking(model.gear_ratio)).collect();
         model.loads.push(Box::new(move |now, loads| {
-            for (i, braking) in braking.iter().enumerate() {
+            // Of the motors as all effects leave them, whichever is applied first.
+            for (i, braking) in now.braking.iter().enumerate() {
                 loads.wheel[i] += share * braking * (1.0 - now.duty[i].abs()) * now.speed[i];
             }
         }));
@@ -45,5 +45,43 @@ impl Effect for CoastingBridge {
 
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("a duty staircase with the wheels lifted", 2.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::borrow::Cow;
+
+    use model::effects::Applied;
+    use model::manoeuvre::{Manoeuvre, simulate};
+    use runs::Log;
+    use runs::frames::Pose;
+
+    use super::*;
+    use crate::pieces::{PIECE, segments};
+
+    #[test]
+    fn a_stronger_motor_brakes_more_whichever_effect_is_applied_first() {
+        let robot = Robot::racbot();
+        let run = simulate(Manoeuvre::StopAndGo, &Applied::of(&robot), &robot, Pose::default(), 1).unwrap();
+        let logs = [Log::from(Cow::Owned(run))];
+        let pieces = segments(&robot, &robot.geometry().unwrap(), &logs, PIECE);
+        let segment = pieces.get(0);
+        let stronger = crate::effects::find("torque-constant").unwrap();
+        let values = |name: &str, value: f64| Values(vec![(name.to_owned(), value)]);
+        let forces = |order: [usize; 2]| {
+            let mut model = DriveModel::new(&robot);
+            for effect in order {
+                match effect {
+                    0 => CoastingBridge.drive(&values("share", 0.6), &mut model),
+                    _ => stronger.drive(&values("scale", 0.3), &mut model),
+                }
+            }
+            model.forces(&segment)
+        };
+        let (one, other) = (forces([0, 1]), forces([1, 0]));
+        let most = one.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let apart = one.iter().zip(&other).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(most > 0.01 && apart < 1e-12 * most, "{apart} of {most} Nm");
     }
 }
