@@ -185,17 +185,17 @@ impl<'a> Data<'a> {
         }
         let mut plotted = None;
         if let Some(drive) = &drive {
-            let problem = Problem::Drive(&drive.link);
-            let nominally = drive.link.residuals(&before.drive(None)).unwrap_or_else(|| drive.residuals.clone());
-            let plots = [nominally, drive.residuals.clone()];
-            out.links.push(gaps::drive_gap([rms(&problem, &before), rms(&problem, &after)], &drive.link.noise, &plots));
+            let (left, nominally) = left_on_drive(&drive.link, &before);
+            let plots = [nominally.unwrap_or_else(|| drive.residuals.clone()), drive.residuals.clone()];
+            let figures = [left, rms(&Problem::Drive(&drive.link), &after)];
+            out.links.push(gaps::drive_gap(figures, &drive.link.noise, &plots));
             out.driven.test_functions = Driven::at_test_functions(&drive.link);
             plotted = Some(plots);
         }
         let on_links = |state: &State| -> Vec<(Link, f64)> {
             let motion = self.has_camera().then(|| (Link::Motion, seen(state)));
             let felt = sensor(state).into_iter().map(|(link, fits)| (link, inertial::overall(&fits)));
-            let drive = drive.as_ref().map(|d| (Link::Drive, rms(&Problem::Drive(&d.link), state)));
+            let drive = drive.as_ref().map(|d| (Link::Drive, left_on_drive(&d.link, state).0));
             motion.into_iter().chain(felt).chain(drive).collect()
         };
         let mut sofar = after.clone();
@@ -215,5 +215,26 @@ impl<'a> Data<'a> {
         }
         out.drive = drive.zip(plotted).map(|(Drive { link, .. }, plots)| MeasuredDrive { link, plots });
         out
+    }
+}
+
+/// What a state leaves on the drive, in floors, and its residuals: in the torque of the link's inertia or in that of its
+/// own, whichever is less. By an inertia fifty times too small every torque of the logs is fifty times too much for the
+/// link's, beside which nothing else counted; by one too large it is too much for its own.
+fn left_on_drive(link: &DriveLink, state: &State) -> (f64, Option<DriveResiduals>) {
+    let model = state.drive(None);
+    let weighed = |residuals: &DriveResiduals| -> f64 {
+        let rows = residuals.torque.iter().zip(&residuals.weights);
+        let values = rows.flat_map(|(torque, weights)| torque.iter().zip(weights).zip(&link.noise));
+        values.map(|((t, w), noise)| (w * t / noise).powi(2)).sum()
+    };
+    let left = rms(&Problem::Drive(link), state);
+    let residuals = link.residuals(&model);
+    match (residuals, link.residuals_in_own_torque(&model)) {
+        (Some(residuals), Some(own)) => {
+            let share = weighed(&own) / weighed(&residuals).max(f64::MIN_POSITIVE);
+            if share < 1.0 { (left * share.sqrt(), Some(own)) } else { (left, Some(residuals)) }
+        }
+        (residuals, _) => (left, residuals),
     }
 }

@@ -167,7 +167,7 @@ pub(super) fn study<'a>(
             equation: active.effect.equation().to_owned(),
             link: shown_on(active, problem),
             wheels: material_wheels(active),
-            parameters: estimate.parameters.iter().cloned().chain(fixed).collect(),
+            parameters: active.form.free.iter().zip(&estimate.parameters).map(told).chain(fixed).collect(),
             // Known when the file is written and read again.
             gain: 0.0,
             evidence: Evidence::Test { method: "signs of whole clusters flipped", p: estimate.p },
@@ -186,6 +186,15 @@ pub(super) fn study<'a>(
         leftovers,
         refused,
     }
+}
+
+/// A parameter as it is told: no interval of a share reaches beyond nothing and all.
+fn told((p, (name, value, interval)): (&Parameter, &(String, f64, Interval))) -> (String, f64, Interval) {
+    let within = match interval {
+        Interval::Ci95(ends) if p.bounds == [0.0, 1.0] => Interval::Ci95(ends.map(|end| end.clamp(0.0, 1.0))),
+        other => *other,
+    };
+    (name.clone(), *value, within)
 }
 
 /// The link that an effect shows on.
@@ -536,6 +545,17 @@ pub(super) fn material_wheels(active: &Active) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_share_is_told_between_nothing_and_all() {
+        let share = Parameter::new("share", 0.02, [0.0, 1.0], 0.12);
+        let known = ("share".to_owned(), 0.96, Interval::Ci95([0.9, 1.02]));
+        assert_eq!(told((&share, &known)).2, Interval::Ci95([0.9, 1.0]));
+        // The bounds of a search are none of what may be.
+        let scale = Parameter::new("scale", 0.01, [-0.6, 0.6], 0.004);
+        let known = ("scale".to_owned(), 0.55, Interval::Ci95([0.45, 0.65]));
+        assert_eq!(told((&scale, &known)).2, known.2);
+    }
 
     #[test]
     fn intervals_are_as_wide_as_runs_differ() {
