@@ -5,12 +5,13 @@
 
 use super::found::Named;
 use super::gaps;
+use super::measure::{Data, Drive};
 use super::study::{chosen, is_better, needed};
-use super::workflow::Workflow;
 use crate::controller::{ENCODER_SCALE, LOOP_SCALE};
 use crate::effect::{Form, Link, Values};
 use crate::evidence::Interval;
 use crate::exact::Finding;
+use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 
@@ -31,13 +32,12 @@ pub(super) fn of_loop(finding: &Finding) -> Option<f64> {
     finding.parameters.iter().find(|(name, ..)| name == LOOP_SCALE).map(|(_, scale, _)| *scale)
 }
 
-/// Whose it is, where the controller reckons with a `scale` more counts than the file has: the file's, where what is seen
-/// beside needs fewer names by the controller's number; the controller's, where it needs fewer by the file's.
-pub(super) fn whose(scale: f64, workflow: &Workflow) -> Wrong {
-    let (link, start, catalogue) = (workflow.searched().motion, &workflow.start, workflow.data.catalogue);
+/// Whose it is, where the controller reckons with a `scale` more counts than the file has: the file's, where what camera
+/// and wheels show, or without a camera the motors, needs fewer names by the controller's number; the controller's, where
+/// it needs fewer by the file's.
+pub(super) fn whose(scale: f64, data: &Data, start: &State, thresholds: &Thresholds) -> Wrong {
     let stated = start.active.iter().any(|a| a.effect.name() == ENCODER_SCALE);
-    let Some(effect) = catalogue.iter().find(|e| e.name() == ENCODER_SCALE && !stated && workflow.data.has_motion)
-    else {
+    let Some(effect) = data.catalogue.iter().find(|e| e.name() == ENCODER_SCALE && !stated) else {
         return Wrong::Untold;
     };
     let values = Values(vec![(SCALE.to_owned(), scale), (LOOP_SCALE.to_owned(), scale)]);
@@ -45,12 +45,18 @@ pub(super) fn whose(scale: f64, workflow: &Workflow) -> Wrong {
     let mended = Active { given: true, values, ..Active::new(effect.clone(), form) };
     let mut other = start.clone();
     other.active.push(mended.clone());
-    let problem = Problem::Motion(link);
-    let needed = |start: &State| {
-        let matters = gaps::motion_matters(link);
-        needed(&problem, start, &chosen(&problem, start, &[], catalogue, &workflow.thresholds, matters))
+    let needed = |problem: &Problem, thresholds: &Thresholds, matters: f64| {
+        [start, &other]
+            .map(|start| needed(problem, start, &chosen(problem, start, &[], data.catalogue, thresholds, matters)))
     };
-    let [by_file, by_loop] = [start, &other].map(needed);
+    let [by_file, by_loop] = if data.has_motion {
+        needed(&Problem::Motion(data.motion), thresholds, gaps::motion_matters(data.motion))
+    } else {
+        let Some(Drive { link, correlation, .. }) = data.drive(start, None) else { return Wrong::Untold };
+        let thresholds = Thresholds { drive_correlation: correlation, ..thresholds.clone() };
+        let matters = gaps::FAR * gaps::floor_of_scatter(&link, &link.noise, &thresholds);
+        needed(&Problem::Drive(&link), &thresholds, matters)
+    };
     if by_loop.1 < by_file.1 && is_better(by_loop, by_file) {
         Wrong::File(mended)
     } else if by_file.1 < by_loop.1 && is_better(by_file, by_loop) {
@@ -69,21 +75,22 @@ pub(super) fn both_sides(mut named: Named) -> Named {
     named
 }
 
-/// What it means, with the counts a wheel turn of the file.
-pub(super) fn said(wrong: &Wrong, scale: f64, counts: f64) -> String {
+/// What it means, with the counts a wheel turn of the file, and whether a camera told it.
+pub(super) fn said(wrong: &Wrong, scale: f64, counts: f64, seen: bool) -> String {
     let numbers = format!("{:.1} counts a wheel turn, where the file has {counts:.1}", counts * (1.0 + scale));
+    let by = if seen { "camera" } else { "drive" };
     match wrong {
         Wrong::File(_) => format!(
-            "The controller reckons with {numbers}, and by the camera it is right: counts a turn or gear ratio are wrong in \
-             the file, and not the radius."
+            "The controller reckons with {numbers}, and by the {by} it is right: counts a turn or gear ratio are wrong in the \
+             file, and not the radius."
         ),
         Wrong::Controller => format!(
-            "The controller reckons with {numbers}, and by the camera the file is right: its number is wrong in the \
+            "The controller reckons with {numbers}, and by the {by} the file is right: its number is wrong in the \
              controller, whose wheels turn {:.4} times as fast as it orders.",
             1.0 + scale
         ),
         Wrong::Untold => {
-            format!("The controller reckons with {numbers}; which of the two is right no camera tells in these logs.")
+            format!("The controller reckons with {numbers}; which of the two is right the {by} does not tell.")
         }
     }
 }

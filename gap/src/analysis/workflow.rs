@@ -86,9 +86,9 @@ impl<'a> Workflow<'a> {
         };
         let Some((named, scale)) = links.iter().find_map(told) else { return };
         let robot = &self.question.robot;
-        let wrong = counts::whose(scale, self);
+        let wrong = counts::whose(scale, &self.searched(), &self.start, &self.thresholds);
         let turn = std::f64::consts::TAU * robot.counts_per_wheel_rad();
-        self.findings.remarks.push(counts::said(&wrong, scale, turn));
+        self.findings.remarks.push(counts::said(&wrong, scale, turn, self.data.has_motion));
         if let Wrong::File(active) = wrong {
             self.findings.named.push(counts::both_sides(named));
             self.findings.found.push(active.clone());

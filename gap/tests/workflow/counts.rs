@@ -160,3 +160,22 @@ fn without_a_loop_by_counts_nothing_of_the_controllers_number_is_said() {
         assert!(a.effects.iter().all(|e| e.parameters.iter().all(|p| p.0 != "loop_scale")), "{}", a.terminal_summary());
     }
 }
+
+/// Without a camera the motors tell: by the file's number their back-EMF would be another.
+#[test]
+fn without_a_camera_the_drive_tells_whose_number_is_wrong() {
+    for size in [0.1, -0.1] {
+        let file = miscounted(simulate(&Robot::racbot(), &RICH, 8), size);
+        let controller = simulate(&with(&Robot::racbot(), "encoder-scale", &[("loop_scale", size)]), &RICH, 9);
+        for (mut set, what, parameters) in
+            [(file, "wrong in the file", 2), (controller, "its number is wrong in the controller", 1)]
+        {
+            set.runs.iter_mut().for_each(|r| (r.camera, r.has_camera) = (Vec::new(), false));
+            let a = analysed(&set);
+            let text = a.terminal_summary();
+            assert_eq!((names(&a), a.effects[0].parameters.len()), (vec!["encoder-scale"], parameters), "{text}");
+            assert!(said(&a, what), "{text}");
+            agrees_again(&set, &a);
+        }
+    }
+}
