@@ -220,6 +220,17 @@ fn duties_that_hardly_follow_the_speed_say_nothing_of_a_supply() {
     assert_eq!(kinds(&bench(|k| (0.005 + 0.0006 * speed(k), speed(k)))), ["supply"]);
 }
 
+#[test]
+fn a_log_in_another_unit_than_the_others_is_named() {
+    for factor in [1e-3, 1e3] {
+        let mut set = open("runs/wheel-skew");
+        set.runs[1].t.iter_mut().for_each(|t| *t *= factor);
+        let mistakes = found(set.robot.clone(), &set.runs);
+        let odd = mistakes.iter().find(|m| m.kind == "time-unit").unwrap_or_else(|| panic!("{mistakes:?}"));
+        assert!(odd.what.starts_with(&format!("{}: ticks are", set.runs[1].name)), "{}", odd.sentence());
+    }
+}
+
 /// Wheels that slip at starts excuse a length that is wrong; a counter that once jumped does not.
 #[test]
 fn one_jump_of_a_counter_is_no_slip() {
