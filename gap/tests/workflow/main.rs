@@ -4,6 +4,7 @@ mod catalogue;
 mod common;
 mod currents;
 mod drive;
+mod drive_train;
 mod experiment;
 mod flywheel;
 mod gravity;
