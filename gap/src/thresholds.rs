@@ -76,6 +76,9 @@ pub const LEAST_TOGETHER: f64 = 0.5;
 /// which gap opened 20 times as far without either, passed for a few per cent of rolling loss.
 pub const CANCELS: f64 = 4.0;
 
+/// Time constant up to which a firmware filters the speeds that it logs, s: 10 to 50 ms are usual, and a mean of 100 ms is the
+/// longest that a motor controller for robots has by itself. Reasoned, from their manuals.
+pub const FILTER_S: f64 = 0.11;
 /// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
 pub const NO_NOISE: f64 = 0.15;
 /// Share of what a duty varies that its wheel's motion accounts for, from which it is this drive's, however much

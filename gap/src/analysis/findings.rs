@@ -47,7 +47,7 @@ impl Findings {
         self.leave(link, outcome.leftovers);
         self.ambiguous |= outcome.ambiguous;
         for refused in outcome.refused {
-            self.of_no_size.extend(refused.of_no_size.then(|| (link, refused.name)));
+            self.of_no_size.extend(refused.of_no_size.then_some((link, refused.name)));
             self.refused.push(refused.why);
         }
         self.held_out.push((link, outcome.held_out));

@@ -6,6 +6,7 @@ mod currents;
 mod drive;
 mod drive_train;
 mod experiment;
+mod filtered;
 mod flywheel;
 mod gravity;
 mod margins;
