@@ -29,6 +29,40 @@ fn a_robot_that_never_moved_is_not_compared() {
     assert_eq!(a.to_json()["verdict"], "not-compared");
 }
 
+/// Three steps of 0.4 s on a lifted motor with 48 counts a turn, a row a millisecond: a rotor of twice the inertia would not
+/// show, and that nothing shows is no agreement.
+#[test]
+fn logs_too_short_to_show_anything_are_not_compared() {
+    let mut set = example();
+    set.robot = set.robot.first_axes(1);
+    set.robot.support = runs::robot::Support::Blocks;
+    set.robot.encoder_counts_per_motor_rev = 48.0;
+    let (r, k) = (set.robot.motor.resistance_ohm, set.robot.motor.torque_constant);
+    let inertia = 1.3 * set.robot.motor.rotor_inertia;
+    set.runs.truncate(3);
+    for (n, run) in set.runs.iter_mut().enumerate() {
+        let volts = |row: usize| [2.1, 1.5, -1.7][n] * if row < 200 { 1.0 } else { 2.0 };
+        let (mut speed, mut angle, mut counts, mut duty) = (0.0, 0.0, Vec::new(), Vec::new());
+        for row in 0..420 {
+            counts.push((angle * 48.0 / std::f64::consts::TAU).floor() as i64);
+            duty.push(volts(row) / set.robot.supply_v);
+            for _ in 0..10 {
+                speed += 1e-4 * k * (volts(row) - k * speed) / r / inertia;
+                angle += 1e-4 * speed;
+            }
+        }
+        run.t = (0..420).map(|row| f64::from(row) * 1e-3).collect();
+        (run.counts, run.count_gaps, run.duty) = (vec![counts], vec![Vec::new()], vec![duty]);
+        (run.command, run.supply_v, run.has_camera) = (None, None, false);
+        run.reference.clear();
+        run.measured.clear();
+        run.camera.clear();
+    }
+    let a = done(&set);
+    assert_eq!(a.verdict, Verdict::NotCompared, "{}", a.terminal_summary());
+    assert!(a.remarks.iter().any(|r| r.starts_with("Compared next to nothing on the drive link")), "{:?}", a.remarks);
+}
+
 #[test]
 fn times_in_milliseconds_are_not_compared() {
     let mut set = example();

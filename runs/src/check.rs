@@ -57,7 +57,17 @@ impl Run {
                         "jumps by {jump} counts in {:.3} ms, but the wheel can turn by {limit:.0} at most",
                         dt * 1e3
                     );
-                    let hint = "look for a counter that was reset, wrapped or not read; log cumulative counts";
+                    let bits = [16, 32].into_iter().find(|bits| (1_u64 << bits).abs_diff(jump) as f64 <= limit);
+                    let hint = match bits {
+                        Some(bits) => format!(
+                            "a counter of {bits} bits began again: log cumulative counts; `racbot convert` counts on with \
+                             wraps = {}",
+                            1_u64 << bits
+                        ),
+                        None => {
+                            "look for a counter that was reset, wrapped or not read; log cumulative counts".to_owned()
+                        }
+                    };
                     let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
                     return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });
                 }

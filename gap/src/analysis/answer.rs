@@ -28,7 +28,7 @@ impl Workflow<'_> {
         let located = self.located(&written, &exact);
         let Written { robot, text, measured, odd_clock } = written;
         let Measured { mut links, motion, drive, mut driven, steps, felt, .. } = measured;
-        let weightless = gaps::weightless(self.data.pieces, drive.as_ref().map(|d| &d.plots[1]));
+        let mut weightless = gaps::weightless(self.data.pieces, drive.as_ref().map(|d| &d.plots[1]));
         links.extend(replayed);
         if links.is_empty() && weightless.is_empty() {
             return Err(GapError::NothingToCompare);
@@ -37,6 +37,10 @@ impl Workflow<'_> {
             driven.seen = Driven::seen(self.data.pieces, SHOWN);
         }
         let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
+        if self.findings.named.is_empty() {
+            let blind = |l: &LinkGap| gaps::blind(l.link, &self.findings.limits, self.data.catalogue);
+            weightless.extend(links.iter().filter(|l| l.link.is_fitted()).filter_map(blind));
+        }
         let counts = |l: &&LinkGap| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing;
         let weight = if odd_clock { 0 } else { links.iter().filter(counts).count() };
         let mut why: Vec<String> = weightless.iter().map(|w| w.1.clone()).collect();
@@ -116,6 +120,15 @@ impl Workflow<'_> {
         for link in links.iter().filter(|l| !(slides && l.link == Link::Drive)) {
             match gaps::remains(link, located, felt) {
                 Some(Remains::Open(structure)) if !findings.unexplained.iter().any(|u| u.link == link.link) => {
+                    findings.unexplained.push(Leftover { link: link.link, structure });
+                }
+                Some(Remains::Beside(sentence)) if findings.shows_without_size(link.link) => {
+                    let near: Vec<&str> = findings.of_no_size.iter().map(|(_, name)| name.as_str()).collect();
+                    let structure = format!(
+                        "{}; {} closes a part of it by more than chance, and these logs do not tell of which size",
+                        sentence.trim_end_matches(", which no effect of the catalogue explains"),
+                        near.join(" or ")
+                    );
                     findings.unexplained.push(Leftover { link: link.link, structure });
                 }
                 Some(Remains::Open(sentence) | Remains::Beside(sentence)) => sentences.push(sentence),

@@ -3,6 +3,9 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
+use runs::CountSource;
+
+use super::found::Named;
 use super::gaps;
 use super::measure::{Data, Drive};
 use super::misses::{FAR, Misses};
@@ -15,7 +18,7 @@ use crate::options::Stage;
 use crate::problem::Problem;
 use crate::select::Selection;
 use crate::state::{Active, State};
-use crate::thresholds::{FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
+use crate::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
 
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
@@ -47,6 +50,7 @@ impl<'a> Workflow<'a> {
         }
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
+        self.filtered(&mut outcome);
         self.findings.take(outcome, Link::Drive, from);
         options.reached(Stage::DriveStudied);
     }
@@ -100,6 +104,37 @@ impl<'a> Workflow<'a> {
                 format!("what the duties predict {scatters}, at random: are these the duties of this drive?");
             self.findings.leave(Link::Drive, [structure]);
         }
+    }
+
+    /// Says of an inertia or a delay that was found from logged speeds what else it may be: a filter in the firmware makes
+    /// them late as both would.
+    fn filtered(&mut self, outcome: &mut Outcome) {
+        let speeds = self.data.logs.iter().any(|log| log.layout().source.counts == CountSource::Speeds);
+        let m = &self.question.robot.motor;
+        // What a rotor's inertia makes of a motor's time constant.
+        let of_rotor = m.rotor_inertia * m.resistance_ohm / (m.torque_constant * m.back_emf());
+        let late = |n: &Named| {
+            let value = n.parameters.first().map_or(0.0, |(_, value, _)| *value);
+            match n.name.as_str() {
+                "rotor-inertia" => value * of_rotor,
+                "actuation-latency" => value,
+                _ => 0.0,
+            }
+        };
+        let found: Vec<(&str, f64)> = outcome.named.iter().map(|n| (n.name.as_str(), late(n))).collect();
+        let found: Vec<(&str, f64)> = found.into_iter().filter(|(_, late_s)| *late_s > 0.0).collect();
+        let filter_s: f64 = found.iter().map(|(_, late_s)| late_s).sum();
+        if !speeds || filter_s <= 0.0 || filter_s > FILTER_S {
+            return;
+        }
+        let names: Vec<&str> = found.iter().map(|(name, _)| *name).collect();
+        self.findings.remarks.push(format!(
+            "Found from speeds that the log has in place of counts: {}. Where the firmware filters them by {:.0} ms, that is \
+             what it looks like. Log counts, or speeds without the filter, to tell.",
+            names.join(" and "),
+            1e3 * filter_s
+        ));
+        outcome.ambiguous = true;
     }
 
     /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties.

@@ -21,6 +21,8 @@ pub(super) struct Findings {
     pub(super) remarks: Vec<String>,
     /// What was fitted and is not named, and why.
     pub(super) refused: Vec<String>,
+    /// Of these what no chance gives, but of a size that is not known, with its link.
+    pub(super) of_no_size: Vec<(Link, String)>,
 }
 
 impl Findings {
@@ -44,9 +46,20 @@ impl Findings {
         }
         self.leave(link, outcome.leftovers);
         self.ambiguous |= outcome.ambiguous;
-        self.refused.extend(outcome.refused);
+        for refused in outcome.refused {
+            self.of_no_size.extend(refused.of_no_size.then_some((link, refused.name)));
+            self.refused.push(refused.why);
+        }
         self.held_out.push((link, outcome.held_out));
         outcome.written
+    }
+
+    /// Whether something on a drive was fitted by more than chance, may not be named for its size, and nothing else is: what
+    /// then remains beyond noise does not agree.
+    pub(super) fn shows_without_size(&self, link: Link) -> bool {
+        let own = |l: &Link| *l == link && link == Link::Drive;
+        let open = self.unexplained.iter().any(|u| u.link == link) || self.named.iter().any(|n| n.link == link);
+        !open && self.of_no_size.iter().any(|(l, _)| own(l))
     }
 
     /// Takes back some names.

@@ -1,16 +1,20 @@
 //! The gap in figures: per link, over all signals, and how it falls.
 
+use std::sync::Arc;
+
 use runs::robot::Support;
 
 use super::found::{LinkGap, Named};
 use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::{Link, Sizes};
+use crate::effect::{Effect, Link, Sizes};
 use crate::exact::ExactLink;
 use crate::inertial::{self, Fit};
+use crate::limits::Limit;
 use crate::locate::Located;
 use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::Thresholds;
 use crate::pieces::Pieces;
+use crate::thresholds::BLIND;
 
 pub(super) fn motion_gap([before, after]: [f64; 2], link: &MotionLink, plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
     let (noise, axes) = (link.noise, link.axes());
@@ -210,6 +214,26 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
         }
     }
     out
+}
+
+/// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
+pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>]) -> Option<(Link, String)> {
+    let own = catalogue.iter().filter(|e| e.link() == link);
+    let least = own.filter_map(|e| {
+        let own = limits.iter().filter(|l| l.name == e.name() && l.material > 0.0);
+        own.map(|l| (l.limit / l.material, l)).min_by(|a, b| a.0.total_cmp(&b.0))
+    });
+    let mut least: Vec<(f64, &Limit)> = least.collect();
+    least.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (ratio, _) = *least.get(least.len() / 2)?;
+    (ratio > BLIND).then(|| {
+        let why = format!(
+            "Compared next to nothing on the {} link: most effects would be named there from {ratio:.0} times what matters, or \
+             more; log longer, more runs, and both directions at several speeds.",
+            link.name()
+        );
+        (link, why)
+    })
 }
 
 /// Turn of a wheel that shows nothing, rad: less than a degree.

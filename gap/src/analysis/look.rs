@@ -1,6 +1,6 @@
 //! How the logs of a drive are looked at, settled before anything is fitted.
 
-use runs::robot::{Robot, Support};
+use runs::robot::Robot;
 
 use super::cut::Cut;
 use crate::drive::{DriveLink, DriveModel, Generic};
@@ -17,10 +17,6 @@ const LONGEST_S: f64 = 3.0;
 /// more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
 pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
-    let alone = robot.support == Support::Blocks;
-    if !currents && !alone {
-        return Driving::default();
-    }
     // Without effects of the file: so that it is the same before something was found and after.
     let model = DriveModel::new(robot);
     let look = |driving: Driving| {
@@ -43,7 +39,7 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
     if currents && let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
         (chosen, now) = (measured, other);
     }
-    while alone && now.loud && 2.0 * now.length <= LONGEST_S {
+    while now.loud && 2.0 * now.length <= LONGEST_S {
         let longer = Driving { test_function_s: 2.0 * now.length, ..chosen };
         let Some(next) = look(longer).filter(|next| next.enough && next.tells > now.tells) else { break };
         (chosen, now) = (longer, next);

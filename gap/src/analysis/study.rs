@@ -13,7 +13,7 @@ use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Design, Selection};
 use crate::state::{Active, State};
-use crate::thresholds;
+use crate::thresholds::{self, Refusal};
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;
@@ -37,7 +37,15 @@ pub(super) struct Outcome {
     /// Held-out RMS of what is named, fitted without the run that is predicted, in floors.
     pub(super) held_out: f64,
     /// What was fitted and is not named, and why.
-    pub(super) refused: Vec<String>,
+    pub(super) refused: Vec<Refused>,
+}
+
+/// What was fitted and is not named.
+pub(super) struct Refused {
+    pub(super) name: String,
+    pub(super) why: String,
+    /// Whether no chance gives as much, but its size is not known.
+    pub(super) of_no_size: bool,
 }
 
 impl Outcome {
@@ -151,8 +159,10 @@ pub(super) fn study<'a>(
         ambiguous |= alternatives.ambiguous && !own.is_empty();
         sets.extend(own);
         let at = written.active.iter().position(|a| a.effect.name() == active.effect.name());
-        // With nothing adjusted no margin of another law says what else would do.
-        let open = if selection.bare { thresholds.from_noise } else { thresholds.far_left };
+        // With nothing adjusted no margin of another law says what else would do; nor where what was fitted beside it may
+        // not be named, and it does now alone what both did.
+        let bare = selection.bare || !refused.is_empty();
+        let open = if bare { thresholds.from_noise } else { thresholds.far_left };
         for other in at.map_or_else(Vec::new, |at| select::undecided(problem, &written, at, &all, thresholds, open)) {
             let name = at.map_or("", |at| other.active[at].effect.name());
             let pair = vec![active.effect.name().to_owned(), name.to_owned()];
@@ -282,7 +292,7 @@ fn sound(
     start: &State,
     all: &[Active],
     thresholds: &Thresholds,
-) -> (Judged, Vec<String>) {
+) -> (Judged, Vec<Refused>) {
     let (mut selection, mut refused) = admitted(problem, selection, start, all, thresholds);
     loop {
         let judged = judge(problem, start, selection);
@@ -313,7 +323,7 @@ fn on_whole(
     selection: &Selection,
     all: &[Active],
     thresholds: &Thresholds,
-) -> (State, Vec<Estimate>, Vec<String>) {
+) -> (State, Vec<Estimate>, Vec<Refused>) {
     let design = Design::new(whole, &selection.state, all, thresholds);
     let judged = judge(whole, start, selection.on(design));
     let Judged { selection, mut written, estimates, .. } = judged;
@@ -331,8 +341,12 @@ fn on_whole(
     (written, estimates, refused)
 }
 
-fn not_named(problem: &Problem, name: &str, why: &str) -> String {
-    format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name())
+fn not_named(problem: &Problem, name: &str, (refusal, why): &Fault) -> Refused {
+    Refused {
+        name: name.to_owned(),
+        why: format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()),
+        of_no_size: *refusal == Refusal::HoldsZero,
+    }
 }
 
 /// Takes out of a selection what may not be named, one effect after the other, and says why.
@@ -342,7 +356,7 @@ fn admitted(
     start: &State,
     all: &[Active],
     thresholds: &Thresholds,
-) -> (Selection, Vec<String>) {
+) -> (Selection, Vec<Refused>) {
     let from = start.active.len();
     let mut refused = Vec::new();
     loop {
@@ -350,7 +364,7 @@ fn admitted(
         let cancelled = |e: &Estimate| problem.is_cancelled(&selection.state, e.index, start, thresholds);
         let why = |e: &Estimate| {
             fault(&selection.state.active[e.index], e)
-                .or_else(|| cancelled(e).then(|| thresholds::Refusal::Cancelled.reason().to_owned()))
+                .or_else(|| cancelled(e).then(|| (Refusal::Cancelled, Refusal::Cancelled.reason().to_owned())))
         };
         let faults = estimates.iter().filter_map(|e| Some((e, why(e)?)));
         // Of two that undo each other the one later in the catalogue goes.
@@ -366,8 +380,11 @@ fn admitted(
     }
 }
 
+/// Why something may not be named, and in words.
+type Fault = (Refusal, String);
+
 /// What forbids to name an effect.
-fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
+fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
     let known = |(p, (name, value, interval)): (&Parameter, &(String, f64, Interval))| {
         let no_angle = active.effect.period(name).is_none();
         thresholds::Estimate {
@@ -382,7 +399,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<String> {
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
     let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
-    Some(format!("{}; p = {}", refusal.reason(), crate::evidence::short(estimate.p)))
+    Some((refusal, format!("{}; p = {}", refusal.reason(), crate::evidence::short(estimate.p))))
 }
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.

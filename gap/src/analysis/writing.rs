@@ -100,10 +100,10 @@ fn is_idle(n: &Named, measured: &Measured, thresholds: &Thresholds) -> bool {
 
 /// What to say of logs whose times cannot be seconds.
 fn odd_clock(robot: &Robot, logs: &[Log]) -> Option<String> {
-    let periods = logs.iter().filter_map(Log::tick_s).map(|tick| tick * robot.control_rate_hz);
-    periods.filter(|p| *p > 0.0).find(|p| p.max(1.0 / p) > ODD_ROWS).map(|odd| {
+    let periods = logs.iter().filter_map(|log| Some((&log.name, log.tick_s()? * robot.control_rate_hz)));
+    periods.filter(|(_, p)| *p > 0.0).find(|(_, p)| p.max(1.0 / p) > ODD_ROWS).map(|(log, odd)| {
         format!(
-            "Compared nothing: the rows are {odd:.3} control periods apart by the column t and control_rate_hz; t is in \
+            "Compared nothing: the rows of {log} are {odd:.3} control periods apart by the column t and control_rate_hz; t is in \
              seconds (are these milliseconds?)."
         )
     })

@@ -96,6 +96,9 @@ pub(super) fn sentence(a: &Analysis) -> String {
         .collect();
     let (before, after) = overall(&a.links);
     match a.verdict {
+        Verdict::Agrees if !a.remains.is_empty() => {
+            format!("Model and data agree to {after:.1} noise floors: what is left has no name.")
+        }
         Verdict::Agrees => "Model and data agree: nothing material is missing.".to_owned(),
         Verdict::NotCompared => "Nothing could be compared: nothing in these logs has any weight.".to_owned(),
         Verdict::MissingEffect => {

@@ -80,7 +80,11 @@ pub(super) fn links(a: &Analysis) -> String {
     let missing: Vec<&str> =
         CHAIN.iter().filter(|l| compared(l).is_none() && !l.is_inertial()).map(|l| l.name()).collect();
     let mut out = match (&of(true)[..], &of(false)[..]) {
+        (good, []) if matches!(a.verdict, Verdict::NotCompared) => format!("Nothing shows in {}.", join(good)),
         (good, []) => format!("Every link that could be compared agrees: {}.", join(good)),
+        ([], bad) if matches!(a.verdict, Verdict::Agrees) => {
+            format!("More than noise, but less than would be named, is in {}.", join(bad))
+        }
         ([], bad) => format!("No link agrees as it is: {}.", join(bad)),
         (good, bad) => format!(
             "{} in {}; {} {} within its noise.",

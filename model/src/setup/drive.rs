@@ -14,6 +14,8 @@ const FOLLOWS: f64 = 0.8;
 /// Share of the squared duties that speed, direction and acceleration of each axis by itself explain, from which they speak
 /// of a supply: on a robot whose wheel 3 lost much in its gear, which the others then carried, it was 0.94 of a square's.
 const BY_SPEED: f64 = 0.96;
+/// Share of the squared speeds that direction and acceleration must leave for that.
+const BESIDE: f64 = 0.02;
 /// Time over which a wheel that follows its set point does not change its speed by as much as that: one that lags by 0.1 s
 /// is then no tenth off.
 const SETTLED_S: f64 = 1.0;
@@ -21,6 +23,8 @@ const SETTLED_S: f64 = 1.0;
 const BOTH_WAYS: f64 = 0.1;
 /// Correlation with the size of the speed from which a column follows it.
 const SIZE: f64 = 0.3;
+/// Share of a duty by which it is at one level.
+const LEVEL: f64 = 0.05;
 /// Spans by which commands may run ahead.
 const LAGS: usize = 6;
 /// Samples from which anything is said.
@@ -107,23 +111,49 @@ fn slope(pairs: &[(f64, f64)]) -> f64 {
     xy / xx
 }
 
+/// Samples of one axis in all logs: duty, speed, acceleration.
+fn driven(signals: &[Signals], axis: usize) -> Vec<[f64; 3]> {
+    let logs = signals.iter().filter(|s| axis < s.duty.len());
+    let rows = logs.flat_map(|s| s.duty[axis].iter().zip(&s.speed[axis]).zip(&s.acceleration[axis]));
+    let rows = rows.map(|((duty, speed), acceleration)| [*duty, *speed, *acceleration]);
+    rows.filter(|[duty, speed, _]| duty.is_finite() && speed.abs() > 1e-6).collect()
+}
+
+/// Whether an axis turns steadily both ways, as fast backwards as forwards, at the level at which it is driven most: what
+/// holds a load drives it one way, and what swings does not turn steadily.
+fn both_ways_at_a_level(rows: &[[f64; 3]]) -> bool {
+    let middle = |mut of: Vec<f64>| {
+        of.sort_by(f64::total_cmp);
+        of.get(of.len() / 2).copied().unwrap_or(0.0)
+    };
+    let level = middle(rows.iter().map(|row| row[0]).filter(|duty| *duty > 0.0).collect());
+    let near: Vec<&[f64; 3]> = rows.iter().filter(|row| (row[0] - level).abs() <= LEVEL * level).collect();
+    let steady: Vec<f64> =
+        near.iter().filter(|row| row[2].abs() * SETTLED_S <= row[1].abs()).map(|row| row[1]).collect();
+    let (forwards, back): (Vec<f64>, Vec<f64>) = steady.iter().partition(|speed| **speed > 0.0);
+    let fewer = forwards.len().min(back.len());
+    let [forwards, back] = [forwards, back].map(|speeds| middle(speeds).abs());
+    2 * steady.len() >= near.len()
+        && fewer as f64 >= BOTH_WAYS * steady.len() as f64
+        && fewer >= FEWEST / 2
+        && near.len() * 2 >= rows.len()
+        && (0.5..=2.0).contains(&(forwards / back))
+}
+
 /// What drives an axis without its sign: never negative though the axis turns both ways. On an axis alone a load that pulls
-/// one way holds it positive as well; there it must be as large backwards as forwards, too.
+/// one way holds it positive as well; there it must be as large backwards as forwards, too, or drive both ways at one level.
 fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
     let axes = signals.iter().map(|s| s.duty.len().min(s.speed.len())).max()?;
-    let of = |i: usize| -> Vec<(f64, f64)> {
-        let logs = signals.iter().filter(|s| i < s.duty.len());
-        let pairs = logs.flat_map(|s| s.duty[i].iter().copied().zip(s.speed[i].iter().copied()));
-        pairs.filter(|(duty, speed)| duty.is_finite() && speed.abs() > 1e-6).collect()
-    };
     let lost = |i: &usize| {
-        let pairs = of(*i);
+        let rows = driven(signals, *i);
+        let pairs: Vec<(f64, f64)> = rows.iter().map(|[duty, speed, _]| (*duty, *speed)).collect();
         let back = pairs.iter().filter(|(_, speed)| *speed < 0.0).count();
         let both = back.min(pairs.len() - back) as f64 >= BOTH_WAYS * pairs.len() as f64;
         let size = correlation(pairs.iter().map(|(duty, speed)| (*duty, speed.abs())));
         let sense = correlation(pairs.iter().copied());
         let positive = pairs.iter().all(|(duty, _)| *duty >= 0.0);
-        let no_load = robot.support == Support::Floor || size > SIZE && size > 2.0 * sense.abs();
+        let no_load =
+            robot.support == Support::Floor || size > SIZE && size > 2.0 * sense.abs() || both_ways_at_a_level(&rows);
         pairs.len() >= FEWEST && both && positive && no_load && pairs.iter().any(|(duty, _)| *duty > 0.0)
     };
     let wheel = (0..axes).find(lost)?;
@@ -269,6 +299,10 @@ fn by_duties(robot: &Robot, signals: &[Signals], which: &dyn Fn(usize) -> bool) 
     let inverse = normal.try_inverse()?;
     let solved = inverse * right;
     let explained = solved.dot(&right) / square;
-    let tells = n >= FEWEST && explained >= BY_SPEED && solved.x > 0.0;
+    // At one speed each way it is friction or back-EMF; and a bridge that coasts, or much friction, leaves little of a speed.
+    let beside = 1.0 / (inverse[(0, 0)] * normal[(0, 0)]);
+    let by_speed = solved.x * (normal[(0, 0)] / n as f64).sqrt();
+    let apart = beside >= BESIDE && by_speed >= solved.y.abs();
+    let tells = n >= FEWEST && explained >= BY_SPEED && solved.x > 0.0 && apart;
     tells.then(|| robot.gear_ratio * robot.motor.back_emf() / solved.x)
 }

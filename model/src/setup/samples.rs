@@ -9,7 +9,7 @@ const MOST_TICKS: usize = 200_000;
 /// Stretches of a log that are compared.
 const MOST: usize = 1500;
 /// Length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.
-const STRETCH_S: f64 = 0.15;
+pub(super) const STRETCH_S: f64 = 0.15;
 /// Lags at which camera and wheels are compared, s: clocks set by hand differ by a fifth of a second.
 const LAGS_S: (f64, f64) = (0.3, 0.02);
 
@@ -57,6 +57,8 @@ impl Wheels {
 /// Two poses of the camera and the turn of the wheels between them.
 #[derive(Debug, Clone)]
 pub(super) struct Sample {
+    /// When it ends, s in its log.
+    pub(super) t: f64,
     pub(super) from: Pose,
     pub(super) to: Pose,
     pub(super) turned: Vec<f64>,
@@ -108,7 +110,7 @@ pub(super) fn of_camera(robot: &Robot, log: &Log) -> Vec<Sample> {
         let first = wheels.turned(from, 0.5 * (from + to))?;
         let change = turned.iter().zip(&first).map(|(all, first)| (all - 2.0 * first).abs()).fold(0.0, f64::max);
         let acceleration = change / (0.5 * (to - from)).powi(2);
-        Some(Sample { from: frames[*i].pose, to: frames[*j].pose, turned, acceleration })
+        Some(Sample { t: to, from: frames[*i].pose, to: frames[*j].pose, turned, acceleration })
     };
     pairs.iter().filter_map(sample).collect()
 }

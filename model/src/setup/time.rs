@@ -9,11 +9,16 @@ const TICKS: [f64; 2] = [1e-5, 0.5];
 /// Units that are mistaken for seconds.
 const UNITS: [(f64, &str, &str); 3] =
     [(1e3, "milliseconds", "1000"), (1e6, "microseconds", "1e6"), (1e9, "nanoseconds", "1e9")];
+/// Logarithm by which ticks may differ from a unit: one of another rate may be a thousandth, too, but hardly just that.
+const OTHER_UNIT: f64 = 0.7;
 /// A log slower than the control loop by less is one that lost a few rows.
 const SLOWER: f64 = 1.6;
 
 pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let Some(tick) = logs.iter().find_map(Log::tick_s) else { return Vec::new() };
+    if let Some(mistake) = odd_one_out(logs) {
+        return vec![mistake];
+    }
     let known = file.lacks(&["control_rate_hz"]).is_empty();
     let ratio = if known { tick * robot.control_rate_hz } else { 1.0 };
     let unit = UNITS
@@ -40,6 +45,18 @@ pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake
         return vec![Mistake::new("control-rate", "control_rate_hz", what, remedy)];
     }
     Vec::new()
+}
+
+/// A log whose time has another unit than that of most.
+fn odd_one_out(logs: &[Log]) -> Option<Mistake> {
+    let mut ticks: Vec<f64> = logs.iter().filter_map(Log::tick_s).collect();
+    ticks.sort_by(f64::total_cmp);
+    let usual = ticks[ticks.len() / 2];
+    let odd = |ratio: f64| UNITS.iter().any(|(unit, ..)| (ratio.max(1.0 / ratio) / unit).ln().abs() < OTHER_UNIT);
+    let (log, tick) = logs.iter().find_map(|log| Some((log, log.tick_s().filter(|tick| odd(tick / usual))?)))?;
+    let what = format!("{}: ticks are {} apart, and {} in most logs", log.name, short(tick), short(usual));
+    let remedy = "its time is in another unit: convert it by a map of its own".to_owned();
+    Some(Mistake::new("time-unit", "t", what, remedy))
 }
 
 /// Whether a log replays a controller, tick by tick.

@@ -24,14 +24,15 @@ pub(super) struct Wanted<'a> {
 }
 
 /// The values of a column whose multiples of a turn were lost: counts go on from the last, others are those next to 0.
-/// An encoder of one turn shows itself: angles within a turn that leap by more than half of it.
+/// An encoder of one turn shows itself: angles within a turn that leap by more than half of it; and so does a full register.
 pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]> {
     let counted = matches!(wanted.column, Column::Counts(_));
     let turn = wanted.turn.filter(|turn| {
         let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
         counted && high - low <= 1.001 * turn && values.windows(2).any(|w| (w[1] - w[0]).abs() > 0.5 * turn)
     });
-    let Some(period) = wanted.wraps.or(turn) else { return values.into() };
+    let full = || if counted { register(values) } else { None };
+    let Some(period) = wanted.wraps.or(turn).or_else(full) else { return values.into() };
     if !counted {
         return values.iter().map(|v| v - period * (v / period).round()).collect();
     }
@@ -43,6 +44,24 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         now
     };
     values.iter().map(follow).collect()
+}
+
+/// Share of a register's range by which a counter leaps only where it begins again: no wheel passes from one end of 65536
+/// counts to the other between two rows.
+const LEAP: f64 = 0.9;
+
+/// The range of the register, of 16 or 32 bits with or without a sign, in which a counter lost its turns.
+pub(super) fn register(values: &[f64]) -> Option<f64> {
+    let known = || values.iter().filter(|v| v.is_finite());
+    let [low, high] = known().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
+    let ranges = [16, 32].map(|bits| 2.0_f64.powi(bits));
+    let range = ranges.into_iter().find(|range| {
+        let holds = |least: f64| low >= least && high < least + range;
+        high - low > LEAP * range && (holds(0.0) || holds(-0.5 * range))
+    })?;
+    let whole = known().all(|v| v.fract() == 0.0);
+    let leaps = values.windows(2).any(|w| (w[1] - w[0]).abs() > LEAP * range);
+    (whole && leaps).then_some(range)
 }
 
 /// Poses of velocities, from the first on; a velocity between two samples is their mean.
@@ -122,6 +141,20 @@ mod tests {
         assert!(error.starts_with("map.toml:2:") && error.contains("unknown field `wrap`, expected one of"), "{error}");
         let error = of("enc_1 = 4096").unwrap_err();
         assert!(error.contains("expected the name of a series, or { from ="), "{error}");
+        // A full register shows itself, whole: one bit less, or a slow way through it, is no leap.
+        for (rows, wanted) in [
+            (
+                "0,4294967290\n1,4294967295\n2,4\n3,4294967294",
+                [4_294_967_290, 4_294_967_295, 4_294_967_300, 4_294_967_294],
+            ),
+            ("0,32760\n1,32767\n2,-32760\n3,-32700", [32760, 32767, 32776, 32836]),
+            ("0,65530\n1,2\n2,9\n3,65529", [65530, 65538, 65545, 65529]),
+            ("0,0\n1,20000\n2,41000\n3,65000", [0, 20000, 41000, 65000]),
+            ("0,0\n1,70000\n2,9\n3,70000", [0, 70000, 9, 70000]),
+        ] {
+            let run = made("[columns]\nenc_1 = \"n\"\n", &format!("t,n\n{rows}\n")).unwrap();
+            assert_eq!(run.counts[0], wanted, "{rows}");
+        }
         // A motor that turned more than once in its angle did not lose its turns.
         let far = made(
             "[columns]\nenc_1 = { from = \"rad\", unit = \"rad\", counts_per_rev = 100 }\n",

@@ -364,6 +364,15 @@ fn time_unit_s(t: &[f64]) -> f64 {
     units::of_time(time_unit(t, 1.0)).unwrap_or(1.0)
 }
 
+/// The unit of a duty in steps of its PWM.
+pub(super) const STEPS: &str = "steps";
+
+/// The full duty of a PWM in steps: of the usual ones the next that holds the most in the file.
+pub(super) fn full_duty(most: f64) -> f64 {
+    let usual = [255.0, 400.0, 500.0, 1000.0, 1023.0, 1024.0, 2047.0, 4095.0, 8191.0, 16383.0, 32767.0, 65535.0];
+    usual.into_iter().find(|full| *full >= most).unwrap_or(most)
+}
+
 /// The unit that a range gives away: few fields are 50 m long, no heading goes beyond a few turns in a radian.
 fn by_range(column: Column, series: &Series) -> &'static str {
     let [low, high] = series.range();
@@ -374,6 +383,7 @@ fn by_range(column: Column, series: &Series) -> &'static str {
         Column::Duty(_) if spaced(&series.name).to_lowercase().contains("volt") => "V",
         Column::Speed(_) if words(&spaced(&series.name).to_lowercase()).contains(&"rpm") => "rpm",
         Column::Duty(_) if most > 1.001 && most <= 100.0 => "percent",
+        Column::Duty(_) if most > 100.0 => STEPS,
         Column::Counts(_) if series.values.iter().filter(|x| x.fract() != 0.0).count() * 2 > series.values.len() => {
             "rad"
         }

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use self::guess::{Guess, guesses, pose};
+use super::fill::register;
 use super::time::usual_step;
 use super::{Series, Table, truth, units};
 use crate::columns::Column;
@@ -100,21 +101,33 @@ fn time(table: &Table, name: &str) -> String {
 /// A line a column.
 fn columns(guesses: &[Guess], none: &str) -> String {
     let mut out = String::new();
+    // All motors have one supply and one full duty.
+    let duties = guesses.iter().filter(|g| matches!(g.column, Column::Duty(_))).flat_map(|g| g.series.range());
+    let most = duties.fold(0.0_f64, |most, x| most.max(x.abs()));
     for Guess { series, column, unit } in guesses {
         let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
         let value = match *unit {
+            "" if rates(column) && Column::from_name(&series.name) == Column::Other => {
+                format!("{} # in rad/s at the wheel? Else {{ from = {0}, unit = \"rpm\" }}", quoted(&series.name))
+            }
             "" => quoted(&series.name),
             unit if angle => format!(
                 "{{ from = {}, unit = \"{unit}\", counts_per_rev = 65536 }} # what the encoder counts a turn",
                 quoted(&series.name)
             ),
             "V" if matches!(column, Column::Duty(_)) => {
-                let [low, high] = series.range();
-                let most = low.abs().max(high.abs());
                 let share = if most > 0.0 { format!("{:.4}", 1.0 / most) } else { "1".to_owned() };
                 format!(
                     "{{ from = {}, scale = {share} }} # of {most} V, the most in this file: write 1 / supply_v",
                     quoted(&series.name)
+                )
+            }
+            unit if unit == guess::STEPS || matches!(column, Column::Duty(_)) && unit == "percent" && most > 100.0 => {
+                let full = guess::full_duty(most);
+                format!(
+                    "{{ from = {}, scale = {:.6} }} # of {full}: is that the full duty? The most in this file is {most}",
+                    quoted(&series.name),
+                    1.0 / full
                 )
             }
             unit => format!("{{ from = {}, unit = \"{unit}\" }}", quoted(&series.name)),
@@ -124,23 +137,23 @@ fn columns(guesses: &[Guess], none: &str) -> String {
     if guesses.is_empty() { none.to_owned() } else { out }
 }
 
+/// Whether a column is a speed of a wheel.
+fn rates(column: &Column) -> bool {
+    matches!(column, Column::Speed(_) | Column::Reference(_))
+}
+
 /// What was not recognised, as remarks.
 fn unused(rest: &[&Series]) -> String {
     let mut out = String::from(if rest.is_empty() { "" } else { "\n# Not used:\n" });
     for series in rest {
-        let hint = if unsigned(series) { "; 16 bits read without their sign? wraps = 65536" } else { "" };
+        // A signed number that was read without its sign jumps between both ends, as a counter does that begins again.
+        let hint = register(&series.values).map_or_else(String::new, |range| {
+            format!("; {} bits read without their sign? wraps = {range}", range.log2())
+        });
         let [low, high] = series.range().map(readable);
         let _ = writeln!(out, "# {}, {low} to {high}{hint}", quoted(&series.name));
     }
     out
-}
-
-/// Whether a series jumps between both ends of 16 bits, as a signed number does that was read without its sign.
-fn unsigned(series: &Series) -> bool {
-    let ends = |x: &f64| x.fract() == 0.0 && (0.0..65536.0).contains(x);
-    // Nine tenths of the 65536 values: no duty passes from one end to the other in a row.
-    let jumps = |w: &[f64]| (w[1] - w[0]).abs() > 0.9 * 65536.0;
-    series.values.iter().all(ends) && series.values.windows(2).any(jumps)
 }
 
 /// A number in a remark; some logs hold 2.4e-311 where nothing was measured.

@@ -150,6 +150,24 @@ fn a_servo_and_a_motor_on_a_bench_are_understood() {
 }
 
 #[test]
+fn motors_have_one_supply_and_one_full_duty() {
+    let volts = drafted("time,left_volts,right_volts", ["0.00,0,0", "0.01,-8,-7.9", "0.02,4,5"]);
+    assert_eq!(volts.matches("scale = 0.1250 } # of 8 V").count(), 2, "{volts}");
+    let steps = drafted("time,pwm_left,pwm_right", ["0.00,0,0", "0.01,-250,-90", "0.02,4,60"]);
+    let full = "scale = 0.003922 } # of 255: is that the full duty? The most in this file is 250";
+    assert_eq!(steps.matches(full).count(), 2, "{steps}");
+    let permille = drafted("time,pwm", ["0.00,0", "0.01,-900", "0.02,4"]);
+    assert!(permille.contains("scale = 0.001000 } # of 1000"), "{permille}");
+    let speeds = drafted("time,leftSpeed,rightSpeed,targetSpeed", ["0.00,0,0,0", "0.01,120,9,200", "0.02,130,9,200"]);
+    for line in ["speed_2 = \"leftSpeed\" # in rad/s at the wheel?", "ref_1 = \"targetSpeed\" # in rad/s at the wheel?"]
+    {
+        assert!(speeds.contains(line), "{line}\n{speeds}");
+    }
+    let counter = drafted("time,n,pwm", ["0,4294967290,1", "1,4294967295,1", "2,4,0"]);
+    assert!(counter.contains("32 bits read without their sign? wraps = 4294967296"), "{counter}");
+}
+
+#[test]
 fn odometry_and_ground_truth_are_known_by_what_their_axes_are_written_with() {
     let rows = ["0.0,0,0,0,0.1,0.2,0.3", "0.1,0,0,0,0.1,0.2,0.3", "0.2,0,0,0,0.1,0.2,0.3"];
     for (header, odometry, truth) in [
