@@ -231,6 +231,11 @@ fn a_log_in_another_unit_than_the_others_is_named() {
     }
 }
 
+#[test]
+fn no_log_says_nothing() {
+    assert!(found(open("runs/wheel-skew").robot, &[]).is_empty());
+}
+
 /// Wheels that slip at starts excuse a length that is wrong; a counter that once jumped does not.
 #[test]
 fn one_jump_of_a_counter_is_no_slip() {
