@@ -9,7 +9,7 @@ use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
 use crate::parts::parts;
 use crate::words;
-use replay::{Replayed, replay};
+use replay::{Replayed, replay, totals};
 
 mod counts;
 mod replay;
@@ -112,8 +112,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let nominally = replay(robot, logs, &nominal, floor);
     let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
     let wrong = nominally.iter().map(Replayed::wrong_share).fold(0.0, f64::max);
-    let wrong_ticks = |wheels: &[Replayed]| wheels.iter().map(|w| w.wrong).sum::<u64>();
-    let wrong_before = wrong_ticks(&nominally);
+    let [_, wrong_before] = totals(&nominally);
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -137,10 +136,9 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, Interval)>| {
         let now = replay(robot, logs, &law, floor);
         let e: Vec<f64> = now.iter().map(|wheel| wheel.rms).collect();
-        let wrong_now = wrong_ticks(&now);
+        let [ticks, wrong_now] = totals(&now);
         let mends = wrong_now as f64 <= LEFT_WRONG * wrong_before as f64;
         if mends && total(&e) < best.0 * 0.999 {
-            let ticks = now.iter().map(|w| w.ticks).sum();
             let evidence = Evidence::Replay { ticks, wrong: [wrong_before, wrong_now] };
             let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };
             best = (total(&e), Some(finding), e);
@@ -202,8 +200,8 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     offer(gains, "pi-gain", parameters);
     // Where another law replays it all, two of them would.
     let replayed = best.1.as_ref().is_some_and(|f| f.evidence.wrong_share().is_some_and(|share| share <= WRONG_SHARE));
-    if !replayed && let Some(counted) = counts::counted(robot, logs, &nominal, floor) {
-        best = (total(&counted.rms), Some(counted.finding(wrong_before)), counted.rms);
+    if !replayed && let Some((finding, left)) = counts::counted(robot, logs, &nominal, floor, wrong_before) {
+        best = (total(&left), Some(finding), left);
     }
     if best.0 < (1.0 - REMOVED) * start {
         link.after = best.2;

@@ -10,7 +10,7 @@ use crate::motion::MotionLink;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 
-/// The one effect with two sides: cables on the motion link, set points on the command link.
+/// Cables on the motion link, set points on the command link.
 pub(super) const ORDER: &str = "wheel-order";
 
 /// Effects that one link shows a side of and another link the other, each by parameters of its own.

@@ -4,44 +4,18 @@
 //! It is told only by duties that replay with it and neither with the file's number nor with other gains.
 
 use runs::robot::Robot;
-use runs::ticks::Ticks;
 use runs::{CountSource, Log};
 
-use super::replay::{Replayed, replay};
-use super::{COLUMNS, ENCODER_SCALE, LOOP_SCALE, Law, WRONG_SHARE, at_rate, stated, with_loops};
+use super::replay::{Replayed, replay, totals, walk};
+use super::{ENCODER_SCALE, LOOP_SCALE, Law, WRONG_SHARE, at_rate, stated, with_loops};
 use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::Finding;
-use crate::parts::parts;
 
 /// Duty from which an output counts as saturated, where it says nothing of the speed: 1, but for rounding.
 const SATURATED: f64 = 0.995;
 /// First and last step of the search about what the changes of the duties say, relative.
 const STEPS: [f64; 2] = [0.01, 1e-6];
-
-/// Duties that replay with another number of counts than the file's.
-pub(super) struct Counted {
-    /// That number less one, in those of the file.
-    scale: f64,
-    /// Between which it lies.
-    within: [f64; 2],
-    /// RMS beyond rounding of every wheel, duty.
-    pub(super) rms: Vec<f64>,
-    ticks: u64,
-    wrong: u64,
-}
-
-impl Counted {
-    pub(super) fn finding(&self, wrong_before: u64) -> Finding {
-        Finding {
-            link: Link::Controller,
-            name: ENCODER_SCALE,
-            wheels: Vec::new(),
-            parameters: vec![(LOOP_SCALE.to_owned(), self.scale, Interval::Resolution(self.within))],
-            evidence: Evidence::Replay { ticks: self.ticks, wrong: [wrong_before, self.wrong] },
-        }
-    }
-}
 
 /// Whether the loop's speeds are those of the counts: not where a log has them as measured, or has no counts.
 fn by_counts(logs: &[&Log]) -> bool {
@@ -54,8 +28,15 @@ fn is_exact(wheels: &[Replayed]) -> bool {
     wheels.iter().all(|w| w.ticks > 0 && w.wrong_share() <= WRONG_SHARE)
 }
 
-/// The number of counts with which all duties replay, if the file's gains do it with no other.
-pub(super) fn counted(robot: &Robot, logs: &[&Log], nominal: &Law, floor: f64) -> Option<Counted> {
+/// The number of counts with which all duties replay, if the file's gains do it with no other, and the RMS beyond rounding
+/// of every wheel that is left (duty). So many ticks are `wrong` with the file's number.
+pub(super) fn counted(
+    robot: &Robot,
+    logs: &[&Log],
+    nominal: &Law,
+    floor: f64,
+    wrong: u64,
+) -> Option<(Finding, Vec<f64>)> {
     if !by_counts(logs) {
         return None;
     }
@@ -89,13 +70,15 @@ pub(super) fn counted(robot: &Robot, logs: &[&Log], nominal: &Law, floor: f64) -
         }
         best * (1.0 + sign * off) - 1.0
     };
-    Some(Counted {
-        scale: best - 1.0,
-        within: [end(-1.0), end(1.0)],
-        rms: replayed.iter().map(|w| w.rms).collect(),
-        ticks: replayed.iter().map(|w| w.ticks).sum(),
-        wrong: replayed.iter().map(|w| w.wrong).sum(),
-    })
+    let [ticks, left_wrong] = totals(&replayed);
+    let finding = Finding {
+        link: Link::Controller,
+        name: ENCODER_SCALE,
+        wheels: Vec::new(),
+        parameters: vec![(LOOP_SCALE.to_owned(), best - 1.0, Interval::Resolution([end(-1.0), end(1.0)]))],
+        evidence: Evidence::Replay { ticks, wrong: [wrong, left_wrong] },
+    };
+    Some((finding, replayed.iter().map(|w| w.rms).collect()))
 }
 
 /// What the changes of the duties from tick to tick say by least squares, without an integrator to know.
@@ -105,29 +88,21 @@ fn by_changes(robot: &Robot, logs: &[&Log], law: &Law) -> Option<f64> {
     let older = law.shift.into_iter().max().unwrap_or(0) + 1;
     let (mut square, mut mixed) = (0.0, 0.0);
     for log in logs {
-        let mut steady = 0;
-        for part in parts(log, COLUMNS) {
-            let run = &part.run;
-            let ticks = Ticks::with_period(robot, run, log.tick_s());
-            for k in part.own.clone() {
-                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
-                if steady <= older || k <= older {
-                    continue;
-                }
-                for wheel in 0..run.duty.len() {
-                    let duty = &run.duty[wheel];
-                    let speed =
-                        |k: usize| ticks.moved(wheel, k - law.shift[0]).map_or(f64::NAN, |n| n as f64 * per_count);
-                    let set = |k: usize| run.reference[wheel][k - law.shift[1]];
-                    let change = |of: &dyn Fn(usize) -> f64| law.kp * (of(k) - of(k - 1)) + law.ki / rate * of(k);
-                    let (of_speed, left) = (change(&speed), change(&set) - (duty[k] - duty[k - 1]));
-                    if duty[k].abs().max(duty[k - 1].abs()) < SATURATED && of_speed.is_finite() && left.is_finite() {
-                        square += of_speed * of_speed;
-                        mixed += of_speed * left;
-                    }
+        walk(robot, log, |run, ticks, k, steady| {
+            if steady <= older || k <= older {
+                return;
+            }
+            for (wheel, duty) in run.duty.iter().enumerate() {
+                let speed = |k: usize| ticks.moved(wheel, k - law.shift[0]).map_or(f64::NAN, |n| n as f64 * per_count);
+                let set = |k: usize| run.reference[wheel][k - law.shift[1]];
+                let change = |of: &dyn Fn(usize) -> f64| law.kp * (of(k) - of(k - 1)) + law.ki / rate * of(k);
+                let (of_speed, left) = (change(&speed), change(&set) - (duty[k] - duty[k - 1]));
+                if duty[k].abs().max(duty[k - 1].abs()) < SATURATED && of_speed.is_finite() && left.is_finite() {
+                    square += of_speed * of_speed;
+                    mixed += of_speed * left;
                 }
             }
-        }
+        });
     }
     // Speeds are that many times those of the file.
     let share = mixed / square;
@@ -144,7 +119,6 @@ pub(crate) fn with_other_counts(robot: &Robot, logs: &[Log], scale: f64) -> Opti
     let ([.., floor], nominal) = stated(robot, &logs);
     let other = Law { counts: nominal.counts * (1.0 + scale), ..nominal };
     let [ours, theirs] = [nominal, other].map(|law| replay(robot, &logs, &law, floor));
-    let wrong = |wheels: &[Replayed]| wheels.iter().map(|w| w.wrong).sum::<u64>();
-    (is_exact(&ours) && !is_exact(&theirs))
-        .then(|| (ours.iter().map(|w| w.ticks).sum(), [wrong(&ours), wrong(&theirs)]))
+    let [[ticks, with_ours], [_, with_theirs]] = [&ours, &theirs].map(|wheels| totals(wheels));
+    (is_exact(&ours) && !is_exact(&theirs)).then_some((ticks, [with_ours, with_theirs]))
 }

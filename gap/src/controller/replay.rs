@@ -3,9 +3,9 @@
 //! Where a log begins, and behind ticks that it lacks, nobody knows the integrator. Every duty that follows
 //! narrows it down to what its rounding leaves, and then the law is as exact as if it had been known.
 
-use runs::Log;
 use runs::robot::Robot;
 use runs::ticks::Ticks;
+use runs::{Log, Run};
 
 use super::{COLUMNS, Law, SLACK};
 use crate::parts::parts;
@@ -90,6 +90,23 @@ impl Replayed {
     }
 }
 
+/// Ticks of all wheels that were compared, and those of them that differ.
+pub(super) fn totals(wheels: &[Replayed]) -> [u64; 2] {
+    wheels.iter().fold([0, 0], |[ticks, wrong], w| [ticks + w.ticks, wrong + w.wrong])
+}
+
+/// Every tick of a log: the ticks around it, its place among them, and how many before it follow without a gap.
+pub(super) fn walk(robot: &Robot, log: &Log, mut each: impl FnMut(&Run, &Ticks, usize, usize)) {
+    let mut steady = 0;
+    for part in parts(log, COLUMNS) {
+        let ticks = Ticks::with_period(robot, &part.run, log.tick_s());
+        for k in part.own {
+            steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
+            each(&part.run, &ticks, k, steady);
+        }
+    }
+}
+
 /// Replays every wheel's loop.
 pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec<Replayed> {
     let rate = robot.control_rate_hz;
@@ -103,50 +120,43 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
     let mut wheels: Vec<Wheel> = (0..robot.wheel_count()).map(wheel).collect();
     for log in logs {
         wheels.iter_mut().for_each(|w| w.integral = Integral::UNKNOWN);
-        // Rows before this one without a gap between.
-        let mut steady = 0;
-        for part in parts(log, COLUMNS) {
-            let run = &part.run;
-            let ticks = Ticks::with_period(robot, run, log.tick_s());
-            for k in part.own.clone() {
-                steady = if ticks.since(k) == 1 { steady + 1 } else { 0 };
-                for (wheel, state) in wheels.iter_mut().enumerate() {
-                    let speed = |k: usize| match run.measured.get(wheel) {
-                        Some(measured) => measured[k],
-                        None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
-                    };
-                    if steady == 0 {
-                        state.integral = Integral::UNKNOWN;
+        walk(robot, log, |run, ticks, k, steady| {
+            for (wheel, state) in wheels.iter_mut().enumerate() {
+                let speed = |k: usize| match run.measured.get(wheel) {
+                    Some(measured) => measured[k],
+                    None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
+                };
+                if steady == 0 {
+                    state.integral = Integral::UNKNOWN;
+                }
+                let error = match law.shift {
+                    [counts, references] if counts.max(references) <= steady => {
+                        run.reference[wheel][k - references] - speed(k - counts)
                     }
-                    let error = match law.shift {
-                        [counts, references] if counts.max(references) <= steady => {
-                            run.reference[wheel][k - references] - speed(k - counts)
-                        }
-                        _ => f64::NAN,
-                    };
-                    if !error.is_finite() {
-                        state.integral = Integral::UNKNOWN;
-                        continue;
-                    }
-                    let known = state.integral.is_known();
-                    let [low, high] = state.integral.step(law, error, rate).map(rounded);
-                    let logged = run.duty[wheel][k];
-                    if !logged.is_finite() {
-                        continue;
-                    }
-                    // A guess of the rounding shifts the highest level by some thousandths of it.
-                    let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
-                    if e == 0.0 {
-                        state.integral.narrow(law.kp * error, logged, half);
-                    }
-                    if known {
-                        state.square += e * e;
-                        state.all += 1;
-                        state.wrong += u64::from(e > 1e-9);
-                    }
+                    _ => f64::NAN,
+                };
+                if !error.is_finite() {
+                    state.integral = Integral::UNKNOWN;
+                    continue;
+                }
+                let known = state.integral.is_known();
+                let [low, high] = state.integral.step(law, error, rate).map(rounded);
+                let logged = run.duty[wheel][k];
+                if !logged.is_finite() {
+                    continue;
+                }
+                // A guess of the rounding shifts the highest level by some thousandths of it.
+                let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
+                if e == 0.0 {
+                    state.integral.narrow(law.kp * error, logged, half);
+                }
+                if known {
+                    state.square += e * e;
+                    state.all += 1;
+                    state.wrong += u64::from(e > 1e-9);
                 }
             }
-        }
+        });
     }
     let figures = |w: &Wheel| Replayed { rms: (w.square / w.all.max(1) as f64).sqrt(), ticks: w.all, wrong: w.wrong };
     wheels.iter().map(figures).collect()
@@ -157,7 +167,6 @@ mod tests {
     use super::*;
     use model::effects::Applied;
     use model::manoeuvre::{Manoeuvre, simulate};
-    use runs::Run;
     use runs::frames::Pose;
     use runs::robot::{Effect, EffectParameter};
     use std::borrow::Cow;
