@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use gap::Analysis;
+use gap::{Analysis, Options, analyse};
 use model::effects::Applied;
 use model::manoeuvre::{self, Manoeuvre};
 use model::plant::Contact;
 use runs::frames::Pose;
+use runs::output::Existing;
 use runs::robot::{Effect, EffectParameter, Robot};
 use runs::{DataSet, Run};
 
@@ -66,6 +67,24 @@ pub(super) fn simulate(truth: &Robot, manoeuvres: &[Manoeuvre], seed: u64) -> Da
     let runs = manoeuvres.iter().enumerate().map(|(k, m)| run(truth, *m, 100 * seed + k as u64)).collect();
     let robot = Robot { effects: Vec::new(), ..truth.clone() };
     DataSet { folder: PathBuf::from("simulated"), robot, runs }
+}
+
+/// What is said of a robot.toml and logs, written and read as those of a user.
+pub(super) fn of_files(robot: &str, runs: impl IntoIterator<Item = Run>) -> Analysis {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("robot.toml"), robot).unwrap();
+    for run in runs {
+        run.save(folder.path().join(format!("{}.csv", run.name)), Existing::Refuse).unwrap();
+    }
+    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+}
+
+/// Speed of an axis (rad/s) `step` seconds later, under a torque and a dry friction (Nm) that holds it where it stands.
+pub(super) fn with_dry_friction(speed: f64, torque: f64, dry: f64, inertia: f64, step: f64) -> f64 {
+    let sticks = speed == 0.0 && torque.abs() < dry;
+    let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
+    let after = if sticks { 0.0 } else { speed + step * (torque - dry * sense) / inertia };
+    if speed * after < 0.0 { 0.0 } else { after }
 }
 
 pub(super) const RICH: [Manoeuvre; 3] = [Manoeuvre::Star, Manoeuvre::Spin, Manoeuvre::Chirp];

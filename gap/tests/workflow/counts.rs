@@ -5,7 +5,7 @@ use gap::effect::Link;
 use gap::evidence::Evidence;
 use gap::{Analysis, Options, Verdict, analyse};
 use runs::DataSet;
-use runs::robot::{Effect, EffectParameter, Robot};
+use runs::robot::Robot;
 
 /// By how much more counts the encoder gives than the file says, or the controller reckons with; each on a seed of its own.
 const SIZES: [f64; 6] = [0.03, -0.03, 0.1, -0.1, 0.25, -0.2];
@@ -108,23 +108,15 @@ fn a_radius_stays_tied_with_counts_that_are_wrong_twice_and_the_replay_is_told()
 /// Beside them, radii and skews that are none of the controller's.
 #[test]
 fn counts_are_told_beside_what_else_moves_the_camera() {
-    let effect = |name: &str, parameters: &[(&str, f64)]| {
-        let value = |v: f64| EffectParameter { value: v, ..EffectParameter::default() };
-        let parameters = parameters.iter().map(|(n, v)| ((*n).to_owned(), value(*v))).collect();
-        Effect { name: name.to_owned(), parameters, ..Effect::default() }
-    };
-    let besides = [
-        effect("wheel-skew", &[("skew_1_rad", 0.07), ("skew_2_rad", -0.05), ("skew_3_rad", 0.035)]),
-        effect("body-radius", &[("scale", 0.05)]),
-    ];
-    for (k, beside) in besides.into_iter().enumerate() {
-        let name = beside.name.clone();
-        let truth = Robot { effects: vec![beside], ..Robot::racbot() };
+    let skews = [("skew_1_rad", 0.07), ("skew_2_rad", -0.05), ("skew_3_rad", 0.035)];
+    let besides: [(&str, &[(&str, f64)]); 2] = [("wheel-skew", &skews), ("body-radius", &[("scale", 0.05)])];
+    for (k, (name, parameters)) in besides.into_iter().enumerate() {
+        let truth = with(&Robot::racbot(), name, parameters);
         let size = [0.05, -0.1][k];
         let a = analysed(&miscounted(simulate(&truth, &RICH, 100 + k as u64), size));
         let mut found = names(&a);
         found.sort_unstable();
-        let mut both = vec![name.as_str(), "encoder-scale"];
+        let mut both = vec![name, "encoder-scale"];
         both.sort_unstable();
         assert_eq!(found, both, "{size}: {}", a.terminal_summary());
         assert!((value(&a, "loop_scale") - size).abs() < 3e-4, "{}", a.terminal_summary());

@@ -3,14 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use super::common::names;
+use super::common::{names, of_files, with_dry_friction};
 
-use gap::{Analysis, Interval, Options, analyse};
+use gap::{Analysis, Interval};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use runs::output::Existing;
-use runs::{DataSet, Run};
+use runs::Run;
 
 /// An axis by its shaft, and who reads it.
 #[derive(Clone, Copy, Debug)]
@@ -73,10 +72,7 @@ fn run(axis: Axis, seed: u64) -> Run {
         }
         let current = if axis.held { told } else { wave(t) };
         let torque = axis.kt * current - axis.viscous * speed;
-        let sticks = speed == 0.0 && torque.abs() < axis.dry;
-        let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
-        let after = if sticks { 0.0 } else { speed + step * (torque - axis.dry * sense) / axis.inertia };
-        let after = if speed * after < 0.0 { 0.0 } else { after };
+        let after = with_dry_friction(speed, torque, axis.dry, axis.inertia, step);
         angle += 0.5 * step * (speed + after);
         (speed, t) = (after, t + step);
     }
@@ -95,12 +91,7 @@ fn done(axis: Axis, [inertia, friction]: [f64; 2], seed: u64) -> Analysis {
         inertia * axis.inertia,
         friction * axis.dry
     );
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("robot.toml"), text).unwrap();
-    for run in (0..3).map(|k| run(axis, 10 * seed + k)) {
-        run.save(folder.path().join(format!("{}.csv", run.name)), Existing::Refuse).unwrap();
-    }
-    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+    of_files(&text, (0..3).map(|k| run(axis, 10 * seed + k)))
 }
 
 /// What is named, with its first size.

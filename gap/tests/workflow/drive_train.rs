@@ -1,13 +1,12 @@
 //! A drive train of 50 kg as SysId characterises it: slow ramps of the voltage and steps, on the floor, with a coarse
 //! encoder or with speeds alone.
 
-use gap::{Analysis, Interval, Options, Verdict, analyse};
+use gap::{Analysis, Interval, Verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use runs::output::Existing;
-use runs::{DataSet, Run};
+use runs::Run;
 
-use super::common::names;
+use super::common::{names, of_files, with_dry_friction};
 
 /// Supply, V, resistance, ohm, motor constant, Nm/A, gear, radius of a wheel, m, mass, kg.
 const VOLT: f64 = 12.0;
@@ -43,10 +42,7 @@ fn run(name: &str, seed: u64, logged: Logged, seconds: f64, volts: impl Fn(f64) 
         angles.push(angle);
         for _ in 0..20 {
             let torque = GEAR * KT * (volts(t) - KT * GEAR * speed) / OHM;
-            let sticks = speed == 0.0 && torque.abs() < DRY;
-            let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
-            let next = if sticks { 0.0 } else { speed + 2.5e-4 * (torque - DRY * sense) / inertia };
-            let next = if speed * next < 0.0 { 0.0 } else { next };
+            let next = with_dry_friction(speed, torque, DRY, inertia, 2.5e-4);
             angle += 1.25e-4 * (speed + next);
             speed = next;
         }
@@ -73,8 +69,6 @@ fn characterised(seed: u64, logged: Logged) -> Analysis {
          rotor_inertia = 0\nfriction_torque = 0\n[[wheel]]\nx_m = 0.26\ny_m = 0\ndrive_deg = 90\n\
          [[wheel]]\nx_m = -0.26\ny_m = 0\ndrive_deg = 90\n"
     );
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("robot.toml"), text).unwrap();
     let step = |t: f64| if t > 0.1 { 7.0 } else { 0.0 };
     let runs = [
         run("slow-forward", 4 * seed, logged, 18.0, |t| 0.25 * t),
@@ -82,10 +76,7 @@ fn characterised(seed: u64, logged: Logged) -> Analysis {
         run("fast-forward", 4 * seed + 2, logged, 4.0, step),
         run("fast-backward", 4 * seed + 3, logged, 4.0, |t| -step(t)),
     ];
-    for run in runs {
-        run.save(folder.path().join(format!("{}.csv", run.name)), Existing::Refuse).unwrap();
-    }
-    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+    of_files(&text, runs)
 }
 
 /// A heavy robot speeds up slowly, and a coarse encoder says next to nothing of that within an eighth of a second: in test

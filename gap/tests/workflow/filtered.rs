@@ -1,12 +1,11 @@
 //! Speeds that a firmware filters before it logs them.
 
-use gap::{Analysis, Options, Verdict, analyse};
+use gap::{Analysis, Verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use runs::output::Existing;
-use runs::{DataSet, Run};
+use runs::Run;
 
-use super::common::names;
+use super::common::{names, of_files};
 
 const VOLT: f64 = 12.0;
 const OHM: f64 = 3.8;
@@ -22,11 +21,9 @@ fn steps(seed: u64, filter_s: f64) -> Analysis {
          wheel_radius_m = 0.03\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {ROTOR}\n\
          friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
     );
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("robot.toml"), text).unwrap();
-    for n in 0..4 {
+    let run = |n| {
         let mut rng = ChaCha8Rng::seed_from_u64(10 * seed + n);
-        let mut run = Run::default();
+        let mut run = Run { name: format!("{n}"), ..Run::default() };
         let (mut speed, mut seen, mut duty) = (0.0_f64, 0.0, 0.0);
         let (mut duties, mut speeds) = (Vec::new(), Vec::new());
         for row in 0..8000 {
@@ -43,9 +40,9 @@ fn steps(seed: u64, filter_s: f64) -> Analysis {
             }
         }
         (run.duty, run.speed) = (vec![duties], vec![speeds]);
-        run.save(folder.path().join(format!("{n}.csv")), Existing::Refuse).unwrap();
-    }
-    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+        run
+    };
+    of_files(&text, (0..4).map(run))
 }
 
 /// A filter of 20 ms makes nearly twice the inertia of a motor whose own time constant is 22 ms.

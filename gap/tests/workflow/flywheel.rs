@@ -1,12 +1,11 @@
 //! A flywheel as SysId characterises it: two slow ramps of the voltage and two steps, and speeds alone.
 
-use super::common::names;
-use gap::{Analysis, Interval, Options, analyse};
+use super::common::{names, of_files, with_dry_friction};
+use gap::{Analysis, Interval};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use runs::output::Existing;
-use runs::{DataSet, Run};
+use runs::Run;
 
 /// Supply, V, resistance, ohm, motor constant, Nm/A, gear, and inertia of the load and of the rotor, kg m².
 const VOLT: f64 = 12.0;
@@ -40,10 +39,7 @@ fn run(name: &str, seed: u64, seconds: f64, volts: impl Fn(f64) -> f64) -> Run {
         speeds.push(held);
         for _ in 0..20 {
             let torque = GEAR * KT * (volts(t) - KT * GEAR * speed) / OHM - VISCOUS * speed;
-            let sticks = speed == 0.0 && torque.abs() < DRY;
-            let sense = if speed == 0.0 { torque.signum() } else { speed.signum() };
-            let next = if sticks { 0.0 } else { speed + 2.5e-4 * (torque - DRY * sense) / inertia };
-            let next = if speed * next < 0.0 { 0.0 } else { next };
+            let next = with_dry_friction(speed, torque, DRY, inertia, 2.5e-4);
             angle += 1.25e-4 * (speed + next);
             speed = next;
         }
@@ -59,8 +55,6 @@ fn characterised(seed: u64) -> Analysis {
          wheel_radius_m = 1\nwheel_inertia_kg_m2 = {LOAD}\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\n\
          rotor_inertia = {ROTOR}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
     );
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("robot.toml"), text).unwrap();
     let step = |t: f64| if t > 0.004 { 7.0 } else { 0.0 };
     let runs = [
         run("slow-forward", 4 * seed, 20.0, |t| 0.25 * t),
@@ -68,10 +62,7 @@ fn characterised(seed: u64) -> Analysis {
         run("fast-forward", 4 * seed + 2, 6.0, step),
         run("fast-backward", 4 * seed + 3, 5.5, |t| -step(t)),
     ];
-    for run in runs {
-        run.save(folder.path().join(format!("{}.csv", run.name)), Existing::Refuse).unwrap();
-    }
-    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+    of_files(&text, runs)
 }
 
 /// Margins for what is not named let a bridge that is not linear, with friction of Stribeck, pass for both.
