@@ -74,7 +74,8 @@ impl VirtualRobot {
         Ok(Self {
             plant: applied.plant()?.at(start),
             loops: vec![
-                SpeedLoop::with_law(robot, applied.control.law(robot)).counting(1.0 + applied.control.counts);
+                SpeedLoop::with_law(robot, applied.control.law(robot))
+                    .counting(1.0 + applied.control.more_counts);
                 n
             ],
             control: applied.control.clone(),

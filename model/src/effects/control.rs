@@ -20,8 +20,8 @@ pub struct ControlDeviations {
     pub command_latency_s: f64,
     /// Row of the inverse kinematics, from 1, that each set point follows, inverted where negative.
     pub order: Vec<f64>,
-    /// Counts a wheel turn that its speeds are reckoned with, relative to those stated.
-    pub counts: f64,
+    /// By how much more counts a wheel turn its speeds are reckoned with than stated, as a share of those.
+    pub more_counts: f64,
 }
 
 impl ControlDeviations {
@@ -48,7 +48,7 @@ impl ControlDeviations {
 /// What the controller takes for the counts of a wheel turn, beside what the encoder gives.
 pub(super) fn reckoned(effect: &Effect, control: &mut ControlDeviations) {
     if effect.name == "encoder-scale" {
-        control.counts += effect.value("loop_scale").unwrap_or(0.0);
+        control.more_counts += effect.value("loop_scale").unwrap_or(0.0);
     }
 }
 

@@ -1,5 +1,6 @@
 //! Set points, commands, duties and supply against the counts.
 
+use estimation::statistics::median;
 use nalgebra::{Matrix3, Vector3};
 use runs::robot::{Robot, Support};
 use runs::{Columns, DutySource, Log, Run, drive_lacks};
@@ -122,17 +123,14 @@ fn driven(signals: &[Signals], axis: usize) -> Vec<[f64; 3]> {
 /// Whether an axis turns steadily both ways, as fast backwards as forwards, at the level at which it is driven most: what
 /// holds a load drives it one way, and what swings does not turn steadily.
 fn both_ways_at_a_level(rows: &[[f64; 3]]) -> bool {
-    let middle = |mut of: Vec<f64>| {
-        of.sort_by(f64::total_cmp);
-        of.get(of.len() / 2).copied().unwrap_or(0.0)
-    };
-    let level = middle(rows.iter().map(|row| row[0]).filter(|duty| *duty > 0.0).collect());
+    let mut driven: Vec<f64> = rows.iter().map(|row| row[0]).filter(|duty| *duty > 0.0).collect();
+    let level = median(&mut driven);
     let near: Vec<&[f64; 3]> = rows.iter().filter(|row| (row[0] - level).abs() <= LEVEL * level).collect();
     let steady: Vec<f64> =
         near.iter().filter(|row| row[2].abs() * SETTLED_S <= row[1].abs()).map(|row| row[1]).collect();
-    let (forwards, back): (Vec<f64>, Vec<f64>) = steady.iter().partition(|speed| **speed > 0.0);
+    let (mut forwards, mut back): (Vec<f64>, Vec<f64>) = steady.iter().partition(|speed| **speed > 0.0);
     let fewer = forwards.len().min(back.len());
-    let [forwards, back] = [forwards, back].map(|speeds| middle(speeds).abs());
+    let [forwards, back] = [&mut forwards, &mut back].map(|speeds| median(speeds).abs());
     2 * steady.len() >= near.len()
         && fewer as f64 >= BOTH_WAYS * steady.len() as f64
         && fewer >= FEWEST / 2

@@ -1,6 +1,7 @@
 //! The unit of time, and the control rate.
 
 use super::{Mistake, short};
+use estimation::statistics::median;
 use runs::Log;
 use runs::robot::Robot;
 
@@ -50,8 +51,7 @@ pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake
 /// A log whose time has another unit than that of most.
 fn odd_one_out(logs: &[Log]) -> Option<Mistake> {
     let mut ticks: Vec<f64> = logs.iter().filter_map(Log::tick_s).collect();
-    ticks.sort_by(f64::total_cmp);
-    let usual = *ticks.get(ticks.len() / 2)?;
+    let usual = median(&mut ticks);
     let odd = |ratio: f64| UNITS.iter().any(|(unit, ..)| (ratio.max(1.0 / ratio) / unit).ln().abs() < OTHER_UNIT);
     let (log, tick) = logs.iter().find_map(|log| Some((log, log.tick_s().filter(|tick| odd(tick / usual))?)))?;
     let what = format!("{}: ticks are {} apart, and {} in most logs", log.name, short(tick), short(usual));
