@@ -39,7 +39,7 @@ fn more(n: usize) -> Options {
             "name = \"extra-{k}\"\ntorque = \"-c * sin(w * {} + {k})\"\n[parameters]\nc = {{ scale = 1e-3, material = 5e-3 }}\n",
             0.1 * (k + 1) as f64
         );
-        Arc::new(UserEffect::parse(&text).expect("an effect")) as Arc<dyn gap::effect::Effect>
+        Arc::new(UserEffect::parse(&text).expect("an effect")) as Arc<dyn links::effect::Effect>
     });
     Options { effects: effects.collect(), ..Options::default() }
 }
@@ -61,7 +61,7 @@ fn length(c: &mut Criterion) {
 fn catalogue(c: &mut Criterion) {
     let mut group = c.benchmark_group("size of the catalogue");
     group.sample_size(10);
-    let (set, own) = (logs(1), gap::effects::catalogue().len());
+    let (set, own) = (logs(1), links::effects::catalogue().len());
     for times in [1, 4, 16] {
         let options = more((times - 1) * own / 4);
         group.bench_function(BenchmarkId::from_parameter(format!("{} effects", own + options.effects.len())), |b| {

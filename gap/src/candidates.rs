@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::effect::{Effect, Link, Sizes};
 use crate::state::{Active, State};
+use links::effect::{Effect, Link, Sizes};
 
 /// The link's candidates: every form of every effect fitted there.
 pub fn candidates(state: &State, catalogue: &[Arc<dyn Effect>], link: Link) -> Vec<Active> {
@@ -28,7 +28,7 @@ pub fn candidates_of(
         acts(e.as_ref()) && !state.active.iter().any(|a| a.effect.name() == e.name())
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
-            && crate::effects::fits(e.name(), &state.robot)
+            && links::effects::fits(e.name(), &state.robot)
     });
     wanted
         .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))

@@ -10,9 +10,9 @@ use std::fmt::Write as _;
 use model::effects::Applied;
 use runs::robot::{Effect as Written, EffectParameter, Robot};
 
-use crate::effect::{Effect, Link};
-use crate::effects::{catalogue_for, exact_equation};
 use crate::report::{short, unit};
+use links::effect::{Effect, Link};
+use links::effects::{catalogue_for, exact_equation};
 
 pub use stranger::{Stranger, strangers};
 
@@ -206,7 +206,7 @@ mod tests {
         let mut pages = vec![("effects.md".to_owned(), list)];
         let drawn: Vec<(&Description, Option<String>)> = all
             .iter()
-            .zip(each(&all, &|d| picture::picture(&d.name, d.links[0], crate::effects::find(&d.name).as_deref())))
+            .zip(each(&all, &|d| picture::picture(&d.name, d.links[0], links::effects::find(&d.name).as_deref())))
             .collect();
         for (d, picture) in drawn {
             pages.push((format!("effects/{}.md", d.name), page(d, picture.is_some())));

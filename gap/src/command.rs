@@ -5,11 +5,11 @@ use runs::robot::Robot;
 use runs::ticks::Ticks;
 use runs::{Columns, Log};
 
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding, quantum};
 use crate::parts::parts;
 use crate::words;
+use links::effect::Link;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;

@@ -4,11 +4,11 @@ use runs::robot::Robot;
 use runs::ticks::{Gaps, Ticks};
 use runs::{Columns, Log};
 
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
 use crate::parts::parts;
 use crate::words;
+use links::effect::Link;
 use replay::{Replayed, replay, totals};
 
 mod counts;

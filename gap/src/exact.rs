@@ -2,8 +2,8 @@
 
 use runs::{Columns, Log, Run};
 
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
+use links::effect::Link;
 
 /// An effect on a link that can be replayed to the last digit.
 #[derive(Debug, Clone, PartialEq)]

@@ -16,15 +16,15 @@ use runs::frames::Pose;
 use runs::robot::Robot;
 use runs::{Log, Run};
 
-use crate::drive::DriveLink;
-use crate::effect::{Effect, Link};
-use crate::motion::MotionLink;
 use crate::options::Thresholds;
-use crate::pieces::{PIECE, Pieces, segments};
 use crate::problem::{Linear, Owner, Problem};
 use crate::select::{self, Design};
 use crate::state::{Active, State};
 use estimation::prior::Role;
+use links::drive::DriveLink;
+use links::effect::{Effect, Link};
+use links::motion::MotionLink;
+use links::pieces::{PIECE, Pieces, segments};
 
 /// Standard deviations between hypotheses that count as told apart.
 const SIGMAS: f64 = 5.0;

@@ -1,10 +1,10 @@
 //! Detection limits: the size from which an effect would be named in these data.
 
-use crate::effect::{Link, Parameter};
 use crate::options::Thresholds;
 use crate::problem::Owner;
 use crate::select::{Design, STRONG};
 use estimation::prior::Role;
+use links::effect::{Link, Parameter};
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;

@@ -1,11 +1,11 @@
 //! Where the model and the data part, in words.
 
-use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::Link;
 use crate::exact::ExactLink;
-use crate::inertial::Fit;
-use crate::motion::{MotionLink, WindowResiduals};
 use estimation::statistics::rms;
+use links::drive::{DriveLink, DriveResiduals};
+use links::effect::Link;
+use links::inertial::Fit;
+use links::motion::{MotionLink, WindowResiduals};
 
 /// Where the model and the data part.
 #[derive(Debug, Clone, PartialEq)]

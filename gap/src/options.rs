@@ -1,7 +1,7 @@
 //! Everything that is decided before fitting.
 
-use crate::effect::{Effect, Link};
-use crate::thresholds;
+use links::effect::{Effect, Link};
+use links::thresholds;
 
 /// Thresholds of the selection, fixed before anything is fitted and printed in the report.
 #[derive(Debug, Clone, PartialEq)]

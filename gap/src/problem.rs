@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::drive::{DriveLink, DriveModel, Side};
-use crate::effect::{Effect, Link, Parameter, Sizes};
-use crate::motion::{MotionLink, MotionModel};
 use crate::options::Thresholds;
 use crate::state::{Active, State};
 use estimation::normal_equations::{Cluster, NormalEquations};
+use links::drive::{DriveLink, DriveModel, Side};
+use links::effect::{Effect, Link, Parameter, Sizes};
+use links::motion::{MotionLink, MotionModel};
 
 /// A link of a data set that can be linearised about any state.
 pub enum Problem<'a> {
@@ -201,7 +201,7 @@ impl Problem<'_> {
         let Self::Drive(link) = self else { return false };
         let models = [state, other].map(|s| s.drive(None));
         let [one, other] = models.each_ref().map(|m| m.mechanics().map(|m| m.inertia));
-        one != other && worse(&models, &|m| crate::drive::in_own_torque(link, m), 0.0)
+        one != other && worse(&models, &|m| links::drive::in_own_torque(link, m), 0.0)
             || self.goes_astray(&models, thresholds)
     }
 
@@ -212,7 +212,7 @@ impl Problem<'_> {
 
     fn goes_astray(&self, models: &[DriveModel; 2], thresholds: &Thresholds) -> bool {
         let Self::Drive(link) = self else { return false };
-        worse(models, &|m| crate::drive::runaway(link, m), thresholds.runaway)
+        worse(models, &|m| links::drive::runaway(link, m), thresholds.runaway)
     }
 
     /// Whether an effect of a state opens the gap far beyond that of `start` if it alone is taken out: then the others
@@ -285,7 +285,7 @@ impl Problem<'_> {
 /// Whether the first of two models is worse by some measure of them, one a run.
 fn worse([one, other]: &[DriveModel; 2], of: &dyn Fn(&DriveModel) -> Option<Vec<f64>>, sigmas: f64) -> bool {
     match (of(one), of(other)) {
-        (Some(one), Some(other)) => crate::drive::further(&one, &other, sigmas),
+        (Some(one), Some(other)) => links::drive::further(&one, &other, sigmas),
         (None, _) => true,
         (_, None) => false,
     }

@@ -15,12 +15,12 @@ use std::sync::{Arc, OnceLock};
 
 use estimation::parallel::each;
 
-use crate::effect::{Effect, Link};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use estimation::normal_equations::NormalEquations;
 use estimation::prior::PenalisedFit;
+use links::effect::{Effect, Link};
 
 use gates::Gates;
 use join::join;

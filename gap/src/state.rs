@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use runs::robot::Robot;
 
-use crate::drive::DriveModel;
-use crate::effect::{Effect, Form, Link, Values};
-use crate::motion::MotionModel;
+use links::drive::DriveModel;
+use links::effect::{Effect, Form, Link, Values};
+use links::motion::MotionModel;
 
 /// An effect with values.
 #[derive(Clone)]

@@ -3,9 +3,9 @@
 use runs::Log;
 use runs::robot::Robot;
 
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
+use links::effect::Link;
 
 /// Scatter of the stamps about a regular grid that rounding to a tick cannot give, in ticks, and
 /// the least that matters, s.

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use gap::drive::{DriveLink, DriveModel};
-use gap::motion::{MotionLink, MotionModel};
-use gap::pieces::segments;
 use gap::{Options, analyse, analyse_logs};
+use links::drive::{DriveLink, DriveModel};
+use links::motion::{MotionLink, MotionModel};
+use links::pieces::segments;
 use model::effects::Applied;
 use model::manoeuvre::{Manoeuvre, simulate};
 use runs::frames::Pose;

@@ -51,7 +51,7 @@ fn is_honest(a: &Analysis) {
         assert_eq!(e["p_value"].is_null(), e["evidence"]["kind"] == "replay" || e["evidence"]["p"].is_null(), "{e}");
     }
     if a.verdict == Verdict::Agrees {
-        for l in a.links.iter().filter(|l| l.link == gap::effect::Link::Motion) {
+        for l in a.links.iter().filter(|l| l.link == links::effect::Link::Motion) {
             assert!(l.after < 3.0, "agrees at {} floors\n{}", l.after, a.terminal_summary());
         }
     }

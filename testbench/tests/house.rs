@@ -8,7 +8,7 @@ use std::process::Command;
 use testbench::repository;
 
 /// Crates whose files are looked at, by folder.
-const CRATES: [&str; 13] = [
+const CRATES: [&str; 14] = [
     "fixed-kin",
     "runs",
     "plot",
@@ -17,6 +17,7 @@ const CRATES: [&str; 13] = [
     "model",
     "hdl",
     "driver",
+    "links",
     "gap",
     "simulator",
     "ssl",
@@ -219,7 +220,7 @@ fn the_robots_binary_links_no_simulation() {
     let text = String::from_utf8(output.stdout).unwrap();
     let linked: BTreeSet<&str> = text.lines().filter_map(|line| line.split(' ').next()).collect();
     assert!(linked.contains("driver") && linked.contains("fixed-kin"), "{linked:?}");
-    for none in ["simulator", "gap", "plot", "testbench", "hdl", "rust-hdl-core", "vision"] {
+    for none in ["simulator", "gap", "links", "plot", "testbench", "hdl", "rust-hdl-core", "vision"] {
         assert!(!linked.contains(none), "the robot's binary links {none}");
     }
 }

@@ -8,11 +8,11 @@ use super::robot_file::completed;
 use super::workflow::Workflow;
 use super::writing::Written;
 use crate::GapError;
-use crate::effect::{Effect, Link, Sizes};
 use crate::exact::ExactLink;
-use crate::inertial::Fit;
 use crate::locate::{self, Located};
-use crate::motion::{MotionLink, WindowResiduals};
+use links::effect::{Effect, Link, Sizes};
+use links::inertial::Fit;
+use links::motion::{MotionLink, WindowResiduals};
 
 /// Whole runs that a report shows.
 const SHOWN: usize = 4;

@@ -3,9 +3,9 @@
 use estimation::normal_equations::Cluster;
 use model::fit::clocks;
 
-use crate::effects::camera_latency;
-use crate::motion::MotionLink;
 use crate::state::State;
+use links::effects::camera_latency;
+use links::motion::MotionLink;
 
 /// Step of the age by which poses are derived, s: that of its parameter.
 const STEP_S: f64 = 0.005;

@@ -8,12 +8,12 @@ use super::gaps;
 use super::measure::{Data, Drive};
 use super::study::{chosen, is_better, needed};
 use crate::controller::{ENCODER_SCALE, LOOP_SCALE};
-use crate::effect::{Form, Link, Values};
 use crate::evidence::Interval;
 use crate::exact::Finding;
 use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::effect::{Form, Link, Values};
 
 const SCALE: &str = "scale";
 

@@ -1,6 +1,6 @@
 //! The logs of a data set in pieces.
 
-use crate::pieces::{Driving, Pieces};
+use links::pieces::{Driving, Pieces};
 
 /// Logs in pieces, and a sample of long ones.
 pub(super) struct Cut<'a> {

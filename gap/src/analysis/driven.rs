@@ -1,8 +1,8 @@
 //! What was driven where residuals are, for the report.
 
-use crate::drive::DriveLink;
-use crate::motion::WindowResiduals;
-use crate::pieces::Pieces;
+use links::drive::DriveLink;
+use links::motion::WindowResiduals;
+use links::pieces::Pieces;
 
 /// Ticks over which a change of speed is looked at, on either side.
 const AROUND: usize = 30;

@@ -12,13 +12,13 @@ use super::misses::{FAR, Misses};
 use super::study::{self, Outcome, chosen, study};
 use super::workflow::Workflow;
 use super::{patterns, ratios};
-use crate::drive::DriveLink;
-use crate::effect::{Effect, Link};
 use crate::options::Stage;
 use crate::problem::Problem;
 use crate::select::Selection;
 use crate::state::{Active, State};
-use crate::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
+use links::drive::DriveLink;
+use links::effect::{Effect, Link};
+use links::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
 
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
@@ -96,7 +96,7 @@ impl<'a> Workflow<'a> {
         }
         let scatters =
             format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
-        let own = crate::drive::accounted(link, &self.start.drive(None)).into_iter().all(|share| share > FOREIGN);
+        let own = links::drive::accounted(link, &self.start.drive(None)).into_iter().all(|share| share > FOREIGN);
         if own {
             self.findings.remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
         } else {
@@ -223,7 +223,7 @@ impl<'a> Workflow<'a> {
 /// Floor and correlation of the drive with what was named in the model, if they hid enough to look again.
 fn lowered(link: &DriveLink, state: &State, floor: &[f64], correlation: f64) -> Option<(Vec<f64>, f64)> {
     let residuals = link.residuals(&state.drive(None))?;
-    let (now, correlated) = crate::drive::floor(link, &residuals, link.sizes.drive_nm);
+    let (now, correlated) = links::drive::floor(link, &residuals, link.sizes.drive_nm);
     let lower: Vec<f64> = now.iter().zip(floor).map(|(a, b)| a.min(*b)).collect();
     let correlated = correlated.min(correlation);
     let noise = |floor: &[f64], correlation: f64| correlation * floor.iter().map(|f| f * f).sum::<f64>();

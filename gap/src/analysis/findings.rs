@@ -2,9 +2,9 @@
 
 use super::found::{Leftover, Named};
 use super::study::Outcome;
-use crate::effect::Link;
 use crate::limits::Limit;
 use crate::state::{Active, State};
+use links::effect::Link;
 
 /// What was found, link by link.
 #[derive(Default)]

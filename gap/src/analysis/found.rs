@@ -3,14 +3,14 @@
 use runs::robot::Robot;
 
 use super::driven::Driven;
-use crate::drive::DriveResiduals;
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::ExactLink;
 use crate::limits::Limit;
 use crate::locate::Located;
-use crate::motion::WindowResiduals;
 use crate::options::Thresholds;
+use links::drive::DriveResiduals;
+use links::effect::Link;
+use links::motion::WindowResiduals;
 
 /// What the analysis comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

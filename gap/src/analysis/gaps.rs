@@ -5,16 +5,16 @@ use std::sync::Arc;
 use runs::robot::Support;
 
 use super::found::{LinkGap, Named};
-use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::{Effect, Link, Sizes};
 use crate::exact::ExactLink;
-use crate::inertial::{self, Fit};
 use crate::limits::Limit;
 use crate::locate::Located;
-use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::Thresholds;
-use crate::pieces::Pieces;
-use crate::thresholds::BLIND;
+use links::drive::{DriveLink, DriveResiduals};
+use links::effect::{Effect, Link, Sizes};
+use links::inertial::{self, Fit};
+use links::motion::{MotionLink, WindowResiduals};
+use links::pieces::Pieces;
+use links::thresholds::BLIND;
 
 pub(super) fn motion_gap([before, after]: [f64; 2], link: &MotionLink, plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
     let (noise, axes) = (link.noise, link.axes());
@@ -187,7 +187,7 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit]) -> Opti
 /// Links without a moment that could show anything, and what would be needed.
 pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec<(Link, String)> {
     let mut out = Vec::new();
-    let turned = |s: &crate::segment::Segment| {
+    let turned = |s: &links::segment::Segment| {
         s.angle.iter().map(|a| a.iter().fold(0.0_f64, |most, x| most.max((x - a[0]).abs()))).fold(0.0, f64::max)
     };
     let counted = pieces.iter().any(|s| !s.angle.is_empty());

@@ -3,9 +3,9 @@
 use runs::robot::Robot;
 
 use super::cut::Cut;
-use crate::drive::{DriveLink, DriveModel, Generic};
-use crate::pieces::Driving;
-use crate::thresholds::NO_NOISE;
+use links::drive::{DriveLink, DriveModel, Generic};
+use links::pieces::Driving;
+use links::thresholds::NO_NOISE;
 
 /// Longest test function, s.
 const LONGEST_S: f64 = 3.0;
@@ -24,7 +24,7 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
         let mut link = DriveLink::new(&pieces, &model)?;
         let columns = Generic::columns_of_wheel(&link);
         let enough = link.len() >= FEWEST_PER_COLUMN * columns;
-        (link.noise, _) = crate::drive::floor(&link, &link.residuals(&model)?, link.sizes.drive_nm);
+        (link.noise, _) = links::drive::floor(&link, &link.residuals(&model)?, link.sizes.drive_nm);
         let noise = link.noise.iter().copied().fold(0.0, f64::max);
         Some(Look {
             tells: link.tells(&model),

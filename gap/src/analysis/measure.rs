@@ -15,14 +15,14 @@ use super::misses::{FAR_AMISS, Misses};
 use super::question::Question;
 use super::robot_file::{completed, given};
 use super::study::rms;
-use crate::drive::{DriveLink, DriveResiduals};
-use crate::effect::{Effect, Link};
-use crate::inertial::{self, Fit, InertialLink};
-use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::Thresholds;
-use crate::pieces::Pieces;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::drive::{DriveLink, DriveResiduals};
+use links::effect::{Effect, Link};
+use links::inertial::{self, Fit, InertialLink};
+use links::motion::{MotionLink, WindowResiduals};
+use links::pieces::Pieces;
 
 /// Data on which models are measured, or causes looked for.
 #[derive(Clone, Copy)]
@@ -123,11 +123,11 @@ impl<'a> Data<'a> {
         let model = state.drive(None);
         link.feel(&model, &motion.sensor);
         let mut residuals = link.residuals(&model)?;
-        let (mut floor, mut correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
+        let (mut floor, mut correlation) = links::drive::floor(&link, &residuals, link.sizes.drive_nm);
         link.noise = floor;
         if link.mask_sticking(&model, self.thresholds.sticks) > 0.0 {
             residuals = link.residuals(&model)?;
-            (floor, correlation) = crate::drive::floor(&link, &residuals, link.sizes.drive_nm);
+            (floor, correlation) = links::drive::floor(&link, &residuals, link.sizes.drive_nm);
             link.noise = floor;
         }
         Some(Drive { link, correlation, residuals })

@@ -1,6 +1,6 @@
 //! When the camera saw something else than the wheels said.
 
-use crate::motion::WindowResiduals;
+use links::motion::WindowResiduals;
 
 /// RMS residual of a window far from what a second of noise reaches.
 pub(super) const FAR: f64 = 1.35;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::found::Named;
 use crate::controller::ENCODER_SCALE;
-use crate::effect::{Effect, Link, Values};
 use crate::evidence::{Evidence, Interval};
-use crate::motion::MotionLink;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::effect::{Effect, Link, Values};
+use links::motion::MotionLink;
 
 /// Cables on the motion link, set points on the command link.
 pub(super) const ORDER: &str = "wheel-order";
@@ -24,7 +24,7 @@ pub(super) fn cabled(active: &Active) -> bool {
 /// Wheels that drive and count for each other: tried only where the motion is grossly wrong.
 pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<(Active, f64)> {
     let effect = catalogue.iter().find(|e| e.name() == ORDER)?;
-    if link.is_empty() || start.active.iter().any(cabled) || !crate::effects::fits(ORDER, &start.robot) {
+    if link.is_empty() || start.active.iter().any(cabled) || !links::effects::fits(ORDER, &start.robot) {
         return None;
     }
     let problem = Problem::Motion(link);
@@ -38,7 +38,7 @@ pub(super) fn wheel_order(link: &MotionLink, start: &State, catalogue: &[Arc<dyn
         let values = Values(
             order.iter().enumerate().map(|(i, (w, s))| (format!("cable_{}", i + 1), s * (*w as f64 + 1.0))).collect(),
         );
-        let form = crate::effect::Form {
+        let form = links::effect::Form {
             wheels: (0..wheels).filter(|i| order[*i] != (*i, 1.0)).collect(),
             free: Vec::new(),
             fixed: values.0.clone(),

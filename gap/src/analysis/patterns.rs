@@ -5,10 +5,10 @@ use std::sync::Arc;
 use runs::robot::{Robot, Support};
 
 use super::found::Named;
-use crate::drive::DriveModel;
-use crate::effect::{Effect, Link, wheel_name};
 use crate::evidence::{Evidence, Interval};
-use crate::pieces::Pieces;
+use links::drive::DriveModel;
+use links::effect::{Effect, Link, wheel_name};
+use links::pieces::Pieces;
 
 fn equation(name: &str, catalogue: &[Arc<dyn Effect>]) -> String {
     catalogue.iter().find(|e| e.name() == name).map_or("", |e| e.equation()).to_owned()

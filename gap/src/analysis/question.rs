@@ -13,14 +13,15 @@ use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::catalogue::strangers;
-use crate::effect::Effect;
-use crate::effects::camera_clock::CameraClock;
 use crate::exact::ExactLink;
-use crate::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
 use crate::options::Options;
-use crate::pieces::{Driving, PIECE, Pieces, segments};
 use crate::state::{Active, State};
-use crate::{GapError, command, controller, effects, timing};
+use crate::{GapError, command, controller, timing};
+use links::effect::Effect;
+use links::effects;
+use links::effects::camera_clock::CameraClock;
+use links::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
+use links::pieces::{Driving, PIECE, Pieces, segments};
 
 /// A data set and what is asked of it.
 pub(super) struct Question<'a> {

@@ -5,9 +5,9 @@ use runs::robot::{Robot, Support};
 
 use super::found::Named;
 use super::study::Outcome;
-use crate::effect::Sizes;
-use crate::effects;
 use crate::state::{Active, State};
+use links::effect::Sizes;
+use links::effects;
 
 /// The one that all others are told relative to.
 pub(super) const TORQUE_CONSTANT: &str = "torque-constant";

@@ -7,11 +7,11 @@ use runs::{Columns, Log, Logs, as_logged};
 
 use super::found::Named;
 use super::order::TWO_SIDED;
-use crate::effect::{Effect, Values};
 use crate::evidence::Interval;
 use crate::options::Options;
 use crate::parts::{Part, parts};
 use crate::state::Active;
+use links::effect::{Effect, Values};
 
 /// The robot with what its file leaves to the logs. A motor behind a current controller, or one that is never used
 /// up to its speed, has no no-load speed by which to call an effect large: it is then taken as four times the
@@ -69,7 +69,7 @@ pub(super) fn given(robot: &Robot, catalogue: &[Arc<dyn Effect>]) -> Vec<Active>
             let link = effect.link();
             Some(Active {
                 effect,
-                form: crate::effect::Form::default(),
+                form: links::effect::Form::default(),
                 values,
                 immaterial: false,
                 link,

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use runs::robot::Support;
 
 use super::found::Named;
-use crate::drive::Generic;
-use crate::effect::{Effect, Link, Parameter};
 use crate::evidence::{Evidence, Interval};
 use crate::limits::Limit;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Design, Selection};
 use crate::state::{Active, State};
-use crate::thresholds::{self, Refusal};
+use links::drive::Generic;
+use links::effect::{Effect, Link, Parameter};
+use links::thresholds::{self, Refusal};
 
 /// Noise floors that may be left before a link is looked at again with nothing adjusted.
 const OPEN: f64 = 1.5;

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use estimation::statistics::median;
 
 use super::gaps::{FAR, agreement};
-use crate::effect::{Effect, Link};
-use crate::motion::{MotionLink, WindowResiduals};
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::effect::{Effect, Link};
+use links::motion::{MotionLink, WindowResiduals};
 
 /// Floors that a window leaves beside every effect from which neighbouring poses do not tell their noise: the scatter
 /// of motion capture is exceeded 1.3 to 6 times by rollers and contacts (nine recordings of three machines), that of a

@@ -12,13 +12,13 @@ use super::order::{TWO_SIDED, order_named};
 use super::question::Question;
 use super::study::{chosen, study};
 use crate::controller::with_other_counts;
-use crate::effect::Link;
-use crate::effects;
 use crate::exact::{ExactLink, Finding};
-use crate::motion::{MotionLink, WindowResiduals};
 use crate::options::{Stage, Thresholds};
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::effect::Link;
+use links::effects;
+use links::motion::{MotionLink, WindowResiduals};
 
 /// An analysis under way.
 pub(super) struct Workflow<'a> {

@@ -8,10 +8,10 @@ use super::measure::Measured;
 use super::robot_file::{robot_text, with_effects};
 use super::workflow::Workflow;
 use crate::GapError;
-use crate::effect::Link;
 use crate::evidence::Evidence;
 use crate::options::{Stage, Thresholds};
-use crate::thresholds::{FALLS, ODD_ROWS};
+use links::effect::Link;
+use links::thresholds::{FALLS, ODD_ROWS};
 
 /// A robot with what was named, its file, and the figures of that file.
 pub(super) struct Written<'a> {

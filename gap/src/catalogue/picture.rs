@@ -7,8 +7,8 @@ use runs::Run;
 use runs::frames::{Pose, wrap_angle};
 use runs::robot::{Effect as Written, EffectParameter, ImuMount, Robot, SensorName};
 
-use crate::effect::{Effect, Form, Link};
 use crate::report::{short, unit};
+use links::effect::{Effect, Form, Link};
 
 /// Manoeuvres that a picture may be of.
 const DRIVES: [Manoeuvre; 6] =

@@ -7,8 +7,8 @@ use runs::error::{nearest, slip};
 use runs::robot::{Effect as Written, Robot};
 
 use super::EXACT;
-use crate::effect::Effect;
-use crate::effects::catalogue_for;
+use links::effect::Effect;
+use links::effects::catalogue_for;
 
 /// Runs of which a file may hold something of each.
 const RUNS: usize = 2;

@@ -45,14 +45,14 @@ mod tests {
     use runs::robot::Robot;
 
     use super::*;
-    use crate::drive::DriveLink;
-    use crate::effect::{Effect, Link};
-    use crate::effects::catalogue;
-    use crate::motion::{MotionLink, WINDOW_S};
-    use crate::pieces::{PIECE, segments};
     use crate::problem::Problem;
     use crate::select::ALIKE;
     use crate::state::{Active, State};
+    use links::drive::DriveLink;
+    use links::effect::{Effect, Link};
+    use links::effects::catalogue;
+    use links::motion::{MotionLink, WINDOW_S};
+    use links::pieces::{PIECE, segments};
 
     /// Which effects can do what an effect does in these drives: by one of its forms and one of theirs.
     fn alike(drives: &[Manoeuvre]) -> BTreeMap<String, Vec<String>> {

@@ -8,9 +8,9 @@ use runs::{CountSource, Log};
 
 use super::replay::{Replayed, replay, totals, walk};
 use super::{ENCODER_SCALE, LOOP_SCALE, Law, WRONG_SHARE, at_rate, stated, with_loops};
-use crate::effect::Link;
 use crate::evidence::{Evidence, Interval};
 use crate::exact::Finding;
+use links::effect::Link;
 
 /// Duty from which an output counts as saturated, where it says nothing of the speed: 1, but for rounding.
 const SATURATED: f64 = 0.995;

@@ -1,8 +1,8 @@
 //! Camera frames that no robot can have driven, and frames that stand still.
 
 use crate::analysis::Leftover;
-use crate::effect::Link;
-use crate::pieces::Pieces;
+use links::effect::Link;
+use links::pieces::Pieces;
 
 /// Camera frames that repeat the one before while the wheels turn: the tracker lost the robot.
 pub(crate) fn frozen(pieces: &Pieces) -> Option<Leftover> {

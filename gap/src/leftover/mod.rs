@@ -13,9 +13,9 @@ mod spectrum;
 
 use std::collections::HashSet;
 
-use crate::drive::{DriveLink, DriveModel, Generic, Left};
-use crate::effect::Sizes;
-use crate::pieces::Pieces;
+use links::drive::{DriveLink, DriveModel, Generic, Left};
+use links::effect::Sizes;
+use links::pieces::Pieces;
 
 pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;

@@ -9,10 +9,10 @@ use model::plant::GRAVITY;
 use std::f64::consts::{PI, TAU};
 
 use super::{FALSE_ALARM, Structure};
-use crate::drive::{DriveLink, DriveModel};
-use crate::segment::Segment;
 use estimation::parallel::each;
 use estimation::statistics::{chi2_upper, median};
+use links::drive::{DriveLink, DriveModel};
+use links::segment::Segment;
 
 /// Length of a block, s.
 const BLOCK_S: f64 = 0.25;

@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use runs::robot::Robot;
 
-use crate::drive::DriveModel;
-use crate::effect::Sizes;
-use crate::segment::Segment;
+use links::drive::DriveModel;
+use links::effect::Sizes;
+use links::segment::Segment;
 
 /// Counts by which second differences of a steady wheel may differ from 0, twice.
 const QUANTISATION: f64 = 4.0;

@@ -5,7 +5,7 @@ use plot::{Axis, Color, Figure, Panel, Series};
 
 use super::{firmware, regimes, short, terminal, units, words};
 use crate::analysis::{Analysis, overall};
-use crate::motion::WindowResiduals;
+use links::motion::WindowResiduals;
 
 /// Points a plot has at most.
 const POINTS: usize = 700;
@@ -248,7 +248,7 @@ fn residuals(page: &mut Page, a: &Analysis) {
         );
         let mut figures = Vec::new();
         for i in 0..before.torque.first().map_or(0, Vec::len) {
-            let points = |d: &crate::drive::DriveResiduals| {
+            let points = |d: &links::drive::DriveResiduals| {
                 let all: Vec<[f64; 2]> = (0..d.torque.len())
                     .filter(|b| d.weights[*b][i] > 0.0)
                     .map(|b| [a.driven.test_functions[b][i].speed, 1e3 * d.torque[b][i]])

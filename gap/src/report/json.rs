@@ -100,8 +100,8 @@ pub(super) fn json(a: &Analysis) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effect::Link;
     use crate::evidence::Evidence;
+    use links::effect::Link;
 
     #[test]
     fn a_wheel_alone_has_the_plain_name_too() {

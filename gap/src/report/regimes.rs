@@ -61,8 +61,8 @@ fn colour(excess: f64) -> String {
 
 fn motion(
     a: &Analysis,
-    before: &[crate::motion::WindowResiduals],
-    after: &[crate::motion::WindowResiduals],
+    before: &[links::motion::WindowResiduals],
+    after: &[links::motion::WindowResiduals],
     signal: usize,
 ) -> Vec<Sample> {
     let mut found = Vec::new();
@@ -86,14 +86,14 @@ fn motion(
 
 fn drive(
     a: &Analysis,
-    before: &crate::drive::DriveResiduals,
-    after: &crate::drive::DriveResiduals,
+    before: &links::drive::DriveResiduals,
+    after: &links::drive::DriveResiduals,
     wheel: usize,
 ) -> Vec<Sample> {
     let floor = a
         .links
         .iter()
-        .find(|l| l.link == crate::effect::Link::Drive)
+        .find(|l| l.link == links::effect::Link::Drive)
         .and_then(|l| l.floor.get(wheel).copied())
         .unwrap_or(1.0);
     let used = (0..before.torque.len()).filter(|b| before.weights[*b][wheel] > 0.0 && *b < after.torque.len());

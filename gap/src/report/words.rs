@@ -2,7 +2,7 @@
 
 use super::units;
 use crate::analysis::{Analysis, Named, Verdict};
-use crate::effect::Link;
+use links::effect::Link;
 
 /// Links in the order of the signals.
 const CHAIN: [Link; 7] =
@@ -38,7 +38,7 @@ pub(super) fn percent(share: f64) -> String {
 
 /// What became of effects that came from the user: each has its line, named or not.
 pub(super) fn own(a: &Analysis) -> Vec<String> {
-    let of_user = |name: &&String| crate::effects::find(name).is_none();
+    let of_user = |name: &&String| links::effects::find(name).is_none();
     let line = |name: &String| {
         if a.effects.iter().any(|e| e.name == *name) {
             return format!("{name}, an effect of yours, is named.");

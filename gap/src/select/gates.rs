@@ -1,8 +1,8 @@
 //! What an effect must do on held-out data to be named.
 
 use super::{Design, STRONG, Trial};
-use crate::effect::Link;
 use crate::options::Thresholds;
+use links::effect::Link;
 
 /// What a candidate must do on data that its fit has not seen.
 pub(super) struct Gates<'a> {

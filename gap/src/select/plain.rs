@@ -8,11 +8,11 @@
 use estimation::parallel::numbered;
 
 use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
-use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use estimation::prior::{Penalised, Role};
+use links::effect::Link;
 
 /// Effects at most.
 const MOST: usize = 8;

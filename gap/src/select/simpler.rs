@@ -7,11 +7,11 @@ use estimation::parallel::each;
 
 use super::left::Left;
 use super::{Selection, finish_bare, is_material, stopped};
-use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use estimation::prior::{Penalised, Role};
+use links::effect::Link;
 
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;

@@ -6,7 +6,7 @@ use super::{Design, Selection, finish, settle};
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::Active;
-use crate::thresholds::{Estimate, gate};
+use links::thresholds::{Estimate, gate};
 
 /// Estimates of an active effect's fitted parameters with 95 % intervals.
 pub fn estimates(design: &Design, index: usize) -> Vec<Estimate> {
@@ -24,7 +24,7 @@ fn estimates_of(
     let active = &design.state.active[index];
     let free = &active.form.free;
     let df = design.linear.equations.clusters.len().saturating_sub(free.len());
-    let estimate = |(j, p): (usize, &crate::effect::Parameter)| {
+    let estimate = |(j, p): (usize, &links::effect::Parameter)| {
         let column = design.linear.owners.iter().position(|o| *o == Owner::Active(index, j));
         let value = active.values.get(&p.name) + column.map_or(0.0, |c| step[c]).clamp(-p.scale, p.scale);
         let value = active.effect.period(&p.name).map_or(value, |period| value.rem_euclid(period));

@@ -1,10 +1,10 @@
 //! Laws of the drive between which a recording far from its noise does not decide.
 
 use super::{is_material, stopped};
-use crate::effect::Link;
 use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use links::effect::Link;
 
 /// The state with an effect replaced by each other one, of no more parameters, that leaves hardly more: where much is
 /// left whatever is named, no law is exact and a little more or less of it says nothing. In the order of the catalogue;

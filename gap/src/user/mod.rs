@@ -22,10 +22,10 @@ use runs::robot::Robot;
 pub use expression::{Expression, ExpressionError};
 
 use crate::GapError;
-use crate::drive::DriveModel;
-use crate::effect::{Effect, Form, Link, Parameter, Values};
-use crate::motion::MotionModel;
-use crate::segment::Segment;
+use links::drive::DriveModel;
+use links::effect::{Effect, Form, Link, Parameter, Values};
+use links::motion::MotionModel;
+use links::segment::Segment;
 
 const SIGNALS: [&str; 12] = ["t", "w", "sign_w", "angle", "duty", "supply", "vx", "vy", "omega", "heading", "x", "y"];
 
@@ -66,7 +66,7 @@ impl UserEffect {
         let string = |key: &str| table.get(key).and_then(toml::Value::as_str);
         let name = string("name").ok_or_else(|| fault("name is missing: give the effect a name".to_owned()))?;
         let kebab = !name.is_empty() && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
-        if !kebab || crate::effects::find(name).is_some() {
+        if !kebab || links::effects::find(name).is_some() {
             return Err(fault(format!(
                 "name: {name:?} must be in kebab-case and not that of an effect of the catalogue"
             )));

@@ -7,9 +7,9 @@ use runs::robot::Robot;
 use runs::{Columns, Log};
 
 use super::{Card, Compared, NoWord, Signal, twist};
-use crate::effect::Link;
 use crate::exact::{ExactLink, Replay};
 use crate::parts::rows;
+use links::effect::Link;
 
 /// Share of the commands that may have arrived a tick late.
 const LATE_SHARE: f64 = 0.01;

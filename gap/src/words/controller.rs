@@ -8,9 +8,9 @@ use runs::ticks::Gaps;
 use runs::{Columns, Log, Run};
 
 use super::{Card, Compared, NoWord, Signal, duty};
-use crate::effect::Link;
 use crate::exact::{ExactLink, Replay};
 use crate::parts::rows;
+use links::effect::Link;
 
 /// Everything that was compared.
 #[derive(Default)]

@@ -5,8 +5,8 @@
 mod felt;
 
 use felt::{Hidden, blind, done, effects, estimate, names, numb, sensor, set, truth};
-use gap::effect::Link;
 use gap::{Analysis, Verdict, undo};
+use links::effect::Link;
 use model::manoeuvre::Manoeuvre::{Chirp, Spin, StopAndGo};
 use runs::DataSet;
 use runs::robot::Robot;

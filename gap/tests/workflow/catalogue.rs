@@ -140,7 +140,7 @@ const NOT_SIMULATED: [&str; 4] = ["camera-clock", "sideways-creep", "odometry-cu
 #[test]
 fn the_table_holds_the_whole_catalogue() {
     // The effects of an inertial sensor are hidden in `tests/sensor`.
-    for effect in gap::effects::catalogue() {
+    for effect in links::effects::catalogue() {
         if effect.probe() || effect.link().is_inertial() || NOT_SIMULATED.contains(&effect.name()) {
             continue;
         }
@@ -241,7 +241,7 @@ fn crossed_cables_and_crossed_set_points_are_kept_apart() {
     set.runs.iter_mut().for_each(|r| cut(r, 5.0));
     let a = analyse(&set, &Options::default()).unwrap();
     assert_eq!(names(&a), ["wheel-order", "wheel-order"], "{}", a.terminal_summary());
-    let mut links = [a.effects[0].link, a.effects[1].link].map(gap::effect::Link::name);
+    let mut links = [a.effects[0].link, a.effects[1].link].map(links::effect::Link::name);
     links.sort_unstable();
     assert_eq!(links, ["command", "motion"]);
     let told = a.robot.effect("wheel-order").unwrap();

@@ -1,9 +1,9 @@
 //! Counts a wheel turn stand in the file, in the controller and in the encoder: whose number is wrong.
 
 use super::common::{RICH, names, simulate, value, with};
-use gap::effect::Link;
 use gap::evidence::Evidence;
 use gap::{Analysis, Options, Verdict, analyse};
+use links::effect::Link;
 use runs::DataSet;
 use runs::robot::Robot;
 

@@ -253,7 +253,7 @@ fn what_friction_closes_is_not_told_in_the_torque_of_a_wrong_inertia() {
         let a = done(axis, [known, 1.0], seed);
         let gain = |name: &str| a.effects.iter().find(|e| e.name == name).map_or(f64::NAN, |e| e.gain);
         assert!(gain("viscous-friction") > 0.3 && gain("rotor-inertia") > 0.1, "{}", a.terminal_summary());
-        let drive = a.links.iter().find(|l| l.link == gap::effect::Link::Drive).unwrap();
+        let drive = a.links.iter().find(|l| l.link == links::effect::Link::Drive).unwrap();
         let most = axis.kt * axis.most;
         assert!(drive.rms[0][0] < most, "{} Nm of {most}: {}", drive.rms[0][0], a.terminal_summary());
     }

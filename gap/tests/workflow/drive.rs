@@ -5,13 +5,13 @@ use std::sync::Arc;
 use super::common::{RICH, names, simulate, with};
 use super::scale::servo;
 use estimation::statistics::rms;
-use gap::drive::{DriveLink, DriveModel};
-use gap::effect::{Effect, Form, Link, Values};
 use gap::options::Thresholds;
-use gap::pieces::{PIECE, segments};
 use gap::problem::Problem;
 use gap::state::{Active, State};
 use gap::{Interval, Options, analyse};
+use links::drive::{DriveLink, DriveModel};
+use links::effect::{Effect, Form, Link, Values};
+use links::pieces::{PIECE, segments};
 use model::manoeuvre::Manoeuvre;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -95,7 +95,7 @@ fn no_effect_buys_the_metric_by_predicting_nothing() {
     let open = rms(&bare);
     let (mut tried, mut bought) = (0, 0);
     let other = |e: &dyn Effect| e.link() == Link::Drive && !TAKE_TORQUE.contains(&e.name());
-    let catalogue: Vec<Arc<dyn Effect>> = gap::effects::catalogue().into_iter().map(Arc::from).collect();
+    let catalogue: Vec<Arc<dyn Effect>> = links::effects::catalogue().into_iter().map(Arc::from).collect();
     for effect in catalogue.iter().filter(|effect| other(effect.as_ref())) {
         for form in effect.forms(&set.robot) {
             for share in [0.0, 0.02, 0.1, 0.3, 0.6, 0.9, 1.0] {

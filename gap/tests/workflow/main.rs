@@ -39,7 +39,7 @@ fn the_skew_set_is_named_added_and_then_agrees() {
     }
     // What the written file closes, with nothing adjusted beside it: all of the motion, and of the drive all but what
     // rolling costs, which is in every robot and too small to be named.
-    let motion = a.links.iter().find(|l| l.link == gap::effect::Link::Motion).unwrap();
+    let motion = a.links.iter().find(|l| l.link == links::effect::Link::Motion).unwrap();
     assert!((motion.before - motion.after) / (motion.before - 1.0) > 0.95, "{} {}", motion.before, motion.after);
     assert!(json["gap"]["closed"].as_f64().unwrap() > 0.6, "{}", json["gap"]);
     assert!(a.terminal_summary().lines().all(|l| l.chars().count() <= 80), "{}", a.terminal_summary());
@@ -100,5 +100,5 @@ fn a_robot_that_is_carried_away_is_unexplained() {
     }
     let a = analyse(&set, &Options::default()).unwrap();
     assert_eq!(a.verdict, Verdict::Unexplained, "{}", a.terminal_summary());
-    assert!(a.unexplained.iter().any(|u| u.link == gap::effect::Link::Motion), "{:?}", a.unexplained);
+    assert!(a.unexplained.iter().any(|u| u.link == links::effect::Link::Motion), "{:?}", a.unexplained);
 }

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::common::{RICH, cut, names, simulate, with};
 use estimation::prior::Role;
-use gap::effect::{Effect, Link};
-use gap::motion::MotionLink;
 use gap::options::Thresholds;
-use gap::pieces::{PIECE, segments};
 use gap::problem::{Owner, Problem};
 use gap::select::{Design, candidates};
 use gap::state::State;
 use gap::{Options, analyse};
+use links::effect::{Effect, Link};
+use links::motion::MotionLink;
+use links::pieces::{PIECE, segments};
 use runs::robot::Robot;
 use runs::{DataSet, Logs};
 
@@ -40,7 +40,7 @@ fn one_effect_at_many_thresholds_has_one_margin() {
     let logs = Logs::from(&set);
     let pieces = segments(&set.robot, &set.robot.geometry().unwrap(), &logs.logs, PIECE);
     let link = MotionLink::new(&pieces, [1.5e-3, 1.5e-3, 9e-3], 1.0);
-    let catalogue: Vec<Arc<dyn Effect>> = vec![gap::effects::find("encoder-loss").unwrap().into()];
+    let catalogue: Vec<Arc<dyn Effect>> = vec![links::effects::find("encoder-loss").unwrap().into()];
     let all = candidates(&state, &catalogue, Link::Motion);
     let thresholds = Thresholds::default();
     let design = Design::new(&Problem::Motion(&link), &state, &all, &thresholds);

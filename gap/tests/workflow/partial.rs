@@ -79,7 +79,7 @@ fn positions_without_headings_narrow_what_is_compared() {
         );
         let near = |found: f64| (found - truth).abs() < 0.1 * truth;
         assert!(a.effects[0].parameters.iter().all(|p| near(p.1)), "{parameter}: {}", a.terminal_summary());
-        let motion = a.links.iter().find(|l| l.link == gap::effect::Link::Motion).unwrap();
+        let motion = a.links.iter().find(|l| l.link == links::effect::Link::Motion).unwrap();
         assert_eq!((motion.signals, motion.units.len()), (2, 2));
         assert!(motion.after < 1.3, "{}", a.terminal_summary());
         assert!(a.remarks.iter().any(|r| r.contains("positions have no headings")), "{:?}", a.remarks);

@@ -1,8 +1,8 @@
 //! Effects of the links that compute: what `robot.toml` states is what they are replayed with.
 
 use super::common::{cut, names, simulate, value, with};
-use gap::effect::Link;
 use gap::{Analysis, Options, Verdict, analyse};
+use links::effect::Link;
 use model::manoeuvre::Manoeuvre;
 use runs::DataSet;
 use runs::robot::Robot;

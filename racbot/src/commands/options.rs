@@ -3,7 +3,7 @@
 use crate::terminal::Failure;
 use clap::Args;
 use gap::catalogue::strangers;
-use gap::effect::Effect;
+use links::effect::Effect;
 use runs::error::InputError;
 use runs::robot::{Layout, Robot};
 use std::path::{Path, PathBuf};

@@ -8,14 +8,14 @@ use crate::motion::MotionModel;
 
 /// Clocks of robot and camera that were set against each other anew for every run: what a recording started by hand
 /// has. What all runs share is [`super::camera_latency`], how fast the clocks part [`super::camera_timing`].
-pub(crate) struct CameraClock {
+pub struct CameraClock {
     /// Runs of the data set; the effect has no form with fewer than two.
-    pub(crate) runs: usize,
+    pub runs: usize,
 }
 
 impl CameraClock {
     /// Name of the effect.
-    pub(crate) const NAME: &'static str = "camera-clock";
+    pub const NAME: &'static str = "camera-clock";
 
     fn parameter(run: usize) -> String {
         format!("offset_{}_s", run + 1)

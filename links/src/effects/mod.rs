@@ -6,8 +6,8 @@ mod actuation_latency;
 mod asymmetric_friction;
 mod battery_sag;
 mod body_radius;
-pub(crate) mod camera_clock;
-pub(crate) mod camera_latency;
+pub mod camera_clock;
+pub mod camera_latency;
 mod camera_scale;
 mod camera_timing;
 mod carpet_grain;
@@ -59,7 +59,7 @@ use model::setup::TRUE_RATIO;
 
 use crate::effect::Effect;
 
-pub(crate) use fits::fits;
+pub use fits::fits;
 
 /// By how much a size of a robot may differ from its drawing: beyond that `check` takes the drawing for another robot's.
 const SIZES: [f64; 2] = [1.0 / TRUE_RATIO - 1.0, TRUE_RATIO - 1.0];

@@ -129,7 +129,7 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
 impl<'a> Pieces<'a> {
     /// The same, looked at in another way.
     #[must_use]
-    pub(crate) fn driven(&self, driving: Driving) -> Self {
+    pub fn driven(&self, driving: Driving) -> Self {
         Self {
             robot: self.robot.clone(),
             geometry: self.geometry.clone(),

@@ -45,7 +45,7 @@ const NOT_ON_BLOCKS: [&str; 13] = [
 const ONLY_ON_BLOCKS: [&str; 2] = ["gravity-load", "joint-spring"];
 
 /// Whether a robot can have an effect.
-pub(crate) fn fits(name: &str, robot: &Robot) -> bool {
+pub fn fits(name: &str, robot: &Robot) -> bool {
     let elsewhere: &[&str] = if robot.support == Support::Blocks { &NOT_ON_BLOCKS } else { &ONLY_ON_BLOCKS };
     if elsewhere.contains(&name) {
         return false;

@@ -16,7 +16,7 @@ const EARLY_S: f64 = 0.3;
 
 /// Age of a camera frame that matters on a robot: frames stand at ticks of the log, and where these are not the
 /// camera's own, their age is not known to better than the rounding.
-pub(crate) fn material(robot: &Robot) -> f64 {
+pub fn material(robot: &Robot) -> f64 {
     let in_step = (robot.camera_rate_hz / robot.control_rate_hz - 1.0).abs() < IN_STEP;
     if in_step { MATTERS_S } else { MATTERS_S.max(ROUNDING_TICKS / robot.control_rate_hz) }
 }
