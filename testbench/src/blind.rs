@@ -65,7 +65,13 @@ pub struct Plan {
     pub translations_only: usize,
     /// Sets whose data or truth are spoiled, each of the three ablations in turn.
     pub ablations: usize,
-    /// Conditions of all sets.
+    /// Single motors and drive trains of any size that hide nothing.
+    pub axes_free: usize,
+    /// The same with one effect, of every effect and size.
+    pub axes: usize,
+    /// The same with two effects.
+    pub axis_pairs: usize,
+    /// Conditions of all sets of robots.
     pub conditions: Conditions,
 }
 
@@ -83,6 +89,9 @@ impl Plan {
             outside: 0,
             translations_only: 0,
             ablations: 0,
+            axes_free: 0,
+            axes: 0,
+            axis_pairs: 0,
             conditions: Conditions::default(),
         }
     }
@@ -97,13 +106,13 @@ impl Plan {
             conditions: self.conditions.clone(),
         };
         let mut tasks = Vec::new();
+        let wanted = |name: &str| self.only.is_empty() || self.only.iter().any(|n| n == name);
         for i in 0..self.effect_free {
             tasks.push(task(Group::EffectFree, i, Kind::EffectFree));
         }
         for round in 0..self.single {
             for (e, entry) in truth::catalogue().enumerate() {
-                let wanted = self.only.is_empty() || self.only.iter().any(|n| n == entry.name);
-                if !wanted || !truth::observable(entry, &self.conditions) {
+                if !wanted(entry.name) || !truth::observable(entry, &self.conditions) {
                     continue;
                 }
                 for &size in &self.sizes {
@@ -124,6 +133,22 @@ impl Plan {
             let mut task = task(Group::TranslationsOnly, i, Kind::Single { effect: None, size: None });
             task.conditions.translations_only = true;
             tasks.push(task);
+        }
+        let axis =
+            |effects: &[&str], size| Kind::Axis { effects: effects.iter().map(|e| (*e).to_owned()).collect(), size };
+        for i in 0..self.axes_free {
+            tasks.push(task(Group::AxisFree, i, axis(&[], None)));
+        }
+        for round in 0..self.axes {
+            for (e, name) in truth::axis::names().enumerate().filter(|(_, n)| wanted(n)) {
+                for &size in &self.sizes {
+                    tasks.push(task(Group::Axis, round * 1000 + e * 10 + usize::from(size), axis(&[name], Some(size))));
+                }
+            }
+        }
+        for (i, pair) in (0..self.axis_pairs).zip(truth::axis::PAIRS.iter().cycle()) {
+            let size = self.pair_sizes.get(i / truth::axis::PAIRS.len() % self.pair_sizes.len().max(1)).copied();
+            tasks.push(task(Group::AxisPair, i, axis(pair, size)));
         }
         for (i, which) in (0..self.ablations).zip(Ablation::ALL.into_iter().cycle()) {
             tasks.push(task(Group::Ablation, i, Kind::Ablation(Some(which))));
@@ -148,6 +173,12 @@ pub enum Group {
     TranslationsOnly,
     /// Data or truth spoiled: to be right is a failure of the bench.
     Ablation,
+    /// A motor or a drive train of any size, nothing hidden.
+    AxisFree,
+    /// The same with one effect.
+    Axis,
+    /// The same with two effects.
+    AxisPair,
 }
 
 impl Group {
@@ -160,6 +191,9 @@ impl Group {
             Self::Outside => "outside",
             Self::TranslationsOnly => "translations-only",
             Self::Ablation => "ablation",
+            Self::AxisFree => "axis, effect-free",
+            Self::Axis => "axis, single",
+            Self::AxisPair => "axis, pair",
         }
     }
 }
@@ -193,8 +227,7 @@ impl Task {
     /// # Errors
     /// [`BlindError`] if the set cannot be made.
     pub fn make(&self, folder: &Path) -> Result<Truth, BlindError> {
-        let case = truth::draw_with(self.seed, &self.kind, &self.conditions)?;
-        Ok(truth::write(&case, folder)?)
+        Ok(truth::make(self.seed, &self.kind, &self.conditions, folder)?)
     }
 
     /// Has the data of a folder analysed, and scores the answer.

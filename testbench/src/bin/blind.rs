@@ -38,6 +38,15 @@ struct Args {
     /// Sets with data or truth spoiled on purpose: a right answer is a fault
     #[arg(long, default_value_t = 0)]
     ablations: usize,
+    /// Motors and drive trains of any size that hide nothing
+    #[arg(long, default_value_t = 0)]
+    axes_free: usize,
+    /// Motors and drive trains of any size with every effect at every size
+    #[arg(long, default_value_t = 0)]
+    axes: usize,
+    /// Motors and drive trains of any size with two effects
+    #[arg(long, default_value_t = 0)]
+    axis_pairs: usize,
     /// Begin no set after this many minutes
     #[arg(long)]
     minutes: Option<f64>,
@@ -59,6 +68,9 @@ struct Args {
 }
 
 fn known(name: &str) -> Result<String, String> {
+    if truth::axis::names().any(|known| known == name) {
+        return Ok(name.to_owned());
+    }
     truth::find(name).map(|e| e.name.to_owned()).map_err(|e| e.to_string())
 }
 
@@ -83,6 +95,9 @@ fn run(args: Args) -> Result<ExitCode, BlindError> {
         outside: args.outside,
         translations_only: args.translations_only,
         ablations: args.ablations,
+        axes_free: args.axes_free,
+        axes: args.axes,
+        axis_pairs: args.axis_pairs,
         ..Plan::new(args.seed)
     };
     let sets = plan.tasks().len();

@@ -57,11 +57,13 @@ impl Report {
         }
         let above = single.iter().filter(|s| s.limits.is_some_and(|r| r >= WELL_ABOVE)).copied().collect();
         rows.push((format!("single, >= {WELL_ABOVE} limits"), above));
-        for group in [Group::Pair, Group::Outside, Group::TranslationsOnly, Group::Ablation] {
+        let more =
+            [Group::Outside, Group::TranslationsOnly, Group::Ablation, Group::AxisFree, Group::Axis, Group::AxisPair];
+        for group in [Group::Pair].into_iter().chain(more) {
             rows.push((group.name().to_owned(), self.group(group)));
-            if group == Group::Pair {
+            if matches!(group, Group::Pair | Group::Axis | Group::AxisPair) {
                 let above = self.group(group).into_iter().filter(|s| s.limits.is_some_and(|r| r >= WELL_ABOVE));
-                rows.push((format!("pair, >= {WELL_ABOVE} limits"), above.collect()));
+                rows.push((format!("{}, >= {WELL_ABOVE} limits", group.name()), above.collect()));
             }
         }
         rows.retain(|(_, sets)| !sets.is_empty());

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::ablation::Ablation;
+use crate::axis;
 use crate::effects::{self, Hidden};
 use crate::error::Error;
 use crate::log::Columns;
@@ -16,7 +17,8 @@ use crate::run::Drive;
 /// What a case hides.
 ///
 /// As text: `effect-free`, `single[:EFFECT[:SIZE]]`, `pair[:EFFECT+EFFECT[:SIZE]]`, `look-alike[:SIZE]`,
-/// `outside[:NAME[:SIZE]]`, `ablation[:NAME]`, `mixed`. What is left out is drawn.
+/// `outside[:NAME[:SIZE]]`, `ablation[:NAME]`, `mixed`, `axis[:EFFECT[+EFFECT][:SIZE]]`. What is left out is drawn; an `axis`
+/// without a name hides nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Nothing but the nuisances that every set has.
@@ -51,6 +53,13 @@ pub enum Kind {
     Ablation(Option<Ablation>),
     /// Any of the above, drawn.
     Mixed,
+    /// A single motor or a drive train of any size, in place of a robot.
+    Axis {
+        /// Names of what it hides.
+        effects: Vec<String>,
+        /// 1 to 5 for all; none = each drawn, 2 to 5.
+        size: Option<u8>,
+    },
 }
 
 impl FromStr for Kind {
@@ -96,6 +105,14 @@ impl FromStr for Kind {
                     rest.first().map(|name| effects::find_outside(name).map(|e| e.name.to_owned())).transpose()?;
                 Ok(Self::Outside { name, size: size(rest.get(1))? })
             }
+            "axis" => {
+                most(2)?;
+                let names = rest.first().map_or(Vec::new(), |names| names.split('+').map(str::to_owned).collect());
+                match names.iter().find(|name| !axis::names().any(|known| known == name.as_str())) {
+                    Some(name) => Err(Error::UnknownEffect(name.clone())),
+                    None => Ok(Self::Axis { effects: names, size: size(rest.get(1))? }),
+                }
+            }
             "ablation" => {
                 most(1)?;
                 Ok(Self::Ablation(rest.first().map(|name| name.parse()).transpose()?))
@@ -115,6 +132,7 @@ impl fmt::Display for Kind {
             Self::Outside { .. } => "outside",
             Self::Ablation(_) => "ablation",
             Self::Mixed => "mixed",
+            Self::Axis { .. } => "axis",
         })
     }
 }

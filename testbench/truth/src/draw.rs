@@ -72,6 +72,7 @@ pub fn draw_with(seed: u64, kind: &Kind, conditions: &Conditions) -> Result<Case
     let (mut effects, mut outside, mut ablation) = (Vec::new(), Vec::new(), None);
     match &kind {
         Kind::EffectFree | Kind::Mixed => {}
+        Kind::Axis { .. } => return Err(Error::Conditions("an axis is no robot; `make` writes it".to_owned())),
         Kind::Single { effect, size } => {
             let entry = choice.entry(effect.as_deref(), &mut rng)?;
             effects.push(choice.hide(entry, *size, 1, (&mut machine, &mut robot), &mut rng)?);

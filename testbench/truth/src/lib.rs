@@ -14,6 +14,7 @@
 //! ```
 
 mod ablation;
+pub mod axis;
 mod camera;
 mod case;
 mod controller;
@@ -49,4 +50,4 @@ pub use noise::set_seed;
 pub use plant::{GRAVITY, Plant, Shake};
 pub use robot::{Layout, Robot};
 pub use run::{Drive, LONGEST_STEP_S, simulate_run};
-pub use truth_file::{Nuisance, RunTruth, Truth, simulate, truth, write};
+pub use truth_file::{Nuisance, RunTruth, Truth, make, simulate, truth, write};

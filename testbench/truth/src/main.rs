@@ -31,8 +31,11 @@ struct Args {
     /// Seed of the whole series
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Seed of one set, as scores of the blind bench give it, in place of a series
+    #[arg(long, conflicts_with = "count")]
+    set: Option<u64>,
     /// effect-free, single[:EFFECT[:SIZE]], pair[:A+B[:SIZE]], look-alike[:SIZE], outside[:NAME[:SIZE]],
-    /// ablation[:NAME] or mixed; several take turns
+    /// ablation[:NAME], mixed, or axis[:A[+B][:SIZE]], a motor of any size; several take turns
     #[arg(long, value_parser = |text: &str| text.parse::<Kind>().map_err(|e| e.to_string()))]
     kind: Vec<Kind>,
     /// Where the truth goes [default: truth-SEED.json in the folder of the sets, outside every set]
@@ -109,9 +112,9 @@ fn run(args: &Args) -> Result<(), Error> {
     let kinds = if args.kind.is_empty() { vec![Kind::Mixed] } else { args.kind.clone() };
     let mut sets = Vec::new();
     for (index, kind) in (0..args.count).zip(kinds.iter().cycle()) {
-        let case = truth::draw_with(truth::set_seed(args.seed, u64::from(index)), kind, &conditions)?;
         let set = format!("set-{:04}", index + 1);
-        let truth = truth::write(&case, &out.join(&set))?;
+        let seed = args.set.unwrap_or_else(|| truth::set_seed(args.seed, u64::from(index)));
+        let truth = truth::make(seed, kind, &conditions, &out.join(&set))?;
         sets.push(SealedSet { set, truth });
     }
     let path = args.truth.clone().unwrap_or_else(|| out.join(format!("truth-{}.json", args.seed)));
@@ -131,4 +134,5 @@ fn list() {
     truth::catalogue().for_each(show);
     println!("\noutside the catalogue");
     truth::outside().for_each(show);
+    println!("\nof an axis\n{}", truth::axis::names().collect::<Vec<_>>().join("\n"));
 }

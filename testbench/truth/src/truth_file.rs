@@ -7,8 +7,9 @@ use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
 use crate::ablation::Ablation;
-use crate::case::{Case, Conditions};
-use crate::draw::observable;
+use crate::axis;
+use crate::case::{Case, Conditions, Kind};
+use crate::draw::{draw_with, observable};
 use crate::effects::{self, Hidden};
 use crate::error::Error;
 use crate::log::Log;
@@ -33,8 +34,9 @@ pub struct Truth {
     pub observable: bool,
     /// Conditions of the runs.
     pub conditions: Conditions,
-    /// What every set has.
-    pub nuisance: Nuisance,
+    /// What every set of a robot has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nuisance: Option<Nuisance>,
     /// In the order of their files.
     pub runs: Vec<RunTruth>,
 }
@@ -124,7 +126,7 @@ pub fn truth(case: &Case) -> Truth {
         ablation: case.ablation,
         observable: case.effects.iter().chain(&case.outside).all(seen),
         conditions: case.conditions.clone(),
-        nuisance: Nuisance::of(&case.machine),
+        nuisance: Some(Nuisance::of(&case.machine)),
         runs: (0..)
             .zip(&case.drives)
             .map(|(number, drive)| RunTruth {
@@ -154,6 +156,27 @@ pub fn write(case: &Case, dir: &Path) -> Result<Truth, Error> {
         put(&run_name(number), &log.to_csv(case.columns))?;
     }
     Ok(truth(case))
+}
+
+/// Draws a case of this kind under these conditions, which are a robot's, and writes it as [`write()`] does.
+///
+/// # Errors
+/// [`Error`] where the case cannot be drawn, simulated or written.
+pub fn make(seed: u64, kind: &Kind, conditions: &Conditions, dir: &Path) -> Result<Truth, Error> {
+    let Kind::Axis { effects, size } = kind else { return write(&draw_with(seed, kind, conditions)?, dir) };
+    let case = axis::draw(seed, effects, *size)?;
+    let run = |(file, excitation, seconds)| RunTruth { file, excitation, seconds };
+    Ok(Truth {
+        seed,
+        kind: kind.to_string(),
+        runs: case.write(dir)?.into_iter().map(run).collect(),
+        effects: case.effects,
+        outside: Vec::new(),
+        ablation: None,
+        observable: true,
+        conditions: conditions.clone(),
+        nuisance: None,
+    })
 }
 
 fn run_name(number: u32) -> String {

@@ -1,0 +1,54 @@
+//! What of a recording is written.
+
+use std::fmt::Write;
+
+use rand::RngExt;
+
+use super::Logger;
+use super::motion::Recording;
+use crate::noise::{Stream, normal, stream};
+
+/// Standard deviation of a measured supply, share of it.
+const SUPPLY_NOISE: f64 = 0.002;
+
+/// A CSV of one or two equal axes, whose encoders differ.
+pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64, number: u32) -> String {
+    let mut rng = stream(seed, Stream::Camera(number));
+    let per_rad = logger.counts / std::f64::consts::TAU;
+    let counted: Vec<Vec<f64>> = (0..axes)
+        .map(|_| {
+            let zero = rng.random_range(0.0..1.0);
+            let edge = |a: &f64, e: f64| (a * per_rad + zero + logger.edges * e).floor();
+            recording.angles.iter().map(|a| edge(a, rng.random_range(-1.0..1.0))).collect()
+        })
+        .collect();
+    let mut text = String::from("t");
+    let measured = if logger.mean_rows.is_some() { "speed" } else { "enc" };
+    for name in [measured, "duty"] {
+        for i in 1..=axes {
+            let _ = write!(text, ",{name}_{i}");
+        }
+    }
+    text += if logger.supply { ",supply_v\n" } else { "\n" };
+    for k in 0..recording.t.len() {
+        let _ = write!(text, "{:.6}", recording.t[k]);
+        for counts in &counted {
+            let _ = match logger.mean_rows {
+                None => write!(text, ",{}", counts[k] - counts[0]),
+                Some(rows) => {
+                    let before = k.saturating_sub(rows);
+                    let passed = (recording.t[k] - recording.t[before]).max(0.2 * logger.row_s);
+                    write!(text, ",{:.5}", (counts[k] - counts[before]) / per_rad / passed)
+                }
+            };
+        }
+        for _ in 0..axes {
+            let _ = write!(text, ",{:.6}", recording.duties[k]);
+        }
+        if logger.supply {
+            let _ = write!(text, ",{:.4}", recording.supplies[k] * (1.0 + SUPPLY_NOISE * normal(&mut rng)));
+        }
+        text.push('\n');
+    }
+    text
+}
