@@ -76,13 +76,15 @@ pub struct Driving {
     /// Whether what drives the wheels was measured: at a row it is what the row says, and goes straight to the next; else
     /// it is held until then.
     pub measured: bool,
+    /// Whether logged speeds are means over the row before, as differences of counts are: half a row older than momentary ones.
+    pub mean_speeds: bool,
     /// Length of a test function, s.
     pub test_function_s: f64,
 }
 
 impl Default for Driving {
     fn default() -> Self {
-        Self { measured: false, test_function_s: crate::drive::TEST_FUNCTION_S }
+        Self { measured: false, mean_speeds: false, test_function_s: crate::drive::TEST_FUNCTION_S }
     }
 }
 
@@ -385,6 +387,7 @@ impl<'a> Pieces<'a> {
             before: &p.history[..p.before],
             speed: self.speed,
             measured: self.driving.measured,
+            mean_speeds: self.driving.mean_speeds,
         };
         segment(&self.robot, &self.geometry, &part, place)
     }

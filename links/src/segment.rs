@@ -91,6 +91,8 @@ pub(crate) struct Place<'a> {
     pub(crate) speed: f64,
     /// Whether what drives the wheels was measured at the rows.
     pub(crate) measured: bool,
+    /// Whether logged speeds are means over the row before.
+    pub(crate) mean_speeds: bool,
 }
 
 /// Speed of the wheels while they turned, rad/s: how long they stood makes no difference. Of a long log some parts are
@@ -162,6 +164,9 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
         if place.measured || between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
+        }
+        if place.mean_speeds {
+            s.duty.iter_mut().for_each(|d| half_a_row_later(d));
         }
     }
     s.supply = match &part.supply_v {
@@ -375,6 +380,13 @@ fn between_rows(robot: &Robot, t: &[f64]) -> bool {
 fn mean_of_neighbours(values: &mut [f64]) {
     for k in 1..values.len() {
         values[k - 1] = 0.5 * (values[k - 1] + values[k]);
+    }
+}
+
+/// In place of a signal that is held from tick to tick its mean from half a tick before to half a tick after.
+fn half_a_row_later(values: &mut [f64]) {
+    for k in (1..values.len()).rev() {
+        values[k] = 0.5 * (values[k - 1] + values[k]);
     }
 }
 

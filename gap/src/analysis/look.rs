@@ -1,5 +1,6 @@
 //! How the logs of a drive are looked at, settled before anything is fitted.
 
+use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use super::cut::Cut;
@@ -10,10 +11,11 @@ use links::thresholds::NO_NOISE;
 /// Longest test function, s.
 const LONGEST_S: f64 = 3.0;
 
-/// Whether currents were measured, and how long test functions are.
+/// Whether currents were measured, whether speeds are means of rows, and how long test functions are.
 ///
 /// Currents are measured, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
-/// functions of speed and current. Test functions of an axis alone that scatters too much get longer as long as they tell
+/// functions of speed and current. Speeds in place of counts are momentary or the mean of the row before by the same rule:
+/// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer as long as they tell
 /// more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
 pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
@@ -38,6 +40,10 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
     let measured = Driving { measured: true, ..chosen };
     if currents && let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
         (chosen, now) = (measured, other);
+    }
+    let mean = Driving { mean_speeds: true, ..chosen };
+    if is_from_speeds(robot) && let Some(other) = look(mean).filter(|other| other.tells > now.tells) {
+        (chosen, now) = (mean, other);
     }
     while now.loud && 2.0 * now.length <= LONGEST_S {
         let longer = Driving { test_function_s: 2.0 * now.length, ..chosen };

@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use links::drive::DriveModel;
@@ -36,6 +37,10 @@ pub(crate) fn rattle(
     robot: &Robot,
     model: &DriveModel,
 ) -> Vec<(usize, f64)> {
+    // Speeds do not tell what a count is, and what a firmware makes of counts is its own.
+    if is_from_speeds(robot) {
+        return Vec::new();
+    }
     let count = 1.0 / robot.counts_per_wheel_rad();
     let Some(mechanics) = model.mechanics() else { return Vec::new() };
     let response = (0..robot.wheel_count())

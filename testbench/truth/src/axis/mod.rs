@@ -128,7 +128,7 @@ impl AxisCase {
             Carrier::Floor(radius) => {
                 let mass = 2.0 * a.load / (radius * radius);
                 let half_track = 3.0 * radius;
-                let about = mass * half_track * half_track;
+                let about = (mass * half_track * half_track).min(900.0);
                 let text = format!("mass_kg = {mass}\nyaw_inertia_kg_m2 = {about}\n");
                 (radius, text, &[1.0, -1.0][..])
             }
