@@ -137,12 +137,14 @@ impl<'a> Workflow<'a> {
         outcome.ambiguous = true;
     }
 
-    /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties.
+    /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties. Nor is
+    /// what only they show: on the drive alone creep is a latency by another name.
     fn not_seen(&self) -> Vec<Arc<dyn Effect>> {
         let shown = |e: &Arc<dyn Effect>| {
             let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
-            drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
+            let hidden = e.link() != Link::Drive && self.seen.is_none();
+            hidden || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
     }

@@ -393,8 +393,8 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
             interval: interval.ends().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
             bounds: p.bounds,
             sized: p.material.is_finite() && no_angle,
-            // What is switched on is not absent at 0.
-            absent_at_zero: p.below.is_none() && p.start.is_none(),
+            // What is switched on is not absent at 0, unless it may be 0 and was only begun elsewhere.
+            absent_at_zero: p.below.is_none() && (p.start.is_none() || p.bounds[0] <= 0.0),
         }
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();

@@ -76,15 +76,14 @@ pub(crate) fn draw(seed: u64, hidden: &[String], size: Option<u8>) -> Result<Axi
     let seen = hidden.iter().map(|name| effects::seen(name)).collect::<Result<Vec<_>, _>>()?;
     let floor = rng.random_bool(0.3) && seen.iter().all(|s| s[0]);
     // A robot of 0.3 to 300 kg, by the radius of its wheels.
-    let radius = (2.0 * nominal.load / decades(&mut rng, 0.3, 300.0)).sqrt();
+    let radius = (2.0 * nominal.load / decades(&mut rng, 0.3, 300.0)).sqrt().clamp(0.005, 0.5);
     let carrier = if floor { Carrier::Floor(radius) } else { Carrier::Blocks };
     let speeds = seen.iter().all(|s| s[2]) && (rng.random_bool(0.3) || seen.iter().any(|s| !s[1]));
     let mut logger = logger(&nominal, speeds, &mut rng);
     let drives = drives::draw(&nominal, &logger, &mut stream(seed, Stream::Excitation));
     let mut machine = nominal.clone();
     let mut rng = stream(seed, Stream::Nuisance);
-    // What every machine has and none is named for: a bridge that swallows a little, cables.
-    machine.dead_band = rng.random_range(0.0..5e-4);
+    // What every machine has and none is named for: cables.
     machine.source_ohm = rng.random_range(0.0..0.005) * machine.resistance_ohm;
     let mut rng = stream(seed, Stream::Effect);
     let mut hides = Vec::new();

@@ -34,7 +34,7 @@ pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64
         let _ = write!(text, "{:.6}", recording.t[k]);
         for counts in &counted {
             let _ = match logger.mean_rows {
-                None => write!(text, ",{}", counts[k] - counts[0]),
+                None => write!(text, ",{}", counts[k]),
                 Some(rows) => {
                     let before = k.saturating_sub(rows);
                     let passed = (recording.t[k] - recording.t[before]).max(0.2 * logger.row_s);

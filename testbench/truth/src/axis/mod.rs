@@ -102,6 +102,11 @@ pub(crate) enum Carrier {
     Floor(f64),
 }
 
+/// Half the track of a drive train whose wheels have this radius, m.
+fn half_track(radius: f64) -> f64 {
+    (3.0 * radius).min(0.8)
+}
+
 /// An axis whose logs hide effects.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AxisCase {
@@ -127,8 +132,8 @@ impl AxisCase {
             Carrier::Blocks => (1.0, format!("support = \"blocks\"\nwheel_inertia_kg_m2 = {}\n", a.load), &[0.0][..]),
             Carrier::Floor(radius) => {
                 let mass = 2.0 * a.load / (radius * radius);
-                let half_track = 3.0 * radius;
-                let about = (mass * half_track * half_track).min(900.0);
+                let half_track = half_track(radius);
+                let about = mass * half_track * half_track;
                 let text = format!("mass_kg = {mass}\nyaw_inertia_kg_m2 = {about}\n");
                 (radius, text, &[1.0, -1.0][..])
             }
@@ -139,7 +144,7 @@ impl AxisCase {
             a.gear, self.logger.counts, a.supply_v, a.resistance_ohm, a.constant, a.rotor
         );
         for side in wheels {
-            let x = 3.0 * radius * side;
+            let x = half_track(radius) * side;
             text += &format!("[[wheel]]\nx_m = {x}\ny_m = 0\ndrive_deg = 90\n");
         }
         text
