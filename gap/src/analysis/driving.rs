@@ -18,7 +18,28 @@ use crate::select::Selection;
 use crate::state::{Active, State};
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};
+use links::pieces::Pieces;
 use links::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
+
+/// Whether a robot goes along one line of the floor, to and fro: across it nothing shows what the carpet does, and along it
+/// the carpet is friction of the wheels. The mean of the directions, twice their angle, weighted by the squared speed.
+fn ways_lie_along_one_line(pieces: &Pieces) -> bool {
+    let (mut along, mut across, mut all) = (0.0, 0.0, 0.0);
+    for s in pieces.iter() {
+        for k in s.own.clone() {
+            let (twist, heading) = (s.twist[k], s.heading[k]);
+            let square = twist.vx * twist.vx + twist.vy * twist.vy;
+            let (sin, cos) = (2.0 * (heading + twist.vy.atan2(twist.vx))).sin_cos();
+            along += square * cos;
+            across += square * sin;
+            all += square;
+        }
+    }
+    along.hypot(across) > ONE_LINE * all
+}
+
+/// Length of that mean from which ways are one line: that of directions spread evenly over 10 degrees on either side.
+const ONE_LINE: f64 = 0.98;
 
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
@@ -140,11 +161,13 @@ impl<'a> Workflow<'a> {
     /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties. Nor is
     /// what only they show: on the drive alone creep is a latency by another name.
     fn not_seen(&self) -> Vec<Arc<dyn Effect>> {
+        let straight = ways_lie_along_one_line(self.searched().pieces);
         let shown = |e: &Arc<dyn Effect>| {
             let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
             let hidden = e.link() != Link::Drive && self.seen.is_none();
-            hidden || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
+            let grain = e.name() == "carpet-grain" && straight;
+            hidden || grain || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
     }

@@ -30,7 +30,8 @@ impl Effect for CoastingBridge {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("share", 0.02, [0.0, 1.0], 0.12)])]
+        // A bridge that is open between all its pulses has 1, about which an estimate scatters.
+        vec![Form::whole(vec![Parameter::new("share", 0.02, [0.0, 1.3], 0.12)])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
