@@ -42,7 +42,9 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
         (chosen, now) = (measured, other);
     }
     let mean = Driving { mean_speeds: true, ..chosen };
-    if is_from_speeds(robot) && let Some(other) = look(mean).filter(|other| other.tells > now.tells) {
+    if is_from_speeds(robot)
+        && let Some(other) = look(mean).filter(|other| other.tells > now.tells)
+    {
         (chosen, now) = (mean, other);
     }
     while now.loud && 2.0 * now.length <= LONGEST_S {

@@ -41,6 +41,7 @@ fn machine(rng: &mut ChaCha8Rng) -> Axis {
         stribeck: [0.0, 1.0],
         viscous: 0.0,
         gravity: [0.0; 2],
+        cogging: [0.0; 2],
         dead_band: 0.0,
         curvature: 0.0,
         coasting: 0.0,
@@ -63,6 +64,9 @@ fn logger(axis: &Axis, speeds: bool, rng: &mut ChaCha8Rng) -> Logger {
         jitter_s: one_of(rng, &[0.0, 0.02, 0.06]) * row_s,
         counts: counts.max(least.ceil()),
         edges: one_of(rng, &[0.0, 0.2, 0.5]),
+        eccentric: one_of(rng, &[0.0, 0.0, 0.001, 0.003]),
+        stamp_s: Some(1e-3).filter(|_| row_s >= 0.005 && rng.random_bool(0.3)),
+        lost: one_of(rng, &[0.0, 0.0, 0.0, 0.01]),
         mean_rows: speeds.then_some(1),
         duty_steps: Some(one_of(rng, &[255.0, 1000.0, 0.0])).filter(|steps| *steps > 0.0),
         supply: rng.random_bool(0.4),
@@ -83,7 +87,8 @@ pub(crate) fn draw(seed: u64, hidden: &[String], size: Option<u8>) -> Result<Axi
     let drives = drives::draw(&nominal, &logger, &mut stream(seed, Stream::Excitation));
     let mut machine = nominal.clone();
     let mut rng = stream(seed, Stream::Nuisance);
-    // What every machine has and none is named for: cables.
+    // What every machine has and none is named for: cables, magnets.
+    machine.cogging = [rng.random_range(0.0..0.01) * machine.stall(), one_of(&mut rng, &[4.0, 7.0, 12.0, 24.0])];
     machine.source_ohm = rng.random_range(0.0..0.005) * machine.resistance_ohm;
     let mut rng = stream(seed, Stream::Effect);
     let mut hides = Vec::new();

@@ -18,7 +18,7 @@ pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64
     let counted: Vec<Vec<f64>> = (0..axes)
         .map(|_| {
             let zero = rng.random_range(0.0..1.0);
-            let edge = |a: &f64, e: f64| (a * per_rad + zero + logger.edges * e).floor();
+            let edge = |a: &f64, e: f64| ((a + logger.eccentric * a.sin()) * per_rad + zero + logger.edges * e).floor();
             recording.angles.iter().map(|a| edge(a, rng.random_range(-1.0..1.0))).collect()
         })
         .collect();
@@ -31,7 +31,11 @@ pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64
     }
     text += if logger.supply { ",supply_v\n" } else { "\n" };
     for k in 0..recording.t.len() {
-        let _ = write!(text, "{:.6}", recording.t[k]);
+        if rng.random_bool(logger.lost) {
+            continue;
+        }
+        let stamp = logger.stamp_s.map_or(recording.t[k], |step| (recording.t[k] / step).round() * step);
+        let _ = write!(text, "{stamp:.6}");
         for counts in &counted {
             let _ = match logger.mean_rows {
                 None => write!(text, ",{}", counts[k]),

@@ -42,6 +42,8 @@ pub(crate) struct Axis {
     pub(crate) viscous: f64,
     /// Torque at angle θ: `g[0] sin θ + g[1] cos θ`, Nm.
     pub(crate) gravity: [f64; 2],
+    /// Torque of the magnets over the motor's angle: amplitude at the output, Nm, and how often a motor turn.
+    pub(crate) cogging: [f64; 2],
     /// Duty that the bridge swallows.
     pub(crate) dead_band: f64,
     /// `u (1 + c (|u| − 1))`.
@@ -85,6 +87,12 @@ pub(crate) struct Logger {
     /// Counts a turn of the output shaft, and how far edges are from their places, counts.
     pub(crate) counts: f64,
     pub(crate) edges: f64,
+    /// Once a turn of its shaft an encoder that sits beside the middle is so far ahead, rad.
+    pub(crate) eccentric: f64,
+    /// Steps of the stamps, s.
+    pub(crate) stamp_s: Option<f64>,
+    /// Share of the rows that never arrive.
+    pub(crate) lost: f64,
     /// Mean speeds of so many rows in place of counts.
     pub(crate) mean_rows: Option<usize>,
     /// Steps of the duty from 0 to 1, where it has any.
