@@ -64,6 +64,13 @@ const CASES: &[Case] = &[
         &LIFTED,
         &[],
     ),
+    case(
+        "encoder-eccentricity",
+        &[("sin_2_rad", 0.03), ("cos_2_rad", -0.02), ("order", 1.0)],
+        ("sin_2_rad", 0.2),
+        &LIFTED,
+        &[],
+    ),
     case("gear-efficiency", &[("scale", -0.3)], ("scale", 0.3), &HARD, &[]),
     case("gear-backlash", &[("play_rad", 0.8)], ("play_rad", 0.5), &HARD, &[]),
     case("roller-friction", &[("force_n", 0.5)], ("force_n", 0.25), &RICH, &[]),

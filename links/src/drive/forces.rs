@@ -6,7 +6,7 @@ use model::plant::GRAVITY;
 use runs::frames::Twist;
 use runs::robot::Support;
 
-use super::DriveModel;
+use super::{Ahead, DriveModel};
 use crate::segment::Segment;
 
 /// The state of the robot at one tick, as the terms of the drive model see it.
@@ -205,8 +205,8 @@ impl<'a> Base<'a> {
     }
 
     /// What the offsets are that a model which only adds to this one adds, `[offset][wheel][tick]`.
-    pub(super) fn offsets_of(&self, other: &DriveModel) -> Vec<Vec<Vec<f64>>> {
-        other.offsets[self.model.offsets.len()..].iter().map(|o| o(other, self.segment)).collect()
+    pub(super) fn offsets_of(&self, other: &DriveModel) -> Vec<(Ahead, Vec<Vec<f64>>)> {
+        other.offsets[self.model.offsets.len()..].iter().map(|(what, o)| (*what, o(other, self.segment))).collect()
     }
 }
 

@@ -37,6 +37,15 @@ pub type SupplyMap = Box<dyn Fn(&Instant<'_>, f64, &[f64]) -> f64 + Send + Sync>
 /// temperature or the state of a gear's play.
 pub type Prepare = Box<dyn Fn(&DriveModel, &Segment) -> Vec<Vec<f64>> + Send + Sync>;
 
+/// What is ahead of a wheel where its encoder is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ahead {
+    /// The rotor with the encoder, as in the play of a gear: its inertia moves along.
+    Rotor,
+    /// What is read, and nothing that moves.
+    Reading,
+}
+
 /// Motor and gear of one wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisModel {
@@ -95,8 +104,8 @@ pub struct DriveModel {
     pub loads: Vec<LoadTerm>,
     /// Per-tick values for terms with memory.
     pub prepare: Vec<Prepare>,
-    /// Encoder angle minus wheel angle, `[wheel][tick]`, rad at the wheel: play of a gear.
-    pub offsets: Vec<Prepare>,
+    /// Encoder angle minus wheel angle, `[wheel][tick]`, rad at the wheel, and what is ahead.
+    pub offsets: Vec<(Ahead, Prepare)>,
     /// What carries the robot.
     pub support: Support,
     /// The effects that made it, in this order.

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::columns::{Column, Columns, Side};
 use super::forces::Base;
-use super::{DriveModel, Mechanics};
+use super::{Ahead, DriveModel, Mechanics};
 use crate::effect::Sizes;
 use crate::inertial::Sensor;
 use crate::pieces::Pieces;
@@ -312,7 +312,7 @@ impl<'a> DriveLink<'a> {
     ) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
         let n = model.wheels.len();
-        let offsets: Vec<Vec<Vec<f64>>> = model.offsets.iter().map(|o| o(model, s)).collect();
+        let offsets: Vec<(Ahead, Vec<Vec<f64>>)> = model.offsets.iter().map(|(what, o)| (*what, o(model, s))).collect();
         let out = self.test_functions[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
             let mut a = b.acceleration(shape, forces, n, &mechanics, model);
             for offset in &offsets {
@@ -650,7 +650,7 @@ impl TestFunction {
     fn offset(
         &self,
         shape: &Shape,
-        offset: &[Vec<f64>],
+        (what, offset): &(Ahead, Vec<Vec<f64>>),
         mechanics: &Mechanics,
         model: &DriveModel,
         a: &mut DVector<f64>,
@@ -661,6 +661,9 @@ impl TestFunction {
             shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>()
         });
         let rotors = DVector::from_fn(n, |i, _| model.moves_in_play(i) * ahead[i]);
-        *a += ahead - &mechanics.response * rotors;
+        *a += match what {
+            Ahead::Rotor => ahead - &mechanics.response * rotors,
+            Ahead::Reading => ahead,
+        };
     }
 }

@@ -41,8 +41,9 @@ const NOT_ON_BLOCKS: [&str; 13] = [
     "probe-position-drag",
 ];
 
-/// What hangs on an axis alone; the weight of a robot hangs on none of its wheels.
-const ONLY_ON_BLOCKS: [&str; 2] = ["gravity-load", "joint-spring"];
+/// What hangs on an axis alone; the weight of a robot hangs on none of its wheels. Once a turn a wheel on the floor has
+/// ripples of its own.
+const ONLY_ON_BLOCKS: [&str; 3] = ["encoder-eccentricity", "gravity-load", "joint-spring"];
 
 /// Whether a robot can have an effect.
 pub fn fits(name: &str, robot: &Robot) -> bool {

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use runs::robot::Robot;
 
-use crate::drive::{DriveModel, TEST_FUNCTION_S, smooth_sign};
+use crate::drive::{Ahead, DriveModel, TEST_FUNCTION_S, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -61,7 +61,7 @@ impl Effect for GearBacklash {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
-        model.offsets.push(Box::new(move |model, segment| {
+        let ahead = move |model: &DriveModel, segment: &Segment| {
             (0..segment.angle.len())
                 .map(|i| {
                     let half = 0.5 * values.wheel("play", i, "rad") / ratio;
@@ -71,7 +71,8 @@ impl Effect for GearBacklash {
                     between(model, segment, i, half)
                 })
                 .collect()
-        }));
+        };
+        model.offsets.push((Ahead::Rotor, Box::new(ahead)));
     }
 
     fn law_uncertainty(&self) -> f64 {

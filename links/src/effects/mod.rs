@@ -16,6 +16,7 @@ mod coasting_bridge;
 mod coulomb_friction;
 mod dead_band;
 mod drive_curve;
+mod encoder_eccentricity;
 mod encoder_lag;
 mod encoder_loss;
 mod encoder_scale;
@@ -103,6 +104,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(asymmetric_friction::AsymmetricFriction),
         Box::new(gravity_load::GravityLoad),
         Box::new(joint_spring::JointSpring),
+        Box::new(encoder_eccentricity::EncoderEccentricity),
         Box::new(gear_efficiency::GearEfficiency),
         Box::new(gear_backlash::GearBacklash),
         Box::new(roller_friction::RollerFriction),
@@ -155,7 +157,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 36] = [
+    const NAMES: [(&str, &[&str]); 37] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -183,6 +185,7 @@ mod tests {
         ("centre-of-mass", &["x_m", "y_m"]),
         ("coulomb-friction", &["torque_nm", "torque_#_nm"]),
         ("gravity-load", &["sin_#_nm", "cos_#_nm"]),
+        ("encoder-eccentricity", &["sin_#_rad", "cos_#_rad"]),
         ("joint-spring", &["stiffness_#_nm_per_rad", "preload_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
         ("roller-friction", &["force_n"]),

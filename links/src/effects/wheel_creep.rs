@@ -5,7 +5,7 @@ use runs::frames::Twist;
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::{Robot, Support};
 
-use crate::drive::DriveModel;
+use crate::drive::{Ahead, DriveModel};
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -64,11 +64,12 @@ impl Effect for WheelCreep {
             // Off the floor it is the gear that gives way: each wheel's own inertia, and no body's.
             let creep = values.get("creep_s_per_kg") / (model.wheel_radius_m * model.wheel_radius_m);
             let Some(inertia) = model.mechanics().map(|m| m.inertia) else { return };
-            model.offsets.push(Box::new(move |_, segment| {
+            let ahead = move |_: &DriveModel, segment: &Segment| {
                 let n = segment.speed.len();
                 let momentum = |i: usize, k: usize| (0..n).map(|j| inertia[(i, j)] * segment.speed[j][k]).sum::<f64>();
                 (0..n).map(|i| (0..segment.t.len()).map(|k| creep * momentum(i, k)).collect()).collect()
-            }));
+            };
+            model.offsets.push((Ahead::Rotor, Box::new(ahead)));
             return;
         }
         let Some(contact) = Contact::new(
@@ -79,7 +80,7 @@ impl Effect for WheelCreep {
         ) else {
             return;
         };
-        model.offsets.push(Box::new(move |_, segment| contact.lost(segment)));
+        model.offsets.push((Ahead::Rotor, Box::new(move |_, segment| contact.lost(segment))));
     }
 
     fn law_uncertainty(&self) -> f64 {

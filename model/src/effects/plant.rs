@@ -90,6 +90,12 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
             wheels.iter_mut().zip(each("sin", "nm")).for_each(|(w, x)| w.gravity_nm[0] = x);
             (each("cos", "nm"), |w, x| w.gravity_nm[1] = x)
         }
+        "encoder-eccentricity" => {
+            let wheels = applied.deviations.wheels_mut(n);
+            wheels.iter_mut().for_each(|w| w.eccentric_order = effect.value("order").unwrap_or(1.0));
+            wheels.iter_mut().zip(each("sin", "rad")).for_each(|(w, x)| w.eccentric_rad[0] = x);
+            (each("cos", "rad"), |w, x| w.eccentric_rad[1] = x)
+        }
         "joint-spring" => {
             let wheels = applied.deviations.wheels_mut(n);
             wheels.iter_mut().zip(each("stiffness", "nm_per_rad")).for_each(|(w, x)| w.spring_nm_per_rad = x);

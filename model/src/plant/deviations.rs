@@ -58,6 +58,10 @@ pub struct WheelDeviation {
     pub viscous_nms: f64,
     /// Torque at the wheel shaft with sine and cosine of the wheel's angle, Nm.
     pub gravity_nm: [f64; 2],
+    /// What its encoder reads ahead with sine and cosine of `order` times the wheel's angle, rad, and that order.
+    pub eccentric_rad: [f64; 2],
+    /// Turns of the encoder's shaft for one of the wheel.
+    pub eccentric_order: f64,
     /// Stiffness of a spring on the wheel shaft, Nm/rad.
     pub spring_nm_per_rad: f64,
     /// Torque of that spring where the wheel's angle is 0, Nm.

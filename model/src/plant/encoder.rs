@@ -35,12 +35,15 @@ impl Plant {
         }
         let kept = if wheel.speed.abs() > d.loss_threshold { 1.0 - w.loss } else { 1.0 };
         e.counted += moved * kept * (1.0 + w.encoder);
+        let (sin, cos) = (w.eccentric_order * wheel.angle).sin_cos();
+        // Counts begin at 0 wherever the shaft stands.
+        let read = e.counted + w.eccentric_rad[0] * sin + w.eccentric_rad[1] * (cos - 1.0);
         let ticks = d.encoder_delay_s / dt;
         if ticks <= 0.0 {
-            return e.counted;
+            return read;
         }
         let (whole, share) = (ticks.floor() as usize, ticks.fract());
-        e.past.push_back(e.counted);
+        e.past.push_back(read);
         while e.past.len() > whole + 2 {
             e.past.pop_front();
         }

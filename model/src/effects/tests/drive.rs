@@ -48,6 +48,20 @@ fn a_weight_hangs_where_its_torque_is_0() {
 }
 
 #[test]
+fn an_encoder_beside_the_middle_reads_ahead_once_a_turn() {
+    let run = |name: &str, parameters: &[(&str, f64)]| {
+        let mut plant = lifted(name, parameters);
+        run(&mut plant, [0.5; 3], 400);
+        plant.encoder_after()[0] / Robot::racbot().counts_per_wheel_rad()
+    };
+    let shaft = run("encoder-eccentricity", &[]);
+    let read = run("encoder-eccentricity", &[("sin_1_rad", 0.03), ("cos_1_rad", -0.02), ("order", 2.0)]);
+    let (sin, cos) = (2.0 * shaft).sin_cos();
+    assert!(shaft > 1.0);
+    close(read - shaft, 0.03 * sin - 0.02 * (cos - 1.0), 1e-9);
+}
+
+#[test]
 fn a_spring_turns_back_to_its_rest() {
     let mut plant = lifted("joint-spring", &[("stiffness_1_nm_per_rad", 0.02), ("preload_1_nm", 0.03)]);
     run(&mut plant, [0.0; 3], 3000);

@@ -38,7 +38,7 @@ fn signed(value: f64, rng: &mut ChaCha8Rng) -> f64 {
     if rng.random_bool(0.5) { value } else { -value }
 }
 
-const CATALOGUE: [Entry; 12] = [
+const CATALOGUE: [Entry; 13] = [
     entry("coulomb-friction", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, _| {
         let torque = value * axis.stall();
         axis.dry.iter_mut().for_each(|dry| *dry += torque);
@@ -93,6 +93,15 @@ const CATALOGUE: [Entry; 12] = [
         axis.latency_s = latency;
         vec![("latency_s", latency)]
     }),
+    Entry {
+        floor: false,
+        speeds: false,
+        ..entry("encoder-eccentricity", [0.008, 0.012, 0.02, 0.04, 0.08], |_, logger, value, rng| {
+            let (sin, cos) = rng.random_range(0.0..std::f64::consts::TAU).sin_cos();
+            logger.eccentric = [value * cos, value * sin];
+            vec![("sin_1_rad", value * cos), ("cos_1_rad", value * sin)]
+        })
+    },
     // Speeds that a firmware takes over several rows are late by half of them.
     Entry {
         counts: false,

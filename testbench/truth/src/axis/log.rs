@@ -18,7 +18,12 @@ pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64
     let counted: Vec<Vec<f64>> = (0..axes)
         .map(|_| {
             let zero = rng.random_range(0.0..1.0);
-            let edge = |a: &f64, e: f64| ((a + logger.eccentric * a.sin()) * per_rad + zero + logger.edges * e).floor();
+            let edge = |a: &f64, e: f64| {
+                ((a + logger.eccentric[0] * a.sin() + logger.eccentric[1] * a.cos()) * per_rad
+                    + zero
+                    + logger.edges * e)
+                    .floor()
+            };
             recording.angles.iter().map(|a| edge(a, rng.random_range(-1.0..1.0))).collect()
         })
         .collect();

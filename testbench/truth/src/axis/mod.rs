@@ -87,8 +87,8 @@ pub(crate) struct Logger {
     /// Counts a turn of the output shaft, and how far edges are from their places, counts.
     pub(crate) counts: f64,
     pub(crate) edges: f64,
-    /// Once a turn of its shaft an encoder that sits beside the middle is so far ahead, rad.
-    pub(crate) eccentric: f64,
+    /// Once a turn of its shaft an encoder that sits beside the middle is so far ahead, with sine and cosine, rad.
+    pub(crate) eccentric: [f64; 2],
     /// Steps of the stamps, s.
     pub(crate) stamp_s: Option<f64>,
     /// Share of the rows that never arrive.

@@ -1,0 +1,81 @@
+//! `encoder-eccentricity`: an encoder that sits beside the middle of its shaft and reads ahead once a turn.
+
+use runs::robot::Robot;
+
+use crate::drive::{Ahead, DriveModel};
+use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
+use crate::segment::Segment;
+
+/// An encoder that sits beside the middle of its shaft, or whose magnet does: of the output shaft, or of the motor.
+pub(super) struct EncoderEccentricity;
+
+/// Turns of the encoder's shaft for one of the output shaft.
+const ORDER: &str = "order";
+
+impl Effect for EncoderEccentricity {
+    fn name(&self) -> &str {
+        "encoder-eccentricity"
+    }
+
+    fn equation(&self) -> &str {
+        "an axis on blocks counts sin_i_rad sin(order theta_i) + cos_i_rad cos(order theta_i) more than theta_i, its angle by \
+         the log's counts, whose zero the two parameters hold"
+    }
+
+    fn reference(&self) -> &str {
+        "Slocum 1992, Precision Machine Design (eccentricity of encoders)"
+    }
+
+    fn link(&self) -> Link {
+        Link::Drive
+    }
+
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        let inertia = DriveModel::new(robot).felt_inertia();
+        let gear = robot.gear_ratio;
+        let orders = [1.0, gear].into_iter().take(if (gear - 1.0).abs() < 0.01 { 1 } else { 2 });
+        let form = |(order, i): (f64, usize)| {
+            // What it seems to take of torque at the speed of the log, beside what the motors gave.
+            let unit = sizes.drive_nm / (inertia * (order * sizes.speed).powi(2));
+            // Beside the middle by as much as the radius of its disc.
+            let most = 1.0 / order;
+            let p = |stem| {
+                let material = (0.03 * unit).min(0.5 * most);
+                Parameter::new(wheel_name(stem, i, "rad"), 0.3 * material, [-most, most], material)
+            };
+            (unit > 0.0 && unit.is_finite()).then(|| {
+                Form { wheels: vec![i], free: vec![p("sin"), p("cos")], fixed: Vec::new() }.fixing(ORDER, order)
+            })
+        };
+        orders.flat_map(|order| (0..robot.wheel_count()).map(move |i| (order, i))).filter_map(form).collect()
+    }
+
+    fn is_load(&self) -> bool {
+        true
+    }
+
+    fn drive(&self, values: &Values, model: &mut DriveModel) {
+        let order = values.find(ORDER).unwrap_or(1.0);
+        let ahead: Vec<[f64; 2]> =
+            (0..model.wheels.len()).map(|i| ["sin", "cos"].map(|stem| values.wheel(stem, i, "rad"))).collect();
+        let read = move |_: &DriveModel, s: &Segment| {
+            let more = |(i, [a, b]): (usize, &[f64; 2])| {
+                let of = |angle: &f64| {
+                    let (sin, cos) = (order * (s.zero[i] + angle)).sin_cos();
+                    a * sin + b * cos
+                };
+                s.angle[i].iter().map(of).collect()
+            };
+            ahead.iter().enumerate().map(more).collect()
+        };
+        model.offsets.push((Ahead::Reading, Box::new(read)));
+    }
+
+    fn measurement(&self) -> Option<(&str, f64)> {
+        Some(("turn the shaft by hand beside a protractor of the same counts", 10.0))
+    }
+}
