@@ -59,7 +59,7 @@ struct Args {
     /// Seed of the whole series
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Write the table to docs/measured/blind.md, too
+    /// Write the table to docs/measured/blind.md, too; to blind-axes.md where there are axes alone
     #[arg(long)]
     measured: bool,
     /// JSON instead of the table

@@ -116,7 +116,7 @@ impl Report {
             let n = sets.len();
             let k = sets.iter().filter(|s| s.grade == Grade::Wrong).count();
             let what = match sets[0].group {
-                Group::EffectFree => "a false name",
+                Group::EffectFree | Group::AxisFree => "a false name",
                 Group::Outside => "misnamed",
                 _ => "a wrong name",
             };
@@ -160,9 +160,15 @@ impl Report {
             row.extend([0, 1].map(|i| sets.iter().map(|s| s.intervals[i]).sum::<usize>().to_string()));
             row
         };
+        let axes = |s: &Scored| matches!(s.group, Group::AxisFree | Group::Axis | Group::AxisPair);
+        let (name, title) = if self.scored.iter().all(axes) {
+            ("blind-axes", "Effects hidden in motors and drive trains of any size, and what the gap workflow made of them")
+        } else {
+            ("blind", "Effects hidden by another simulator, and what the gap workflow made of them")
+        };
         let table = measured::Table {
-            name: "blind",
-            title: "Effects hidden by another simulator, and what the gap workflow made of them",
+            name,
+            title,
             command: &format!("cargo run --release -p testbench --bin blind -- {arguments}"),
             columns: &columns,
         };
