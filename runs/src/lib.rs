@@ -140,8 +140,8 @@ impl Run {
             }
             let (a, b) = (out[first - 1], out[last + 1]);
             let (from, to) = (self.t[first - 1], self.t[last + 1]);
-            for tick in first..=last {
-                out[tick] = a + (b - a) * (self.t[tick] - from) / (to - from);
+            for (slot, t) in out[first..=last].iter_mut().zip(&self.t[first..=last]) {
+                *slot = a + (b - a) * (t - from) / (to - from);
             }
         }
         out
