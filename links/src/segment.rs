@@ -150,8 +150,8 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         let whole: Vec<i64> = if place.counts.len() == n { place.counts.to_vec() } else { vec![0; n] };
         s.angle = (0..n)
             .map(|i| {
-                let counts = unwrapped(part, i, whole[i] as f64, &t);
-                counts.iter().map(|c| c / robot.counts_per_wheel_rad()).collect()
+                let counts = part.cumulative(i);
+                counts.iter().map(|c| (whole[i] as f64 + c) / robot.counts_per_wheel_rad()).collect()
             })
             .collect();
         s.zero = (0..n).map(|i| zero(part, i, &s.angle[i], robot.counts_per_wheel_rad())).collect();
@@ -323,39 +323,6 @@ impl Segment {
         let (xs, ys) = (running_mean(&xs, 1), running_mean(&ys, 1));
         self.position = interpolated(&xs, &self.t).zip(interpolated(&ys, &self.t)).map(|(x, y)| [x, y]).collect();
     }
-}
-
-/// Cumulative counts from `first` on, ticks without a sample interpolated.
-fn unwrapped(run: &Run, wheel: usize, first: f64, t: &[f64]) -> Vec<f64> {
-    let counts = &run.counts[wheel];
-    let mut out: Vec<f64> = Vec::with_capacity(counts.len());
-    let mut sum = first;
-    for k in 0..counts.len() {
-        if k > 0 {
-            sum += counts[k].wrapping_sub(counts[k - 1]) as f64;
-        }
-        out.push(sum);
-    }
-    let lost = run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
-    let mut i = 0;
-    while i < lost.len() {
-        let first = lost[i];
-        let mut last = first;
-        while i + 1 < lost.len() && lost[i + 1] == last + 1 {
-            i += 1;
-            last = lost[i];
-        }
-        i += 1;
-        if first == 0 || last + 1 >= out.len() {
-            continue;
-        }
-        let (a, b) = (out[first - 1], out[last + 1]);
-        let (ta, tb) = (t[first - 1], t[last + 1]);
-        for k in first..=last {
-            out[k] = a + (b - a) * (t[k] - ta) / (tb - ta);
-        }
-    }
-    out
 }
 
 /// What the log's own counter reads where the angles of a wheel are 0, rad.

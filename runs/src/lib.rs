@@ -123,6 +123,30 @@ impl Run {
         groups.iter().map(|g| g.len()).fold(self.counts.len(), usize::max)
     }
 
+    /// Counts of a wheel since the first tick; ticks without a sample lie on the line between their neighbours.
+    #[must_use]
+    pub fn cumulative(&self, wheel: usize) -> Vec<f64> {
+        let mut sum = 0.0;
+        let steps = self.counts[wheel].windows(2).map(|pair| {
+            sum += pair[1].wrapping_sub(pair[0]) as f64;
+            sum
+        });
+        let mut out: Vec<f64> = std::iter::once(0.0).chain(steps).take(self.len()).collect();
+        let lost = self.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
+        for gap in lost.chunk_by(|a, b| a + 1 == *b) {
+            let (first, last) = (gap[0], gap[gap.len() - 1]);
+            if first == 0 || last + 1 >= out.len() {
+                continue;
+            }
+            let (a, b) = (out[first - 1], out[last + 1]);
+            let (from, to) = (self.t[first - 1], self.t[last + 1]);
+            for (slot, t) in out[first..=last].iter_mut().zip(&self.t[first..=last]) {
+                *slot = a + (b - a) * (t - from) / (to - from);
+            }
+        }
+        out
+    }
+
     /// Times of the ticks at which the first encoder counts, or all where it has not twice.
     pub(crate) fn sampled(&self) -> std::borrow::Cow<'_, [f64]> {
         let gaps = self.count_gaps.first().map_or(&[][..], Vec::as_slice);

@@ -53,6 +53,12 @@ fn columns_in_any_order_unknown_ones_kept_gaps_kept() {
 }
 
 #[test]
+fn counts_between_two_samples_lie_on_a_line() {
+    let run = read("t,enc_1\n0,\n1,10\n1.5,\n2,\n3,16\n4,\n").unwrap();
+    assert_eq!(run.cumulative(0), [0.0, 0.0, 1.5, 3.0, 6.0, 6.0]);
+}
+
+#[test]
 fn windows_files_blanks_and_a_missing_last_line_end_are_accepted() {
     let run = read("\u{feff}t, enc_1\r\n0 , 1\r\n\r\n1,2.0").unwrap();
     assert_eq!((run.t, run.counts), (vec![0.0, 1.0], vec![vec![1, 2]]));

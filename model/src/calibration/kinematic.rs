@@ -132,18 +132,21 @@ impl PoseModel for KinematicModel {
         let latency = self.latency_s + self.sum(values, P::CameraLatency) + self.sum(values, P::CameraClock(number));
         let (sin, cos) = self.sum(values, P::MarkerHeading).sin_cos();
         let marker = Pose::new(self.sum(values, P::MarkerX), self.sum(values, P::MarkerY), sin.atan2(cos));
+        // Poses on rows of their own have no counts there.
+        let counts: Vec<Vec<f64>> = (0..columns.len()).map(|wheel| run.cumulative(wheel)).collect();
+        let moved = |tick: usize| moved(&columns, &counts, tick);
         let mut track = Vec::with_capacity(run.camera.len());
         let (mut pose, mut tick) = (Pose::default(), 0);
         for sample in &run.camera {
             let exposed = run.t[sample.tick] - latency;
             while tick + 1 < run.len() && run.t[tick + 1] <= exposed {
-                pose = pose.compose(displacement(moved(&columns, run, tick)));
+                pose = pose.compose(displacement(moved(tick)));
                 tick += 1;
             }
             let mut at = pose;
             if tick + 1 < run.len() && exposed > run.t[tick] {
                 let share = (exposed - run.t[tick]) / (run.t[tick + 1] - run.t[tick]);
-                at = pose.compose(displacement(moved(&columns, run, tick).scaled(share)));
+                at = pose.compose(displacement(moved(tick).scaled(share)));
             }
             track.push(at.compose(marker));
         }
@@ -157,13 +160,13 @@ impl PoseModel for KinematicModel {
 }
 
 /// Body displacement from `tick` to the next.
-fn moved(columns: &[[f64; 3]], run: &Run, tick: usize) -> Twist {
+fn moved(columns: &[[f64; 3]], counts: &[Vec<f64>], tick: usize) -> Twist {
     let mut sum = [0.0; 3];
-    for (column, counts) in columns.iter().zip(&run.counts) {
-        let difference = counts[tick + 1].wrapping_sub(counts[tick]);
-        if difference != 0 {
+    for (column, counts) in columns.iter().zip(counts) {
+        let difference = counts[tick + 1] - counts[tick];
+        if difference != 0.0 {
             for (s, c) in sum.iter_mut().zip(column) {
-                *s += c * difference as f64;
+                *s += c * difference;
             }
         }
     }

@@ -8,7 +8,7 @@ use runs::{Columns, Log};
 const MOST_TICKS: usize = 200_000;
 /// Stretches of a log that are compared.
 const MOST: usize = 1500;
-/// Length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.
+/// Usual length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.
 pub(super) const STRETCH_S: f64 = 0.15;
 /// Lags at which camera and wheels are compared, s: clocks set by hand differ by a fifth of a second.
 const LAGS_S: (f64, f64) = (0.3, 0.02);
@@ -66,19 +66,19 @@ pub(super) struct Sample {
     pub(super) acceleration: f64,
 }
 
-/// Stretches of a log between camera frames, at the lag of the camera at which the wheels tell its speed best.
-pub(super) fn of_camera(robot: &Robot, log: &Log) -> Vec<Sample> {
+/// Stretches of a log, so many seconds long, between camera frames, at the lag of the camera at which the wheels tell its speed best.
+pub(super) fn of_camera(robot: &Robot, log: &Log, stretch_s: f64) -> Vec<Sample> {
     let Some(wheels) = Wheels::of(robot, log) else { return Vec::new() };
     let frames = log.camera();
     let mut pairs = Vec::new();
     let mut j = 0;
     for i in 0..frames.len() {
         j = j.max(i + 1);
-        while j < frames.len() && frames[j].t - frames[i].t < STRETCH_S {
+        while j < frames.len() && frames[j].t - frames[i].t < stretch_s {
             j += 1;
         }
         // A camera that lost the robot in between, or stood still, tells nothing.
-        if j < frames.len() && frames[j].t - frames[i].t < 3.0 * STRETCH_S.max(frames[i + 1].t - frames[i].t) {
+        if j < frames.len() && frames[j].t - frames[i].t < 3.0 * stretch_s.max(frames[i + 1].t - frames[i].t) {
             pairs.push((i, j));
         }
     }

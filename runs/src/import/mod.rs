@@ -22,6 +22,7 @@ mod sheet;
 mod ssl;
 mod sysid;
 mod time;
+mod titles;
 mod track;
 mod truth;
 mod units;

@@ -50,6 +50,8 @@ pub(super) struct Rows<'a> {
     recording: usize,
     first: Option<f64>,
     last: f64,
+    /// A row whose time went back, of which the next tells whether a recording begins there: its line, time and fields.
+    back: Option<(usize, f64, Vec<Option<f64>>)>,
 }
 
 impl<'a> Rows<'a> {
@@ -71,7 +73,7 @@ impl<'a> Rows<'a> {
         let unit_s = clock.rate_hz.map(f64::recip).or(clock.unit_s).or(found.map(|(_, unit)| unit)).unwrap_or(1.0);
         let at = found.map(|(at, _)| at);
         let names = names.iter().map(|name| format!("{prefix}{name}")).collect();
-        Some(Self { names, clock, at, unit_s, rows: 0.0, recording: 1, first: None, last: 0.0 })
+        Some(Self { names, clock, at, unit_s, rows: 0.0, recording: 1, first: None, last: 0.0, back: None })
     }
 
     /// The column of time and its unit, s.
@@ -104,20 +106,39 @@ impl<'a> Rows<'a> {
             None => self.rows,
         };
         self.rows += 1.0;
-        // Rows that overtook others are no restart: it goes back over half of what was recorded.
-        if self.first.is_some_and(|first| t < self.last - 0.5 * (self.last - first)) {
-            self.restart(table, line);
+        let fields: Vec<Option<f64>> = (0..self.names.len()).map(row).collect();
+        let goes_back = self.goes_back(t);
+        // One row alone, or several of one time, are no recording: a writer that was stopped leaves zeros.
+        if self.back.as_ref().is_some_and(|(_, began, _)| *began == t) {
+            return;
         }
+        if let Some((line, began, fields)) = self.back.take().filter(|_| goes_back) {
+            self.restart(table, line);
+            self.add(table, began, &fields);
+        }
+        if self.goes_back(t) {
+            self.back = Some((line, t, fields));
+        } else {
+            self.add(table, t, &fields);
+        }
+    }
+
+    /// Whether a recording may begin. Rows that overtook others are no restart: it goes back over half of what was recorded.
+    fn goes_back(&self, t: f64) -> bool {
+        self.first.is_some_and(|first| t < self.last - 0.5 * (self.last - first))
+    }
+
+    fn add(&mut self, table: &mut Table, t: f64, fields: &[Option<f64>]) {
         self.first.get_or_insert(t); // it may be negative
         self.last = t;
         if self.clock.recording.is_some_and(|wanted| wanted != self.recording) {
             return;
         }
-        for (i, name) in self.names.iter().enumerate() {
+        for (i, (name, value)) in self.names.iter().zip(fields).enumerate() {
             if Some(i) != self.at
-                && let Some(value) = row(i)
+                && let Some(value) = value
             {
-                table.push(name, t * self.unit_s, value);
+                table.push(name, t * self.unit_s, *value);
             }
         }
     }
@@ -166,6 +187,12 @@ mod tests {
         assert!(of(3).unwrap_err().contains("has no recording 3: its time starts 2 times"));
         let ramps = "t,duty,pos\n0,0,0\n1,0,0\n2,0,0\n";
         assert!(made(&format!("[time]\nrecording = 2\n{COLUMNS}"), ramps).unwrap_err().contains("starts 1 times"));
+    }
+
+    #[test]
+    fn rows_of_one_time_that_went_back_are_no_recording() {
+        let rows = "t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0,0,0\n0.04,0.2,2\n0.06,0.2,3\n0,0,0\n0,0,0\n";
+        assert_eq!(made(COLUMNS, rows).unwrap().counts[0], [0, 1, 2, 3]);
     }
 
     #[test]

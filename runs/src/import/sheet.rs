@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::read::separator;
 
 /// What begins a line that is a remark.
-const REMARKS: [&str; 4] = ["#", "%", "//", "=~=~"]; // the last is a terminal's
+pub(super) const REMARKS: [&str; 4] = ["#", "%", "//", "=~=~"]; // the last is a terminal's
 
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
@@ -29,6 +29,12 @@ impl<'a> Sheet<'a> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if let Some((names, rows)) = super::labelled::table(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
+        if let Some((names, above)) = super::titles::table(bytes) {
+            let line = |(i, line): (usize, &[u8])| if i < above { b"\n".to_vec() } else { line.to_vec() };
+            let rows: Vec<u8> = bytes.split_inclusive(|b| *b == b'\n').enumerate().flat_map(line).collect();
+            let separator = separator(rows.trim_ascii_start());
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator, tagged: false };
         }
         let mut before = Vec::new();
         let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
@@ -99,7 +105,7 @@ fn open(line: &[u8], separator: u8) -> &[u8] {
     if separator == b',' { line.strip_suffix(b";").unwrap_or(line) } else { line }
 }
 
-fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
+pub(super) fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
     let text = String::from_utf8_lossy(open(line, separator));
     if blanks {
         return text.split_whitespace().map(str::to_owned).collect();
@@ -108,7 +114,7 @@ fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
 }
 
 /// Whether a field is a number, or empty.
-fn is_number(field: &str, separator: u8) -> bool {
+pub(super) fn is_number(field: &str, separator: u8) -> bool {
     let field = if separator == b',' { Cow::Borrowed(field) } else { Cow::Owned(field.replace(',', ".")) };
     field.is_empty() || field.parse::<f64>().is_ok()
 }

@@ -78,18 +78,27 @@ pub(super) struct Guess<'a> {
 
 /// What the series of a log seem to be, and the rest.
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
-    let mut wheels = [0; Kind::Supply as usize + 1];
-    recognised(table, |series| guess(series, &mut wheels))
+    let mut wheels = Wheels::default();
+    // What numbers its wheel goes before what leaves it open.
+    let numbered = |series: &&Series| number(&words(&spaced(&series.name).to_lowercase())).is_some();
+    let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
+    let (guesses, mut rest) = recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels));
+    rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
+    (guesses, rest)
 }
 
+/// Series of each kind so far, and whether one of them numbered its wheel.
+#[derive(Default)]
+struct Wheels([(usize, bool); Kind::Supply as usize + 1]);
+
 /// The first series that is each column, and the rest.
-fn recognised(
-    table: &Table,
+fn recognised<'a>(
+    all: impl Iterator<Item = &'a Series>,
     mut guess: impl FnMut(&Series) -> Option<(Column, &'static str)>,
-) -> (Vec<Guess<'_>>, Vec<&Series>) {
+) -> (Vec<Guess<'a>>, Vec<&'a Series>) {
     let mut guesses: Vec<Guess> = Vec::new();
     let mut rest: Vec<&Series> = Vec::new();
-    for series in &table.series {
+    for series in all {
         let found = guess(series);
         match found.filter(|(column, _)| guesses.iter().all(|g| g.column != *column)) {
             Some((column, unit)) => guesses.push(Guess { series, column, unit }),
@@ -104,7 +113,7 @@ fn recognised(
 /// The pose in a file that has little else, whatever the tracker is called: the first series that are its x, y and
 /// heading, and the rest.
 pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
-    let (mut guesses, rest) = recognised(table, |series| {
+    let (mut guesses, rest) = recognised(table.series.iter(), |series| {
         let column = Column::Camera(part_of_pose(&series.name)?);
         Some((column, unit(column, series)))
     });
@@ -193,7 +202,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     [ahead(), behind()].into_iter().flatten().find(|(whose, _)| AFFIXES.contains(whose))
 }
 
-fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)> {
+fn guess(series: &Series, wheels: &mut Wheels) -> Option<(Column, &'static str)> {
     let ours = Column::from_name(&series.name);
     if !matches!(ours, Column::Other | Column::Time) {
         return Some((ours, ""));
@@ -226,19 +235,24 @@ fn guess(series: &Series, wheels: &mut [usize]) -> Option<(Column, &'static str)
             _ => axis.is_none(),
         })
         .or_else(|| wordless(&words, axis, series))?;
-    let kind = if kind == Kind::Counts && said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm") {
+    let rate = any(&["rate", "speed", "velocity", "vel"]);
+    let kind = if kind == Kind::Counts && (rate || said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm")) {
         Kind::Speed
     } else {
         kind
     };
-    // Of several that nobody numbered one is the motor's: a controller has currents of its supply and of both axes.
-    if matches!(kind, Kind::Duty | Kind::Current) && number.is_none() && wheels[kind as usize] > 0 {
+    let (so_far, numbered) = &mut wheels.0[kind as usize];
+    // Beside wheels with numbers one without is the body's. Of several that nobody numbered one is the motor's: a
+    // controller has currents of its supply and of both axes.
+    let of_a_wheel = !matches!(kind, Kind::Command | Kind::Camera | Kind::Odometry | Kind::Supply) && axis.is_none();
+    let one = matches!(kind, Kind::Duty | Kind::Current) && *so_far > 0;
+    if of_a_wheel && number.is_none() && (*numbered || one) {
         return None;
     }
     let mut wheel = || {
-        let next = &mut wheels[kind as usize];
-        let wheel = number.unwrap_or(*next);
-        *next += 1;
+        let wheel = number.unwrap_or(*so_far);
+        *so_far += 1;
+        *numbered |= number.is_some();
         wheel
     };
     let column = match (kind, axis) {

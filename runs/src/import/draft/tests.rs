@@ -91,6 +91,24 @@ fn words_run_together_and_times_without_a_name_are_understood() {
     assert!(bare.contains("column = \"column_2\" # is it?"), "{bare}");
 }
 
+/// A speed of the body is no wheel's where wheels have numbers, and the rate of an encoder is no count.
+#[test]
+fn numbers_and_rates_in_names_are_understood() {
+    let omni = drafted(
+        "t,set rotational robot velocity,1st motor set speed,2nd motor set speed,1st motor position,2nd motor position",
+        ["0,0,1,2,3,4", "1,0,1,2,4,6", "2,0,1,2,5,8"],
+    );
+    for line in
+        ["ref_1 = \"1st motor set speed\"", "ref_2 = \"2nd motor", "# \"set rotational robot velocity\"", "enc_2 = "]
+    {
+        assert!(omni.contains(line), "{line}\n{omni}");
+    }
+    let rates = drafted("t,left_encoder_rate,right_encoder_rate", ["0,0.5,1.5", "1,2.5,3.5", "2,2.5,4.5"]);
+    for line in ["speed_1 = \"right_encoder_rate\"", "speed_2 = \"left_encoder_rate\""] {
+        assert!(rates.contains(line), "{line}\n{rates}");
+    }
+}
+
 #[test]
 fn a_file_without_a_time_column_asks_for_it() {
     let map = drafted("a,b\"c", ["1,2", "2,3", "3,4"]);

@@ -1,0 +1,83 @@
+//! Tables whose names of columns stand below lines of another width, as motion capture writes them: its settings, then the
+//! bodies, each above its columns, then the columns, then their units.
+
+use super::sheet::{REMARKS, fields, is_number, with_units};
+use super::units;
+use crate::read::separator;
+
+/// Lines above the numbers at most.
+const MOST: usize = 16;
+
+/// The names of such a table, titles before them, and the lines above its numbers.
+pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, usize)> {
+    let text: Vec<&[u8]> = bytes.split(|b| *b == b'\n').take(MOST + 2).map(<[u8]>::trim_ascii).collect();
+    let separator = text.iter().map(|line| separator(line)).find(|s| text.iter().any(|line| line.contains(s)))?;
+    let lines: Vec<Vec<String>> = text.iter().map(|line| fields(line, false, separator)).collect();
+    let numbers = |line: &Vec<String>| {
+        let filled = line.iter().filter(|field| !field.is_empty()).count();
+        filled > 1 && line.iter().all(|field| is_number(field, separator))
+    };
+    let begin = |i: &usize| numbers(&lines[*i]) && numbers(&lines[i + 1]) && lines[*i].len() == lines[i + 1].len();
+    let first = (1..lines.len().saturating_sub(1)).find(begin)?;
+    let width = lines[first].len();
+    let filled = |line: &Vec<String>| line.iter().filter(|field| !field.is_empty()).count();
+    let mixed =
+        |line: &Vec<String>| line.len() != width && line.iter().any(|f| !f.is_empty() && is_number(f, separator));
+    let top = lines.iter().find(|line| filled(line) > 0)?;
+    if REMARKS.iter().any(|mark| top[0].starts_with(mark)) {
+        return None;
+    }
+    if 2 * filled(top) >= width && !mixed(top) {
+        return None; // a table as any other
+    }
+    let is_unit = |field: &String| field.is_empty() || units::in_name(&format!("x [{field}]")).is_some();
+    let is_names = |line: &Vec<String>| {
+        filled(line) > 1 && !line.iter().all(is_unit) && line.iter().all(|f| f.is_empty() || !is_number(f, separator))
+    };
+    let named = (0..first).rev().find(|i| is_names(&lines[*i]))?;
+    let mut names = lines[named].clone();
+    names.resize(width, String::new());
+    for units in &lines[named + 1..first] {
+        names = with_units(names, units);
+    }
+    // A title goes for the columns below it, up to the next.
+    for titles in lines[..named].iter().rev().filter(|line| line[0].is_empty() && filled(line) > 0) {
+        let mut title = "";
+        for (i, name) in names.iter_mut().enumerate() {
+            title = titles.get(i).filter(|own| !own.is_empty()).map_or(title, String::as_str);
+            if !title.is_empty() && !name.is_empty() {
+                *name = format!("{title}/{name}");
+            }
+        }
+    }
+    for (i, name) in names.iter_mut().enumerate().filter(|(_, name)| name.is_empty()) {
+        *name = format!("column_{}", i + 1);
+    }
+    Some((names, first))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::{Clock, Table};
+
+    fn read(text: &str, rate_hz: Option<f64>) -> Table {
+        Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock { rate_hz, ..Clock::default() }).unwrap()
+    }
+
+    #[test]
+    fn exports_of_motion_capture_have_their_names_below() {
+        let text = "Objects\r\n100\r\n,,Global Angle car:car,,,,,,\r\nFrame,Sub Frame,RX,RY,RZ,TX,TY,TZ\r\n,,rad,rad,rad,mm,mm,mm\r\n\
+                    1,0,0,0,1.5,10,20,30\r\n2,0,0,0,1.6,11,21,30\r\n3,0,,,,,,\r\n4,0,0,0,1.7,12,22,30\r\n";
+        let table = read(text, Some(100.0));
+        let x = table.find("Global Angle car:car/TX [mm]").unwrap();
+        assert_eq!((x.values.clone(), x.t.clone()), (vec![10.0, 11.0, 12.0], vec![0.0, 0.01, 0.03]));
+        let text = "Format Version,1.23,Take Name,a,Capture Frame Rate,120.0,Length Units,Meters,Rotation Type,XYZ\n\n\
+                    ,,Rigid Body,Rigid Body,Rigid Body,Rigid Body\n,,car,car,car,car\n,,Rotation,Position,Position,Position\n\
+                    Frame,Time (Seconds),Z,X,Y,Z\n0,0.0,0.5,1,2,0\n1,0.01,0.6,1.5,2,0\n";
+        let table = read(text, None);
+        assert_eq!(table.find("Rigid Body/car/Position/X").unwrap().values, [1.0, 1.5]);
+        assert_eq!(table.find("Rigid Body/car/Rotation/Z").unwrap().t, [0.0, 0.01]);
+    }
+}
