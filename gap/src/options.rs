@@ -32,6 +32,8 @@ pub struct Thresholds {
     pub drive_correlation: f64,
     /// [`thresholds::ROLLING_LOSES`].
     pub rolling_loses: f64,
+    /// [`thresholds::WARMTH`].
+    pub warmth: f64,
     /// [`thresholds::STICKS`].
     pub sticks: f64,
     /// [`thresholds::STICKS_OFTEN`].
@@ -72,6 +74,7 @@ impl Default for Thresholds {
             ties: [4.0, 0.01],
             drive_correlation: 1.5,
             rolling_loses: thresholds::ROLLING_LOSES,
+            warmth: thresholds::WARMTH,
             sticks: thresholds::STICKS,
             sticks_often: thresholds::STICKS_OFTEN,
             runaway: thresholds::RUNAWAY,

@@ -18,6 +18,10 @@ pub const GRIP: f64 = 0.43;
 /// engine); on the simulator, whose truth has both, 2.4 % of it remain on the example set once its skews are named.
 pub const ROLLING_LOSES: f64 = 0.02;
 
+/// Share of the drive's torque that a winding loses within 2 K, which no file of a motor gives: copper's resistance grows by
+/// 0.39 % a kelvin. The floor of an axis on blocks, where nothing rolls.
+pub const WARMTH: f64 = 0.008;
+
 /// Speed of a drive in shares of its no-load speed, where no log tells: that of the simulator's manoeuvres.
 pub const USUAL_SPEED: f64 = 0.06;
 

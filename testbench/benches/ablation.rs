@@ -48,6 +48,8 @@ const VARIANTS: &[(&str, &str, Change)] = &[
     ("as shipped", "", |_| ()),
     ("rolling_loses", "off", |t| t.rolling_loses = 0.0),
     ("rolling_loses", "doubled", |t| t.rolling_loses *= 2.0),
+    ("warmth", "off", |t| t.warmth = 0.0),
+    ("warmth", "doubled", |t| t.warmth *= 2.0),
     ("least_together", "off", |t| t.least_together = 0.0),
     ("least_together", "halved", |t| t.least_together *= 0.5),
     ("far_left", "off", |t| t.far_left = f64::INFINITY),

@@ -113,11 +113,12 @@ pub(super) fn agreement(link: &MotionLink) -> [f64; 2] {
     [MATTERS[0] * rolled, MATTERS[1] * rolled / Sizes::of(robot).rim_m]
 }
 
-/// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and on a floor what rolling loses.
+/// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and what rolling loses or
+/// the warmth of a winding takes.
 pub(super) fn drive_floor(link: &DriveLink, scatter: &[f64], thresholds: &Thresholds) -> Vec<f64> {
     let lost = match link.pieces.robot().support {
         Support::Floor => thresholds.rolling_loses * link.sizes.drive_nm,
-        Support::Blocks => 0.0,
+        Support::Blocks => thresholds.warmth * link.sizes.drive_nm,
     };
     scatter.iter().map(|s| s.hypot(lost)).collect()
 }

@@ -62,17 +62,22 @@ impl Effect for EncoderEccentricity {
         let order = values.find(ORDER).unwrap_or(1.0);
         let ahead: Vec<[f64; 2]> =
             (0..model.wheels.len()).map(|i| ["sin", "cos"].map(|stem| values.wheel(stem, i, "rad"))).collect();
-        let read = move |_: &DriveModel, s: &Segment| {
-            let more = |(i, [a, b]): (usize, &[f64; 2])| {
-                let of = |angle: &f64| {
-                    let (sin, cos) = (order * (s.zero[i] + angle)).sin_cos();
-                    a * sin + b * cos
-                };
-                s.angle[i].iter().map(of).collect()
-            };
-            ahead.iter().enumerate().map(more).collect()
+        let more = move |s: &Segment, i: usize, k: usize| {
+            let (sin, cos) = (order * (s.zero[i] + s.angle[i][k])).sin_cos();
+            ahead[i][0] * sin + ahead[i][1] * cos
+        };
+        let read = more.clone();
+        let read = move |model: &DriveModel, s: &Segment| {
+            (0..model.wheels.len()).map(|i| (0..s.t.len()).map(|k| read(s, i, k)).collect()).collect()
         };
         model.offsets.push((Ahead::Reading, Box::new(read)));
+        // The motors brake by how fast the shafts turn, and not by what is read.
+        model.loads.push(Box::new(move |now, loads| {
+            let (s, k) = (now.segment, now.tick);
+            for (i, braking) in now.braking.iter().enumerate() {
+                loads.wheel[i] += braking * (more(s, i, k + 1) - more(s, i, k)) / (s.t[k + 1] - s.t[k]);
+            }
+        }));
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

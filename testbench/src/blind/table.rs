@@ -162,7 +162,10 @@ impl Report {
         };
         let axes = |s: &Scored| matches!(s.group, Group::AxisFree | Group::Axis | Group::AxisPair);
         let (name, title) = if self.scored.iter().all(axes) {
-            ("blind-axes", "Effects hidden in motors and drive trains of any size, and what the gap workflow made of them")
+            (
+                "blind-axes",
+                "Effects hidden in motors and drive trains of any size, and what the gap workflow made of them",
+            )
         } else {
             ("blind", "Effects hidden by another simulator, and what the gap workflow made of them")
         };

@@ -1,0 +1,24 @@
+//! Single motors and drive trains of any size, simulated by what is not ours: nothing is named where nothing hides, and what
+//! hides at its largest size is named, tied with what does the same, or found to be below what the log shows.
+
+use testbench::blind::{self, Grade, Plan, Series};
+
+#[test]
+fn motors_of_any_size_are_read_right() {
+    let plan = Plan { axes_free: 60, axes: 1, sizes: vec![5], axis_pairs: 6, pair_sizes: vec![4], ..Plan::new(20) };
+    let report = blind::run(&plan, &Series::default(), |_| ()).unwrap();
+    assert_eq!(report.scored.len(), report.planned);
+    let shows = |s: &blind::Scored| s.hidden.is_empty() || s.limits.is_some_and(|l| l >= 1.5);
+    let faults: Vec<String> = report
+        .scored
+        .iter()
+        .filter(|s| matches!(s.grade, Grade::Wrong | Grade::Failed) || shows(s) && !s.grade.is_good())
+        .map(|s| format!("{} {:?}: {} {:?}", s.seed, s.hidden, s.grade.name(), s.answer))
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let named = |name: &str| report.scored.iter().any(|s| s.hidden.iter().any(|h| h.name == name) && s.grade.is_good());
+    let missed: Vec<&str> = truth::axis::names().filter(|n| *n != "mean-speeds" && !named(n)).collect();
+    assert!(missed.len() <= 2, "not found at the largest size: {missed:?}");
+    let [judged, hold] = report.intervals();
+    assert!(judged > 10 && hold + 2 >= judged, "{hold} of {judged} intervals hold");
+}
