@@ -17,11 +17,13 @@ const UNITS: [&str; 39] = [
 const NOT_YET: [&str; 2] = ["log-format.md", "smartbot.md"];
 
 /// Figures that are set, not measured: page, figure, the file that sets it, and how it stands there.
-const SET: [(&str, &str, &str, &str); 50] = [
+const SET: [(&str, &str, &str, &str); 52] = [
     ("bitstream.md", "100 MHz", "bitstream/src/flow/timing/delays.rs", "the 100 MHz domains of 19 files"),
     ("bitstream.md", "33.3 MHz", "fixed-kin/src/registers/map.rs", "NOMINAL_CLOCK_HZ: u32 = 33_333_333"),
     ("bitstream.md", "500,000 clocks", "testbench/tests/bitstream_circuit.rs", "const CLOCKS: usize = 500_000"),
     ("gap.md", "0.2 ms", "testbench/engine/mechanics.py", "STEP_S = 0.0002"),
+    ("gap.md", "20 ms", "testbench/truth/src/axis/draw.rs", "[0.001, 0.002, 0.005, 0.01, 0.02]"),
+    ("gap.md", "0.8 %", "links/src/thresholds.rs", "WARMTH: f64 = 0.008"),
     ("gap.md", "2 %", "links/src/thresholds.rs", "ROLLING_LOSES: f64 = 0.02"),
     ("gap.md", "30 %", "links/src/thresholds.rs", "UNDECIDED: f64 = 0.3"),
     ("gap.md", "95 %", "gap/src/evidence.rs", "95 % confidence interval"),

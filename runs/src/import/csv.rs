@@ -4,8 +4,9 @@
 
 use std::path::Path;
 
+use super::line::with_units;
 use super::rows::{self, Rows};
-use super::sheet::{Sheet, numbered, with_units};
+use super::sheet::{Sheet, numbered};
 use super::{Clock, Table, heading};
 use crate::error::InputError;
 

@@ -13,6 +13,7 @@ mod frame;
 mod join;
 mod json;
 mod labelled;
+mod line;
 mod many;
 mod map;
 mod reading;

@@ -2,10 +2,8 @@
 
 use std::borrow::Cow;
 
+use super::line::{REMARKS, fields, is_number, with_units};
 use crate::read::separator;
-
-/// What begins a line that is a remark.
-pub(super) const REMARKS: [&str; 4] = ["#", "%", "//", "=~=~"]; // the last is a terminal's
 
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
@@ -55,7 +53,7 @@ impl<'a> Sheet<'a> {
             separator = b';'; // beside which a decimal comma is one
         }
         let fields = fields(first, blanks, separator);
-        let mut said = before.iter().rev().map(|line| self::fields(line, blanks, separator));
+        let mut said = before.iter().rev().map(|line| super::line::fields(line, blanks, separator));
         let mut said = || said.next().filter(|said| said.len() == fields.len() && said.len() > 1);
         let names = if fields.iter().any(|field| !is_number(field, separator)) {
             None
@@ -69,7 +67,7 @@ impl<'a> Sheet<'a> {
         let rows = if blanks || !before.is_empty() { Cow::Owned(plain(bytes, blanks)) } else { Cow::Borrowed(bytes) };
         // Of one such line its word is the name of the column of time, and numbers name the others.
         let tagged = second.is_some_and(|second| {
-            [fields, self::fields(second, blanks, separator)].iter().all(|fields| {
+            [fields, super::line::fields(second, blanks, separator)].iter().all(|fields| {
                 let [word, numbers @ ..] = &fields[..] else { return false };
                 !is_number(word, separator) && numbers.len() > 1 && numbers.iter().all(|n| is_number(n, separator))
             })
@@ -86,37 +84,6 @@ fn remark(line: &[u8]) -> Option<&[u8]> {
 /// Whether a field is a unit alone: `[V]`, `(turns/s)`.
 fn is_unit(field: &str) -> bool {
     field.starts_with('[') && field.ends_with(']') || field.starts_with('(') && field.ends_with(')')
-}
-
-/// Names with the units of a line below them, bare or in brackets, where they have none; what is no unit adds nothing.
-pub(super) fn with_units(names: Vec<String>, units: &[String]) -> Vec<String> {
-    let none = String::new();
-    let one = |(name, unit): (String, &String)| {
-        let inside = unit.trim_matches(['[', ']', '(', ')']).trim();
-        let with = format!("{name} [{inside}]");
-        let known = super::units::in_name(&with).is_some() && super::units::in_name(&name).is_none();
-        if known && !name.is_empty() { with } else { name }
-    };
-    names.into_iter().zip(units.iter().chain(std::iter::repeat(&none))).map(one).collect()
-}
-
-/// A line without what some writers close it with.
-fn open(line: &[u8], separator: u8) -> &[u8] {
-    if separator == b',' { line.strip_suffix(b";").unwrap_or(line) } else { line }
-}
-
-pub(super) fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
-    let text = String::from_utf8_lossy(open(line, separator));
-    if blanks {
-        return text.split_whitespace().map(str::to_owned).collect();
-    }
-    text.split(char::from(separator)).map(|field| field.trim().to_owned()).collect()
-}
-
-/// Whether a field is a number, or empty.
-pub(super) fn is_number(field: &str, separator: u8) -> bool {
-    let field = if separator == b',' { Cow::Borrowed(field) } else { Cow::Owned(field.replace(',', ".")) };
-    field.is_empty() || field.parse::<f64>().is_ok()
 }
 
 /// The same lines with remarks emptied and, if asked, semicolons in place of blanks.

@@ -1,7 +1,7 @@
 //! Tables whose names of columns stand below lines of another width, as motion capture writes them: its settings, then the
 //! bodies, each above its columns, then the columns, then their units.
 
-use super::sheet::{REMARKS, fields, is_number, with_units};
+use super::line::{REMARKS, fields, is_number, with_units};
 use super::units;
 use crate::read::separator;
 
