@@ -144,7 +144,6 @@ module rac4i65_core (
     // Constants
     localparam zero = 32'h0;
     localparam live_status = 8'hf;
-    localparam one_16 = 16'h1;
     localparam sign_30 = 32'hc0000000;
     localparam mask_30 = 32'h3fffffff;
     localparam at_arm = 6'b1110;
@@ -219,6 +218,7 @@ module rac4i65_core (
     wire timebase_microsecond;
     wire timebase_window;
 
+    wire decoder_at_registers;
     wire decoder_in_registers;
     wire decoder_in_memory;
     wire decoder_in_imu;
@@ -226,6 +226,8 @@ module rac4i65_core (
     wire [7:0] decoder_staging_address;
     wire decoder_stages_set_point;
     wire decoder_stages_configuration;
+    wire [5:0] decoder_word;
+    wire [13:0] decoder_staging_word;
     wire decoder_snapshot_first;
     wire decoder_snapshot_last;
 
@@ -241,13 +243,8 @@ module rac4i65_core (
     wire [15:0] commit_accepted;
     wire [15:0] commit_rejected;
 
-    reg snapshot_read_first;
-    reg snapshot_read_last;
     wire [1:0] snapshot_write_bank;
     wire [1:0] snapshot_read_bank;
-
-    reg safety_encoder_fault;
-    reg safety_stall_fault;
 
     wire safety_armed;
     wire safety_stops;
@@ -288,7 +285,6 @@ module rac4i65_core (
     reg sequencer_bus_write;
 
     wire sequencer_bus_blocked;
-    wire sequencer_bus_write_taken;
 
     reg trigonometry_load;
 
@@ -298,8 +294,6 @@ module rac4i65_core (
 
     wire interrupt_int_n;
     wire [1:0] interrupt_status_2;
-
-    reg radio_taken;
 
     reg radio_select;
     wire radio_offer;
@@ -479,8 +473,14 @@ module rac4i65_core (
     reg reverse_d;
     wire reverse_q;
 
-    reg read_page_d;
-    wire read_page_q;
+    reg stages_d;
+    wire stages_q;
+
+    reg encoder_fault_d;
+    wire encoder_fault_q;
+
+    reg stall_fault_d;
+    wire stall_fault_q;
 
     reg read_memory_d;
     wire read_memory_q;
@@ -490,9 +490,6 @@ module rac4i65_core (
 
     reg finished_d;
     wire finished_q;
-
-    reg [31:0] read_q_d;
-    wire [31:0] read_q_q;
 
     reg stop_sync_d;
     wire stop_sync_q;
@@ -521,6 +518,9 @@ module rac4i65_core (
     reg fourth_starts_d;
     wire fourth_starts_q;
 
+    reg [12:0] three_quarters_d;
+    wire [12:0] three_quarters_q;
+
     reg [15:0] line_d;
     wire [15:0] line_q;
 
@@ -534,8 +534,10 @@ module rac4i65_core (
     reg [31:0] write_data;
     reg host_writes;
     reg blocked;
-    reg staging;
+    reg radio_writes;
     reg [31:0] staged;
+    reg [31:0] memory_word;
+    reg [31:0] imu_word;
     reg [7:0] status;
     reg [7:0] kicker_status;
     reg [3:0] errors;
@@ -553,7 +555,6 @@ module rac4i65_core (
     reg [3:0] masked_stalls;
     reg [12:0] quarter;
     reg [12:0] half;
-    reg [12:0] three_quarters;
     reg shut;
     reg holds;
     reg [12:0] compare;
@@ -586,7 +587,7 @@ module rac4i65_core (
         .data(write_data),
         .written(registers_written),
         .read_data(registers_read_data),
-        .was_in_page(read_page_q),
+        .was_in_page(decoder_in_registers),
         .kept_data(registers_kept_data),
         .armed(safety_armed),
         .board(board),
@@ -650,10 +651,13 @@ module rac4i65_core (
         .window(timebase_window)
     );
     rac4i65_core_decoder decoder(
+        .clock(lclk),
         .address(address),
+        .read(bus_read),
         .configuration_bank(commit_configuration_bank),
         .set_point_bank(commit_set_point_bank),
         .snapshot_bank(snapshot_read_bank),
+        .at_registers(decoder_at_registers),
         .in_registers(decoder_in_registers),
         .in_memory(decoder_in_memory),
         .in_imu(decoder_in_imu),
@@ -661,6 +665,8 @@ module rac4i65_core (
         .staging_address(decoder_staging_address),
         .stages_set_point(decoder_stages_set_point),
         .stages_configuration(decoder_stages_configuration),
+        .word(decoder_word),
+        .staging_word(decoder_staging_word),
         .snapshot_first(decoder_snapshot_first),
         .snapshot_last(decoder_snapshot_last)
     );
@@ -670,8 +676,8 @@ module rac4i65_core (
         .stage_configuration(commit_stage_configuration),
         .commit_set_points(registers_commit_set_points),
         .commit_configuration(registers_commit_configuration),
-        .address(address),
-        .data(write_data),
+        .address(decoder_staging_word),
+        .data(registers_written),
         .checksum(registers_written),
         .tick(tick),
         .set_point_bank(commit_set_point_bank),
@@ -687,8 +693,8 @@ module rac4i65_core (
         .clock(lclk),
         .tick(tick),
         .done(snapshot_done),
-        .read_first(snapshot_read_first),
-        .read_last(snapshot_read_last),
+        .read_first(decoder_snapshot_first),
+        .read_last(decoder_snapshot_last),
         .write_bank(snapshot_write_bank),
         .read_bank(snapshot_read_bank)
     );
@@ -699,8 +705,8 @@ module rac4i65_core (
         .arm_data(registers_written),
         .pet(commit_pet),
         .watchdog_timeout(registers_watchdog_timeout),
-        .encoder_fault(safety_encoder_fault),
-        .stall_fault(safety_stall_fault),
+        .encoder_fault(encoder_fault_q),
+        .stall_fault(stall_fault_q),
         .commit_fault(commit_fault_2),
         .external_fault(dead_live_q),
         .clear_faults(registers_clear_faults),
@@ -757,8 +763,7 @@ module rac4i65_core (
         .bus_write_address(decoder_staging_address),
         .bus_write(sequencer_bus_write),
         .bus_write_data(staged),
-        .bus_blocked(sequencer_bus_blocked),
-        .bus_write_taken(sequencer_bus_write_taken)
+        .bus_blocked(sequencer_bus_blocked)
     );
     rac4i65_core_trigonometry trigonometry(
         .clock(lclk),
@@ -783,7 +788,7 @@ module rac4i65_core (
         .host_select(host_select),
         .robot(robot_number),
         .armed(safety_armed),
-        .taken(radio_taken),
+        .taken(radio_writes),
         .select_write(registers_select_radio),
         .select(radio_select),
         .offer(radio_offer),
@@ -1028,11 +1033,12 @@ module rac4i65_core (
     rac4i65_core_dff_8 faults_at_tick (.d(faults_at_tick_d), .q(faults_at_tick_q), .clock(lclk));
     rac4i65_core_dff_24_2 now (.d(now_d), .q(now_q), .clock(lclk));
     rac4i65_core_dff_1 reverse (.d(reverse_d), .q(reverse_q), .clock(lclk));
-    rac4i65_core_dff_1 read_page (.d(read_page_d), .q(read_page_q), .clock(lclk));
+    rac4i65_core_dff_1 stages (.d(stages_d), .q(stages_q), .clock(lclk));
+    rac4i65_core_dff_1 encoder_fault (.d(encoder_fault_d), .q(encoder_fault_q), .clock(lclk));
+    rac4i65_core_dff_1 stall_fault (.d(stall_fault_d), .q(stall_fault_q), .clock(lclk));
     rac4i65_core_dff_1 read_memory (.d(read_memory_d), .q(read_memory_q), .clock(lclk));
     rac4i65_core_dff_1 read_imu (.d(read_imu_d), .q(read_imu_q), .clock(lclk));
     rac4i65_core_dff_1 finished (.d(finished_d), .q(finished_q), .clock(lclk));
-    rac4i65_core_dff_32 read_q (.d(read_q_d), .q(read_q_q), .clock(lclk));
     rac4i65_core_dff_1 stop_sync (.d(stop_sync_d), .q(stop_sync_q), .clock(lclk));
     rac4i65_core_dff_1 stop_live (.d(stop_live_d), .q(stop_live_q), .clock(lclk));
     rac4i65_core_dff_1 ball_sync (.d(ball_sync_d), .q(ball_sync_q), .clock(lclk));
@@ -1042,6 +1048,7 @@ module rac4i65_core (
     rac4i65_core_dff_1 second_starts (.d(second_starts_d), .q(second_starts_q), .clock(lclk));
     rac4i65_core_dff_1 third_starts (.d(third_starts_d), .q(third_starts_q), .clock(lclk));
     rac4i65_core_dff_1 fourth_starts (.d(fourth_starts_d), .q(fourth_starts_q), .clock(lclk));
+    rac4i65_core_dff_13 three_quarters (.d(three_quarters_d), .q(three_quarters_q), .clock(lclk));
     rac4i65_core_dff_16 line (.d(line_d), .q(line_q), .clock(lclk));
 
     always @(*) begin
@@ -1060,10 +1067,7 @@ module rac4i65_core (
 
     always @(*) begin
         line_d = line_q;
-        line_d = count;
-        if (direction) begin
-            line_d = count - one_16;
-        end
+        line_d = count - ((direction) & 16'hffff);
     end
 
     always @(*) begin
@@ -1074,8 +1078,18 @@ module rac4i65_core (
     end
 
     always @(*) begin
-        read_page_d = read_page_q;
-        read_page_d = decoder_in_registers;
+        stages_d = stages_q;
+        stages_d = radio_writes | (bus_write_2 & ~radio_selected);
+    end
+
+    always @(*) begin
+        encoder_fault_d = encoder_fault_q;
+        encoder_fault_d = masked_errors != none;
+    end
+
+    always @(*) begin
+        stall_fault_d = stall_fault_q;
+        stall_fault_d = masked_stalls != none;
     end
 
     always @(*) begin
@@ -1091,20 +1105,6 @@ module rac4i65_core (
     always @(*) begin
         finished_d = finished_q;
         finished_d = (sequencer_done | finished_q) & imu_reading;
-    end
-
-    always @(*) begin
-        read_q_d = read_q_q;
-        read_q_d = zero;
-        if (read_page_q) begin
-            read_q_d = registers_read_data;
-        end
-        if (read_memory_q) begin
-            read_q_d = sequencer_bus_read_data;
-        end
-        if (read_imu_q) begin
-            read_q_d = ((imu_read_data) & 32'hffffffff);
-        end
     end
 
     always @(*) begin
@@ -1144,7 +1144,12 @@ module rac4i65_core (
 
     always @(*) begin
         fourth_starts_d = fourth_starts_q;
-        fourth_starts_d = drives_0_position == three_quarters;
+        fourth_starts_d = drives_0_position == three_quarters_q;
+    end
+
+    always @(*) begin
+        three_quarters_d = three_quarters_q;
+        three_quarters_d = half + quarter;
     end
 
     always @(*) begin
@@ -1173,30 +1178,41 @@ module rac4i65_core (
 
     always @(*) index = address[(32'h0)+:(6)];
     always @(*) host_writes = bus_write_2 & (~radio_selected | (index == at_arm) | (index == at_radio));
-    always @(*) snapshot_read_first = decoder_snapshot_first & bus_read;
-    always @(*) snapshot_read_last = decoder_snapshot_last & bus_read;
-    always @(*) registers_write = decoder_in_registers & (host_writes | radio_turn);
+    always @(*) blocked = sequencer_bus_blocked;
+    always @(*) radio_writes = radio_turn & ~blocked;
+    always @(*) registers_write = decoder_at_registers & (host_writes | radio_writes);
 
     always @(*) begin
-        staged = write_data & mask_30;
-        if (write_data[32'h1d]) begin
-            staged = write_data | sign_30;
+        staged = registers_written & mask_30;
+        if (registers_written[32'h1d]) begin
+            staged = registers_written | sign_30;
         end
     end
-
-    always @(*) staging = decoder_stages_set_point | decoder_stages_configuration;
-    always @(*) blocked = staging & sequencer_bus_blocked;
-    always @(*) radio_taken = radio_turn & ~blocked;
 
     always @(*) begin
         radio_select = registers_written[32'h0];
         imu_command = registers_written[(32'h0)+:(16)];
     end
 
-    always @(*) sequencer_bus_write = staging & (radio_turn | (bus_write_2 & ~radio_selected));
-    always @(*) commit_stage_set_point = decoder_stages_set_point & sequencer_bus_write_taken;
-    always @(*) commit_stage_configuration = decoder_stages_configuration & sequencer_bus_write_taken;
-    always @(*) bus_read_data_2 = read_q_q | ((registers_kept_data) & 32'hffffffff);
+    always @(*) sequencer_bus_write = stages_q & (decoder_stages_set_point | decoder_stages_configuration);
+    always @(*) commit_stage_set_point = stages_q & decoder_stages_set_point;
+    always @(*) commit_stage_configuration = stages_q & decoder_stages_configuration;
+
+    always @(*) begin
+        memory_word = zero;
+        if (read_memory_q) begin
+            memory_word = sequencer_bus_read_data;
+        end
+    end
+
+    always @(*) begin
+        imu_word = zero;
+        if (read_imu_q) begin
+            imu_word = ((imu_read_data) & 32'hffffffff);
+        end
+    end
+
+    always @(*) bus_read_data_2 = registers_read_data | ((registers_kept_data) & 32'hffffffff) | memory_word | imu_word;
 
     always @(*) begin
         imu_enable = registers_imu_control[32'h0];
@@ -1205,7 +1221,7 @@ module rac4i65_core (
         imu_first = registers_imu_control[(32'h4)+:(7)];
     end
 
-    always @(*) imu_read_word = index[(32'h0)+:(3)];
+    always @(*) imu_read_word = decoder_word[(32'h0)+:(3)];
     always @(*) imu_cs_n = imu_cs_n_2;
     always @(*) imu_sclk = imu_sclk_2;
     always @(*) imu_mosi = imu_mosi_2;
@@ -1455,7 +1471,6 @@ module rac4i65_core (
         half = registers_pwm_period >> 32'h1;
     end
 
-    always @(*) three_quarters = half + quarter;
     always @(*) pwm_pins = ((drives_0_pwm) & 4'hf) | (((drives_1_pwm) & 4'hf) << 32'h1) | (((drives_2_pwm) & 4'hf) << 32'h2) | (((drives_3_pwm) & 4'hf) << 32'h3);
     always @(*) dir_pins = ((drives_0_dir) & 4'hf) | (((drives_1_dir) & 4'hf) << 32'h1) | (((drives_2_dir) & 4'hf) << 32'h2) | (((drives_3_dir) & 4'hf) << 32'h3);
 
@@ -1481,9 +1496,6 @@ module rac4i65_core (
             enable_n = all;
         end
     end
-
-    always @(*) safety_encoder_fault = masked_errors != none;
-    always @(*) safety_stall_fault = masked_stalls != none;
 
     always @(*) begin
         kicker_charge_request = registers_kicker_control[32'h0];
@@ -1749,7 +1761,7 @@ module rac4i65_core_registers (
 );
 
     // Constants
-    localparam other_page = 7'b1000000;
+    localparam no_bits = 24'h0;
     localparam bits_10 = 24'h3ff;
     localparam bits_11 = 24'h7ff;
     localparam bits_13 = 24'h1fff;
@@ -1757,6 +1769,7 @@ module rac4i65_core_registers (
     localparam bits_16 = 24'hffff;
     localparam bits_20 = 24'hfffff;
     localparam bits_24 = 24'hffffff;
+    localparam kicker_pulse_place = 6'b11010;
     localparam cookie = 32'h52414334;
     localparam version = 32'h20003;
     localparam blocks = 32'h1ff444;
@@ -1766,7 +1779,7 @@ module rac4i65_core_registers (
     localparam no_axes = 4'h0;
     localparam no_faults = 8'h0;
     localparam no_causes = 2'b0;
-    localparam content_hash = 32'h67e12795;
+    localparam content_hash = 32'h400af210;
 
     // Pins of the parts
     reg [23:0] tick_period_q_d;
@@ -1842,11 +1855,11 @@ module rac4i65_core_registers (
 
     reg [23:0] kept_write_data;
     reg kept_write_enable;
+    reg [23:0] mask_d;
+    wire [23:0] mask_q;
 
     // Intermediate values
     reg unlocked;
-    reg [6:0] at;
-    reg [23:0] mask;
 
     // Parts
     rac4i65_core_dff_24_from_8235 tick_period_q (.d(tick_period_q_d), .q(tick_period_q_q), .clock(clock));
@@ -1890,12 +1903,13 @@ module rac4i65_core_registers (
     rac4i65_core_dff_32 word (.d(word_d), .q(word_q), .clock(clock));
     rac4i65_core_registers_kept kept(
         .clock(clock),
-        .read_address(at),
+        .read_address(place_q),
         .read_data(kept_read_data),
-        .write_address(at),
+        .write_address(place_q),
         .write_data(kept_write_data),
         .write_enable(kept_write_enable)
     );
+    rac4i65_core_dff_24_2 mask (.d(mask_d), .q(mask_q), .clock(clock));
 
     always @(*) begin
         tick_period_q_d = tick_period_q_q;
@@ -1930,14 +1944,12 @@ module rac4i65_core_registers (
         clear_stall = no_axes;
         index_arm = no_axes;
         clear_interrupt = no_causes;
-        kept_write_enable = 1'b0;
         if (writing_q) begin
             case (place_q)
                 8:
                 begin
                     if (unlocked) begin
                         tick_period_q_d = word_q[(32'h0)+:(24)];
-                        kept_write_enable = 1'b1;
                         tick_period_written = 1'b1;
                     end
                 end
@@ -1957,21 +1969,18 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         pwm_period_q_d = word_q[(32'h0)+:(13)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 12:
                 begin
                     if (unlocked) begin
                         pwm_blanking_q_d = word_q[(32'h0)+:(10)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 13:
                 begin
                     if (unlocked) begin
                         watchdog_timeout_q_d = word_q[(32'h0)+:(24)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 14:
@@ -2012,20 +2021,17 @@ module rac4i65_core_registers (
                 26:
                 begin
                     kicker_pulse_q_d = word_q[(32'h0)+:(14)];
-                    kept_write_enable = 1'b1;
                 end
                 27:
                 begin
                     if (unlocked) begin
                         kicker_lockout_q_d = word_q[(32'h0)+:(20)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 28:
                 begin
                     if (unlocked) begin
                         kicker_charge_timeout_q_d = word_q[(32'h0)+:(24)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 30:
@@ -2042,21 +2048,18 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         set_point_timeout_q_d = word_q[(32'h0)+:(16)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 33:
                 begin
                     if (unlocked) begin
                         stall_window_q_d = word_q[(32'h0)+:(16)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 34:
                 begin
                     if (unlocked) begin
                         stall_compare_q_d = word_q[(32'h0)+:(13)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 35:
@@ -2084,7 +2087,6 @@ module rac4i65_core_registers (
                 begin
                     if (unlocked) begin
                         imu_control_q_d = word_q[(32'h0)+:(11)];
-                        kept_write_enable = 1'b1;
                     end
                 end
                 42:
@@ -2101,120 +2103,180 @@ module rac4i65_core_registers (
 
     always @(*) begin
         read_q_d = read_q_q;
-        case (address)
-            0:
-            begin
-                read_q_d = cookie;
-            end
-            1:
-            begin
-                read_q_d = version;
-            end
-            2:
-            begin
-                read_q_d = board;
-            end
-            3:
-            begin
-                read_q_d = clock_hz;
-            end
-            4:
-            begin
-                read_q_d = content_hash;
-            end
-            5:
-            begin
-                read_q_d = axes;
-            end
-            6:
-            begin
-                read_q_d = clock_count;
-            end
-            7:
-            begin
-                read_q_d = blocks;
-            end
-            9:
-            begin
-                read_q_d = ((mode_q_q) & 32'hffffffff);
-            end
-            10:
-            begin
-                read_q_d = ((encoder_filter_q_q) & 32'hffffffff);
-            end
-            15:
-            begin
-                read_q_d = ((faults) & 32'hffffffff);
-            end
-            16:
-            begin
-                read_q_d = ((first_fault) & 32'hffffffff);
-            end
-            17:
-            begin
-                read_q_d = ((status) & 32'hffffffff);
-            end
-            20:
-            begin
-                read_q_d = commits;
-            end
-            21:
-            begin
-                read_q_d = ((encoder_error) & 32'hffffffff);
-            end
-            22:
-            begin
-                read_q_d = ((encoder_lines) & 32'hffffffff);
-            end
-            23:
-            begin
-                read_q_d = ((encoder_fault_mask_q_q) & 32'hffffffff);
-            end
-            24:
-            begin
-                read_q_d = ((kicker_control_q_q) & 32'hffffffff);
-            end
-            29:
-            begin
-                read_q_d = ((kicker_status) & 32'hffffffff);
-            end
-            30:
-            begin
-                read_q_d = ((clocks_per_microsecond_q_q) & 32'hffffffff);
-            end
-            31:
-            begin
-                read_q_d = ((leds_q_q) & 32'hffffffff);
-            end
-            35:
-            begin
-                read_q_d = ((stall) & 32'hffffffff);
-            end
-            37:
-            begin
-                read_q_d = ((index_status) & 32'hffffffff);
-            end
-            38:
-            begin
-                read_q_d = ((interrupt_enable_q_q) & 32'hffffffff);
-            end
-            39:
-            begin
-                read_q_d = ((interrupt_status) & 32'hffffffff);
-            end
-            40:
-            begin
-                read_q_d = ((radio) & 32'hffffffff);
-            end
-            43:
-            begin
-                read_q_d = ((imu_status) & 32'hffffffff);
-            end
-            default:
-            begin
-                read_q_d = zero;
-            end
-        endcase
+        read_q_d = zero;
+        if (was_in_page) begin
+            case (place_q)
+                0:
+                begin
+                    read_q_d = cookie;
+                end
+                1:
+                begin
+                    read_q_d = version;
+                end
+                2:
+                begin
+                    read_q_d = board;
+                end
+                3:
+                begin
+                    read_q_d = clock_hz;
+                end
+                4:
+                begin
+                    read_q_d = content_hash;
+                end
+                5:
+                begin
+                    read_q_d = axes;
+                end
+                6:
+                begin
+                    read_q_d = clock_count;
+                end
+                7:
+                begin
+                    read_q_d = blocks;
+                end
+                9:
+                begin
+                    read_q_d = ((mode_q_q) & 32'hffffffff);
+                end
+                10:
+                begin
+                    read_q_d = ((encoder_filter_q_q) & 32'hffffffff);
+                end
+                15:
+                begin
+                    read_q_d = ((faults) & 32'hffffffff);
+                end
+                16:
+                begin
+                    read_q_d = ((first_fault) & 32'hffffffff);
+                end
+                17:
+                begin
+                    read_q_d = ((status) & 32'hffffffff);
+                end
+                20:
+                begin
+                    read_q_d = commits;
+                end
+                21:
+                begin
+                    read_q_d = ((encoder_error) & 32'hffffffff);
+                end
+                22:
+                begin
+                    read_q_d = ((encoder_lines) & 32'hffffffff);
+                end
+                23:
+                begin
+                    read_q_d = ((encoder_fault_mask_q_q) & 32'hffffffff);
+                end
+                24:
+                begin
+                    read_q_d = ((kicker_control_q_q) & 32'hffffffff);
+                end
+                29:
+                begin
+                    read_q_d = ((kicker_status) & 32'hffffffff);
+                end
+                30:
+                begin
+                    read_q_d = ((clocks_per_microsecond_q_q) & 32'hffffffff);
+                end
+                31:
+                begin
+                    read_q_d = ((leds_q_q) & 32'hffffffff);
+                end
+                35:
+                begin
+                    read_q_d = ((stall) & 32'hffffffff);
+                end
+                37:
+                begin
+                    read_q_d = ((index_status) & 32'hffffffff);
+                end
+                38:
+                begin
+                    read_q_d = ((interrupt_enable_q_q) & 32'hffffffff);
+                end
+                39:
+                begin
+                    read_q_d = ((interrupt_status) & 32'hffffffff);
+                end
+                40:
+                begin
+                    read_q_d = ((radio) & 32'hffffffff);
+                end
+                43:
+                begin
+                    read_q_d = ((imu_status) & 32'hffffffff);
+                end
+                default:
+                begin
+                    read_q_d = zero;
+                end
+            endcase
+        end
+    end
+
+    always @(*) begin
+        mask_d = mask_q;
+        mask_d = no_bits;
+        if (was_in_page) begin
+            case (place_q)
+                8:
+                begin
+                    mask_d = bits_24;
+                end
+                11:
+                begin
+                    mask_d = bits_13;
+                end
+                12:
+                begin
+                    mask_d = bits_10;
+                end
+                13:
+                begin
+                    mask_d = bits_24;
+                end
+                26:
+                begin
+                    mask_d = bits_14;
+                end
+                27:
+                begin
+                    mask_d = bits_20;
+                end
+                28:
+                begin
+                    mask_d = bits_24;
+                end
+                32:
+                begin
+                    mask_d = bits_16;
+                end
+                33:
+                begin
+                    mask_d = bits_16;
+                end
+                34:
+                begin
+                    mask_d = bits_13;
+                end
+                41:
+                begin
+                    mask_d = bits_11;
+                end
+                default:
+                begin
+                    mask_d = no_bits;
+                end
+            endcase
+        end
     end
 
     always @(*) begin
@@ -2233,59 +2295,14 @@ module rac4i65_core_registers (
     end
 
     always @(*) unlocked = ~armed;
-    always @(*) written = word_q;
 
     always @(*) begin
-        at = ((place_q) & 7'h7f);
-        if (~was_in_page) begin
-            at = ((place_q) & 7'h7f) | other_page;
-        end
+        written = word_q;
+        kept_write_data = word_q[(32'h0)+:(24)];
     end
 
-    always @(*) kept_data = kept_read_data;
-
-    always @(*) begin
-        case (place_q)
-            11:
-            begin
-                mask = bits_13;
-            end
-            12:
-            begin
-                mask = bits_10;
-            end
-            26:
-            begin
-                mask = bits_14;
-            end
-            27:
-            begin
-                mask = bits_20;
-            end
-            32:
-            begin
-                mask = bits_16;
-            end
-            33:
-            begin
-                mask = bits_16;
-            end
-            34:
-            begin
-                mask = bits_13;
-            end
-            41:
-            begin
-                mask = bits_11;
-            end
-            default:
-            begin
-                mask = bits_24;
-            end
-        endcase
-    end
-
-    always @(*) kept_write_data = word_q[(32'h0)+:(24)] & mask;
+    always @(*) kept_write_enable = writing_q & (unlocked | (place_q == kicker_pulse_place));
+    always @(*) kept_data = kept_read_data & mask_q;
     always @(*) read_data = read_q_q;
     always @(*) tick_period = tick_period_q_q;
     always @(*) mode = mode_q_q;
@@ -2310,15 +2327,15 @@ endmodule
 
 module rac4i65_core_registers_kept (
     input wire clock,
-    input wire [6:0] read_address,
+    input wire [5:0] read_address,
     output reg [23:0] read_data,
-    input wire [6:0] write_address,
+    input wire [5:0] write_address,
     input wire [23:0] write_data,
     input wire write_enable
 );
 
     (* no_rw_check *)
-    reg [23:0] mem [0:127];
+    reg [23:0] mem [0:63];
 
     initial begin
         read_data = 24'h0;
@@ -2386,70 +2403,6 @@ module rac4i65_core_registers_kept (
         mem[61] = 24'h0;
         mem[62] = 24'h0;
         mem[63] = 24'h0;
-        mem[64] = 24'h0;
-        mem[65] = 24'h0;
-        mem[66] = 24'h0;
-        mem[67] = 24'h0;
-        mem[68] = 24'h0;
-        mem[69] = 24'h0;
-        mem[70] = 24'h0;
-        mem[71] = 24'h0;
-        mem[72] = 24'h0;
-        mem[73] = 24'h0;
-        mem[74] = 24'h0;
-        mem[75] = 24'h0;
-        mem[76] = 24'h0;
-        mem[77] = 24'h0;
-        mem[78] = 24'h0;
-        mem[79] = 24'h0;
-        mem[80] = 24'h0;
-        mem[81] = 24'h0;
-        mem[82] = 24'h0;
-        mem[83] = 24'h0;
-        mem[84] = 24'h0;
-        mem[85] = 24'h0;
-        mem[86] = 24'h0;
-        mem[87] = 24'h0;
-        mem[88] = 24'h0;
-        mem[89] = 24'h0;
-        mem[90] = 24'h0;
-        mem[91] = 24'h0;
-        mem[92] = 24'h0;
-        mem[93] = 24'h0;
-        mem[94] = 24'h0;
-        mem[95] = 24'h0;
-        mem[96] = 24'h0;
-        mem[97] = 24'h0;
-        mem[98] = 24'h0;
-        mem[99] = 24'h0;
-        mem[100] = 24'h0;
-        mem[101] = 24'h0;
-        mem[102] = 24'h0;
-        mem[103] = 24'h0;
-        mem[104] = 24'h0;
-        mem[105] = 24'h0;
-        mem[106] = 24'h0;
-        mem[107] = 24'h0;
-        mem[108] = 24'h0;
-        mem[109] = 24'h0;
-        mem[110] = 24'h0;
-        mem[111] = 24'h0;
-        mem[112] = 24'h0;
-        mem[113] = 24'h0;
-        mem[114] = 24'h0;
-        mem[115] = 24'h0;
-        mem[116] = 24'h0;
-        mem[117] = 24'h0;
-        mem[118] = 24'h0;
-        mem[119] = 24'h0;
-        mem[120] = 24'h0;
-        mem[121] = 24'h0;
-        mem[122] = 24'h0;
-        mem[123] = 24'h0;
-        mem[124] = 24'h0;
-        mem[125] = 24'h0;
-        mem[126] = 24'h0;
-        mem[127] = 24'h0;
     end
 
     always @(posedge clock) begin
@@ -2499,6 +2452,15 @@ module rac4i65_core_timebase (
     reg [15:0] ticks_d;
     wire [15:0] ticks_q;
 
+    reg ticking_d;
+    wire ticking_q;
+
+    reg window_ends_d;
+    wire window_ends_q;
+
+    reg microsecond_ends_d;
+    wire microsecond_ends_q;
+
     // Intermediate values
     reg tick_now;
 
@@ -2509,6 +2471,9 @@ module rac4i65_core_timebase (
     rac4i65_core_dff_6_from_21 part_limit (.d(part_limit_d), .q(part_limit_q), .clock(clock));
     rac4i65_core_dff_6_from_1 part (.d(part_d), .q(part_q), .clock(clock));
     rac4i65_core_dff_16_from_1 ticks (.d(ticks_d), .q(ticks_q), .clock(clock));
+    rac4i65_core_dff_1 ticking (.d(ticking_d), .q(ticking_q), .clock(clock));
+    rac4i65_core_dff_1 window_ends (.d(window_ends_d), .q(window_ends_q), .clock(clock));
+    rac4i65_core_dff_1 microsecond_ends (.d(microsecond_ends_d), .q(microsecond_ends_q), .clock(clock));
 
     always @(*) begin
         clocks_d = clocks_q;
@@ -2549,36 +2514,50 @@ module rac4i65_core_timebase (
 
     always @(*) begin
         part_d = part_q;
+        microsecond_ends_d = microsecond_ends_q;
         part_d = part_q + one_part;
-        microsecond = 1'b0;
+        microsecond_ends_d = 1'b0;
         if (part_q >= part_limit_q) begin
             part_d = one_part;
-            microsecond = 1'b1;
+            microsecond_ends_d = 1'b1;
         end
     end
 
     always @(*) begin
         ticks_d = ticks_q;
-        window = 1'b0;
-        if (tick_now) begin
+        if (ticking_q) begin
             ticks_d = ticks_q + one_tick;
-            if (ticks_q >= stall_window) begin
+            if (window_ends_q) begin
                 ticks_d = one_tick;
-                window = 1'b1;
             end
         end
     end
 
+    always @(*) begin
+        ticking_d = ticking_q;
+        ticking_d = tick_now;
+    end
+
+    always @(*) begin
+        window_ends_d = window_ends_q;
+        window_ends_d = tick_now & (ticks_q >= stall_window);
+    end
+
     always @(*) clock_count = clocks_q;
     always @(*) period = limit_q;
-    always @(*) tick = tick_now;
+    always @(*) tick = ticking_q;
+    always @(*) window = window_ends_q;
+    always @(*) microsecond = microsecond_ends_q;
 endmodule
 
 module rac4i65_core_decoder (
+    input wire clock,
     input wire [13:0] address,
+    input wire read,
     input wire configuration_bank,
     input wire set_point_bank,
     input wire [1:0] snapshot_bank,
+    output reg at_registers,
     output reg in_registers,
     output reg in_memory,
     output reg in_imu,
@@ -2586,6 +2565,8 @@ module rac4i65_core_decoder (
     output reg [7:0] staging_address,
     output reg stages_set_point,
     output reg stages_configuration,
+    output reg [5:0] word,
+    output reg [13:0] staging_word,
     output reg snapshot_first,
     output reg snapshot_last
 );
@@ -2601,6 +2582,8 @@ module rac4i65_core_decoder (
     localparam page_set_points = 8'h6;
     localparam page_state = 8'h7;
     localparam page_snapshot = 8'h8;
+    localparam at_page_configuration = 14'b100000000;
+    localparam at_page_set_points = 14'b110000000;
     localparam configuration_end = 6'b110100;
     localparam set_points_end = 6'b100;
     localparam active_start = 6'b10000;
@@ -2615,12 +2598,40 @@ module rac4i65_core_decoder (
     localparam last = 6'b10111;
 
     // Pins of the parts
+    reg registers_d;
+    wire registers_q;
+
+    reg configuration_d;
+    wire configuration_q;
+
+    reg active_d;
+    wire active_q;
+
+    reg set_points_d;
+    wire set_points_q;
+
+    reg state_d;
+    wire state_q;
+
+    reg snapshot_d;
+    wire snapshot_q;
+
+    reg [5:0] offset_d;
+    wire [5:0] offset_q;
+
+    reg reads_first_d;
+    wire reads_first_q;
+
+    reg reads_last_d;
+    wire reads_last_q;
+
     reg [4:0] place_word;
 
     wire [7:0] place_address;
 
     // Intermediate values
     reg [7:0] page;
+    reg [5:0] coming;
     reg [5:0] index;
     reg [7:0] wide;
     reg [7:0] set_point;
@@ -2630,44 +2641,100 @@ module rac4i65_core_decoder (
     reg [7:0] bank;
 
     // Parts
+    rac4i65_core_dff_1 registers (.d(registers_d), .q(registers_q), .clock(clock));
+    rac4i65_core_dff_1 configuration (.d(configuration_d), .q(configuration_q), .clock(clock));
+    rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(clock));
+    rac4i65_core_dff_1 set_points (.d(set_points_d), .q(set_points_q), .clock(clock));
+    rac4i65_core_dff_1 state (.d(state_d), .q(state_q), .clock(clock));
+    rac4i65_core_dff_1 snapshot (.d(snapshot_d), .q(snapshot_q), .clock(clock));
+    rac4i65_core_dff_6 offset (.d(offset_d), .q(offset_q), .clock(clock));
+    rac4i65_core_dff_1 reads_first (.d(reads_first_d), .q(reads_first_q), .clock(clock));
+    rac4i65_core_dff_1 reads_last (.d(reads_last_d), .q(reads_last_q), .clock(clock));
     rac4i65_core_place place (.word(place_word), .bank(snapshot_bank), .address(place_address));
 
     always @(*) begin
-        page = address[(32'h6)+:(8)];
-        index = address[(32'h0)+:(6)];
+        registers_d = registers_q;
+        registers_d = page == page_registers;
     end
 
     always @(*) begin
+        configuration_d = configuration_q;
+        configuration_d = page == page_configuration;
+    end
+
+    always @(*) begin
+        active_d = active_q;
+        active_d = page == page_active;
+    end
+
+    always @(*) begin
+        set_points_d = set_points_q;
+        set_points_d = page == page_set_points;
+    end
+
+    always @(*) begin
+        state_d = state_q;
+        state_d = page == page_state;
+    end
+
+    always @(*) begin
+        snapshot_d = snapshot_q;
+        snapshot_d = page == page_snapshot;
+    end
+
+    always @(*) begin
+        offset_d = offset_q;
+        offset_d = coming;
+    end
+
+    always @(*) begin
+        reads_first_d = reads_first_q;
+        reads_first_d = read & (page == page_snapshot) & (coming == first);
+    end
+
+    always @(*) begin
+        reads_last_d = reads_last_q;
+        reads_last_d = read & (page == page_snapshot) & (coming == last);
+    end
+
+    always @(*) begin
+        page = address[(32'h6)+:(8)];
+        coming = address[(32'h0)+:(6)];
+    end
+
+    always @(*) at_registers = page == page_registers;
+    always @(*) index = offset_q;
+
+    always @(*) begin
+        word = index;
         wide = ((index) & 8'hff);
         place_word = index[(32'h0)+:(5)];
         set_point = ((index[(32'h0)+:(2)]) & 8'hff) | at_set_points;
     end
 
-    always @(*) in_registers = page == page_registers;
+    always @(*) in_registers = registers_q;
 
     always @(*) begin
         in_memory = 1'b0;
         in_imu = 1'b0;
         stages_set_point = 1'b0;
         stages_configuration = 1'b0;
-        snapshot_first = 1'b0;
-        snapshot_last = 1'b0;
         bank = no_bank;
         base = wide;
-        if (page == page_configuration) begin
+        if (configuration_q) begin
             in_memory = index < configuration_end;
             stages_configuration = index < configuration_end;
             if (~configuration_bank) begin
                 bank = configuration_1;
             end
         end
-        if (page == page_active) begin
+        if (active_q) begin
             in_memory = index < configuration_end;
             if (configuration_bank) begin
                 bank = configuration_1;
             end
         end
-        if (page == page_set_points) begin
+        if (set_points_q) begin
             base = set_point;
             if (index < set_points_end) begin
                 in_memory = 1'b1;
@@ -2683,19 +2750,19 @@ module rac4i65_core_decoder (
                 end
             end
         end
-        if (page == page_state) begin
+        if (state_q) begin
             in_memory = ((index >= integrals_start) & (index < integrals_end)) | ((index >= index_start) & (index < index_end));
             base = wide | at_set_points;
         end
-        if (page == page_snapshot) begin
+        if (snapshot_q) begin
             in_memory = index < snapshot_end;
             in_imu = index[(32'h3)+:(3)] == imu_row;
-            snapshot_first = index == first;
-            snapshot_last = index == last;
             base = place_address;
         end
     end
 
+    always @(*) snapshot_first = reads_first_q;
+    always @(*) snapshot_last = reads_last_q;
     always @(*) memory_address = base | bank;
 
     always @(*) begin
@@ -2714,8 +2781,10 @@ module rac4i65_core_decoder (
 
     always @(*) begin
         staging_address = staged_configuration;
-        if (page[32'h1]) begin
+        staging_word = ((index) & 14'h3fff) | at_page_configuration;
+        if (set_points_q) begin
             staging_address = staged_set_point;
+            staging_word = ((index) & 14'h3fff) | at_page_set_points;
         end
     end
 endmodule
@@ -2792,6 +2861,15 @@ module rac4i65_core_commit (
     reg [31:0] sum_d;
     wire [31:0] sum_q;
 
+    reg sum_right_d;
+    wire sum_right_q;
+
+    reg set_points_come_d;
+    wire set_points_come_q;
+
+    reg configuration_comes_d;
+    wire configuration_comes_q;
+
     reg [5:0] set_points_d;
     wire [5:0] set_points_q;
 
@@ -2818,12 +2896,14 @@ module rac4i65_core_commit (
 
     // Intermediate values
     reg [31:0] next_sum;
-    reg sum_right;
     reg right;
     reg committing;
 
     // Parts
     rac4i65_core_dff_32_from_52414353 sum (.d(sum_d), .q(sum_q), .clock(clock));
+    rac4i65_core_dff_1 sum_right (.d(sum_right_d), .q(sum_right_q), .clock(clock));
+    rac4i65_core_dff_1 set_points_come (.d(set_points_come_d), .q(set_points_come_q), .clock(clock));
+    rac4i65_core_dff_1 configuration_comes (.d(configuration_comes_d), .q(configuration_comes_q), .clock(clock));
     rac4i65_core_dff_6 set_points (.d(set_points_d), .q(set_points_q), .clock(clock));
     rac4i65_core_dff_6 configuration (.d(configuration_d), .q(configuration_q), .clock(clock));
     rac4i65_core_dff_1 set_point_bank_now (.d(set_point_bank_now_d), .q(set_point_bank_now_q), .clock(clock));
@@ -2857,6 +2937,23 @@ module rac4i65_core_commit (
                 configuration_waits_d = 1'b0;
             end
         end
+        if (committing) begin
+            sum_d = seed;
+            set_points_d = none;
+            configuration_d = none;
+            if (right) begin
+                accepted_count_d = accepted_count_q + one_count;
+                if (set_points_come_q) begin
+                    set_points_wait_d = 1'b1;
+                end
+                else begin
+                    configuration_waits_d = 1'b1;
+                end
+            end
+            else begin
+                rejected_count_d = rejected_count_q + one_count;
+            end
+        end
         if (stage_set_point) begin
             sum_d = next_sum;
             if (set_points_q != full) begin
@@ -2871,40 +2968,37 @@ module rac4i65_core_commit (
             end
             configuration_waits_d = 1'b0;
         end
-        if (committing) begin
-            sum_d = seed;
-            set_points_d = none;
-            configuration_d = none;
-            if (right) begin
-                accepted_count_d = accepted_count_q + one_count;
-                if (commit_set_points) begin
-                    set_points_wait_d = 1'b1;
-                end
-                else begin
-                    configuration_waits_d = 1'b1;
-                end
-            end
-            else begin
-                rejected_count_d = rejected_count_q + one_count;
-            end
-        end
+    end
+
+    always @(*) begin
+        sum_right_d = sum_right_q;
+        sum_right_d = checksum == sum_q;
+    end
+
+    always @(*) begin
+        set_points_come_d = set_points_come_q;
+        set_points_come_d = commit_set_points;
+    end
+
+    always @(*) begin
+        configuration_comes_d = configuration_comes_q;
+        configuration_comes_d = commit_configuration;
     end
 
     always @(*) next_sum = ((sum_q << 32'h1) | (sum_q >> 32'h1f)) ^ data ^ ((address) & 32'hffffffff);
-    always @(*) committing = commit_set_points | commit_configuration;
-    always @(*) sum_right = checksum == sum_q;
+    always @(*) committing = set_points_come_q | configuration_comes_q;
 
     always @(*) begin
         right = 1'b0;
-        if (commit_set_points) begin
-            right = sum_right & (set_points_q == all_set_points) & (configuration_q == none);
+        if (set_points_come_q) begin
+            right = sum_right_q & (set_points_q == all_set_points) & (configuration_q == none);
         end
-        if (commit_configuration) begin
-            right = sum_right & (configuration_q == all_configuration) & (set_points_q == none);
+        if (configuration_comes_q) begin
+            right = sum_right_q & (configuration_q == all_configuration) & (set_points_q == none);
         end
     end
 
-    always @(*) pet = commit_set_points & right;
+    always @(*) pet = set_points_come_q & right;
     always @(*) fault = committing & ~right;
     always @(*) set_point_bank = set_point_bank_now_q;
     always @(*) configuration_bank = configuration_bank_now_q;
@@ -3049,6 +3143,9 @@ module rac4i65_core_safety (
     reg [23:0] remaining_d;
     wire [23:0] remaining_q;
 
+    reg shortened_d;
+    wire shortened_q;
+
     reg [15:0] age_d;
     wire [15:0] age_q;
 
@@ -3100,6 +3197,7 @@ module rac4i65_core_safety (
         .value(released_value)
     );
     rac4i65_core_dff_24_2 remaining (.d(remaining_d), .q(remaining_q), .clock(clock));
+    rac4i65_core_dff_1 shortened (.d(shortened_d), .q(shortened_q), .clock(clock));
     rac4i65_core_dff_16 age (.d(age_d), .q(age_q), .clock(clock));
     rac4i65_core_dff_1 first_word (.d(first_word_d), .q(first_word_q), .clock(clock));
     rac4i65_core_dff_1 is_armed (.d(is_armed_d), .q(is_armed_q), .clock(clock));
@@ -3116,9 +3214,14 @@ module rac4i65_core_safety (
         if (~bitten) begin
             remaining_d = remaining_q - one;
         end
-        if (pet | (remaining_q > watchdog_timeout)) begin
+        if (pet | shortened_q) begin
             remaining_d = watchdog_timeout;
         end
+    end
+
+    always @(*) begin
+        shortened_d = shortened_q;
+        shortened_d = remaining_q > watchdog_timeout;
     end
 
     always @(*) begin
@@ -3171,7 +3274,7 @@ module rac4i65_core_safety (
     always @(*) stopped = is_stopped;
     always @(*) bitten = ~|remaining_q;
     always @(*) stale = age_q >= set_point_timeout;
-    always @(*) standing = bitten | is_stopped | encoder_fault | stall_fault | external_fault;
+    always @(*) standing = bitten | is_stopped | encoder_fault | stall_fault | external_fault | shortened_q;
     always @(*) is_first_word = arm_data == arm_1;
     always @(*) is_second_word = arm_write & (arm_data == arm_2);
     always @(*) arms = is_second_word & first_word_q & ~standing;
@@ -3704,14 +3807,12 @@ module rac4i65_core_sequencer (
     input wire [7:0] bus_write_address,
     input wire bus_write,
     input wire [31:0] bus_write_data,
-    output reg bus_blocked,
-    output reg bus_write_taken
+    output reg bus_blocked
 );
 
     // Constants
     localparam zero = 32'h0;
     localparam one_pc = 9'b1;
-    localparam start_pc = 9'b0;
     localparam no_bank = 8'h0;
     localparam first_axis = 2'b0;
     localparam last_axis = 2'b11;
@@ -3731,7 +3832,7 @@ module rac4i65_core_sequencer (
 
     // Pins of the parts
 
-    wire [15:0] rom_read_data;
+    wire [23:0] rom_read_data;
 
     reg [7:0] memory_read_address;
     wire [31:0] memory_read_data;
@@ -3763,14 +3864,35 @@ module rac4i65_core_sequencer (
     reg [15:0] instruction_d;
     wire [15:0] instruction_q;
 
+    reg [4:0] port_d;
+    wire [4:0] port_q;
+
+    reg nothing_d;
+    wire nothing_q;
+
     reg subtracts_d;
     wire subtracts_q;
+
+    reg waits_for_quotient_d;
+    wire waits_for_quotient_q;
+
+    reg waits_for_product_d;
+    wire waits_for_product_q;
+
+    reg halts_d;
+    wire halts_q;
+
+    reg stores_d;
+    wire stores_q;
 
     reg jumps_d;
     wire jumps_q;
 
     reg jumps_by_zero_d;
     wire jumps_by_zero_q;
+
+    reg jumps_by_bit_d;
+    wire jumps_by_bit_q;
 
     reg jumps_by_sign_d;
     wire jumps_by_sign_q;
@@ -3825,17 +3947,22 @@ module rac4i65_core_sequencer (
 
     // Intermediate values
     reg [8:0] pc_next;
+    reg goes_on;
+    reg read_stores;
     reg stall;
     reg branch;
     reg [15:0] read_instruction;
     reg [4:0] read_op;
     reg read_subtracts;
     reg read_jumps;
+    reg read_waits_for_quotient;
+    reg read_waits_for_product;
+    reg read_halts;
     reg read_jumps_by_zero;
+    reg read_jumps_by_bit;
     reg read_jumps_by_sign;
     reg read_jumps_by_axis;
     reg read_jumps_if_not;
-    reg nothing;
     reg [7:0] read_address;
     reg [7:0] read_bank;
     reg [7:0] write_address;
@@ -3888,9 +4015,16 @@ module rac4i65_core_sequencer (
     rac4i65_core_dff_1 active (.d(active_d), .q(active_q), .clock(clock));
     rac4i65_core_dff_9 pc (.d(pc_d), .q(pc_q), .clock(clock));
     rac4i65_core_dff_16 instruction (.d(instruction_d), .q(instruction_q), .clock(clock));
+    rac4i65_core_dff_5 port (.d(port_d), .q(port_q), .clock(clock));
+    rac4i65_core_dff_1 nothing (.d(nothing_d), .q(nothing_q), .clock(clock));
     rac4i65_core_dff_1 subtracts (.d(subtracts_d), .q(subtracts_q), .clock(clock));
+    rac4i65_core_dff_1 waits_for_quotient (.d(waits_for_quotient_d), .q(waits_for_quotient_q), .clock(clock));
+    rac4i65_core_dff_1 waits_for_product (.d(waits_for_product_d), .q(waits_for_product_q), .clock(clock));
+    rac4i65_core_dff_1 halts (.d(halts_d), .q(halts_q), .clock(clock));
+    rac4i65_core_dff_1 stores (.d(stores_d), .q(stores_q), .clock(clock));
     rac4i65_core_dff_1 jumps (.d(jumps_d), .q(jumps_q), .clock(clock));
     rac4i65_core_dff_1 jumps_by_zero (.d(jumps_by_zero_d), .q(jumps_by_zero_q), .clock(clock));
+    rac4i65_core_dff_1 jumps_by_bit (.d(jumps_by_bit_d), .q(jumps_by_bit_q), .clock(clock));
     rac4i65_core_dff_1 jumps_by_sign (.d(jumps_by_sign_d), .q(jumps_by_sign_q), .clock(clock));
     rac4i65_core_dff_1 jumps_by_axis (.d(jumps_by_axis_d), .q(jumps_by_axis_q), .clock(clock));
     rac4i65_core_dff_1 jumps_if_not (.d(jumps_if_not_d), .q(jumps_if_not_q), .clock(clock));
@@ -3911,37 +4045,7 @@ module rac4i65_core_sequencer (
 
     always @(*) begin
         active_d = active_q;
-        instruction_d = instruction_q;
-        subtracts_d = subtracts_q;
-        valid_d = valid_q;
-        jumps_d = jumps_q;
-        jumps_by_zero_d = jumps_by_zero_q;
-        jumps_by_sign_d = jumps_by_sign_q;
-        jumps_by_axis_d = jumps_by_axis_q;
-        jumps_if_not_d = jumps_if_not_q;
-        if (active_q & ~stall) begin
-            instruction_d = read_instruction;
-            subtracts_d = read_subtracts;
-            jumps_d = read_jumps;
-            jumps_by_zero_d = read_jumps_by_zero;
-            jumps_by_sign_d = read_jumps_by_sign;
-            jumps_by_axis_d = read_jumps_by_axis;
-            jumps_if_not_d = read_jumps_if_not;
-            valid_d = 1'b1;
-        end
-        pc_next = pc_q + one_pc;
-        if (stall) begin
-            pc_next = pc_q;
-        end
-        if (branch) begin
-            pc_next = instruction_q[(32'h0)+:(9)];
-            valid_d = 1'b0;
-        end
-        if (~active_q) begin
-            pc_next = start_pc;
-        end
         if (done) begin
-            valid_d = 1'b0;
             active_d = 1'b0;
         end
         if (tick & ~active_q) begin
@@ -3955,20 +4059,64 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) begin
+        instruction_d = instruction_q;
+        subtracts_d = subtracts_q;
+        valid_d = valid_q;
+        waits_for_quotient_d = waits_for_quotient_q;
+        waits_for_product_d = waits_for_product_q;
+        halts_d = halts_q;
+        stores_d = stores_q;
+        jumps_d = jumps_q;
+        jumps_by_zero_d = jumps_by_zero_q;
+        jumps_by_bit_d = jumps_by_bit_q;
+        jumps_by_sign_d = jumps_by_sign_q;
+        jumps_by_axis_d = jumps_by_axis_q;
+        jumps_if_not_d = jumps_if_not_q;
+        if (goes_on) begin
+            instruction_d = read_instruction;
+            subtracts_d = read_subtracts;
+            jumps_d = read_jumps;
+            jumps_by_zero_d = read_jumps_by_zero;
+            jumps_by_bit_d = read_jumps_by_bit;
+            jumps_by_sign_d = read_jumps_by_sign;
+            waits_for_quotient_d = read_waits_for_quotient;
+            waits_for_product_d = read_waits_for_product;
+            halts_d = read_halts;
+            stores_d = read_stores;
+            jumps_by_axis_d = read_jumps_by_axis;
+            jumps_if_not_d = read_jumps_if_not;
+            valid_d = 1'b1;
+        end
+        pc_next = pc_q;
+        if (goes_on) begin
+            pc_next = pc_q + one_pc;
+        end
+        if (branch | done) begin
+            pc_next = instruction_q[(32'h0)+:(9)];
+            valid_d = 1'b0;
+            jumps_d = 1'b0;
+            jumps_by_zero_d = 1'b0;
+            jumps_by_bit_d = 1'b0;
+            jumps_by_sign_d = 1'b0;
+            jumps_by_axis_d = 1'b0;
+            waits_for_quotient_d = 1'b0;
+            waits_for_product_d = 1'b0;
+            halts_d = 1'b0;
+            stores_d = 1'b0;
+        end
+    end
+
+    always @(*) begin
         accumulator_d = accumulator_q;
         axis_number_d = axis_number_q;
         finishing_d = finishing_q;
         saturates_d = saturates_q;
         cuts_16_d = cuts_16_q;
         cuts_24_d = cuts_24_q;
-        storing_d = storing_q;
-        storing_d = 1'b0;
         finishing_d = 1'b0;
         saturates_d = 1'b0;
         cuts_16_d = 1'b0;
         cuts_24_d = 1'b0;
-        stall = 1'b0;
-        done = 1'b0;
         output_strobe = 1'b0;
         multiplier_start = 1'b0;
         divider_start = 1'b0;
@@ -4028,10 +4176,6 @@ module rac4i65_core_sequencer (
                     begin
                         accumulator_d = accumulator_q ^ word;
                     end
-                    11:
-                    begin
-                        storing_d = 1'b1;
-                    end
                     12:
                     begin
                         accumulator_d = input_word_q;
@@ -4049,10 +4193,6 @@ module rac4i65_core_sequencer (
                             axis_number_d = axis_number_q + one_axis;
                         end
                     end
-                    20:
-                    begin
-                        done = 1'b1;
-                    end
                     21:
                     begin
                         divider_start = 1'b1;
@@ -4060,20 +4200,30 @@ module rac4i65_core_sequencer (
                     22:
                     begin
                         accumulator_d = divider_quotient;
-                        stall = divider_busy;
                     end
                     23:
                     begin
                         accumulator_d = multiplier_result;
-                        stall = multiplier_busy;
                     end
                     default:
                     begin
-                        stall = 1'b0;
+                        output_strobe = 1'b0;
                     end
                 endcase
             end
         end
+    end
+
+    always @(*) begin
+        port_d = port_q;
+        if (~stall) begin
+            port_d = rom_read_data[(32'h10)+:(5)];
+        end
+    end
+
+    always @(*) begin
+        nothing_d = nothing_q;
+        nothing_d = accumulator_q == zero;
     end
 
     always @(*) begin
@@ -4102,6 +4252,11 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) begin
+        storing_d = storing_q;
+        storing_d = stores_q;
+    end
+
+    always @(*) begin
         store_address_d = store_address_q;
         store_address_d = write_address;
         if (write_address[(32'h6)+:(2)] == region_3) begin
@@ -4109,7 +4264,7 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) read_instruction = rom_read_data;
+    always @(*) read_instruction = rom_read_data[(32'h0)+:(16)];
 
     always @(*) begin
         read_address = read_instruction[(32'h0)+:(8)];
@@ -4136,16 +4291,19 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) word = memory_read_data;
-
-    always @(*) begin
-        read_op = read_instruction[(32'hb)+:(5)];
-        input_port = read_instruction[(32'h0)+:(5)];
-    end
+    always @(*) stall = (waits_for_quotient_q & divider_busy) | (waits_for_product_q & multiplier_busy);
+    always @(*) done = halts_q;
+    always @(*) read_op = read_instruction[(32'hb)+:(5)];
 
     always @(*) begin
         read_subtracts = 1'b0;
         read_jumps = 1'b0;
         read_jumps_by_zero = 1'b0;
+        read_jumps_by_bit = 1'b0;
+        read_waits_for_quotient = 1'b0;
+        read_waits_for_product = 1'b0;
+        read_halts = 1'b0;
+        read_stores = 1'b0;
         read_jumps_by_sign = 1'b0;
         read_jumps_by_axis = 1'b0;
         read_jumps_if_not = 1'b0;
@@ -4166,6 +4324,10 @@ module rac4i65_core_sequencer (
             begin
                 read_subtracts = 1'b1;
             end
+            11:
+            begin
+                read_stores = 1'b1;
+            end
             14:
             begin
                 read_jumps = 1'b1;
@@ -4176,8 +4338,7 @@ module rac4i65_core_sequencer (
             end
             16:
             begin
-                read_jumps_by_zero = 1'b1;
-                read_jumps_if_not = 1'b1;
+                read_jumps_by_bit = 1'b1;
             end
             17:
             begin
@@ -4192,6 +4353,18 @@ module rac4i65_core_sequencer (
             begin
                 read_jumps_by_axis = 1'b1;
             end
+            20:
+            begin
+                read_halts = 1'b1;
+            end
+            22:
+            begin
+                read_waits_for_quotient = 1'b1;
+            end
+            23:
+            begin
+                read_waits_for_product = 1'b1;
+            end
             default:
             begin
                 read_subtracts = 1'b0;
@@ -4199,12 +4372,7 @@ module rac4i65_core_sequencer (
         endcase
     end
 
-    always @(*) begin
-        nothing = accumulator_q == zero;
-        output_data = accumulator_q;
-    end
-
-    always @(*) branch = valid_q & (jumps_q | (jumps_by_zero_q & (nothing != jumps_if_not_q)) | (jumps_by_sign_q & (accumulator_q[32'h1f] != jumps_if_not_q)) | (jumps_by_axis_q & (axis_number_q != last_axis)));
+    always @(*) branch = jumps_q | (jumps_by_zero_q & nothing_q) | (jumps_by_bit_q & ~accumulator_q[32'h0]) | (jumps_by_sign_q & (accumulator_q[32'h1f] != jumps_if_not_q)) | (jumps_by_axis_q & (axis_number_q != last_axis));
     always @(*) subtracting = subtracts_q;
 
     always @(*) begin
@@ -4248,6 +4416,7 @@ module rac4i65_core_sequencer (
     end
 
     always @(*) multiplier_scale = op[(32'h0)+:(3)];
+    always @(*) goes_on = active_q & ~stall;
     always @(*) running = active_q;
 
     always @(*) begin
@@ -4268,10 +4437,7 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) begin
-        memory_write_enable = storing_q | bus_write;
-        bus_write_taken = bus_write & ~storing_q;
-    end
+    always @(*) memory_write_enable = storing_q | bus_write;
 
     always @(*) begin
         bus_read_data = mirror_read_data;
@@ -4280,533 +4446,535 @@ module rac4i65_core_sequencer (
         end
     end
 
-    always @(*) bus_blocked = storing_q;
+    always @(*) bus_blocked = stores_q;
+    always @(*) input_port = port_q;
     always @(*) axis = axis_number_q;
+    always @(*) output_data = accumulator_q;
 endmodule
 
 module rac4i65_core_sequencer_rom (
     input wire clock,
     input wire [8:0] read_address,
-    output reg [15:0] read_data
+    output reg [23:0] read_data
 );
 
     (* no_rw_check *)
-    reg [15:0] mem [0:511];
+    reg [23:0] mem [0:511];
 
     initial begin
-        read_data = 16'h0;
-        mem[0] = 16'h1000;
-        mem[1] = 16'h58a8;
-        mem[2] = 16'h58a9;
-        mem[3] = 16'h58aa;
-        mem[4] = 16'h6000;
-        mem[5] = 16'h3490;
-        mem[6] = 16'h58b0;
-        mem[7] = 16'h2c90;
-        mem[8] = 16'h5c90;
-        mem[9] = 16'h8b0;
-        mem[10] = 16'he40c;
-        mem[11] = 16'h600c;
-        mem[12] = 16'h781b;
-        mem[13] = 16'h600e;
-        mem[14] = 16'h3490;
-        mem[15] = 16'h0;
-        mem[16] = 16'h2c90;
-        mem[17] = 16'h58b9;
-        mem[18] = 16'h2c8c;
-        mem[19] = 16'h5c9c;
-        mem[20] = 16'h600d;
-        mem[21] = 16'h781b;
-        mem[22] = 16'h8b9;
-        mem[23] = 16'h28be;
-        mem[24] = 16'h0;
-        mem[25] = 16'h50be;
-        mem[26] = 16'h5c8c;
-        mem[27] = 16'hb800;
-        mem[28] = 16'h18a8;
-        mem[29] = 16'h58a8;
-        mem[30] = 16'h8b0;
-        mem[31] = 16'he410;
-        mem[32] = 16'h6005;
-        mem[33] = 16'h8028;
-        mem[34] = 16'h6004;
-        mem[35] = 16'h58b2;
-        mem[36] = 16'h8b0;
-        mem[37] = 16'h0;
-        mem[38] = 16'ha8b2;
-        mem[39] = 16'h703c;
-        mem[40] = 16'h6001;
-        mem[41] = 16'h3c94;
-        mem[42] = 16'h58b2;
-        mem[43] = 16'h783e;
-        mem[44] = 16'hc98;
-        mem[45] = 16'h8833;
-        mem[46] = 16'h6002;
-        mem[47] = 16'h3498;
-        mem[48] = 16'h0;
-        mem[49] = 16'ha8b2;
-        mem[50] = 16'h7038;
-        mem[51] = 16'h6004;
-        mem[52] = 16'h58b2;
-        mem[53] = 16'h8b0;
-        mem[54] = 16'h0;
-        mem[55] = 16'ha8b2;
-        mem[56] = 16'h6001;
-        mem[57] = 16'h5c94;
-        mem[58] = 16'h6002;
-        mem[59] = 16'h5c98;
-        mem[60] = 16'h1000;
-        mem[61] = 16'h7048;
-        mem[62] = 16'hc98;
-        mem[63] = 16'h8905;
-        mem[64] = 16'h6003;
-        mem[65] = 16'h3c94;
-        mem[66] = 16'h58b2;
-        mem[67] = 16'h20bc;
-        mem[68] = 16'h0;
-        mem[69] = 16'h9105;
-        mem[70] = 16'h1001;
-        mem[71] = 16'ha8b2;
-        mem[72] = 16'h58b1;
-        mem[73] = 16'hb800;
-        mem[74] = 16'h18a9;
-        mem[75] = 16'h58a9;
-        mem[76] = 16'h6007;
-        mem[77] = 16'h7908;
-        mem[78] = 16'h6008;
-        mem[79] = 16'h790a;
-        mem[80] = 16'h6006;
-        mem[81] = 16'h790c;
-        mem[82] = 16'hc00;
-        mem[83] = 16'hc080;
-        mem[84] = 16'hb800;
-        mem[85] = 16'h58b9;
-        mem[86] = 16'hc04;
-        mem[87] = 16'hc081;
-        mem[88] = 16'hb800;
-        mem[89] = 16'h58b7;
-        mem[90] = 16'hc08;
-        mem[91] = 16'hc082;
-        mem[92] = 16'h8b7;
-        mem[93] = 16'h18b9;
-        mem[94] = 16'h58b9;
-        mem[95] = 16'hb800;
-        mem[96] = 16'h0;
-        mem[97] = 16'h18b9;
-        mem[98] = 16'h0;
-        mem[99] = 16'h24ac;
-        mem[100] = 16'h0;
-        mem[101] = 16'h4430;
-        mem[102] = 16'h4c30;
-        mem[103] = 16'h442c;
-        mem[104] = 16'h4e2c;
-        mem[105] = 16'h1cac;
-        mem[106] = 16'h5cac;
-        mem[107] = 16'h5ccc;
-        mem[108] = 16'hc28;
-        mem[109] = 16'hc4ac;
-        mem[110] = 16'h8b1;
-        mem[111] = 16'h7913;
-        mem[112] = 16'h8911;
-        mem[113] = 16'hb000;
-        mem[114] = 16'h58b9;
-        mem[115] = 16'hca0;
-        mem[116] = 16'h910e;
-        mem[117] = 16'h1000;
-        mem[118] = 16'h20b9;
-        mem[119] = 16'h0;
-        mem[120] = 16'h44a0;
-        mem[121] = 16'h4ea0;
-        mem[122] = 16'h5ca0;
-        mem[123] = 16'h5cc8;
-        mem[124] = 16'hb800;
-        mem[125] = 16'h58b3;
-        mem[126] = 16'hcac;
-        mem[127] = 16'h24a0;
-        mem[128] = 16'h58b4;
-        mem[129] = 16'hc18;
-        mem[130] = 16'h0;
-        mem[131] = 16'hd0b4;
-        mem[132] = 16'h6007;
-        mem[133] = 16'h791a;
-        mem[134] = 16'hb800;
-        mem[135] = 16'h58b5;
-        mem[136] = 16'hc1c;
-        mem[137] = 16'hc8b4;
-        mem[138] = 16'h8b5;
-        mem[139] = 16'h18b3;
-        mem[140] = 16'h58b5;
-        mem[141] = 16'hb800;
-        mem[142] = 16'h1ca4;
-        mem[143] = 16'h58b2;
-        mem[144] = 16'h8b0;
-        mem[145] = 16'he414;
-        mem[146] = 16'h8b2;
-        mem[147] = 16'h18b5;
-        mem[148] = 16'h58b7;
-        mem[149] = 16'h4424;
-        mem[150] = 16'h4c24;
-        mem[151] = 16'h4420;
-        mem[152] = 16'h4e20;
-        mem[153] = 16'h58b8;
-        mem[154] = 16'h20b7;
-        mem[155] = 16'h0;
-        mem[156] = 16'h7917;
-        mem[157] = 16'h8b7;
-        mem[158] = 16'h50b4;
-        mem[159] = 16'h8917;
-        mem[160] = 16'h8b5;
-        mem[161] = 16'h1ca4;
-        mem[162] = 16'h0;
-        mem[163] = 16'h4424;
-        mem[164] = 16'h4c24;
-        mem[165] = 16'h4420;
-        mem[166] = 16'h4e20;
-        mem[167] = 16'h58b8;
-        mem[168] = 16'h0;
-        mem[169] = 16'h0;
-        mem[170] = 16'h8b8;
-        mem[171] = 16'h6800;
-        mem[172] = 16'h90af;
-        mem[173] = 16'h1000;
-        mem[174] = 16'h20b8;
-        mem[175] = 16'h58b9;
-        mem[176] = 16'hb800;
-        mem[177] = 16'h18aa;
-        mem[178] = 16'h58aa;
-        mem[179] = 16'h6009;
-        mem[180] = 16'hd8b9;
-        mem[181] = 16'h8b8;
-        mem[182] = 16'h5cd0;
-        mem[183] = 16'hc90;
-        mem[184] = 16'h2c8c;
-        mem[185] = 16'h5cc4;
-        mem[186] = 16'hb800;
-        mem[187] = 16'h18bd;
-        mem[188] = 16'h0;
-        mem[189] = 16'h6801;
-        mem[190] = 16'h9804;
-        mem[191] = 16'h600f;
-        mem[192] = 16'h80c9;
-        mem[193] = 16'h1000;
-        mem[194] = 16'h58ba;
-        mem[195] = 16'h58bb;
-        mem[196] = 16'h58b6;
-        mem[197] = 16'h58d4;
-        mem[198] = 16'h58d5;
-        mem[199] = 16'h58d6;
-        mem[200] = 16'h70f9;
-        mem[201] = 16'h8b6;
-        mem[202] = 16'h28aa;
-        mem[203] = 16'h0;
-        mem[204] = 16'h6802;
-        mem[205] = 16'h28aa;
-        mem[206] = 16'h58b6;
-        mem[207] = 16'h58d6;
-        mem[208] = 16'h6010;
-        mem[209] = 16'hc0bf;
-        mem[210] = 16'hb800;
-        mem[211] = 16'h58b9;
-        mem[212] = 16'hc8a9;
-        mem[213] = 16'hb800;
-        mem[214] = 16'h58b0;
-        mem[215] = 16'h8a8;
-        mem[216] = 16'h0;
-        mem[217] = 16'h20b0;
-        mem[218] = 16'h58b4;
-        mem[219] = 16'h8b9;
-        mem[220] = 16'hc8a8;
-        mem[221] = 16'hb800;
-        mem[222] = 16'h18a9;
-        mem[223] = 16'h58b7;
-        mem[224] = 16'h6011;
-        mem[225] = 16'h0;
-        mem[226] = 16'hc0b7;
-        mem[227] = 16'hb800;
-        mem[228] = 16'h58b0;
-        mem[229] = 16'h6012;
-        mem[230] = 16'hc0b4;
-        mem[231] = 16'hb800;
-        mem[232] = 16'h20b0;
-        mem[233] = 16'h0;
-        mem[234] = 16'h28ba;
-        mem[235] = 16'h58ba;
-        mem[236] = 16'h58d4;
-        mem[237] = 16'h6011;
-        mem[238] = 16'hc0b4;
-        mem[239] = 16'hb800;
-        mem[240] = 16'h58b0;
-        mem[241] = 16'h6012;
-        mem[242] = 16'hc0b7;
-        mem[243] = 16'hb800;
-        mem[244] = 16'h18b0;
-        mem[245] = 16'h0;
-        mem[246] = 16'h28bb;
-        mem[247] = 16'h58bb;
-        mem[248] = 16'h58d5;
-        mem[249] = 16'h600a;
-        mem[250] = 16'h58c1;
-        mem[251] = 16'h600b;
-        mem[252] = 16'h58c3;
-        mem[253] = 16'h6003;
-        mem[254] = 16'h58c2;
-        mem[255] = 16'h1001;
-        mem[256] = 16'h28ab;
-        mem[257] = 16'h58ab;
-        mem[258] = 16'h58c0;
-        mem[259] = 16'h58d7;
-        mem[260] = 16'ha000;
-        mem[261] = 16'h10ff;
-        mem[262] = 16'h5c98;
-        mem[263] = 16'h7048;
-        mem[264] = 16'h1000;
-        mem[265] = 16'h706a;
-        mem[266] = 16'h1000;
-        mem[267] = 16'h7062;
-        mem[268] = 16'hc80;
-        mem[269] = 16'h7062;
-        mem[270] = 16'h40b9;
-        mem[271] = 16'h48b9;
-        mem[272] = 16'h707a;
-        mem[273] = 16'h1000;
-        mem[274] = 16'h707a;
-        mem[275] = 16'hb000;
-        mem[276] = 16'h907a;
-        mem[277] = 16'h20be;
-        mem[278] = 16'h707a;
-        mem[279] = 16'h8b2;
-        mem[280] = 16'h5ca4;
-        mem[281] = 16'h70a8;
-        mem[282] = 16'hb800;
-        mem[283] = 16'h8b0;
-        mem[284] = 16'he414;
-        mem[285] = 16'h1000;
-        mem[286] = 16'h58b8;
-        mem[287] = 16'h5ca4;
-        mem[288] = 16'h70a8;
-        mem[289] = 16'h0;
-        mem[290] = 16'h0;
-        mem[291] = 16'h0;
-        mem[292] = 16'h0;
-        mem[293] = 16'h0;
-        mem[294] = 16'h0;
-        mem[295] = 16'h0;
-        mem[296] = 16'h0;
-        mem[297] = 16'h0;
-        mem[298] = 16'h0;
-        mem[299] = 16'h0;
-        mem[300] = 16'h0;
-        mem[301] = 16'h0;
-        mem[302] = 16'h0;
-        mem[303] = 16'h0;
-        mem[304] = 16'h0;
-        mem[305] = 16'h0;
-        mem[306] = 16'h0;
-        mem[307] = 16'h0;
-        mem[308] = 16'h0;
-        mem[309] = 16'h0;
-        mem[310] = 16'h0;
-        mem[311] = 16'h0;
-        mem[312] = 16'h0;
-        mem[313] = 16'h0;
-        mem[314] = 16'h0;
-        mem[315] = 16'h0;
-        mem[316] = 16'h0;
-        mem[317] = 16'h0;
-        mem[318] = 16'h0;
-        mem[319] = 16'h0;
-        mem[320] = 16'h0;
-        mem[321] = 16'h0;
-        mem[322] = 16'h0;
-        mem[323] = 16'h0;
-        mem[324] = 16'h0;
-        mem[325] = 16'h0;
-        mem[326] = 16'h0;
-        mem[327] = 16'h0;
-        mem[328] = 16'h0;
-        mem[329] = 16'h0;
-        mem[330] = 16'h0;
-        mem[331] = 16'h0;
-        mem[332] = 16'h0;
-        mem[333] = 16'h0;
-        mem[334] = 16'h0;
-        mem[335] = 16'h0;
-        mem[336] = 16'h0;
-        mem[337] = 16'h0;
-        mem[338] = 16'h0;
-        mem[339] = 16'h0;
-        mem[340] = 16'h0;
-        mem[341] = 16'h0;
-        mem[342] = 16'h0;
-        mem[343] = 16'h0;
-        mem[344] = 16'h0;
-        mem[345] = 16'h0;
-        mem[346] = 16'h0;
-        mem[347] = 16'h0;
-        mem[348] = 16'h0;
-        mem[349] = 16'h0;
-        mem[350] = 16'h0;
-        mem[351] = 16'h0;
-        mem[352] = 16'h0;
-        mem[353] = 16'h0;
-        mem[354] = 16'h0;
-        mem[355] = 16'h0;
-        mem[356] = 16'h0;
-        mem[357] = 16'h0;
-        mem[358] = 16'h0;
-        mem[359] = 16'h0;
-        mem[360] = 16'h0;
-        mem[361] = 16'h0;
-        mem[362] = 16'h0;
-        mem[363] = 16'h0;
-        mem[364] = 16'h0;
-        mem[365] = 16'h0;
-        mem[366] = 16'h0;
-        mem[367] = 16'h0;
-        mem[368] = 16'h0;
-        mem[369] = 16'h0;
-        mem[370] = 16'h0;
-        mem[371] = 16'h0;
-        mem[372] = 16'h0;
-        mem[373] = 16'h0;
-        mem[374] = 16'h0;
-        mem[375] = 16'h0;
-        mem[376] = 16'h0;
-        mem[377] = 16'h0;
-        mem[378] = 16'h0;
-        mem[379] = 16'h0;
-        mem[380] = 16'h0;
-        mem[381] = 16'h0;
-        mem[382] = 16'h0;
-        mem[383] = 16'h0;
-        mem[384] = 16'h0;
-        mem[385] = 16'h0;
-        mem[386] = 16'h0;
-        mem[387] = 16'h0;
-        mem[388] = 16'h0;
-        mem[389] = 16'h0;
-        mem[390] = 16'h0;
-        mem[391] = 16'h0;
-        mem[392] = 16'h0;
-        mem[393] = 16'h0;
-        mem[394] = 16'h0;
-        mem[395] = 16'h0;
-        mem[396] = 16'h0;
-        mem[397] = 16'h0;
-        mem[398] = 16'h0;
-        mem[399] = 16'h0;
-        mem[400] = 16'h0;
-        mem[401] = 16'h0;
-        mem[402] = 16'h0;
-        mem[403] = 16'h0;
-        mem[404] = 16'h0;
-        mem[405] = 16'h0;
-        mem[406] = 16'h0;
-        mem[407] = 16'h0;
-        mem[408] = 16'h0;
-        mem[409] = 16'h0;
-        mem[410] = 16'h0;
-        mem[411] = 16'h0;
-        mem[412] = 16'h0;
-        mem[413] = 16'h0;
-        mem[414] = 16'h0;
-        mem[415] = 16'h0;
-        mem[416] = 16'h0;
-        mem[417] = 16'h0;
-        mem[418] = 16'h0;
-        mem[419] = 16'h0;
-        mem[420] = 16'h0;
-        mem[421] = 16'h0;
-        mem[422] = 16'h0;
-        mem[423] = 16'h0;
-        mem[424] = 16'h0;
-        mem[425] = 16'h0;
-        mem[426] = 16'h0;
-        mem[427] = 16'h0;
-        mem[428] = 16'h0;
-        mem[429] = 16'h0;
-        mem[430] = 16'h0;
-        mem[431] = 16'h0;
-        mem[432] = 16'h0;
-        mem[433] = 16'h0;
-        mem[434] = 16'h0;
-        mem[435] = 16'h0;
-        mem[436] = 16'h0;
-        mem[437] = 16'h0;
-        mem[438] = 16'h0;
-        mem[439] = 16'h0;
-        mem[440] = 16'h0;
-        mem[441] = 16'h0;
-        mem[442] = 16'h0;
-        mem[443] = 16'h0;
-        mem[444] = 16'h0;
-        mem[445] = 16'h0;
-        mem[446] = 16'h0;
-        mem[447] = 16'h0;
-        mem[448] = 16'h0;
-        mem[449] = 16'h0;
-        mem[450] = 16'h0;
-        mem[451] = 16'h0;
-        mem[452] = 16'h0;
-        mem[453] = 16'h0;
-        mem[454] = 16'h0;
-        mem[455] = 16'h0;
-        mem[456] = 16'h0;
-        mem[457] = 16'h0;
-        mem[458] = 16'h0;
-        mem[459] = 16'h0;
-        mem[460] = 16'h0;
-        mem[461] = 16'h0;
-        mem[462] = 16'h0;
-        mem[463] = 16'h0;
-        mem[464] = 16'h0;
-        mem[465] = 16'h0;
-        mem[466] = 16'h0;
-        mem[467] = 16'h0;
-        mem[468] = 16'h0;
-        mem[469] = 16'h0;
-        mem[470] = 16'h0;
-        mem[471] = 16'h0;
-        mem[472] = 16'h0;
-        mem[473] = 16'h0;
-        mem[474] = 16'h0;
-        mem[475] = 16'h0;
-        mem[476] = 16'h0;
-        mem[477] = 16'h0;
-        mem[478] = 16'h0;
-        mem[479] = 16'h0;
-        mem[480] = 16'h0;
-        mem[481] = 16'h0;
-        mem[482] = 16'h0;
-        mem[483] = 16'h0;
-        mem[484] = 16'h0;
-        mem[485] = 16'h0;
-        mem[486] = 16'h0;
-        mem[487] = 16'h0;
-        mem[488] = 16'h0;
-        mem[489] = 16'h0;
-        mem[490] = 16'h0;
-        mem[491] = 16'h0;
-        mem[492] = 16'h0;
-        mem[493] = 16'h0;
-        mem[494] = 16'h0;
-        mem[495] = 16'h0;
-        mem[496] = 16'h0;
-        mem[497] = 16'h0;
-        mem[498] = 16'h0;
-        mem[499] = 16'h0;
-        mem[500] = 16'h0;
-        mem[501] = 16'h0;
-        mem[502] = 16'h0;
-        mem[503] = 16'h0;
-        mem[504] = 16'h0;
-        mem[505] = 16'h0;
-        mem[506] = 16'h0;
-        mem[507] = 16'h0;
-        mem[508] = 16'h0;
-        mem[509] = 16'h0;
-        mem[510] = 16'h0;
-        mem[511] = 16'h0;
+        read_data = 24'h0;
+        mem[0] = 24'h81000;
+        mem[1] = 24'h958a8;
+        mem[2] = 24'ha58a9;
+        mem[3] = 24'h58aa;
+        mem[4] = 24'h0;
+        mem[5] = 24'h106000;
+        mem[6] = 24'h103490;
+        mem[7] = 24'h1058b0;
+        mem[8] = 24'h102c90;
+        mem[9] = 24'h105c90;
+        mem[10] = 24'hc08b0;
+        mem[11] = 24'hce40c;
+        mem[12] = 24'h1c600c;
+        mem[13] = 24'he801c;
+        mem[14] = 24'h10600e;
+        mem[15] = 24'h3490;
+        mem[16] = 24'h100000;
+        mem[17] = 24'h192c90;
+        mem[18] = 24'hc58b9;
+        mem[19] = 24'h1c2c8c;
+        mem[20] = 24'hd5c9c;
+        mem[21] = 24'h1c600d;
+        mem[22] = 24'h19801c;
+        mem[23] = 24'h1e08b9;
+        mem[24] = 24'h28be;
+        mem[25] = 24'h1e0000;
+        mem[26] = 24'hc50be;
+        mem[27] = 24'h5c8c;
+        mem[28] = 24'h8b800;
+        mem[29] = 24'h818a8;
+        mem[30] = 24'h1058a8;
+        mem[31] = 24'h1008b0;
+        mem[32] = 24'h5e410;
+        mem[33] = 24'h1d6005;
+        mem[34] = 24'h180fd;
+        mem[35] = 24'h146001;
+        mem[36] = 24'h123c94;
+        mem[37] = 24'h58b2;
+        mem[38] = 24'h1c0000;
+        mem[39] = 24'h18783c;
+        mem[40] = 24'hf0c98;
+        mem[41] = 24'h2882f;
+        mem[42] = 24'h186002;
+        mem[43] = 24'h3498;
+        mem[44] = 24'h120000;
+        mem[45] = 24'h15a8b2;
+        mem[46] = 24'h7035;
+        mem[47] = 24'h40000;
+        mem[48] = 24'h126004;
+        mem[49] = 24'h1058b2;
+        mem[50] = 24'h8b0;
+        mem[51] = 24'h120000;
+        mem[52] = 24'ha8b2;
+        mem[53] = 24'h10000;
+        mem[54] = 24'h146001;
+        mem[55] = 24'h25c94;
+        mem[56] = 24'h186002;
+        mem[57] = 24'h5c98;
+        mem[58] = 24'h61000;
+        mem[59] = 24'h187046;
+        mem[60] = 24'h40c98;
+        mem[61] = 24'h38904;
+        mem[62] = 24'h146003;
+        mem[63] = 24'h123c94;
+        mem[64] = 24'h1c58b2;
+        mem[65] = 24'h20bc;
+        mem[66] = 24'h40000;
+        mem[67] = 24'h19104;
+        mem[68] = 24'h121001;
+        mem[69] = 24'h11a8b2;
+        mem[70] = 24'h58b1;
+        mem[71] = 24'h9b800;
+        mem[72] = 24'h918a9;
+        mem[73] = 24'h758a9;
+        mem[74] = 24'h76007;
+        mem[75] = 24'h88107;
+        mem[76] = 24'h96008;
+        mem[77] = 24'h68109;
+        mem[78] = 24'hb6006;
+        mem[79] = 24'h810b;
+        mem[80] = 24'hc00;
+        mem[81] = 24'hc080;
+        mem[82] = 24'h19b800;
+        mem[83] = 24'h458b9;
+        mem[84] = 24'h10c04;
+        mem[85] = 24'hc081;
+        mem[86] = 24'h17b800;
+        mem[87] = 24'h858b7;
+        mem[88] = 24'h20c08;
+        mem[89] = 24'h17c082;
+        mem[90] = 24'h1908b7;
+        mem[91] = 24'h1918b9;
+        mem[92] = 24'h58b9;
+        mem[93] = 24'hb800;
+        mem[94] = 24'h190000;
+        mem[95] = 24'h18b9;
+        mem[96] = 24'hc0000;
+        mem[97] = 24'h24ac;
+        mem[98] = 24'h100000;
+        mem[99] = 24'h104430;
+        mem[100] = 24'hc4c30;
+        mem[101] = 24'hc442c;
+        mem[102] = 24'hc4e2c;
+        mem[103] = 24'hc1cac;
+        mem[104] = 24'hc5cac;
+        mem[105] = 24'h85ccc;
+        mem[106] = 24'hc0c28;
+        mem[107] = 24'h11c4ac;
+        mem[108] = 24'h1008b1;
+        mem[109] = 24'h128910;
+        mem[110] = 24'h8112;
+        mem[111] = 24'h19b000;
+        mem[112] = 24'h58b9;
+        mem[113] = 24'hd0ca0;
+        mem[114] = 24'h910d;
+        mem[115] = 24'h191000;
+        mem[116] = 24'h20b9;
+        mem[117] = 24'h0;
+        mem[118] = 24'h44a0;
+        mem[119] = 24'h4ea0;
+        mem[120] = 24'h85ca0;
+        mem[121] = 24'h5cc8;
+        mem[122] = 24'h13b800;
+        mem[123] = 24'hc58b3;
+        mem[124] = 24'hcac;
+        mem[125] = 24'h1424a0;
+        mem[126] = 24'h1858b4;
+        mem[127] = 24'hc18;
+        mem[128] = 24'h140000;
+        mem[129] = 24'h7d0b4;
+        mem[130] = 24'h196007;
+        mem[131] = 24'h8119;
+        mem[132] = 24'h15b800;
+        mem[133] = 24'h1c58b5;
+        mem[134] = 24'h140c1c;
+        mem[135] = 24'h15c8b4;
+        mem[136] = 24'h1308b5;
+        mem[137] = 24'h1518b3;
+        mem[138] = 24'h58b5;
+        mem[139] = 24'h4b800;
+        mem[140] = 24'h121ca4;
+        mem[141] = 24'h1058b2;
+        mem[142] = 24'h1408b0;
+        mem[143] = 24'h12e414;
+        mem[144] = 24'h1508b2;
+        mem[145] = 24'h1718b5;
+        mem[146] = 24'h458b7;
+        mem[147] = 24'h44424;
+        mem[148] = 24'h4c24;
+        mem[149] = 24'h4420;
+        mem[150] = 24'h184e20;
+        mem[151] = 24'h1758b8;
+        mem[152] = 24'h20b7;
+        mem[153] = 24'h0;
+        mem[154] = 24'h160000;
+        mem[155] = 24'h177916;
+        mem[156] = 24'h1408b7;
+        mem[157] = 24'h1650b4;
+        mem[158] = 24'h158916;
+        mem[159] = 24'h408b5;
+        mem[160] = 24'h1ca4;
+        mem[161] = 24'h40000;
+        mem[162] = 24'h44424;
+        mem[163] = 24'h4c24;
+        mem[164] = 24'h4420;
+        mem[165] = 24'h184e20;
+        mem[166] = 24'h58b8;
+        mem[167] = 24'h0;
+        mem[168] = 24'h180000;
+        mem[169] = 24'h8b8;
+        mem[170] = 24'he6800;
+        mem[171] = 24'h90ae;
+        mem[172] = 24'h181000;
+        mem[173] = 24'h1920b8;
+        mem[174] = 24'h58b9;
+        mem[175] = 24'hab800;
+        mem[176] = 24'ha18aa;
+        mem[177] = 24'h958aa;
+        mem[178] = 24'h196009;
+        mem[179] = 24'h18d8b9;
+        mem[180] = 24'h1008b8;
+        mem[181] = 24'h105cd0;
+        mem[182] = 24'hc0c90;
+        mem[183] = 24'h42c8c;
+        mem[184] = 24'h5cc4;
+        mem[185] = 24'h1db800;
+        mem[186] = 24'h18bd;
+        mem[187] = 24'h10000;
+        mem[188] = 24'h46801;
+        mem[189] = 24'hf9804;
+        mem[190] = 24'h600f;
+        mem[191] = 24'h168120;
+        mem[192] = 24'ha08b6;
+        mem[193] = 24'h28aa;
+        mem[194] = 24'h20000;
+        mem[195] = 24'ha6802;
+        mem[196] = 24'h1628aa;
+        mem[197] = 24'h1658b6;
+        mem[198] = 24'h1058d6;
+        mem[199] = 24'h1f6010;
+        mem[200] = 24'hc0bf;
+        mem[201] = 24'h19b800;
+        mem[202] = 24'h958b9;
+        mem[203] = 24'hc8a9;
+        mem[204] = 24'h10b800;
+        mem[205] = 24'h858b0;
+        mem[206] = 24'h8a8;
+        mem[207] = 24'h100000;
+        mem[208] = 24'h1420b0;
+        mem[209] = 24'h1958b4;
+        mem[210] = 24'h808b9;
+        mem[211] = 24'hc8a8;
+        mem[212] = 24'h9b800;
+        mem[213] = 24'h1718a9;
+        mem[214] = 24'h1158b7;
+        mem[215] = 24'h6011;
+        mem[216] = 24'h170000;
+        mem[217] = 24'hc0b7;
+        mem[218] = 24'h10b800;
+        mem[219] = 24'h1258b0;
+        mem[220] = 24'h146012;
+        mem[221] = 24'hc0b4;
+        mem[222] = 24'h10b800;
+        mem[223] = 24'h20b0;
+        mem[224] = 24'h1a0000;
+        mem[225] = 24'h1a28ba;
+        mem[226] = 24'h1458ba;
+        mem[227] = 24'h1158d4;
+        mem[228] = 24'h146011;
+        mem[229] = 24'hc0b4;
+        mem[230] = 24'h10b800;
+        mem[231] = 24'h1258b0;
+        mem[232] = 24'h176012;
+        mem[233] = 24'hc0b7;
+        mem[234] = 24'h10b800;
+        mem[235] = 24'h18b0;
+        mem[236] = 24'h1b0000;
+        mem[237] = 24'h1b28bb;
+        mem[238] = 24'h1558bb;
+        mem[239] = 24'h58d5;
+        mem[240] = 24'ha0000;
+        mem[241] = 24'h1600a;
+        mem[242] = 24'hb58c1;
+        mem[243] = 24'h3600b;
+        mem[244] = 24'h358c3;
+        mem[245] = 24'h26003;
+        mem[246] = 24'h158c2;
+        mem[247] = 24'hb1001;
+        mem[248] = 24'hb28ab;
+        mem[249] = 24'h58ab;
+        mem[250] = 24'h1758c0;
+        mem[251] = 24'h58d7;
+        mem[252] = 24'ha000;
+        mem[253] = 24'h40000;
+        mem[254] = 24'h126004;
+        mem[255] = 24'h1058b2;
+        mem[256] = 24'h8b0;
+        mem[257] = 24'h120000;
+        mem[258] = 24'h1aa8b2;
+        mem[259] = 24'h1f703a;
+        mem[260] = 24'h1810ff;
+        mem[261] = 24'h65c98;
+        mem[262] = 24'h7046;
+        mem[263] = 24'h81000;
+        mem[264] = 24'h7068;
+        mem[265] = 24'h1000;
+        mem[266] = 24'h7060;
+        mem[267] = 24'hc80;
+        mem[268] = 24'h197060;
+        mem[269] = 24'h1940b9;
+        mem[270] = 24'h1848b9;
+        mem[271] = 24'h7078;
+        mem[272] = 24'h181000;
+        mem[273] = 24'h7078;
+        mem[274] = 24'h18b000;
+        mem[275] = 24'h1e9078;
+        mem[276] = 24'h1820be;
+        mem[277] = 24'h127078;
+        mem[278] = 24'h408b2;
+        mem[279] = 24'h75ca4;
+        mem[280] = 24'h70a7;
+        mem[281] = 24'h10b800;
+        mem[282] = 24'h1408b0;
+        mem[283] = 24'he414;
+        mem[284] = 24'h181000;
+        mem[285] = 24'h458b8;
+        mem[286] = 24'h75ca4;
+        mem[287] = 24'h70a7;
+        mem[288] = 24'h1a1000;
+        mem[289] = 24'h1b58ba;
+        mem[290] = 24'h1658bb;
+        mem[291] = 24'h1458b6;
+        mem[292] = 24'h1558d4;
+        mem[293] = 24'h1658d5;
+        mem[294] = 24'h1058d6;
+        mem[295] = 24'h70f0;
+        mem[296] = 24'h0;
+        mem[297] = 24'h0;
+        mem[298] = 24'h0;
+        mem[299] = 24'h0;
+        mem[300] = 24'h0;
+        mem[301] = 24'h0;
+        mem[302] = 24'h0;
+        mem[303] = 24'h0;
+        mem[304] = 24'h0;
+        mem[305] = 24'h0;
+        mem[306] = 24'h0;
+        mem[307] = 24'h0;
+        mem[308] = 24'h0;
+        mem[309] = 24'h0;
+        mem[310] = 24'h0;
+        mem[311] = 24'h0;
+        mem[312] = 24'h0;
+        mem[313] = 24'h0;
+        mem[314] = 24'h0;
+        mem[315] = 24'h0;
+        mem[316] = 24'h0;
+        mem[317] = 24'h0;
+        mem[318] = 24'h0;
+        mem[319] = 24'h0;
+        mem[320] = 24'h0;
+        mem[321] = 24'h0;
+        mem[322] = 24'h0;
+        mem[323] = 24'h0;
+        mem[324] = 24'h0;
+        mem[325] = 24'h0;
+        mem[326] = 24'h0;
+        mem[327] = 24'h0;
+        mem[328] = 24'h0;
+        mem[329] = 24'h0;
+        mem[330] = 24'h0;
+        mem[331] = 24'h0;
+        mem[332] = 24'h0;
+        mem[333] = 24'h0;
+        mem[334] = 24'h0;
+        mem[335] = 24'h0;
+        mem[336] = 24'h0;
+        mem[337] = 24'h0;
+        mem[338] = 24'h0;
+        mem[339] = 24'h0;
+        mem[340] = 24'h0;
+        mem[341] = 24'h0;
+        mem[342] = 24'h0;
+        mem[343] = 24'h0;
+        mem[344] = 24'h0;
+        mem[345] = 24'h0;
+        mem[346] = 24'h0;
+        mem[347] = 24'h0;
+        mem[348] = 24'h0;
+        mem[349] = 24'h0;
+        mem[350] = 24'h0;
+        mem[351] = 24'h0;
+        mem[352] = 24'h0;
+        mem[353] = 24'h0;
+        mem[354] = 24'h0;
+        mem[355] = 24'h0;
+        mem[356] = 24'h0;
+        mem[357] = 24'h0;
+        mem[358] = 24'h0;
+        mem[359] = 24'h0;
+        mem[360] = 24'h0;
+        mem[361] = 24'h0;
+        mem[362] = 24'h0;
+        mem[363] = 24'h0;
+        mem[364] = 24'h0;
+        mem[365] = 24'h0;
+        mem[366] = 24'h0;
+        mem[367] = 24'h0;
+        mem[368] = 24'h0;
+        mem[369] = 24'h0;
+        mem[370] = 24'h0;
+        mem[371] = 24'h0;
+        mem[372] = 24'h0;
+        mem[373] = 24'h0;
+        mem[374] = 24'h0;
+        mem[375] = 24'h0;
+        mem[376] = 24'h0;
+        mem[377] = 24'h0;
+        mem[378] = 24'h0;
+        mem[379] = 24'h0;
+        mem[380] = 24'h0;
+        mem[381] = 24'h0;
+        mem[382] = 24'h0;
+        mem[383] = 24'h0;
+        mem[384] = 24'h0;
+        mem[385] = 24'h0;
+        mem[386] = 24'h0;
+        mem[387] = 24'h0;
+        mem[388] = 24'h0;
+        mem[389] = 24'h0;
+        mem[390] = 24'h0;
+        mem[391] = 24'h0;
+        mem[392] = 24'h0;
+        mem[393] = 24'h0;
+        mem[394] = 24'h0;
+        mem[395] = 24'h0;
+        mem[396] = 24'h0;
+        mem[397] = 24'h0;
+        mem[398] = 24'h0;
+        mem[399] = 24'h0;
+        mem[400] = 24'h0;
+        mem[401] = 24'h0;
+        mem[402] = 24'h0;
+        mem[403] = 24'h0;
+        mem[404] = 24'h0;
+        mem[405] = 24'h0;
+        mem[406] = 24'h0;
+        mem[407] = 24'h0;
+        mem[408] = 24'h0;
+        mem[409] = 24'h0;
+        mem[410] = 24'h0;
+        mem[411] = 24'h0;
+        mem[412] = 24'h0;
+        mem[413] = 24'h0;
+        mem[414] = 24'h0;
+        mem[415] = 24'h0;
+        mem[416] = 24'h0;
+        mem[417] = 24'h0;
+        mem[418] = 24'h0;
+        mem[419] = 24'h0;
+        mem[420] = 24'h0;
+        mem[421] = 24'h0;
+        mem[422] = 24'h0;
+        mem[423] = 24'h0;
+        mem[424] = 24'h0;
+        mem[425] = 24'h0;
+        mem[426] = 24'h0;
+        mem[427] = 24'h0;
+        mem[428] = 24'h0;
+        mem[429] = 24'h0;
+        mem[430] = 24'h0;
+        mem[431] = 24'h0;
+        mem[432] = 24'h0;
+        mem[433] = 24'h0;
+        mem[434] = 24'h0;
+        mem[435] = 24'h0;
+        mem[436] = 24'h0;
+        mem[437] = 24'h0;
+        mem[438] = 24'h0;
+        mem[439] = 24'h0;
+        mem[440] = 24'h0;
+        mem[441] = 24'h0;
+        mem[442] = 24'h0;
+        mem[443] = 24'h0;
+        mem[444] = 24'h0;
+        mem[445] = 24'h0;
+        mem[446] = 24'h0;
+        mem[447] = 24'h0;
+        mem[448] = 24'h0;
+        mem[449] = 24'h0;
+        mem[450] = 24'h0;
+        mem[451] = 24'h0;
+        mem[452] = 24'h0;
+        mem[453] = 24'h0;
+        mem[454] = 24'h0;
+        mem[455] = 24'h0;
+        mem[456] = 24'h0;
+        mem[457] = 24'h0;
+        mem[458] = 24'h0;
+        mem[459] = 24'h0;
+        mem[460] = 24'h0;
+        mem[461] = 24'h0;
+        mem[462] = 24'h0;
+        mem[463] = 24'h0;
+        mem[464] = 24'h0;
+        mem[465] = 24'h0;
+        mem[466] = 24'h0;
+        mem[467] = 24'h0;
+        mem[468] = 24'h0;
+        mem[469] = 24'h0;
+        mem[470] = 24'h0;
+        mem[471] = 24'h0;
+        mem[472] = 24'h0;
+        mem[473] = 24'h0;
+        mem[474] = 24'h0;
+        mem[475] = 24'h0;
+        mem[476] = 24'h0;
+        mem[477] = 24'h0;
+        mem[478] = 24'h0;
+        mem[479] = 24'h0;
+        mem[480] = 24'h0;
+        mem[481] = 24'h0;
+        mem[482] = 24'h0;
+        mem[483] = 24'h0;
+        mem[484] = 24'h0;
+        mem[485] = 24'h0;
+        mem[486] = 24'h0;
+        mem[487] = 24'h0;
+        mem[488] = 24'h0;
+        mem[489] = 24'h0;
+        mem[490] = 24'h0;
+        mem[491] = 24'h0;
+        mem[492] = 24'h0;
+        mem[493] = 24'h0;
+        mem[494] = 24'h0;
+        mem[495] = 24'h0;
+        mem[496] = 24'h0;
+        mem[497] = 24'h0;
+        mem[498] = 24'h0;
+        mem[499] = 24'h0;
+        mem[500] = 24'h0;
+        mem[501] = 24'h0;
+        mem[502] = 24'h0;
+        mem[503] = 24'h0;
+        mem[504] = 24'h0;
+        mem[505] = 24'h0;
+        mem[506] = 24'h0;
+        mem[507] = 24'h0;
+        mem[508] = 24'h0;
+        mem[509] = 24'h0;
+        mem[510] = 24'h0;
+        mem[511] = 24'h0;
     end
 
     always @(posedge clock) begin
@@ -5108,7 +5276,6 @@ module rac4i65_core_sequencer_multiplier (
     localparam digit_plus_two = 3'b11;
     localparam digit_minus_two = 3'b100;
     localparam digit_minus_zero = 3'b111;
-    localparam no_steps = 4'h0;
     localparam one_step = 4'h1;
     localparam steps_coefficient = 4'h9;
     localparam steps_gain = 4'hc;
@@ -5119,7 +5286,6 @@ module rac4i65_core_sequencer_multiplier (
     localparam steps_counts = 4'h8;
     localparam half_counts = 32'h80;
     localparam half_period = 32'h800;
-    localparam sign_extension = 32'hc0000000;
     localparam word_max = 32'h1fffffff;
     localparam word_min = 32'he0000000;
     localparam eleven_clear = 11'b0;
@@ -5139,6 +5305,9 @@ module rac4i65_core_sequencer_multiplier (
 
     reg [3:0] steps_d;
     wire [3:0] steps_q;
+
+    reg working_d;
+    wire working_q;
 
     reg negate_d;
     wire negate_q;
@@ -5162,6 +5331,7 @@ module rac4i65_core_sequencer_multiplier (
     reg [10:0] top;
     reg running;
     reg fits;
+    reg sign;
     reg [4:0] top_5;
 
     // Parts
@@ -5169,6 +5339,7 @@ module rac4i65_core_sequencer_multiplier (
     rac4i65_core_dff_32 lo (.d(lo_d), .q(lo_q), .clock(clock));
     rac4i65_core_dff_32 operand (.d(operand_d), .q(operand_q), .clock(clock));
     rac4i65_core_dff_4 steps (.d(steps_d), .q(steps_q), .clock(clock));
+    rac4i65_core_dff_1 working (.d(working_d), .q(working_q), .clock(clock));
     rac4i65_core_dff_1 negate (.d(negate_d), .q(negate_q), .clock(clock));
     rac4i65_core_dff_1 twice (.d(twice_d), .q(twice_q), .clock(clock));
     rac4i65_core_dff_1 nothing (.d(nothing_d), .q(nothing_q), .clock(clock));
@@ -5179,16 +5350,16 @@ module rac4i65_core_sequencer_multiplier (
         lo_d = lo_q;
         operand_d = operand_q;
         steps_d = steps_q;
+        working_d = working_q;
         guard_8_d = guard_8_q;
         if (running) begin
             steps_d = steps_q - one_step;
-            p_d = shifted;
-            if (sum[32'h1f]) begin
-                p_d = shifted | sign_extension;
-            end
+            working_d = steps_q != one_step;
+            p_d = shifted | (((sign) & 32'hffffffff) << 32'h1e) | (((sign) & 32'hffffffff) << 32'h1f);
             lo_d = (lo_q >> 32'h2) | (((sum[(32'h0)+:(2)]) & 32'hffffffff) << 32'h1e);
         end
         else if (start) begin
+            working_d = 1'b1;
             operand_d = a;
             lo_d = b;
             guard_8_d = 1'b0;
@@ -5239,7 +5410,7 @@ module rac4i65_core_sequencer_multiplier (
         nothing_d = (digit == digit_zero) | (digit == digit_minus_zero);
     end
 
-    always @(*) running = steps_q != no_steps;
+    always @(*) running = working_q;
     always @(*) busy = running;
 
     always @(*) begin
@@ -5275,7 +5446,10 @@ module rac4i65_core_sequencer_multiplier (
         end
     end
 
-    always @(*) shifted = sum >> 32'h2;
+    always @(*) begin
+        shifted = sum >> 32'h2;
+        sign = sum[(32'h1f)+:(1)];
+    end
 
     always @(*) begin
         top = p_q[(32'h15)+:(11)];
@@ -5310,7 +5484,6 @@ module rac4i65_core_sequencer_divider (
 );
 
     // Constants
-    localparam no_steps = 6'b0;
     localparam one_step = 6'b1;
     localparam word_steps = 6'b11101;
     localparam all_steps = 6'b100001;
@@ -5334,6 +5507,9 @@ module rac4i65_core_sequencer_divider (
     reg [5:0] steps_d;
     wire [5:0] steps_q;
 
+    reg working_d;
+    wire working_q;
+
     reg negative_d;
     wire negative_q;
 
@@ -5356,6 +5532,7 @@ module rac4i65_core_sequencer_divider (
     rac4i65_core_dff_29 bits (.d(bits_d), .q(bits_q), .clock(clock));
     rac4i65_core_dff_24_2 divisor (.d(divisor_d), .q(divisor_q), .clock(clock));
     rac4i65_core_dff_6 steps (.d(steps_d), .q(steps_q), .clock(clock));
+    rac4i65_core_dff_1 working (.d(working_d), .q(working_q), .clock(clock));
     rac4i65_core_dff_1 negative (.d(negative_d), .q(negative_q), .clock(clock));
     rac4i65_core_dff_1 overflow (.d(overflow_d), .q(overflow_q), .clock(clock));
 
@@ -5365,10 +5542,12 @@ module rac4i65_core_sequencer_divider (
         bits_d = bits_q;
         divisor_d = divisor_q;
         steps_d = steps_q;
+        working_d = working_q;
         negative_d = negative_q;
         overflow_d = overflow_q;
         if (running) begin
             steps_d = steps_q - one_step;
+            working_d = steps_q != one_step;
             last_bit_d = 1'b0;
             remainder_d = minuend[(32'h0)+:(25)];
             bits_d = bits_q << 32'h1;
@@ -5389,10 +5568,11 @@ module rac4i65_core_sequencer_divider (
             divisor_d = denominator[(32'h0)+:(24)];
             overflow_d = 1'b0;
             steps_d = all_steps;
+            working_d = 1'b1;
         end
     end
 
-    always @(*) running = steps_q != no_steps;
+    always @(*) running = working_q;
     always @(*) busy = running;
 
     always @(*) begin
@@ -7901,6 +8081,9 @@ module rac4i65_core_drives (
     reg [9:0] quiet_d;
     wire [9:0] quiet_q;
 
+    reg rested_d;
+    wire rested_q;
+
     reg settled_d;
     wire settled_q;
 
@@ -7930,6 +8113,7 @@ module rac4i65_core_drives (
     rac4i65_core_dff_13 active_compare (.d(active_compare_d), .q(active_compare_q), .clock(clock));
     rac4i65_core_dff_1 active_direction (.d(active_direction_d), .q(active_direction_q), .clock(clock));
     rac4i65_core_dff_10 quiet (.d(quiet_d), .q(quiet_q), .clock(clock));
+    rac4i65_core_dff_1 rested (.d(rested_d), .q(rested_q), .clock(clock));
     rac4i65_core_dff_1 settled (.d(settled_d), .q(settled_q), .clock(clock));
     rac4i65_core_dff_1 pwm_pin (.d(pwm_pin_d), .q(pwm_pin_q), .clock(clock));
     rac4i65_core_dff_1 dir_pin (.d(dir_pin_d), .q(dir_pin_q), .clock(clock));
@@ -7966,11 +8150,14 @@ module rac4i65_core_drives (
 
     always @(*) begin
         quiet_d = quiet_q;
+        rested_d = rested_q;
         if (~long_quiet) begin
             quiet_d = quiet_q + quiet_one;
         end
+        rested_d = long_quiet;
         if (turns | pwm_pin_q | ~enable) begin
             quiet_d = quiet_zero;
+            rested_d = 1'b0;
         end
     end
 
@@ -8007,8 +8194,8 @@ module rac4i65_core_drives (
     always @(*) wraps = last & running;
     always @(*) long_quiet = quiet_q >= blanking;
     always @(*) aligned = ~(active_direction_q ^ dir_pin_q);
-    always @(*) turns = enable & ~aligned & |active_compare_q & long_quiet & ~pwm_pin_q;
-    always @(*) permitted = enable & (settled_q | long_quiet);
+    always @(*) turns = enable & ~aligned & |active_compare_q & rested_q & ~pwm_pin_q;
+    always @(*) permitted = enable & (settled_q | rested_q);
 
     always @(*) begin
         pwm = pwm_pin_q;

@@ -49,7 +49,7 @@
 //! | PI with feed-forward | 11 + 2 × 14 | |
 //! | PWM compare | 9 | |
 //! | pose, once for all axes | 11 + 2 × 14 + 4 × 11 | |
-//! | **all of four axes, pose and snapshot** | | **981** clocks at most, measured |
+//! | **all of four axes, pose and snapshot** | | **997** clocks at most, measured |
 //!
 //! The measure holds the worst of a random walk and of a drive in which every axis captures an index
 //! and creeps without an edge at every tick. The shortest control period is

@@ -10,8 +10,8 @@
 //! | `enable` low or `stops` to `pwm` low | 1 |
 //! | `load` to a change at the pin | 2 after the next period start, up to period + 2 |
 //! | `period_start` before the first clock of a period at the pin | 1 |
-//! | `pwm` low before `dir` changes, and after it | at least blanking + 1 |
-//! | `pwm` low after `enable` | at least blanking + 1 |
+//! | `pwm` low before `dir` changes, and after it | at least blanking + 2 |
+//! | `pwm` low after `enable` | at least blanking + 2 |
 //!
 //! While disabled, `dir` holds; a compare of zero does not ask for a direction, so crossing
 //! zero costs one blanking time and trembling around it none.
@@ -74,7 +74,9 @@ pub struct Pwm {
     active_direction: bool,
     /// Clocks since `pwm` was high, `dir` changed or `enable` was low; stops at the blanking time.
     quiet: u16,
-    /// `quiet` has reached the blanking time since `dir` changed or `enable` was low.
+    /// `quiet` had reached the blanking time a clock ago, and nothing has begun it anew.
+    rested: bool,
+    /// So it was since `dir` changed or `enable` was low.
     settled: bool,
     pulse: bool,
     reverse: bool,
@@ -108,22 +110,24 @@ impl Pwm {
 
         let long_quiet = before.quiet >= inputs.blanking & BLANKING_MASK;
         let aligned = before.active_direction == before.reverse;
-        let turns = inputs.enable && !aligned && before.active_compare != 0 && long_quiet && !before.pulse;
+        let turns = inputs.enable && !aligned && before.active_compare != 0 && before.rested && !before.pulse;
         if turns {
             self.reverse = before.active_direction;
         }
         if !long_quiet {
             self.quiet = before.quiet + 1;
         }
+        self.rested = long_quiet;
         if turns || before.pulse || !inputs.enable {
             self.quiet = 0;
+            self.rested = false;
         }
-        self.settled = inputs.enable && !turns && (before.settled || long_quiet);
+        self.settled = inputs.enable && !turns && (before.settled || before.rested);
         self.pulse = inputs.enable
             && !inputs.stops
             && period != 0
             && aligned
-            && (before.settled || long_quiet)
+            && (before.settled || before.rested)
             && before.coming <= before.active_compare;
         self.outputs(inputs.up_down)
     }

@@ -93,7 +93,7 @@ pub struct Inputs {
     pub arm_data: u32,
     /// Strobe: a valid set point was committed.
     pub pet: bool,
-    /// Clocks a pet lasts, 24 bits; 0 = always bitten. A shorter one takes effect at once.
+    /// Clocks a pet lasts, 24 bits; 0 = always bitten. A shorter one takes effect two clocks later.
     pub watchdog_timeout: u32,
     /// Level: an encoder is broken.
     pub encoder_fault: bool,
@@ -143,6 +143,8 @@ pub struct Safety {
     /// Filters the inverted pin, so that the power-up state is "stopped".
     released: GlitchFilter,
     remaining: u32,
+    /// The time-out was below `remaining` a clock ago.
+    shortened: bool,
     /// Control ticks since the last pet; stops at the time-out.
     age: u16,
     first_word: bool,
@@ -155,8 +157,8 @@ impl Safety {
         let before = *self;
         let timeout = inputs.watchdog_timeout & TIMEOUT_MASK;
         self.released.clock(!inputs.emergency_stop, true, EMERGENCY_STOP_FILTER, false);
-        self.remaining =
-            if inputs.pet || before.remaining > timeout { timeout } else { before.remaining.saturating_sub(1) };
+        self.shortened = before.remaining > timeout;
+        self.remaining = if inputs.pet || before.shortened { timeout } else { before.remaining.saturating_sub(1) };
 
         let stale = before.age >= inputs.set_point_timeout;
         if inputs.pet {
@@ -194,7 +196,7 @@ impl Safety {
     /// Whether something keeps the outputs off at the next clock.
     fn standing(&self, inputs: &Inputs) -> bool {
         let broken = inputs.encoder_fault || inputs.stall_fault || inputs.external_fault;
-        self.remaining == 0 || !self.released.value || broken
+        self.remaining == 0 || !self.released.value || broken || self.shortened
     }
 
     /// Whether the outputs are armed after the next clock.

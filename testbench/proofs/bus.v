@@ -29,6 +29,7 @@ always @(*) begin
     if (read) assert (formal_open && formal_reads);
     assert (claims == (fetch_q || offer_q));
     assert (!(read && write));
+    assert (!(write && write_busy));
     if (write) assert (formal_open && !formal_reads && formal_written >= 1);
     // Invariants that carry the induction.
     assert (formal_open == (fetch_q || pending_q || take_q || collect_q || offer_q || answer_q));

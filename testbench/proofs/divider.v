@@ -27,6 +27,7 @@ always @(*) begin
         assert (quotient == (negative_q ? ~{3'd0, formal_word} : {3'd0, formal_word}));
     end
     // Invariants that carry the induction.
+    assert (running == (steps_q != 0));
     assert (steps_q <= 33 && (formal_begun || steps_q == 0));
     if (formal_begun) begin
         assert (formal_taken == 33 - steps_q);

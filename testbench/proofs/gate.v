@@ -4,18 +4,25 @@ reg formal_stops = 1;
 always @(posedge lclk) formal_stops <= safety_stops;
 // Proof "safety".
 always @(*) assume (safety_armed == !formal_stops && safety_off == formal_stops);
+// A word is staged in the clock after its write, never where the program stores.
+reg formal_blocked = 0, formal_turn = 0, formal_selected = 0;
+always @(posedge lclk) begin
+    formal_blocked <= sequencer_bus_blocked;
+    formal_turn <= radio_turn;
+    formal_selected <= radio_selected;
+end
 // Who commands: a host that does not reaches two registers, and the radio never in a clock of the bus.
 always @(*) begin
     // Proof "bus".
     assume (!(bus_write_2 || bus_read) || bus_claims);
-    assume (!(bus_write_2 && bus_read));
+    assume (!(bus_write_2 && bus_read) && !(bus_write_2 && blocked));
     // What the copy of the registers gives after a clock that writes it is never wanted: nothing is written in
     // the clock in which a read begins.
     if (bus_read) assert (!registers_write);
-    if (radio_selected && sequencer_bus_write) assert (radio_turn);
+    if (sequencer_bus_write) assert (!formal_blocked && (formal_turn || !formal_selected));
     if (radio_selected && registers_write && !radio_turn)
         assert (index == at_arm || index == at_radio);
-    if (bus_claims) assert (address == bus_address_2 && write_data == bus_write_data_2 && !radio_taken);
+    if (bus_claims) assert (address == bus_address_2 && write_data == bus_write_data_2 && !radio_writes);
 end
 always @(*) begin
     if (formal_on) assert (safety_armed && !monitor_lclk_dead);

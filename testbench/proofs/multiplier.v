@@ -14,6 +14,7 @@ always @(*) begin
     assert ($signed(result)
         == (formal_wide > FORMAL_MAX ? FORMAL_MAX : formal_wide < FORMAL_MIN ? FORMAL_MIN : formal_wide));
     // Invariants that carry the induction.
+    assert (running == (steps_q != 0));
     assert (operand_q[31:29] == 3'b000 || operand_q[31:29] == 3'b111);
     assert (p_q[31:30] == 2'b00 || p_q[31:30] == 2'b11);
 end

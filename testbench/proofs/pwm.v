@@ -36,8 +36,9 @@ always @(*) if (formal_running) begin
     // Invariants that carry the induction.
     assert (quiet_q <= formal_low && quiet_q <= formal_since);
     if (settled_q) assert (formal_since >= blanking);
-    if (!formal_enable) assert (!settled_q && quiet_q == 0);
+    if (rested_q) assert (formal_since >= blanking && formal_low >= blanking);
+    if (!formal_enable) assert (!settled_q && !rested_q && quiet_q == 0);
 end
 // After a clock with `stops` there is no pulse at either pin, whatever the mode.
 always @(*) if (formal_stops) assert (!pwm && (!up_down || !dir));
-always @(*) if (!formal_running) assert (!formal_pulse && !settled_q && quiet_q == 0);
+always @(*) if (!formal_running) assert (!formal_pulse && !settled_q && !rested_q && quiet_q == 0);

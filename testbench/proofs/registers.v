@@ -7,7 +7,7 @@ wire [FORMAL_BITS-1:0] formal_locked = {imu_control, tick_period, mode, encoder_
 reg [FORMAL_BITS-1:0] formal_before;
 reg formal_running = 0, formal_armed, formal_wrote, formal_writing;
 reg [31:0] formal_data;
-reg [5:0] formal_address;
+reg [5:0] formal_address, formal_address_before = 0;
 
 always @(posedge clock) begin
     formal_running <= 1;
@@ -16,6 +16,7 @@ always @(posedge clock) begin
     formal_writing <= writing_q;
     formal_data <= data;
     formal_address <= address;
+    formal_address_before <= formal_running ? formal_address : 6'd0;
     formal_before <= formal_locked;
 end
 
@@ -29,5 +30,5 @@ always @(*) begin
     if (fire) assert (written == 32'h4b49434b);
     if (tick_period_written) assert (!armed && writing_q);
     assert (unlocked == !armed);
-    if (formal_running && formal_address > 43) assert (read_data == 0);
+    if (formal_address_before > 43) assert (read_data == 0);
 end

@@ -7,7 +7,8 @@ reg formal_running = 0, formal_armed = 0, formal_released = 0, formal_fault = 1,
 reg [23:0] formal_timeout = 0;
 reg formal_stops = 1;
 reg formal_stopped = 1;         // the filtered emergency stop (filter.v: 18 clocks behind the pin)
-reg [24:0] formal_silence = 0;  // clocks since the last pet, or since the time-out changed
+reg [24:0] formal_silence = 0;  // clocks since the last pet, or since a new time-out is in force, two after it came
+reg [1:0] formal_calm = 0;      // clocks since the time-out changed, at most 3
 reg formal_first = 0;           // the last write to the arm register was its first word
 
 reg formal_clean = 0;           // so it was, and no cause has stood since, its own clock included
@@ -16,7 +17,7 @@ reg [7:0] formal_faults = 0, formal_first_fault = 0, formal_clear = 0;
 
 reg formal_stale = 1;           // no pet, and as many ticks since the last as a set point lasts
 
-wire formal_standing = !(|remaining_q) || !released_value || encoder_fault || stall_fault || external_fault;
+wire formal_standing = !(|remaining_q) || shortened_q || !released_value || encoder_fault || stall_fault || external_fault;
 wire formal_second = arm_write && arm_data == 32'h41524d32;
 always @(posedge clock) begin
     formal_running <= 1;
@@ -25,7 +26,8 @@ always @(posedge clock) begin
     formal_fault <= encoder_fault || stall_fault || external_fault;
     formal_timeout <= watchdog_timeout;
     formal_stopped <= !released_value;
-    formal_silence <= pet || watchdog_timeout != formal_timeout ? 25'd0 : formal_silence + !(&formal_silence);
+    formal_silence <= pet || shortened_q || watchdog_timeout != formal_timeout ? 25'd0 : formal_silence + !(&formal_silence);
+    formal_calm <= watchdog_timeout != formal_timeout ? 2'd0 : formal_calm + !(&formal_calm);
     if (arm_write) formal_first <= arm_data == 32'h41524d31;
     formal_write <= arm_write;
     formal_clean <= !formal_standing && (arm_write ? arm_data == 32'h41524d31 : formal_clean);
@@ -59,5 +61,7 @@ always @(*) begin
     // Invariants that carry the induction.
     assert (!first_word_q || formal_first);
     assert (first_word_q == formal_clean);
-    assert (remaining_q == 0 || {2'd0, remaining_q} + formal_silence <= formal_timeout);
+    assert (!(shortened_q && (armed || formal_calm >= 2)));
+    assert (formal_calm == 0 || remaining_q <= formal_timeout);
+    assert (remaining_q == 0 || shortened_q || {2'd0, remaining_q} + formal_silence <= formal_timeout);
 end

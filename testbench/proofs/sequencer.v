@@ -12,9 +12,11 @@ reg formal_meets = 0, formal_was_narrow = 0;
 reg signed [33:0] formal_was;
 wire formal_loads = valid_q && (op == 1 || op == 2 || op == 9 || op == 10 || op == 12 || op == 22 || op == 23);
 reg [31:0] formal_written;
+reg formal_blocked = 0;
 always @(posedge clock) begin
     formal_meets <= memory_write_enable && memory_write_address == bus_address;
     formal_written <= memory_write_data;
+    formal_blocked <= bus_blocked;
     formal_was_narrow <= formal_narrow;
     formal_was <= formal_exact;
 end
@@ -28,7 +30,11 @@ always @(*) begin
     if (saturates_q && !formal_loads) assert (accumulator_d == saturated);
     if (valid_q && op == 3) assert (!subtracting && saturates_d);
     if (valid_q && op == 4) assert (subtracting && saturates_d);
-    if (bus_write) assert (bus_write_taken == !bus_blocked);
-    if (bus_write_taken) assert (memory_write_enable && memory_write_address == bus_write_address);
-    if (storing_q) assert (bus_blocked && memory_write_data == accumulator_q);
+    // Proof "gate".
+    assume (!(bus_write && formal_blocked));
+    if (bus_write) assert (memory_write_enable && memory_write_address == bus_write_address
+        && memory_write_data == bus_write_data);
+    assert (storing_q == formal_blocked);
+    if (storing_q) assert (memory_write_enable && memory_write_address == store_address_q
+        && memory_write_data == accumulator_q);
 end

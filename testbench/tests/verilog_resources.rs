@@ -116,7 +116,7 @@ fn arithmetic() {
 #[test]
 fn bus_and_registers() {
     check("local_bus", LocalBus::default(), 150, 130);
-    check("decoder", Decoder::default(), 60, 0);
+    check("decoder", Decoder::default(), 60, 20);
     check("commit", Commit::default(), 200, 100);
     check("snapshot", Snapshot::default(), 10, 8);
     check("snapshot_address", SnapshotAddress::default(), 8, 0);

@@ -47,9 +47,9 @@ pub struct Commit {
     pub set_points_pending: Signal<Out, Bit>,
     /// A commit of the configuration waits for the tick.
     pub configuration_pending: Signal<Out, Bit>,
-    /// A right commit of set points, in its clock.
+    /// A right commit of set points, in the clock after it.
     pub pet: Signal<Out, Bit>,
-    /// A wrong commit, in its clock.
+    /// A wrong commit, in the clock after it.
     pub fault: Signal<Out, Bit>,
     /// Right commits, wrapping.
     pub accepted: Signal<Out, Bits<16>>,
@@ -57,6 +57,9 @@ pub struct Commit {
     pub rejected: Signal<Out, Bits<16>>,
 
     sum: Preset<32, { CHECKSUM_SEED as u64 }>,
+    sum_right: DFF<Bit>,
+    set_points_come: DFF<Bit>,
+    configuration_comes: DFF<Bit>,
     set_points: DFF<Bits<6>>,
     configuration: DFF<Bits<6>>,
     set_point_bank_now: DFF<Bit>,
@@ -67,7 +70,6 @@ pub struct Commit {
     rejected_count: DFF<Bits<16>>,
 
     next_sum: Signal<Local, Bits<32>>,
-    sum_right: Signal<Local, Bit>,
     right: Signal<Local, Bit>,
     committing: Signal<Local, Bit>,
 
@@ -87,6 +89,9 @@ impl Logic for Commit {
             self,
             clock,
             sum,
+            sum_right,
+            set_points_come,
+            configuration_comes,
             set_points,
             configuration,
             set_point_bank_now,
@@ -100,20 +105,23 @@ impl Logic for Commit {
         self.next_sum.next = ((self.sum.q.val() << 1) | (self.sum.q.val() >> 31))
             ^ self.data.val()
             ^ bit_cast::<32, 14>(self.address.val());
-        self.committing.next = self.commit_set_points.val() | self.commit_configuration.val();
-        self.sum_right.next = self.checksum.val() == self.sum.q.val();
+        // The checksum is compared in the clock of the commit, which counts in the next.
+        self.sum_right.d.next = self.checksum.val() == self.sum.q.val();
+        self.set_points_come.d.next = self.commit_set_points.val();
+        self.configuration_comes.d.next = self.commit_configuration.val();
+        self.committing.next = self.set_points_come.q.val() | self.configuration_comes.q.val();
         self.right.next = false;
-        if self.commit_set_points.val() {
-            self.right.next = self.sum_right.val()
+        if self.set_points_come.q.val() {
+            self.right.next = self.sum_right.q.val()
                 & (self.set_points.q.val() == self.all_set_points.val())
                 & (self.configuration.q.val() == self.none.val());
         }
-        if self.commit_configuration.val() {
-            self.right.next = self.sum_right.val()
+        if self.configuration_comes.q.val() {
+            self.right.next = self.sum_right.q.val()
                 & (self.configuration.q.val() == self.all_configuration.val())
                 & (self.set_points.q.val() == self.none.val());
         }
-        self.pet.next = self.commit_set_points.val() & self.right.val();
+        self.pet.next = self.set_points_come.q.val() & self.right.val();
         self.fault.next = self.committing.val() & !self.right.val();
 
         if self.tick.val() {
@@ -124,6 +132,21 @@ impl Logic for Commit {
             if self.configuration_waits.q.val() & !self.stage_configuration.val() {
                 self.configuration_bank_now.d.next = !self.configuration_bank_now.q.val();
                 self.configuration_waits.d.next = false;
+            }
+        }
+        if self.committing.val() {
+            self.sum.d.next = self.seed.val();
+            self.set_points.d.next = self.none.val();
+            self.configuration.d.next = self.none.val();
+            if self.right.val() {
+                self.accepted_count.d.next = self.accepted_count.q.val() + self.one_count.val();
+                if self.set_points_come.q.val() {
+                    self.set_points_wait.d.next = true;
+                } else {
+                    self.configuration_waits.d.next = true;
+                }
+            } else {
+                self.rejected_count.d.next = self.rejected_count.q.val() + self.one_count.val();
             }
         }
         if self.stage_set_point.val() {
@@ -139,21 +162,6 @@ impl Logic for Commit {
                 self.configuration.d.next = self.configuration.q.val() + self.one.val();
             }
             self.configuration_waits.d.next = false;
-        }
-        if self.committing.val() {
-            self.sum.d.next = self.seed.val();
-            self.set_points.d.next = self.none.val();
-            self.configuration.d.next = self.none.val();
-            if self.right.val() {
-                self.accepted_count.d.next = self.accepted_count.q.val() + self.one_count.val();
-                if self.commit_set_points.val() {
-                    self.set_points_wait.d.next = true;
-                } else {
-                    self.configuration_waits.d.next = true;
-                }
-            } else {
-                self.rejected_count.d.next = self.rejected_count.q.val() + self.one_count.val();
-            }
         }
 
         self.set_point_bank.next = self.set_point_bank_now.q.val();

@@ -138,11 +138,12 @@ pub struct Core {
     faults_at_tick: DFF<Bits<8>>,
     now: DFF<Bits<24>>,
     reverse: DFF<Bit>,
-    read_page: DFF<Bit>,
+    stages: DFF<Bit>,
+    encoder_fault: DFF<Bit>,
+    stall_fault: DFF<Bit>,
     read_memory: DFF<Bit>,
     read_imu: DFF<Bit>,
     finished: DFF<Bit>,
-    read_q: DFF<Bits<32>>,
     stop_sync: DFF<Bit>,
     stop_live: DFF<Bit>,
     ball_sync: DFF<Bit>,
@@ -159,8 +160,10 @@ pub struct Core {
     write_data: Signal<Local, Bits<32>>,
     host_writes: Signal<Local, Bit>,
     blocked: Signal<Local, Bit>,
-    staging: Signal<Local, Bit>,
+    radio_writes: Signal<Local, Bit>,
     staged: Signal<Local, Bits<32>>,
+    memory_word: Signal<Local, Bits<32>>,
+    imu_word: Signal<Local, Bits<32>>,
     status: Signal<Local, Bits<8>>,
     kicker_status: Signal<Local, Bits<8>>,
     errors: Signal<Local, Bits<4>>,
@@ -181,7 +184,7 @@ pub struct Core {
     fourth_starts: DFF<Bit>,
     quarter: Signal<Local, Bits<13>>,
     half: Signal<Local, Bits<13>>,
-    three_quarters: Signal<Local, Bits<13>>,
+    three_quarters: DFF<Bits<13>>,
     shut: Signal<Local, Bit>,
     holds: Signal<Local, Bit>,
     line: DFF<Bits<16>>,
@@ -192,7 +195,6 @@ pub struct Core {
     zero: Literal<32, 0>,
     /// The bits of the status that a snapshot shows; what is pending is over at the tick.
     live_status: Literal<8, 0x0F>,
-    one_16: Literal<16, 1>,
     sign_30: Literal<32, 0xC000_0000>,
     mask_30: Literal<32, 0x3FFF_FFFF>,
     at_arm: Literal<6, { ARM.word_address() as u64 }>,
@@ -228,11 +230,12 @@ impl Logic for Core {
             now,
             line,
             reverse,
-            read_page,
+            stages,
+            encoder_fault,
+            stall_fault,
             read_memory,
             read_imu,
             finished,
-            read_q,
             stop_sync,
             stop_live,
             ball_sync,
@@ -241,6 +244,7 @@ impl Logic for Core {
             second_starts,
             third_starts,
             fourth_starts,
+            three_quarters,
             dead_live
         );
         clock!(
@@ -249,6 +253,7 @@ impl Logic for Core {
             bus,
             registers,
             timebase,
+            decoder,
             commit,
             snapshot,
             safety,
@@ -334,57 +339,59 @@ impl Logic for Core {
                 | (self.index.val() == self.at_arm.val())
                 | (self.index.val() == self.at_radio.val()));
         self.decoder.address.next = self.address.val();
+        self.decoder.read.next = self.bus.read.val();
         self.decoder.configuration_bank.next = self.commit.configuration_bank.val();
         self.decoder.set_point_bank.next = self.commit.set_point_bank.val();
         self.decoder.snapshot_bank.next = self.snapshot.read_bank.val();
-        self.snapshot.read_first.next = self.decoder.snapshot_first.val() & self.bus.read.val();
-        self.snapshot.read_last.next = self.decoder.snapshot_last.val() & self.bus.read.val();
+        self.snapshot.read_first.next = self.decoder.snapshot_first.val();
+        self.snapshot.read_last.next = self.decoder.snapshot_last.val();
 
-        // Writes.
+        // Writes act in the clock after, when it is known what they mean; they wait where the memory will be busy then.
+        self.blocked.next = self.sequencer.bus_blocked.val();
+        self.radio_writes.next = self.radio_turn.val() & !self.blocked.val();
         self.registers.address.next = self.index.val();
         self.registers.data.next = self.write_data.val();
-        self.registers.write.next = self.decoder.in_registers.val() & (self.host_writes.val() | self.radio_turn.val());
-        self.staged.next = self.write_data.val() & self.mask_30.val();
-        if self.write_data.val().get_bit(29) {
-            self.staged.next = self.write_data.val() | self.sign_30.val();
+        self.registers.write.next =
+            self.decoder.at_registers.val() & (self.host_writes.val() | self.radio_writes.val());
+        self.stages.d.next = self.radio_writes.val() | (self.bus.write.val() & !self.radio.selected.val());
+        self.staged.next = self.registers.written.val() & self.mask_30.val();
+        if self.registers.written.val().get_bit(29) {
+            self.staged.next = self.registers.written.val() | self.sign_30.val();
         }
-        self.staging.next = self.decoder.stages_set_point.val() | self.decoder.stages_configuration.val();
-        self.blocked.next = self.staging.val() & self.sequencer.bus_blocked.val();
-        self.radio.taken.next = self.radio_turn.val() & !self.blocked.val();
+        self.radio.taken.next = self.radio_writes.val();
         self.radio.select_write.next = self.registers.select_radio.val();
         self.radio.select.next = self.registers.written.val().get_bit(0);
         self.sequencer.bus_address.next = self.decoder.memory_address.val();
         self.sequencer.bus_write_address.next = self.decoder.staging_address.val();
         self.sequencer.bus_write_data.next = self.staged.val();
         self.sequencer.bus_write.next =
-            self.staging.val() & (self.radio_turn.val() | (self.bus.write.val() & !self.radio.selected.val()));
+            self.stages.q.val() & (self.decoder.stages_set_point.val() | self.decoder.stages_configuration.val());
         self.bus.write_busy.next = self.blocked.val();
-        self.commit.stage_set_point.next = self.decoder.stages_set_point.val() & self.sequencer.bus_write_taken.val();
-        self.commit.stage_configuration.next =
-            self.decoder.stages_configuration.val() & self.sequencer.bus_write_taken.val();
-        self.commit.address.next = self.address.val();
-        self.commit.data.next = self.write_data.val();
+        self.commit.stage_set_point.next = self.stages.q.val() & self.decoder.stages_set_point.val();
+        self.commit.stage_configuration.next = self.stages.q.val() & self.decoder.stages_configuration.val();
+        self.commit.address.next = self.decoder.staging_word.val();
+        self.commit.data.next = self.registers.written.val();
         self.commit.checksum.next = self.registers.written.val();
         self.commit.commit_set_points.next = self.registers.commit_set_points.val();
         self.commit.commit_configuration.next = self.registers.commit_configuration.val();
         self.commit.tick.next = self.tick.val();
 
-        // Reads: the word is there one clock after the strobe, in the register one later.
-        self.read_page.d.next = self.decoder.in_registers.val();
+        // Reads: a memory is asked one clock after the strobe and answers in the next.
         self.read_memory.d.next = self.decoder.in_memory.val();
         self.read_imu.d.next = self.decoder.in_imu.val();
-        self.read_q.d.next = self.zero.val();
-        if self.read_page.q.val() {
-            self.read_q.d.next = self.registers.read_data.val();
-        }
+        self.memory_word.next = self.zero.val();
         if self.read_memory.q.val() {
-            self.read_q.d.next = self.sequencer.bus_read_data.val();
+            self.memory_word.next = self.sequencer.bus_read_data.val();
         }
+        self.imu_word.next = self.zero.val();
         if self.read_imu.q.val() {
-            self.read_q.d.next = bit_cast::<32, 16>(self.imu.read_data.val());
+            self.imu_word.next = bit_cast::<32, 16>(self.imu.read_data.val());
         }
-        self.registers.was_in_page.next = self.read_page.q.val();
-        self.bus.read_data.next = self.read_q.q.val() | bit_cast::<32, 24>(self.registers.kept_data.val());
+        self.registers.was_in_page.next = self.decoder.in_registers.val();
+        self.bus.read_data.next = self.registers.read_data.val()
+            | bit_cast::<32, 24>(self.registers.kept_data.val())
+            | self.memory_word.val()
+            | self.imu_word.val();
 
         // Inertial sensor.
         self.imu.tick.next = self.tick.val();
@@ -398,7 +405,7 @@ impl Logic for Core {
         self.imu.miso.next = self.imu_miso.val();
         self.imu.ready.next = self.imu_ready.val();
         self.imu.read_bank.next = self.snapshot.read_bank.val();
-        self.imu.read_word.next = self.index.val().get_bits::<3>(0);
+        self.imu.read_word.next = self.decoder.word.val().get_bits::<3>(0);
         self.imu_cs_n.next = self.imu.cs_n.val();
         self.imu_sclk.next = self.imu.sclk.val();
         self.imu_mosi.next = self.imu.mosi.val();
@@ -487,10 +494,7 @@ impl Logic for Core {
                 self.index_clear.next = self.clear_at_tick.q.val().get_bits::<1>(3);
             }
         }
-        self.line.d.next = self.count.val();
-        if self.direction.val() {
-            self.line.d.next = self.count.val() - self.one_16.val();
-        }
+        self.line.d.next = self.count.val() - bit_cast::<16, 1>(self.direction.val().into());
         match self.sequencer.input_port.val().index() {
             0 => {
                 self.sequencer.input_data.next = bit_cast::<32, 16>(self.count.val());
@@ -576,10 +580,10 @@ impl Logic for Core {
         // Axes 1, 2, 3 start their periods a quarter, a half and three quarters after axis 0.
         self.quarter.next = self.registers.pwm_period.val() >> 2;
         self.half.next = self.registers.pwm_period.val() >> 1;
-        self.three_quarters.next = self.half.val() + self.quarter.val();
+        self.three_quarters.d.next = self.half.val() + self.quarter.val();
         self.second_starts.d.next = self.drives[0].position.val() == self.quarter.val();
         self.third_starts.d.next = self.drives[0].position.val() == self.half.val();
-        self.fourth_starts.d.next = self.drives[0].position.val() == self.three_quarters.val();
+        self.fourth_starts.d.next = self.drives[0].position.val() == self.three_quarters.q.val();
         self.drives[1].sync.next = self.second_starts.q.val();
         self.drives[2].sync.next = self.third_starts.q.val();
         self.drives[3].sync.next = self.fourth_starts.q.val();
@@ -631,8 +635,10 @@ impl Logic for Core {
         self.safety.arm_data.next = self.registers.written.val();
         self.safety.pet.next = self.commit.pet.val();
         self.safety.watchdog_timeout.next = self.registers.watchdog_timeout.val();
-        self.safety.encoder_fault.next = self.masked_errors.val() != self.none.val();
-        self.safety.stall_fault.next = self.masked_stalls.val() != self.none.val();
+        self.encoder_fault.d.next = self.masked_errors.val() != self.none.val();
+        self.stall_fault.d.next = self.masked_stalls.val() != self.none.val();
+        self.safety.encoder_fault.next = self.encoder_fault.q.val();
+        self.safety.stall_fault.next = self.stall_fault.q.val();
         self.safety.tick.next = self.tick.val();
         self.safety.set_point_timeout.next = self.registers.set_point_timeout.val();
         self.safety.commit_fault.next = self.commit.fault.val();

@@ -1,4 +1,4 @@
-//! Where an access of the bus goes: combinational, from the word address and the banks.
+//! Where an access of the bus goes: from the word address, a clock later, and the banks.
 //!
 //! | page (byte offset) | to | words |
 //! |---|---|---|
@@ -19,6 +19,7 @@ use fixed_kin::registers::{
     SNAPSHOT_IMU, SNAPSHOT_SEQUENCE, SNAPSHOT_SEQUENCE_END, SNAPSHOT_WORDS,
 };
 use rust_hdl::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Page of 64 words that a register stands in.
 const fn page(register: &Register) -> u64 {
@@ -30,20 +31,23 @@ const fn index(register: &Register) -> u64 {
     (register.offset / 4 % 64) as u64
 }
 
-/// The two pages that a write stages differ in bit 1 alone, which chooses the address.
-const _: () = assert!(page(&SET_POINTS) == page(&CONFIGURATION) | 2 && page(&CONFIGURATION) & 2 == 0);
-
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct Decoder {
-    /// Word address.
+    /// All state changes at its rising edge.
+    pub clock: Signal<In, Clock>,
+    /// Word address; what follows from it is there in the next clock, and means that clock's banks.
     pub address: Signal<In, Bits<14>>,
+    /// It is read.
+    pub read: Signal<In, Bit>,
     /// Bank of the configuration in force.
     pub configuration_bank: Signal<In, Bit>,
     /// Bank of the set points in force.
     pub set_point_bank: Signal<In, Bit>,
     /// Bank of the snapshot to read.
     pub snapshot_bank: Signal<In, Bits<2>>,
+    /// `address` is in the register file, in the same clock.
+    pub at_registers: Signal<Out, Bit>,
     /// In the register file.
     pub in_registers: Signal<Out, Bit>,
     /// In the memory, at `memory_address`.
@@ -58,12 +62,28 @@ pub struct Decoder {
     pub stages_set_point: Signal<Out, Bit>,
     /// A write would stage a word of the configuration.
     pub stages_configuration: Signal<Out, Bit>,
-    /// First word of the snapshot.
+    /// Word address, less its page.
+    pub word: Signal<Out, Bits<6>>,
+    /// The same with the page, of a word that a write would stage; anything where none would.
+    pub staging_word: Signal<Out, Bits<14>>,
+    /// First word of the snapshot is read.
     pub snapshot_first: Signal<Out, Bit>,
-    /// Last word of the snapshot.
+    /// Last word of the snapshot is read.
     pub snapshot_last: Signal<Out, Bit>,
 
+    // The pages, one flip-flop each.
+    registers: DFF<Bit>,
+    configuration: DFF<Bit>,
+    active: DFF<Bit>,
+    set_points: DFF<Bit>,
+    state: DFF<Bit>,
+    snapshot: DFF<Bit>,
+    offset: DFF<Bits<6>>,
+    reads_first: DFF<Bit>,
+    reads_last: DFF<Bit>,
+
     page: Signal<Local, Bits<8>>,
+    coming: Signal<Local, Bits<6>>,
     index: Signal<Local, Bits<6>>,
     wide: Signal<Local, Bits<8>>,
     set_point: Signal<Local, Bits<8>>,
@@ -84,6 +104,8 @@ pub struct Decoder {
     page_set_points: Literal<8, { page(&SET_POINTS) }>,
     page_state: Literal<8, { page(&INTEGRALS) }>,
     page_snapshot: Literal<8, { page(&SNAPSHOT_SEQUENCE) }>,
+    at_page_configuration: Literal<14, { page(&CONFIGURATION) << 6 }>,
+    at_page_set_points: Literal<14, { page(&SET_POINTS) << 6 }>,
     configuration_end: Literal<6, { CONFIGURATION_WORDS as u64 }>,
     set_points_end: Literal<6, { SET_POINT_WORDS as u64 }>,
     active_start: Literal<6, { index(&ACTIVE_SET_POINTS) }>,
@@ -101,36 +123,64 @@ pub struct Decoder {
 impl Logic for Decoder {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(
+            self,
+            clock,
+            registers,
+            configuration,
+            active,
+            set_points,
+            state,
+            snapshot,
+            offset,
+            reads_first,
+            reads_last
+        );
         self.page.next = self.address.val().get_bits::<8>(6);
-        self.index.next = self.address.val().get_bits::<6>(0);
+        self.coming.next = self.address.val().get_bits::<6>(0);
+        self.at_registers.next = self.page.val() == self.page_registers.val();
+        self.registers.d.next = self.page.val() == self.page_registers.val();
+        self.configuration.d.next = self.page.val() == self.page_configuration.val();
+        self.active.d.next = self.page.val() == self.page_active.val();
+        self.set_points.d.next = self.page.val() == self.page_set_points.val();
+        self.state.d.next = self.page.val() == self.page_state.val();
+        self.snapshot.d.next = self.page.val() == self.page_snapshot.val();
+        self.offset.d.next = self.coming.val();
+        self.reads_first.d.next =
+            self.read.val() & (self.page.val() == self.page_snapshot.val()) & (self.coming.val() == self.first.val());
+        self.reads_last.d.next =
+            self.read.val() & (self.page.val() == self.page_snapshot.val()) & (self.coming.val() == self.last.val());
+
+        self.index.next = self.offset.q.val();
+        self.word.next = self.index.val();
         self.wide.next = bit_cast::<8, 6>(self.index.val());
         self.place.word.next = self.index.val().get_bits::<5>(0);
         self.place.bank.next = self.snapshot_bank.val();
         self.set_point.next = bit_cast::<8, 2>(self.index.val().get_bits::<2>(0)) | self.at_set_points.val();
 
-        self.in_registers.next = self.page.val() == self.page_registers.val();
+        self.in_registers.next = self.registers.q.val();
         self.in_memory.next = false;
         self.in_imu.next = false;
         self.stages_set_point.next = false;
         self.stages_configuration.next = false;
-        self.snapshot_first.next = false;
-        self.snapshot_last.next = false;
+        self.snapshot_first.next = self.reads_first.q.val();
+        self.snapshot_last.next = self.reads_last.q.val();
         self.bank.next = self.no_bank.val();
         self.base.next = self.wide.val();
-        if self.page.val() == self.page_configuration.val() {
+        if self.configuration.q.val() {
             self.in_memory.next = self.index.val() < self.configuration_end.val();
             self.stages_configuration.next = self.index.val() < self.configuration_end.val();
             if !self.configuration_bank.val() {
                 self.bank.next = self.configuration_1.val();
             }
         }
-        if self.page.val() == self.page_active.val() {
+        if self.active.q.val() {
             self.in_memory.next = self.index.val() < self.configuration_end.val();
             if self.configuration_bank.val() {
                 self.bank.next = self.configuration_1.val();
             }
         }
-        if self.page.val() == self.page_set_points.val() {
+        if self.set_points.q.val() {
             self.base.next = self.set_point.val();
             if self.index.val() < self.set_points_end.val() {
                 self.in_memory.next = true;
@@ -146,17 +196,15 @@ impl Logic for Decoder {
                 }
             }
         }
-        if self.page.val() == self.page_state.val() {
+        if self.state.q.val() {
             self.in_memory.next = ((self.index.val() >= self.integrals_start.val())
                 & (self.index.val() < self.integrals_end.val()))
                 | ((self.index.val() >= self.index_start.val()) & (self.index.val() < self.index_end.val()));
             self.base.next = self.wide.val() | self.at_set_points.val();
         }
-        if self.page.val() == self.page_snapshot.val() {
+        if self.snapshot.q.val() {
             self.in_memory.next = self.index.val() < self.snapshot_end.val();
             self.in_imu.next = self.index.val().get_bits::<3>(3) == self.imu_row.val();
-            self.snapshot_first.next = self.index.val() == self.first.val();
-            self.snapshot_last.next = self.index.val() == self.last.val();
             self.base.next = self.place.address.val();
         }
         self.memory_address.next = self.base.val() | self.bank.val();
@@ -170,8 +218,10 @@ impl Logic for Decoder {
             self.staged_configuration.next = self.wide.val() | self.configuration_1.val();
         }
         self.staging_address.next = self.staged_configuration.val();
-        if self.page.val().get_bit(1) {
+        self.staging_word.next = bit_cast::<14, 6>(self.index.val()) | self.at_page_configuration.val();
+        if self.set_points.q.val() {
             self.staging_address.next = self.staged_set_point.val();
+            self.staging_word.next = bit_cast::<14, 6>(self.index.val()) | self.at_page_set_points.val();
         }
     }
 }

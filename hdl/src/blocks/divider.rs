@@ -38,6 +38,7 @@ pub struct Divider {
     bits: DFF<Bits<29>>,
     divisor: DFF<Bits<24>>,
     steps: DFF<Bits<6>>,
+    working: DFF<Bit>,
     negative: DFF<Bit>,
     overflow: DFF<Bit>,
 
@@ -50,7 +51,6 @@ pub struct Divider {
     goes: Signal<Local, Bit>,
     sets: Signal<Local, Bit>,
 
-    no_steps: Literal<6, 0>,
     one_step: Literal<6, 1>,
     word_steps: Literal<6, 29>,
     all_steps: Literal<6, { DIVISION_STEPS as u64 }>,
@@ -62,8 +62,8 @@ pub struct Divider {
 impl Logic for Divider {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, remainder, last_bit, bits, divisor, steps, negative, overflow);
-        self.running.next = self.steps.q.val() != self.no_steps.val();
+        dff_setup!(self, clock, remainder, last_bit, bits, divisor, steps, working, negative, overflow);
+        self.running.next = self.working.q.val();
         self.busy.next = self.running.val();
 
         self.minuend.next = bit_cast::<26, 25>(self.remainder.q.val()) << 1;
@@ -84,6 +84,7 @@ impl Logic for Divider {
 
         if self.running.val() {
             self.steps.d.next = self.steps.q.val() - self.one_step.val();
+            self.working.d.next = self.steps.q.val() != self.one_step.val();
             self.last_bit.d.next = false;
             self.remainder.d.next = self.minuend.val().get_bits::<25>(0);
             self.bits.d.next = self.bits.q.val() << 1;
@@ -103,6 +104,7 @@ impl Logic for Divider {
             self.divisor.d.next = self.denominator.val().get_bits::<24>(0);
             self.overflow.d.next = false;
             self.steps.d.next = self.all_steps.val();
+            self.working.d.next = true;
         }
 
         self.quotient.next = bit_cast::<32, 29>(self.bits.q.val());

@@ -45,6 +45,7 @@ pub struct Multiplier {
     lo: DFF<Bits<32>>,
     operand: DFF<Bits<32>>,
     steps: DFF<Bits<4>>,
+    working: DFF<Bit>,
     negate: DFF<Bit>,
     twice: DFF<Bit>,
     nothing: DFF<Bit>,
@@ -59,6 +60,7 @@ pub struct Multiplier {
     top: Signal<Local, Bits<11>>,
     running: Signal<Local, Bit>,
     fits: Signal<Local, Bit>,
+    sign: Signal<Local, Bits<1>>,
 
     top_5: Signal<Local, Bits<5>>,
 
@@ -67,7 +69,6 @@ pub struct Multiplier {
     digit_plus_two: Literal<3, 3>,
     digit_minus_two: Literal<3, 4>,
     digit_minus_zero: Literal<3, 7>,
-    no_steps: Literal<4, 0>,
     one_step: Literal<4, 1>,
     steps_coefficient: Literal<4, { Scale::COEFFICIENT.digits as u64 }>,
     steps_gain: Literal<4, { Scale::FINE.digits as u64 }>,
@@ -78,7 +79,6 @@ pub struct Multiplier {
     steps_counts: Literal<4, { Scale::COUNTS.digits as u64 }>,
     half_counts: Literal<32, { half(Scale::COUNTS) }>,
     half_period: Literal<32, { half(Scale::PERIOD) }>,
-    sign_extension: Literal<32, 0xC000_0000>,
     word_max: Literal<32, { WORD_MAX as u64 }>,
     word_min: Literal<32, { WORD_MIN as u32 as u64 }>,
     eleven_clear: Literal<11, 0>,
@@ -90,9 +90,9 @@ pub struct Multiplier {
 impl Logic for Multiplier {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, p, lo, operand, steps, negate, twice, nothing, guard_8);
+        dff_setup!(self, clock, p, lo, operand, steps, working, negate, twice, nothing, guard_8);
 
-        self.running.next = self.steps.q.val() != self.no_steps.val();
+        self.running.next = self.working.q.val();
         self.busy.next = self.running.val();
 
         // The next Booth digit, two bits of the operand and the one that went before, a clock ahead.
@@ -123,15 +123,17 @@ impl Logic for Multiplier {
             self.sum.next = !self.raw_sum.val();
         }
         self.shifted.next = self.sum.val() >> 2;
+        self.sign.next = self.sum.val().get_bits::<1>(31);
 
         if self.running.val() {
             self.steps.d.next = self.steps.q.val() - self.one_step.val();
-            self.p.d.next = self.shifted.val();
-            if self.sum.val().get_bit(31) {
-                self.p.d.next = self.shifted.val() | self.sign_extension.val();
-            }
+            self.working.d.next = self.steps.q.val() != self.one_step.val();
+            self.p.d.next = self.shifted.val()
+                | (bit_cast::<32, 1>(self.sign.val()) << 30)
+                | (bit_cast::<32, 1>(self.sign.val()) << 31);
             self.lo.d.next = (self.lo.q.val() >> 2) | (bit_cast::<32, 2>(self.sum.val().get_bits::<2>(0)) << 30);
         } else if self.start.val() {
+            self.working.d.next = true;
             self.operand.d.next = self.a.val();
             self.lo.d.next = self.b.val();
             self.guard_8.d.next = false;

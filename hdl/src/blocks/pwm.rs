@@ -78,6 +78,7 @@ pub struct Pwm {
     active_compare: DFF<Bits<13>>,
     active_direction: DFF<Bit>,
     quiet: DFF<Bits<10>>,
+    rested: DFF<Bit>,
     settled: DFF<Bit>,
     pwm_pin: DFF<Bit>,
     dir_pin: DFF<Bit>,
@@ -102,7 +103,7 @@ impl Logic for Pwm {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, coming, shadow_compare, shadow_direction, active_compare, active_direction);
-        dff_setup!(self, clock, quiet, settled, pwm_pin, dir_pin, start);
+        dff_setup!(self, clock, quiet, rested, settled, pwm_pin, dir_pin, start);
 
         self.running.next = self.period.val().any();
         // Clocks are numbered from 1, so that the period is compared with a register, not with a sum.
@@ -135,7 +136,7 @@ impl Logic for Pwm {
         self.turns.next = self.enable.val()
             & !self.aligned.val()
             & self.active_compare.q.val().any()
-            & self.long_quiet.val()
+            & self.rested.q.val()
             & !self.pwm_pin.q.val();
         if self.turns.val() {
             self.dir_pin.d.next = self.active_direction.q.val();
@@ -143,10 +144,12 @@ impl Logic for Pwm {
         if !self.long_quiet.val() {
             self.quiet.d.next = self.quiet.q.val() + self.quiet_one.val();
         }
+        self.rested.d.next = self.long_quiet.val();
         if self.turns.val() | self.pwm_pin.q.val() | !self.enable.val() {
             self.quiet.d.next = self.quiet_zero.val();
+            self.rested.d.next = false;
         }
-        self.permitted.next = self.enable.val() & (self.settled.q.val() | self.long_quiet.val());
+        self.permitted.next = self.enable.val() & (self.settled.q.val() | self.rested.q.val());
         self.settled.d.next = self.permitted.val() & !self.turns.val();
         self.pwm_pin.d.next = self.permitted.val()
             & !self.stops.val()

@@ -4,11 +4,11 @@
 //! |---|---|
 //! | locked while armed | a write while `armed` is ignored |
 //! | write only | a strobe in the clock after the write, with `written` |
-//! | read | `read_data` one clock after `address`, `kept_data` two; the word is both, ored |
+//! | read | `read_data` and `kept_data` two clocks after `address`; the word is both, ored |
 //!
-//! Wide registers that only keep what was written are read from a copy in block memory: it holds the bits that
-//! they have, and is written with them. It is read a clock late, at the address that a write would have then; nobody
-//! may want what it gives after a clock that writes.
+//! Wide registers that only keep what was written are read from a copy in block memory, which is written with
+//! any register and shows only the bits that a copied one has. It is read a clock late, at the address that a write
+//! would have then; nobody may want what it gives after a clock that writes.
 //!
 //! The case labels are word addresses of `fixed_kin::registers`; a test walks all of them.
 
@@ -51,11 +51,11 @@ pub struct RegisterFile {
     pub data: Signal<In, Bits<32>>,
     /// What was written in the last clock.
     pub written: Signal<Out, Bits<32>>,
-    /// The word at `address` of the last clock, but of a copied register.
+    /// The word at `address` of the clock before the last, 0 for a copied register or where there is none.
     pub read_data: Signal<Out, Bits<32>>,
     /// `address` of the last clock was in this page.
     pub was_in_page: Signal<In, Bit>,
-    /// The copied register at `address` of the clock before the last, 0 where there is none.
+    /// The copied register there, likewise.
     pub kept_data: Signal<Out, Bits<24>>,
     /// Outputs may be on.
     pub armed: Signal<In, Bit>,
@@ -179,13 +179,11 @@ pub struct RegisterFile {
     writing: DFF<Bit>,
     place: DFF<Bits<6>>,
     word: DFF<Bits<32>>,
-    kept: Memory<24, 7>,
+    kept: Memory<24, 6>,
+    mask: DFF<Bits<24>>,
 
     unlocked: Signal<Local, Bit>,
-    at: Signal<Local, Bits<7>>,
-    mask: Signal<Local, Bits<24>>,
-
-    other_page: Literal<7, 0x40>,
+    no_bits: Literal<24, 0>,
     bits_10: Literal<24, 0x3FF>,
     bits_11: Literal<24, 0x7FF>,
     bits_13: Literal<24, 0x1FFF>,
@@ -193,6 +191,8 @@ pub struct RegisterFile {
     bits_16: Literal<24, 0xFFFF>,
     bits_20: Literal<24, 0xF_FFFF>,
     bits_24: Literal<24, 0xFF_FFFF>,
+
+    kicker_pulse_place: Literal<6, { KICKER_PULSE.word_address() as u64 }>,
 
     cookie: Literal<32, { COOKIE_VALUE as u64 }>,
     version: Literal<32, { VERSION as u64 }>,
@@ -245,6 +245,7 @@ impl Logic for RegisterFile {
             index_clear_q,
             imu_control_q,
             read_q,
+            mask,
             writing,
             place,
             word
@@ -269,51 +270,59 @@ impl Logic for RegisterFile {
         self.place.d.next = self.address.val();
         self.word.d.next = self.data.val();
         self.written.next = self.word.q.val();
-        self.at.next = bit_cast::<7, 6>(self.place.q.val());
-        if !self.was_in_page.val() {
-            self.at.next = bit_cast::<7, 6>(self.place.q.val()) | self.other_page.val();
-        }
         self.kept.clock.next = self.clock.val();
-        self.kept.read_address.next = self.at.val();
-        self.kept.write_address.next = self.at.val();
-        self.kept.write_enable.next = false;
-        self.kept_data.next = self.kept.read_data.val();
-        match self.place.q.val().index() {
-            11 => {
-                self.mask.next = self.bits_13.val();
-            } // PWM_PERIOD
-            12 => {
-                self.mask.next = self.bits_10.val();
-            } // PWM_BLANKING
-            26 => {
-                self.mask.next = self.bits_14.val();
-            } // KICKER_PULSE
-            27 => {
-                self.mask.next = self.bits_20.val();
-            } // KICKER_LOCKOUT
-            32 => {
-                self.mask.next = self.bits_16.val();
-            } // SET_POINT_TIMEOUT
-            33 => {
-                self.mask.next = self.bits_16.val();
-            } // STALL_WINDOW
-            34 => {
-                self.mask.next = self.bits_13.val();
-            } // STALL_COMPARE
-            41 => {
-                self.mask.next = self.bits_11.val();
-            } // IMU_CONTROL
-            _ => {
-                self.mask.next = self.bits_24.val();
-            } // TICK_PERIOD, WATCHDOG_TIMEOUT, KICKER_CHARGE_TIMEOUT
+        self.kept.read_address.next = self.place.q.val();
+        self.kept.write_address.next = self.place.q.val();
+        self.kept.write_data.next = self.word.q.val().get_bits::<24>(0);
+        self.kept.write_enable.next =
+            self.writing.q.val() & (self.unlocked.val() | (self.place.q.val() == self.kicker_pulse_place.val()));
+        self.mask.d.next = self.no_bits.val();
+        if self.was_in_page.val() {
+            match self.place.q.val().index() {
+                8 => {
+                    self.mask.d.next = self.bits_24.val();
+                } // TICK_PERIOD
+                11 => {
+                    self.mask.d.next = self.bits_13.val();
+                } // PWM_PERIOD
+                12 => {
+                    self.mask.d.next = self.bits_10.val();
+                } // PWM_BLANKING
+                13 => {
+                    self.mask.d.next = self.bits_24.val();
+                } // WATCHDOG_TIMEOUT
+                26 => {
+                    self.mask.d.next = self.bits_14.val();
+                } // KICKER_PULSE
+                27 => {
+                    self.mask.d.next = self.bits_20.val();
+                } // KICKER_LOCKOUT
+                28 => {
+                    self.mask.d.next = self.bits_24.val();
+                } // KICKER_CHARGE_TIMEOUT
+                32 => {
+                    self.mask.d.next = self.bits_16.val();
+                } // SET_POINT_TIMEOUT
+                33 => {
+                    self.mask.d.next = self.bits_16.val();
+                } // STALL_WINDOW
+                34 => {
+                    self.mask.d.next = self.bits_13.val();
+                } // STALL_COMPARE
+                41 => {
+                    self.mask.d.next = self.bits_11.val();
+                } // IMU_CONTROL
+                _ => {
+                    self.mask.d.next = self.no_bits.val();
+                }
+            }
         }
-        self.kept.write_data.next = self.word.q.val().get_bits::<24>(0) & self.mask.val();
+        self.kept_data.next = self.kept.read_data.val() & self.mask.q.val();
         if self.writing.q.val() {
             match self.place.q.val().index() {
                 8 => {
                     if self.unlocked.val() {
                         self.tick_period_q.d.next = self.word.q.val().get_bits::<24>(0);
-                        self.kept.write_enable.next = true;
                         self.tick_period_written.next = true;
                     }
                 } // TICK_PERIOD
@@ -330,19 +339,16 @@ impl Logic for RegisterFile {
                 11 => {
                     if self.unlocked.val() {
                         self.pwm_period_q.d.next = self.word.q.val().get_bits::<13>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // PWM_PERIOD
                 12 => {
                     if self.unlocked.val() {
                         self.pwm_blanking_q.d.next = self.word.q.val().get_bits::<10>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // PWM_BLANKING
                 13 => {
                     if self.unlocked.val() {
                         self.watchdog_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // WATCHDOG_TIMEOUT
                 14 => {
@@ -374,18 +380,15 @@ impl Logic for RegisterFile {
                 } // KICKER_FIRE
                 26 => {
                     self.kicker_pulse_q.d.next = self.word.q.val().get_bits::<14>(0);
-                    self.kept.write_enable.next = true;
                 } // KICKER_PULSE
                 27 => {
                     if self.unlocked.val() {
                         self.kicker_lockout_q.d.next = self.word.q.val().get_bits::<20>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // KICKER_LOCKOUT
                 28 => {
                     if self.unlocked.val() {
                         self.kicker_charge_timeout_q.d.next = self.word.q.val().get_bits::<24>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // KICKER_CHARGE_TIMEOUT
                 30 => {
@@ -399,19 +402,16 @@ impl Logic for RegisterFile {
                 32 => {
                     if self.unlocked.val() {
                         self.set_point_timeout_q.d.next = self.word.q.val().get_bits::<16>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // SET_POINT_TIMEOUT
                 33 => {
                     if self.unlocked.val() {
                         self.stall_window_q.d.next = self.word.q.val().get_bits::<16>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // STALL_WINDOW
                 34 => {
                     if self.unlocked.val() {
                         self.stall_compare_q.d.next = self.word.q.val().get_bits::<13>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // STALL_COMPARE
                 35 => {
@@ -434,7 +434,6 @@ impl Logic for RegisterFile {
                 41 => {
                     if self.unlocked.val() {
                         self.imu_control_q.d.next = self.word.q.val().get_bits::<11>(0);
-                        self.kept.write_enable.next = true;
                     }
                 } // IMU_CONTROL
                 42 => {
@@ -446,90 +445,93 @@ impl Logic for RegisterFile {
             }
         }
 
-        match self.address.val().index() {
-            0 => {
-                self.read_q.d.next = self.cookie.val();
-            }
-            1 => {
-                self.read_q.d.next = self.version.val();
-            }
-            2 => {
-                self.read_q.d.next = self.board.val();
-            }
-            3 => {
-                self.read_q.d.next = self.clock_hz.val();
-            }
-            4 => {
-                self.read_q.d.next = self.content_hash.val();
-            }
-            5 => {
-                self.read_q.d.next = self.axes.val();
-            }
-            6 => {
-                self.read_q.d.next = self.clock_count.val();
-            }
-            7 => {
-                self.read_q.d.next = self.blocks.val();
-            }
-            9 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.mode_q.q.val());
-            }
-            10 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_filter_q.q.val());
-            }
-            15 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.faults.val());
-            }
-            16 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.first_fault.val());
-            }
-            17 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.status.val());
-            }
-            20 => {
-                self.read_q.d.next = self.commits.val();
-            }
-            21 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_error.val());
-            }
-            22 => {
-                self.read_q.d.next = bit_cast::<32, 12>(self.encoder_lines.val());
-            }
-            23 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.encoder_fault_mask_q.q.val());
-            }
-            24 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.kicker_control_q.q.val());
-            }
-            29 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.kicker_status.val());
-            }
-            30 => {
-                self.read_q.d.next = bit_cast::<32, 6>(self.clocks_per_microsecond_q.q.val());
-            }
-            31 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.leds_q.q.val());
-            }
-            35 => {
-                self.read_q.d.next = bit_cast::<32, 4>(self.stall.val());
-            }
-            37 => {
-                self.read_q.d.next = bit_cast::<32, 8>(self.index_status.val());
-            }
-            38 => {
-                self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_enable_q.q.val());
-            }
-            39 => {
-                self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_status.val());
-            }
-            40 => {
-                self.read_q.d.next = bit_cast::<32, 24>(self.radio.val());
-            }
-            43 => {
-                self.read_q.d.next = bit_cast::<32, 9>(self.imu_status.val());
-            }
-            _ => {
-                self.read_q.d.next = self.zero.val();
+        self.read_q.d.next = self.zero.val();
+        if self.was_in_page.val() {
+            match self.place.q.val().index() {
+                0 => {
+                    self.read_q.d.next = self.cookie.val();
+                }
+                1 => {
+                    self.read_q.d.next = self.version.val();
+                }
+                2 => {
+                    self.read_q.d.next = self.board.val();
+                }
+                3 => {
+                    self.read_q.d.next = self.clock_hz.val();
+                }
+                4 => {
+                    self.read_q.d.next = self.content_hash.val();
+                }
+                5 => {
+                    self.read_q.d.next = self.axes.val();
+                }
+                6 => {
+                    self.read_q.d.next = self.clock_count.val();
+                }
+                7 => {
+                    self.read_q.d.next = self.blocks.val();
+                }
+                9 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.mode_q.q.val());
+                }
+                10 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.encoder_filter_q.q.val());
+                }
+                15 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.faults.val());
+                }
+                16 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.first_fault.val());
+                }
+                17 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.status.val());
+                }
+                20 => {
+                    self.read_q.d.next = self.commits.val();
+                }
+                21 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.encoder_error.val());
+                }
+                22 => {
+                    self.read_q.d.next = bit_cast::<32, 12>(self.encoder_lines.val());
+                }
+                23 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.encoder_fault_mask_q.q.val());
+                }
+                24 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.kicker_control_q.q.val());
+                }
+                29 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.kicker_status.val());
+                }
+                30 => {
+                    self.read_q.d.next = bit_cast::<32, 6>(self.clocks_per_microsecond_q.q.val());
+                }
+                31 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.leds_q.q.val());
+                }
+                35 => {
+                    self.read_q.d.next = bit_cast::<32, 4>(self.stall.val());
+                }
+                37 => {
+                    self.read_q.d.next = bit_cast::<32, 8>(self.index_status.val());
+                }
+                38 => {
+                    self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_enable_q.q.val());
+                }
+                39 => {
+                    self.read_q.d.next = bit_cast::<32, 2>(self.interrupt_status.val());
+                }
+                40 => {
+                    self.read_q.d.next = bit_cast::<32, 24>(self.radio.val());
+                }
+                43 => {
+                    self.read_q.d.next = bit_cast::<32, 9>(self.imu_status.val());
+                }
+                _ => {
+                    self.read_q.d.next = self.zero.val();
+                }
             }
         }
         self.read_data.next = self.read_q.q.val();

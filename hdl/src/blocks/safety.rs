@@ -12,7 +12,8 @@
 //! anything else             │ off
 //! ```
 //!
-//! A fault stands as long as its cause does: the watchdog bitten, the stop pressed or open, a level of
+//! A time-out that is below what the watchdog still has to count keeps from arming until it is in force, and shows
+//! no fault. A fault stands as long as its cause does: the watchdog bitten, the stop pressed or open, a level of
 //! `encoder_`, `stall_` or `external_fault`. What `faults` still shows of a cause that is gone keeps nothing
 //! from arming, nor do the faults that only report, `commit` and `arm-refused`.
 //!
@@ -45,7 +46,7 @@ pub struct Safety {
     pub arm_data: Signal<In, Bits<32>>,
     /// Strobe: a valid set point was committed.
     pub pet: Signal<In, Bit>,
-    /// Clocks a pet lasts; 0 = always bitten. A shorter one takes effect at once.
+    /// Clocks a pet lasts; 0 = always bitten. A shorter one takes effect two clocks later.
     pub watchdog_timeout: Signal<In, Bits<24>>,
     /// Level: an encoder is broken.
     pub encoder_fault: Signal<In, Bit>,
@@ -77,6 +78,7 @@ pub struct Safety {
     pub stopped: Signal<Out, Bit>,
     released: GlitchFilter,
     remaining: DFF<Bits<24>>,
+    shortened: DFF<Bit>,
     age: DFF<Bits<16>>,
     stale: Signal<Local, Bit>,
     is_stopped: Signal<Local, Bit>,
@@ -121,7 +123,7 @@ impl Logic for Safety {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, released, is_off);
-        dff_setup!(self, clock, remaining, age, first_word, is_armed, has_setpoint, sticky, first);
+        dff_setup!(self, clock, remaining, shortened, age, first_word, is_armed, has_setpoint, sticky, first);
 
         // Inverted before its first flop, so that the power-up zero means "stopped".
         self.released.pin.next = !self.emergency_stop.val();
@@ -135,7 +137,8 @@ impl Logic for Safety {
         if !self.bitten.val() {
             self.remaining.d.next = self.remaining.q.val() - self.one.val();
         }
-        if self.pet.val() | (self.remaining.q.val() > self.watchdog_timeout.val()) {
+        self.shortened.d.next = self.remaining.q.val() > self.watchdog_timeout.val();
+        if self.pet.val() | self.shortened.q.val() {
             self.remaining.d.next = self.watchdog_timeout.val();
         }
 
@@ -151,7 +154,8 @@ impl Logic for Safety {
             | self.is_stopped.val()
             | self.encoder_fault.val()
             | self.stall_fault.val()
-            | self.external_fault.val();
+            | self.external_fault.val()
+            | self.shortened.q.val();
         self.is_first_word.next = self.arm_data.val() == self.arm_1.val();
         self.is_second_word.next = self.arm_write.val() & (self.arm_data.val() == self.arm_2.val());
         self.arms.next = self.is_second_word.val() & self.first_word.q.val() & !self.standing.val();

@@ -9,7 +9,8 @@
 //!                        ▲ address          └──────────────┘
 //! ```
 //!
-//! One instruction a clock; a taken branch kills the instruction after it. A sum stands in `total` after its
+//! One instruction a clock; a taken branch kills the instruction after it. With every instruction the program
+//! memory holds the input port of the one behind it, so that a flip-flop chooses the input. A sum stands in `total` after its
 //! clock and in the accumulator one clock later, saturated or cut; a store writes in its second clock what the
 //! accumulator then holds. What this asks of a program, its assembler knows. Multiplication and division
 //! run beside the program, until their result is asked for; the program takes every product before it
@@ -67,16 +68,14 @@ pub struct Sequencer {
     pub bus_read_data: Signal<Out, Bits<32>>,
     /// Memory address that the bus writes, banks included.
     pub bus_write_address: Signal<In, Bits<8>>,
-    /// The bus wants to write.
+    /// The bus writes.
     pub bus_write: Signal<In, Bit>,
-    /// What it wants to write.
+    /// What it writes.
     pub bus_write_data: Signal<In, Bits<32>>,
-    /// A write of the bus would have to wait in this clock.
+    /// The bus may not write in the next clock.
     pub bus_blocked: Signal<Out, Bit>,
-    /// The write is done at this clock.
-    pub bus_write_taken: Signal<Out, Bit>,
 
-    rom: Rom<16, 9>,
+    rom: Rom<24, 9>,
     memory: Memory<32, 8>,
     mirror: Memory<32, 8>,
     multiplier: Multiplier,
@@ -86,9 +85,16 @@ pub struct Sequencer {
     active: DFF<Bit>,
     pc: DFF<Bits<9>>,
     instruction: DFF<Bits<16>>,
+    port: DFF<Bits<5>>,
+    nothing: DFF<Bit>,
     subtracts: DFF<Bit>,
+    waits_for_quotient: DFF<Bit>,
+    waits_for_product: DFF<Bit>,
+    halts: DFF<Bit>,
+    stores: DFF<Bit>,
     jumps: DFF<Bit>,
     jumps_by_zero: DFF<Bit>,
+    jumps_by_bit: DFF<Bit>,
     jumps_by_sign: DFF<Bit>,
     jumps_by_axis: DFF<Bit>,
     jumps_if_not: DFF<Bit>,
@@ -106,17 +112,22 @@ pub struct Sequencer {
     axis_number: DFF<Bits<2>>,
 
     pc_next: Signal<Local, Bits<9>>,
+    goes_on: Signal<Local, Bit>,
+    read_stores: Signal<Local, Bit>,
     stall: Signal<Local, Bit>,
     branch: Signal<Local, Bit>,
     read_instruction: Signal<Local, Bits<16>>,
     read_op: Signal<Local, Bits<5>>,
     read_subtracts: Signal<Local, Bit>,
     read_jumps: Signal<Local, Bit>,
+    read_waits_for_quotient: Signal<Local, Bit>,
+    read_waits_for_product: Signal<Local, Bit>,
+    read_halts: Signal<Local, Bit>,
     read_jumps_by_zero: Signal<Local, Bit>,
+    read_jumps_by_bit: Signal<Local, Bit>,
     read_jumps_by_sign: Signal<Local, Bit>,
     read_jumps_by_axis: Signal<Local, Bit>,
     read_jumps_if_not: Signal<Local, Bit>,
-    nothing: Signal<Local, Bit>,
     read_address: Signal<Local, Bits<8>>,
     read_bank: Signal<Local, Bits<8>>,
     write_address: Signal<Local, Bits<8>>,
@@ -134,7 +145,6 @@ pub struct Sequencer {
 
     zero: Literal<32, 0>,
     one_pc: Literal<9, 1>,
-    start_pc: Literal<9, 0>,
     no_bank: Literal<8, 0>,
     first_axis: Literal<2, 0>,
     last_axis: Literal<2, { AXES as u64 - 1 }>,
@@ -157,7 +167,9 @@ impl Sequencer {
     /// A sequencer with this program; the memory starts with the program's constants.
     #[must_use]
     pub fn new(program: &[u16]) -> Self {
-        let words: Vec<u32> = program.iter().copied().map(u32::from).collect();
+        let port = |at: usize| program.get(at).map_or(0, |word| u32::from(*word & 0x1F));
+        let words: Vec<u32> =
+            program.iter().enumerate().map(|(at, word)| port(at + 1) << 16 | u32::from(*word)).collect();
         let initial = program::layout::initial_memory();
         Self { rom: Rom::new(&words), memory: Memory::new(&initial), mirror: Memory::new(&initial), ..Self::default() }
     }
@@ -167,13 +179,14 @@ impl Logic for Sequencer {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, active, pc, instruction, subtracts, valid, accumulator, axis_number);
-        dff_setup!(self, clock, jumps, jumps_by_zero, jumps_by_sign, jumps_by_axis, jumps_if_not);
+        dff_setup!(self, clock, port, nothing, waits_for_quotient, waits_for_product, halts, stores);
+        dff_setup!(self, clock, jumps, jumps_by_zero, jumps_by_bit, jumps_by_sign, jumps_by_axis, jumps_if_not);
         dff_setup!(self, clock, bus_hits, bus_written, input_word, total, total_negated);
         dff_setup!(self, clock, finishing, saturates, cuts_16, cuts_24, storing, store_address);
         clock!(self, clock, rom, memory, mirror, multiplier, divider);
 
         // Read stage: the instruction at pc, its word is there one clock later.
-        self.read_instruction.next = self.rom.read_data.val();
+        self.read_instruction.next = self.rom.read_data.val().get_bits::<16>(0);
         self.read_address.next = self.read_instruction.val().get_bits::<8>(0);
         if self.read_instruction.val().get_bit(10) {
             self.read_address.next =
@@ -191,13 +204,13 @@ impl Logic for Sequencer {
         // Execute stage.
         self.op.next = self.instruction.q.val().get_bits::<5>(11);
         self.word.next = self.memory.read_data.val();
-        self.storing.d.next = false;
         self.finishing.d.next = false;
         self.saturates.d.next = false;
         self.cuts_16.d.next = false;
         self.cuts_24.d.next = false;
-        self.stall.next = false;
-        self.done.next = false;
+        self.stall.next = (self.waits_for_quotient.q.val() & self.divider.busy.val())
+            | (self.waits_for_product.q.val() & self.multiplier.busy.val());
+        self.done.next = self.halts.q.val();
         self.output_strobe.next = false;
         self.multiplier.start.next = false;
         self.divider.start.next = false;
@@ -206,6 +219,11 @@ impl Logic for Sequencer {
         self.read_subtracts.next = false;
         self.read_jumps.next = false;
         self.read_jumps_by_zero.next = false;
+        self.read_jumps_by_bit.next = false;
+        self.read_waits_for_quotient.next = false;
+        self.read_waits_for_product.next = false;
+        self.read_halts.next = false;
+        self.read_stores.next = false;
         self.read_jumps_by_sign.next = false;
         self.read_jumps_by_axis.next = false;
         self.read_jumps_if_not.next = false;
@@ -222,6 +240,9 @@ impl Logic for Sequencer {
             8 => {
                 self.read_subtracts.next = true;
             } // Compare
+            11 => {
+                self.read_stores.next = true;
+            } // Store
             14 => {
                 self.read_jumps.next = true;
             } // Jump
@@ -229,9 +250,8 @@ impl Logic for Sequencer {
                 self.read_jumps_by_zero.next = true;
             } // JumpZero
             16 => {
-                self.read_jumps_by_zero.next = true;
-                self.read_jumps_if_not.next = true;
-            } // JumpNotZero
+                self.read_jumps_by_bit.next = true;
+            } // JumpClear
             17 => {
                 self.read_jumps_by_sign.next = true;
             } // JumpNegative
@@ -242,16 +262,26 @@ impl Logic for Sequencer {
             19 => {
                 self.read_jumps_by_axis.next = true;
             } // NextAxis
+            20 => {
+                self.read_halts.next = true;
+            } // Halt
+            22 => {
+                self.read_waits_for_quotient.next = true;
+            } // Quotient
+            23 => {
+                self.read_waits_for_product.next = true;
+            } // Product
             _ => {
                 self.read_subtracts.next = false;
             }
         }
-        self.nothing.next = self.accumulator.q.val() == self.zero.val();
-        self.branch.next = self.valid.q.val()
-            & (self.jumps.q.val()
-                | (self.jumps_by_zero.q.val() & (self.nothing.val() != self.jumps_if_not.q.val()))
-                | (self.jumps_by_sign.q.val() & (self.accumulator.q.val().get_bit(31) != self.jumps_if_not.q.val()))
-                | (self.jumps_by_axis.q.val() & (self.axis_number.q.val() != self.last_axis.val())));
+        // Seen a clock late: the accumulator must have stood for as long.
+        self.nothing.d.next = self.accumulator.q.val() == self.zero.val();
+        self.branch.next = self.jumps.q.val()
+            | (self.jumps_by_zero.q.val() & self.nothing.q.val())
+            | (self.jumps_by_bit.q.val() & !self.accumulator.q.val().get_bit(0))
+            | (self.jumps_by_sign.q.val() & (self.accumulator.q.val().get_bit(31) != self.jumps_if_not.q.val()))
+            | (self.jumps_by_axis.q.val() & (self.axis_number.q.val() != self.last_axis.val()));
         self.subtracting.next = self.subtracts.q.val();
         // a − b = ¬(¬a + b): both ways share one carry chain, with no second one to negate b.
         self.left.next = self.accumulator.q.val();
@@ -337,9 +367,6 @@ impl Logic for Sequencer {
                     10 => {
                         self.accumulator.d.next = self.accumulator.q.val() ^ self.word.val();
                     } // Xor
-                    11 => {
-                        self.storing.d.next = true;
-                    } // Store
                     12 => {
                         self.accumulator.d.next = self.input_word.q.val();
                     } // Input
@@ -353,51 +380,62 @@ impl Logic for Sequencer {
                             self.axis_number.d.next = self.axis_number.q.val() + self.one_axis.val();
                         }
                     } // NextAxis
-                    20 => {
-                        self.done.next = true;
-                    } // Halt
                     21 => {
                         self.divider.start.next = true;
                     } // Divide
                     22 => {
                         self.accumulator.d.next = self.divider.quotient.val();
-                        self.stall.next = self.divider.busy.val();
                     } // Quotient
                     23 => {
                         self.accumulator.d.next = self.multiplier.result.val();
-                        self.stall.next = self.multiplier.busy.val();
                     } // Product
                     _ => {
-                        self.stall.next = false;
-                    } // Nop, Compare
+                        self.output_strobe.next = false;
+                    } // Nop, Compare, Store, jumps, Halt
                 }
             }
         }
 
         // Pipe control.
-        if self.active.q.val() & !self.stall.val() {
+        if !self.stall.val() {
+            self.port.d.next = self.rom.read_data.val().get_bits::<5>(16);
+        }
+        self.goes_on.next = self.active.q.val() & !self.stall.val();
+        if self.goes_on.val() {
             self.instruction.d.next = self.read_instruction.val();
             self.subtracts.d.next = self.read_subtracts.val();
             self.jumps.d.next = self.read_jumps.val();
             self.jumps_by_zero.d.next = self.read_jumps_by_zero.val();
+            self.jumps_by_bit.d.next = self.read_jumps_by_bit.val();
             self.jumps_by_sign.d.next = self.read_jumps_by_sign.val();
+            self.waits_for_quotient.d.next = self.read_waits_for_quotient.val();
+            self.waits_for_product.d.next = self.read_waits_for_product.val();
+            self.halts.d.next = self.read_halts.val();
+            self.stores.d.next = self.read_stores.val();
             self.jumps_by_axis.d.next = self.read_jumps_by_axis.val();
             self.jumps_if_not.d.next = self.read_jumps_if_not.val();
             self.valid.d.next = true;
         }
-        self.pc_next.next = self.pc.q.val() + self.one_pc.val();
-        if self.stall.val() {
-            self.pc_next.next = self.pc.q.val();
+        self.pc_next.next = self.pc.q.val();
+        if self.goes_on.val() {
+            self.pc_next.next = self.pc.q.val() + self.one_pc.val();
         }
-        if self.branch.val() {
+        // The last instruction leads to the first, where the program waits for the next tick.
+        if self.branch.val() | self.done.val() {
             self.pc_next.next = self.instruction.q.val().get_bits::<9>(0);
+            // What was read behind it is killed.
             self.valid.d.next = false;
-        }
-        if !self.active.q.val() {
-            self.pc_next.next = self.start_pc.val();
+            self.jumps.d.next = false;
+            self.jumps_by_zero.d.next = false;
+            self.jumps_by_bit.d.next = false;
+            self.jumps_by_sign.d.next = false;
+            self.jumps_by_axis.d.next = false;
+            self.waits_for_quotient.d.next = false;
+            self.waits_for_product.d.next = false;
+            self.halts.d.next = false;
+            self.stores.d.next = false;
         }
         if self.done.val() {
-            self.valid.d.next = false;
             self.active.d.next = false;
         }
         if self.tick.val() & !self.active.q.val() {
@@ -438,10 +476,10 @@ impl Logic for Sequencer {
         if self.bus_hits.q.val() {
             self.bus_read_data.next = self.bus_written.q.val();
         }
-        self.bus_blocked.next = self.storing.q.val();
-        self.bus_write_taken.next = self.bus_write.val() & !self.storing.q.val();
+        self.storing.d.next = self.stores.q.val();
+        self.bus_blocked.next = self.stores.q.val();
 
-        self.input_port.next = self.read_instruction.val().get_bits::<5>(0);
+        self.input_port.next = self.port.q.val();
         self.axis.next = self.axis_number.q.val();
         self.output_port.next = self.instruction.q.val().get_bits::<2>(0);
         self.output_data.next = self.accumulator.q.val();

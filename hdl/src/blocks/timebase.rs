@@ -1,7 +1,7 @@
 //! Time, control ticks and microseconds.
 //!
 //! `clock_count` counts clocks. `tick` comes every `tick_period` clocks, or `MIN_TICK_PERIOD` if that is
-//! longer; a new period starts with `restart`. `microsecond` comes every `clocks_per_microsecond`
+//! longer, in the clock after the period's last; a new period starts with `restart`. `microsecond` comes every `clocks_per_microsecond`
 //! clocks, bounded to 25 … 34, so that no value stretches the kicker's pulse or shortens its lock-out by
 //! more than the bus clock itself may (`fixed_kin::kicker::microsecond_clocks`). `window` comes with every
 //! `stall_window`-th tick. Bounds are kept in registers, so that no two carry chains follow each other; all
@@ -43,6 +43,9 @@ pub struct Timebase {
     part_limit: Preset<6, 33>,
     part: Preset<6, 1>,
     ticks: Preset<16, 1>,
+    ticking: DFF<Bit>,
+    window_ends: DFF<Bit>,
+    microsecond_ends: DFF<Bit>,
 
     tick_now: Signal<Local, Bit>,
 
@@ -58,7 +61,8 @@ pub struct Timebase {
 impl Logic for Timebase {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clocks, limit, phase, part_limit, part, ticks);
+        dff_setup!(self, clock, clocks, limit, phase, part_limit, part, ticks, ticking);
+        dff_setup!(self, clock, window_ends, microsecond_ends);
         self.clocks.d.next = self.clocks.q.val() + self.one.val();
         self.clock_count.next = self.clocks.q.val();
 
@@ -75,16 +79,19 @@ impl Logic for Timebase {
             self.phase.d.next = self.one_phase.val();
             self.tick_now.next = true;
         }
-        self.tick.next = self.tick_now.val();
+        // What starts much at once comes from a flip-flop.
+        self.ticking.d.next = self.tick_now.val();
+        self.tick.next = self.ticking.q.val();
 
-        self.window.next = false;
-        if self.tick_now.val() {
+        self.window_ends.d.next = self.tick_now.val() & (self.ticks.q.val() >= self.stall_window.val());
+        if self.ticking.q.val() {
             self.ticks.d.next = self.ticks.q.val() + self.one_tick.val();
-            if self.ticks.q.val() >= self.stall_window.val() {
+            if self.window_ends.q.val() {
                 self.ticks.d.next = self.one_tick.val();
-                self.window.next = true;
             }
         }
+
+        self.window.next = self.window_ends.q.val();
 
         self.part_limit.d.next = self.clocks_per_microsecond.val();
         if self.clocks_per_microsecond.val() < self.shortest_part.val() {
@@ -94,10 +101,11 @@ impl Logic for Timebase {
             self.part_limit.d.next = self.longest_part.val();
         }
         self.part.d.next = self.part.q.val() + self.one_part.val();
-        self.microsecond.next = false;
+        self.microsecond_ends.d.next = false;
         if self.part.q.val() >= self.part_limit.q.val() {
             self.part.d.next = self.one_part.val();
-            self.microsecond.next = true;
+            self.microsecond_ends.d.next = true;
         }
+        self.microsecond.next = self.microsecond_ends.q.val();
     }
 }

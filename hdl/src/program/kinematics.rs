@@ -6,9 +6,9 @@ use super::{Assembler, InputPort, Op};
 /// The speed set point of this axis.
 pub(super) fn reference(p: &mut Assembler) {
     let [off, wheels, none, slew, done] = [(); 5].map(|()| p.label());
-    p.input(InputPort::Armed).jump(Op::JumpZero, off);
-    p.input(InputPort::SetPointsValid).jump(Op::JumpZero, none);
-    p.input(InputPort::Twist).jump(Op::JumpZero, wheels);
+    p.input(InputPort::Armed).jump(Op::JumpClear, off);
+    p.input(InputPort::SetPointsValid).jump(Op::JumpClear, none);
+    p.input(InputPort::Twist).jump(Op::JumpClear, wheels);
     let start = |p: &mut Assembler, k| {
         p.load(inverse_column(k)).op(Op::MultiplyCoefficient, SET_POINT.word(k));
     };

@@ -8,7 +8,9 @@
 //! clock, but: a taken branch two, a product 2 + digits and a quotient 34 from their start, less what is done in
 //! between. So the parts of the tick are woven: a product is started, something else done, then it is asked for.
 //! A sum stands in the accumulator a clock late and a stored word in the memory another clock later; only a
-//! store may come at once. Where the program asks sooner, the assembler puts a [`Op::Nop`].
+//! store may come at once. Whether the accumulator is zero is known a clock later still. The port of an input is
+//! chosen by the instruction before it, so that no branch may lead to one. Where the program asks sooner, the
+//! assembler puts a [`Op::Nop`].
 
 mod kinematics;
 pub mod layout;
@@ -57,10 +59,10 @@ pub enum Op {
     Output,
     /// Branch in any case.
     Jump,
-    /// Branch where acc = 0.
+    /// Branch where acc = 0, which is known a clock later than acc.
     JumpZero,
-    /// Branch where acc ≠ 0.
-    JumpNotZero,
+    /// Branch where bit 0 of acc is 0: how a flag is asked.
+    JumpClear,
     /// Branch where acc < 0.
     JumpNegative,
     /// Branch where acc ≥ 0.
@@ -154,6 +156,8 @@ struct Assembler {
     targets: Vec<(usize, Label)>,
     places: HashMap<Label, usize>,
     labels: usize,
+    /// A label stands here: the instruction before the next one is not known.
+    fresh: bool,
     asides: Vec<Aside>,
 }
 
@@ -168,6 +172,7 @@ impl Assembler {
 
     fn here(&mut self, label: Label) {
         assert!(self.places.insert(label, self.words.len()).is_none(), "label placed twice");
+        self.fresh = true;
     }
 
     fn op(&mut self, op: Op, cell: Cell) -> &mut Self {
@@ -179,8 +184,13 @@ impl Assembler {
     fn push(&mut self, op: Op, operand: u16) -> &mut Self {
         let waits = |(distance, (before, written)): (usize, &(Op, u16))| {
             let sum = distance == 0 && before.is_sum() && op.reads_accumulator();
+            // A clock for what changes the accumulator, another for a sum.
+            let zero =
+                (usize::from(before.changes_accumulator()) + usize::from(before.is_sum())).saturating_sub(distance);
             let word = *before == Op::Store && op.reads_memory() && layout::overlap(*written, operand);
-            if sum {
+            if op == Op::JumpZero {
+                zero
+            } else if sum {
                 1
             } else if word {
                 2 - distance
@@ -189,6 +199,8 @@ impl Assembler {
             }
         };
         let wait = self.words.iter().rev().take(2).enumerate().map(waits).max().unwrap_or(0);
+        let wait = wait.max(usize::from(self.fresh && op == Op::Input));
+        self.fresh = false;
         self.words.extend(std::iter::repeat_n((Op::Nop, 0), wait));
         self.words.push((op, operand));
         self
@@ -297,9 +309,18 @@ impl Op {
         )
     }
 
+    /// The accumulator is another one after it.
+    fn changes_accumulator(self) -> bool {
+        let loads = matches!(
+            self,
+            Self::Load | Self::Immediate | Self::LoadIf | Self::Xor | Self::Input | Self::Quotient | Self::Product
+        );
+        loads || self.is_sum()
+    }
+
     fn reads_memory(self) -> bool {
         use Op::{
-            Halt, Immediate, Input, Jump, JumpNegative, JumpNotNegative, JumpNotZero, JumpZero, NextAxis, Nop, Output,
+            Halt, Immediate, Input, Jump, JumpClear, JumpNegative, JumpNotNegative, JumpZero, NextAxis, Nop, Output,
             Product, Quotient, Store,
         };
         !matches!(
@@ -310,7 +331,7 @@ impl Op {
                 | Output
                 | Jump
                 | JumpZero
-                | JumpNotZero
+                | JumpClear
                 | JumpNegative
                 | JumpNotNegative
                 | NextAxis

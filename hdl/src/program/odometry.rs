@@ -24,19 +24,16 @@ pub(super) fn add(p: &mut Assembler, k: usize) {
 
 /// The pose, from the displacement of all axes; or zero.
 pub(super) fn step(p: &mut Assembler) {
-    let [kept, done] = [(); 2].map(|()| p.label());
+    let [none, done] = [(); 2].map(|()| p.label());
     let [dx, dy, half] = [0, 1, 2].map(|k| DISPLACEMENT.word(k));
     // The axes are through with their temporaries.
     let (small, part, x, y) = (SCRATCH, DIFFERENCE, ERROR, SUM);
 
-    p.input(InputPort::Odometry).jump(Op::JumpNotZero, kept);
-    p.immediate(0).store(POSE_X).store(POSE_Y).store(HEADING);
-    for k in 0..3 {
-        p.store(SNAPSHOT_POSE.word(k));
-    }
-    p.jump(Op::Jump, done);
-
-    p.here(kept);
+    p.input(InputPort::Odometry).jump(Op::JumpClear, none);
+    p.aside(none, done, |p| {
+        p.immediate(0).store(POSE_X).store(POSE_Y).store(HEADING);
+        (0..3).fold(p, |p, k| p.store(SNAPSHOT_POSE.word(k)))
+    });
     p.load(HEADING).op(Op::AddWrapping, half).output(OutputPort::Angle);
     p.op(Op::AddWrapping, half).store(HEADING).store(SNAPSHOT_POSE.word(2));
 

@@ -19,7 +19,7 @@ pub(super) fn step(p: &mut Assembler) {
     let [off, accept, done] = [(); 3].map(|()| p.label());
     p.load(REFERENCE).op(Op::Subtract, SPEED).store(ERROR);
     p.load(KP).op(Op::MultiplyWide, ERROR);
-    p.input(InputPort::Armed).jump(Op::JumpZero, off);
+    p.input(InputPort::Armed).jump(Op::JumpClear, off);
     p.product().store(PROPORTIONAL);
     p.load(KI).op(Op::MultiplyFine, ERROR);
     p.load(PROPORTIONAL).op(Op::Add, FORWARD).store(PROPORTIONAL);

@@ -22,10 +22,10 @@ pub(super) fn count(p: &mut Assembler) {
 /// A captured index, and where the counts are zero.
 pub(super) fn index(p: &mut Assembler) {
     let done = p.label();
-    p.input(InputPort::IndexEvent).jump(Op::JumpZero, done);
+    p.input(InputPort::IndexEvent).jump(Op::JumpClear, done);
     p.input(InputPort::IndexCount).op(Op::Subtract16, COUNT).op(Op::AddWrapping, COUNT).store(SCRATCH);
     p.op(Op::AddWrapping, HOME).store(INDEX_POSITION);
-    p.input(InputPort::IndexClear).jump(Op::JumpZero, done);
+    p.input(InputPort::IndexClear).jump(Op::JumpClear, done);
     // −x = ~(x − 1): a plain difference would saturate.
     p.load(SCRATCH).op(Op::AddWrapping, ALL_ONES).op(Op::Xor, ALL_ONES).store(HOME);
     p.here(done);
@@ -38,13 +38,13 @@ pub(super) fn publish(p: &mut Assembler) {
 
 /// A division under way, and what its quotient will mean.
 pub(super) fn start(p: &mut Assembler) {
-    let [by_time, first, remember, no_edge, still, plain, case] = [(); 7].map(|()| p.label());
+    let [by_count, first, remember, no_edge, still, plain, case] = [(); 7].map(|()| p.label());
 
-    p.input(InputPort::CountAndTime).jump(Op::JumpNotZero, by_time);
-    p.input(InputPort::TickPeriod).store(DENOMINATOR);
-    p.load(DIFFERENCE).op(Op::Divide, DENOMINATOR).jump(Op::Jump, plain);
-
-    p.here(by_time);
+    p.input(InputPort::CountAndTime).jump(Op::JumpClear, by_count);
+    p.aside(by_count, plain, |p| {
+        p.input(InputPort::TickPeriod).store(DENOMINATOR);
+        p.load(DIFFERENCE).op(Op::Divide, DENOMINATOR)
+    });
     p.input(InputPort::EdgeTime).op(Op::Subtract24, EDGE_TIME).store(DENOMINATOR).jump(Op::JumpZero, no_edge);
     p.load(LINE).jump(Op::JumpNegative, first);
     p.input(InputPort::Line).op(Op::Subtract16, LINE).op(Op::Divide, DENOMINATOR);
@@ -74,7 +74,7 @@ pub(super) fn start(p: &mut Assembler) {
 /// The quotient, or the last speed within ± the quotient, or zero. The divider gives a negative one less one.
 pub(super) fn finish(p: &mut Assembler) {
     let [plain, still, rising, done] = [(); 4].map(|()| p.label());
-    p.load(CASE).jump(Op::JumpZero, plain).jump(Op::JumpNegative, still);
+    p.load(CASE).jump(Op::JumpNegative, still).jump(Op::JumpClear, plain);
     p.quotient().store(SCRATCH);
     p.load(SPEED).jump(Op::JumpNotNegative, rising);
     p.negated(SCRATCH).maximum(SPEED);

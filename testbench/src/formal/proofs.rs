@@ -14,8 +14,8 @@ const fn mutant(what: &'static str, from: &'static str, to: &'static str) -> Mut
 pub const PROOFS: &[Proof] = &[
     Proof {
         mutants: &[
-            mutant("turns at once", "& long_quiet & ~pwm_pin_q", "& ~pwm_pin_q"),
-            mutant("rises at once", "enable & (settled_q | long_quiet)", "enable"),
+            mutant("turns at once", "& rested_q & ~pwm_pin_q", "& ~pwm_pin_q"),
+            mutant("rises at once", "enable & (settled_q | rested_q)", "enable"),
             mutant("up and down together", "dir = pwm_pin_q & dir_pin_q", "dir = pwm_pin_q"),
             mutant("ignores the enable", "permitted & ~stops & running", "~stops & running"),
             mutant("outlasts the arming", "permitted & ~stops & running", "permitted & running"),
@@ -78,6 +78,7 @@ pub const PROOFS: &[Proof] = &[
             "rac4i65_core_imu",
         ],
         mutants: &[
+            mutant("a write meets a store", "radio_writes = radio_turn & ~blocked", "radio_writes = radio_turn"),
             mutant("two masters", "radio_turn = radio_offer & ~bus_claims", "radio_turn = radio_offer"),
             mutant("the host commands always", "(bus_write_2 & ~radio_selected)", "bus_write_2"),
             mutant("a dead clock keeps the bridges on", "shut = safety_off | ~alive", "shut = safety_off"),
@@ -175,7 +176,7 @@ pub const PROOFS: &[Proof] = &[
                 "if (set_points_wait_q & ~stage_set_point) begin",
                 "if (set_points_wait_q) begin",
             ),
-            mutant("no checksum", "right = sum_right & (set_points_q", "right = (set_points_q"),
+            mutant("no checksum", "right = sum_right_q & (set_points_q", "right = (set_points_q"),
             mutant(
                 "a word too many",
                 "(configuration_q == all_configuration)",
@@ -217,7 +218,7 @@ pub const PROOFS: &[Proof] = &[
     },
     Proof {
         mutants: &[
-            mutant("no microseconds", "microsecond = 1'b1", "microsecond = 1'b0"),
+            mutant("no microseconds", "microsecond_ends_d = 1'b1", "microsecond_ends_d = 1'b0"),
             mutant("no shortest period", "if (tick_period < shortest) begin", "if (1'b0) begin"),
         ],
         ..proof(
@@ -302,11 +303,7 @@ pub const PROOFS: &[Proof] = &[
         ],
         mutants: &[
             mutant("clamps one way", "(sum_top != three_clear) & (sum_top != three_set)", "sum_top == 3'b001"),
-            mutant(
-                "loses a write of the bus",
-                "bus_write_taken = bus_write & ~storing_q",
-                "bus_write_taken = bus_write",
-            ),
+            mutant("loses a write of the bus", "bus_blocked = stores_q", "bus_blocked = 1'b0"),
             mutant("a read that meets a write", "if (bus_hits_q) begin", "if (1'b0) begin"),
         ],
         ..proof(
