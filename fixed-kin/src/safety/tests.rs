@@ -64,13 +64,22 @@ fn an_open_emergency_stop_is_never_released() {
     }
 }
 
+/// Arms anew with the time-out of these inputs, which is in force some clocks after it came.
+fn armed_again(safety: &mut Safety, pet: &Inputs) {
+    run(safety, pet, 3);
+    for word in ARM {
+        safety.clock(&Inputs { arm_write: true, arm_data: word.arm_data, ..*pet });
+    }
+    assert!(safety.clock(pet).armed);
+}
+
 #[test]
 fn the_watchdog_bites_exactly_at_the_time_out() {
     for timeout in [1, 2, 3, 100, 5_000] {
         let mut safety = armed();
         let quiet = Inputs { watchdog_timeout: timeout, ..QUIET };
         let pet = Inputs { pet: true, ..quiet };
-        assert!(run(&mut safety, &pet, 3).armed);
+        armed_again(&mut safety, &pet);
         for _ in 0..5 {
             assert!(run(&mut safety, &quiet, timeout - 1).armed, "pets {timeout} apart are enough");
             assert!(safety.clock(&pet).armed);
@@ -82,16 +91,18 @@ fn the_watchdog_bites_exactly_at_the_time_out() {
 }
 
 #[test]
-fn a_shorter_time_out_counts_at_once_and_zero_always_bites() {
+fn a_shorter_time_out_disarms_until_it_is_in_force_and_zero_always_bites() {
     let mut safety = armed();
-    run(&mut safety, &Inputs { watchdog_timeout: TIMEOUT_MASK, ..PET }, 1);
+    assert!(run(&mut safety, &Inputs { watchdog_timeout: TIMEOUT_MASK, ..PET }, 1).armed);
     let short = Inputs { watchdog_timeout: 5, ..QUIET };
-    assert!(run(&mut safety, &short, 6).armed);
+    let out = run(&mut safety, &short, 2);
+    assert_eq!((out.armed, out.faults), (false, 0));
+    armed_again(&mut safety, &Inputs { pet: true, ..short });
+    assert!(run(&mut safety, &short, 5).armed);
     assert!(!safety.clock(&short).armed);
     let mut safety = armed();
     let zero = Inputs { watchdog_timeout: 0, ..PET };
-    assert!(run(&mut safety, &zero, 1).armed);
-    assert!(!safety.clock(&zero).armed);
+    assert!(!run(&mut safety, &zero, 2).armed);
     for inputs in [ARM[0], ARM[1]] {
         assert!(!safety.clock(&Inputs { watchdog_timeout: 0, pet: true, ..inputs }).armed);
     }

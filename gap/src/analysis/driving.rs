@@ -41,6 +41,10 @@ fn ways_lie_along_one_line(pieces: &Pieces) -> bool {
 /// Length of that mean from which ways are one line: that of directions spread evenly over 10 degrees on either side.
 const ONE_LINE: f64 = 0.98;
 
+/// An encoder that reads ahead once a turn, and the loads that look like it.
+const READ_AMISS: &str = "encoder-eccentricity";
+const ONCE_A_TURN: [&str; 2] = ["gravity-load", "joint-spring"];
+
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
 
@@ -56,7 +60,15 @@ impl<'a> Workflow<'a> {
             return;
         };
         self.scatter(&link);
-        let mut outcome = self.drive_studied(&mut link, &here);
+        let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
+        let mut outcome = self.drive_studied(&mut link, &read_right);
+        // What comes once a turn is a load, or is read so.
+        if outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str())) {
+            if let Some(again) = self.drive_link() {
+                link = again;
+                outcome = self.drive_studied(&mut link, &here);
+            }
+        }
         if self.question.currents {
             let support = self.question.robot.support;
             if ratios::are_named_on_both_sides(&outcome.named, support) {
