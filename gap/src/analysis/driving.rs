@@ -63,11 +63,11 @@ impl<'a> Workflow<'a> {
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
         // What comes once a turn is a load, or is read so.
-        if outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str())) {
-            if let Some(again) = self.drive_link() {
-                link = again;
-                outcome = self.drive_studied(&mut link, &here);
-            }
+        let may_be_read =
+            outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str()));
+        if may_be_read && let Some(again) = self.drive_link() {
+            link = again;
+            outcome = self.drive_studied(&mut link, &here);
         }
         if self.question.currents {
             let support = self.question.robot.support;
