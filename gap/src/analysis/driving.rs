@@ -18,6 +18,7 @@ use crate::select::Selection;
 use crate::state::{Active, State};
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};
+use links::effects::fits;
 use links::pieces::Pieces;
 use links::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
 
@@ -63,8 +64,8 @@ impl<'a> Workflow<'a> {
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
         // What comes once a turn is a load, or is read so.
-        let may_be_read =
-            outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str()));
+        let may_be_read = fits(READ_AMISS, &self.question.robot)
+            && (outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str())));
         if may_be_read && let Some(again) = self.drive_link() {
             link = again;
             outcome = self.drive_studied(&mut link, &here);
@@ -173,13 +174,12 @@ impl<'a> Workflow<'a> {
     /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties. Nor is
     /// what only they show: on the drive alone creep is a latency by another name.
     fn not_seen(&self) -> Vec<Arc<dyn Effect>> {
-        let straight = ways_lie_along_one_line(self.searched().pieces);
         let shown = |e: &Arc<dyn Effect>| {
             let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
             let hidden = e.link() != Link::Drive && self.seen.is_none();
-            let grain = e.name() == "carpet-grain" && straight;
-            hidden || grain || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material)
+            let grain = || e.name() == "carpet-grain" && ways_lie_along_one_line(self.searched().pieces);
+            hidden || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material) || grain()
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
     }

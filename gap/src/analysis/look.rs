@@ -15,8 +15,8 @@ const LONGEST_S: f64 = 3.0;
 ///
 /// Currents are measured, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
 /// functions of speed and current. Speeds in place of counts are momentary or the mean of the row before by the same rule:
-/// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer as long as they tell
-/// more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
+/// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
+/// as long as they tell more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
 pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
     // Without effects of the file: so that it is the same before something was found and after.

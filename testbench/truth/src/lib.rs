@@ -23,6 +23,7 @@ mod draw;
 mod effects;
 mod error;
 mod excitation;
+mod folder;
 mod geometry;
 mod inertial;
 mod log;

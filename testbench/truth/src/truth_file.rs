@@ -1,6 +1,5 @@
 //! Writing a case: the data in one folder, the truth anywhere else.
 
-use std::fs;
 use std::path::Path;
 
 use rand::RngExt;
@@ -12,6 +11,7 @@ use crate::case::{Case, Conditions, Kind};
 use crate::draw::{draw_with, observable};
 use crate::effects::{self, Hidden};
 use crate::error::Error;
+use crate::folder;
 use crate::log::Log;
 use crate::machine::Machine;
 use crate::noise::{Stream, stream};
@@ -143,17 +143,12 @@ pub fn truth(case: &Case) -> Truth {
 /// # Errors
 /// [`Error::File`], or [`Error::Diverged`] where the simulation left all bounds.
 pub fn write(case: &Case, dir: &Path) -> Result<Truth, Error> {
-    fs::create_dir_all(dir).map_err(|source| Error::File(dir.to_owned(), source))?;
-    let put = |name: &str, text: &str| {
-        let path = dir.join(name);
-        fs::write(&path, text).map_err(|source| Error::File(path, source))
-    };
-    put("robot.toml", &case.robot.to_toml())?;
+    folder::begin(dir, &case.robot.to_toml())?;
     for ((number, log), drive) in (0..).zip(simulate(case)).zip(&case.drives) {
         if log.rows.len() < ticks_of(&case.robot, drive) {
             return Err(Error::Diverged { seed: case.seed, file: run_name(number), tick: log.rows.len() });
         }
-        put(&run_name(number), &log.to_csv(case.columns))?;
+        folder::put(dir, &run_name(number), &log.to_csv(case.columns))?;
     }
     Ok(truth(case))
 }
@@ -179,6 +174,7 @@ pub fn make(seed: u64, kind: &Kind, conditions: &Conditions, dir: &Path) -> Resu
     })
 }
 
+/// Of a run numbered from 0.
 fn run_name(number: u32) -> String {
-    format!("run_{:02}.csv", number + 1)
+    folder::run_name(number + 1)
 }

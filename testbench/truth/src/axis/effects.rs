@@ -6,7 +6,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::{Axis, Logger};
-use crate::effects::{Hidden, Link};
+use crate::effects::{Hidden, Link, drawn};
 use crate::error::Error;
 use crate::noise::named_stream;
 
@@ -151,9 +151,8 @@ pub(super) fn seen(name: &str) -> Result<[bool; 3], Error> {
 /// Puts an effect into the machine.
 pub(super) fn hide(name: &str, size: u8, seed: u64, axis: &mut Axis, logger: &mut Logger) -> Result<Hidden, Error> {
     let entry = find(name)?;
-    let centre = *entry.sizes.get(usize::from(size).wrapping_sub(1)).ok_or(Error::Size(size))?;
     let mut rng = named_stream(seed, name);
-    let value = centre * rng.random_range(-0.13_f64..0.13).exp();
+    let value = drawn(&entry.sizes, size, &mut rng)?;
     let parameters = (entry.hide)(axis, logger, value, &mut rng);
     Ok(Hidden {
         name: entry.looks_like.unwrap_or(name).to_owned(),

@@ -10,7 +10,6 @@ mod effects;
 mod log;
 mod motion;
 
-use std::fs;
 use std::path::Path;
 
 pub(crate) use draw::draw;
@@ -18,6 +17,7 @@ pub use effects::{PAIRS, names};
 
 use crate::effects::Hidden;
 use crate::error::Error;
+use crate::folder;
 
 /// Motor, gear and load; torques, speeds and angles at the output shaft unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,25 +160,20 @@ impl AxisCase {
 
     /// Writes `robot.toml` and `run_NN.csv`; gives names and durations (s) of the runs.
     pub(crate) fn write(&self, dir: &Path) -> Result<Vec<(String, String, f64)>, Error> {
-        fs::create_dir_all(dir).map_err(|source| Error::File(dir.to_owned(), source))?;
-        let put = |name: &str, text: &str| {
-            let path = dir.join(name);
-            fs::write(&path, text).map_err(|source| Error::File(path, source))
-        };
-        put("robot.toml", &self.robot_toml())?;
+        folder::begin(dir, &self.robot_toml())?;
         let axes = match self.carrier {
             Carrier::Blocks => 1,
             Carrier::Floor(_) => 2,
         };
         let mut runs = Vec::new();
         for (number, drive) in (1_u32..).zip(&self.drives) {
-            let name = format!("run_{number:02}.csv");
+            let name = folder::run_name(number);
             let recording = motion::record(&self.machine, &self.logger, drive, self.seed, number);
             if recording.angles.iter().any(|a| !a.is_finite()) {
                 let tick = recording.angles.iter().take_while(|a| a.is_finite()).count();
                 return Err(Error::Diverged { seed: self.seed, file: name, tick });
             }
-            put(&name, &log::csv(&recording, &self.logger, axes, self.seed, number))?;
+            folder::put(dir, &name, &log::csv(&recording, &self.logger, axes, self.seed, number))?;
             runs.push((name, drive.name.to_owned(), drive.wanted.len() as f64 * self.logger.row_s));
         }
         Ok(runs)

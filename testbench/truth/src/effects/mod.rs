@@ -154,6 +154,12 @@ pub fn find_outside(name: &str) -> Result<&'static Entry, Error> {
     outside().find(|entry| entry.name == name).ok_or_else(|| Error::UnknownEffect(name.to_owned()))
 }
 
+/// A magnitude at size level 1 to 5: its centre, scattered.
+pub(crate) fn drawn(sizes: &[f64; 5], level: u8, rng: &mut ChaCha8Rng) -> Result<f64, Error> {
+    let centre = sizes.get(usize::from(level).wrapping_sub(1)).ok_or(Error::Size(level))?;
+    Ok(centre * rng.random_range(-0.13_f64..0.13).exp())
+}
+
 /// Hides `entry` at size level 1 to 5 in the machine; its random numbers depend on seed and name only.
 pub(crate) fn hide(
     entry: &Entry,
@@ -162,9 +168,8 @@ pub(crate) fn hide(
     machine: &mut Machine,
     robot: &mut Robot,
 ) -> Result<Hidden, Error> {
-    let centre = *entry.sizes.get(usize::from(level).wrapping_sub(1)).ok_or(Error::Size(level))?;
     let mut rng = named_stream(seed, entry.name);
-    let value = centre * rng.random_range(-0.13_f64..0.13).exp();
+    let value = drawn(&entry.sizes, level, &mut rng)?;
     let found = (entry.hide)(&mut Hand { value, level, rng: &mut rng, machine, robot });
     Ok(Hidden {
         name: entry.name.to_owned(),
