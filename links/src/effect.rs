@@ -135,6 +135,20 @@ impl Form {
             .map(|i| Self { wheels: vec![i], free: vec![parameter(i)], fixed: Vec::new() })
             .collect()
     }
+
+    /// Every wheel alone, with two parameters of its own, and all together if there are several.
+    pub fn axes(robot: &Robot, parameters: impl Fn(usize) -> [Parameter; 2]) -> Vec<Self> {
+        let of = |wheels: Vec<usize>| {
+            let free = wheels.iter().flat_map(|i| parameters(*i)).collect();
+            Self { wheels, free, fixed: Vec::new() }
+        };
+        let n = robot.wheel_count();
+        let mut forms: Vec<Self> = (0..n).map(|i| of(vec![i])).collect();
+        if n > 1 {
+            forms.push(of((0..n).collect()));
+        }
+        forms
+    }
 }
 
 /// A physical effect that the nominal model leaves out.

@@ -15,6 +15,11 @@ impl Values {
         self.find(name).unwrap_or(0.0)
     }
 
+    /// What goes with sine and cosine of each wheel's angle.
+    pub fn with_angle(&self, wheels: usize, unit: &str) -> Vec<[f64; 2]> {
+        (0..wheels).map(|i| ["sin", "cos"].map(|stem| self.wheel(stem, i, unit))).collect()
+    }
+
     /// The value of wheel `i` (from 0): `stem_i+1_unit`, plus the common `stem_unit`.
     pub fn wheel(&self, stem: &str, i: usize, unit: &str) -> f64 {
         self.get(&wheel_name(stem, i, unit)) + self.get(&join(stem, unit))

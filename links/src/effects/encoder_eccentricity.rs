@@ -60,8 +60,7 @@ impl Effect for EncoderEccentricity {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let order = values.find(ORDER).unwrap_or(1.0);
-        let ahead: Vec<[f64; 2]> =
-            (0..model.wheels.len()).map(|i| ["sin", "cos"].map(|stem| values.wheel(stem, i, "rad"))).collect();
+        let ahead = values.with_angle(model.wheels.len(), "rad");
         let more = move |s: &Segment, i: usize, k: usize| {
             let (sin, cos) = (order * (s.zero[i] + s.angle[i][k])).sin_cos();
             ahead[i][0] * sin + ahead[i][1] * cos

@@ -35,16 +35,7 @@ impl Effect for GravityLoad {
         // What the motor can just not lift still swings.
         let most = 2.0 * drive.max(sizes.stall_nm);
         let p = |stem, i| Parameter::new(wheel_name(stem, i, "nm"), 0.01 * drive, [-most, most], 0.03 * drive);
-        let of = |wheels: Vec<usize>| {
-            let free = wheels.iter().flat_map(|i| [p("sin", *i), p("cos", *i)]).collect();
-            Form { wheels, free, fixed: Vec::new() }
-        };
-        let n = robot.wheel_count();
-        let mut forms: Vec<Form> = (0..n).map(|i| of(vec![i])).collect();
-        if n > 1 {
-            forms.push(of((0..n).collect()));
-        }
-        forms
+        Form::axes(robot, |i| [p("sin", i), p("cos", i)])
     }
 
     fn is_load(&self) -> bool {
@@ -52,8 +43,7 @@ impl Effect for GravityLoad {
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let torque: Vec<[f64; 2]> =
-            (0..model.wheels.len()).map(|i| ["sin", "cos"].map(|stem| values.wheel(stem, i, "nm"))).collect();
+        let torque = values.with_angle(model.wheels.len(), "nm");
         model.loads.push(Box::new(move |now, loads| {
             for (i, [a, b]) in torque.iter().enumerate() {
                 if *a != 0.0 || *b != 0.0 {

@@ -37,24 +37,15 @@ impl Effect for JointSpring {
         let (drive, reach) = (sizes.drive_nm, sizes.reach_rad.max(sizes.count_rad));
         // What the motor can just not wind as far as it went.
         let stiffest = 2.0 * drive.max(sizes.stall_nm) / reach;
-        let of = |wheels: Vec<usize>| {
-            let spring = |i: &usize| {
-                let stiffness = wheel_name("stiffness", *i, "nm_per_rad");
-                let preloads = [-PRELOADS * stiffest, PRELOADS * stiffest];
-                [
-                    Parameter::new(stiffness, 0.01 * drive / reach, [0.0, stiffest], 0.03 * drive / reach),
-                    // Where it is slack is no size: without a stiffness there is no spring.
-                    Parameter::new(wheel_name("preload", *i, "nm"), 0.01 * drive, preloads, f64::INFINITY),
-                ]
-            };
-            Form { free: wheels.iter().flat_map(spring).collect(), wheels, fixed: Vec::new() }
-        };
-        let n = robot.wheel_count();
-        let mut forms: Vec<Form> = (0..n).map(|i| of(vec![i])).collect();
-        if n > 1 {
-            forms.push(of((0..n).collect()));
-        }
-        forms
+        Form::axes(robot, |i| {
+            let stiffness = wheel_name("stiffness", i, "nm_per_rad");
+            let preloads = [-PRELOADS * stiffest, PRELOADS * stiffest];
+            [
+                Parameter::new(stiffness, 0.01 * drive / reach, [0.0, stiffest], 0.03 * drive / reach),
+                // Where it is slack is no size: without a stiffness there is no spring.
+                Parameter::new(wheel_name("preload", i, "nm"), 0.01 * drive, preloads, f64::INFINITY),
+            ]
+        })
     }
 
     fn is_load(&self) -> bool {
