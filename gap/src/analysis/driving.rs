@@ -63,12 +63,15 @@ impl<'a> Workflow<'a> {
         self.scatter(&link);
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
-        // What comes once a turn is a load, or is read so.
+        // What comes once a turn is a load, or is read so: where neither load has a name, not by a load.
+        let once_a_turn = |name: &str| ONCE_A_TURN.contains(&name);
         let may_be_read = fits(READ_AMISS, &self.question.robot)
-            && (outcome.named.is_empty() || outcome.named.iter().any(|n| ONCE_A_TURN.contains(&n.name.as_str())));
+            && (outcome.named.is_empty() || outcome.named.iter().any(|n| once_a_turn(&n.name)));
         if may_be_read && let Some(again) = self.drive_link() {
             link = again;
-            outcome = self.drive_studied(&mut link, &here);
+            let loads = !outcome.named.is_empty();
+            let or_read: Vec<_> = here.iter().filter(|e| loads || !once_a_turn(e.name())).cloned().collect();
+            outcome = self.drive_studied(&mut link, &or_read);
         }
         if self.question.currents {
             let support = self.question.robot.support;

@@ -4,7 +4,7 @@ use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use super::cut::Cut;
-use links::drive::{DriveLink, DriveModel, Generic};
+use links::drive::{DriveLink, DriveModel, FEWEST_PER_COLUMN, Generic};
 use links::pieces::Driving;
 use links::thresholds::NO_NOISE;
 
@@ -54,9 +54,6 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
     }
     chosen
 }
-
-/// Test functions that a column of the smooth functions beside which a floor is found needs.
-const FEWEST_PER_COLUMN: usize = 3;
 
 /// What a way of looking at a drive shows.
 struct Look {

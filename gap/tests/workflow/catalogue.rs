@@ -101,9 +101,8 @@ const CASES: &[Case] = &[
 ];
 
 /// Not found as they should be. Play is taken for something else: the torque that decides which flank
-/// carries comes from smoothed counts. Of lifted wheels that turn ten times a second an eccentric encoder is not named, though
-/// fitted to a twentieth; on single axes `testbench/tests/axes.rs` finds it.
-const SHORTFALLS: [&str; 2] = ["gear-backlash", "encoder-eccentricity"];
+/// carries comes from smoothed counts.
+const SHORTFALLS: [&str; 1] = ["gear-backlash"];
 
 /// What is wrong with the answer, if anything.
 fn fault(case: &Case, a: &Analysis) -> Option<String> {

@@ -132,6 +132,27 @@ fn a_servo_is_the_same_in_any_unit() {
     same(&a, &analysed(&finer(&set, 1000)), 0.01);
 }
 
+/// What a desk leaves in a moment: one log of three seconds.
+#[test]
+fn three_seconds_of_a_servo_are_enough_for_a_name() {
+    let short = |mut set: DataSet| {
+        set.runs.truncate(1);
+        cut(&mut set.runs[0], 3.0);
+        analysed(&set)
+    };
+    for (set, name, truth) in [
+        (servo(2e-5, 2e-5, 0.0, 4e-3), "coulomb-friction", 4e-3),
+        (servo(3.2e-5, 2e-5, 0.0, 0.0), "rotor-inertia", 0.6),
+    ] {
+        let a = short(set);
+        assert_eq!(names(&a), [name], "{}", a.terminal_summary());
+        let [low, high] = a.effects[0].parameters[0].2.ends().unwrap();
+        assert!(low < truth && truth < high && high - low < 0.5 * truth, "{}", a.terminal_summary());
+    }
+    let a = short(servo(2e-5, 2e-5, 0.0, 0.0));
+    assert_eq!((a.verdict, names(&a)), (Verdict::Agrees, vec![]), "{}", a.terminal_summary());
+}
+
 #[test]
 fn an_inertia_is_the_same_in_any_unit() {
     let set = servo(3.2e-5, 2e-5, 0.0, 0.0);

@@ -31,58 +31,73 @@ pub struct Left {
 
 /// Columns of a wheel that no other shares.
 const ALONE: usize = 4;
-/// Further ones of an axis that may turn a weight.
-const WEIGHT: usize = 2;
+/// Further ones of an axis on blocks, which may turn a weight or an encoder that sits beside its middle.
+const ONCE_A_TURN: usize = 6;
+/// Columns of the way a robot drives; on blocks it stands still.
+const DRIVES: usize = 6;
+const STANDS: usize = 1;
+/// Test functions that a column needs.
+pub const FEWEST_PER_COLUMN: usize = 3;
 
-fn alone(link: &DriveLink) -> usize {
-    ALONE + if link.pieces.robot().support == Support::Blocks { WEIGHT } else { 0 }
+/// Number of columns that the wheels share, and of each alone.
+fn columns(link: &DriveLink) -> (usize, usize) {
+    let (body, alone) = match link.pieces.robot().support {
+        Support::Blocks => (STANDS, ALONE + ONCE_A_TURN),
+        Support::Floor => (DRIVES, ALONE),
+    };
+    (3 * link.noise.len() + body, alone)
 }
 
 impl Generic {
     /// Functions that describe one wheel.
     pub fn columns_of_wheel(link: &DriveLink) -> usize {
-        3 * link.noise.len() + 6 + alone(link)
+        let (shared, alone) = columns(link);
+        shared + alone
     }
 
-    /// Its columns.
+    /// Its columns, the likeliest first.
     pub fn new(link: &DriveLink) -> Self {
         let n = link.noise.len();
         let slides = thresholds::SLIDES * link.pieces.robot().wheel_radius_m;
-        let alone = alone(link);
-        let common = Self::columns_of_wheel(link) - alone;
-        let mut all = link.means(common + alone * n, |s, k, out| {
-            let (common, own) = out.split_at_mut(common);
+        let (shared, alone) = columns(link);
+        let mut all = link.means(shared + alone * n, |s, k, out| {
+            let (common, own) = out.split_at_mut(shared);
+            let (wheels, body) = common.split_at_mut(3 * n);
             for i in 0..n {
                 let (speed, duty) = (s.speed[i][k], s.duty[i][k]);
                 let sign = smooth_sign(speed, s.turning);
-                common[3 * i..3 * i + 3].copy_from_slice(&[sign, speed, duty]);
-                let (laws, weight) = own[alone * i..][..alone].split_at_mut(ALONE);
+                wheels[3 * i..3 * i + 3].copy_from_slice(&[sign, speed, duty]);
+                let (laws, turning) = own[alone * i..][..alone].split_at_mut(ALONE);
                 laws.copy_from_slice(&[speed * speed.abs(), duty.abs() * sign, duty.powi(3), sign.abs()]);
-                if !weight.is_empty() {
+                if !turning.is_empty() {
                     let (sin, cos) = s.shaft_angle(i, k).sin_cos();
-                    weight.copy_from_slice(&[sin, cos]);
+                    let square = speed * speed;
+                    turning.copy_from_slice(&[sin, cos, speed * sin, speed * cos, square * sin, square * cos]);
                 }
             }
             let (heading, twist) = (s.heading[k], s.twist[k]);
-            common[3 * n..].copy_from_slice(&[
+            let drives = [
                 heading.cos(),
                 heading.sin(),
                 smooth_sign(twist.vx, slides * s.turning),
                 smooth_sign(twist.vy, slides * s.turning),
                 twist.vx * twist.omega,
                 twist.vy * twist.omega,
-            ]);
+            ];
+            body.copy_from_slice(if body.len() == STANDS { &[1.0] } else { &drives });
         });
-        let mut rest = all.split_off(common).into_iter();
+        let mut rest = all.split_off(shared).into_iter();
         let own = (0..n).map(|_| rest.by_ref().take(alone).collect()).collect();
         Self { shared: all, own }
     }
 
-    /// What it leaves of a wheel's torques; `None` where the logs are too short to say.
+    /// What it leaves of a wheel's torques; `None` where the logs are too short to say. Short logs have the likeliest
+    /// columns only, with those of direction, speed and duty of every wheel at least.
     pub fn leaves(&self, link: &DriveLink, residuals: &DriveResiduals, wheel: usize) -> Option<Left> {
-        let columns: Vec<&Vec<f64>> = self.shared.iter().chain(&self.own[wheel]).collect();
         let test_functions: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[wheel] > 0.0).collect();
-        if test_functions.len() < 3 * columns.len() {
+        let most = test_functions.len() / FEWEST_PER_COLUMN;
+        let columns: Vec<&Vec<f64>> = self.shared.iter().chain(&self.own[wheel]).take(most).collect();
+        if columns.len() < self.shared.len() {
             return None;
         }
         let torque = |b: usize| residuals.torque[b][wheel];

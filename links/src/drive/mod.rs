@@ -21,7 +21,7 @@ use crate::values::Values;
 
 pub use crate::segment::smooth_sign;
 pub use columns::Side;
-pub use floor::{Generic, Left, accounted, floor};
+pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor};
 pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
 pub(crate) use test_functions::TEST_FUNCTION_S;

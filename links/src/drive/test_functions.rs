@@ -20,9 +20,14 @@ use estimation::sums::dot;
 /// Length of a test function, s, and in ticks at least.
 pub(crate) const TEST_FUNCTION_S: f64 = 0.12;
 const FEWEST_TICKS: f64 = 12.0;
-/// Length of a cluster, s, and in test functions at least.
+/// Length of a cluster, s, and in half test functions at least.
 const CLUSTER_S: f64 = 1.0;
-const FEWEST_TEST_FUNCTIONS: f64 = 8.0;
+const CLUSTER_HALVES: f64 = 8.0;
+/// Clusters that logs are cut into where they are too short for as many of that length, and their least length in half test
+/// functions. Flipped signs of n clusters tell chances from 2^(1 - n) up: those of 16 reach below the least of 5000 draws, and
+/// of five none is called a name. In `docs/measured/blind-axes.md` single logs of ten to forty time constants are named so.
+const CLUSTERS: f64 = 16.0;
+const SHORT_HALVES: f64 = 3.0;
 /// Clusters at most; beyond, they are longer.
 const MOST_CLUSTERS: f64 = 400.0;
 /// Share of a test function a wheel may be that slow.
@@ -102,8 +107,6 @@ impl<'a> DriveLink<'a> {
         let inertia = nominal.mechanics()?.inertia;
         let n = nominal.wheels.len();
         let mut test_functions = Vec::new();
-        let mut cluster = 0;
-        let total = pieces.seconds();
         let mut longest = 0.0_f64;
         let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; n];
         for (index, s) in pieces.iter().enumerate() {
@@ -120,26 +123,20 @@ impl<'a> DriveLink<'a> {
             }
             let tick = (end - s.t[0]) / (s.t.len() - 1) as f64;
             let length = test_function_s.max(FEWEST_TICKS * tick);
-            let cluster_s = CLUSTER_S.max(0.5 * FEWEST_TEST_FUNCTIONS * length).max(total / MOST_CLUSTERS);
             // One grid over the whole stretch.
             let mut start = s.t[0];
             if s.span[0].is_finite() {
                 start = s.stretch[0] + 0.5 * length * ((s.span[0] - s.stretch[0]) / (0.5 * length)).ceil();
             }
-            let mut opened = start;
-            cluster += 1;
             while start + length <= end && start < s.span[1] {
-                if start - opened >= cluster_s {
-                    opened = start;
-                    cluster += 1;
-                }
-                test_functions.extend(TestFunction::new(&s, index, start, length, cluster, n));
+                test_functions.extend(TestFunction::new(&s, index, start, length, n));
                 start += 0.5 * length;
             }
         }
         if test_functions.is_empty() {
             return None;
         }
+        number(&mut test_functions, pieces.seconds());
         let sizes = Sizes::of(pieces.robot());
         let mut link = Self {
             pieces,
@@ -554,8 +551,25 @@ impl<'a> DriveLink<'a> {
     }
 }
 
+/// Numbers the clusters of logs of so many seconds: short ones where the wheel that turns least turns no longer.
+fn number(test_functions: &mut [TestFunction], seconds: f64) {
+    let wheels = test_functions.first().map_or(0, |f| f.weights.len());
+    let turns = |i: usize| test_functions.iter().map(|f| 0.5 * f.length * f.weights[i]).sum::<f64>();
+    let least = (0..wheels).map(turns).filter(|t| *t > 0.0).fold(seconds, f64::min);
+    let (mut cluster, mut opened) = (0, None);
+    for f in test_functions {
+        let usual = CLUSTER_S.max(0.5 * CLUSTER_HALVES * f.length).min(least / CLUSTERS);
+        let cluster_s = usual.max(0.5 * SHORT_HALVES * f.length).max(seconds / MOST_CLUSTERS);
+        if opened.is_none_or(|(segment, start)| segment != f.segment || f.start - start >= cluster_s) {
+            cluster += 1;
+            opened = Some((f.segment, f.start));
+        }
+        f.cluster = cluster;
+    }
+}
+
 impl TestFunction {
-    fn new(s: &Segment, segment: usize, start: f64, length: f64, cluster: usize, wheels: usize) -> Option<Self> {
+    fn new(s: &Segment, segment: usize, start: f64, length: f64, wheels: usize) -> Option<Self> {
         // Ticks strictly inside, and one on either side, where the test function is 0.
         let first = s.t.partition_point(|t| *t <= start).saturating_sub(1);
         let end = s.t.partition_point(|t| *t < start + length);
@@ -565,7 +579,7 @@ impl TestFunction {
         let (weights, stuck) = (vec![0.0; wheels], vec![0.0; wheels]);
         let slips = false;
         let mut test_function =
-            Self { segment, start, length, first, intervals: end - first, weights, stuck, slips, cluster };
+            Self { segment, start, length, first, intervals: end - first, weights, stuck, slips, cluster: 0 };
         let force = test_function.shape(s).force;
         if !force.iter().all(|w| w.is_finite()) {
             return None;

@@ -21,8 +21,11 @@ pub(super) struct Drive {
 
 /// Most rows of a run; a run lasts fifteen mechanical time constants and some seconds where it can.
 const ROWS: usize = 6000;
+/// Fewest rows of a short log.
+const FEWEST_ROWS: usize = 60;
 
-/// The runs of one case: a characterisation with ramps and steps, or steps, staircases, sweeps or a speed loop.
+/// The runs of one case: a characterisation with ramps and steps, or steps, staircases, sweeps or a speed loop; or what a
+/// desk leaves in a minute: one log of a few steps or of one step from rest, ten to forty time constants long.
 pub(super) fn draw(axis: &Axis, logger: &Logger, rng: &mut ChaCha8Rng) -> Vec<Drive> {
     let tau = axis.time_constant();
     let rows = ((30.0 * tau + rng.random_range(6.0..15.0)) / logger.row_s) as usize;
@@ -54,7 +57,14 @@ pub(super) fn draw(axis: &Axis, logger: &Logger, rng: &mut ChaCha8Rng) -> Vec<Dr
     let ramp = |t: f64| top * t / seconds;
     let one_step = |t: f64| if t < 0.05 * seconds { 0.0 } else { 0.6 * top };
     let still = |f: &dyn Fn(f64) -> f64, t: f64| if t > 0.92 * seconds { 0.0 } else { 0.8 * f(t) };
-    match ["characterised", "steps", "stairs", "sweeps", "loop"].choose(rng).copied().unwrap_or("steps") {
+    let brief = levels(3.0 * tau);
+    let few = (tau * rng.random_range(10.0..40.0) / row_s) as usize;
+    let short = |mut drive: Drive| {
+        drive.wanted.truncate(few.max(FEWEST_ROWS));
+        drive
+    };
+    let kinds = ["characterised", "steps", "stairs", "sweeps", "loop", "short", "one-step"];
+    match kinds.choose(rng).copied().unwrap_or("steps") {
         "characterised" => vec![
             make("slow-forward", false, &ramp),
             make("slow-backward", false, &|t| -ramp(t)),
@@ -63,6 +73,8 @@ pub(super) fn draw(axis: &Axis, logger: &Logger, rng: &mut ChaCha8Rng) -> Vec<Dr
         ],
         "stairs" => vec![make("stairs", false, &stairs), make("steps", false, &steps), make("more", false, &others)],
         "sweeps" => vec![make("sweep", false, &sweep), make("ramps", false, &triangle), make("steps", false, &steps)],
+        "short" => vec![short(make("steps", false, &brief))],
+        "one-step" => vec![short(make("step", false, &|t| if t < tau { 0.0 } else { top }))],
         "loop" => vec![
             make("loop-steps", true, &|t| still(&steps, t)),
             make("loop-ramps", true, &|t| still(&triangle, t)),
