@@ -10,9 +10,10 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream: of 1 to 4 the one with the shortest slowest path between registers (18.6 ns; the
-/// others 19.4 to 20.1 ns), whose least slack, 3.2 ns, is the second greatest. Whoever changes the gateware tries them again.
-pub const SEED: u64 = 1;
+/// Seed of the committed bitstream: of 1 to 11 the two whose slowest path between registers is within 60 % of the period are
+/// 8 (17.7 ns, least slack 2.5 ns) and 9 (18.0 ns, 2.9 ns); the others take 18.1 to 20.2 ns. Whoever changes the gateware
+/// tries them again.
+pub const SEED: u64 = 9;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 

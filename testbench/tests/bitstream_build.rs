@@ -12,8 +12,8 @@ use std::path::Path;
 use testbench::netlist::Netlist;
 
 const COMMAND: &str = "cargo test --release -p testbench --test bitstream_build";
-/// Most of the period that a path between registers may take, %: what was reached, and a step of placing more.
-const MOST_PERCENT: u32 = 80;
+/// Most of the period that a path between registers may take, %: the target of the gateware.
+const MOST_PERCENT: u32 = 60;
 const RESOURCES: Table<'_> = Table {
     name: "bitstream-resources",
     title: "What the design takes of the XC2S200",

@@ -14,7 +14,7 @@ use super::logic::Logic;
 use super::nets::{Nets, Part};
 use super::pack::Packed;
 use super::reach::Reach;
-use super::timing::{Graph, Report};
+use super::timing::Graph;
 use super::{Progress, Stage};
 use crate::device::{Device, PadSite};
 
@@ -88,13 +88,6 @@ pub struct Design<'a> {
     pub graph: &'a Graph,
     /// Its constraints.
     pub constraints: &'a Constraints,
-}
-
-impl Design<'_> {
-    /// How near to the worst every connection is, 0 to 255.
-    fn weights(&self, wires: &[u32], power: u32) -> Vec<u16> {
-        weights(&Report::of(self.graph, wires).criticality, power)
-    }
 }
 
 /// Weights of connections, 0 to 255: a power of each share of the period, against that of the largest.

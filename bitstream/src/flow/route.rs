@@ -82,8 +82,9 @@ impl Routing {
         let mut delays = placement.estimate(design.nets, &Reach::of(device));
         let mut order: Vec<usize> = (0..general.len()).collect();
         order.sort_by_key(|net| (std::cmp::Reverse(terminals.general[*net].sinks.len()), *net));
+        let aims = design.graph.aims();
         for round in 0..ROUNDS {
-            let weights = weights(&Report::of(design.graph, &delays).criticality, POWER);
+            let weights = weights(&Report::of(&aims, &delays).criticality, POWER);
             for net in &order {
                 let first = design.graph.first[*net] as usize;
                 let ends = &terminals.general[*net];

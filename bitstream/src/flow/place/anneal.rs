@@ -3,10 +3,10 @@
 mod cost;
 
 use super::grid::{COLUMNS, FREE, Grid, MEMORY_SITES, ROWS, Site};
-use super::{Design, Placement};
+use super::{Design, Placement, weights};
 use crate::flow::Progress;
 use crate::flow::reach::Reach;
-use crate::flow::timing::Report;
+use crate::flow::timing::{Graph, Report};
 use cost::{Costs, TIME};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -40,6 +40,8 @@ const URGENT: i64 = 3;
 
 struct Annealer<'a, 'b> {
     design: &'a Design<'b>,
+    /// What paths should take.
+    aims: Graph,
     reach: &'a Reach,
     placement: &'a mut Placement,
     grid: Grid,
@@ -134,34 +136,34 @@ impl<'a, 'b> Annealer<'a, 'b> {
         }
         let costs = Costs::new(design, placement, reach);
         let random = ChaCha8Rng::seed_from_u64(seed);
-        Self { design, reach, placement, grid, costs, random, logs: logarithms(), power: 1 }
+        Self { design, aims: design.graph.aims(), reach, placement, grid, costs, random, logs: logarithms(), power: 1 }
     }
 
     /// New weights from the present placement's timing, and all costs anew.
     fn recount(&mut self) {
-        let wires = self.placement.estimate(self.design.nets, self.reach);
-        self.costs.recount(self.design.weights(&wires, self.power));
+        let shares = self.report().criticality;
+        self.costs.recount(weights(&shares, self.power));
     }
 
     /// Rounds that look at the slowest paths; the best placement stays.
     fn finish(&mut self, parts: usize) {
-        let mut best = (self.rank(), self.placement.clone());
+        let mut best = (self.report().misses(), self.placement.clone());
         for round in 0..ROUNDS {
             let warm = round.min(WARM_ROUNDS);
             self.costs.weigh = TIME * (WARM_ROUNDS + (URGENT - 1) * warm) / WARM_ROUNDS;
             self.recount();
             self.moves(MOVES * parts, WARM * (WARM_ROUNDS - warm) / WARM_ROUNDS, NEAR);
-            let rank = self.rank();
-            if rank < best.0 {
-                best = (rank, self.placement.clone());
+            let misses = self.report().misses();
+            if misses < best.0 {
+                best = (misses, self.placement.clone());
             }
         }
         *self.placement = best.1;
     }
 
-    /// How slow the placement is: the smaller, the better.
-    fn rank(&self) -> i64 {
-        Report::of(self.design.graph, &self.placement.estimate(self.design.nets, self.reach)).rank()
+    /// The placement's timing, against what it should be.
+    fn report(&self) -> Report {
+        Report::of(&self.aims, &self.placement.estimate(self.design.nets, self.reach))
     }
 
     /// Tries so many moves; says how many were taken.

@@ -12,6 +12,11 @@ use crate::flow::nets::{Nets, Part, Pin};
 use crate::flow::pack::{CarryIn, Packed, Shape, Slice};
 use std::collections::BTreeMap;
 
+/// What a path between registers should take at most, % of the period: the target of the gateware.
+const SHARE: u32 = 60;
+/// What a path from or to a pad should leave, ps: about what the last bitstream left that aimed at slack alone (3.2 ns).
+const RESERVE: u32 = 3_200;
+
 /// A clock domain.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Clock {
@@ -96,6 +101,25 @@ impl Graph {
     #[must_use]
     pub fn connections(&self) -> usize {
         self.drivers.len()
+    }
+
+    /// The same graph with what placer and router aim at in place of what must be met: between registers [`SHARE`] of the
+    /// period, at a pad [`RESERVE`] to spare. By slack alone the paths to pads, due long before the period ends, would get
+    /// nearly all of the weight: of seeds 1 to 11 the slowest path between registers had a median of 19.5 ns, with these aims
+    /// 18.6 ns; the least slack went from 3.2 to 2.5 ns.
+    #[must_use]
+    pub(crate) fn aims(&self) -> Self {
+        let mut aims = self.clone();
+        let aim = |clock: u32| self.clocks[clock as usize].period / 100 * SHARE;
+        let whole = |clock: u32| self.clocks[clock as usize].period - CLOCK_SKEW;
+        for end in &mut aims.ends {
+            end.due = if end.due == whole(end.clock) { aim(end.clock) } else { end.due.saturating_sub(RESERVE) };
+        }
+        // Inputs come later than from any register, and may use what is left to the period but for the reserve.
+        for (time, clock) in aims.starts.iter_mut().flatten().filter(|(time, _)| *time > MEMORY_TO_OUTPUT) {
+            *time = time.saturating_sub(whole(*clock) - RESERVE - aim(*clock));
+        }
+        aims
     }
 
     /// Orders the nodes; a node on a loop of logic is left where it is.

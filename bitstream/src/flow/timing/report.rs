@@ -78,13 +78,11 @@ impl Report {
         Self::with_paths(graph, wires, 10)
     }
 
-    /// One figure to compare placements of a design by, in ps: the slowest path inside, less the least slack. The smaller,
-    /// the better.
+    /// By how much the worst path misses what it is due by, in ps; less than 0 if none does.
     #[must_use]
-    pub fn rank(&self) -> i64 {
-        let inside = self.domains.iter().filter_map(|domain| domain.inside.as_ref()).map(|path| i64::from(path.delay));
+    pub fn misses(&self) -> i64 {
         let slack = self.domains.iter().filter_map(|domain| domain.worst.first()).map(TimedPath::slack);
-        inside.max().unwrap_or(0) - slack.min().unwrap_or(0)
+        -slack.min().unwrap_or(0)
     }
 
     /// The same with so many paths.
