@@ -140,7 +140,7 @@ impl Options {
 
     /// Writes a run, and says what came of it.
     fn written(&self, imported: Imported, out: &Path) -> Result<(String, Value), InputError> {
-        let Imported { run, joined } = imported;
+        let Imported { run, joined, remarks } = imported;
         if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
         }
@@ -158,7 +158,11 @@ impl Options {
         if let Some(joined) = &joined {
             text += &wrapped(&told(joined), 2);
         }
+        for remark in &remarks {
+            text += &wrapped(&format!("note: {remark}"), 2);
+        }
         let json = json!({
+            "remarks": remarks,
             "run": out, "ticks": run.len(), "seconds": run.duration_s(), "camera": run.camera.len(),
             "wheels": run.wheel_count(),
             "truth": joined.map(|j| json!({
@@ -226,6 +230,10 @@ fn list(file: &Path) -> Result<Answer, Failure> {
         let [low, high] = s.range();
         text += &format!("{}  {} samples, {low:.6} to {high:.6}\n", s.name, s.values.len());
     }
-    let json = json!({ "series": table.series.iter().map(|s| json!({ "name": s.name, "samples": s.values.len() })).collect::<Vec<_>>() });
+    for remark in &table.remarks {
+        text += &wrapped(&format!("note: {remark}"), 2);
+    }
+    let json = json!({ "series": table.series.iter().map(|s| json!({ "name": s.name, "samples": s.values.len() })).collect::<Vec<_>>(),
+        "remarks": table.remarks });
     Ok(Answer { text, json, wrong: None })
 }

@@ -52,6 +52,9 @@ pub(super) struct Scaled {
     offset: f64,
     /// Counts a turn of an encoder whose log has angles.
     counts_per_rev: Option<f64>,
+    /// The most that the log's value means, in our unit: the log holds a controller's output, and the driver after it cuts
+    /// that off.
+    limit: Option<f64>,
     /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
     /// bits, in the file's unit.
     wraps: Option<f64>,
@@ -77,14 +80,17 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             );
             return Err(fail("is no column of a run".to_owned(), hint));
         }
-        let (from, name, scale, offset, per_rev, wraps) = match source {
-            Source::Name(from) => (from, "", 1.0, 0.0, None, None),
+        let (from, name, scale, offset, limit, per_rev, wraps) = match source {
+            Source::Name(from) => (from, "", 1.0, 0.0, None, None, None),
             Source::Scaled(s) => {
-                (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.counts_per_rev, s.wraps)
+                (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.limit, s.counts_per_rev, s.wraps)
             }
         };
         if let Some(n) = wraps.filter(|n| !(n.is_finite() && *n > 0.0)) {
             return Err(fail(format!("wraps = {n} is no period"), "such as wraps = 4096".to_owned()));
+        }
+        if let Some(n) = limit.filter(|n| !(n.is_finite() && *n > 0.0)) {
+            return Err(fail(format!("limit = {n} is no limit"), "such as limit = 1 of a duty".to_owned()));
         }
         let angle = ["rad", "deg", "rev"].contains(&name);
         let counted = matches!(column, Column::Counts(_));
@@ -112,6 +118,7 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             from,
             factor,
             offset,
+            limit,
             wraps,
             turn: per_rev.map(|_| TAU / unit),
             rate: rate.is_some(),

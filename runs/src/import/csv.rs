@@ -31,6 +31,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     let mut timeless = None;
     // Whether a row is read and not looked at yet.
     let mut pending = false;
+    let mut widths = Widths::default();
     let mut begin = |prefix: &str, names: Vec<String>| {
         let rows = Rows::new(prefix, &names, clock);
         if rows.is_none() {
@@ -58,6 +59,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
             names = with_units(names, &fields);
             pending = false;
         }
+        widths.names = names.len();
         kinds.push((Vec::new(), begin("", names)));
     }
     while std::mem::take(&mut pending) || next(&mut record)? {
@@ -69,6 +71,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         });
         let Some(rows) = &mut kinds[at].1 else { continue };
         let line = record.position().map_or(1, ::csv::Position::line) as usize;
+        widths.see(&record);
         let number = |i: usize| record.get(i).and_then(|field| number(field, separator));
         if let Some((at, name)) = rows.time_column()
             && let Some(field) = record.get(at).filter(|f| !f.is_empty())
@@ -83,8 +86,43 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         Some(error) if kinds.iter().all(|(_, rows)| rows.is_none()) => return Err(error),
         _ => table.time = kinds.iter().flat_map(|(_, rows)| rows).find_map(Rows::time),
     }
+    kinds.into_iter().filter_map(|(_, rows)| rows).for_each(|rows| rows.finish(&mut table, "line"));
+    table.remarks.extend(widths.remark());
     headings(&mut table);
     Ok(table)
+}
+
+/// How many names a table has, and how many fields its rows.
+#[derive(Default)]
+struct Widths {
+    names: usize,
+    rows: usize,
+    /// Fields of the first row, and how many rows have as many.
+    fields: usize,
+    alike: usize,
+}
+
+impl Widths {
+    fn see(&mut self, record: &::csv::ByteRecord) {
+        // A separator ends the lines of some writers.
+        let fields = record.len() - usize::from(record.len() == self.names + 1 && record.iter().last() == Some(b""));
+        if self.rows == 0 {
+            self.fields = fields;
+        }
+        self.rows += 1;
+        self.alike += usize::from(fields == self.fields);
+    }
+
+    /// What to say where all rows but one, which may be cut off, have more or fewer fields than there are names.
+    fn remark(&self) -> Option<String> {
+        let Self { names, rows, fields, alike } = *self;
+        (names > 0 && rows > 1 && fields != names && alike + 1 >= rows).then(|| {
+            format!(
+                "{names} names stand above rows of {fields} fields: names may stand above the wrong numbers; compare the \
+                 ranges that racbot convert --list shows with what the names say, and correct the header"
+            )
+        })
+    }
 }
 
 fn number(field: &[u8], separator: u8) -> Option<f64> {
@@ -133,6 +171,17 @@ mod tests {
                 .unwrap();
         assert_eq!(read.find("PWM").unwrap().values, [0.0, 9.0, 1.0]);
         assert_eq!(read.find("v").unwrap().t, [1.0, 2.0, 4.0]);
+    }
+
+    #[test]
+    fn more_names_than_numbers_are_said() {
+        let remarks = |text: &str| table(text).unwrap().remarks;
+        let shifted = remarks("t,spare,x,y\n0,1,2\n1,1,2\n2,1,3\n3,1\n");
+        assert!(shifted.len() == 1 && shifted[0].starts_with("4 names stand above rows of 3 fields"), "{shifted:?}");
+        assert_eq!(remarks("t x\n0 1 2\n1 1 2\n").len(), 1);
+        for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
+            assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
+        }
     }
 
     #[test]

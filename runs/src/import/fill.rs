@@ -15,6 +15,8 @@ pub(super) struct Wanted<'a> {
     pub(super) from: &'a str,
     pub(super) factor: f64,
     pub(super) offset: f64,
+    /// Beyond which the value is taken as this, in our unit.
+    pub(super) limit: Option<f64>,
     /// Of how many of the file's units a multiple is not known.
     pub(super) wraps: Option<f64>,
     /// The file's units in a turn, of an encoder whose log has angles.

@@ -58,6 +58,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
                 table.recordings.push(test.place.clone());
             }
             table.time = rows.time();
+            rows.finish(&mut table, "row");
             return Ok(table);
         }
     }
@@ -74,6 +75,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         };
         one.put(&mut rows, &mut table);
         table.time = table.time.take().or(rows.time());
+        rows.finish(&mut table, "row");
     }
     match timeless {
         Some(error) if table.series.is_empty() => Err(error),

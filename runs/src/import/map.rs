@@ -59,6 +59,8 @@ pub struct Imported {
     pub run: Run,
     /// What was joined to it.
     pub joined: Option<Joined>,
+    /// What its owner would want to know of the files.
+    pub remarks: Vec<String>,
 }
 
 /// What a recording of a log is called, and what came of it.
@@ -142,7 +144,7 @@ impl Map {
                 let hint = "racbot convert --draft LOG map.toml --truth FILE writes a map of two files";
                 return Err(InputError::new(&self.path, what, hint));
             }
-            return Ok(Imported { run: self.run(table, log)?, joined: None });
+            return Ok(Imported { run: self.run(table, log)?, joined: None, remarks: table.remarks.clone() });
         };
         let file = truth.map_or_else(|| self.second(second, log), |file| Ok(file.to_owned()))?;
         let poses = second.reading.table(&file)?;
@@ -180,6 +182,8 @@ impl Map {
     fn joined(&self, [log, truth]: [(&Table, &Path); 2], second: &Truth) -> Result<Imported, InputError> {
         let made = [self.made(log.0, log.1)?, second.reading.made(truth.0, truth.1)?];
         let (run, joined) = join(made, second, [log, truth])?;
-        Ok(Imported { run, joined: Some(joined) })
+        let of_poses = truth.0.remarks.iter().map(|remark| format!("{}: {remark}", truth.1.display()));
+        let remarks = log.0.remarks.iter().cloned().chain(of_poses).collect();
+        Ok(Imported { run, joined: Some(joined), remarks })
     }
 }

@@ -62,6 +62,8 @@ pub struct Table {
     pub restart: Option<Restart>,
     /// What the file calls them, in their order, where it does.
     pub recordings: Vec<String>,
+    /// What its owner would want to know: rows that are left out, names that do not match the numbers.
+    pub remarks: Vec<String>,
     index: std::collections::HashMap<String, usize>,
 }
 

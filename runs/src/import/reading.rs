@@ -77,6 +77,7 @@ impl Reading {
                 from,
                 factor: 1.0,
                 offset: 0.0,
+                limit: None,
                 wraps: None,
                 turn: None,
                 rate: false,
@@ -148,7 +149,8 @@ impl Reading {
             let mut column = vec![f64::NAN; ticks];
             for (t, value) in s.t.iter().zip(unwrapped(w, &s.values).iter()) {
                 if let Ok(tick) = keys.binary_search(&nanoseconds(*t)) {
-                    column[tick] = units::times(*value, w.factor) + w.offset;
+                    let value = units::times(*value, w.factor) + w.offset;
+                    column[tick] = w.limit.map_or(value, |limit| value.clamp(-limit, limit));
                 }
             }
             match w.column {
@@ -167,7 +169,8 @@ impl Reading {
                 Column::Camera(i) => camera.iter_mut().zip(&column).for_each(|(pose, x)| pose[i] = *x),
                 Column::Duty(_) => {
                     if let Some(x) = column.iter().find(|x| x.abs() > 1.001) {
-                        let hint = "scale it to a share of the supply, such as unit = \"percent\"";
+                        let hint = "scale it to a share of the supply, such as unit = \"percent\"; where the \
+                                    controller's output is logged before the driver cuts it off, say limit = 1";
                         let what = format!("duty {x} is not within ±1");
                         return Err(InputError::new(path, what, hint).field(w.column.name()));
                     }

@@ -52,6 +52,8 @@ pub(super) struct Rows<'a> {
     last: f64,
     /// A row whose time went back, of which the next tells whether a recording begins there: its line, time and fields.
     back: Option<(usize, f64, Vec<Option<f64>>)>,
+    /// Rows left out because their time went back: how many, the line of the first and its time in the file's unit.
+    left_out: Option<(usize, usize, f64)>,
 }
 
 impl<'a> Rows<'a> {
@@ -73,7 +75,18 @@ impl<'a> Rows<'a> {
         let unit_s = clock.rate_hz.map(f64::recip).or(clock.unit_s).or(found.map(|(_, unit)| unit)).unwrap_or(1.0);
         let at = found.map(|(at, _)| at);
         let names = names.iter().map(|name| format!("{prefix}{name}")).collect();
-        Some(Self { names, clock, at, unit_s, rows: 0.0, recording: 1, first: None, last: 0.0, back: None })
+        Some(Self {
+            names,
+            clock,
+            at,
+            unit_s,
+            rows: 0.0,
+            recording: 1,
+            first: None,
+            last: 0.0,
+            back: None,
+            left_out: None,
+        })
     }
 
     /// The column of time and its unit, s.
@@ -110,16 +123,44 @@ impl<'a> Rows<'a> {
         let goes_back = self.goes_back(t);
         // One row alone, or several of one time, are no recording: a writer that was stopped leaves zeros.
         if self.back.as_ref().is_some_and(|(_, began, _)| *began == t) {
+            self.leave_out(line, t);
             return;
         }
-        if let Some((line, began, fields)) = self.back.take().filter(|_| goes_back) {
-            self.restart(table, line);
-            self.add(table, began, &fields);
+        match self.back.take() {
+            Some((line, began, fields)) if goes_back => {
+                self.restart(table, line);
+                self.add(table, began, &fields);
+            }
+            Some((line, began, _)) => self.leave_out(line, began),
+            None => {}
         }
         if self.goes_back(t) {
             self.back = Some((line, t, fields));
         } else {
             self.add(table, t, &fields);
+        }
+    }
+
+    fn leave_out(&mut self, line: usize, t: f64) {
+        let (rows, first, began) = self.left_out.get_or_insert((0, line, t));
+        *rows += 1;
+        // The row that began them is known to be one of them only when the next is read.
+        if line < *first {
+            (*first, *began) = (line, t);
+        }
+    }
+
+    /// Says of the table which rows are not in it; `place` is what their numbers count, lines or rows.
+    pub(super) fn finish(mut self, table: &mut Table, place: &str) {
+        if let Some((line, began, _)) = self.back.take() {
+            self.leave_out(line, began);
+        }
+        if let Some((rows, line, t)) = self.left_out {
+            let (are, their) = if rows == 1 { ("1 row is", "its") } else { (&*format!("{rows} rows are"), "their") };
+            let zeros = if t == 0.0 { ", as where a logger stopped and left zeros" } else { "" };
+            table
+                .remarks
+                .push(format!("{are} left out, the first in {place} {line}: {their} time goes back to {t}{zeros}"));
         }
     }
 
@@ -193,6 +234,32 @@ mod tests {
     fn rows_of_one_time_that_went_back_are_no_recording() {
         let rows = "t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0,0,0\n0.04,0.2,2\n0.06,0.2,3\n0,0,0\n0,0,0\n";
         assert_eq!(made(COLUMNS, rows).unwrap().counts[0], [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn rows_that_are_left_out_are_said() {
+        let read = |text: &str| {
+            Table::of_bytes(text.as_bytes(), Path::new("in.csv"), None, &Clock::default()).unwrap().remarks
+        };
+        let rows = "t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0.03,0,0\n0.04,0.2,2\n";
+        assert_eq!(read(rows), Vec::<String>::new());
+        let left = read(&format!("{rows}0,0,0\n0,0,0\n0,0,0\n"));
+        assert!(left.len() == 1 && left[0].starts_with("3 rows are left out, the first in line 6"), "{left:?}");
+        assert_eq!(read(STEPS), Vec::<String>::new(), "a recording is none");
+        let one = read("t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0,0,0\n0.04,0.2,2\n0.06,0.2,3\n");
+        assert!(one[0].starts_with("1 row is left out, the first in line 4"), "{one:?}");
+    }
+
+    #[test]
+    fn what_a_driver_cuts_off_has_a_limit() {
+        let text = "t,pid,pos\n0,50,0\n0.02,145,1\n0.04,-160,3\n0.06,-20,3\n";
+        let map = |limit: &str| {
+            format!("[columns]\nenc_1 = \"pos\"\nduty_1 = {{ from = \"pid\", unit = \"percent\"{limit} }}\n")
+        };
+        let error = made(&map(""), text).unwrap_err();
+        assert!(error.contains("duty 1.45 is not within") && error.contains("limit = 1"), "{error}");
+        assert_eq!(made(&map(", limit = 1"), text).unwrap().duty[0], [0.5, 1.0, -1.0, -0.2]);
+        assert!(made(&map(", limit = -1"), text).unwrap_err().contains("limit = -1 is no limit"));
     }
 
     #[test]

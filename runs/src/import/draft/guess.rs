@@ -297,7 +297,10 @@ fn fits(column: Column, unit: &str) -> bool {
 
 /// Series without a telling word: bare corners of a robot are its encoders, bare x, y and yaw the camera's.
 fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind> {
+    let [low, high] = series.range();
     let whole = series.values.iter().all(|x| x.fract() == 0.0);
+    // What is a share or a force by its unit was not counted.
+    let counted = units::in_name(&series.name).is_none_or(|unit| fits(Column::Counts(0), unit));
     let wheel = words.iter().any(|w| CORNERS.contains(w) || ["left", "right", "motor", "wheel", "joint"].contains(w));
     match words {
         [_] if axis.is_some() => Some(Kind::Camera),
@@ -313,7 +316,11 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
             None
         }
         _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
-        _ => (wheel && whole && axis.is_none()).then_some(Kind::Counts),
+        // Control engineers call what they put into a motor u.
+        [word] if word.trim_end_matches(|c: char| c.is_ascii_digit()) == "u" => {
+            (low < high && low >= -1.001 && high <= 1.001).then_some(Kind::Duty)
+        }
+        _ => (wheel && whole && counted && axis.is_none()).then_some(Kind::Counts),
     }
 }
 

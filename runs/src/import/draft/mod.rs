@@ -68,6 +68,9 @@ fn clock(tables: [&Table; 2]) -> &'static str {
 
 fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
     let mut out = String::from("# Guessed from names and ranges: check every line.\n");
+    for remark in &table.remarks {
+        let _ = writeln!(out, "# Note: {remark}.");
+    }
     out += &time(table, "time");
     out.push_str(
         "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
@@ -81,7 +84,10 @@ fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
 fn time(table: &Table, name: &str) -> String {
     if let Some((column, unit)) = &table.time {
         let longest = table.series.iter().max_by_key(|s| s.t.len()).map_or(&[][..], |s| &s.t);
-        return format!("\n[{name}]\ncolumn = {}\nunit = \"{}\"\n", quoted(column), time_unit(longest, *unit));
+        // A unit that the name says is not guessed, however far apart the rows are.
+        let said = units::in_name(column).and_then(units::of_time).is_some();
+        let unit = if said { unit_name(*unit) } else { time_unit(longest, *unit) };
+        return format!("\n[{name}]\ncolumn = {}\nunit = \"{unit}\"\n", quoted(column));
     }
     // Rows are numbered where there is no time; some have no sample of a series.
     if !table.series.iter().all(|s| s.t.iter().all(|t| t.fract() == 0.0)) {
@@ -93,7 +99,8 @@ fn time(table: &Table, name: &str) -> String {
             format!("\n[{name}]\ncolumn = {column} # is it? it increases from row to row\nunit = \"{unit}\"\n")
         }
         None => format!(
-            "\n[{name}]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second\n"
+            "\n[{name}]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second; \
+             points of a characteristic, each when its speed had settled, are no log\n"
         ),
     }
 }
@@ -181,9 +188,11 @@ fn unit_name(unit_s: f64) -> &'static str {
     ["ms", "us", "ns"].into_iter().find(|unit| units::factor(unit) == Some(unit_s)).unwrap_or("s")
 }
 
-/// A column that increases from row to row, not by ones, as time does; another recording may follow.
+/// A column that increases from row to row, not by ones, as time does; another recording may follow. Of several tables in
+/// a file, of different lengths, a ramp in one is no time of the others.
 fn increasing(table: &Table) -> Option<&Series> {
-    table.series.iter().find(|s| {
+    let longest = table.series.iter().map(|s| s.values.len()).max()?;
+    table.series.iter().filter(|s| s.values.len() == longest).find(|s| {
         let steps = s.values.windows(2).filter(|w| w[1] > w[0] && w[1] != w[0] + 1.0).count();
         s.values.len() > 2 && 100 * steps >= 95 * (s.values.len() - 1)
     })

@@ -283,3 +283,24 @@ fn units_below_the_names_and_rows_of_nan_are_no_numbers() {
     assert!(error("[time]\nper_second = 0\n").contains("0 of them are no second"));
     assert!(error("[time]\nper_second = 8000\nunit = \"ms\"\n").contains("is beside a unit"));
 }
+
+/// A test stand's time in seconds with rows seconds apart, its shares, and a bench with inputs called u.
+#[test]
+fn units_of_time_shares_and_inputs_are_understood() {
+    let stand = drafted("Time (s),Motor Efficiency (%),Motor state,Motor ticks", ["0,1,3,1", "5.5,2,3,2", "11,3,3,4"]);
+    assert!(stand.contains("unit = \"s\"") && stand.contains("enc_1 = \"Motor ticks\""), "{stand}");
+    assert!(!stand.contains("= \"Motor Efficiency"), "{stand}");
+    let bench = drafted("t u1 u2 enc_1 enc_2", ["0 0 0 0 0", "0.1 1 -0.5 3 -1", "0.2 -1 0.5 4 -2"]);
+    assert!(bench.contains("duty_1 = \"u1\"") && bench.contains("duty_2 = \"u2\""), "{bench}");
+    assert!(!drafted("t u1 enc_1", ["0 0 0", "0.1 7 3", "0.2 -9 4"]).contains("duty_1"));
+}
+
+/// A ramp of one experiment among others is no time of them all.
+#[test]
+fn a_ramp_among_tables_of_other_lengths_is_no_time() {
+    let json = r#"{"a": [{"u": [0.0,0.1,0.25,0.3,0.4,0.5,0.62,0.7], "y": [0,1,1,0,3,1,2,1]},
+        {"u": [0,1,0,1,0,1,0,1,0,1], "y": [0,1,0,1,0,1,0,2,0,1]}]}"#;
+    let clock = Clock { rows: true, ..Clock::default() };
+    let table = Table::of_bytes(json.as_bytes(), Path::new("x.json"), None, &clock).unwrap();
+    assert!(draft(&table).contains("column = \"?\""), "{}", draft(&table));
+}

@@ -68,7 +68,7 @@ fn poses_are_ticks_of_their_own_between_the_rows() {
     let log = "t,a,b\n10.00,1,2\n10.02,3,4\n10.04,5,6\n";
     let truth = "t,x,y,yaw\n9.99,9,9,0\n10.00,1,0,0\n10.005,2,0,0\n10.03,3,,0\n10.035,4,0,0\n10.035,5,0,0\n10.05,9,9,0\n10.06,9,9,0\n";
     let files = Files::new(log, truth);
-    let Imported { run, joined } = files.import("", POSE).unwrap();
+    let Imported { run, joined, .. } = files.import("", POSE).unwrap();
     assert_eq!(run.t, [0.0, 0.005, 0.02, 0.035, 0.04]);
     assert_eq!(run.counts, [[1, 1, 3, 3, 5], [2, 2, 4, 4, 6]]);
     assert_eq!(run.count_gaps, [[1, 3], [1, 3]]);
@@ -117,7 +117,7 @@ fn the_motion_tells_the_offset_whatever_the_rates() {
         [(50.0, 360.0, 3.0, 1.6e9, 0.005), (1000.0, 5.0, 0.0, -40.0, 0.03), (100.0, 100.0, 0.7, 3.3, 0.005)]
     {
         let (log, truth) = drive(log_hz, pose_hz, from_s, shift_s);
-        let Imported { run, joined } = Files::new(&log, &truth).import("clock = \"match\"", POSE).unwrap();
+        let Imported { run, joined, .. } = Files::new(&log, &truth).import("clock = \"match\"", POSE).unwrap();
         let joined = joined.unwrap();
         let found = joined.matched.unwrap();
         assert!((joined.offset_s + shift_s).abs() < within, "{log_hz} {pose_hz}: {joined:?}");
