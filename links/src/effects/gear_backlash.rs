@@ -39,7 +39,12 @@ impl Effect for GearBacklash {
         let unit = SHOWS * longer * sizes.drive_nm * robot.gear_ratio / DriveModel::new(robot).felt_inertia();
         // Less than a count is not told from where the counts happen to change.
         let least = unit.max(sizes.count_rad * robot.gear_ratio);
-        let p = |name: String| Parameter::new(name, 0.7 * unit, [0.0, 700.0 * least], least);
+        let most = (700.0 * least).min(MOST_TURNS * std::f64::consts::TAU * robot.gear_ratio);
+        // What would have to be more than any gear has is not looked for.
+        if least >= most {
+            return Vec::new();
+        }
+        let p = |name: String| Parameter::new(name, (0.7 * unit).min(0.1 * most), [0.0, most], least);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
         forms
@@ -85,6 +90,9 @@ impl Effect for GearBacklash {
     }
 }
 
+/// Turns of the output that no gear with teeth has in play: a quarter turn is a shaft that has come loose. Without it, logs of
+/// a staircase of settled speeds, whose rows no gear could tell from play, had 3 turns named beside a friction.
+const MOST_TURNS: f64 = 0.25;
 /// Square of the time within which a test function of [`TEST_FUNCTION_S`] shows a step of the angle (0.0023 s²) times the share of
 /// the drive's torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
 const SHOWS: f64 = 7.8e-5;
@@ -163,5 +171,18 @@ mod tests {
         assert!((least(&robot, &slow) / fine - 4.0).abs() < 1e-9);
         let coarse = Sizes { count_rad: 100.0 * sizes.count_rad, ..sizes };
         assert!((least(&robot, &coarse) / (100.0 * count(&robot)) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn no_play_is_a_quarter_turn() {
+        let robot = Robot::racbot();
+        let sizes = Sizes::of(&robot);
+        let quarter = 0.25 * std::f64::consts::TAU * robot.gear_ratio;
+        let forms = |longer: f64| {
+            GearBacklash.forms_in(&robot, &Sizes { test_function_s: longer * TEST_FUNCTION_S, ..sizes.clone() })
+        };
+        assert!(!forms(1.0).is_empty() && forms(1.0).iter().all(|f| f.free[0].bounds[1] <= quarter));
+        // Of rows half a second apart only a play of turns would show.
+        assert!(forms(30.0).is_empty());
     }
 }
