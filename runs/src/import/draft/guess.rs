@@ -301,25 +301,21 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     let whole = series.values.iter().all(|x| x.fract() == 0.0);
     // What is a share or a force by its unit was not counted.
     let counted = units::in_name(&series.name).is_none_or(|unit| fits(Column::Counts(0), unit));
-    let wheel = words.iter().any(|w| CORNERS.contains(w) || ["left", "right", "motor", "wheel", "joint"].contains(w));
+    let share = low < high && low >= -1.001 && high <= 1.001;
+    let has = |some: &[&str]| words.iter().any(|w| some.contains(w));
+    let wheel = has(&CORNERS) || has(&["left", "right", "motor", "wheel", "joint"]);
     match words {
         [_] if axis.is_some() => Some(Kind::Camera),
         // A body has a velocity, too, but turns no revolutions a minute.
         _ if words.contains(&"rpm") => Some(Kind::Speed),
         _ if words.contains(&"velocity") || words.contains(&"speed") => wheel.then_some(Kind::Speed),
-        _ if words.iter().any(|w| ["voltage", "volts", "volt"].contains(w)) => volts(series),
-        // What somebody told a motor, or its mode, is no encoder's.
-        _ if words
-            .iter()
-            .any(|w| ["command", "cmd", "mode", "state", "error", "status", "pid", "load", "temp"].contains(w)) =>
-        {
-            None
-        }
+        _ if has(&["voltage", "volts", "volt"]) => volts(series),
+        // A share that a motor was told; in no other unit is that known.
+        _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
+        _ if has(&["mode", "state", "error", "status", "pid", "load", "temp"]) => None,
         _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
         // Control engineers call what they put into a motor u.
-        [word] if word.trim_end_matches(|c: char| c.is_ascii_digit()) == "u" => {
-            (low < high && low >= -1.001 && high <= 1.001).then_some(Kind::Duty)
-        }
+        [word] if word.trim_end_matches(|c: char| c.is_ascii_digit()) == "u" => share.then_some(Kind::Duty),
         _ => (wheel && whole && counted && axis.is_none()).then_some(Kind::Counts),
     }
 }

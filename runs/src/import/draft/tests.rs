@@ -304,3 +304,15 @@ fn a_ramp_among_tables_of_other_lengths_is_no_time() {
     let table = Table::of_bytes(json.as_bytes(), Path::new("x.json"), None, &clock).unwrap();
     assert!(draft(&table).contains("column = \"?\""), "{}", draft(&table));
 }
+
+/// What a robot's program told its sides, as a share or in numbers of its own.
+#[test]
+fn commands_of_a_side_are_duties_where_they_are_shares() {
+    let rows = ["0,0.5,-0.25,10,20", "0.02,1,-1,12,18", "0.04,0,0.75,15,15"];
+    let shares = drafted("t,leftCommand,rightCommand,leftEncoder,rightEncoder", rows);
+    assert!(shares.contains("duty_1 = \"rightCommand\"") && shares.contains("duty_2 = \"leftCommand\""), "{shares}");
+    assert!(shares.contains("enc_2 = \"leftEncoder\""), "{shares}");
+    let own =
+        drafted("t,leftCommand,rightCommand,leftTicks,rightTicks", ["0,200,3,1,1", "0.1,-255,9,3,2", "0.2,40,7,2,3"]);
+    assert!(!own.contains("= \"leftCommand") && own.contains("enc_1 = \"rightTicks\""), "{own}");
+}
