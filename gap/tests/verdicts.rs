@@ -29,21 +29,20 @@ fn a_robot_that_never_moved_is_not_compared() {
     assert_eq!(a.to_json()["verdict"], "not-compared");
 }
 
-/// Three steps of 0.4 s on a lifted motor with 48 counts a turn, a row a millisecond: a rotor of twice the inertia would not
-/// show, and that nothing shows is no agreement.
-#[test]
-fn logs_too_short_to_show_anything_are_not_compared() {
+/// Steps on a lifted motor with 48 counts a turn, a row a millisecond, its rotor's inertia so many times the file's and without the
+/// file's friction.
+fn steps(voltages: &[f64], rows: usize, inertia: f64) -> DataSet {
     let mut set = example();
     set.robot = set.robot.first_axes(1);
     set.robot.support = runs::robot::Support::Blocks;
     set.robot.encoder_counts_per_motor_rev = 48.0;
     let (r, k) = (set.robot.motor.resistance_ohm, set.robot.motor.torque_constant);
-    let inertia = 1.3 * set.robot.motor.rotor_inertia;
-    set.runs.truncate(3);
-    for (n, run) in set.runs.iter_mut().enumerate() {
-        let volts = |row: usize| [2.1, 1.5, -1.7][n] * if row < 200 { 1.0 } else { 2.0 };
+    let inertia = inertia * set.robot.motor.rotor_inertia;
+    set.runs.truncate(voltages.len());
+    for (run, step) in set.runs.iter_mut().zip(voltages) {
+        let volts = |row: usize| step * if row < rows / 2 { 1.0 } else { 2.0 };
         let (mut speed, mut angle, mut counts, mut duty) = (0.0, 0.0, Vec::new(), Vec::new());
-        for row in 0..420 {
+        for row in 0..rows {
             counts.push((angle * 48.0 / std::f64::consts::TAU).floor() as i64);
             duty.push(volts(row) / set.robot.supply_v);
             for _ in 0..10 {
@@ -51,16 +50,37 @@ fn logs_too_short_to_show_anything_are_not_compared() {
                 angle += 1e-4 * speed;
             }
         }
-        run.t = (0..420).map(|row| f64::from(row) * 1e-3).collect();
+        run.t = (0..rows).map(|row| row as f64 * 1e-3).collect();
         (run.counts, run.count_gaps, run.duty) = (vec![counts], vec![Vec::new()], vec![duty]);
         (run.command, run.supply_v, run.has_camera) = (None, None, false);
         run.reference.clear();
         run.measured.clear();
         run.camera.clear();
     }
+    set
+}
+
+/// Of one step of 0.3 s a rotor of twice the inertia would not show, and that nothing shows is no agreement.
+#[test]
+fn logs_too_short_to_show_anything_are_not_compared() {
+    let mut set = steps(&[2.1], 300, 1.0);
+    set.robot.motor.friction_torque = 0.0;
     let a = done(&set);
     assert_eq!(a.verdict, Verdict::NotCompared, "{}", a.terminal_summary());
     assert!(a.remarks.iter().any(|r| r.starts_with("Compared next to nothing on the drive link")), "{:?}", a.remarks);
+}
+
+/// Three steps of 0.4 s show a friction, and an inertia or what does the same.
+#[test]
+fn three_steps_of_less_than_half_a_second_show_the_inertia() {
+    let set = steps(&[2.1, 1.5, -1.7], 420, 1.3);
+    let a = done(&set);
+    let inertia = |set: &Vec<String>| set.iter().any(|n| n == "rotor-inertia");
+    let named = a.effects.iter().any(|e| e.name == "rotor-inertia") || a.alternatives.iter().any(inertia);
+    let friction = -set.robot.gear_ratio * set.robot.motor.friction_torque;
+    let found = a.effects.iter().find(|e| e.name == "coulomb-friction").and_then(|e| e.parameters[0].2.ends());
+    let held = found.is_some_and(|[low, high]| low < friction && friction < high && high < 0.0);
+    assert!(named && held, "{}", a.terminal_summary());
 }
 
 #[test]

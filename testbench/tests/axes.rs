@@ -8,7 +8,9 @@ fn motors_of_any_size_are_read_right() {
     let plan = Plan { axes_free: 60, axes: 1, sizes: vec![5], axis_pairs: 6, pair_sizes: vec![4], ..Plan::new(20) };
     let report = blind::run(&plan, &Series::default(), |_| ()).unwrap();
     assert_eq!(report.scored.len(), report.planned);
-    let shows = |s: &blind::Scored| s.hidden.is_empty() || s.limits.is_some_and(|l| l >= 1.5);
+    // The limit of a Stribeck friction holds at one speed of its curve; a short log may not be as slow as another.
+    let at_one_speed = |s: &blind::Scored| s.hidden.iter().any(|h| h.name == "stribeck-friction");
+    let shows = |s: &blind::Scored| s.hidden.is_empty() || s.limits.is_some_and(|l| l >= 1.5) && !at_one_speed(s);
     let faults: Vec<String> = report
         .scored
         .iter()
