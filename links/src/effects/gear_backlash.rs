@@ -178,9 +178,8 @@ mod tests {
         let robot = Robot::racbot();
         let sizes = Sizes::of(&robot);
         let quarter = 0.25 * std::f64::consts::TAU * robot.gear_ratio;
-        let forms = |longer: f64| {
-            GearBacklash.forms_in(&robot, &Sizes { test_function_s: longer * TEST_FUNCTION_S, ..sizes.clone() })
-        };
+        let forms =
+            |longer: f64| GearBacklash.forms_in(&robot, &Sizes { test_function_s: longer * TEST_FUNCTION_S, ..sizes });
         assert!(!forms(1.0).is_empty() && forms(1.0).iter().all(|f| f.free[0].bounds[1] <= quarter));
         // Of rows half a second apart only a play of turns would show.
         assert!(forms(30.0).is_empty());

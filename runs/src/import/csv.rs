@@ -105,7 +105,8 @@ struct Widths {
 impl Widths {
     fn see(&mut self, record: &::csv::ByteRecord) {
         // A separator ends the lines of some writers.
-        let fields = record.len() - usize::from(record.len() == self.names + 1 && record.iter().last() == Some(b""));
+        let fields =
+            record.len() - usize::from(record.len() == self.names + 1 && record.iter().next_back() == Some(b""));
         if self.rows == 0 {
             self.fields = fields;
         }
