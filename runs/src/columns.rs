@@ -20,6 +20,9 @@ pub(super) enum Column {
     Other,
 }
 
+/// Most of a duty in a log: roundings of a logger may pass 1 by a digit, no more.
+pub(super) const MOST_DUTY: f64 = 1.001;
+
 const COMMAND: [&str; 3] = ["cmd_vx", "cmd_vy", "cmd_w"];
 const CAMERA: [&str; 3] = ["cam_x", "cam_y", "cam_theta"];
 const ODOMETRY: [&str; 3] = ["odom_x", "odom_y", "odom_theta"];

@@ -45,7 +45,7 @@ impl Verdict {
 pub struct Named {
     /// As in the catalogue, such as `wheel-radius`.
     pub name: String,
-    /// What it is.
+    /// Its law, as the catalogue has it.
     pub equation: String,
     /// Link it was found on.
     pub link: Link,

@@ -226,22 +226,18 @@ pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>])
     });
     let mut least: Vec<(f64, &Limit)> = least.collect();
     least.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((ratio, _)) = least.get(least.len() / 2) else {
-        let why = format!(
-            "Compared next to nothing on the {} link: these logs are too short for anything to be named there; log longer, \
-             more runs, and both directions at several speeds.",
-            link.name()
-        );
-        return Some((link, why));
+    let named = match least.get(least.len() / 2) {
+        Some((ratio, _)) if *ratio > BLIND => {
+            format!("most effects would be named there from {ratio:.0} times what matters, or more")
+        }
+        Some(_) => return None,
+        None => "these logs are too short for anything to be named there".to_owned(),
     };
-    (*ratio > BLIND).then(|| {
-        let why = format!(
-            "Compared next to nothing on the {} link: most effects would be named there from {ratio:.0} times what matters, or \
-             more; log longer, more runs, and both directions at several speeds.",
-            link.name()
-        );
-        (link, why)
-    })
+    let why = format!(
+        "Compared next to nothing on the {} link: {named}; log longer, more runs, and both directions at several speeds.",
+        link.name()
+    );
+    Some((link, why))
 }
 
 /// Turn of a wheel that shows nothing, rad: less than a degree.

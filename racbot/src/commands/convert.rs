@@ -158,9 +158,7 @@ impl Options {
         if let Some(joined) = &joined {
             text += &wrapped(&told(joined), 2);
         }
-        for remark in &remarks {
-            text += &wrapped(&format!("note: {remark}"), 2);
-        }
+        text += &notes(&remarks);
         let json = json!({
             "remarks": remarks,
             "run": out, "ticks": run.len(), "seconds": run.duration_s(), "camera": run.camera.len(),
@@ -230,10 +228,13 @@ fn list(file: &Path) -> Result<Answer, Failure> {
         let [low, high] = s.range();
         text += &format!("{}  {} samples, {low:.6} to {high:.6}\n", s.name, s.values.len());
     }
-    for remark in &table.remarks {
-        text += &wrapped(&format!("note: {remark}"), 2);
-    }
+    text += &notes(&table.remarks);
     let json = json!({ "series": table.series.iter().map(|s| json!({ "name": s.name, "samples": s.values.len() })).collect::<Vec<_>>(),
         "remarks": table.remarks });
     Ok(Answer { text, json, wrong: None })
+}
+
+/// What the owner of a file would want to know of it.
+fn notes(remarks: &[String]) -> String {
+    remarks.iter().map(|remark| wrapped(&format!("note: {remark}"), 2)).collect()
 }

@@ -8,7 +8,7 @@ use super::fill::{Wanted, counts, integrate, unwrapped};
 use super::frame::{Axis, Frame, Sense};
 use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
-use crate::columns::{Column, GROUPS, missing_member};
+use crate::columns::{Column, GROUPS, MOST_DUTY, missing_member};
 use crate::error::InputError;
 use crate::frames::Pose;
 use crate::{CameraSample, Run};
@@ -168,7 +168,7 @@ impl Reading {
                 }
                 Column::Camera(i) => camera.iter_mut().zip(&column).for_each(|(pose, x)| pose[i] = *x),
                 Column::Duty(_) => {
-                    if let Some(x) = column.iter().find(|x| x.abs() > 1.001) {
+                    if let Some(x) = column.iter().find(|x| x.abs() > MOST_DUTY) {
                         let hint = "scale it to a share of the supply, such as unit = \"percent\"; where the \
                                     controller's output is logged before the driver cuts it off, say limit = 1";
                         let what = format!("duty {x} is not within ±1");

@@ -2,7 +2,7 @@
 
 use super::super::{Series, Table, units};
 use super::time_unit;
-use crate::columns::Column;
+use crate::columns::{Column, MOST_DUTY};
 
 /// What a series seems to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -301,7 +301,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     let whole = series.values.iter().all(|x| x.fract() == 0.0);
     // What is a share or a force by its unit was not counted.
     let counted = units::in_name(&series.name).is_none_or(|unit| fits(Column::Counts(0), unit));
-    let share = low < high && low >= -1.001 && high <= 1.001;
+    let share = low < high && low >= -MOST_DUTY && high <= MOST_DUTY;
     let has = |some: &[&str]| words.iter().any(|w| some.contains(w));
     let wheel = has(&CORNERS) || has(&["left", "right", "motor", "wheel", "joint"]);
     match words {
@@ -399,7 +399,7 @@ fn by_range(column: Column, series: &Series) -> &'static str {
         Column::Camera(2) if most > 30.0 => "deg",
         Column::Duty(_) if spaced(&series.name).to_lowercase().contains("volt") => "V",
         Column::Speed(_) if words(&spaced(&series.name).to_lowercase()).contains(&"rpm") => "rpm",
-        Column::Duty(_) if most > 1.001 && most <= 100.0 => "percent",
+        Column::Duty(_) if most > MOST_DUTY && most <= 100.0 => "percent",
         Column::Duty(_) if most > 100.0 => STEPS,
         Column::Counts(_) if series.values.iter().filter(|x| x.fract() != 0.0).count() * 2 > series.values.len() => {
             "rad"
