@@ -31,7 +31,7 @@ impl Symmetric {
         Self { order: of.len(), upper }
     }
 
-    /// All of it.
+    /// Both halves, as other matrices have them.
     pub fn full(&self) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(self.order, self.order);
         self.add_to(&mut sum);

@@ -25,7 +25,7 @@ pub const COMMITTED_OPEN_BOARD: &str = include_str!("../../generated/rac_hx8k.v"
 pub struct File {
     /// Name in the folder.
     pub name: String,
-    /// All of its text.
+    /// What is written to it, whole.
     pub text: String,
 }
 

@@ -226,7 +226,7 @@ impl<'a> Pieces<'a> {
         self.speed
     }
 
-    /// All ticks.
+    /// Ticks of all pieces together, each once.
     pub fn ticks(&self) -> usize {
         self.all.iter().map(|p| p.own.len()).sum()
     }

@@ -149,7 +149,7 @@ pub enum BelKind {
 pub struct ClassBel {
     /// Name, as attributes have it before the colon: `SLICE[0]`.
     pub name: &'static str,
-    /// What it is.
+    /// Slice, pad, block memory or another.
     pub kind: BelKind,
     /// Which of its kind in the tile.
     pub index: u8,

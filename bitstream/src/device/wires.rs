@@ -20,7 +20,7 @@ pub struct Wire {
     /// Row of the cell at which it begins.
     pub row: u8,
     pub(super) name: Name,
-    /// What it is.
+    /// How far it goes and how it is driven.
     pub family: WireFamily,
     /// First and last column at which it can be reached.
     pub columns: (u8, u8),

@@ -41,7 +41,7 @@ pub enum FlowError {
     Constraint {
         /// Number of the line, from 1.
         line: usize,
-        /// Its text.
+        /// The line as it stands in the file.
         text: String,
     },
     /// A port that has no usable pin.
@@ -84,11 +84,11 @@ pub enum FlowError {
     /// The device is too small.
     #[error("the design needs {used} {what}, the device has {there}")]
     Full {
-        /// Of what.
+        /// The kind of place that ran out, in the plural.
         what: &'static str,
         /// How many the design needs.
         used: usize,
-        /// There are.
+        /// How many the device has.
         there: usize,
     },
 }

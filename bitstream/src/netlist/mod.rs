@@ -53,7 +53,7 @@ impl Signal {
 pub struct Cell {
     /// Name of the place: `X12Y3_S0`.
     pub place: String,
-    /// What it is.
+    /// What the configuration makes of the place, with its contents.
     pub kind: CellKind,
 }
 

@@ -137,7 +137,7 @@ pub struct Group {
     pub format: crate::format::Format,
     /// Unit of the value.
     pub unit: &'static str,
-    /// What it is for.
+    /// What the register map says of it.
     pub text: &'static str,
 }
 

@@ -22,7 +22,7 @@ pub struct FramePart {
     pub bytes: usize,
     /// The value it must have, if there is one.
     pub value: Option<u8>,
-    /// What it is.
+    /// What the description of the frame says of it.
     pub text: &'static str,
 }
 

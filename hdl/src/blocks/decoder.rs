@@ -38,7 +38,7 @@ pub struct Decoder {
     pub clock: Signal<In, Clock>,
     /// Word address; what follows from it is there in the next clock, and means that clock's banks.
     pub address: Signal<In, Bits<14>>,
-    /// It is read.
+    /// The bus reads the address in this clock.
     pub read: Signal<In, Bit>,
     /// Bank of the configuration in force.
     pub configuration_bank: Signal<In, Bit>,

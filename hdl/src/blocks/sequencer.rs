@@ -59,7 +59,7 @@ pub struct Sequencer {
     pub output_strobe: Signal<Out, Bit>,
     /// Which one, an `OutputPort`.
     pub output_port: Signal<Out, Bits<2>>,
-    /// With what.
+    /// The word for the port.
     pub output_data: Signal<Out, Bits<32>>,
 
     /// Memory address that the bus reads, banks included.

@@ -33,7 +33,7 @@ pub enum Kind {
 /// A piece of Verilog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token<'a> {
-    /// What it is.
+    /// Which of the lexical classes it belongs to.
     pub kind: Kind,
     /// How it is spelled.
     pub text: &'a str,

@@ -17,7 +17,7 @@ pub(super) fn start(p: &mut Assembler, k: usize) {
     p.load(DIFFERENCE).op(Op::MultiplyCounts, direct_row(k));
 }
 
-/// Adds it.
+/// Adds the product that [`start`] began to its displacement.
 pub(super) fn add(p: &mut Assembler, k: usize) {
     p.product().op(Op::Add, DISPLACEMENT.word(k)).store(DISPLACEMENT.word(k));
 }

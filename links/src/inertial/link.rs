@@ -50,7 +50,7 @@ impl Channel {
         if self.0 < 3 { Link::Gyroscope } else { Link::Accelerometer }
     }
 
-    /// Its unit.
+    /// rad/s of a rate, m/s² of an acceleration.
     pub fn unit(self) -> &'static str {
         if self.0 < 3 { "rad/s" } else { "m/s²" }
     }

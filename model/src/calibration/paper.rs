@@ -76,7 +76,7 @@ pub enum Stage {
 /// One drive of the procedure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// What for.
+    /// Which part of the procedure it belongs to.
     pub stage: Stage,
     /// Wheel along whose axle it went, from 0.
     pub wheel: usize,

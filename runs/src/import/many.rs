@@ -10,7 +10,7 @@ use crate::error::InputError;
 /// A log that becomes a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Drive {
-    /// The log.
+    /// The robot's own recording.
     pub log: PathBuf,
     /// The second file, where one was asked for; else the map names it.
     pub truth: Option<PathBuf>,

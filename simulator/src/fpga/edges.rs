@@ -72,7 +72,7 @@ impl Motion {
         Edge { clock: clock.min(self.period - 1), count, up }
     }
 
-    /// All edges.
+    /// From the first to the last.
     pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
         (0..self.len()).map(|index| self.edge(index))
     }

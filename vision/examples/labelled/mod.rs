@@ -12,7 +12,7 @@ use vision::render::Label;
 
 /// A picture and what is in it.
 pub(crate) struct Photograph {
-    /// Its file.
+    /// Where it was read from.
     pub(crate) file: PathBuf,
     /// Its pixels.
     pub(crate) picture: Picture,
