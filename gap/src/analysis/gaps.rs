@@ -94,7 +94,7 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 }
 
 /// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
-pub(super) const FAR: f64 = 3.0;
+pub(crate) const FAR: f64 = 3.0;
 /// What matters within a window of motion, as a share of what its wheels rolled, and of the turn they could have made
 /// of it: 4 mm and 0.02 rad where wheels roll 0.42 m in a second, 8 cm from the centre (four example sets).
 const MATTERS: [f64; 2] = [0.0095, 0.0038];

@@ -103,13 +103,15 @@ pub(super) fn sentence(a: &Analysis) -> String {
         Verdict::NotCompared => "Nothing could be compared: nothing in these logs has any weight.".to_owned(),
         Verdict::MissingEffect => {
             format!(
-                "Missing in the model: {}. The gap falls from {before:.2} to {after:.2} noise floors.",
-                names.join(", ")
+                "Missing in the model: {}{}. The gap falls from {before:.2} to {after:.2} noise floors.",
+                names.join(", "),
+                words::and_more(a)
             )
         }
         Verdict::Ambiguous => format!(
-            "Something is missing: {}, or what cannot be told from it here. The gap falls from {before:.2} to {after:.2} noise floors.",
-            names.join(", ")
+            "Something is missing: {}, or what cannot be told from it here{}. The gap falls from {before:.2} to {after:.2} noise floors.",
+            names.join(", "),
+            words::and_more(a)
         ),
         Verdict::Unexplained => {
             let first = a.unexplained.first().map_or(String::new(), |u| format!(": {}", u.structure));

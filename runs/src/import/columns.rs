@@ -55,6 +55,9 @@ pub(super) struct Scaled {
     /// The most that the log's value means, in our unit: the log holds a controller's output, and the driver after it cuts
     /// that off.
     limit: Option<f64>,
+    /// Each value is what came since the row before it: the column is their sum.
+    #[serde(default)]
+    increments: bool,
     /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
     /// bits, in the file's unit.
     wraps: Option<f64>,
@@ -80,11 +83,18 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             );
             return Err(fail("is no column of a run".to_owned(), hint));
         }
-        let (from, name, scale, offset, limit, per_rev, wraps) = match source {
-            Source::Name(from) => (from, "", 1.0, 0.0, None, None, None),
-            Source::Scaled(s) => {
-                (&s.from, s.unit.as_str(), s.scale.unwrap_or(1.0), s.offset, s.limit, s.counts_per_rev, s.wraps)
-            }
+        let (from, name, scale, offset, limit, per_rev, wraps, increments) = match source {
+            Source::Name(from) => (from, "", 1.0, 0.0, None, None, None, false),
+            Source::Scaled(s) => (
+                &s.from,
+                s.unit.as_str(),
+                s.scale.unwrap_or(1.0),
+                s.offset,
+                s.limit,
+                s.counts_per_rev,
+                s.wraps,
+                s.increments,
+            ),
         };
         if let Some(n) = wraps.filter(|n| !(n.is_finite() && *n > 0.0)) {
             return Err(fail(format!("wraps = {n} is no period"), "such as wraps = 4096".to_owned()));
@@ -94,13 +104,29 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
         }
         let angle = ["rad", "deg", "rev"].contains(&name);
         let counted = matches!(column, Column::Counts(_));
+        if increments && !(counted && wraps.is_none()) {
+            let hint = "it is for an enc_ column, and without wraps";
+            return Err(fail("increments = true has no meaning here".to_owned(), hint.to_owned()));
+        }
+        if counted && units::is_like(name, "m") {
+            let hint = "metres of the wheel's way are an angle by its radius: unit = \"rad\", scale = 1 / radius in metres, \
+                        counts_per_rev = 65536, and encoder_counts_per_wheel_rev = 65536 in robot.toml";
+            return Err(fail(format!("counts cannot be in {name:?}"), hint.to_owned()));
+        }
+        if name == "counts/s" && per_rev.is_none() {
+            let hint = "say how many counts are a turn of the wheel: counts_per_rev = 1440";
+            return Err(fail("counts a second are no angle a second".to_owned(), hint.to_owned()));
+        }
         if counted && units::factor(name).is_some() && !matches!(name, "" | "counts" | "lines") && per_rev.is_none() {
             let hint = "say what the encoder counts: counts_per_rev = 1440 beside unit = \"rad\", and \
                             encoder_counts_per_wheel_rev = 1440 in robot.toml; any fine number, as 65536, where nobody knows";
             return Err(fail(format!("counts cannot be in {name:?}"), hint.to_owned()));
         }
-        if let Some(n) = per_rev.filter(|n| !(counted && angle && n.is_finite() && *n > 0.0)) {
-            let hint = "it is a positive number, for an enc_ column whose unit is rad, deg or rev";
+        let turns =
+            matches!(column, Column::Speed(_) | Column::Measured(_) | Column::Reference(_)) && name == "counts/s";
+        if let Some(n) = per_rev.filter(|n| !((counted && angle || turns) && n.is_finite() && *n > 0.0)) {
+            let hint =
+                "it is a positive number, for an enc_ column whose unit is rad, deg or rev, or speeds in counts/s";
             return Err(fail(format!("counts_per_rev = {n} has no meaning here"), hint.to_owned()));
         }
         let Some(unit) = units::factor(name) else {
@@ -112,7 +138,7 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
         if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
             return Err(fail("its scale or offset is no number".to_owned(), "such as scale = -1".to_owned()));
         }
-        let factor = unit * scale * per_rev.map_or(1.0, |n| n / TAU);
+        let factor = unit * scale * per_rev.map_or(1.0, |n| if turns { TAU / n } else { n / TAU });
         wanted.push(Wanted {
             column,
             from,
@@ -120,7 +146,8 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             offset,
             limit,
             wraps,
-            turn: per_rev.map(|_| TAU / unit),
+            turn: per_rev.filter(|_| !turns && !increments).map(|_| TAU / unit),
+            increments,
             rate: rate.is_some(),
         });
     }

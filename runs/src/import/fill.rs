@@ -21,6 +21,8 @@ pub(super) struct Wanted<'a> {
     pub(super) wraps: Option<f64>,
     /// The file's units in a turn, of an encoder whose log has angles.
     pub(super) turn: Option<f64>,
+    /// Whether each value is what came since the row before.
+    pub(super) increments: bool,
     /// Whether it is the rate of the column.
     pub(super) rate: bool,
 }
@@ -28,6 +30,14 @@ pub(super) struct Wanted<'a> {
 /// The values of a column whose multiples of a turn were lost: counts go on from the last, others are those next to 0.
 /// An encoder of one turn shows itself: angles within a turn that leap by more than half of it; and so does a full register.
 pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]> {
+    if wanted.increments {
+        let mut sum = 0.0;
+        let add = |value: &f64| {
+            sum += value;
+            sum
+        };
+        return values.iter().map(add).collect();
+    }
     let counted = matches!(wanted.column, Column::Counts(_));
     let turn = wanted.turn.filter(|turn| {
         let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
@@ -163,6 +173,29 @@ mod tests {
             "t,rad\n0,0\n1,4\n2,8\n",
         );
         assert_eq!(far.unwrap().counts[0], [0, 64, 127]);
+    }
+
+    #[test]
+    fn increments_are_summed_and_counts_a_second_are_speeds() {
+        let text = "t,d,v,w\n0,3,0,0\n0.1,4,1320,1.5\n0.2,-9,2640,0\n";
+        let of = |column: &str| made(&format!("[columns]\n{column}\n"), text);
+        assert_eq!(of("enc_1 = { from = \"d\", increments = true }").unwrap().counts[0], [3, 7, -2]);
+        assert_eq!(of("enc_1 = { from = \"d\", increments = true, scale = -1 }").unwrap().counts[0], [-3, -7, 2]);
+        let turned = "enc_1 = { from = \"w\", unit = \"rev\", counts_per_rev = 100, increments = true }";
+        assert_eq!(of(turned).unwrap().counts[0], [0, 150, 150]);
+        let speed =
+            of("speed_1 = { from = \"v\", unit = \"counts/s\", counts_per_rev = 1320 }").unwrap().speed[0].clone();
+        assert!((speed[1] - 2.0 * PI).abs() < 1e-9 && (speed[2] - 4.0 * PI).abs() < 1e-9, "{speed:?}");
+        for (column, message) in [
+            ("duty_1 = { from = \"w\", increments = true }", "increments = true has no meaning here"),
+            ("enc_1 = { from = \"d\", increments = true, wraps = 4096 }", "increments = true has no meaning here"),
+            ("speed_1 = { from = \"v\", unit = \"counts/s\" }", "counts_per_rev = 1440"),
+            ("duty_1 = { from = \"w\", counts_per_rev = 10 }", "counts_per_rev = 10 has no meaning here"),
+            ("enc_1 = { from = \"w\", unit = \"m\" }", "scale = 1 / radius in metres"),
+        ] {
+            let error = of(column).unwrap_err();
+            assert!(error.contains(message), "{error}");
+        }
     }
 
     #[test]

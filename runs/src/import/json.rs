@@ -26,7 +26,8 @@ struct Found {
 
 pub(super) fn is_json(name: &str, bytes: &[u8]) -> bool {
     let named = [".json", ".jsonl", ".ndjson"].iter().any(|end| name.ends_with(end));
-    named || bytes.trim_ascii_start().starts_with(b"{\"")
+    let open = bytes.trim_ascii_start().strip_prefix(b"{");
+    named || open.is_some_and(|inside| inside.trim_ascii_start().starts_with(b"\""))
 }
 
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {

@@ -80,6 +80,7 @@ impl Reading {
                 limit: None,
                 wraps: None,
                 turn: None,
+                increments: false,
                 rate: false,
             }));
         }

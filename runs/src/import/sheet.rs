@@ -55,8 +55,11 @@ impl<'a> Sheet<'a> {
         let fields = fields(first, blanks, separator);
         let mut said = before.iter().rev().map(|line| super::line::fields(line, blanks, separator));
         let mut said = || said.next().filter(|said| said.len() == fields.len() && said.len() > 1);
-        let names = if fields.iter().any(|field| !is_number(field, separator)) {
-            None
+        let texts = fields.iter().any(|field| !is_number(field, separator));
+        let names = if texts {
+            // Names after the mark of a remark, as of `rostopic echo -p`, above rows of numbers and texts.
+            let row = !fields[0].is_empty() && is_number(&fields[0], separator);
+            said().filter(|names| row && names.iter().all(|name| !is_number(name, separator)))
         } else {
             // Units may stand in a line of their own below the names.
             let named = said().and_then(|last| {
@@ -126,6 +129,11 @@ mod tests {
         assert_eq!(sheet("0\t1\n"), (names(&["column_1", "column_2"]), "0\t1\n".into(), '\t'));
         assert_eq!(sheet("% made 2019, for us\nt;a\n0;1,5\n"), (None, "\nt;a\n0;1,5\n".into(), ';'));
         assert_eq!(sheet("# t,a\n0,1\n# pause\n1,2\n"), (names(&["t", "a"]), "\n0,1\n\n1,2\n".into(), ','));
+        assert_eq!(
+            sheet("%time,frame,enc\n5,odom,1\n6,odom,2\n"),
+            (names(&["time", "frame", "enc"]), "\n5,odom,1\n6,odom,2\n".into(), ',')
+        );
+        assert_eq!(sheet("# a,b,c\ntime,0,1\n0,5,6\n").0, None);
         assert_eq!(sheet("% by me\n% t,u\n% [#],[V]\nnan,nan;\n0,1;\n").0, names(&["t", "u [V]"]));
         assert_eq!(sheet("").0, None);
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 /// Unit, and how many of ours it is.
-const UNITS: [(&str, f64); 32] = [
+const UNITS: [(&str, f64); 33] = [
     ("s", 1.0),
     ("ms", 1e-3),
     ("us", 1e-6),
@@ -22,6 +22,7 @@ const UNITS: [(&str, f64); 32] = [
     ("deg/s", PI / 180.0),
     ("rpm", TAU / 60.0),
     ("rev/s", TAU),
+    ("counts/s", 1.0),
     ("m/s2", 1.0),
     ("g", 9.806_65),
     ("V", 1.0),
@@ -55,7 +56,8 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
         "nsec" | "nanos" => "ns",
         "°" | "degrees" | "grad" => "deg",
         "°/s" | "dps" => "deg/s",
-        "ticks" => "counts",
+        "ticks" | "steps" => "counts",
+        "ticks/s" | "steps/s" | "pulses/s" => "counts/s",
         "turns" | "revs" | "revolutions" => "rev",
         "turns/s" | "rps" => "rev/s",
         "pct" => "percent",
@@ -64,7 +66,7 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
     };
     let same = |(unit, _): &&(&'static str, f64)| !matches!(*unit, "" | "1") && unit.eq_ignore_ascii_case(plain);
     // A bare letter at the end is rather a name's: `pos_m`, but `motor_A`.
-    let sure = |unit: &&'static str| unit.len() > 1 || said == *unit;
+    let sure = |unit: &&'static str| unit.len() > 1 || plain == *unit;
     UNITS.iter().find(same).map(|(unit, _)| *unit).filter(sure)
 }
 
@@ -75,7 +77,7 @@ pub(super) fn is_like(unit: &str, ours: &str) -> bool {
         &["m", "cm", "mm", "in"],
         &["rad", "deg", "rev"],
         &["m/s", "mm/s", "cm/s"],
-        &["rad/s", "deg/s", "rpm", "rev/s"],
+        &["rad/s", "deg/s", "rpm", "rev/s", "counts/s"],
         &["m/s2", "g"],
         &["V", "mV"],
         &["A", "mA"],
@@ -116,6 +118,8 @@ mod tests {
             ("pwm_percent", "percent"),
             ("phi [°]", "deg"),
             ("pos_m", "m"),
+            ("encoderLeft (meters)", "m"),
+            ("Speed (steps/s)", "counts/s"),
         ] {
             assert_eq!(in_name(name), Some(unit), "{name}");
         }
