@@ -54,7 +54,10 @@ pub fn analyse_logs(set: &Logs, options: &Options) -> Result<Analysis, GapError>
     let analysis = analyse_all(set, options);
     match set.logs.iter().find_map(|log| log.failure()) {
         Some(failure) => Err(GapError::Log(failure.clone())),
-        None => analysis,
+        None => analysis.map_err(|error| match (error, set.lacking()) {
+            (GapError::NothingToCompare, Some(lacking)) => GapError::Lacking(lacking),
+            (error, _) => error,
+        }),
     }
 }
 

@@ -9,6 +9,11 @@ pub enum GapError {
     /// No link can be compared.
     #[error("the logs hold no two neighbouring signals to compare; log counts with duties or camera poses")]
     NothingToCompare,
+    /// There would be something to compare if robot.toml said more.
+    #[error(
+        "nothing can be compared before robot.toml says what the duties need: {0}; `racbot init --log` asks for it"
+    )]
+    Lacking(String),
     /// A file could not be written.
     #[error("{0}")]
     Write(String),

@@ -36,6 +36,13 @@ impl Logs<'_> {
         as_logged(&self.robot, source, self.logs.iter().find_map(Log::tick_s))
     }
 
+    /// What robot.toml does not say, and the duties in the logs need to be compared.
+    pub fn lacking(&self) -> Option<String> {
+        let drives = self.logs.iter().any(|log| !log.layout().duty.is_empty());
+        let lacking = drive_lacks(&self.as_logged()).join(", ");
+        (drives && !lacking.is_empty()).then_some(lacking)
+    }
+
     /// What was read another way than it is written, by log, in sentences; one that several logs share stands once.
     pub fn notes(&self) -> Vec<String> {
         let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
@@ -48,9 +55,7 @@ impl Logs<'_> {
             }
         }
         let all = self.logs.len();
-        let drives = self.logs.iter().any(|log| !log.layout().duty.is_empty());
-        let lacking = drive_lacks(&self.as_logged()).join(", ");
-        let narrowed = (drives && !lacking.is_empty()).then(|| {
+        let narrowed = self.lacking().map(|lacking| {
             format!("duties are not compared, for robot.toml does not say {lacking}: add it to have them compared")
         });
         let said = |(note, logs): (String, Vec<&str>)| {

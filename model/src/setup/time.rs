@@ -26,9 +26,20 @@ pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake
         .iter()
         .find(|(unit, ..)| (ratio / unit).ln().abs() < 0.3 || !known && tick > TICKS[1] && in_range(tick / unit));
     if let Some((unit, name, divide)) = unit {
-        let what =
-            format!("ticks are {} apart where robot.toml has {} s: it is in {name}", short(tick), short(tick / unit));
-        let remedy = format!("divide t by {divide}, or name its unit to `racbot convert`");
+        let (what, slow) = if known {
+            let has = 1.0 / robot.control_rate_hz;
+            (format!("ticks are {} apart where robot.toml has {} s: it is in {name}", short(tick), short(has)), "")
+        } else {
+            let rates = [short(1.0 / tick), short(unit / tick)];
+            let what = format!(
+                "ticks are {} apart: in seconds that were {} rows a second, in {name} {}",
+                short(tick),
+                rates[0],
+                rates[1]
+            );
+            (what, "; if they are seconds, log 20 rows a second or more, or say so with control_rate_hz in robot.toml")
+        };
+        let remedy = format!("divide t by {divide}, or name its unit to `racbot convert`{slow}");
         return vec![Mistake::new("time-unit", "t", what, remedy)];
     }
     // A log of a part of the ticks is honest; one of more ticks than there were is not.

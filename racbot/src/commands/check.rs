@@ -82,5 +82,9 @@ pub(super) fn first_stage(folder: &Path, set: &Logs, force: bool) -> Result<Stri
         let what = format!("set up wrong: {} (--force goes on nevertheless)", said.join("; also "));
         return Err(Failure::about(folder, what));
     }
-    Ok(hints.iter().chain(&wrong).map(|m| wrapped(&format!("hint: {}", m.sentence()), 6)).collect())
+    let hints = hints.iter().map(|m| wrapped(&format!("hint: {}", m.sentence()), 6));
+    let forced = wrong.iter().map(|m| wrapped(&format!("set up wrong: {}", m.sentence()), 2));
+    let warned = (!wrong.is_empty())
+        .then(|| wrapped("Gone on with --force: until that is mended, no name and no size below can be trusted.", 2));
+    Ok(hints.chain(forced).chain(warned).collect())
 }

@@ -78,18 +78,76 @@ pub(super) struct Guess<'a> {
 
 /// What the series of a log seem to be, and the rest.
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
-    let mut wheels = Wheels::default();
+    let mut wheels = Wheels { odometry: is_odometry(table), ..Wheels::default() };
+    let from_zero = from_zero(table);
     // What numbers its wheel goes before what leaves it open.
-    let numbered = |series: &&Series| number(&words(&spaced(&series.name).to_lowercase())).is_some();
+    let numbered = |series: &&Series| numbered(&series.name, &from_zero).is_some();
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
-    let (guesses, mut rest) = recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels));
+    let (mut guesses, mut rest) =
+        recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, &from_zero));
+    driving_volts(&mut guesses);
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
     (guesses, rest)
 }
 
+/// Names, each with what stands for its number, whose motors are counted from 0: `motor0` beside `motor1`.
+fn from_zero(table: &Table) -> Vec<String> {
+    let stems = |wanted: usize| {
+        let of = move |series: &Series| digits(&series.name).filter(|(_, n)| *n == wanted).map(|(stem, _)| stem);
+        table.series.iter().filter_map(of)
+    };
+    let ones: Vec<String> = stems(1).collect();
+    stems(0).filter(|stem| ones.contains(stem)).collect()
+}
+
+/// The first number within a name, and the name without it.
+fn digits(name: &str) -> Option<(String, usize)> {
+    let start = name.find(|c: char| c.is_ascii_digit())?;
+    let length = name[start..].find(|c: char| !c.is_ascii_digit()).unwrap_or(name.len() - start);
+    let number = name[start..start + length].parse().ok()?;
+    Some((format!("{}#{}", &name[..start], &name[start + length..]), number))
+}
+
+/// The wheel that a name numbers, from 0.
+fn numbered(name: &str, from_zero: &[String]) -> Option<usize> {
+    let counted = digits(name).filter(|(stem, _)| from_zero.contains(stem));
+    counted.map(|(_, number)| number).or_else(|| number(&words(&spaced(name).to_lowercase())))
+}
+
+/// Volts without a duty or a current beside a wheel are what drives it, though they stand still throughout a step.
+fn driving_volts(guesses: &mut [Guess]) {
+    let has = |wanted: fn(&Column) -> bool| guesses.iter().any(|g| wanted(&g.column));
+    let driven = has(|c| matches!(c, Column::Duty(_) | Column::Current(_)));
+    let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_) | Column::Speed(_))).count();
+    if driven || wheels != 1 {
+        return;
+    }
+    let bare = |name: &str| {
+        let lower = spaced(name).to_lowercase();
+        let words = words(&lower);
+        let supply = WORDS.iter().filter(|(kind, _)| *kind == Kind::Supply).flat_map(|(_, names)| *names);
+        let mut supply = supply.copied().chain(["bus", "bat", "source", "psu", "vcc", "vin", "input", "in"]);
+        words.iter().any(|w| w.starts_with("volt")) && !supply.any(|w| words.contains(&w))
+    };
+    if let Some(volts) = guesses.iter_mut().find(|g| g.column == Column::Supply && bare(&g.series.name)) {
+        (volts.column, volts.unit) = (Column::Duty(0), "V");
+    }
+    guesses.sort_by_key(|g| g.column);
+}
+
 /// Series of each kind so far, and whether one of them numbered its wheel.
 #[derive(Default)]
-struct Wheels([(usize, bool); Kind::Supply as usize + 1]);
+struct Wheels {
+    seen: [(usize, bool); Kind::Supply as usize + 1],
+    /// Whether the poses are those of an odometry.
+    odometry: bool,
+}
+
+/// Whether a table is of ROS's message of odometry, which has pose and velocity, each with its covariance.
+fn is_odometry(table: &Table) -> bool {
+    let has = |what: [&str; 2]| table.series.iter().any(|s| words(&s.name).windows(2).any(|pair| pair == what));
+    has(["pose", "pose"]) && has(["twist", "twist"])
+}
 
 /// The first series that is each column, and the rest.
 fn recognised<'a>(
@@ -202,7 +260,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     [ahead(), behind()].into_iter().flatten().find(|(whose, _)| AFFIXES.contains(whose))
 }
 
-fn guess(series: &Series, wheels: &mut Wheels) -> Option<(Column, &'static str)> {
+fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(Column, &'static str)> {
     let ours = Column::from_name(&series.name);
     if !matches!(ours, Column::Other | Column::Time) {
         return Some((ours, ""));
@@ -210,12 +268,16 @@ fn guess(series: &Series, wheels: &mut Wheels) -> Option<(Column, &'static str)>
     let lower = spaced(&series.name).to_lowercase();
     let words = words(&lower);
     let said = units::in_name(&series.name);
-    let number = number(&words);
+    let number = numbered(&series.name, from_zero);
     let axis = axis(&words);
     // Where a motor should be is no column, and no encoder's.
     let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
     let wanted = any(&["goal", "target", "desired", "ref", "reference", "setpoint"]);
     if wanted && axis.is_none() && any(&["position", "pos", "angle"]) {
+        return None;
+    }
+    // Flags and bounds of a current or a duty are none.
+    if any(&["over", "limit", "max", "min", "fault", "flag"]) && any(&["current", "duty", "pwm"]) {
         return None;
     }
     // Times, and what a satellite receiver says of its own.
@@ -224,24 +286,41 @@ fn guess(series: &Series, wheels: &mut Wheels) -> Option<(Column, &'static str)>
     }
     let has = |kind: Kind| {
         let known = WORDS.iter().find(|(k, _)| *k == kind).map_or(&[][..], |(_, names)| names);
+        // `pwm1` is a `pwm`; `o1` and `dr1` say nothing.
+        let bare = |word: &&str| word.len() > 3 && known.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit()));
         known.iter().any(|name| words.contains(name) || name.contains('_') && lower.contains(name))
+            || words.iter().any(bare)
     };
+    // The height is no heading, and turns about x and y are no ways.
+    let upright = ["linear", "position", "translation", "point"];
+    let turning = ["angular", "rotation", "orientation"];
+    let plane = match words.last() {
+        Some(&"z") => !any(&upright),
+        Some(&"x" | &"y") => !any(&turning),
+        _ => true,
+    };
+    // What an odometry's message says of its own velocity was not commanded.
+    let own_twist = words.windows(2).any(|pair| pair == ["twist", "twist"]);
     // A pose has axes, a wheel has none: `/pose/position/x` is no encoder.
     let mut kinds = WORDS.iter().map(|(kind, _)| *kind).filter(|kind| has(*kind));
     let kind = kinds
         .find(|kind| match kind {
-            Kind::Command | Kind::Camera | Kind::Odometry | Kind::Gyro | Kind::Acceleration => axis.is_some(),
+            Kind::Command => axis.is_some() && plane && !own_twist,
+            Kind::Camera | Kind::Odometry => axis.is_some() && plane && !own_twist,
+            Kind::Gyro | Kind::Acceleration => axis.is_some(),
             Kind::Supply => true,
             _ => axis.is_none(),
         })
-        .or_else(|| wordless(&words, axis, series))?;
+        .or_else(|| wordless(&words, axis, series).filter(|_| plane && !own_twist))?;
     let rate = any(&["rate", "speed", "velocity", "vel"]);
     let kind = if kind == Kind::Counts && (rate || said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm")) {
         Kind::Speed
     } else {
         kind
     };
-    let (so_far, numbered) = &mut wheels.0[kind as usize];
+    let of_odometry = wheels.odometry && kind == Kind::Camera && words.windows(2).any(|pair| pair == ["pose", "pose"]);
+    let kind = if of_odometry { Kind::Odometry } else { kind };
+    let (so_far, numbered) = &mut wheels.seen[kind as usize];
     // Beside wheels with numbers one without is the body's. Of several that nobody numbered one is the motor's: a
     // controller has currents of its supply and of both axes.
     let of_a_wheel = !matches!(kind, Kind::Command | Kind::Camera | Kind::Odometry | Kind::Supply) && axis.is_none();
@@ -308,7 +387,10 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         [_] if axis.is_some() => Some(Kind::Camera),
         // A body has a velocity, too, but turns no revolutions a minute.
         _ if words.contains(&"rpm") => Some(Kind::Speed),
-        _ if words.contains(&"velocity") || words.contains(&"speed") => wheel.then_some(Kind::Speed),
+        _ if words.contains(&"velocity") || words.contains(&"speed") => {
+            let turns = units::in_name(&series.name).is_some_and(|unit| ["rad/s", "rev/s", "counts/s"].contains(&unit));
+            (wheel || turns && axis.is_none()).then_some(Kind::Speed)
+        }
         _ if has(&["voltage", "volts", "volt"]) => volts(series),
         // A share that a motor was told; in no other unit is that known.
         _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
@@ -401,6 +483,7 @@ fn by_range(column: Column, series: &Series) -> &'static str {
         Column::Speed(_) if words(&spaced(&series.name).to_lowercase()).contains(&"rpm") => "rpm",
         Column::Duty(_) if most > MOST_DUTY && most <= 100.0 => "percent",
         Column::Duty(_) if most > 100.0 => STEPS,
+        Column::Supply if most > 1000.0 => "mV",
         Column::Counts(_) if series.values.iter().filter(|x| x.fract() != 0.0).count() * 2 > series.values.len() => {
             "rad"
         }

@@ -87,6 +87,11 @@ fn time(table: &Table, name: &str) -> String {
         // A unit that the name says is not guessed, however far apart the rows are.
         let said = units::in_name(column).and_then(units::of_time).is_some();
         let unit = if said { unit_name(*unit) } else { time_unit(longest, *unit) };
+        if let Some(stamp) = stamped(table).filter(|_| column == "time") {
+            let why = "when it was measured; \"time\" is when it was received";
+            let unit = time_unit(&stamp.values, 1.0);
+            return format!("\n[{name}]\ncolumn = {} # {why}\nunit = \"{unit}\"\n", quoted(&stamp.name));
+        }
         return format!("\n[{name}]\ncolumn = {}\nunit = \"{unit}\"\n", quoted(column));
     }
     // Rows are numbered where there is no time; some have no sample of a series.
@@ -105,6 +110,14 @@ fn time(table: &Table, name: &str) -> String {
     }
 }
 
+/// The stamp that a robot gave its messages, where it gave them one: `rostopic echo -p` has it beside the time at which
+/// each was received.
+fn stamped(table: &Table) -> Option<&Series> {
+    let stamp = table.find("field.header.stamp")?;
+    let rises = stamp.values.windows(2).filter(|w| w[1] > w[0]).count();
+    (stamp.values.len() > 2 && 100 * rises >= 95 * (stamp.values.len() - 1)).then_some(stamp)
+}
+
 /// A line a column.
 fn columns(guesses: &[Guess], none: &str) -> String {
     let mut out = String::new();
@@ -113,6 +126,22 @@ fn columns(guesses: &[Guess], none: &str) -> String {
     let most = duties.fold(0.0_f64, |most, x| most.max(x.abs()));
     for Guess { series, column, unit } in guesses {
         let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
+        // What only the owner knows is no guess.
+        let open = match *unit {
+            unit if angle && units::is_like(unit, "m") => Some((
+                "unit = \"rad\", scale = ..., counts_per_rev = 65536",
+                "the wheel's way: scale is 1 / its radius in its unit",
+            )),
+            "counts/s" => Some(("unit = \"counts/s\", counts_per_rev = ...", "counts a turn of the wheel")),
+            unit if rates(column) && units::is_like(unit, "m/s") => {
+                Some(("scale = ...", "at the rim: scale is 1 / wheel radius in the same unit"))
+            }
+            _ => None,
+        };
+        if let Some((what, why)) = open {
+            let _ = writeln!(out, "# {} = {{ from = {}, {what} }} # {why}", column.name(), quoted(&series.name));
+            continue;
+        }
         let value = match *unit {
             "" if rates(column) && Column::from_name(&series.name) == Column::Other => {
                 format!("{} # in rad/s at the wheel? Else {{ from = {0}, unit = \"rpm\" }}", quoted(&series.name))

@@ -316,3 +316,68 @@ fn commands_of_a_side_are_duties_where_they_are_shares() {
         drafted("t,leftCommand,rightCommand,leftTicks,rightTicks", ["0,200,3,1,1", "0.1,-255,9,3,2", "0.2,40,7,2,3"]);
     assert!(!own.contains("= \"leftCommand") && own.contains("enc_1 = \"rightTicks\""), "{own}");
 }
+
+#[test]
+fn what_only_the_owner_knows_is_left_open() {
+    let bench = drafted("Time (s),Voltage (V),Speed (steps/s)", ["0,6,0", "0.05,6,999.4", "0.1,6,1898.9"]);
+    for line in [
+        "duty_1 = { from = \"Voltage (V)\", scale = 0.1667 } # of 6 V",
+        "# speed_1 = { from = \"Speed (steps/s)\", unit = \"counts/s\", counts_per_rev = ... }",
+    ] {
+        assert!(bench.contains(line), "{line}\n{bench}");
+    }
+    let text = "time (seconds),encoderLeft (meters),vRight wheel speed [m/s]\n0,1.5,1\n1,1.6,1\n2,2,1\n";
+    let rover = draft(&Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock::default()).unwrap());
+    for line in [
+        "# enc_2 = { from = \"encoderLeft (meters)\", unit = \"rad\", scale = ...",
+        "# speed_1 = { from = \"vRight wheel speed [m/s]\", scale = ... }",
+    ] {
+        assert!(rover.contains(line), "{line}\n{rover}");
+    }
+}
+
+#[test]
+fn motors_may_be_counted_from_zero() {
+    let rows = ["0,0,1,2,0.1,0.2,0.3,0", "0.1,4,5,6,0.1,0.2,0.3,0", "0.2,7,8,9,0.1,0.2,0.3,0"];
+    let map = drafted("t,enc0,enc1,enc2,axis0 current,axis1 current,axis2 current,over_current", rows);
+    for line in
+        ["enc_1 = \"enc0\"", "enc_3 = \"enc2\"", "current_1 = \"axis0 current\"", "current_3 = \"axis2 current\""]
+    {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    assert!(map.contains("# \"over_current\", 0 to 0"), "{map}");
+}
+
+#[test]
+fn a_message_has_the_time_of_its_stamp() {
+    let header =
+        "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.left_encoder,field.right_encoder";
+    let text = format!(
+        "{header}\n1494449924173,1,1494449924125,base,4,5\n1494449924175,2,1494449924145,base,6,7\n\
+                        1494449924176,3,1494449924165,base,8,9\n"
+    );
+    let table = Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock::default()).unwrap();
+    let map = draft(&table);
+    assert!(map.contains("column = \"field.header.stamp\" # when it was measured"), "{map}");
+    // Messages that nobody stamped keep the time at which they were received.
+    let zeros = text.replace("1494449924125", "0").replace("1494449924145", "0").replace("1494449924165", "0");
+    let table = Table::of_bytes(zeros.as_bytes(), Path::new("x.csv"), None, &Clock::default()).unwrap();
+    assert!(draft(&table).contains("column = \"time\""), "{}", draft(&table));
+}
+
+#[test]
+fn the_height_of_a_message_is_no_heading() {
+    let header = "%time,field.pose.pose.position.x,field.pose.pose.position.y,field.pose.pose.position.z,\
+                  field.pose.pose.orientation.x,field.pose.pose.orientation.y,field.pose.pose.orientation.z,\
+                  field.pose.pose.orientation.w,field.twist.twist.linear.x,field.twist.twist.linear.y,\
+                  field.twist.twist.linear.z,field.twist.twist.angular.z";
+    let map = drafted(
+        header,
+        ["1,0,0,0,0,0,0,1,0.1,0,0,0.2", "2,1,2,0,0,0,0.6,0.8,0.1,0,0,0.2", "3,1,2,0,0,0,0.6,0.8,1,0,0,0"],
+    );
+    assert!(map.contains("odom_theta = \"field.pose.pose.orientation.yaw\"") && !map.contains("cmd_"), "{map}");
+    let header = "time,field.linear.x,field.linear.y,field.linear.z,field.angular.x,field.angular.y,field.angular.z";
+    let twist = header.replace("field.", "/cmd_vel/");
+    let map = drafted(&twist, ["1,0.1,0,0,0,0,0.2", "2,0.2,0,0,0,0,0.3", "3,0,0,0,0,0,0.1"]);
+    assert!(map.contains("cmd_vx = \"/cmd_vel/linear.x\"") && map.contains("cmd_w = \"/cmd_vel/angular.z\""), "{map}");
+}
