@@ -13,6 +13,27 @@ const HELD_TICKS: f64 = 4.0;
 /// Counts allowed beside: edges that bounce around a tick.
 const COUNT_MARGIN: f64 = 16.0;
 
+/// Rows on each side of a jump among which those that arrived together are sought: a transmission that stood still for a
+/// fifth of a second at 50 Hz. Reasoned; a real robot's bag had four at once.
+const BUNCH: usize = 10;
+
+/// How many rows about a jump have times of arrival: over more of them the wheel turned no faster than it can.
+fn bunched(t: &[f64], counts: &[i64], now: usize, per_second: f64) -> Option<usize> {
+    let rows = |n: usize| (now.saturating_sub(n), (now + n).min(counts.len() - 1));
+    let usual = (t[counts.len() - 1] - t[0]) / (counts.len() - 1) as f64;
+    (2..=BUNCH).map(rows).find_map(|(a, b)| {
+        // Steps about a counter that leapt are as usual.
+        let close = (a..b).filter(|i| t[i + 1] - t[*i] < CLOSE * usual).count();
+        let late = (a..b).any(|i| t[i + 1] - t[i] > LATE * usual);
+        let fits = counts[b].abs_diff(counts[a]) as f64 <= per_second * (t[b] - t[a]) / SPEED_FACTOR + COUNT_MARGIN;
+        (close > 0 && late && fits).then_some(close + 1)
+    })
+}
+
+/// Steps of time that are those of rows that arrived together, and of the wait before them, in usual ones.
+const CLOSE: f64 = 0.3;
+const LATE: f64 = 2.0;
+
 impl Run {
     /// Checks the number of wheels, and that no count jumps by more than its wheel can turn.
     ///
@@ -58,6 +79,13 @@ impl Run {
                         dt * 1e3
                     );
                     let bits = [16, 32].into_iter().find(|bits| (1_u64 << bits).abs_diff(jump) as f64 <= limit);
+                    if let Some(rows) = bunched(&self.t, counts, now, per_second) {
+                        let hint = "the times are those of arrival: take the time at which each row was measured, as a stamp of \
+                                    the robot's own";
+                        let what = format!("{what}; the {rows} rows about it come at once, and together they fit");
+                        let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
+                        return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });
+                    }
                     let hint = match bits {
                         Some(bits) => format!(
                             "a counter of {bits} bits began again: log cumulative counts; `racbot convert` counts on with \

@@ -156,6 +156,26 @@ fn errors_say_where_what_and_what_to_do() {
 }
 
 #[test]
+fn rows_that_arrived_together_are_no_leaping_counter() {
+    let refused = |late: bool, leap: i64| {
+        let mut text = "t,enc_1,enc_2,enc_3\n".to_owned();
+        for row in 0..40_i64 {
+            // Rows every 20 ms; of four the first three waited for the last.
+            let waited = if late && (20..23).contains(&row) { 23.0 - 0.002 * (23 - row) as f64 } else { row as f64 };
+            text += &format!("{:.6},0,{},0\n", 0.02 * waited, 4000 * row + if row >= 22 { leap } else { 0 });
+        }
+        read(&text).unwrap().check(&Robot::racbot(), Path::new("run.csv")).map_err(|e| e.to_string())
+    };
+    assert_eq!(refused(false, 0), Ok(()));
+    let together = refused(true, 0).unwrap_err();
+    assert!(together.contains("come at once, and together they fit; the times are those of arrival"), "{together}");
+    for late in [true, false] {
+        let leapt = refused(late, 1 << 20).unwrap_err();
+        assert!(leapt.contains("look for a counter that was reset"), "{leapt}");
+    }
+}
+
+#[test]
 fn counts_that_jump_further_than_the_wheel_can_turn_are_refused() {
     // No load at 7.2 V: 1040 rad/s at the motor, 339 counts a millisecond.
     let log = |jump: i64| {
