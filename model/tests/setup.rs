@@ -277,6 +277,36 @@ fn a_log_in_another_unit_than_the_others_is_named() {
     }
 }
 
+/// A servo's set points are angles; a speed loop's are speeds.
+#[test]
+fn set_points_of_a_position_loop_are_no_speeds() {
+    let kinds = |set: &DataSet| found(set.robot.clone(), &set.runs).iter().map(|m| m.kind).collect::<Vec<_>>();
+    let asked = |t: f64| 3.0 * (1.9 * t).sin() + 2.0 * (0.7 * t).sin();
+    let servo = |position: bool, per_rad: f64| {
+        let mut set = open("runs/wheel-skew");
+        set.robot = set.robot.first_axes(1);
+        set.robot.support = Support::Blocks;
+        let counts = set.robot.counts_per_wheel_rad();
+        set.runs.truncate(1);
+        let run = &mut set.runs[0];
+        let t: Vec<f64> = (0..3000).map(|k| 0.01 * f64::from(k)).collect();
+        run.counts = vec![t.iter().map(|t| (counts * asked(t - 0.08)).round() as i64).collect()];
+        run.count_gaps = vec![Vec::new()];
+        let speed = |t: f64| (asked(t + 1e-3) - asked(t - 1e-3)) / 2e-3;
+        run.reference = vec![t.iter().map(|t| per_rad * if position { asked(*t) } else { speed(*t) }).collect()];
+        run.t = t;
+        (run.command, run.supply_v, run.has_camera) = (None, None, false);
+        run.duty.clear();
+        run.measured.clear();
+        run.camera.clear();
+        set.robot.control_rate_hz = 100.0;
+        set
+    };
+    assert_eq!(kinds(&servo(false, 1.0)), [""; 0]);
+    assert_eq!(kinds(&servo(true, 1.0)), ["reference-position"]);
+    assert_eq!(kinds(&servo(true, 651.9)), ["reference-position"]);
+}
+
 #[test]
 fn no_log_says_nothing() {
     assert!(found(open("runs/wheel-skew").robot, &[]).is_empty());

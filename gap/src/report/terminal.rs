@@ -99,6 +99,9 @@ pub(super) fn sentence(a: &Analysis) -> String {
         Verdict::Agrees if !a.remains.is_empty() => {
             format!("Model and data agree to {after:.1} noise floors: what is left has no name.")
         }
+        Verdict::Agrees if !a.links.iter().any(|l| l.link.is_fitted()) => {
+            "What could be compared agrees, and that is no motor and no way of the robot.".to_owned()
+        }
         Verdict::Agrees => "Model and data agree: nothing material is missing.".to_owned(),
         Verdict::NotCompared => "Nothing could be compared: nothing in these logs has any weight.".to_owned(),
         Verdict::MissingEffect => {

@@ -47,6 +47,17 @@ fn missing_columns_narrow_what_is_compared() {
         r.has_camera = false;
     }));
     assert_eq!((a.verdict, links(&a)), (Verdict::Agrees, vec!["command"]));
+    assert!(a.terminal_summary().starts_with("What could be compared agrees, and that is no motor"));
+    // Duties for which robot.toml says too little: that is what is missing, and no signal.
+    let mut few = without(&|r| {
+        r.camera.clear();
+        r.has_camera = false;
+        r.command = None;
+        r.reference.clear();
+    });
+    few.robot.missing.extend(["mass_kg", "motor.resistance_ohm"].map(str::to_owned));
+    let error = analyse(&few, &Options::default()).err();
+    assert_eq!(error, Some(GapError::Lacking("mass_kg, motor.resistance_ohm".to_owned())));
     let nothing = analyse(&without(&|r| *r = Run { t: r.t.clone(), ..Run::default() }), &Options::default());
     assert!(matches!(nothing, Err(GapError::NothingToCompare)));
 }

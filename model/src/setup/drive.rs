@@ -12,6 +12,9 @@ use super::{Mistake, common_ratio, is_true, near, short};
 const SPAN_S: f64 = 0.05;
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
+/// Correlation with the angle of its axis from which a set point that does not follow the speed is a position: speeds have
+/// 0.64 at most (the example sets, their runs one by one, the library's manoeuvres), a servo whose lag was found 1.00.
+const PLACED: f64 = 0.95;
 /// Share of the squared duties that speed, direction and acceleration of each axis by itself explain, from which they speak
 /// of a supply: on a robot whose wheel 3 lost much in its gear, which the others then carried, it was 0.94 of a square's.
 const BY_SPEED: f64 = 0.96;
@@ -52,7 +55,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();
     let currents = logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
     found.extend(unsigned(robot, &signals, if currents { "current" } else { "duty" }));
-    found.extend(references(robot, &signals));
+    found.extend(positions(&signals).or_else(|| references(robot, &signals)));
     found.extend(commands(robot, &signals));
     found.extend(supply(robot, &signals));
     found
@@ -159,6 +162,38 @@ fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
     let remedy =
         "log it with its sign; where only its size is measured, give it that of the command or of the motor's voltage";
     Some(Mistake::new("drive-unsigned", &format!("{stem}_{}", wheel + 1), what, remedy.to_owned()))
+}
+
+/// Set points that are positions, as those of servos.
+fn positions(signals: &[Signals]) -> Option<Mistake> {
+    let of = |s: &Signals, lag: usize| -> [f64; 2] {
+        let axes = || s.speed.iter().zip(&s.reference);
+        // The angle is the sum of the speeds; every axis by itself, for each has its own zero.
+        let angle = |w: &[f64]| -> Vec<f64> {
+            let add = |sum: &mut f64, w: &f64| {
+                *sum += if w.is_finite() { *w } else { 0.0 };
+                Some(*sum)
+            };
+            w.iter().scan(0.0, add).collect()
+        };
+        let least = |x: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let follows = |(w, r): (&Vec<f64>, &Vec<f64>)| {
+                let pairs = x(w).into_iter().skip(lag).zip(r.iter().copied());
+                correlation(pairs.filter(|(x, r)| x.is_finite() && r.is_finite()))
+            };
+            axes().map(follows).fold(f64::INFINITY, f64::min)
+        };
+        [least(&angle), least(&<[f64]>::to_vec)]
+    };
+    let long = |s: &&Signals| s.reference.first().is_some_and(|r| r.len() >= FEWEST);
+    let best = |s: &Signals| (0..=LAGS).map(|lag| of(s, lag)).max_by(|a, b| a[0].total_cmp(&b[0]));
+    let all: Vec<[f64; 2]> = signals.iter().filter(long).filter_map(best).collect();
+    if all.is_empty() || !all.iter().all(|[angle, speed]| *angle >= PLACED && *speed < SIZE) {
+        return None;
+    }
+    let what = "set points are where the axes go, not how fast: they follow the angles of the wheels, not their speeds";
+    let remedy = "ref_ are speeds: leave these out (the drive is compared without them)";
+    Some(Mistake::new("reference-position", "ref_1", what.to_owned(), remedy.to_owned()))
 }
 
 /// Set points in another unit, or speeds that are wrong beside them.
