@@ -267,3 +267,27 @@ fn lifted_wheels_are_compared_axis_by_axis_one_alone_as_well() {
     assert_eq!(names(&a), ["coulomb-friction"], "{}", a.terminal_summary());
     assert!((value(&a, "torque_2_nm") / 0.015 - 1.0).abs() < 0.2 || a.effects[0].wheels.is_empty());
 }
+
+/// A name that leaves much is not all: the headline says how much, where a camera that bends the field lies beside it.
+#[test]
+fn the_headline_says_where_much_remains() {
+    let seen = |bend_m: f64| {
+        let truth = with(&Robot::racbot(), "wheel-radius-common", &[("scale", 0.4)]);
+        let mut set = simulate(&truth, &[Star, Spin, Chirp, Star], 43);
+        for run in &mut set.runs {
+            for sample in &mut run.camera {
+                let p = sample.pose;
+                sample.pose.x += bend_m * (25.0 * p.y).sin();
+                sample.pose.y += bend_m * (25.0 * p.x).sin();
+            }
+        }
+        let a = done(&set);
+        let text = a.terminal_summary();
+        assert!(names(&a).iter().any(|n| n.starts_with("wheel-radius")), "{text}");
+        text.split("\n\n").next().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let straight = seen(0.0);
+    assert!(!straight.contains("and more"), "{straight}");
+    let bent = seen(0.03);
+    assert!(bent.contains(", and more: ") && bent.contains("noise floors remain on the motion link."), "{bent}");
+}
