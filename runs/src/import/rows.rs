@@ -37,6 +37,10 @@ fn unit_s(name: &str) -> f64 {
     }
 }
 
+/// Steps before it in which a step over the end of a register may be: rows are late now and then, and a recording that
+/// ended just there by chance is not that near.
+const USUAL: f64 = 4.0;
+
 /// Puts the rows of one table into its series.
 pub(super) struct Rows<'a> {
     /// Full names of the columns.
@@ -50,6 +54,8 @@ pub(super) struct Rows<'a> {
     recording: usize,
     first: Option<f64>,
     last: f64,
+    /// The time as the file has it in the last row, its step to that, and what a counter of time lost so far.
+    register: (f64, f64, f64),
     /// A row whose time went back, of which the next tells whether a recording begins there: its line, time and fields.
     back: Option<(usize, f64, Vec<Option<f64>>)>,
     /// Rows left out because their time went back: how many, the line of the first and its time in the file's unit.
@@ -84,6 +90,7 @@ impl<'a> Rows<'a> {
             recording: 1,
             first: None,
             last: 0.0,
+            register: (f64::NAN, f64::NAN, 0.0),
             back: None,
             left_out: None,
         })
@@ -118,6 +125,7 @@ impl<'a> Rows<'a> {
             },
             None => self.rows,
         };
+        let t = self.counted_on(t);
         self.rows += 1.0;
         let fields: Vec<Option<f64>> = (0..self.names.len()).map(row).collect();
         let goes_back = self.goes_back(t);
@@ -139,6 +147,19 @@ impl<'a> Rows<'a> {
         } else {
             self.add(table, t, &fields);
         }
+    }
+
+    /// The time of a counter of 16 or 32 bits that began again, which shows by a step over the end that is as usual.
+    fn counted_on(&mut self, t: f64) -> f64 {
+        let (last, step, lost) = &mut self.register;
+        let again = [16, 32].map(|bits| 2.0_f64.powi(bits)).into_iter().find(|range| {
+            let over = t + range - *last;
+            t < *last && t >= 0.0 && *last < *range && over > 0.0 && over <= USUAL * *step
+        });
+        *lost += again.unwrap_or(0.0);
+        *step = t + again.unwrap_or(0.0) - *last;
+        *last = t;
+        t + *lost
     }
 
     fn leave_out(&mut self, line: usize, t: f64) {
@@ -228,6 +249,20 @@ mod tests {
         assert!(of(3).unwrap_err().contains("has no recording 3: its time starts 2 times"));
         let ramps = "t,duty,pos\n0,0,0\n1,0,0\n2,0,0\n";
         assert!(made(&format!("[time]\nrecording = 2\n{COLUMNS}"), ramps).unwrap_err().contains("starts 1 times"));
+    }
+
+    #[test]
+    fn a_counter_of_time_that_begins_again_goes_on() {
+        let of = |times: &[u64]| {
+            let rows: String = times.iter().enumerate().map(|(i, t)| format!("{t},0.2,{i}\n")).collect();
+            made(&format!("[time]\nunit = \"ms\"\n{COLUMNS}"), &format!("t,duty,pos\n{rows}"))
+        };
+        assert_eq!(of(&[65500, 65520, 4, 24, 64]).unwrap().t, [0.0, 0.02, 0.04, 0.06, 0.1]);
+        let micros = of(&[4_294_967_000, 4_294_967_200, 104, 304]).unwrap();
+        assert!((micros.t[2] - 0.4).abs() < 1e-9 && (micros.t[3] - 0.6).abs() < 1e-9, "{:?}", micros.t);
+        // What ended elsewhere is another recording.
+        assert!(of(&[60000, 60020, 4, 24, 44]).unwrap_err().contains("2 recordings"));
+        assert!(of(&[65000, 65020, 4, 24, 44]).unwrap_err().contains("2 recordings"));
     }
 
     #[test]
