@@ -114,7 +114,8 @@ pub fn select(
     } else {
         best
     };
-    simpler::of_two(problem, start, &best, &all, thresholds).unwrap_or(best)
+    let best = simpler::of_two(problem, start, &best, &all, thresholds).unwrap_or(best);
+    simpler::of_one(problem, start, &best, &all, thresholds).unwrap_or(best)
 }
 
 /// RMS of the residuals in units of the noise.

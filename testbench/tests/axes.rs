@@ -1,7 +1,8 @@
 //! Single motors and drive trains of any size, simulated by what is not ours: nothing is named where nothing hides, and what
 //! hides at its largest size is named, tied with what does the same, or found to be below what the log shows.
 
-use testbench::blind::{self, Grade, Plan, Series};
+use testbench::blind::{self, Grade, Group, Plan, Series, Task};
+use truth::{Conditions, Kind};
 
 #[test]
 fn motors_of_any_size_are_read_right() {
@@ -23,4 +24,19 @@ fn motors_of_any_size_are_read_right() {
     assert!(missed.len() <= 2, "not found at the largest size: {missed:?}");
     let [judged, hold] = report.intervals();
     assert!(judged > 10 && hold + 2 >= judged, "{hold} of {judged} intervals hold");
+}
+
+/// A dead band that a search names by a curved bridge, and friction beside a latency that a dead band leaves 1.5 floors of.
+#[test]
+fn one_law_that_leaves_noise_alone_is_tried_by_itself() {
+    for (group, kind, seed) in [
+        (Group::Axis, "axis:dead-band:5", 9_538_704_517_320_418_942),
+        (Group::AxisPair, "axis:coulomb-friction+actuation-latency:5", 1_855_999_549_820_300_230),
+    ] {
+        let kind: Kind = kind.parse().unwrap();
+        let task = Task { group, seed, kind, conditions: Conditions::default() };
+        let scored = task.run().unwrap();
+        assert_ne!(scored.grade, Grade::Wrong, "{:?}", scored.answer);
+        assert!(group != Group::Axis || scored.grade.is_good(), "{:?}", scored.answer);
+    }
 }

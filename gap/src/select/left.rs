@@ -45,6 +45,12 @@ impl Left {
         self.sum() > thresholds.from_noise.powi(2) * self.n
     }
 
+    /// Whether it is no more than noise: the sum of n squares of noise, of which some count as one, has a standard deviation
+    /// of the root of twice n and that many.
+    pub(super) fn is_noise(&self, thresholds: &Thresholds) -> bool {
+        self.excess() < thresholds.told * (2.0 * self.n * thresholds.drive_correlation).sqrt()
+    }
+
     /// Whether it is far more than what another law leaves, which is hardly more than noise.
     ///
     /// Of two laws that differ by d at every residual, one of which leaves noise alone, the other leaves d² more, give or

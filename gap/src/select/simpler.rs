@@ -1,4 +1,4 @@
-//! Two laws of the drive in place of what is named, where they predict held-out runs better by themselves.
+//! One law of the drive, or two, in place of what is named, where they fit better by themselves.
 //!
 //! Beside margins for everything that is not named a bridge that is not linear, with friction of Stribeck, passes for dry
 //! and viscous friction. What tells them apart is what each leaves on runs that it was not fitted to, nothing adjusted.
@@ -16,6 +16,34 @@ use links::effect::Link;
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;
 
+/// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it. Of
+/// laws between which the data do not decide the first of the catalogue.
+pub(super) fn of_one(
+    problem: &Problem,
+    start: &State,
+    found: &Selection,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let from = start.active.len();
+    let named: Vec<&Active> = found.state.active[from..].iter().filter(|a| a.is_named()).collect();
+    if problem.link() != Link::Drive || named.is_empty() {
+        return None;
+    }
+    let now = bare(problem, start, &named, Left::fitted);
+    let laws = laws(problem, start, all);
+    let better = each(&laws, &|law| {
+        let mut state = start.clone();
+        state.active.push(law.clone());
+        problem.fit(&mut state);
+        let left = Left::fitted(problem, &state);
+        let better = now.far_above(&left, thresholds) && left.is_noise(thresholds);
+        (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
+    });
+    let state = first_of_least(better.into_iter().flatten().collect(), thresholds)?;
+    Some(finish_bare(problem, state, from, all, thresholds))
+}
+
 /// Two laws of a parameter each in place of named ones of no fewer parameters, where those leave much above the noise:
 /// fewer parameters that leave less, or as many that leave less over all clusters. Of pairs between which the data do
 /// not decide the first of the catalogue.
@@ -32,37 +60,51 @@ pub(super) fn of_two(
     if problem.link() != Link::Drive || parameters < 2 {
         return None;
     }
-    let mut bare = start.clone();
-    bare.active.extend(named.into_iter().cloned());
-    problem.fit(&mut bare);
-    let now = Left::of(problem, &bare);
+    let now = bare(problem, start, &named, Left::of);
     if !now.is_far(thresholds) {
         return None;
     }
     let laws = laws(problem, start, all);
-    let sound = |state: &State| {
-        let own = from..state.active.len();
-        let whole = |a: &Active| is_material(a, &a.parameters()) && !stopped(a);
-        state.active[from..].iter().all(whole)
-            && !problem.runs_away(state, start, thresholds)
-            && !own.into_iter().any(|i| problem.is_cancelled(state, i, start, thresholds))
-    };
     let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
-    let better: Vec<([usize; 2], State, Left)> = promising(problem, start, &laws)
+    let mut pairs = promising(problem, start, &laws);
+    pairs.sort_unstable();
+    let better = pairs
         .into_iter()
         .filter_map(|pair| {
             let mut state = start.clone();
             state.active.extend(pair.map(|i| laws[i].clone()));
             problem.fit(&mut state);
             let left = Left::of(problem, &state);
-            (sound(&state) && now.above(&left) > needed).then_some((pair, state, left))
+            (now.above(&left) > needed && is_sound(problem, start, &state, thresholds)).then_some((state, left))
         })
         .collect();
-    let least = better.iter().map(|(.., left)| left.excess()).fold(f64::INFINITY, f64::min);
+    let state = first_of_least(better, thresholds)?;
+    Some(finish_bare(problem, state, from, all, thresholds))
+}
+
+/// What named effects leave with nothing adjusted beside them.
+fn bare(problem: &Problem, start: &State, named: &[&Active], left: fn(&Problem, &State) -> Left) -> Left {
+    let mut state = start.clone();
+    state.active.extend(named.iter().copied().cloned());
+    problem.fit(&mut state);
+    left(problem, &state)
+}
+
+/// Whether laws that were fitted alone may have a name: each material, within its bounds, and cancelled by no other.
+fn is_sound(problem: &Problem, start: &State, state: &State, thresholds: &Thresholds) -> bool {
+    let from = start.active.len();
+    let whole = |a: &Active| is_material(a, &a.parameters()) && !stopped(a);
+    state.active[from..].iter().all(whole)
+        && !problem.runs_away(state, start, thresholds)
+        && !(from..state.active.len()).any(|i| problem.is_cancelled(state, i, start, thresholds))
+}
+
+/// The first of those between which the data do not decide: no more than noise is left, or hardly more than the least.
+fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option<State> {
+    let least = better.iter().map(|(_, left)| left.excess()).fold(f64::INFINITY, f64::min);
     let as_good =
         |left: &Left| !left.is_far(thresholds) || left.excess() <= (1.0 + thresholds.undecided) * least.max(0.0);
-    let (_, state, _) = better.into_iter().filter(|(.., left)| as_good(left)).min_by_key(|(pair, ..)| *pair)?;
-    Some(finish_bare(problem, state, from, all, thresholds))
+    better.into_iter().find(|(_, left)| as_good(left)).map(|(state, _)| state)
 }
 
 /// The laws of one parameter that change no inertia, in the order of the catalogue: what moves less is no explanation of
