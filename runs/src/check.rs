@@ -93,7 +93,11 @@ impl Run {
                             1_u64 << bits
                         ),
                         None => {
-                            "look for a counter that was reset, wrapped or not read; log cumulative counts".to_owned()
+                            let what = "look for a counter that was reset, wrapped or not read; log cumulative counts";
+                            let top = robot.no_load_wheel_speed(supply);
+                            format!(
+                                "{what}; if it turns so fast, mend what says that {top:.3} rad/s is its top speed: supply_v, torque_constant (Nm/A), back_emf_constant (V s/rad), gear_ratio"
+                            )
                         }
                     };
                     let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));

@@ -7,6 +7,7 @@
 mod camera;
 mod drive;
 mod inertial;
+mod motors;
 mod orders;
 mod samples;
 mod time;
@@ -69,6 +70,10 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     let mut found = drive::mistakes(&robot, &set.logs);
     found.extend(camera::mistakes(&robot, &set.logs, &found));
     found.extend(inertial::mistakes(&robot, &set.logs, &found));
+    if found.is_empty() {
+        // Speeds that are wrong would be too fast for any motor.
+        found.extend(motors::mistakes(&robot, &set.logs));
+    }
     found
 }
 

@@ -34,11 +34,24 @@ fn duties(set: &DataSet) -> bool {
     set.runs.iter().all(|run| !run.duty.is_empty()) && references(set)
 }
 
+/// Whether the motors are described.
+fn motors(set: &DataSet) -> bool {
+    runs::drive_lacks(&set.robot).is_empty() && !set.runs.iter().all(|run| run.counts.is_empty())
+}
+
+/// Whether a thousand times the mass is too much for the motors at a fiftieth of what a floor passes on.
+fn weak(set: &DataSet) -> bool {
+    let motor = &set.robot.motor;
+    let stall = motor.torque_constant * set.robot.supply_v / motor.resistance_ohm;
+    let force = set.robot.wheel_count() as f64 * set.robot.gear_ratio * stall / set.robot.wheel_radius_m;
+    1e3 * set.robot.mass_kg * 0.02 * 9.81 > 3.0 * force
+}
+
 fn every_pose(runs: &mut [Run], change: impl Fn(&mut runs::frames::Pose)) {
     runs.iter_mut().flat_map(|run| &mut run.camera).for_each(|sample| change(&mut sample.pose));
 }
 
-/// The fourteen mistakes of the list, some in two forms.
+/// The mistakes of the list, some in two forms.
 pub(crate) const SPOILS: &[Spoil] = &[
     Spoil {
         name: "time in milliseconds",
@@ -173,6 +186,42 @@ pub(crate) const SPOILS: &[Spoil] = &[
         kinds: &["supply"],
         shows: duties,
         make: |robot, _| robot.supply_v *= 3.3,
+    },
+    Spoil {
+        name: "rotor inertia in g cm²",
+        kinds: &["motor-unit"],
+        shows: motors,
+        make: |robot, _| robot.motor.rotor_inertia *= 1e7,
+    },
+    Spoil {
+        name: "mass in grams",
+        kinds: &["motor-unit"],
+        shows: |set| motors(set) && weak(set),
+        make: |robot, _| robot.mass_kg *= 1e3,
+    },
+    Spoil {
+        name: "yaw inertia in kg cm²",
+        kinds: &["motor-unit"],
+        shows: motors,
+        make: |robot, _| robot.yaw_inertia_kg_m2 *= 1e4,
+    },
+    Spoil {
+        name: "resistance in milliohm",
+        kinds: &["motor-unit"],
+        shows: motors,
+        make: |robot, _| robot.motor.resistance_ohm *= 1e3,
+    },
+    Spoil {
+        name: "torque constant in mNm/A",
+        kinds: &["motor-unit", "supply"],
+        shows: motors,
+        make: |robot, _| robot.motor.torque_constant *= 1e3,
+    },
+    Spoil {
+        name: "friction in mNm",
+        kinds: &["motor-unit"],
+        shows: |set| motors(set) && set.robot.motor.friction_torque > 0.0,
+        make: |robot, _| robot.motor.friction_torque *= 1e3,
     },
 ];
 

@@ -131,8 +131,8 @@ pub(super) const BODY: [&str; 2] = ["mass_kg", "yaw_inertia_kg_m2"];
 /// All numbers, in the order of the file.
 pub(super) const FIELDS: &[Field] = &[
     field!("", wheel_radius_m, Positive(10.0), "wheel radius in metres", wheel_radius_m),
-    field!("", mass_kg, Positive(1e3), "mass of the whole robot in kilograms", mass_kg),
-    field!("", yaw_inertia_kg_m2, Positive(1e3), "moment of inertia about the vertical in kg m2", yaw_inertia_kg_m2),
+    field!("", mass_kg, Positive(1e5), "mass of the whole robot in kilograms", mass_kg),
+    field!("", yaw_inertia_kg_m2, Positive(1e6), "moment of inertia about the vertical in kg m2", yaw_inertia_kg_m2),
     field!("", gear_ratio, Positive(1e4), "motor turns per wheel turn", gear_ratio),
     field!("", gear_efficiency = 1.0, Positive(1.0), "share of torque the gear passes on"),
     field!(

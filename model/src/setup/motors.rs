@@ -1,0 +1,154 @@
+//! What the motors of `robot.toml` can move, against what the logs show them moving.
+//!
+//! Data sheets give grams, g cm², mNm and mΩ. A number that was copied without its unit is 10³ to 10⁷ times off, and then
+//! what is to be moved needs many times the torque that all motors give when they stall.
+
+use runs::robot::{Robot, Support};
+use runs::{Log, drive_lacks, is_dead_reckoning};
+
+use super::samples::Wheels;
+use super::{Mistake, short};
+
+/// Length of the stretches whose mean speeds are compared, s, and stretches between two that are.
+const SPAN_S: f64 = 0.05;
+const APART: usize = 10;
+/// Stretches of a log that are looked at.
+const MOST: usize = 20_000;
+/// Share of the gains of speed that are no more than the one that counts: what is lost or jumps is rarer.
+const MOST_GAINS: f64 = 0.99;
+/// Fewest gains from which anything is said.
+const FEWEST: usize = 20;
+/// Times the torque at stall, or the speed without load, from which the motors cannot have done it. One is beyond what they
+/// can; a motor twice as strong as its data sheet on a full battery makes no more than this.
+const IMPOSSIBLE: f64 = 3.0;
+/// Most that a floor passes on to a robot, m/s²: a coefficient of friction of 1. Wheels that slip gain more.
+const GRAVITY: f64 = 9.81;
+
+pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
+    if is_dead_reckoning(robot) || !drive_lacks(robot).is_empty() {
+        return Vec::new();
+    }
+    let seen: Vec<Gains> = logs.iter().map(|log| Gains::of(robot, log)).collect();
+    if !seen.iter().any(|gains| gains.moves) {
+        return Vec::new();
+    }
+    let at = |of: fn(&Gains) -> &Vec<f64>| {
+        let mut all: Vec<f64> = seen.iter().flat_map(|gains| of(gains).iter().copied()).collect();
+        if all.len() < FEWEST {
+            return 0.0;
+        }
+        let rank = (MOST_GAINS * (all.len() - 1) as f64) as usize;
+        *all.select_nth_unstable_by(rank, f64::total_cmp).1
+    };
+    let (torque, emf) = (robot.motor.torque_constant, robot.motor.back_emf());
+    if emf > 0.0 && (torque / emf).max(emf / torque) > IMPOSSIBLE {
+        let what = format!(
+            "{} Nm/A, and back_emf_constant {} V s/rad: in these units both are one number, whatever the motor",
+            short(torque),
+            short(emf)
+        );
+        let remedy = "write what the data sheet gives in mNm/A as 0.001 Nm/A, and V per 1000/min as 0.00955 V s/rad";
+        return vec![Mistake::new("motor-unit", "motor.torque_constant", what, remedy.to_owned())];
+    }
+    let (speed, top) = (at(|gains| &gains.speed), robot.no_load_wheel_speed(robot.supply_v));
+    if speed > IMPOSSIBLE * top {
+        let what = format!("the wheels turn at {} rad/s, and their motors at {} at most", short(speed), short(top));
+        let remedy =
+            "write torque_constant in Nm/A (1 mNm/A = 0.001), back_emf_constant in V s/rad and supply_v in volts";
+        return vec![Mistake::new("motor-unit", "motor.torque_constant", what, remedy.to_owned())];
+    }
+    let stall = robot.motor.torque_constant * robot.supply_v / robot.motor.resistance_ohm;
+    if robot.motor.friction_torque > stall {
+        let what = format!(
+            "the wheels turn, but motors that give {} Nm at stall (torque_constant times supply_v by resistance_ohm) cannot \
+             turn against {} Nm of their own friction",
+            short(stall),
+            short(robot.motor.friction_torque)
+        );
+        let remedy =
+            "write friction_torque in Nm (1 mNm = 0.001), torque_constant in Nm/A and resistance_ohm in ohm".to_owned();
+        return vec![Mistake::new("motor-unit", "motor.friction_torque", what, remedy)];
+    }
+    // Each inertia by itself, and the torque of one wheel that moves it.
+    let (gear, radius) = (robot.gear_ratio, robot.wheel_radius_m);
+    let axis = at(|gains| &gains.axis);
+    let mut needs = vec![
+        ("motor.rotor_inertia", robot.motor.rotor_inertia, gear * gear * robot.motor.rotor_inertia * axis),
+        ("wheel_inertia_kg_m2", robot.wheel_inertia_kg_m2, robot.wheel_inertia_kg_m2 * axis),
+    ];
+    let geometry = robot.geometry().ok().filter(|_| robot.support == Support::Floor);
+    if let Some(geometry) = &geometry {
+        let wheels = geometry.wheels();
+        let arm = wheels.iter().map(|w| w.x_m.hypot(w.y_m)).fold(f64::MIN_POSITIVE, f64::max);
+        let each = radius / wheels.len() as f64;
+        let way = at(|gains| &gains.way).min(GRAVITY);
+        let turn = at(|gains| &gains.turn).min(GRAVITY / arm);
+        needs.push(("mass_kg", robot.mass_kg, robot.mass_kg * way * each));
+        needs.push(("yaw_inertia_kg_m2", robot.yaw_inertia_kg_m2, robot.yaw_inertia_kg_m2 * turn / arm * each));
+    }
+    let gives = gear * stall;
+    needs.retain(|(.., torque)| *torque > IMPOSSIBLE * gives);
+    needs
+        .into_iter()
+        .map(|(key, value, torque)| {
+            let what = format!(
+                "with {} each wheel needs {} Nm to gain speed as the logs show, {} times what its motor gives at stall",
+                short(value),
+                short(torque),
+                short(torque / gives)
+            );
+            let unit = match key {
+                "mass_kg" => "write kilograms (1 g = 0.001)",
+                _ => "write kg m² (1 g cm² = 0.0000001, 1 kg cm² = 0.0001)",
+            };
+            let remedy = format!("{unit}, if torque_constant, resistance_ohm and gear_ratio are right");
+            Mistake::new("motor-unit", key, what, remedy)
+        })
+        .collect()
+}
+
+/// Speeds, and gains of speed over half a second, less what the step of a count makes of one.
+#[derive(Default)]
+struct Gains {
+    /// Mean speeds of wheels, rad/s.
+    speed: Vec<f64>,
+    /// Of wheels, rad/s².
+    axis: Vec<f64>,
+    /// Of the platform, m/s² and rad/s².
+    way: Vec<f64>,
+    turn: Vec<f64>,
+    /// Whether any wheel turned by more than the step of a count.
+    moves: bool,
+}
+
+impl Gains {
+    fn of(robot: &Robot, log: &Log) -> Self {
+        let mut out = Self::default();
+        let (Some(wheels), Some(tick)) = (Wheels::of(robot, log), log.tick_s()) else { return out };
+        let (Some(first), Some(last)) = (wheels.t.first(), wheels.t.last()) else { return out };
+        let span = SPAN_S.max(2.0 * tick);
+        let number = (((last - first) / span).floor().max(0.0) as usize).min(MOST);
+        let speed = |k: usize| -> Option<Vec<f64>> {
+            let turned = wheels.turned(first + k as f64 * span, first + (k + 1) as f64 * span)?;
+            Some(turned.iter().map(|a| a / span).collect())
+        };
+        let speeds: Vec<Vec<f64>> = (0..number).map_while(speed).collect();
+        let step = 1.0 / robot.counts_per_wheel_rad();
+        let apart = APART as f64 * span;
+        let least = 2.0 * step / (span * apart);
+        let geometry = robot.geometry().ok();
+        out.moves = speeds.iter().flatten().any(|w| w.abs() * span > 2.0 * step);
+        out.speed.extend(speeds.iter().flatten().map(|w| (w.abs() - 2.0 * step / span).max(0.0)));
+        for (before, after) in speeds.iter().zip(speeds.iter().skip(APART)) {
+            let gains: Vec<f64> = before.iter().zip(after).map(|(a, b)| (b - a) / apart).collect();
+            let sure: Vec<f64> = gains.iter().map(|g| g.signum() * (g.abs() - least).max(0.0)).collect();
+            out.axis.extend(sure.iter().map(|g| g.abs()));
+            if let Some(geometry) = &geometry {
+                let twist = geometry.twist(&sure);
+                out.way.push(twist.vx.hypot(twist.vy));
+                out.turn.push(twist.omega.abs());
+            }
+        }
+        out
+    }
+}
