@@ -26,11 +26,12 @@ fn motors_of_any_size_are_read_right() {
     assert!(judged > 10 && hold + 2 >= judged, "{hold} of {judged} intervals hold");
 }
 
-/// A dead band that a search names by a curved bridge, and friction beside a latency that a dead band leaves 1.5 floors of.
+/// A dead band that a search names by a curved bridge, stiction that it names by a dead band, and friction beside a latency that a dead band leaves 1.5 floors of.
 #[test]
 fn one_law_that_leaves_noise_alone_is_tried_by_itself() {
     for (group, kind, seed) in [
         (Group::Axis, "axis:dead-band:5", 9_538_704_517_320_418_942),
+        (Group::Axis, "axis:stribeck-friction:4", 10_551_524_075_058_885_870),
         (Group::AxisPair, "axis:coulomb-friction+actuation-latency:5", 1_855_999_549_820_300_230),
     ] {
         let kind: Kind = kind.parse().unwrap();

@@ -17,7 +17,7 @@ use links::effect::Link;
 const FITTED: usize = 16;
 
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it. Of
-/// laws between which the data do not decide the first of the catalogue.
+/// laws between which the data do not decide that of fewest parameters, and of those the first of the catalogue.
 pub(super) fn of_one(
     problem: &Problem,
     start: &State,
@@ -31,7 +31,9 @@ pub(super) fn of_one(
         return None;
     }
     let now = bare(problem, start, &named, Left::fitted);
-    let laws = laws(problem, start, all);
+    let sized = |a: &Active| a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1;
+    let mut laws = laws(problem, start, all, sized);
+    laws.sort_by_key(|law| law.form.free.len());
     let better = each(&laws, &|law| {
         let mut state = start.clone();
         state.active.push(law.clone());
@@ -64,7 +66,8 @@ pub(super) fn of_two(
     if !now.is_far(thresholds) {
         return None;
     }
-    let laws = laws(problem, start, all);
+    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
+    let laws = laws(problem, start, all, plain);
     let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
     let mut pairs = promising(problem, start, &laws);
     pairs.sort_unstable();
@@ -107,15 +110,11 @@ fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option
     better.into_iter().find(|(_, left)| as_good(left)).map(|(state, _)| state)
 }
 
-/// The laws of one parameter that change no inertia, in the order of the catalogue: what moves less is no explanation of
-/// what drives it.
-fn laws(problem: &Problem, start: &State, all: &[Active]) -> Vec<Active> {
+/// Laws of a kind that change no inertia, in the order of the catalogue: what moves less is no explanation of what drives
+/// it. Of each effect one law.
+fn laws(problem: &Problem, start: &State, all: &[Active], kind: impl Fn(&Active) -> bool) -> Vec<Active> {
     let mut laws: Vec<Active> = Vec::new();
-    let single = |a: &&Active| {
-        let [p] = &a.form.free[..] else { return false };
-        !a.effect.probe() && !a.switched() && !a.effect.nuisance() && p.material.is_finite()
-    };
-    for a in all.iter().filter(single) {
+    for a in all.iter().filter(|a| !a.effect.probe() && !a.effect.nuisance() && kind(a)) {
         let known = start.active.iter().chain(&laws).any(|o| o.effect.name() == a.effect.name());
         if !known && !problem.changes_inertia(start, a) {
             laws.push(a.clone());
