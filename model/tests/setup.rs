@@ -131,6 +131,23 @@ fn an_axis_on_blocks_shows_another_battery_without_a_mass() {
     assert_eq!(kinds(other.found(&set)), ["supply"]);
 }
 
+/// A bench has no camera: counts with or without their decoding show by what the duties achieve.
+#[test]
+fn a_motor_on_blocks_shows_counts_that_were_not_decoded() {
+    let mut robot = Robot::racbot();
+    robot.support = Support::Blocks;
+    let mut run = simulate(Manoeuvre::Blocks, &Applied::of(&robot), &robot, Pose::default(), 5).unwrap();
+    run.reference.clear();
+    assert_eq!(found(robot.clone(), std::slice::from_ref(&run)), []);
+    let counts = robot.encoder_counts_per_motor_rev;
+    for factor in [0.25, 4.0] {
+        robot.encoder_counts_per_motor_rev = factor * counts;
+        let said = found(robot.clone(), std::slice::from_ref(&run));
+        let expected = format!("with encoder_counts_per_motor_rev = {counts},");
+        assert!(said.len() == 1 && said[0].remedy.contains(&expected), "{factor}: {said:?}");
+    }
+}
+
 /// Mecanum wheels 2 and 3 do the same in every translation: swapped, they say that a robot never turns, and so nothing of
 /// turns that the camera saw with some noise. A robot that turns little is no robot with crossed cables.
 #[test]

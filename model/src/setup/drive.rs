@@ -3,7 +3,7 @@
 use estimation::statistics::median;
 use nalgebra::{Matrix3, Vector3};
 use runs::robot::{Robot, Support};
-use runs::{Columns, DutySource, Log, Run, drive_lacks};
+use runs::{Columns, DutySource, Log, Run, drive_lacks, is_from_speeds};
 
 use super::samples::{Wheels, correlation};
 use super::{Mistake, common_ratio, is_true, near, short};
@@ -307,7 +307,17 @@ fn supply(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     }
     let what =
         format!("duties and speeds speak of a supply of about {} V, not of {} V", short(volts), short(robot.supply_v));
-    let remedy = "check supply_v, back_emf_constant (or torque_constant) and gear_ratio".to_owned();
+    let mut remedy = "check supply_v, back_emf_constant (or torque_constant) and gear_ratio".to_owned();
+    if !is_from_speeds(robot) {
+        remedy += " and the encoder's counts";
+        let ratio = volts / robot.supply_v;
+        for (of, decoding) in [(4.0, "four for every line"), (0.25, "lines, if they are not decoded x4")] {
+            if near(ratio, of) {
+                let counts = short(of * robot.encoder_counts_per_motor_rev);
+                remedy += &format!(": with encoder_counts_per_motor_rev = {counts}, {decoding}, all agrees");
+            }
+        }
+    }
     Some(Mistake::new("supply", "supply_v", what, remedy))
 }
 

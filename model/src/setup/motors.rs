@@ -101,7 +101,9 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
                 "mass_kg" => "write kilograms (1 g = 0.001)",
                 _ => "write kg m² (1 g cm² = 0.0000001, 1 kg cm² = 0.0001)",
             };
-            let remedy = format!("{unit}, if torque_constant, resistance_ohm and gear_ratio are right");
+            let remedy = format!(
+                "{unit}, if torque_constant, resistance_ohm and gear_ratio (motor turns per wheel turn) are right"
+            );
             Mistake::new("motor-unit", key, what, remedy)
         })
         .collect()
