@@ -114,8 +114,7 @@ pub fn select(
     } else {
         best
     };
-    let best = simpler::of_two(problem, start, &best, &all, thresholds).unwrap_or(best);
-    simpler::of_one(problem, start, &best, &all, thresholds).unwrap_or(best)
+    simpler::simpler(problem, start, best, &all, thresholds)
 }
 
 /// RMS of the residuals in units of the noise.

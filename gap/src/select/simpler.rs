@@ -16,23 +16,42 @@ use links::effect::Link;
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;
 
-/// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it. Of
-/// laws between which the data do not decide that of fewest parameters, and of those the first of the catalogue.
-pub(super) fn of_one(
+/// What is named, or in its place two laws of the drive or one that do better by themselves.
+pub(super) fn simpler(
+    problem: &Problem,
+    start: &State,
+    found: Selection,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Selection {
+    let mut found = found;
+    for by_itself in [of_two, of_one] {
+        if problem.link() == Link::Drive
+            && let Some(state) = by_itself(problem, start, &found, all, thresholds)
+        {
+            found = finish_bare(problem, state, start.active.len(), all, thresholds);
+        }
+    }
+    found
+}
+
+/// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it, and
+/// does not do the same as one of them. Of laws between which the data do not decide that of fewest parameters, and of those the first of the catalogue.
+fn of_one(
     problem: &Problem,
     start: &State,
     found: &Selection,
     all: &[Active],
     thresholds: &Thresholds,
-) -> Option<Selection> {
-    let from = start.active.len();
-    let named: Vec<&Active> = found.state.active[from..].iter().filter(|a| a.is_named()).collect();
-    if problem.link() != Link::Drive || named.is_empty() {
+) -> Option<State> {
+    let named = named(start, found);
+    if named.is_empty() {
         return None;
     }
     let now = bare(problem, start, &named, Left::fitted);
     let sized = |a: &Active| a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1;
     let mut laws = laws(problem, start, all, sized);
+    laws.retain(|law| !does_the_same(start, found, law.effect.name()));
     laws.sort_by_key(|law| law.form.free.len());
     let better = each(&laws, &|law| {
         let mut state = start.clone();
@@ -42,24 +61,22 @@ pub(super) fn of_one(
         let better = now.far_above(&left, thresholds) && left.is_noise(thresholds);
         (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
     });
-    let state = first_of_least(better.into_iter().flatten().collect(), thresholds)?;
-    Some(finish_bare(problem, state, from, all, thresholds))
+    first_of_least(better.into_iter().flatten().collect(), thresholds)
 }
 
 /// Two laws of a parameter each in place of named ones of no fewer parameters, where those leave much above the noise:
 /// fewer parameters that leave less, or as many that leave less over all clusters. Of pairs between which the data do
 /// not decide the first of the catalogue.
-pub(super) fn of_two(
+fn of_two(
     problem: &Problem,
     start: &State,
     found: &Selection,
     all: &[Active],
     thresholds: &Thresholds,
-) -> Option<Selection> {
-    let from = start.active.len();
-    let named: Vec<&Active> = found.state.active[from..].iter().filter(|a| a.is_named()).collect();
+) -> Option<State> {
+    let named = named(start, found);
     let parameters: usize = named.iter().map(|a| a.form.free.len()).sum();
-    if problem.link() != Link::Drive || parameters < 2 {
+    if parameters < 2 {
         return None;
     }
     let now = bare(problem, start, &named, Left::of);
@@ -81,8 +98,21 @@ pub(super) fn of_two(
             (now.above(&left) > needed && is_sound(problem, start, &state, thresholds)).then_some((state, left))
         })
         .collect();
-    let state = first_of_least(better, thresholds)?;
-    Some(finish_bare(problem, state, from, all, thresholds))
+    first_of_least(better, thresholds)
+}
+
+/// What a selection names.
+fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
+    found.state.active[start.active.len()..].iter().filter(|a| a.is_named()).collect()
+}
+
+/// Whether an effect does what a named one does: the two differ by how exact their laws are, such as those of dry friction
+/// and of a dead band near rest, seen through an encoder of few counts.
+fn does_the_same(start: &State, found: &Selection, name: &str) -> bool {
+    let indices = (start.active.len()..found.state.active.len()).filter(|i| found.state.active[*i].is_named());
+    let candidates = &found.design.candidates;
+    let of_name = |c: &usize| candidates[*c].effect.name() == name;
+    indices.into_iter().any(|i| (0..candidates.len()).filter(of_name).any(|c| found.design.is_twin(c, i)))
 }
 
 /// What named effects leave with nothing adjusted beside them.
