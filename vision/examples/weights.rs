@@ -1,7 +1,8 @@
-//! Trains the weights of the ball's features on rendered pictures and labelled photographs, and writes them as Rust:
+//! Trains the weights of the ball's features, and the nets that weigh them together, on rendered pictures and
+//! labelled photographs, and writes them as Rust:
 //!
 //! ```sh
-//! cargo run --release -p vision --example weights -- 20000 21400 [FOLDER ...] >vision/src/ball/weights.rs
+//! cargo run --release -p vision --example weights -- 20000 23000 [FOLDER ...] >vision/src/ball/weights.rs
 //! ```
 //!
 //! The numbers are ranges of seeds: the first one and the one after the last. Seeds of tests and benches lie below
@@ -9,6 +10,7 @@
 //! says; where the committed weights' photographs are from is in `docs/book/src/smartbot.md`.
 
 mod labelled;
+mod nets;
 
 use rayon::prelude::*;
 use std::path::Path;
@@ -210,7 +212,9 @@ fn train(cases: &[Case]) {
     }
     let balls = cases.iter().filter(|case| case.ball).count();
     eprintln!("{balls} balls among {} candidates, loss {loss:.4}", cases.len());
-    print(&knots, &weights);
+    let ranges = std::array::from_fn(|i| [knots[i][0], knots[i][KNOTS - 1]]);
+    let inputs: Vec<([f32; COUNT], bool)> = cases.iter().map(|case| (case.features, case.ball)).collect();
+    print(&knots, &weights, &nets::trained(&inputs, &ranges));
 }
 
 /// The nearest weights that only rise (or fall): neighbours that violate that are pooled.
@@ -231,14 +235,18 @@ fn monotone(weights: &mut [f32], direction: f32) {
     weights.iter_mut().zip(pooled).for_each(|(weight, mean)| *weight = mean);
 }
 
-fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {
+fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32], nets: &[String]) {
     println!("//! Weights of the ball's features. Written by `vision/examples/weights.rs`, not by hand.\n");
+    println!("use super::net::Net;\n");
     println!("/// Number of features.\npub const COUNT: usize = {COUNT};\n");
     println!("/// Odds of a candidate whose weights are all zero, logarithm.");
     println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[COUNT * KNOTS]);
-    let rows = |name: &str, what: &str, row: &dyn Fn(usize) -> Vec<f32>| {
+    let about = |what: &str| {
         println!("/// {what}\n#[rustfmt::skip]");
         println!(r#"#[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]"#);
+    };
+    let rows = |name: &str, what: &str, row: &dyn Fn(usize) -> Vec<f32>| {
+        about(what);
         println!("pub(super) const {name}: [[f32; {KNOTS}]; COUNT] = [");
         for (i, name) in NAMES.iter().enumerate() {
             let numbers: Vec<String> = row(i).iter().map(|n| format!("{n:.3}")).collect();
@@ -249,4 +257,7 @@ fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32]) {
     rows("KNOTS", "Values of a feature at which its weight is given.", &|i| knots[i].to_vec());
     println!();
     rows("WEIGHTS", "Logarithm of odds at each knot.", &|i| weights[i * KNOTS..(i + 1) * KNOTS].to_vec());
+    println!();
+    about("Nets; the last number of a row is what is added.");
+    println!("pub(super) const NETS: [Net; {}] = [\n{}\n];", nets.len(), nets.join("\n"));
 }

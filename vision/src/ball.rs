@@ -6,8 +6,10 @@
 //! parts of a pixel where redness is half-way between inside and outside. Then **features** of colour, outline, shading
 //! and surroundings are weighed into the odds that it is a ball.
 
+mod calm;
 mod directions;
 pub mod features;
+pub mod net;
 mod outline;
 mod redness;
 mod regions;
@@ -27,8 +29,8 @@ const CANDIDATES: usize = 40;
 const SAME: f64 = 0.3;
 
 /// Score from which on a candidate is reported: recall and precision, for balls of more than 8 pixels of 224, are about equal
-/// there on rendered pictures (docs/measured/ball-detection.md).
-pub const DEFAULT_SCORE: f64 = 0.4;
+/// there on rendered pictures of seeds from 30 000 on; docs/measured/ball-detection.md has others.
+pub const DEFAULT_SCORE: f64 = 0.3;
 
 /// Radius of a golf ball, m (rules of golf: at least 42.67 mm across).
 pub const RADIUS: f64 = 0.021_35;
@@ -133,6 +135,8 @@ pub(crate) fn find_on(working: &Raster<[f32; 3]>, carpet: Option<&Carpet>, by: u
 }
 
 fn outlined(working: &Raster<[f32; 3]>, carpet: Option<&Carpet>) -> Vec<(Outline, Features)> {
+    let calm = calm::calmed(working);
+    let working = calm.as_ref().unwrap_or(working);
     let redness = redness::redness(working);
     let ground = carpet.map_or(0.0, |carpet| redness::of(carpet.colour));
     let mut found: Vec<(Outline, Features)> = regions::regions(&redness, ground, CANDIDATES)

@@ -112,8 +112,8 @@ fn main() {
         command: "cargo bench -p vision --bench detection",
         columns: &[
             "picture",
-            "recall at score 0.4, %",
-            "precision at score 0.4, %",
+            "recall at score 0.3, %",
+            "precision at score 0.3, %",
             "recall at score 0.5, %",
             "precision at score 0.5, %",
         ],

@@ -1,5 +1,6 @@
 //! What speaks for and against a ball.
 
+use super::net;
 use super::outline::Outline;
 pub use super::weights::COUNT;
 use super::weights::{KNOTS, OFFSET, WEIGHTS};
@@ -91,11 +92,13 @@ impl Features {
         ])
     }
 
-    /// The probability of a ball, from 0 to 1: an additive logistic model with weights that are linear between knots.
+    /// The probability of a ball, from 0 to 1: the mean odds of an additive logistic model, whose weights are linear between
+    /// knots and rise or fall as geometry says, and of nets, which know what features mean together.
     #[must_use]
     pub fn score(&self) -> f64 {
         let terms = self.0.iter().zip(&KNOTS).zip(&WEIGHTS);
-        let odds = OFFSET + terms.map(|((value, knots), weights)| between(*value, knots, weights)).sum::<f32>();
+        let additive = OFFSET + terms.map(|((value, knots), weights)| between(*value, knots, weights)).sum::<f32>();
+        let odds = f32::midpoint(additive, net::odds(&self.0));
         1.0 / (1.0 + f64::from(-odds).exp())
     }
 }

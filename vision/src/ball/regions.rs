@@ -18,6 +18,10 @@ const FILLED: [f32; 2] = [0.42, 0.96];
 const ASPECT: [f32; 2] = [0.33, 2.6];
 /// Share of the picture's sides beyond which nothing is a ball.
 const LARGEST: f32 = 0.75;
+/// Side below which a region has the less promise the smaller it is, pixels: specks of noise have the contrast of balls,
+/// and there are hundreds of them. Of rendered balls over 8 pixels 96.0 % are among the candidates without this and 96.3 %
+/// with it (seeds 30 000 to 31 200).
+const SPECK: f32 = 8.0;
 /// Overlap, as intersection over union, of regions that count as one.
 const SAME: f32 = 0.55;
 
@@ -195,7 +199,7 @@ fn shaped(blob: &Blob, redness: &Raster<f32>) -> bool {
         && (ASPECT[0] / tolerance..ASPECT[1] * tolerance).contains(&aspect)
 }
 
-/// Contrast of redness across the outline, weighed by how far the region fills an ellipse.
+/// Contrast of redness across the outline, weighed by how far the region fills an ellipse and, for specks, by its size.
 fn promise(blob: &Blob, redness: &Raster<f32>) -> f32 {
     const AROUND: usize = 16;
     let (cx, cy) = ((blob.left + blob.right) / 2.0, (blob.top + blob.bottom) / 2.0);
@@ -213,7 +217,7 @@ fn promise(blob: &Blob, redness: &Raster<f32>) -> f32 {
     }
     let contrast = blob.mean - sum / count - 0.25 * (worst - blob.mean).max(0.0);
     let round = 1.0 - 2.0 * (blob.fill - std::f32::consts::FRAC_PI_4).abs();
-    contrast * round
+    contrast * round * (2.0 * (a * b).sqrt() / SPECK).min(1.0)
 }
 
 fn overlap(a: &Blob, b: &Blob) -> f32 {
