@@ -1,6 +1,6 @@
 //! What an inertial sensor lets the workflow see: detection limits with and without it, controls, and hidden effects
-//! with their intervals. Writes `docs/measured/gap-sensor-limits.md`, `gap-sensor-named.md`, `gap-sensor-drive.md` and
-//! `gap-sensor-ties.md`; with the last part of one of these names as argument that one alone.
+//! with their intervals. Writes `docs/measured/gap-sensor-limits.md`, `gap-sensor-named.md`, `gap-sensor-drive.md`,
+//! `gap-sensor-ties.md` and `gap-sensor-slip.md`; with the last part of one of these names as argument that one alone.
 
 #[allow(dead_code, reason = "shared with the tests")]
 #[path = "../tests/sensor/felt.rs"]
@@ -134,6 +134,38 @@ fn ties() -> Vec<Vec<String>> {
     TIES.iter().map(case).collect()
 }
 
+/// Of how many sets with an effect of one and a half times its limit it is named.
+const SLIP_SETS: u64 = 10;
+const BEYOND: f64 = 1.5;
+
+/// Effect, parameter, sign of what is hidden, and whether the log has the sensor's columns.
+const SLIP_ROWS: [(&str, &str, f64, bool); 3] =
+    [("robot-mass", "scale", 1.0, true), ("robot-mass", "scale", 1.0, false), ("torque-constant", "scale", -1.0, true)];
+
+fn slip() -> Vec<Vec<String>> {
+    let of = |hidden: &[Hidden], k: u64, felt: bool| {
+        let data = set(&truth(hidden, k), &HARD, k);
+        done(&if felt { data } else { numb(data) })
+    };
+    let row = |&(effect, parameter, sign, felt): &(&str, &str, f64, bool)| {
+        let limit = |a: &Analysis| a.limits.iter().find(|l| l.name == effect).map_or(f64::NAN, |l| l.limit);
+        let limit = (0..LIMITS).map(|k| limit(&of(&[SLIPPERY], 20 + k, felt))).fold(0.0, f64::max);
+        let size = BEYOND * limit;
+        let hidden = [(parameter, sign * size)];
+        let found = |k: &u64| names(&of(&[SLIPPERY, (effect, &hidden)], 80 + k, felt)).contains(&effect);
+        let named = (0..SLIP_SETS).filter(found).count();
+        let logs = if felt { "camera and inertial sensor" } else { "camera" };
+        vec![
+            effect.to_owned(),
+            logs.to_owned(),
+            format!("{:.1}", 100.0 * limit),
+            format!("{:+.1}", 100.0 * sign * size),
+            format!("{named} of {SLIP_SETS}"),
+        ]
+    };
+    SLIP_ROWS.iter().map(row).collect()
+}
+
 /// Parameters, and their true values for a part.
 type Truths = Vec<(&'static str, f64)>;
 
@@ -237,6 +269,15 @@ fn main() {
             columns: &["hidden", "without sensor", "with sensor"],
         }
         .write(&ties());
+    }
+    if wanted("slip") {
+        Table {
+            name: "gap-sensor-slip",
+            title: "Effects of the drive beside wheels that slip at friction 0.3, hidden at one and a half times their limit",
+            command: COMMAND,
+            columns: &["effect", "log", "limit (worst of 2 seeds), %", "hidden, %", "named"],
+        }
+        .write(&slip());
     }
     if wanted("limits") {
         Table {

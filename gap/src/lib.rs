@@ -21,6 +21,7 @@ mod error;
 pub mod evidence;
 pub mod exact;
 pub mod experiment;
+mod intervals;
 mod leftover;
 mod limits;
 mod locate;

@@ -1,10 +1,13 @@
 //! Detection limits: the size from which an effect would be named in these data.
 
+use crate::intervals::Intervals;
 use crate::options::Thresholds;
-use crate::problem::Owner;
+use crate::problem::{Owner, Problem};
 use crate::select::{Design, STRONG};
+use crate::state::Active;
 use estimation::prior::Role;
 use links::effect::{Link, Parameter};
+use links::thresholds::SLIPPING;
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;
@@ -35,11 +38,14 @@ struct Gates<'a> {
     total: f64,
     excess: f64,
     left_by_laws: f64,
+    /// Factor on what the gates ask beside a law that is not exact.
+    inexact: f64,
 }
 
 impl Gates<'_> {
-    /// Least size of an estimate that passes: in the objective, in materiality, and on held-out runs.
-    fn least(&self, column: usize, roles: &[Role], free: usize, margin: f64) -> f64 {
+    /// Least size of an estimate that passes: in the objective, in materiality, on held-out runs, and by an interval that
+    /// does not hold zero.
+    fn least(&self, column: usize, roles: &[Role], free: usize, margin: f64, interval: f64) -> f64 {
         let t = self.thresholds;
         let per_square = self.design.gain_per_square(column, roles);
         let by_gain = |gain: f64| ((gain + t.cost(free)) / per_square).sqrt();
@@ -57,18 +63,30 @@ impl Gates<'_> {
             if room > 0.0 { 2.0 * needed * (self.design.variance * sum / room).sqrt() } else { f64::INFINITY }
         };
         let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(STRONG)));
-        by_gain(t.gain).max(margin).max(by_share).max(by_run)
+        (self.inexact * by_gain(t.gain).max(margin).max(by_share).max(by_run)).max(interval)
     }
+}
+
+/// Least size, in a column's unit, whose interval does not hold zero: it widens with the size, because the effect's own
+/// law is not exact.
+fn beyond_zero(intervals: &Intervals, column: usize, active: &Active, p: &Parameter) -> f64 {
+    let own = (2.0 * active.effect.law_uncertainty()).powi(2);
+    let half = intervals.half(column, active, p);
+    if own < 1.0 { half / (1.0 - own).sqrt() } else { f64::INFINITY }
 }
 
 /// The limits of every effect of a link, those found included: nine of ten such data sets in which an effect has this
 /// size, beside what is named already, would have it named.
-pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thresholds) -> Vec<Limit> {
+pub(crate) fn limits(problem: &Problem, design: &Design, from: usize, thresholds: &Thresholds) -> Vec<Limit> {
     let mut out: Vec<Limit> = Vec::new();
     let total: f64 = design.held_out(None).iter().sum();
     let excess = (total - design.linear.equations.n()).max(0.0);
     let left_by_laws = design.left_by_laws();
-    let gates = Gates { design, thresholds, link, total, excess, left_by_laws };
+    // The slip that the motion link found; the drive takes it as it is.
+    let slips = problem.link() == Link::Drive
+        && design.state.active[..from].iter().any(|a| a.effect.name() == "wheel-slip" && a.worth());
+    let inexact = if slips { SLIPPING } else { 1.0 };
+    let gates = Gates { design, thresholds, link: problem.link(), total, excess, left_by_laws, inexact };
     let mut add = |name: &str, p: &Parameter, unit: f64, estimate: f64, sd: f64, least: f64| {
         let limit = unit * (least + NINE_OF_TEN * sd);
         let known = out.iter().any(|l| l.name == name && l.parameter == p.name);
@@ -89,6 +107,7 @@ pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thre
     let roles = design.estimating();
     let fit = design.fit_roles(&roles);
     let covariance = design.covariance(&roles, &fit);
+    let intervals = Intervals::new(problem, design, &design.judged(&[], false), &covariance);
     let named: Vec<usize> = (from..design.state.active.len()).filter(|i| design.state.active[*i].worth()).collect();
     for (column, owner) in design.linear.owners.iter().enumerate() {
         let Owner::Active(index, j) = *owner else { continue };
@@ -100,7 +119,8 @@ pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thre
         let sd = covariance[(column, column)].max(0.0).sqrt();
         let mut without = design.roles();
         without[column] = Role::Held(thresholds.held_share * p.material, 0.0);
-        let least = gates.least(column, &without, active.form.free.len(), p.material);
+        let interval = beyond_zero(&intervals, column, active, p);
+        let least = gates.least(column, &without, active.form.free.len(), p.material, interval);
         add(active.effect.name(), p, 1.0, active.values.get(&p.name), sd, least);
     }
     for (c, candidate) in design.candidates.iter().enumerate() {
@@ -115,6 +135,9 @@ pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thre
         let fit = design.fit(&[c]);
         let covariance = design.covariance(&roles, &fit);
         let columns = design.linear.of_candidate(c);
+        let beside = design.estimating_with(&[c]);
+        let beside = design.covariance(&beside, &design.fit_roles(&beside));
+        let intervals = Intervals::new(problem, design, &design.judged(&[c], false), &beside);
         for (j, p) in
             candidate.form.free.iter().enumerate().filter(|(_, p)| p.material.is_finite() && p.below.is_none())
         {
@@ -123,7 +146,9 @@ pub(crate) fn limits(link: Link, design: &Design, from: usize, thresholds: &Thre
             // The column of an effect that is switched on stands for its start value.
             let unit = if candidate.switched() { p.start.unwrap_or(1.0).abs() } else { 1.0 };
             let margin = (p.material / unit).max(design.margin(c, j));
-            let least = gates.least(column, &design.roles(), candidate.form.free.len(), margin);
+            // What is switched on is not absent at zero.
+            let interval = if candidate.switched() { 0.0 } else { beyond_zero(&intervals, column, candidate, p) };
+            let least = gates.least(column, &design.roles(), candidate.form.free.len(), margin, interval);
             add(candidate.effect.name(), p, unit, fit.step[column], sd, least);
         }
     }

@@ -6,12 +6,12 @@ use runs::robot::Support;
 
 use super::found::Named;
 use crate::evidence::{Evidence, Interval};
+use crate::intervals::Intervals;
 use crate::limits::Limit;
 use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Design, Selection};
 use crate::state::{Active, State};
-use links::drive::Generic;
 use links::effect::{Effect, Link, Parameter};
 use links::thresholds::{self, Refusal};
 
@@ -21,8 +21,6 @@ const OPEN: f64 = 1.5;
 const WORSE: f64 = 0.1;
 /// Share of a held-out sum of squares by which a selection with more parameters must be better.
 const BETTER: f64 = 0.03;
-/// Chance of runs that differ as much by what clusters scatter, below which the runs' own spread counts.
-const RUNS_DIFFER: f64 = 0.05;
 
 /// A link's selection with everything that is said about it.
 pub(super) struct Outcome {
@@ -187,7 +185,7 @@ pub(super) fn study<'a>(
     let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
     Outcome {
         held_out: (square / n.max(1.0)).sqrt(),
-        limits: crate::limits::limits(problem.link(), &selection.design, from, thresholds),
+        limits: crate::limits::limits(problem, &selection.design, from, thresholds),
         selection,
         written,
         named,
@@ -405,29 +403,13 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
 /// Estimates of all effects that are worth a name, with their intervals and p-values.
 fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) -> Vec<Estimate> {
     let design = &selection.design;
-    let roles = design.judged(bare);
+    let roles = design.judged(&[], bare);
     let fit = design.fit_roles(&roles);
-    let covariance = design.covariance(&roles, &fit);
-    // What only partly looks like it is there as well, unnamed and of any size up to its margin: the size is that of
-    // this cause alone, but it is not known to better than what those would make of it.
     // On the floor a little of everything is there, and what two of them do together is no size of a cause.
     let beside =
         if design.state.robot.support == Support::Blocks { design.without_twins() } else { design.estimating() };
     let beside = design.covariance(&beside, &design.fit_roles(&beside));
-    let clusters = design.linear.equations.clusters.len();
-    let left_out = design.left_out(&roles);
-    // A floor is what smooth functions of speed, duty and the like leave of each wheel: laws that are missing are such.
-    let missed = match problem {
-        Problem::Drive(link) => design.missed(&roles, Generic::columns_of_wheel(link) as f64),
-        Problem::Motion(_) => vec![0.0; roles.len()],
-    };
-    // Of friction and motors every robot has a little beyond its file, of which this name does not speak.
-    let usual = |p: &Parameter| match problem.link() {
-        Link::Drive if p.material.is_finite() => design.held_share() * p.material,
-        // A wheel that creeps under load leads the body, as if it were read later, by some tenths of a millisecond.
-        Link::Motion if problem.is_felt() && p.name == "latency_s" => design.held_share() * p.material,
-        _ => 0.0,
-    };
+    let intervals = Intervals::new(problem, design, &roles, &beside);
     let mut out = Vec::new();
     for index in from..selection.state.active.len() {
         let active = &selection.state.active[index];
@@ -439,13 +421,7 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
             let v = active.values.get(&p.name) + column.map_or(0.0, |c| fit.step[c]).clamp(-p.scale, p.scale);
             let v =
                 active.effect.period(&p.name).map_or(v.clamp(p.bounds[0], p.bounds[1]), |period| v.rem_euclid(period));
-            let df = clusters.saturating_sub(active.form.free.len());
-            let half = column.map_or(0.0, |c| {
-                let steps: Vec<f64> = left_out.iter().map(|s| s[c]).collect();
-                let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-                let scatter = covariance[(c, c)].max(beside[(c, c)]).max(0.0);
-                half_width(scatter, missed[c] + usual(p).powi(2), df, runs)
-            });
+            let half = column.map_or(0.0, |c| intervals.half(c, active, p));
             // The effect's own law is not known to better than that.
             let half = half.hypot(2.0 * active.effect.law_uncertainty() * v);
             (p.name.clone(), v, Interval::Ci95([v - half, v + half]))
@@ -453,32 +429,6 @@ fn estimates(problem: &Problem, selection: &Selection, from: usize, bare: bool) 
         out.push(Estimate { index, parameters: parameters.collect(), p: p_value(problem, &selection.state, index) });
     }
     out
-}
-
-/// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
-/// what is the same in all of them. `left_out` are the estimates without one run each.
-fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
-    let of_common = estimation::statistics::t_quantile_975(usize::MAX) * common.sqrt();
-    of_common.hypot(half_scatter(variance, df, left_out))
-}
-
-/// The same of what scatters alone.
-fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
-    let by_clusters = estimation::statistics::t_quantile_975(df) * variance.sqrt();
-    let runs = left_out.len();
-    if runs < 3 {
-        return by_clusters;
-    }
-    let mean = left_out.iter().sum::<f64>() / runs as f64;
-    let free = (runs - 1) as f64;
-    // The jackknife's variance.
-    let by_runs = free / runs as f64 * left_out.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
-    let chi2 = by_runs / variance.max(1e-300) * free;
-    if estimation::statistics::chi2_upper(chi2, free) < RUNS_DIFFER {
-        by_clusters.max(estimation::statistics::t_quantile_975(runs - 1) * by_runs.sqrt())
-    } else {
-        by_clusters
-    }
 }
 
 /// Two-sided p-value of one effect of a state, by flipping the signs of clusters without it.
@@ -572,19 +522,5 @@ mod tests {
         let scale = Parameter::new("scale", 0.01, [-0.6, 0.6], 0.004);
         let known = ("scale".to_owned(), 0.55, Interval::Ci95([0.45, 0.65]));
         assert_eq!(told((&scale, &known)).2, known.2);
-    }
-
-    #[test]
-    fn intervals_are_as_wide_as_runs_differ() {
-        // Runs that agree as clusters have it.
-        let t = estimation::statistics::t_quantile_975(100);
-        assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
-        // Leave-one-out estimates three cluster deviations apart.
-        let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
-        assert!(wide > 3.0 * t, "{wide}");
-        assert!((half_scatter(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
-        // What all runs share adds to that.
-        let both = half_width(1.0, 1.0, 100, &[9.0, -9.0]);
-        assert!((both / t / 2.0_f64.sqrt() - 1.0).abs() < 0.01, "{both}");
     }
 }

@@ -311,21 +311,31 @@ impl Design {
         self.penalised().without_twins(&self.narrow, ALIKE)
     }
 
-    /// Roles for the estimates of what is named if it is the cause: what looks like it, alone or together with what
-    /// else is not named, is frozen. With `bare` everything is.
-    pub fn judged(&self, bare: bool) -> Vec<Role> {
-        let named = self.linear.active();
+    /// Roles for the estimates of what is named, and of `freed` candidates, if they are the cause: what looks like them,
+    /// alone or together with what else is not named, is frozen. With `bare` everything is.
+    pub fn judged(&self, freed: &[usize], bare: bool) -> Vec<Role> {
+        let role = |role: Role| if bare && matches!(role, Role::Held(..)) { Role::Out } else { role };
+        self.without_alike(freed, TWIN).into_iter().map(role).collect()
+    }
+
+    /// The same where only what does all that they do is frozen.
+    pub fn estimating_with(&self, freed: &[usize]) -> Vec<Role> {
+        self.without_alike(freed, ALIKE)
+    }
+
+    /// Roles with some candidates freed, and frozen what shares at least so much with them and with what is named.
+    fn without_alike(&self, freed: &[usize], share: f64) -> Vec<Role> {
+        let mut named = self.linear.active();
+        named.extend(freed.iter().flat_map(|c| self.linear.of_candidate(*c)));
         let jj = self.linear.equations.information();
         let a = DMatrix::from_fn(named.len(), named.len(), |i, j| jj[(named[i], named[j])]);
         let alike = |c: usize| {
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            b.dot(&estimation::normal_equations::solve(&a, &b)) > TWIN * jj[(c, c)]
+            b.dot(&estimation::normal_equations::solve(&a, &b)) > share * jj[(c, c)]
         };
-        let role = |(c, r): (usize, &Role)| match r {
-            Role::Held(..) if bare || alike(c) => Role::Out,
-            r => *r,
-        };
-        self.narrow.iter().enumerate().map(role).collect()
+        let role = |(c, r): (usize, Role)| if matches!(r, Role::Held(..)) && alike(c) { Role::Out } else { r };
+        let from = if freed.is_empty() { self.narrow.clone() } else { self.freeing(freed) };
+        from.into_iter().enumerate().map(role).collect()
     }
 
     /// The estimates of the roles with one run (or block) left out at a time, steps along all columns.
