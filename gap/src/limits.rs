@@ -7,7 +7,6 @@ use crate::select::{Design, STRONG};
 use crate::state::Active;
 use estimation::prior::Role;
 use links::effect::{Link, Parameter};
-use links::thresholds::SLIPPING;
 
 /// Standard deviations of the estimate between a size that is named every other time and nine times of ten.
 const NINE_OF_TEN: f64 = 1.2816;
@@ -38,8 +37,6 @@ struct Gates<'a> {
     total: f64,
     excess: f64,
     left_by_laws: f64,
-    /// Factor on what the gates ask beside a law that is not exact.
-    inexact: f64,
 }
 
 impl Gates<'_> {
@@ -63,7 +60,7 @@ impl Gates<'_> {
             if room > 0.0 { 2.0 * needed * (self.design.variance * sum / room).sqrt() } else { f64::INFINITY }
         };
         let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(STRONG)));
-        (self.inexact * by_gain(t.gain).max(margin).max(by_share).max(by_run)).max(interval)
+        by_gain(t.gain).max(margin).max(by_share).max(by_run).max(interval)
     }
 }
 
@@ -82,11 +79,7 @@ pub(crate) fn limits(problem: &Problem, design: &Design, from: usize, thresholds
     let total: f64 = design.held_out(None).iter().sum();
     let excess = (total - design.linear.equations.n()).max(0.0);
     let left_by_laws = design.left_by_laws();
-    // The slip that the motion link found; the drive takes it as it is.
-    let slips = problem.link() == Link::Drive
-        && design.state.active[..from].iter().any(|a| a.effect.name() == "wheel-slip" && a.worth());
-    let inexact = if slips { SLIPPING } else { 1.0 };
-    let gates = Gates { design, thresholds, link: problem.link(), total, excess, left_by_laws, inexact };
+    let gates = Gates { design, thresholds, link: problem.link(), total, excess, left_by_laws };
     let mut add = |name: &str, p: &Parameter, unit: f64, estimate: f64, sd: f64, least: f64| {
         let limit = unit * (least + NINE_OF_TEN * sd);
         let known = out.iter().any(|l| l.name == name && l.parameter == p.name);

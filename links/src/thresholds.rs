@@ -96,11 +96,6 @@ pub const FOREIGN: f64 = 0.5;
 pub const BLIND: f64 = 10.0;
 /// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
 pub const SEEN: f64 = 2.0;
-/// Factor on detection limits of the drive where wheels slip: beside slip an effect leaves up to three times as much that no
-/// law explains as the drive does without it, and a limit from logs without it does not know that. At friction 0.3, with
-/// camera and inertial sensor, masses of +12 and +13.5 % were refused for their size and those from +15 % on named, by a
-/// limit of 9 to 11 % without this factor (`cargo bench -p gap --bench sensor -- slip`).
-pub const SLIPPING: f64 = 1.4;
 /// Share of the information on a small effect that the floor must have hidden for another look above a lower one.
 pub const HIDDEN: f64 = 0.2;
 /// Share of the explained gap that the inexactness of a law may leave as structure.
