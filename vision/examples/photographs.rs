@@ -123,7 +123,7 @@ fn main() {
     if std::env::var_os("RACBOT_MEASURED").is_some_and(|value| value == "write") {
         Table {
             name: "ball-photographs",
-            title: "The ball on photographs of 224 x 224 pixels that nothing was trained on, at score 0.3 and at 0.5",
+            title: "The ball on photographs of 224 x 224 pixels that nothing was trained on, at score 0.35 and at 0.5",
             command: "cargo run --release -p vision --example photographs -- FOLDER ...",
             columns: &[
                 "photographs",
