@@ -35,8 +35,10 @@ pub(super) fn simpler(
     found
 }
 
-/// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it, and
-/// does not do the same as one of them. Of laws between which the data do not decide that of fewest parameters, and of those the first of the catalogue.
+/// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one
+/// of them, or one that comes earlier in the catalogue. Another may leave less by how exact the laws are: through an encoder
+/// of few counts a dead band leaves less than the dry friction that is at work. Of laws between which the data do not
+/// decide that of fewest parameters, and of those the first of the catalogue.
 fn of_one(
     problem: &Problem,
     start: &State,
@@ -51,7 +53,9 @@ fn of_one(
     let now = bare(problem, start, &named, Left::fitted);
     let sized = |a: &Active| a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1;
     let mut laws = laws(problem, start, all, sized);
-    laws.retain(|law| !does_the_same(start, found, law.effect.name()));
+    let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
+    let one_of_them = |law: &Active| named.iter().any(|n| rank(n) == rank(law));
+    laws.retain(|law| one_of_them(law) || named.iter().all(|n| rank(law) < rank(n)));
     laws.sort_by_key(|law| law.form.free.len());
     let better = each(&laws, &|law| {
         let mut state = start.clone();
@@ -104,15 +108,6 @@ fn of_two(
 /// What a selection names.
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
     found.state.active[start.active.len()..].iter().filter(|a| a.is_named()).collect()
-}
-
-/// Whether an effect does what a named one does: the two differ by how exact their laws are, such as those of dry friction
-/// and of a dead band near rest, seen through an encoder of few counts.
-fn does_the_same(start: &State, found: &Selection, name: &str) -> bool {
-    let indices = (start.active.len()..found.state.active.len()).filter(|i| found.state.active[*i].is_named());
-    let candidates = &found.design.candidates;
-    let of_name = |c: &usize| candidates[*c].effect.name() == name;
-    indices.into_iter().any(|i| (0..candidates.len()).filter(of_name).any(|c| found.design.is_twin(c, i)))
 }
 
 /// What named effects leave with nothing adjusted beside them.
