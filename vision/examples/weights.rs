@@ -259,5 +259,5 @@ fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32], nets: &[String]) {
     rows("WEIGHTS", "Logarithm of odds at each knot.", &|i| weights[i * KNOTS..(i + 1) * KNOTS].to_vec());
     println!();
     about("Nets; the last number of a row is what is added.");
-    println!("pub(super) const NETS: [Net; {}] = [\n{}\n];", nets.len(), nets.join("\n"));
+    println!("pub(super) const NETS: [Net<{{ COUNT + 1 }}>; {}] = [\n{}\n];", nets.len(), nets.join("\n"));
 }

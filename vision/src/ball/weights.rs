@@ -69,7 +69,7 @@ pub(super) const WEIGHTS: [[f32; 9]; COUNT] = [
 /// Nets; the last number of a row is what is added.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]
-pub(super) const NETS: [Net; 4] = [
+pub(super) const NETS: [Net<{ COUNT + 1 }>; 4] = [
     Net {
         first: [
             [0.0356, -0.0014, -0.9848, -0.2859, 1.0315, -0.6012, -0.3640, -0.4717, -1.3132, 0.0538, -1.2812, -0.0327, 1.6797, 1.0087, 0.0609, -0.7561, -0.4754, 0.5688, -0.1248, -0.0073, -3.1083, 0.0880, 0.0732, 1.1058],
