@@ -79,26 +79,30 @@ impl Run {
                         dt * 1e3
                     );
                     let bits = [16, 32].into_iter().find(|bits| (1_u64 << bits).abs_diff(jump) as f64 <= limit);
-                    if let Some(rows) = bunched(&self.t, counts, now, per_second) {
-                        let hint = "the times are those of arrival: take the time at which each row was measured, as a stamp of \
-                                    the robot's own";
-                        let what = format!("{what}; the {rows} rows about it come at once, and together they fit");
-                        let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
-                        return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });
-                    }
-                    let hint = match bits {
-                        Some(bits) => format!(
-                            "a counter of {bits} bits began again: log cumulative counts; `racbot convert` counts on with \
-                             wraps = {}",
-                            1_u64 << bits
+                    let (what, hint) = match (bunched(&self.t, counts, now, per_second), bits) {
+                        (Some(rows), _) => (
+                            format!("{what}; the {rows} rows about it come at once, and together they fit"),
+                            "the times are those of arrival: take the time at which each row was measured, as a stamp of \
+                             the robot's own"
+                                .to_owned(),
                         ),
-                        None => {
-                            let what = "look for a counter that was reset, wrapped or not read; log cumulative counts";
-                            let top = robot.no_load_wheel_speed(supply);
+                        (None, Some(bits)) => (
+                            what,
                             format!(
-                                "{what}; if it turns so fast, mend what says that {top:.3} rad/s is its top speed: supply_v, torque_constant (Nm/A), back_emf_constant (V s/rad), gear_ratio"
-                            )
-                        }
+                                "a counter of {bits} bits began again: log cumulative counts; `racbot convert` counts on \
+                                 with wraps = {}",
+                                1_u64 << bits
+                            ),
+                        ),
+                        (None, None) => (
+                            what,
+                            format!(
+                                "look for a counter that was reset, wrapped or not read; log cumulative counts; if it turns \
+                                 so fast, mend what says that {:.3} rad/s is its top speed: supply_v, torque_constant \
+                                 (Nm/A), back_emf_constant (V s/rad), gear_ratio",
+                                robot.no_load_wheel_speed(supply)
+                            ),
+                        ),
                     };
                     let error = RunError::new(path, what, hint).field(format!("enc_{}", wheel + 1));
                     return Err(RunError { line: u32::try_from(first + now + 2).ok(), ..error });

@@ -48,8 +48,8 @@ const MOST_ACROSS: f32 = 18.0;
 /// Samples around an outline.
 const AROUND: usize = 24;
 
-/// Share of the nets in the odds. On rendered pictures half is best by 0.6 % of recall; on photographs that nothing was
-/// trained on (c of docs/book/src/smartbot.md) a quarter finds 53 of 53 balls with 6 mistakes at score 0.5, half 51 with 9.
+/// Share of the nets in the odds. On rendered pictures half is better than a quarter by 0.6 % of recall; on photographs that
+/// nothing was trained on (docs/measured/ball-photographs.md) half missed balls and made more mistakes.
 const OF_NETS: f32 = 0.25;
 
 impl Features {
