@@ -137,6 +137,8 @@ pub struct Options {
     pub thresholds: Thresholds,
     /// The robot's file, whose comments the new one keeps [default: robot.toml in the data set].
     pub robot_file: Option<std::path::PathBuf>,
+    /// Mistakes of the set-up that are to be passed over, as sentences, for the report to say.
+    pub mistakes: Vec<String>,
     /// Effects beyond the catalogue.
     pub effects: Vec<std::sync::Arc<dyn Effect>>,
     /// Is told the share of the work that is done, 0 to 1, after every stage.

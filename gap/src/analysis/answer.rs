@@ -92,6 +92,7 @@ impl Workflow<'_> {
             limits: self.findings.limits,
             held_out: self.findings.held_out,
             remarks: self.findings.remarks,
+            mistakes: self.question.options.mistakes.clone(),
         })
     }
 

@@ -138,6 +138,8 @@ pub struct Analysis {
     pub held_out: Vec<(Link, f64)>,
     /// What remains beside what is named, one sentence a link.
     pub remains: Vec<String>,
+    /// Mistakes of the set-up that were passed over.
+    pub mistakes: Vec<String>,
     /// What could not be compared, and why.
     pub remarks: Vec<String>,
     /// Deterministic links.

@@ -24,6 +24,7 @@ pub(super) fn page(a: &Analysis) -> String {
         .filter(|(to, _)| *to != "#firmware" || firmware::of(a).is_some()),
     );
     page.verdict(&terminal::sentence(a));
+    mistakes(&mut page, a);
     in_words(&mut page, a);
     next(&mut page, a);
     effects(&mut page, a);
@@ -35,6 +36,12 @@ pub(super) fn page(a: &Analysis) -> String {
     limits(&mut page, a);
     statement(&mut page, a);
     page.finish()
+}
+
+fn mistakes(page: &mut Page, a: &Analysis) {
+    for mistake in &a.mistakes {
+        page.note(&format!("Set up wrong: {mistake}. Until that is mended, no name and no size here can be trusted."));
+    }
 }
 
 fn in_words(page: &mut Page, a: &Analysis) {

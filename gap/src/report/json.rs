@@ -49,6 +49,7 @@ pub(super) fn json(a: &Analysis) -> Value {
         .collect();
     json!({
         "verdict": a.verdict.name(),
+        "set_up_mistakes": a.mistakes,
         "located": a.located.iter().map(|l| json!({
             "link": l.link.name(), "signal": l.signal, "excess": l.excess, "where": l.place,
         })).collect::<Vec<_>>(),

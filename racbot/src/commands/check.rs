@@ -20,6 +20,43 @@ pub(crate) struct Options {
     robot: Option<PathBuf>,
 }
 
+/// Whether a data set that is set up wrong is looked at all the same.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(super) struct Despite {
+    /// Go on although the data set is set up wrong (see `racbot check`): no name and no size that is then found can be
+    /// trusted
+    #[arg(long)]
+    despite_mistakes: bool,
+}
+
+impl Despite {
+    pub(super) fn mistakes(self) -> bool {
+        self.despite_mistakes
+    }
+}
+
+/// What the first stage says of a data set that goes on.
+pub(super) struct Checked {
+    /// What an analysis may name by itself.
+    hints: Vec<String>,
+    /// Mistakes that were to be passed over.
+    pub(super) mistakes: Vec<String>,
+}
+
+impl Checked {
+    /// For the terminal.
+    pub(super) fn text(&self) -> String {
+        let hints = self.hints.iter().map(|hint| wrapped(&format!("hint: {hint}"), 6));
+        let wrong = self.mistakes.iter().map(|mistake| wrapped(&format!("set up wrong: {mistake}"), 2));
+        let warned = (!self.mistakes.is_empty()).then(|| {
+            let text =
+                "Gone on with --despite-mistakes: until that is mended, no name and no size below can be trusted.";
+            wrapped(text, 2)
+        });
+        hints.chain(wrong).chain(warned).collect()
+    }
+}
+
 /// Opens a data set.
 pub(super) fn open(folder: &Path, robot: Option<&Path>) -> Result<Logs<'static>, Failure> {
     Ok(match robot {
@@ -74,17 +111,14 @@ fn to_json(mistake: &Mistake) -> serde_json::Value {
     })
 }
 
-/// Refuses a data set that is set up wrong; hints at what an analysis may name by itself.
-pub(super) fn first_stage(folder: &Path, set: &Logs, force: bool) -> Result<String, Failure> {
+/// Refuses a data set that is set up wrong, unless that is to be passed over.
+pub(super) fn first_stage(folder: &Path, set: &Logs, despite: Despite) -> Result<Checked, Failure> {
     let (hints, wrong): (Vec<Mistake>, Vec<Mistake>) = mistakes(set).into_iter().partition(|m| m.nameable);
-    if !wrong.is_empty() && !force {
-        let said: Vec<String> = wrong.iter().map(Mistake::sentence).collect();
-        let what = format!("set up wrong: {} (--force goes on nevertheless)", said.join("; also "));
-        return Err(Failure::about(folder, what));
+    let said = |mistakes: &[Mistake]| mistakes.iter().map(Mistake::sentence).collect::<Vec<_>>();
+    let checked = Checked { hints: said(&hints), mistakes: said(&wrong) };
+    if !wrong.is_empty() && !despite.mistakes() {
+        let what = checked.mistakes.join("; also ");
+        return Err(Failure::about(folder, format!("set up wrong: {what} (--despite-mistakes goes on nevertheless)")));
     }
-    let hints = hints.iter().map(|m| wrapped(&format!("hint: {}", m.sentence()), 6));
-    let forced = wrong.iter().map(|m| wrapped(&format!("set up wrong: {}", m.sentence()), 2));
-    let warned = (!wrong.is_empty())
-        .then(|| wrapped("Gone on with --force: until that is mended, no name and no size below can be trusted.", 2));
-    Ok(hints.chain(forced).chain(warned).collect())
+    Ok(checked)
 }

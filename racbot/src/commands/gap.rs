@@ -1,5 +1,6 @@
 //! `racbot gap`
 
+use super::check::Despite;
 use super::options::known_effects;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Target, wrapped};
@@ -38,6 +39,9 @@ pub(crate) struct Options {
     #[command(flatten)]
     target: Target,
 
+    #[command(flatten)]
+    despite: Despite,
+
     /// Take an effect out of a robot.toml (--robot, or that of the data set) again; analyse nothing
     #[arg(long, value_name = "NAME")]
     undo: Option<String>,
@@ -59,7 +63,7 @@ impl Options {
         let set = super::check::open(folder, self.robot.as_deref())?;
         let own = self.own()?;
         known_effects(&super::check::robot_file(folder, self.robot.as_deref()), &set.robot, Some(&own))?;
-        let hints = super::check::first_stage(folder, &set, self.target.forced())?;
+        let checked = super::check::first_stage(folder, &set, self.despite)?;
         let out = self.target.place(self.out.as_deref(), "out/gap");
         self.target.check_free(["gap.json", "report.html", "robot.toml"].map(|name| out.join(name)))?;
         let bar = Progress::new("looking for the missing effect", 100);
@@ -68,12 +72,14 @@ impl Options {
             robot_file: self.robot.clone(),
             progress: Some(progress),
             effects: own,
+            mistakes: checked.mistakes.clone(),
             ..gap::Options::default()
         };
         let analysis = gap::analyse_logs(&set, &options).map_err(|error| Failure::about(folder, error))?;
         drop(options);
         analysis.save(&out, self.target.existing()).map_err(Failure::data)?;
-        let text = format!("{hints}{}\nreport in {}\n", analysis.terminal_summary().trim_end(), out.display());
+        let text =
+            format!("{}{}\nreport in {}\n", checked.text(), analysis.terminal_summary().trim_end(), out.display());
         Ok(Answer { text, json: analysis.to_json(), wrong: None })
     }
 

@@ -10,18 +10,12 @@ use std::path::PathBuf;
 /// Whether files may be replaced.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Target {
-    /// Replace files that exist, and go on although a data set looks set up wrong (see `racbot check`); without it
-    /// files stay and the command is refused
+    /// Replace files that exist; without it they stay and the command is refused
     #[arg(long)]
     force: bool,
 }
 
 impl Target {
-    /// Whether `--force` was given.
-    pub(crate) fn forced(self) -> bool {
-        self.force
-    }
-
     /// What to do with files that exist.
     pub(crate) fn existing(self) -> Existing {
         if self.force { Existing::Replace } else { Existing::Refuse }

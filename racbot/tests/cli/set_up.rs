@@ -33,7 +33,7 @@ fn check_passes_good_sets_and_names_mistakes_with_what_to_write() {
     let json = racbot(folder.path(), &["--json", "check", "."]).json();
     assert_eq!(json["mistakes"][0]["kind"], "wheel-diameter");
     for command in ["gap", "calibrate"] {
-        racbot(folder.path(), &[command, "."]).refused(1, &["set up wrong", "diameter", "--force"]);
+        racbot(folder.path(), &[command, "."]).refused(1, &["set up wrong", "diameter", "--despite-mistakes"]);
     }
 }
 
@@ -240,4 +240,21 @@ fn a_calibration_without_an_estimate_prints_no_arrays() {
     for absent in ["static const float", "95 % from", "residual"] {
         assert!(!outcome.stdout.contains(absent), "{absent}: {}", outcome.stdout);
     }
+}
+
+#[test]
+fn what_is_passed_over_is_said_in_every_answer_and_replacing_files_passes_over_nothing() {
+    let folder = tempdir().unwrap();
+    set(folder.path(), "runs/wheel-skew", |text| text.replace("wheel_radius_m = 0.0275", "wheel_radius_m = 0.055"));
+    racbot(folder.path(), &["gap", ".", "--force"]).refused(1, &["set up wrong", "--despite-mistakes"]);
+    let outcome = racbot(folder.path(), &["gap", ".", "--despite-mistakes", "--out", "g"]).done().fits_80_columns();
+    assert!(outcome.stdout.contains("can be trusted"), "{}", outcome.stdout);
+    let report = fs::read_to_string(folder.path().join("g/report.html")).unwrap();
+    assert!(report.contains("Set up wrong: wheel_radius_m"), "no mistake in the report");
+    let json: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("g/gap.json")).unwrap()).unwrap();
+    assert!(json["set_up_mistakes"][0].as_str().is_some_and(|said| said.contains("diameter")), "{json}");
+    let good = data("runs/wheel-skew");
+    let outcome = racbot(folder.path(), &["gap", good.to_str().unwrap(), "--out", "good"]).done();
+    assert!(!outcome.stdout.contains("Gone on with"), "{}", outcome.stdout);
 }

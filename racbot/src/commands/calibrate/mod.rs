@@ -5,6 +5,7 @@ mod estimate;
 mod paper;
 mod result;
 
+use super::check::Despite;
 #[cfg(feature = "simulation")]
 use super::options::{Hidden, load_robot};
 use crate::terminal::{Answer, Failure, Target, wrapped};
@@ -45,6 +46,9 @@ pub(crate) struct Options {
 
     #[command(flatten)]
     target: Target,
+
+    #[command(flatten)]
+    despite: Despite,
 }
 
 /// How to calibrate.
@@ -99,18 +103,19 @@ impl Options {
                 "the logs have the robot's odometry and no wheels: log enc_1..N or speed_1..N to find their skews";
             return Err(Failure::about(folder, what));
         }
-        let hints = super::check::first_stage(folder, &runs::Logs::from(&set), self.target.forced())?;
+        let mut checked = super::check::first_stage(folder, &runs::Logs::from(&set), self.despite)?;
         let estimate = estimate_skew(&set.as_logged(), &set.runs).map_err(|error| Failure::about(folder, error))?;
         let largest = estimate.skew_rad.iter().map(|s| s.abs()).fold(0.0, f64::max).to_degrees();
-        if !self.target.forced() && largest > LARGEST_DEG {
-            let what = format!(
-                "the best fit turns a wheel by {largest:.0}°: no skew does that; see `racbot check`, or --force"
-            );
-            return Err(Failure::about(folder, what));
+        if largest > LARGEST_DEG {
+            let what = format!("the best fit turns a wheel by {largest:.0}°: no skew does that; see `racbot check`");
+            if !self.despite.mistakes() {
+                return Err(Failure::about(folder, format!("{what} (--despite-mistakes goes on nevertheless)")));
+            }
+            checked.mistakes.push(what);
         }
         let found = estimate.apply(&set.robot);
         // What the robot really is nobody knows; the estimate is the best guess.
-        let mut text = hints + &estimate::text(&estimate);
+        let mut text = checked.text() + &estimate::text(&estimate);
         if estimate.is_none() {
             return Ok((Answer { text, json: estimate.to_json(), wrong: None }, Calibrated::not_at_all(&found)));
         }
