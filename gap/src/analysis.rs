@@ -34,7 +34,6 @@ pub use crate::limits::Limit;
 pub use crate::locate::Located;
 pub use driven::{Driven, Moment};
 pub use found::{Analysis, Leftover, LinkGap, Named, Verdict};
-pub(crate) use gaps::FAR;
 pub use gaps::overall;
 pub use robot_file::undo;
 

@@ -16,10 +16,10 @@ use runs::frames::Pose;
 use runs::robot::Robot;
 use runs::{Log, Run};
 
-use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::select::{self, Design};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::prior::Role;
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};

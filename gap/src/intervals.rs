@@ -10,9 +10,6 @@ use crate::state::Active;
 use links::drive::Generic;
 use links::effect::{Link, Parameter};
 
-/// Chance of runs that differ as much by what clusters scatter, below which the runs' own spread counts.
-const RUNS_DIFFER: f64 = 0.05;
-
 /// What the intervals of a design's columns are made of.
 pub(crate) struct Intervals {
     scatter: Vec<f64>,
@@ -20,6 +17,7 @@ pub(crate) struct Intervals {
     left_out: Vec<DVector<f64>>,
     clusters: usize,
     held_share: f64,
+    runs_differ: f64,
     link: Link,
     felt: bool,
 }
@@ -41,7 +39,8 @@ impl Intervals {
             missed,
             left_out: design.left_out(roles),
             clusters: design.linear.equations.clusters.len(),
-            held_share: design.held_share(),
+            held_share: design.thresholds().held_share,
+            runs_differ: design.thresholds().runs_differ,
             link: problem.link(),
             felt: problem.is_felt(),
         }
@@ -52,7 +51,7 @@ impl Intervals {
         let df = self.clusters.saturating_sub(active.form.free.len());
         let steps: Vec<f64> = self.left_out.iter().map(|s| s[column]).collect();
         let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-        half_width(self.scatter[column], self.missed[column] + self.usual(p).powi(2), df, runs)
+        half_width(self.scatter[column], self.missed[column] + self.usual(p).powi(2), df, runs, self.runs_differ)
     }
 
     /// Of friction and motors every robot has a little beyond its file, of which a name does not speak.
@@ -68,13 +67,13 @@ impl Intervals {
 
 /// Half the width of a 95 % interval: by clusters, or by runs where they differ by more than clusters explain, and by
 /// what is the same in all of them. `left_out` are the estimates without one run each.
-fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64]) -> f64 {
+fn half_width(variance: f64, common: f64, df: usize, left_out: &[f64], runs_differ: f64) -> f64 {
     let of_common = t_quantile_975(usize::MAX) * common.sqrt();
-    of_common.hypot(half_scatter(variance, df, left_out))
+    of_common.hypot(half_scatter(variance, df, left_out, runs_differ))
 }
 
 /// The same of what scatters alone.
-fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
+fn half_scatter(variance: f64, df: usize, left_out: &[f64], runs_differ: f64) -> f64 {
     let by_clusters = t_quantile_975(df) * variance.sqrt();
     let runs = left_out.len();
     if runs < 3 {
@@ -85,7 +84,7 @@ fn half_scatter(variance: f64, df: usize, left_out: &[f64]) -> f64 {
     // The jackknife's variance.
     let by_runs = free / runs as f64 * left_out.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
     let chi2 = by_runs / variance.max(1e-300) * free;
-    if chi2_upper(chi2, free) < RUNS_DIFFER {
+    if chi2_upper(chi2, free) < runs_differ {
         by_clusters.max(t_quantile_975(runs - 1) * by_runs.sqrt())
     } else {
         by_clusters
@@ -100,13 +99,13 @@ mod tests {
     fn intervals_are_as_wide_as_runs_differ() {
         // Runs that agree as clusters have it.
         let t = t_quantile_975(100);
-        assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2]) - t).abs() < 1e-12);
+        assert!((half_scatter(1.0, 100, &[0.0, 0.1, -0.1, 0.2], 0.05) - t).abs() < 1e-12);
         // Leave-one-out estimates three cluster deviations apart.
-        let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0]);
+        let wide = half_scatter(1.0, 100, &[3.0, -3.0, 3.0, -3.0], 0.05);
         assert!(wide > 3.0 * t, "{wide}");
-        assert!((half_scatter(1.0, 100, &[9.0, -9.0]) - t).abs() < 1e-12, "two runs have no spread");
+        assert!((half_scatter(1.0, 100, &[9.0, -9.0], 0.05) - t).abs() < 1e-12, "two runs have no spread");
         // What all runs share adds to that.
-        let both = half_width(1.0, 1.0, 100, &[9.0, -9.0]);
+        let both = half_width(1.0, 1.0, 100, &[9.0, -9.0], 0.05);
         assert!((both / t / 2.0_f64.sqrt() - 1.0).abs() < 0.01, "{both}");
     }
 }

@@ -31,6 +31,7 @@ pub mod problem;
 mod report;
 pub mod select;
 pub mod state;
+pub mod thresholds;
 mod timing;
 pub mod user;
 mod words;

@@ -1,10 +1,10 @@
 //! Detection limits: the size from which an effect would be named in these data.
 
 use crate::intervals::Intervals;
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
-use crate::select::{Design, STRONG};
+use crate::select::Design;
 use crate::state::Active;
+use crate::thresholds::Thresholds;
 use estimation::prior::Role;
 use links::effect::{Link, Parameter};
 
@@ -59,7 +59,7 @@ impl Gates<'_> {
             let room = sum * sum - needed * needed * squares;
             if room > 0.0 { 2.0 * needed * (self.design.variance * sum / room).sqrt() } else { f64::INFINITY }
         };
-        let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(STRONG)));
+        let by_run = by_t(t.held_out_t).min(by_t(0.5 * t.held_out_t).max(by_gain(t.strong)));
         by_gain(t.gain).max(margin).max(by_share).max(by_run).max(interval)
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::options::Thresholds;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::normal_equations::{Cluster, NormalEquations};
 use links::drive::{DriveLink, DriveModel, Side};
 use links::effect::{Effect, Link, Parameter, Sizes};

@@ -15,9 +15,9 @@ use std::sync::{Arc, OnceLock};
 
 use estimation::parallel::each;
 
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::normal_equations::NormalEquations;
 use estimation::prior::PenalisedFit;
 use links::effect::{Effect, Link};
@@ -40,12 +40,6 @@ const MOST: usize = 5;
 const SHORT_LIST: usize = 9;
 /// Rounds of relinearisation while the named effects still move.
 const ROUNDS: usize = 3;
-/// Squared cosine from which an effect looks like others.
-pub(crate) const ALIKE: f64 = 0.98;
-/// Closer than this an explanation is in doubt (Kass and Raftery 1995: very strong from 10).
-const DOUBTFUL: f64 = 10.0;
-/// Gain from which less is asked of single clusters.
-pub(crate) const STRONG: f64 = 50.0;
 /// A removal that costs more than this in the linear approximation is not tried.
 const FAR: f64 = 40.0;
 
@@ -168,7 +162,7 @@ fn first(problem: &Problem, start: &State, all: &[Active], thresholds: &Threshol
     let design = beginning(problem, start, &subset, all, thresholds);
     let other = forward(problem, design, from, all, thresholds);
     // What is larger must also stand on the held-out runs, every part of it beside the others.
-    let better = other.against(&best) < if larger { -thresholds.gain } else { -2.0 };
+    let better = other.against(&best) < if larger { -thresholds.gain } else { -thresholds.first };
     let stands = || !larger || (from..other.state.active.len()).all(|i| admitted(problem, &other, i, all, thresholds));
     if better && stands() && !problem.runs_away(&other.state, &best.state, thresholds) { other } else { best }
 }
@@ -256,7 +250,7 @@ fn swap(
         for t in &trials {
             let candidate = &design.candidates[t.candidate];
             let name = candidate.effect.name();
-            if t.gain < gain_of_own - tie.max(12.0 + 0.1 * gain_of_own.abs()) || tried.len() > most {
+            if t.gain < thresholds.near(gain_of_own).min(gain_of_own - tie) || tried.len() > most {
                 break;
             }
             if tried.contains(&name) || !t.material || best.state.active.iter().any(|a| a.effect.name() == name) {
@@ -505,7 +499,7 @@ fn next(link: Link, design: &Design, thresholds: &Thresholds, refused: &[usize])
     };
     let tried = design.trials(thresholds).into_iter().filter(|t| !refused.contains(&t.candidate)).take(8);
     // Where the straight line leads out of bounds its gain is a rough guess.
-    let sure = |t: &Trial| !t.beyond || t.gain > 2.0 * STRONG;
+    let sure = |t: &Trial| !t.beyond || t.gain > 2.0 * thresholds.strong;
     tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && sure(t) && gates.pass(t))
 }
 
@@ -538,7 +532,7 @@ fn backward(problem: &Problem, mut best: Selection, from: usize, all: &[Active],
             for mut alternative in alternatives {
                 let design = settle(problem, &mut alternative, all, thresholds);
                 let alternative = finish(alternative, design, from, thresholds);
-                if alternative.against(&best) < thresholds.slack {
+                if alternative.against(&best) < 0.0 {
                     best = alternative;
                     improved = true;
                     break;

@@ -16,9 +16,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use gap::options::{Options, Thresholds};
+use gap::options::Options;
+use gap::thresholds::Thresholds;
 use serde::{Deserialize, Serialize};
-use testbench::blind::{Answer, Grade, Plan, Task};
+use testbench::blind::{Answer, Grade, Group, Plan, Task};
 use truth::Conditions;
 
 /// Log rate of the sets, Hz: an analysis takes a quarter of the time it takes at 1 kHz.
@@ -46,40 +47,77 @@ type Change = fn(&mut Thresholds);
 /// A threshold, what becomes of it, and how.
 const VARIANTS: &[(&str, &str, Change)] = &[
     ("as shipped", "", |_| ()),
-    ("rolling_loses", "off", |t| t.rolling_loses = 0.0),
-    ("rolling_loses", "doubled", |t| t.rolling_loses *= 2.0),
-    ("warmth", "off", |t| t.warmth = 0.0),
-    ("warmth", "doubled", |t| t.warmth *= 2.0),
-    ("least_together", "off", |t| t.least_together = 0.0),
-    ("least_together", "halved", |t| t.least_together *= 0.5),
+    ("held_share", "halved", |t| t.held_share *= 0.5),
+    ("held_share", "doubled", |t| t.held_share *= 2.0),
+    ("held_switch", "halved", |t| t.held_switch *= 0.5),
+    ("law_share", "off", |t| t.law_share = 0.0),
+    ("law_share", "doubled", |t| t.law_share *= 2.0),
+    ("law_sigmas", "off", |t| t.law_sigmas = 0.0),
+    ("law_sigmas", "doubled", |t| t.law_sigmas *= 2.0),
+    ("one", "off", |t| t.one = f64::INFINITY),
+    ("alike", "0.9", |t| t.alike = 0.9),
+    ("alike", "0.998", |t| t.alike = 0.998),
+    ("twin", "off", |t| t.twin = f64::INFINITY),
+    ("twin", "doubled", |t| t.twin *= 2.0),
+    ("gain", "off", |t| t.gain = 0.0),
+    ("gain", "doubled", |t| t.gain *= 2.0),
+    ("costs", "halved", |t| t.costs = t.costs.map(|c| 0.5 * c)),
+    ("costs", "doubled", |t| t.costs = t.costs.map(|c| 2.0 * c)),
+    ("shares", "off", |t| t.shares = [0.0; 2]),
+    ("share_of_excess", "off", |t| t.share_of_excess = 0.0),
+    ("share_of_excess", "doubled", |t| t.share_of_excess *= 2.0),
+    ("held_out_t", "off", |t| t.held_out_t = 0.0),
+    ("held_out_t", "doubled", |t| t.held_out_t *= 2.0),
+    ("strong", "off", |t| t.strong = f64::INFINITY),
+    ("harms", "off", |t| t.harms = f64::INFINITY),
+    ("drive_correlation", "1", |t| t.drive_correlation = 1.0),
+    ("ties", "off", |t| t.ties = [0.0; 2]),
+    ("tied", "off", |t| t.tied = 0.0),
+    ("tied", "doubled", |t| t.tied *= 2.0),
+    ("doubtful", "off", |t| t.doubtful = 0.0),
+    ("near", "halved", |t| t.near = t.near.map(|n| 0.5 * n)),
+    ("first", "off", |t| t.first = 0.0),
+    ("does_both", "off", |t| t.does_both = 0.0),
+    ("hides", "off", |t| t.hides = f64::INFINITY),
+    ("open", "off", |t| t.open = f64::INFINITY),
+    ("price", "off", |t| t.price = 0.0),
+    ("price", "doubled", |t| t.price *= 2.0),
+    ("as_good", "1", |t| t.as_good = 1.0),
+    ("closes", "off", |t| t.closes = 0.0),
+    ("better", "off", |t| t.better = 0.0),
+    ("worse", "off", |t| t.worse = f64::INFINITY),
+    ("adjusted", "off", |t| t.adjusted = 0.0),
     ("far_left", "off", |t| t.far_left = f64::INFINITY),
     ("far_left", "halved", |t| t.far_left *= 0.5),
     ("as_well", "off", |t| t.as_well = f64::INFINITY),
     ("as_well", "1", |t| t.as_well = 1.0),
     ("undecided", "off", |t| t.undecided = 0.0),
     ("undecided", "doubled", |t| t.undecided *= 2.0),
+    ("from_noise", "off", |t| t.from_noise = f64::INFINITY),
+    ("told", "off", |t| t.told = f64::INFINITY),
+    ("least_together", "off", |t| t.least_together = 0.0),
+    ("least_together", "1", |t| t.least_together = 1.0),
+    ("runaway", "off", |t| t.runaway = f64::INFINITY),
     ("cancels", "off", |t| t.cancels = f64::INFINITY),
     ("cancels", "halved", |t| t.cancels *= 0.5),
+    ("falls", "off", |t| t.falls = f64::INFINITY),
+    ("runs_differ", "off", |t| t.runs_differ = 0.0),
+    ("rolling_loses", "off", |t| t.rolling_loses = 0.0),
+    ("rolling_loses", "doubled", |t| t.rolling_loses *= 2.0),
+    ("warmth", "off", |t| t.warmth = 0.0),
+    ("warmth", "doubled", |t| t.warmth *= 2.0),
     ("sticks", "off", |t| t.sticks = f64::INFINITY),
     ("sticks", "halved", |t| t.sticks *= 0.5),
     ("sticks_often", "off", |t| t.sticks_often = f64::INFINITY),
-    ("from_noise", "off", |t| t.from_noise = f64::INFINITY),
-    ("told", "off", |t| t.told = f64::INFINITY),
-    ("runaway", "off", |t| t.runaway = f64::INFINITY),
-    ("law_share", "off", |t| t.law_share = 0.0),
-    ("law_share", "doubled", |t| t.law_share *= 2.0),
-    ("held_share", "halved", |t| t.held_share *= 0.5),
-    ("held_share", "doubled", |t| t.held_share *= 2.0),
-    ("held_switch", "halved", |t| t.held_switch *= 0.5),
-    ("costs", "halved", |t| t.costs = t.costs.map(|c| 0.5 * c)),
-    ("costs", "doubled", |t| t.costs = t.costs.map(|c| 2.0 * c)),
-    ("gain", "off", |t| t.gain = 0.0),
-    ("shares", "off", |t| t.shares = [0.0; 2]),
-    ("share_of_excess", "off", |t| t.share_of_excess = 0.0),
-    ("share_of_excess", "doubled", |t| t.share_of_excess *= 2.0),
-    ("held_out_t", "off", |t| t.held_out_t = 0.0),
-    ("held_out_t", "doubled", |t| t.held_out_t *= 2.0),
-    ("ties", "off", |t| t.ties = [0.0; 2]),
+    ("hidden", "off", |t| t.hidden = 1.0),
+    ("far", "off", |t| t.far = f64::INFINITY),
+    ("matters", "off", |t| t.matters = [0.0; 2]),
+    ("explained", "off", |t| t.explained = 0.0),
+    ("law_leaves", "off", |t| t.law_leaves = 0.0),
+    ("missed", "off", |t| t.missed = [f64::INFINITY; 2]),
+    ("blind", "off", |t| t.blind = f64::INFINITY),
+    ("seen", "off", |t| t.seen = 0.0),
+    ("no_noise", "off", |t| t.no_noise = f64::INFINITY),
 ];
 
 /// Data that all variants look at.
@@ -89,6 +127,11 @@ enum Set {
 }
 
 impl Set {
+    fn is_axis(&self) -> bool {
+        let groups = [Group::AxisFree, Group::Axis, Group::AxisPair];
+        matches!(self, Self::Simulated(task) if groups.contains(&task.group))
+    }
+
     fn name(&self) -> String {
         match self {
             Self::Simulated(task) => format!("{} {}", task.group.name(), task.seed),
@@ -169,6 +212,7 @@ fn row(variant: &(&str, &str, Change), sets: &[Set], known: &BTreeMap<(String, S
     // Only sets that every variant has seen are compared.
     let whole: Vec<&Set> = sets.iter().filter(|s| VARIANTS.iter().all(|v| of(s, &key(v)).is_some())).collect();
     let (simulated, recorded): (Vec<&Set>, Vec<&Set>) = whole.iter().partition(|s| matches!(s, Set::Simulated(_)));
+    let (axes, robots): (Vec<&Set>, Vec<&Set>) = simulated.iter().partition(|s| s.is_axis());
     let graded = |wanted: &[Grade]| {
         let own = simulated.iter().filter_map(|s| of(s, &key(variant))?.grade);
         own.filter(|g| wanted.contains(g)).count().to_string()
@@ -184,7 +228,8 @@ fn row(variant: &(&str, &str, Change), sets: &[Set], known: &BTreeMap<(String, S
         graded(&[Grade::Partial]),
         graded(&[Grade::Nothing, Grade::Failed]),
         graded(&[Grade::Wrong]),
-        differ(&simulated),
+        differ(&robots),
+        differ(&axes),
         differ(&recorded),
     ]
 }
@@ -196,7 +241,8 @@ fn main() {
     let budget = number("--minutes").map(|m| Duration::from_secs_f64(60.0 * m));
     let most = number("--sets").map_or(usize::MAX, |n| n as usize);
     let path = value("--state").map_or_else(|| std::env::temp_dir().join("racbot-ablation.jsonl"), PathBuf::from);
-    let plan = Plan {
+    let seed = number("--seed").map_or(1, |s| s as u64);
+    let robots = Plan {
         effect_free: 6,
         single: 1,
         sizes: vec![3, 5],
@@ -204,9 +250,11 @@ fn main() {
         pairs: 8,
         outside: 6,
         conditions: Conditions { rate_hz: RATE_HZ, ..Conditions::default() },
-        ..Plan::new(number("--seed").map_or(1, |s| s as u64))
+        ..Plan::new(seed)
     };
-    let mut tasks = plan.tasks();
+    let axes =
+        Plan { axes_free: 30, axes: 1, sizes: vec![3, 5], axis_pairs: 24, pair_sizes: vec![4], ..Plan::new(seed) };
+    let mut tasks = [robots.tasks(), axes.tasks()].concat();
     // Every kind of set comes early: a run that is cut short says something of each.
     tasks.sort_by_key(|t| t.seed);
     let mut sets: Vec<Set> = tasks.into_iter().take(most).map(|t| Set::Simulated(Box::new(t))).collect();
@@ -259,7 +307,8 @@ fn main() {
             "partial",
             "nothing",
             "wrong",
-            "sets answered otherwise",
+            "robots answered otherwise",
+            "axes answered otherwise",
             "recordings answered otherwise",
         ],
     }

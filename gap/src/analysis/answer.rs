@@ -38,7 +38,8 @@ impl Workflow<'_> {
         }
         let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
         if self.findings.named.is_empty() {
-            let blind = |l: &LinkGap| gaps::blind(l.link, &self.findings.limits, self.data.catalogue);
+            let most = self.thresholds.blind;
+            let blind = |l: &LinkGap| gaps::blind(l.link, &self.findings.limits, self.data.catalogue, most);
             weightless.extend(links.iter().filter(|l| l.link.is_fitted()).filter_map(blind));
         }
         let counts = |l: &&LinkGap| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing;
@@ -119,7 +120,7 @@ impl Workflow<'_> {
         let slides = findings.named.iter().any(|n| n.name == "wheel-slip");
         let mut sentences = Vec::new();
         for link in links.iter().filter(|l| !(slides && l.link == Link::Drive)) {
-            match gaps::remains(link, located, felt) {
+            match gaps::remains(link, located, felt, &self.thresholds) {
                 Some(Remains::Open(structure)) if !findings.unexplained.iter().any(|u| u.link == link.link) => {
                     findings.unexplained.push(Leftover { link: link.link, structure });
                 }

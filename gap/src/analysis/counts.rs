@@ -10,9 +10,9 @@ use super::study::{chosen, is_better, needed};
 use crate::controller::{ENCODER_SCALE, LOOP_SCALE};
 use crate::evidence::Interval;
 use crate::exact::Finding;
-use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::effect::{Form, Link, Values};
 
 const SCALE: &str = "scale";
@@ -50,16 +50,16 @@ pub(super) fn whose(scale: f64, data: &Data, start: &State, thresholds: &Thresho
             .map(|start| needed(problem, start, &chosen(problem, start, &[], data.catalogue, thresholds, matters)))
     };
     let [by_file, by_loop] = if data.has_motion {
-        needed(&Problem::Motion(data.motion), thresholds, gaps::motion_matters(data.motion))
+        needed(&Problem::Motion(data.motion), thresholds, gaps::motion_matters(data.motion, thresholds))
     } else {
         let Some(Drive { link, correlation, .. }) = data.drive(start, None) else { return Wrong::Untold };
         let thresholds = Thresholds { drive_correlation: correlation, ..thresholds.clone() };
-        let matters = gaps::FAR * gaps::floor_of_scatter(&link, &link.noise, &thresholds);
+        let matters = thresholds.far * gaps::floor_of_scatter(&link, &link.noise, &thresholds);
         needed(&Problem::Drive(&link), &thresholds, matters)
     };
-    if by_loop.1 < by_file.1 && is_better(by_loop, by_file) {
+    if by_loop.1 < by_file.1 && is_better(by_loop, by_file, thresholds) {
         Wrong::File(mended)
-    } else if by_file.1 < by_loop.1 && is_better(by_file, by_loop) {
+    } else if by_file.1 < by_loop.1 && is_better(by_file, by_loop, thresholds) {
         Wrong::Controller
     } else {
         Wrong::Untold

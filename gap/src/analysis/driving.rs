@@ -8,7 +8,7 @@ use runs::CountSource;
 use super::found::Named;
 use super::gaps;
 use super::measure::{Data, Drive};
-use super::misses::{FAR, Misses};
+use super::misses::Misses;
 use super::study::{self, Outcome, chosen, study};
 use super::workflow::Workflow;
 use super::{patterns, ratios};
@@ -16,11 +16,11 @@ use crate::options::Stage;
 use crate::problem::Problem;
 use crate::select::Selection;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};
 use links::effects::fits;
 use links::pieces::Pieces;
-use links::thresholds::{FILTER_S, FOREIGN, HIDDEN, LAW_LEAVES, NO_NOISE, SEEN};
 
 /// Whether a robot goes along one line of the floor, to and fro: across it nothing shows what the carpet does, and along it
 /// the carpet is friction of the wheels. The mean of the directions, twice their angle, weighted by the squared speed.
@@ -109,7 +109,7 @@ impl<'a> Workflow<'a> {
         let all = OnceCell::new();
         let made = || self.beyond().and_then(|data| self.whole_drive(data, link, &found));
         let whole = || all.get_or_init(made).as_ref().map(Problem::Drive);
-        let far = gaps::FAR * least;
+        let far = self.thresholds.far * least;
         let mut outcome = study(&problem, &whole, &self.start, selection, here, &self.thresholds, far);
         outcome.held_out /= least;
         outcome
@@ -128,12 +128,14 @@ impl<'a> Workflow<'a> {
     fn scatter(&mut self, link: &DriveLink) {
         let reached = link.sizes.drive_nm;
         let worst = link.noise.iter().copied().fold(0.0, f64::max);
-        if worst <= NO_NOISE * reached {
+        if worst <= self.thresholds.no_noise * reached {
             return;
         }
         let scatters =
             format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
-        let own = links::drive::accounted(link, &self.start.drive(None)).into_iter().all(|share| share > FOREIGN);
+        let own = links::drive::accounted(link, &self.start.drive(None))
+            .into_iter()
+            .all(|share| share > self.thresholds.foreign);
         if own {
             self.findings.remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
         } else {
@@ -161,7 +163,7 @@ impl<'a> Workflow<'a> {
         let found: Vec<(&str, f64)> = outcome.named.iter().map(|n| (n.name.as_str(), late(n))).collect();
         let found: Vec<(&str, f64)> = found.into_iter().filter(|(_, late_s)| *late_s > 0.0).collect();
         let filter_s: f64 = found.iter().map(|(_, late_s)| late_s).sum();
-        if !speeds || filter_s <= 0.0 || filter_s > FILTER_S {
+        if !speeds || filter_s <= 0.0 || filter_s > self.thresholds.filter_s {
             return;
         }
         let names: Vec<&str> = found.iter().map(|(name, _)| *name).collect();
@@ -182,7 +184,9 @@ impl<'a> Workflow<'a> {
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
             let hidden = e.link() != Link::Drive && self.seen.is_none();
             let grain = || e.name() == "carpet-grain" && ways_lie_along_one_line(self.searched().pieces);
-            hidden || drives && own.peek().is_some() && own.all(|l| l.limit < SEEN * l.material) || grain()
+            hidden
+                || drives && own.peek().is_some() && own.all(|l| l.limit < self.thresholds.seen * l.material)
+                || grain()
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
     }
@@ -198,7 +202,7 @@ impl<'a> Workflow<'a> {
                 break;
             }
             let stuck = link.mask_sticking(&selection.state.drive(None), self.thresholds.sticks);
-            match lowered(link, &selection.state, &floor, self.thresholds.drive_correlation) {
+            match lowered(link, &selection.state, &floor, &self.thresholds) {
                 Some((lower, correlation)) => {
                     link.noise.clone_from(&lower);
                     floor = lower;
@@ -213,7 +217,7 @@ impl<'a> Workflow<'a> {
     }
 
     fn looked(&self, link: &DriveLink, here: &[Arc<dyn Effect>], known: &[Active], floor: &[f64]) -> Selection {
-        let matters = gaps::FAR * gaps::floor_of_scatter(link, floor, &self.thresholds);
+        let matters = self.thresholds.far * gaps::floor_of_scatter(link, floor, &self.thresholds);
         chosen(&Problem::Drive(link), &self.start, known, here, &self.thresholds, matters)
     }
 
@@ -233,14 +237,14 @@ impl<'a> Workflow<'a> {
             outcome.forget(&self.start);
         }
         let [before, after] = [&self.start, &outcome.written].map(|s| study::rms(&Problem::Drive(link), s));
-        let misses = Misses::new(self.seen.as_ref(), FAR);
+        let misses = Misses::new(self.seen.as_ref(), self.thresholds.missed[0]);
         let rolls = |run: usize, t: f64| !misses.are_near(run, t);
         let model = outcome.selection.state.drive(None);
         let leftover = crate::leftover::drive(pieces, &model, &link.masked(), &rolls, link.sizes);
         // Beside a named effect only what its law's inexactness cannot leave.
         let explained = if outcome.named.is_empty() { 0.0 } else { before.powi(2) - after.powi(2) };
         for structure in leftover.structures {
-            if structure.share * after.powi(2) >= LAW_LEAVES * explained {
+            if structure.share * after.powi(2) >= self.thresholds.law_leaves * explained {
                 self.findings.leave(Link::Drive, [structure.text]);
             } else {
                 self.findings.remarks.push(format!("Small beside what is named on the drive: {}.", structure.text));
@@ -261,11 +265,12 @@ impl<'a> Workflow<'a> {
 }
 
 /// Floor and correlation of the drive with what was named in the model, if they hid enough to look again.
-fn lowered(link: &DriveLink, state: &State, floor: &[f64], correlation: f64) -> Option<(Vec<f64>, f64)> {
+fn lowered(link: &DriveLink, state: &State, floor: &[f64], thresholds: &Thresholds) -> Option<(Vec<f64>, f64)> {
+    let correlation = thresholds.drive_correlation;
     let residuals = link.residuals(&state.drive(None))?;
     let (now, correlated) = links::drive::floor(link, &residuals, link.sizes.drive_nm);
     let lower: Vec<f64> = now.iter().zip(floor).map(|(a, b)| a.min(*b)).collect();
     let correlated = correlated.min(correlation);
     let noise = |floor: &[f64], correlation: f64| correlation * floor.iter().map(|f| f * f).sum::<f64>();
-    (noise(&lower, correlated) < (1.0 - HIDDEN) * noise(floor, correlation)).then_some((lower, correlated))
+    (noise(&lower, correlated) < (1.0 - thresholds.hidden) * noise(floor, correlation)).then_some((lower, correlated))
 }

@@ -7,7 +7,7 @@ use crate::evidence::{Evidence, Interval};
 use crate::exact::ExactLink;
 use crate::limits::Limit;
 use crate::locate::Located;
-use crate::options::Thresholds;
+use crate::thresholds::Thresholds;
 use links::drive::DriveResiduals;
 use links::effect::Link;
 use links::motion::WindowResiduals;

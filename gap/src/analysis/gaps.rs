@@ -8,13 +8,12 @@ use super::found::{LinkGap, Named};
 use crate::exact::ExactLink;
 use crate::limits::Limit;
 use crate::locate::Located;
-use crate::options::Thresholds;
+use crate::thresholds::Thresholds;
 use links::drive::{DriveLink, DriveResiduals};
 use links::effect::{Effect, Link, Sizes};
 use links::inertial::{self, Fit};
 use links::motion::{MotionLink, WindowResiduals};
 use links::pieces::Pieces;
-use links::thresholds::BLIND;
 
 pub(super) fn motion_gap([before, after]: [f64; 2], link: &MotionLink, plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
     let (noise, axes) = (link.noise, link.axes());
@@ -93,24 +92,18 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
     (mean(&|l| l.before), mean(&|l| l.after))
 }
 
-/// Noise floors from which a link does not agree: effects too small to matter alone are then named together.
-pub(crate) const FAR: f64 = 3.0;
-/// What matters within a window of motion, as a share of what its wheels rolled, and of the turn they could have made
-/// of it: 4 mm and 0.02 rad where wheels roll 0.42 m in a second, 8 cm from the centre (four example sets).
-const MATTERS: [f64; 2] = [0.0095, 0.0038];
-
 /// Gap of the motion link that matters, in noise floors.
-pub(super) fn motion_matters(link: &MotionLink) -> f64 {
-    let ([x, y, theta], [way, turn]) = (link.noise, agreement(link));
+pub(super) fn motion_matters(link: &MotionLink, thresholds: &Thresholds) -> f64 {
+    let ([x, y, theta], [way, turn]) = (link.noise, agreement(link, thresholds));
     let way = way / x.max(y);
     2.0_f64.max(if link.axes() == 2 { way } else { way.min(turn / theta) })
 }
 
 /// Way, m, and turn, rad, of a window up to which wheels and poses part without that it matters.
-pub(super) fn agreement(link: &MotionLink) -> [f64; 2] {
+pub(super) fn agreement(link: &MotionLink, thresholds: &Thresholds) -> [f64; 2] {
     let robot = link.pieces.robot();
     let rolled = link.pieces.speed() * robot.wheel_radius_m * link.window_s;
-    [MATTERS[0] * rolled, MATTERS[1] * rolled / Sizes::of(robot).rim_m]
+    [thresholds.matters[0] * rolled, thresholds.matters[1] * rolled / Sizes::of(robot).rim_m]
 }
 
 /// Torque that no model of the drive predicts, Nm, one a wheel: the scatter, and what rolling loses or
@@ -137,14 +130,9 @@ pub(super) enum Remains {
     Beside(String),
 }
 
-/// Noise floors that are worth a sentence, and from which a link does not agree.
-const WORTH: f64 = 1.5;
-/// Share of the squared gap that named effects close at least on a link that they explain.
-const EXPLAINED: f64 = 0.5;
-
 /// What to say of a link of motion or drive on which more than noise is left.
-pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit]) -> Option<Remains> {
-    if !link.link.is_fitted() || link.after < WORTH {
+pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit], thresholds: &Thresholds) -> Option<Remains> {
+    if !link.link.is_fitted() || link.after < thresholds.worth_saying {
         return None;
     }
     let open = |rms: f64| (rms * rms - 1.0).max(0.0);
@@ -181,8 +169,8 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit]) -> Opti
         1e3 * link.rms[worst][1],
         unit,
     );
-    let explained = open(link.after) < (1.0 - EXPLAINED) * open(link.before);
-    Some(if link.after >= FAR && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
+    let explained = open(link.after) < (1.0 - thresholds.explained) * open(link.before);
+    Some(if link.after >= thresholds.far && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
 }
 
 /// Links without a moment that could show anything, and what would be needed.
@@ -218,7 +206,7 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
 }
 
 /// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
-pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>]) -> Option<(Link, String)> {
+pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>], most: f64) -> Option<(Link, String)> {
     let own = catalogue.iter().filter(|e| e.link() == link);
     let least = own.filter_map(|e| {
         let own = limits.iter().filter(|l| l.name == e.name() && l.material > 0.0);
@@ -227,7 +215,7 @@ pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>])
     let mut least: Vec<(f64, &Limit)> = least.collect();
     least.sort_by(|a, b| a.0.total_cmp(&b.0));
     let named = match least.get(least.len() / 2) {
-        Some((ratio, _)) if *ratio > BLIND => {
+        Some((ratio, _)) if *ratio > most => {
             format!("most effects would be named there from {ratio:.0} times what matters, or more")
         }
         Some(_) => return None,

@@ -6,7 +6,6 @@ use runs::robot::Robot;
 use super::cut::Cut;
 use links::drive::{DriveLink, DriveModel, FEWEST_PER_COLUMN, Generic};
 use links::pieces::Driving;
-use links::thresholds::NO_NOISE;
 
 /// Longest test function, s.
 const LONGEST_S: f64 = 3.0;
@@ -18,7 +17,7 @@ const LONGEST_S: f64 = 3.0;
 /// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
 /// as long as they tell more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
-pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
+pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool, no_noise: f64) -> Driving {
     // Without effects of the file: so that it is the same before something was found and after.
     let model = DriveModel::new(robot);
     let look = |driving: Driving| {
@@ -31,7 +30,7 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool) -> Driving {
         Some(Look {
             tells: link.tells(&model),
             length: link.length(),
-            loud: noise > NO_NOISE * link.sizes.drive_nm,
+            loud: noise > no_noise * link.sizes.drive_nm,
             enough,
         })
     };

@@ -11,13 +11,13 @@ use runs::robot::{Robot, Support};
 use super::driven::Driven;
 use super::found::LinkGap;
 use super::gaps;
-use super::misses::{FAR_AMISS, Misses};
+use super::misses::Misses;
 use super::question::Question;
 use super::robot_file::{completed, given};
 use super::study::rms;
-use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::drive::{DriveLink, DriveResiduals};
 use links::effect::{Effect, Link};
 use links::inertial::{self, Fit, InertialLink};
@@ -117,7 +117,7 @@ impl<'a> Data<'a> {
         link.mask_slip(&motion);
         if state.active.iter().any(|a| a.effect.name() == "wheel-slip") {
             // Where the law of slip did not catch what slipped, Newton's law has no body to push.
-            let misses = Misses::new(seen, FAR_AMISS);
+            let misses = Misses::new(seen, self.thresholds.missed[1]);
             link.mask_times(|run, t| misses.are_near(run, t));
         }
         let model = state.drive(None);

@@ -2,11 +2,6 @@
 
 use links::motion::WindowResiduals;
 
-/// RMS residual of a window far from what a second of noise reaches.
-pub(super) const FAR: f64 = 1.35;
-/// The same where wheels slip, whose law is not exact.
-pub(super) const FAR_AMISS: f64 = 2.0;
-
 /// Seconds in which the camera saw something else than the wheels said.
 pub(super) struct Misses(Vec<(usize, f64, f64)>);
 

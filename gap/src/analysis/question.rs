@@ -106,7 +106,7 @@ impl<'a> Question<'a> {
         let cut = |geometry: &Geometry| {
             let whole = segments(&self.robot, geometry, &self.set.logs, PIECE);
             let held = Cut { sample: whole.sample(self.every_run), whole };
-            let driving = driving(&held, &self.robot, self.currents);
+            let driving = driving(&held, &self.robot, self.currents, self.options.thresholds.no_noise);
             if driving == Driving::default() { held } else { held.driven(driving) }
         };
         let pieces = cut(&self.geometry);
@@ -135,7 +135,7 @@ impl<'a> Question<'a> {
         let link = MotionLink::new(pieces, self.noise, self.window_s);
         let mut start = self.filed();
         start.active.extend(crossed.cloned());
-        let noise = super::truth::smoothed(&link, &start, &self.catalogue)?;
+        let noise = super::truth::smoothed(&link, &start, &self.catalogue, &self.options.thresholds)?;
         let said = super::truth::said(self.noise, noise);
         self.noise = noise;
         Some(said)

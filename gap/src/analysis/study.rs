@@ -8,19 +8,12 @@ use super::found::Named;
 use crate::evidence::{Evidence, Interval};
 use crate::intervals::Intervals;
 use crate::limits::Limit;
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::select::{self, Design, Selection};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::effect::{Effect, Link, Parameter};
 use links::thresholds::{self, Refusal};
-
-/// Noise floors that may be left before a link is looked at again with nothing adjusted.
-const OPEN: f64 = 1.5;
-/// Share of the squared residual that the estimates may leave more than the best ones of what is named.
-const WORSE: f64 = 0.1;
-/// Share of a held-out sum of squares by which a selection with more parameters must be better.
-const BETTER: f64 = 0.03;
 
 /// A link's selection with everything that is said about it.
 pub(super) struct Outcome {
@@ -71,19 +64,19 @@ pub(super) fn chosen(
     let open = rms(problem, start);
     let adjusted = select::figures(&selection.design).1;
     let worth = selection.state.active[from..].iter().any(Active::worth);
-    let selection = if worth || open <= matters || adjusted >= 0.7 * open {
+    let selection = if worth || open <= matters || adjusted >= thresholds.adjusted * open {
         selection
     } else {
         select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
     };
     // With everything adjusted and named, the prediction is still far from the noise: noise does not decide then.
-    if select::figures(&selection.design).1 <= OPEN {
+    if select::figures(&selection.design).1 <= thresholds.open {
         return selection;
     }
     let all = problem.candidates(start, catalogue);
     let Some(plain) = select::plain(problem, start, &all, thresholds, false) else { return selection };
     let needed = [&selection, &plain].map(|s| needed(problem, start, s));
-    if is_better(needed[1], needed[0]) { plain } else { selection }
+    if is_better(needed[1], needed[0], thresholds) { plain } else { selection }
 }
 
 /// What a selection needs: the held-out sum of squares that its names alone leave, and their parameters.
@@ -97,8 +90,12 @@ pub(super) fn needed(problem: &Problem, start: &State, selection: &Selection) ->
 }
 
 /// Whether the first of two selections is better: with fewer parameters as good as the other, else better than it.
-pub(super) fn is_better((loss, parameters): (f64, usize), (other, others): (f64, usize)) -> bool {
-    loss < other * if parameters < others { 1.0 + BETTER } else { 1.0 - BETTER }
+pub(super) fn is_better(
+    (loss, parameters): (f64, usize),
+    (other, others): (f64, usize),
+    thresholds: &Thresholds,
+) -> bool {
+    loss < other * if parameters < others { 1.0 + thresholds.better } else { 1.0 - thresholds.better }
 }
 
 /// Root mean square of the residuals of a state in floors.
@@ -293,7 +290,7 @@ fn sound(
 ) -> (Judged, Vec<Refused>) {
     let (mut selection, mut refused) = admitted(problem, selection, start, all, thresholds);
     loop {
-        let judged = judge(problem, start, selection);
+        let judged = judge(problem, start, selection, thresholds);
         let active = |e: &Estimate| &judged.selection.state.active[e.index];
         let faults = judged.estimates.iter().filter_map(|e| Some((e, fault(active(e), e)?)));
         let worst = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p).then(a.0.index.cmp(&b.0.index)));
@@ -323,7 +320,7 @@ fn on_whole(
     thresholds: &Thresholds,
 ) -> (State, Vec<Estimate>, Vec<Refused>) {
     let design = Design::new(whole, &selection.state, all, thresholds);
-    let judged = judge(whole, start, selection.on(design));
+    let judged = judge(whole, start, selection.on(design), thresholds);
     let Judged { selection, mut written, estimates, .. } = judged;
     let mut refused = Vec::new();
     let kept = |e: &Estimate| {
@@ -445,7 +442,7 @@ fn p_value(problem: &Problem, state: &State, index: usize) -> f64 {
 }
 
 /// The written state of a selection, by whichever estimates leave less where they differ much.
-fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
+fn judge(problem: &Problem, start: &State, selection: Selection, thresholds: &Thresholds) -> Judged {
     let from = start.active.len();
     let written = |estimates: &[Estimate]| {
         let mut state = start.clone();
@@ -467,7 +464,7 @@ fn judge(problem: &Problem, start: &State, selection: Selection) -> Judged {
     problem.fit(&mut bare_state);
     let bare = rms(problem, &bare_state);
     let excess = |r: f64| (r * r - 1.0).max(0.0);
-    if excess(bare) < (1.0 - WORSE) * excess(now) && now > OPEN {
+    if excess(bare) < (1.0 - thresholds.worse) * excess(now) && now > thresholds.open {
         let mut fitted = selection.stripped();
         for (k, e) in careful.iter().enumerate() {
             fitted.state.active[e.index].values = bare_state.active[from + k].values.clone();

@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use estimation::statistics::median;
 
-use super::gaps::{FAR, agreement};
+use super::gaps::agreement;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::effect::{Effect, Link};
 use links::motion::{MotionLink, WindowResiduals};
 
@@ -28,8 +29,13 @@ const MEDIAN_OF_TWO: f64 = 0.832_6;
 /// Standard deviations of a pose (m, m, rad) whose neighbours scatter less than it errs, none above what matters: beyond
 /// that wheels and pose do not agree, whatever the pose is. `None` where neighbours tell its noise, and where wheels and
 /// pose part so far that neither can be believed.
-pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Effect>]) -> Option<[f64; 3]> {
-    let ([way, turn], [x, y, theta]) = (agreement(link), link.noise);
+pub(super) fn smoothed(
+    link: &MotionLink,
+    start: &State,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Option<[f64; 3]> {
+    let ([way, turn], [x, y, theta]) = (agreement(link, thresholds), link.noise);
     let headings = link.axes() == 3;
     // A camera whose noise is near what matters tells it: what its frames and the wheels leave then is the robot's.
     let finer = [(x.max(y), way), (theta, turn)].map(|(noise, matters)| FINER * noise <= matters);
@@ -55,7 +61,7 @@ pub(super) fn smoothed(link: &MotionLink, start: &State, catalogue: &[Arc<dyn Ef
     let placed = typical(&left, &[(0, x), (1, y)]);
     let pointed = if headings { typical(&left, &[(2, theta)]) } else { 0.0 };
     let beyond = finer[0] && placed > BEYOND_WHEELS * x.max(y) || finer[1] && pointed > BEYOND_WHEELS * theta;
-    if !beyond || placed > FAR * way || pointed > FAR * turn {
+    if !beyond || placed > thresholds.far * way || pointed > thresholds.far * turn {
         return None;
     }
     let known = |noise: f64, errs: f64, matters: f64| noise.max(errs.min(matters));

@@ -13,9 +13,10 @@ use super::question::Question;
 use super::study::{chosen, study};
 use crate::controller::with_other_counts;
 use crate::exact::{ExactLink, Finding};
-use crate::options::{Stage, Thresholds};
+use crate::options::Stage;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::effect::Link;
 use links::effects;
 use links::motion::{MotionLink, WindowResiduals};
@@ -109,10 +110,11 @@ impl<'a> Workflow<'a> {
             let (link, catalogue) = (self.searched().motion, self.data.catalogue);
             let problem = Problem::Motion(link);
             let whole = || self.beyond().map(|data| Problem::Motion(data.motion));
-            let matters = gaps::motion_matters(link);
+            let matters = gaps::motion_matters(link, &self.thresholds);
             let selection = chosen(&problem, &self.start, &[], catalogue, &self.thresholds, matters);
             self.question.options.reached(Stage::MotionChosen);
-            let outcome = study(&problem, &whole, &self.start, selection, catalogue, &self.thresholds, gaps::FAR);
+            let outcome =
+                study(&problem, &whole, &self.start, selection, catalogue, &self.thresholds, self.thresholds.far);
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);

@@ -9,9 +9,9 @@ use super::robot_file::{robot_text, with_effects};
 use super::workflow::Workflow;
 use crate::GapError;
 use crate::evidence::Evidence;
-use crate::options::{Stage, Thresholds};
+use crate::options::Stage;
+use crate::thresholds::Thresholds;
 use links::effect::Link;
-use links::thresholds::{FALLS, ODD_ROWS};
 
 /// A robot with what was named, its file, and the figures of that file.
 pub(super) struct Written<'a> {
@@ -33,7 +33,7 @@ impl<'a> Workflow<'a> {
     pub(super) fn written(&mut self) -> Result<Written<'a>, GapError> {
         let refused = std::mem::take(&mut self.findings.refused);
         self.findings.remarks.extend(refused);
-        let odd = odd_clock(&self.question.robot, self.data.logs);
+        let odd = odd_clock(&self.question.robot, self.data.logs, &self.thresholds);
         let odd_clock = odd.is_some();
         if let Some(remark) = odd {
             self.findings.remarks.push(remark);
@@ -91,7 +91,7 @@ fn is_idle(n: &Named, measured: &Measured, thresholds: &Thresholds) -> bool {
     // the file than of the fit, and of the limit that is printed.
     let falls = match n.link {
         Link::Motion => (1.0 - thresholds.share(Link::Motion)).sqrt(),
-        _ => FALLS,
+        _ => thresholds.falls,
     };
     matches!(n.evidence, Evidence::Test { .. })
         && n.link.is_fitted()
@@ -99,9 +99,9 @@ fn is_idle(n: &Named, measured: &Measured, thresholds: &Thresholds) -> bool {
 }
 
 /// What to say of logs whose times cannot be seconds.
-fn odd_clock(robot: &Robot, logs: &[Log]) -> Option<String> {
+fn odd_clock(robot: &Robot, logs: &[Log], thresholds: &Thresholds) -> Option<String> {
     let periods = logs.iter().filter_map(|log| Some((&log.name, log.tick_s()? * robot.control_rate_hz)));
-    periods.filter(|(_, p)| *p > 0.0).find(|(_, p)| p.max(1.0 / p) > ODD_ROWS).map(|(log, odd)| {
+    periods.filter(|(_, p)| *p > 0.0).find(|(_, p)| p.max(1.0 / p) > thresholds.odd_rows).map(|(log, odd)| {
         format!(
             "Compared nothing: the rows of {log} are {odd:.3} control periods apart by the column t and control_rate_hz; t is in \
              seconds (are these milliseconds?)."

@@ -46,8 +46,8 @@ mod tests {
 
     use super::*;
     use crate::problem::Problem;
-    use crate::select::ALIKE;
     use crate::state::{Active, State};
+    use crate::thresholds::Thresholds;
     use links::drive::DriveLink;
     use links::effect::{Effect, Link};
     use links::effects::catalogue;
@@ -96,7 +96,7 @@ mod tests {
                         mixed.dot(&estimation::normal_equations::solve(&information, &mixed)) / jj[(*column, *column)]
                     };
                     let names: &mut Vec<String> = found.entry(name).or_default();
-                    if own.iter().all(|column| done(column) > ALIKE) && !names.contains(&other) {
+                    if own.iter().all(|column| done(column) > Thresholds::default().alike) && !names.contains(&other) {
                         names.push(other);
                     }
                 }

@@ -312,4 +312,10 @@ fn statement(page: &mut Page, a: &Analysis) {
     for r in &a.remarks {
         page.text(r);
     }
+    let mut table = Table::new(&["threshold", "value", "what it is"]);
+    for s in t.stated() {
+        let values: Vec<String> = s.values.iter().map(|v| short(*v)).collect();
+        table.row([s.name.to_owned(), values.join(", "), s.meaning.to_owned()]);
+    }
+    page.table(&table);
 }

@@ -77,16 +77,11 @@ pub(super) fn json(a: &Analysis) -> Value {
             "estimate": l.estimate, "sd": l.sd,
         })).collect::<Vec<_>>(),
         "waterfall": a.waterfall.iter().map(|(n, v)| json!({"step": n, "gap": v})).collect::<Vec<_>>(),
-        "thresholds": {
-            "held_share_of_materiality": a.thresholds.held_share,
-            "objective_gain": a.thresholds.gain,
-            "cost_per_effect": a.thresholds.costs[0],
-            "cost_per_further_parameter": a.thresholds.costs[1],
-            "held_out_share": {"motion": a.thresholds.shares[0], "drive": a.thresholds.shares[1]},
-            "held_out_share_of_excess": a.thresholds.share_of_excess,
-            "held_out_t": a.thresholds.held_out_t,
-            "split": if a.runs.len() > 1 { "leave one run out" } else { "blocks of the single run" },
-        },
+        "thresholds": a.thresholds.stated().into_iter().map(|s| {
+            let values = if let [value] = s.values[..] { json!(value) } else { json!(s.values) };
+            (s.name.to_owned(), values)
+        }).collect::<Map<String, Value>>(),
+        "split": if a.runs.len() > 1 { "leave one run out" } else { "blocks of the single run" },
         "runs": a.runs,
         "replayed": a.exact.iter().filter_map(|l| Some((l.link, l.replay.as_ref()?))).map(|(link, r)| {
             let counts = json!({

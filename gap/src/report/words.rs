@@ -1,7 +1,7 @@
 //! The findings in sentences.
 
 use super::units;
-use crate::analysis::{Analysis, FAR, Named, Verdict};
+use crate::analysis::{Analysis, Named, Verdict};
 use links::effect::Link;
 
 /// Links in the order of the signals.
@@ -109,7 +109,7 @@ pub(super) fn and_more(a: &Analysis) -> String {
     // What slides drives no body as Newton has it: the name says so already.
     let slides = a.effects.iter().any(|e| e.name == "wheel-slip");
     let open = a.links.iter().filter(|l| l.link.is_fitted() && !(slides && l.link == Link::Drive));
-    let worst = open.max_by(|x, y| x.after.total_cmp(&y.after)).filter(|l| l.after >= FAR);
+    let worst = open.max_by(|x, y| x.after.total_cmp(&y.after)).filter(|l| l.after >= a.thresholds.far);
     worst.map_or_else(String::new, |l| {
         format!(", and more: {:.1} noise floors remain on the {} link", l.after, l.link.name())
     })

@@ -4,10 +4,10 @@ use estimation::normal_equations::Cluster;
 use estimation::parallel::each;
 use nalgebra::{DMatrix, DVector};
 
-use super::{ALIKE, DOUBTFUL, Design, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
-use crate::options::Thresholds;
+use super::{Design, Selection, Trial, finish, is_material, leaves_far_more, placed, settle, stopped};
 use crate::problem::{Linear, Problem};
 use crate::state::Active;
+use crate::thresholds::Thresholds;
 
 /// Held-out RMS of a link in units of its noise, and the same with what is immaterial adjusted.
 pub fn figures(design: &Design) -> (f64, f64) {
@@ -69,7 +69,7 @@ pub fn alternatives(
     // The same signal matters as much under any name.
     let twin = |c: usize| found.design.is_twin(c, index);
     // What the named ones can do only with this one does its part where they are fitted beside it.
-    let shared = shared(&found.design, index);
+    let shared = shared(&found.design, index, thresholds);
     // Far from the noise adjustments would let anything pass for anything: only what does the same counts.
     let counts = |name: &str| {
         let of_name = |c: &usize| found.design.candidates[*c].effect.name() == name;
@@ -83,7 +83,7 @@ pub fn alternatives(
     let mut told: Vec<String> = vec![name.clone()];
     // Of an effect's many shapes the one that does the same here is fitted first: a straight line from where the effect
     // is absent shows a large one of them as well as the others.
-    let near = trials.iter().take_while(|t| t.gain >= own_gain - 12.0 - 0.05 * own_gain);
+    let near = trials.iter().take_while(|t| t.gain >= thresholds.near(own_gain));
     let (same, others): (Vec<&Trial>, Vec<&Trial>) = near.partition(|t| twin(t.candidate));
     for t in same.into_iter().chain(others) {
         let candidate = &design.candidates[t.candidate];
@@ -121,7 +121,7 @@ pub fn alternatives(
         // Of what does the same what is held near zero has other sizes, and other penalties, with each: it is tied where
         // either says so.
         let difference = if same { settled.min(own_gain - t.gain) } else { settled };
-        let tie = thresholds.tie(own_gain).max(TIED);
+        let tie = thresholds.tied(own_gain);
         // What does the same here differs by how exact the laws are.
         if !twin(t.candidate)
             && own.form.free.len() <= candidate.form.free.len()
@@ -129,34 +129,29 @@ pub fn alternatives(
         {
             continue;
         }
-        if difference < tie.max(DOUBTFUL) && (twin(t.candidate) || is_material(candidate, &values)) {
+        if difference < tie.max(thresholds.doubtful) && (twin(t.candidate) || is_material(candidate, &values)) {
             sets.push(vec![name.clone(), alternative_name.clone()]);
             told.push(alternative_name.clone());
             let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == alternative_name);
             ambiguous |= difference < tie && candidate.form.free.len() <= own.form.free.len() && !preferred;
         }
     }
-    for other in twins_of_parts(&found.design, index) {
+    for other in twins_of_parts(&found.design, index, thresholds) {
         if !told.contains(&other) && counts(&other) {
             sets.push(vec![name.clone(), other.clone()]);
             told.push(other);
         }
     }
-    let spanning = super::spanning::spanning_pairs(&found.design, index);
+    let spanning = super::spanning::spanning_pairs(&found.design, index, thresholds.alike);
     let pair = pair_alternatives(&design, &trials, &spanning, &told, own_gain, thresholds);
     sets.extend(pair.filter(|(spanned, _)| *spanned || !found.bare).map(|p| p.1));
     let shared = shared.into_iter().filter(|other| !told.contains(other)).collect();
     Alternatives { design, sets, ambiguous, shared }
 }
 
-/// Squared cosine with what an effect of several parameters can do from which it hides another: the other's limit is
-/// three times what it is alone. Wheels that are all skewed by 7 degrees tell a turned marker plate from a common skew
-/// by their second order only; 0.13 rad of it passed for skews (blind bench).
-const HIDES: f64 = 0.9;
-
 /// Effects that the active ones together can do, and could not without this one; and those that this one, which has
 /// several parameters, can nearly do.
-fn shared(design: &Design, index: usize) -> Vec<String> {
+fn shared(design: &Design, index: usize, thresholds: &Thresholds) -> Vec<String> {
     let jj = design.linear.equations.information();
     let done = |columns: &[usize], c: usize| {
         let a = DMatrix::from_fn(columns.len(), columns.len(), |i, j| jj[(columns[i], columns[j])]);
@@ -174,8 +169,9 @@ fn shared(design: &Design, index: usize) -> Vec<String> {
         let seen = |j: &usize| design.linear.equations.tells(*j);
         fits && !active
             && columns.iter().all(seen)
-            && (own.len() > columns.len() && columns.iter().all(|j| done(&own, *j) > HIDES)
-                || columns.iter().all(|j| done(&all, *j) > ALIKE) && !columns.iter().all(|j| done(&others, *j) > ALIKE))
+            && (own.len() > columns.len() && columns.iter().all(|j| done(&own, *j) > thresholds.hides)
+                || columns.iter().all(|j| done(&all, *j) > thresholds.alike)
+                    && !columns.iter().all(|j| done(&others, *j) > thresholds.alike))
     };
     let mut names: Vec<String> =
         (0..design.candidates.len()).filter(is_shared).map(|c| design.candidates[c].effect.name().to_owned()).collect();
@@ -187,11 +183,8 @@ fn shared(design: &Design, index: usize) -> Vec<String> {
 const MOST_SHAPES: usize = 3;
 const MOST_TRIED: usize = 6;
 
-/// Objectives closer than this are a tie.
-const TIED: f64 = 6.0;
-
 /// Effects of one wheel that do what an effect of several does on that wheel.
-fn twins_of_parts(design: &Design, index: usize) -> Vec<String> {
+fn twins_of_parts(design: &Design, index: usize, thresholds: &Thresholds) -> Vec<String> {
     let active = &design.state.active[index];
     let parts: Vec<usize> = design.linear.of_active(index);
     let material = |j: &usize| active.form.free[*j].is_material(active.values.get(&active.form.free[*j].name));
@@ -205,7 +198,7 @@ fn twins_of_parts(design: &Design, index: usize) -> Vec<String> {
         let size = own * jj[(parts[j], column)] / jj[(column, column)].max(1e-300);
         let bounds = design.candidates[c].form.free[0].bounds;
         let cos2 = jj[(parts[j], column)].powi(2) / (jj[(parts[j], parts[j])] * jj[(column, column)]).max(1e-300);
-        cos2 > ALIKE && size > bounds[0] && size < bounds[1]
+        cos2 > thresholds.alike && size > bounds[0] && size < bounds[1]
     };
     let twins = (0..design.candidates.len()).filter(|c| {
         let candidate = &design.candidates[*c];
@@ -244,13 +237,13 @@ fn pair_alternatives(
                 let v = design.values(&fit, *c);
                 design.within_bounds(*c, &v, &fit) && material(*c, &v)
             });
-            (sound && gain > own_gain - thresholds.tie(own_gain).max(TIED)).then_some((gain, pair))
+            (sound && gain > own_gain - thresholds.tied(own_gain)).then_some((gain, pair))
         };
         let gains: Vec<(f64, [usize; 2])> = each(&pairs, &gain).into_iter().flatten().collect();
         let most = gains.iter().map(|g| g.0).fold(f64::NEG_INFINITY, f64::max);
         let parameters =
             |g: &&(f64, [usize; 2])| g.1.iter().map(|c| design.candidates[*c].form.free.len()).sum::<usize>();
-        let (_, [a, b]) = gains.iter().filter(|g| g.0 > most - TIED).min_by_key(parameters)?;
+        let (_, [a, b]) = gains.iter().filter(|g| g.0 > most - thresholds.tied).min_by_key(parameters)?;
         Some([told[0].as_str(), effect(*a), effect(*b)].map(str::to_owned).to_vec())
     };
     let spanning = spanning.iter().filter(|p| !p.iter().any(|c| is_told(*c))).copied().collect();

@@ -5,17 +5,10 @@ use std::ops::Index;
 use estimation::parallel::numbered;
 use nalgebra::DMatrix;
 
-use super::ALIKE;
-use crate::options::Thresholds;
 use crate::problem::{Linear, Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::prior::{Penalised, PenalisedFit, Role};
-
-/// Standard deviations of the named effects' laws that another effect must explain more than.
-const LAW_SIGMAS: f64 = 2.0;
-/// Share of what an unnamed effect does that the named ones could do in its place, from which it is frozen while they
-/// are estimated: they would share the signal (-2.3 % was found where -3.6 % is true).
-const TWIN: f64 = 0.3;
 
 /// A linearised link with all candidates, ready for any question about subsets.
 pub struct Design {
@@ -30,7 +23,7 @@ pub struct Design {
     pub(super) held: Vec<Role>,
     /// The same before named effects widened anything, and without their look-alikes.
     narrow: Vec<Role>,
-    held_share: f64,
+    thresholds: Thresholds,
 }
 
 /// A candidate's fit on a design.
@@ -96,13 +89,13 @@ impl Design {
             variance: 1.0,
             narrow: held.clone(),
             held,
-            held_share: thresholds.held_share,
+            thresholds: thresholds.clone(),
         };
         design.merge_twins();
         design.share_margins();
         design.narrow.clone_from(&design.held);
         design.freeze_twins();
-        design.widen(thresholds);
+        design.widen();
         let free: Vec<Role> =
             design.held.iter().map(|r| if *r == Role::Out { Role::Out } else { Role::Free }).collect();
         let n = design.linear.equations.n();
@@ -120,7 +113,7 @@ impl Design {
             for b in 0..a {
                 let (Role::Held(sa, _), Role::Held(sb, _)) = (self.held[a], self.held[b]) else { continue };
                 let cos2 = jj[(a, b)].powi(2) / (jj[(a, a)] * jj[(b, b)]).max(1e-300);
-                if cos2 > 0.99 {
+                if cos2 > self.thresholds.one {
                     // The narrower of the two, in units of what it does.
                     let (wa, wb) = (sa * jj[(a, a)].sqrt(), sb * jj[(b, b)].sqrt());
                     self.held[if wa < wb { b } else { a }] = Role::Out;
@@ -169,7 +162,7 @@ impl Design {
                 continue;
             }
             let b = nalgebra::DVector::from_fn(named.len(), |i, _| jj[(named[i], c)]);
-            if b.dot(&estimation::normal_equations::solve(&a, &b)) > ALIKE * jj[(c, c)] {
+            if b.dot(&estimation::normal_equations::solve(&a, &b)) > self.thresholds.alike * jj[(c, c)] {
                 self.narrow[c] = Role::Out;
             }
         }
@@ -177,7 +170,7 @@ impl Design {
 
     /// The law of a large effect is not known to the last tenth: what looks like a named effect is
     /// allowed a share of it without being named, less where the law is geometry.
-    fn widen(&mut self, thresholds: &Thresholds) {
+    fn widen(&mut self) {
         let m = self.linear.owners.len();
         let jj = self.linear.equations.information();
         for index in 0..self.state.active.len() {
@@ -186,7 +179,7 @@ impl Design {
             if size2 <= 0.0 {
                 continue;
             }
-            let share = thresholds.law_share(self.state.active[index].effect.law_uncertainty());
+            let share = self.thresholds.law_share(self.state.active[index].effect.law_uncertainty());
             for c in 0..m {
                 let Role::Held(sd, at) = self.held[c] else { continue };
                 if jj[(c, c)] <= 0.0 {
@@ -211,7 +204,7 @@ impl Design {
             let (columns, p) = self.whole(index);
             self.state.active[index].effect.law_uncertainty().powi(2) * square(&jj, &columns, &p)
         };
-        LAW_SIGMAS * LAW_SIGMAS * (0..self.state.active.len()).map(left).sum::<f64>()
+        self.thresholds.law_sigmas.powi(2) * (0..self.state.active.len()).map(left).sum::<f64>()
     }
 
     /// What some active effects do together, and what of it a candidate cannot do: sums of squares in units of the
@@ -260,7 +253,7 @@ impl Design {
     /// Whether a candidate does what an active effect does.
     pub fn is_twin(&self, candidate: usize, index: usize) -> bool {
         let [all, left] = self.left_by(candidate, &[index]);
-        left < (1.0 - ALIKE) * all
+        left < (1.0 - self.thresholds.alike) * all
     }
 
     /// Decrease of the objective that naming a column brings for each square of its size, if it is what the data
@@ -290,9 +283,9 @@ impl Design {
         Penalised::new(&self.linear.equations, self.variance)
     }
 
-    /// Standard deviation of what is not named, as a share of its materiality threshold.
-    pub fn held_share(&self) -> f64 {
-        self.held_share
+    /// By which it was made.
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.thresholds
     }
 
     /// Roles with nothing freed.
@@ -308,19 +301,19 @@ impl Design {
     /// The same without what, once all else that is not named adapts, does what a named effect does: a motor 3 K
     /// warmer and a rotor 1 % lighter are viscous friction, as a torque constant alone is, which is frozen already.
     pub fn without_twins(&self) -> Vec<Role> {
-        self.penalised().without_twins(&self.narrow, ALIKE)
+        self.penalised().without_twins(&self.narrow, self.thresholds.alike)
     }
 
     /// Roles for the estimates of what is named, and of `freed` candidates, if they are the cause: what looks like them,
     /// alone or together with what else is not named, is frozen. With `bare` everything is.
     pub fn judged(&self, freed: &[usize], bare: bool) -> Vec<Role> {
         let role = |role: Role| if bare && matches!(role, Role::Held(..)) { Role::Out } else { role };
-        self.without_alike(freed, TWIN).into_iter().map(role).collect()
+        self.without_alike(freed, self.thresholds.twin).into_iter().map(role).collect()
     }
 
     /// The same where only what does all that they do is frozen.
     pub fn estimating_with(&self, freed: &[usize]) -> Vec<Role> {
-        self.without_alike(freed, ALIKE)
+        self.without_alike(freed, self.thresholds.alike)
     }
 
     /// Roles with some candidates freed, and frozen what shares at least so much with them and with what is named.
@@ -552,7 +545,7 @@ impl Design {
     /// the same look widened the margin.
     pub fn margin(&self, c: usize, j: usize) -> f64 {
         match self.linear.of_candidate(c).get(j).map(|j| self.held[*j]) {
-            Some(Role::Held(sd, _)) if !self.candidates[c].switched() => sd / self.held_share,
+            Some(Role::Held(sd, _)) if !self.candidates[c].switched() => sd / self.thresholds.held_share,
             _ => 0.0,
         }
     }

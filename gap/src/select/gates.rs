@@ -1,7 +1,7 @@
 //! What an effect must do on held-out data to be named.
 
-use super::{Design, STRONG, Trial};
-use crate::options::Thresholds;
+use super::{Design, Trial};
+use crate::thresholds::Thresholds;
 use links::effect::Link;
 
 /// What a candidate must do on data that its fit has not seen.
@@ -21,14 +21,14 @@ impl<'a> Gates<'a> {
     pub(super) fn pass(&self, t: &Trial) -> bool {
         let (design, thresholds) = (self.design, self.thresholds);
         let with = design.held_out(Some(t.candidate));
-        let strong = t.gain > STRONG;
+        let strong = t.gain > thresholds.strong;
         if self.closes(&self.without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 }) {
             return true;
         }
         // What happens in one run only cannot be predicted from the others, but from its own parts.
         let harmless: f64 = self.without.iter().zip(&with).map(|(a, b)| a - b).sum();
         strong
-            && harmless > -0.01 * self.without.iter().sum::<f64>()
+            && harmless > -thresholds.harms * self.without.iter().sum::<f64>()
             && self.closes(&design.held_out_blocks(None), &design.held_out_blocks(Some(t.candidate)), 1.0)
     }
 

@@ -1,12 +1,10 @@
 //! One effect in place of two that together look like it.
 
-use super::{DOUBTFUL, Selection, finish, settle, stopped};
-use crate::options::Thresholds;
+use super::{Selection, finish, settle, stopped};
 use crate::problem::Problem;
 use crate::state::Active;
+use crate::thresholds::Thresholds;
 
-/// Share of what either of two effects adds to the other that one in place of both may leave.
-const DOES_BOTH: f64 = 0.1;
 /// Effects that are tried in place of two.
 const JOINTS: usize = 3;
 
@@ -49,7 +47,7 @@ fn joined(
         };
         let left = |c: usize| (design.left_by(c, &[a, b])[1], c);
         let mut alike: Vec<(f64, usize)> = (0..all.len()).filter(fits).map(left).collect();
-        alike.retain(|(left, _)| *left < DOES_BOTH * added);
+        alike.retain(|(left, _)| *left < thresholds.does_both * added);
         alike.sort_by(|x, y| x.0.total_cmp(&y.0));
         for (_, c) in alike.into_iter().take(JOINTS) {
             let mut state = best.state.clone();
@@ -59,7 +57,7 @@ fn joined(
             let alternative = finish(state, settled, from, thresholds);
             let sound = alternative.state.active[a].worth() && !stopped(&alternative.state.active[a]);
             if sound
-                && alternative.against(best) < DOUBTFUL
+                && alternative.against(best) < thresholds.doubtful
                 && !problem.runs_away(&alternative.state, &best.state, thresholds)
             {
                 return Some(alternative);

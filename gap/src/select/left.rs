@@ -1,9 +1,9 @@
 //! What a state leaves by itself, nothing adjusted beside it.
 
 use super::plain::losses;
-use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::State;
+use crate::thresholds::Thresholds;
 
 /// What a state leaves, by clusters, and how much of it is more than noise.
 pub(super) struct Left {

@@ -8,21 +8,14 @@
 use estimation::parallel::numbered;
 
 use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::prior::{Penalised, Role};
 use links::effect::Link;
 
 /// Effects at most.
 const MOST: usize = 8;
-/// Share of the held-out sum of squares that each parameter of an effect must explain.
-const SHARE: f64 = 0.004;
-/// Share of the best reduction from which an explanation with fewer parameters, or earlier in the catalogue, is as
-/// good.
-const AS_GOOD: f64 = 0.97;
-/// Share of what exceeds the noise that all effects together must close, held out.
-const CLOSES: f64 = 0.3;
 /// Parts of the runs that are held out in turn where a parameter belongs to a run.
 const PARTS: usize = 5;
 
@@ -63,13 +56,13 @@ pub(crate) fn plain(
         let cancelled = |i: usize| problem.is_cancelled(&larger, i, start, thresholds);
         let sound =
             sound && !problem.runs_away(&larger, &state, thresholds) && !(from..larger.active.len()).any(cancelled);
-        if sound && held_out(problem, &larger).0 < (1.0 - 0.5 * SHARE) * now {
+        if sound && held_out(problem, &larger).0 < (1.0 - 0.5 * thresholds.price) * now {
             state = larger;
         } else {
             refused.push(best.candidate);
         }
     }
-    drop_idle(problem, &mut state, from, small);
+    drop_idle(problem, &mut state, from, thresholds, small);
     // Of laws between which the data do not decide the first of the catalogue: friction before a bridge.
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     for index in from..state.active.len() {
@@ -81,7 +74,7 @@ pub(crate) fn plain(
         }
     }
     let (after, _) = held_out(problem, &state);
-    let enough = before - after >= CLOSES * (before - n).max(0.0);
+    let enough = before - after >= thresholds.closes * (before - n).max(0.0);
     (state.active.len() > from && enough).then(|| finish_bare(problem, state, from, all, thresholds))
 }
 
@@ -154,7 +147,7 @@ fn best(
         let sum: f64 = differences.iter().sum();
         let spread = differences.iter().map(|d| d * d).sum::<f64>().sqrt();
         let parameters = a.form.free.len();
-        let price = SHARE * total * parameters as f64;
+        let price = thresholds.price * total * parameters as f64;
         (sum >= price && sum >= thresholds.held_out_t * spread).then_some(Promise {
             candidate: indices[c],
             score: sum - price,
@@ -173,7 +166,7 @@ fn best(
     let rank = |p: &Promise| (p.parameters, usize::from(all[p.candidate].effect.name() == "encoder-lag"), p.candidate);
     promises
         .into_iter()
-        .filter(|p| p.score >= AS_GOOD * most && !(laws && thresholds.decided(left(p), least)))
+        .filter(|p| p.score >= thresholds.as_good * most && !(laws && thresholds.decided(left(p), least)))
         .min_by_key(rank)
 }
 
@@ -203,7 +196,7 @@ pub(super) fn losses(problem: &Problem, state: &State) -> (Vec<f64>, f64) {
 }
 
 /// Drops, one by one, effects without which held-out runs are predicted as well.
-fn drop_idle(problem: &Problem, state: &mut State, from: usize, small: bool) {
+fn drop_idle(problem: &Problem, state: &mut State, from: usize, thresholds: &Thresholds, small: bool) {
     loop {
         let (now, _) = held_out(problem, state);
         let tried = (from..state.active.len()).map(|index| {
@@ -211,7 +204,7 @@ fn drop_idle(problem: &Problem, state: &mut State, from: usize, small: bool) {
             let removed = smaller.active.remove(index);
             problem.fit(&mut smaller);
             let idle = !small && !is_material(&removed, &removed.parameters());
-            let price = SHARE * removed.form.free.len() as f64;
+            let price = thresholds.price * removed.form.free.len() as f64;
             let (without, _) = held_out(problem, &smaller);
             (if idle { 0.0 } else { without / now.max(1e-300) - 1.0 - 0.5 * price }, smaller)
         });

@@ -7,9 +7,9 @@ use estimation::parallel::each;
 
 use super::left::Left;
 use super::{Selection, finish_bare, is_material, stopped};
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use estimation::prior::{Penalised, Role};
 use links::effect::Link;
 

@@ -2,13 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::ALIKE;
 use super::design::Design;
 
 /// Pairs of candidates of one parameter that do together, the other named effects adapting, what an active effect does
 /// and neither of them does alone; none of them need gain anything by itself. A radius and a camera's scale that cancel
 /// turn the robot too far and move it as far as expected, as a wrong body radius does.
-pub(super) fn spanning_pairs(design: &Design, index: usize) -> Vec<[usize; 2]> {
+pub(super) fn spanning_pairs(design: &Design, index: usize, alike: f64) -> Vec<[usize; 2]> {
     let linear = &design.linear;
     let jj = linear.equations.information();
     let own = design.whole(index);
@@ -40,7 +39,7 @@ pub(super) fn spanning_pairs(design: &Design, index: usize) -> Vec<[usize; 2]> {
     let g = DMatrix::from_fn(columns.len(), columns.len(), product);
     let all = g[(0, 0)];
     let alone = |i: usize| g[(0, i)].powi(2) / g[(i, i)].max(1e-300);
-    let enough = ALIKE * all;
+    let enough = alike * all;
     let within = |i: usize, x: f64| {
         let p = &design.candidates[candidates[i - 1].0].form.free[0];
         x > p.bounds[0] && x < p.bounds[1] && p.is_material(x)
@@ -48,7 +47,7 @@ pub(super) fn spanning_pairs(design: &Design, index: usize) -> Vec<[usize; 2]> {
     let spans = |i: usize, j: usize| {
         let det = g[(i, i)] * g[(j, j)] - g[(i, j)].powi(2);
         // Two that look alike need each other no more than either alone.
-        if det <= (1.0 - ALIKE) * g[(i, i)] * g[(j, j)] || alone(i).max(alone(j)) > enough {
+        if det <= (1.0 - alike) * g[(i, i)] * g[(j, j)] || alone(i).max(alone(j)) > enough {
             return false;
         }
         let x = (g[(0, i)] * g[(j, j)] - g[(0, j)] * g[(i, j)]) / det;

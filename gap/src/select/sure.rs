@@ -3,9 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::{Design, Selection, finish, settle};
-use crate::options::Thresholds;
 use crate::problem::{Owner, Problem};
 use crate::state::Active;
+use crate::thresholds::Thresholds;
 use links::thresholds::{Estimate, gate};
 
 /// Estimates of an active effect's fitted parameters with 95 % intervals.

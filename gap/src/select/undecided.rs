@@ -1,9 +1,9 @@
 //! Laws of the drive between which a recording far from its noise does not decide.
 
 use super::{is_material, stopped};
-use crate::options::Thresholds;
 use crate::problem::Problem;
 use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
 use links::effect::Link;
 
 /// The state with an effect replaced by each other one, of no more parameters, that leaves hardly more: where much is

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::common::{RICH, cut, names, simulate, with};
 use estimation::prior::Role;
-use gap::options::Thresholds;
 use gap::problem::{Owner, Problem};
 use gap::select::{Design, candidates};
 use gap::state::State;
+use gap::thresholds::Thresholds;
 use gap::{Options, analyse};
 use links::effect::{Effect, Link};
 use links::motion::MotionLink;
