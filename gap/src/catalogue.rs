@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use model::effects::Applied;
 use runs::robot::{Effect as Written, EffectParameter, Robot};
 
-use crate::report::{short, unit};
+use crate::units::{short, si as unit};
 use links::effect::{Effect, Link};
 use links::effects::{catalogue_for, exact_equation};
 

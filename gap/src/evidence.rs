@@ -2,6 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::units::short;
+
 /// What a name rests on.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Evidence {
@@ -127,15 +129,6 @@ impl Interval {
         }
         Value::Object(out)
     }
-}
-
-/// A number with three significant digits.
-pub(crate) fn short(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x}");
-    }
-    let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{x:.digits$}")
 }
 
 #[cfg(test)]

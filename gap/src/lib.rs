@@ -33,6 +33,7 @@ pub mod select;
 pub mod state;
 pub mod thresholds;
 mod timing;
+mod units;
 pub mod user;
 mod words;
 

@@ -39,7 +39,7 @@ pub(super) fn ripple_named(
             ripple.count,
             100.0 * amplitude,
             wheels.join(", "),
-            crate::evidence::short(ripple.p_value)
+            crate::units::short(ripple.p_value)
         ));
     }
     let noise = ripple.wheels.iter().map(|w| w.2 * w.2).sum::<f64>().sqrt() / n;

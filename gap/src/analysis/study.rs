@@ -394,7 +394,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();
     let refusal = thresholds::gate(&known, Some(estimate.p)).err()?;
-    Some((refusal, format!("{}; p = {}", refusal.reason(), crate::evidence::short(estimate.p))))
+    Some((refusal, format!("{}; p = {}", refusal.reason(), crate::units::short(estimate.p))))
 }
 
 /// Estimates of all effects that are worth a name, with their intervals and p-values.

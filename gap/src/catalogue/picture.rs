@@ -7,7 +7,7 @@ use runs::Run;
 use runs::frames::{Pose, wrap_angle};
 use runs::robot::{Effect as Written, EffectParameter, ImuMount, Robot, SensorName};
 
-use crate::report::{short, unit};
+use crate::units::{short, si as unit};
 use links::effect::{Effect, Form, Link};
 
 /// Manoeuvres that a picture may be of.

@@ -3,8 +3,9 @@
 use plot::page::{Page, Table};
 use plot::{Axis, Color, Figure, Panel, Series};
 
-use super::{firmware, regimes, short, terminal, units, words};
+use super::{firmware, regimes, terminal, words};
 use crate::analysis::{Analysis, overall};
+use crate::units::{self, short};
 use links::motion::WindowResiduals;
 
 /// Points a plot has at most.

@@ -5,17 +5,13 @@ mod html;
 mod json;
 mod regimes;
 mod terminal;
-mod units;
 mod words;
-
-pub(crate) use units::si as unit;
 
 use runs::output::{Existing, check_free, write_whole};
 use std::path::Path;
 
 use crate::GapError;
 use crate::analysis::Analysis;
-pub(crate) use crate::evidence::short;
 
 /// Names of the files of a report.
 pub(crate) const FILES: [&str; 3] = ["gap.json", "report.html", "robot.toml"];

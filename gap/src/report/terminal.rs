@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::{firmware, short, units, words};
+use super::{firmware, words};
 use crate::analysis::{Analysis, Verdict, overall};
+use crate::units::{self, short};
 
 /// Columns of a terminal.
 const WIDTH: usize = 80;

@@ -1,7 +1,7 @@
 //! The findings in sentences.
 
-use super::units;
 use crate::analysis::{Analysis, Named, Verdict};
+use crate::units;
 use links::effect::Link;
 
 /// Links in the order of the signals.
@@ -55,7 +55,7 @@ pub(super) fn own(a: &Analysis) -> Vec<String> {
             .iter()
             .filter(|l| l.name == *name)
             .map(|l| {
-                let (x, sd, limit) = (super::short(l.estimate), super::short(l.sd), super::short(l.limit));
+                let (x, sd, limit) = (units::short(l.estimate), units::short(l.sd), units::short(l.limit));
                 format!("{} is {x}, standard deviation {sd}, and named from {limit}", l.parameter)
             })
             .collect();

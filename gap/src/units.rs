@@ -1,6 +1,13 @@
-//! Parameters in the units people speak in.
+//! Numbers and parameters as people read them.
 
-use super::short;
+/// A number with three significant digits.
+pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    let digits = (2 - x.abs().log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{x:.digits$}")
+}
 
 /// What a parameter measures, by the end of its name: factor and unit for people.
 fn unit(name: &str) -> (f64, &'static str) {
@@ -49,7 +56,7 @@ pub(crate) fn si(name: &str) -> &'static str {
 }
 
 /// The name without its unit, such as `skew 1`.
-pub(super) fn label(name: &str) -> String {
+pub(crate) fn label(name: &str) -> String {
     let units =
         ["_nm_per_rad", "_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];
     let stem = units.iter().find_map(|u| name.strip_suffix(u)).unwrap_or(name);
@@ -57,14 +64,14 @@ pub(super) fn label(name: &str) -> String {
 }
 
 /// A value with its unit, such as `3.98°` or `+2.1 %`.
-pub(super) fn value(name: &str, x: f64) -> String {
+pub(crate) fn value(name: &str, x: f64) -> String {
     let (factor, unit) = unit(name);
     let sign = if unit == " %" && x > 0.0 { "+" } else { "" };
     format!("{sign}{}{unit}", short(factor * x))
 }
 
 /// A value with its interval, such as `3.98° (3.79 to 4.16)`; the interval only if it has a width.
-pub(super) fn interval(name: &str, x: f64, ends: Option<[f64; 2]>) -> String {
+pub(crate) fn interval(name: &str, x: f64, ends: Option<[f64; 2]>) -> String {
     let (factor, _) = unit(name);
     let Some([low, high]) = ends.filter(|[low, high]| low < high) else { return value(name, x) };
     format!("{} ({} to {})", value(name, x), short(factor * low), short(factor * high))
