@@ -153,6 +153,22 @@ fn a_pendulum_is_named_with_its_size_and_then_agrees() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// Pendulums that weigh more than twice what their motor lifts, and are swung up by and by.
+#[test]
+fn a_pendulum_too_heavy_for_its_motor_is_named_with_its_size() {
+    let faults: Vec<String> = [[-1.5, 0.3], [0.9, 1.6]]
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, gravity)| {
+            let a = done(&set(Servo { gravity, load: [0.03; 2], about: None, ..QUIET }, 90 + k as u64));
+            let named = names(&a) == ["gravity-load"];
+            let wrong = if named { fault(&a, gravity) } else { Some(format!("named {:?}", names(&a))) };
+            wrong.map(|wrong| format!("{gravity:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// Friction that nobody told beside it.
 #[test]
 fn a_pendulum_is_named_beside_friction() {

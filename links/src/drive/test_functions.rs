@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector};
+use runs::robot::Support;
 
 use super::columns::{Column, Columns, Side};
 use super::forces::Base;
@@ -149,6 +150,9 @@ impl<'a> DriveLink<'a> {
             felt: None,
         };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
+        if pieces.robot().support == Support::Blocks {
+            link.sizes.moved_nm = thresholds::PEAK_OF_RMS * link.took(nominal);
+        }
         link.sizes.test_function_s = link.length();
         link.sizes.run_s = longest;
         link.sizes.reach_rad = reached.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
@@ -168,6 +172,15 @@ impl<'a> DriveLink<'a> {
             wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
         });
         estimation::statistics::rms(counted)
+    }
+
+    /// Torque that the measured accelerations took of a model where wheels turned, RMS, Nm at the wheel shaft.
+    fn took(&self, model: &DriveModel) -> f64 {
+        let done = self.done(model);
+        let of = |(torque, b): (&DVector<f64>, &TestFunction)| -> Vec<f64> {
+            torque.iter().zip(&b.weights).filter(|(_, weight)| **weight > 0.0).map(|(torque, _)| *torque).collect()
+        };
+        estimation::statistics::rms(done.iter().zip(&self.test_functions).flat_map(of))
     }
 
     /// What the test functions tell of the motors' torques: how many count, times the squared ratio of those torques to
