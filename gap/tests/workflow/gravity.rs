@@ -169,6 +169,36 @@ fn a_pendulum_too_heavy_for_its_motor_is_named_with_its_size() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// Lifts and winches: of a weight that pulls one way a dead band was made.
+#[test]
+fn a_weight_on_a_rope_is_named_with_its_size_and_then_agrees() {
+    let about = Some([0.0, 9.0]);
+    let cases = [(0.2, 0.0, about), (-0.1, 0.04, about), (0.3, 0.0, Some([0.4, 3.0])), (-0.05, 0.0, None)];
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, (torque, dry, about))| {
+            let logs = set(Servo { spring: [0.0, torque], dry, about, ..QUIET }, 110 + k as u64);
+            let a = done(&logs);
+            let again = done(&DataSet { robot: a.robot.clone(), ..logs });
+            let mut found = names(&a);
+            found.sort_unstable();
+            let wanted: &[&str] = if dry > 0.0 { &["coulomb-friction", "hanging-load"] } else { &["hanging-load"] };
+            let interval = a.effects.iter().find(|e| e.name == "hanging-load").map(|e| e.parameters[0].2);
+            let wrong = match interval {
+                _ if found != wanted => Some(format!("named {found:?}")),
+                Some(Interval::Ci95([low, high])) if !(low..=high).contains(&torque) => {
+                    Some(format!("{low} to {high}"))
+                }
+                _ if again.verdict != Verdict::Agrees => Some(format!("then {}", again.terminal_summary())),
+                _ => None,
+            };
+            wrong.map(|wrong| format!("{torque} {dry} {about:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// Friction that nobody told beside it.
 #[test]
 fn a_pendulum_is_named_beside_friction() {
