@@ -169,6 +169,17 @@ fn a_pendulum_too_heavy_for_its_motor_is_named_with_its_size() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// A load that is heavier than its file has it: the rotor, a third of the whole, is named for it, and the whole is said.
+#[test]
+fn a_rotor_that_stands_for_its_load_says_what_both_turn_as() {
+    let a = done(&set(Servo { load: [5e-3, 2e-3], ..QUIET }, 130));
+    assert_eq!(names(&a), ["rotor-inertia"], "{}", a.terminal_summary());
+    let said = a.remarks.iter().find(|r| r.starts_with("rotor-inertia stands for rotor and load")).expect("no remark");
+    let both = said.split("turn as ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    let both: f64 = both.parse().unwrap();
+    assert!((both / 6e-3 - 1.0).abs() < 0.1 && said.contains("3.000e-3"), "{said}");
+}
+
 /// Lifts and winches: of a weight that pulls one way a dead band was made.
 #[test]
 fn a_weight_on_a_rope_is_named_with_its_size_and_then_agrees() {
