@@ -8,10 +8,6 @@
 /// have (four example sets), beside which what is material was set.
 pub const PEAK_OF_RMS: f64 = 1.75;
 
-/// Share of the time that an axis turns its rarer way from which a weight on a rope may be told from friction: of the axes of
-/// the blind bench nine of ten of those that turn back at all do so for longer.
-pub const BOTH_WAYS: f64 = 0.1;
-
 /// Torque of a weight or a spring at most, in what the motor gives or the accelerations take by the file's inertia: a motor
 /// swings a pendulum up by and by that weighs three times what it lifts, with a file that has a third of the inertia. With 2
 /// the pendulum of such a recording had half its weight, and an encoder that read 28 degrees ahead.

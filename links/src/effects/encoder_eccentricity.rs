@@ -10,7 +10,7 @@ use crate::segment::Segment;
 pub(super) struct EncoderEccentricity;
 
 /// An encoder that sits beside the middle by a quarter of the radius at which it is read, rad: beyond, it reads no track any
-/// more. The blind bench hides up to 0.1; with 1, joints of an arm and a heavy pendulum had encoders that read 24 to 57
+/// more. The blind bench hides up to 0.09; with 1, joints of an arm and a heavy pendulum had encoders that read 24 to 57
 /// degrees ahead.
 const MOST: f64 = 0.25;
 /// Turns of the encoder's shaft for one of the output shaft.

@@ -1,10 +1,10 @@
 //! `hanging-load`: a weight that pulls an axis one way wherever it is, such as a lift, a winch or an upright spindle.
 
+use model::setup::BOTH_WAYS;
 use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
-use crate::thresholds;
 
 /// A weight on a rope, a rack or a spindle.
 pub(super) struct HangingLoad;
@@ -32,7 +32,7 @@ impl Effect for HangingLoad {
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
         // One way alone it is a friction.
-        if sizes.back_share < thresholds::BOTH_WAYS {
+        if sizes.back_share < BOTH_WAYS {
             return Vec::new();
         }
         let (drive, most) = (sizes.drive_nm, sizes.carried_nm());
