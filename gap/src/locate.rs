@@ -69,8 +69,14 @@ pub(crate) fn inertial(fits: &[Fit]) -> Vec<Located> {
     fits.iter().filter(|f| f.floors > WORTH).map(of).collect()
 }
 
-/// The drive link: each wheel, by direction, speed and time.
-pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64], stall_nm: f64) -> Vec<Located> {
+/// The drive link: each wheel, by direction, speed and time. `unit` is the torque of a unit of what drives the motors, Nm at the
+/// wheel shaft, its unit and its name.
+pub(crate) fn drive(
+    link: &DriveLink,
+    residuals: &DriveResiduals,
+    floor: &[f64],
+    (unit_nm, unit, driven): (f64, &str, &str),
+) -> Vec<Located> {
     let speeds = link.means(floor.len(), |s, k, out| out.iter_mut().zip(&s.speed).for_each(|(x, w)| *x = w[k]));
     (0..floor.len())
         .filter_map(|i| {
@@ -111,9 +117,10 @@ pub(crate) fn drive(link: &DriveLink, residuals: &DriveResiduals, floor: &[f64],
                     _ => "",
                 };
                 format!(
-                    "the drive of wheel {} needs {:.2} {more} duty than the model ({:.1} mNm of friction), {which}, {when}{speeds}",
+                    "the drive of wheel {} needs {:.2}{} {more} {driven} than the model ({:.1} mNm of friction), {which}, {when}{speeds}",
                     i + 1,
-                    against.abs() / stall_nm,
+                    against.abs() / unit_nm,
+                    if unit.is_empty() { String::new() } else { format!(" {unit}") },
                     1e3 * against
                 )
             } else {

@@ -230,6 +230,9 @@ pub struct Sizes {
     /// Torque at the wheel shaft beside which torques are large or small, Nm: what the motors gave in the logs, or what
     /// the floor can take.
     pub drive_nm: f64,
+    /// Torque that the accelerations of the logs took of an axis on blocks, Nm at the output shaft: what a weight or a spring
+    /// gives may be more than its motor's.
+    pub moved_nm: f64,
     /// Speed of the wheels while they turned, rad/s.
     pub speed: f64,
     /// Count of the encoders, rad at the wheel shaft.
@@ -240,6 +243,8 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
+    /// Share of the time in which wheels turn that they turn their rarer way, of the wheel with the least.
+    pub back_share: f64,
 }
 
 impl Sizes {
@@ -257,11 +262,13 @@ impl Sizes {
             rim_m: robot.layout.wheels().iter().map(rim).fold(0.0, f64::max),
             stall_a,
             drive_nm: stall_nm,
+            moved_nm: stall_nm,
             speed: thresholds::USUAL_SPEED * no_load,
             count_rad: 1.0 / robot.counts_per_wheel_rad(),
             test_function_s: crate::drive::TEST_FUNCTION_S,
             run_s: f64::INFINITY,
             reach_rad: 1.0,
+            back_share: 0.5,
         }
     }
 
@@ -274,6 +281,11 @@ impl Sizes {
         };
         let drive_nm = (thresholds::PEAK_OF_RMS * torque_nm).max(thresholds::GRIP * load);
         Self { drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm }, ..sizes }.at_speed(speed)
+    }
+
+    /// Torque at most that a weight or a spring gives at the output shaft of an axis, Nm.
+    pub fn carried_nm(&self) -> f64 {
+        thresholds::CARRIED * self.drive_nm.max(self.stall_nm).max(self.moved_nm)
     }
 
     /// The same for wheels that turned at this speed, rad/s, if they did.

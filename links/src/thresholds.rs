@@ -8,6 +8,11 @@
 /// have (four example sets), beside which what is material was set.
 pub const PEAK_OF_RMS: f64 = 1.75;
 
+/// Torque of a weight or a spring at most, in what the motor gives or the accelerations take by the file's inertia: a motor
+/// swings a pendulum up by and by that weighs three times what it lifts, with a file that has a third of the inertia. With 2
+/// the pendulum of such a recording had half its weight, and an encoder that read 28 degrees ahead.
+pub const CARRIED: f64 = 6.0;
+
 /// Grip beside which a wheel's friction is judged on the floor, as a coefficient: rollers and contacts of omni wheels
 /// lose 0.005 to 0.011 of the load (rigid-body engine, robots of 1.6 to 3.8 kg), and what is named (from 3 % of the
 /// grip) must lie above that.

@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::{Pose, Twist, displacement};
 use runs::robot::{Robot, Support};
-use runs::{CountSource, DataSet, Source, as_logged};
+use runs::{CountSource, DataSet, DutySource, Run, Source, as_logged};
 use spoil::{SPOILS, found};
 
 const SETS: [&str; 5] = [
@@ -340,4 +340,40 @@ fn one_jump_of_a_counter_is_no_slip() {
     let mistakes = diameter.found(&set);
     assert!(mistakes.iter().any(|m| m.kind == "wheel-diameter" && !m.nameable), "{mistakes:?}");
     assert!(mistakes.iter().all(|m| !m.what.contains("slip")), "{mistakes:?}");
+}
+
+/// A pendulum behind a current controller, with a file that has no supply: its inertia takes more than an ampere gives, its
+/// friction more than that, and its weight more than the motor lifts. Grams for kilograms are still found.
+#[test]
+fn currents_say_what_their_motors_gave() {
+    let text = "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\nwheel_inertia_kg_m2 = 0\n\
+                [motor]\ntorque_constant = 1\nrotor_inertia = 0.19\nfriction_torque = 1.2\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
+    let robot = Robot::parse_partial(text, Path::new("robot.toml")).unwrap();
+    let mut run = Run { name: "run_1".to_owned(), ..Run::default() };
+    let (mut angle, mut speed, mut currents, mut counts) = (0.0_f64, 0.0_f64, Vec::new(), Vec::new());
+    for k in 0..4000 {
+        let t = 0.005 * f64::from(k);
+        let current = 1.4 * (4.2 * t).sin();
+        run.t.push(t);
+        currents.push(current);
+        counts.push((angle / std::f64::consts::TAU * 65536.0).floor() as i64);
+        for _ in 0..20 {
+            speed += 0.00025 * (current - 3.8 * angle.sin() - 0.02 * speed) / 0.19;
+            angle += 0.00025 * speed;
+        }
+    }
+    // As a file with `current_1` is read.
+    run.source = Source { duties: DutySource::Currents, ..Source::default() };
+    (run.duty, run.counts, run.count_gaps) = (vec![currents], vec![counts], vec![Vec::new()]);
+    let said = |robot: &Robot| -> Vec<String> {
+        found(robot.clone(), std::slice::from_ref(&run)).iter().map(Mistake::sentence).collect()
+    };
+    assert_eq!(said(&robot), Vec::<String>::new());
+    let mut grams = robot.clone();
+    grams.motor.rotor_inertia *= 1e3;
+    let grams = said(&grams);
+    assert!(grams.len() == 1 && grams[0].contains("by its greatest current"), "{grams:?}");
+    let mut milli = robot.clone();
+    milli.motor.friction_torque *= 1e3;
+    assert!(said(&milli)[0].contains("cannot turn against 1200 Nm"), "{:?}", said(&milli));
 }

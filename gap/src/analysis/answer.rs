@@ -105,8 +105,12 @@ impl Workflow<'_> {
             located.extend(locate::motion(self.data.motion, &plots[0]));
         }
         if let Some(MeasuredDrive { link, plots }) = &measured.drive {
-            let stall = Sizes::of(&self.question.robot).stall_nm;
-            located.extend(locate::drive(link, &plots[0], &link.noise, stall));
+            let sizes = Sizes::of(&self.question.robot);
+            let unit = match self.question.currents {
+                true => (sizes.stall_nm / sizes.stall_a, "A", "current"),
+                false => (sizes.stall_nm, "", "duty"),
+            };
+            located.extend(locate::drive(link, &plots[0], &link.noise, unit));
         }
         located.extend(exact.iter().flat_map(locate::exact));
         located.sort_by(|a: &Located, b| b.excess.total_cmp(&a.excess));

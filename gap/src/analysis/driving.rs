@@ -85,6 +85,7 @@ impl<'a> Workflow<'a> {
             }
             ratios::tie(&mut outcome, &self.start, &link.sizes);
         }
+        self.findings.remarks.extend(ratios::of_rotor_and_load(&outcome.named, &self.start.robot));
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.filtered(&mut outcome);
@@ -139,8 +140,9 @@ impl<'a> Workflow<'a> {
         if own {
             self.findings.remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
         } else {
+            let driven = if self.question.currents { "currents" } else { "duties" };
             let structure =
-                format!("what the duties predict {scatters}, at random: are these the duties of this drive?");
+                format!("what the {driven} predict {scatters}, at random: are these the {driven} of this drive?");
             self.findings.leave(Link::Drive, [structure]);
         }
     }

@@ -42,6 +42,22 @@ pub(super) fn said(support: Support) -> String {
     )
 }
 
+/// A rotor's inertia that is named on an axis with a load stands for both: what both together turn as, in a sentence.
+pub(super) fn of_rotor_and_load(named: &[Named], robot: &Robot) -> Option<String> {
+    let rotor = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
+    let file = rotor + robot.wheel_inertia_kg_m2;
+    if robot.support != Support::Blocks || robot.wheel_inertia_kg_m2 <= 0.0 {
+        return None;
+    }
+    let more = rotor * scale(named, ROTOR_INERTIA)?;
+    Some(format!(
+        "{ROTOR_INERTIA} stands for rotor and load: at the output shaft both together turn as {:.3e} kg m², where the file has \
+         {file:.3e} ({:+.0} %). Logs of an axis alone do not tell which of {ROTOR_INERTIA} and wheel_inertia_kg_m2 is off.",
+        file + more,
+        100.0 * more / file
+    ))
+}
+
 /// Ties a rotor that is named with the torque constant that does the same, or the other way round, where the factor
 /// between them asks no friction for more than goes without a name. `start` is the model without what is named.
 pub(super) fn tie(outcome: &mut Outcome, start: &State, sizes: &Sizes) {

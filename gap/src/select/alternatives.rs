@@ -48,6 +48,10 @@ const CONVENTIONS: [(&str, &str); 4] = [
     ("wheel-radius-common", "camera-scale"),
 ];
 
+/// Of which each is the sum of the two others, in any log: a friction is twice that of one sense and a weight that pulls the
+/// other way. That says nothing of a log, and one is more likely than two that undo each other one way.
+const SUMS: [[&str; 3]; 1] = [["coulomb-friction", "asymmetric-friction", "hanging-load"]];
+
 /// Finds what an effect cannot be told from.
 pub fn alternatives(
     problem: &Problem,
@@ -228,7 +232,9 @@ fn pair_alternatives(
     let best = |pairs: Vec<[usize; 2]>, material: &(dyn Fn(usize, &[f64]) -> bool + Sync)| {
         let gain = |pair: &[usize; 2]| {
             let pair = *pair;
-            if effect(pair[0]) == effect(pair[1]) {
+            let is_sum =
+                |sum: &[&str; 3]| [told[0].as_str(), effect(pair[0]), effect(pair[1])].iter().all(|n| sum.contains(n));
+            if effect(pair[0]) == effect(pair[1]) || SUMS.iter().any(is_sum) {
                 return None;
             }
             let fit = design.fit(&pair);

@@ -57,6 +57,7 @@ const CASES: &[Case] = &[
     case("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)], ("torque_nm", 0.4), &SLOW, &[]),
     case("asymmetric-friction", &[("torque_2_nm", 0.015), ("sense", 1.0)], ("torque_2_nm", 0.25), &RICH, &[]),
     case("gravity-load", &[("sin_2_nm", 0.02), ("cos_2_nm", 0.01)], ("sin_2_nm", 0.2), &LIFTED, &[]),
+    case("hanging-load", &[("torque_2_nm", 0.02)], ("torque_2_nm", 0.2), &LIFTED, &[]),
     case(
         "joint-spring",
         &[("stiffness_2_nm_per_rad", 0.0005), ("preload_2_nm", 0.01)],

@@ -258,3 +258,17 @@ fn what_friction_closes_is_not_told_in_the_torque_of_a_wrong_inertia() {
         assert!(drive.rms[0][0] < most, "{} Nm of {most}: {}", drive.rms[0][0], a.terminal_summary());
     }
 }
+
+/// A friction behind a current controller takes amperes, and no duty that nobody logged.
+#[test]
+fn what_currents_lack_is_said_in_amperes() {
+    let a = done(Axis { seconds: 15.0, dry: 0.22, ..MOTOR }, [1.0, 0.0], 400);
+    let text = a.terminal_summary();
+    let plain = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    // 0.22 Nm and what the viscous friction takes, 0.12 Nm, by 0.11 Nm/A.
+    let amps = plain.split("needs ").nth(1).and_then(|rest| rest.split(' ').next()).and_then(|a| a.parse::<f64>().ok());
+    assert!(plain.contains("A more current than the model") && !plain.contains("more duty"), "{text}");
+    assert!(amps.is_some_and(|a| (2.5..3.7).contains(&a)), "{text}");
+    // A friction is the sum of one of one sense and a weight, which is no tie of this log.
+    assert!(!a.alternatives.iter().flatten().any(|name| name == "hanging-load"), "{text}");
+}

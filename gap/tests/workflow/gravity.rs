@@ -153,6 +153,63 @@ fn a_pendulum_is_named_with_its_size_and_then_agrees() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// Pendulums that weigh more than twice what their motor lifts, and are swung up by and by.
+#[test]
+fn a_pendulum_too_heavy_for_its_motor_is_named_with_its_size() {
+    let faults: Vec<String> = [[-1.5, 0.3], [0.9, 1.6]]
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, gravity)| {
+            let a = done(&set(Servo { gravity, load: [0.03; 2], about: None, ..QUIET }, 90 + k as u64));
+            let named = names(&a) == ["gravity-load"];
+            let wrong = if named { fault(&a, gravity) } else { Some(format!("named {:?}", names(&a))) };
+            wrong.map(|wrong| format!("{gravity:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A load that is heavier than its file has it: the rotor, a third of the whole, is named for it, and the whole is said.
+#[test]
+fn a_rotor_that_stands_for_its_load_says_what_both_turn_as() {
+    let a = done(&set(Servo { load: [5e-3, 2e-3], ..QUIET }, 130));
+    assert_eq!(names(&a), ["rotor-inertia"], "{}", a.terminal_summary());
+    let said = a.remarks.iter().find(|r| r.starts_with("rotor-inertia stands for rotor and load")).expect("no remark");
+    let both = said.split("turn as ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    let both: f64 = both.parse().unwrap();
+    assert!((both / 6e-3 - 1.0).abs() < 0.1 && said.contains("3.000e-3"), "{said}");
+}
+
+/// Lifts and winches: of a weight that pulls one way a dead band was made.
+#[test]
+fn a_weight_on_a_rope_is_named_with_its_size_and_then_agrees() {
+    let about = Some([0.0, 9.0]);
+    let cases = [(0.2, 0.0, about), (-0.1, 0.04, about), (0.3, 0.0, Some([0.4, 3.0])), (-0.05, 0.0, None)];
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, (torque, dry, about))| {
+            let logs = set(Servo { spring: [0.0, torque], dry, about, ..QUIET }, 110 + k as u64);
+            let a = done(&logs);
+            let again = done(&DataSet { robot: a.robot.clone(), ..logs });
+            let mut found = names(&a);
+            found.sort_unstable();
+            let wanted: &[&str] = if dry > 0.0 { &["coulomb-friction", "hanging-load"] } else { &["hanging-load"] };
+            let interval = a.effects.iter().find(|e| e.name == "hanging-load").map(|e| e.parameters[0].2);
+            let wrong = match interval {
+                _ if found != wanted => Some(format!("named {found:?}")),
+                Some(Interval::Ci95([low, high])) if !(low..=high).contains(&torque) => {
+                    Some(format!("{low} to {high}"))
+                }
+                _ if again.verdict != Verdict::Agrees => Some(format!("then {}", again.terminal_summary())),
+                _ => None,
+            };
+            wrong.map(|wrong| format!("{torque} {dry} {about:?}: {wrong}\n{}", a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// Friction that nobody told beside it.
 #[test]
 fn a_pendulum_is_named_beside_friction() {

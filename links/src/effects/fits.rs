@@ -43,7 +43,7 @@ const NOT_ON_BLOCKS: [&str; 13] = [
 
 /// What hangs on an axis alone; the weight of a robot hangs on none of its wheels. Once a turn a wheel on the floor has
 /// ripples of its own.
-const ONLY_ON_BLOCKS: [&str; 3] = ["encoder-eccentricity", "gravity-load", "joint-spring"];
+const ONLY_ON_BLOCKS: [&str; 4] = ["encoder-eccentricity", "gravity-load", "hanging-load", "joint-spring"];
 
 /// Whether a robot can have an effect.
 pub fn fits(name: &str, robot: &Robot) -> bool {

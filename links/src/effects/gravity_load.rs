@@ -32,8 +32,7 @@ impl Effect for GravityLoad {
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
         let drive = sizes.drive_nm;
-        // What the motor can just not lift still swings.
-        let most = 2.0 * drive.max(sizes.stall_nm);
+        let most = sizes.carried_nm();
         let p = |stem, i| Parameter::new(wheel_name(stem, i, "nm"), 0.01 * drive, [-most, most], 0.03 * drive);
         Form::axes(robot, |i| [p("sin", i), p("cos", i)])
     }

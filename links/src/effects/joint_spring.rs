@@ -36,7 +36,7 @@ impl Effect for JointSpring {
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
         let (drive, reach) = (sizes.drive_nm, sizes.reach_rad.max(sizes.count_rad));
         // What the motor can just not wind as far as it went.
-        let stiffest = 2.0 * drive.max(sizes.stall_nm) / reach;
+        let stiffest = sizes.carried_nm() / reach;
         Form::axes(robot, |i| {
             let stiffness = wheel_name("stiffness", i, "nm_per_rad");
             let preloads = [-PRELOADS * stiffest, PRELOADS * stiffest];

@@ -27,6 +27,7 @@ mod gear_efficiency;
 mod gravity_load;
 mod gyro_bias;
 mod gyro_scale;
+mod hanging_load;
 mod heading_drag;
 mod imu_latency;
 mod imu_mount;
@@ -103,6 +104,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(stribeck_friction::StribeckFriction),
         Box::new(asymmetric_friction::AsymmetricFriction),
         Box::new(gravity_load::GravityLoad),
+        Box::new(hanging_load::HangingLoad),
         Box::new(joint_spring::JointSpring),
         Box::new(encoder_eccentricity::EncoderEccentricity),
         Box::new(gear_efficiency::GearEfficiency),
@@ -157,7 +159,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 37] = [
+    const NAMES: [(&str, &[&str]); 38] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -185,6 +187,7 @@ mod tests {
         ("centre-of-mass", &["x_m", "y_m"]),
         ("coulomb-friction", &["torque_nm", "torque_#_nm"]),
         ("gravity-load", &["sin_#_nm", "cos_#_nm"]),
+        ("hanging-load", &["torque_#_nm"]),
         ("encoder-eccentricity", &["sin_#_rad", "cos_#_rad"]),
         ("joint-spring", &["stiffness_#_nm_per_rad", "preload_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),

@@ -101,6 +101,7 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
             wheels.iter_mut().zip(each("stiffness", "nm_per_rad")).for_each(|(w, x)| w.spring_nm_per_rad = x);
             (each("preload", "nm"), |w, x| w.preload_nm = x)
         }
+        "hanging-load" => (each("torque", "nm"), |w, x| w.preload_nm = x),
         "gear-backlash" => (each("play", "rad"), |w, x| w.play_rad = x),
         "asymmetric-friction" if value("sense") < 0.0 => (each("torque", "nm"), |w, x| w.one_way_nm[0] = x),
         "asymmetric-friction" => (each("torque", "nm"), |w, x| w.one_way_nm[1] = x),

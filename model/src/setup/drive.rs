@@ -24,7 +24,7 @@ const BESIDE: f64 = 0.02;
 /// is then no tenth off.
 const SETTLED_S: f64 = 1.0;
 /// Share of the time that an axis turns each way, from which a sign must show.
-const BOTH_WAYS: f64 = 0.1;
+pub const BOTH_WAYS: f64 = 0.1;
 /// Correlation with the size of the speed from which a column follows it.
 const SIZE: f64 = 0.3;
 /// Share of a duty by which it is at one level.

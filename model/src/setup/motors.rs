@@ -4,9 +4,9 @@
 //! what is to be moved needs many times the torque that all motors give when they stall.
 
 use runs::robot::{Robot, Support};
-use runs::{Log, drive_lacks, is_dead_reckoning};
+use runs::{Columns, DutySource, Log, drive_lacks, is_dead_reckoning};
 
-use super::samples::Wheels;
+use super::samples::{MOST_TICKS, Wheels};
 use super::{Mistake, short};
 
 /// Length of the stretches whose mean speeds are compared, s, and stretches between two that are.
@@ -21,6 +21,9 @@ const FEWEST: usize = 20;
 /// Times the torque at stall, or the speed without load, from which the motors cannot have done it. One is beyond what they
 /// can; a motor twice as strong as its data sheet on a full battery makes no more than this.
 const IMPOSSIBLE: f64 = 3.0;
+/// The same for the inertia of an axis on blocks, which a weight or a spring may move faster than its motor does: a pendulum
+/// that its motor swings up by and by weighs some times what the motor lifts. The least error of a unit is 10³.
+const IMPOSSIBLE_BESIDE_LOADS: f64 = 10.0;
 /// Most that a floor passes on to a robot, m/s²: a coefficient of friction of 1. Wheels that slip gain more.
 const GRAVITY: f64 = 9.81;
 
@@ -57,16 +60,21 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
             "write torque_constant in Nm/A (1 mNm/A = 0.001), back_emf_constant in V s/rad and supply_v in volts";
         return vec![Mistake::new("motor-unit", "motor.torque_constant", what, remedy.to_owned())];
     }
-    let stall = robot.motor.torque_constant * robot.supply_v / robot.motor.resistance_ohm;
+    // Where currents are logged they are what the motors had, and the file may not tell what they have at stall.
+    let amps = logged_amps(robot, logs);
+    let stall = robot.motor.torque_constant * amps.unwrap_or(robot.supply_v / robot.motor.resistance_ohm);
+    let [gives_at, by] = match amps {
+        Some(_) => ["by their greatest current", "torque_constant times the current"],
+        None => ["at stall", "torque_constant times supply_v by resistance_ohm"],
+    };
     if robot.motor.friction_torque > stall {
         let what = format!(
-            "the wheels turn, but motors that give {} Nm at stall (torque_constant times supply_v by resistance_ohm) cannot \
-             turn against {} Nm of their own friction",
+            "the wheels turn, but motors that give {} Nm {gives_at} ({by}) cannot turn against {} Nm of their own friction",
             short(stall),
             short(robot.motor.friction_torque)
         );
-        let remedy =
-            "write friction_torque in Nm (1 mNm = 0.001), torque_constant in Nm/A and resistance_ohm in ohm".to_owned();
+        let units = ["torque_constant in Nm/A and resistance_ohm in ohm", "torque_constant in Nm/A and currents in A"];
+        let remedy = format!("write friction_torque in Nm (1 mNm = 0.001), {}", units[usize::from(amps.is_some())]);
         return vec![Mistake::new("motor-unit", "motor.friction_torque", what, remedy)];
     }
     // Each inertia by itself, and the torque of one wheel that moves it.
@@ -87,26 +95,39 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
         needs.push(("yaw_inertia_kg_m2", robot.yaw_inertia_kg_m2, robot.yaw_inertia_kg_m2 * turn / arm * each));
     }
     let gives = gear * stall;
-    needs.retain(|(.., torque)| *torque > IMPOSSIBLE * gives);
+    let impossible = if geometry.is_some() { IMPOSSIBLE } else { IMPOSSIBLE_BESIDE_LOADS };
+    needs.retain(|(.., torque)| *torque > impossible * gives);
     needs
         .into_iter()
         .map(|(key, value, torque)| {
             let what = format!(
-                "with {} each wheel needs {} Nm to gain speed as the logs show, {} times what its motor gives at stall",
+                "with {} each wheel needs {} Nm to gain speed as the logs show, {} times what its motor gives {}",
                 short(value),
                 short(torque),
-                short(torque / gives)
+                short(torque / gives),
+                gives_at.replace("their", "its")
             );
             let unit = match key {
                 "mass_kg" => "write kilograms (1 g = 0.001)",
                 _ => "write kg m² (1 g cm² = 0.0000001, 1 kg cm² = 0.0001)",
             };
-            let remedy = format!(
-                "{unit}, if torque_constant, resistance_ohm and gear_ratio (motor turns per wheel turn) are right"
-            );
+            let others = ["resistance_ohm", "the unit of the currents"][usize::from(amps.is_some())];
+            let remedy =
+                format!("{unit}, if torque_constant, {others} and gear_ratio (motor turns per wheel turn) are right");
             Mistake::new("motor-unit", key, what, remedy)
         })
         .collect()
+}
+
+/// The greatest current of any motor, A, where currents are what drives.
+fn logged_amps(robot: &Robot, logs: &[Log]) -> Option<f64> {
+    logs.first().filter(|log| log.layout().source.duties == DutySource::Currents)?;
+    let greatest = |log: &Log| {
+        let part = log.part(0..log.len().min(MOST_TICKS), Columns { duty: true, ..Columns::NONE });
+        part.duty.iter().flatten().filter(|d| d.is_finite()).fold(0.0_f64, |most, d| most.max(d.abs()))
+    };
+    let duty = logs.iter().map(greatest).fold(0.0, f64::max);
+    (duty > 0.0).then(|| duty * robot.supply_v / robot.motor.resistance_ohm)
 }
 
 /// Speeds, and gains of speed over half a second, less what the step of a count makes of one.

@@ -5,7 +5,7 @@ use runs::robot::Robot;
 use runs::{Columns, Log};
 
 /// Ticks of a log that are looked at.
-const MOST_TICKS: usize = 200_000;
+pub(super) const MOST_TICKS: usize = 200_000;
 /// Stretches of a log that are compared.
 const MOST: usize = 1500;
 /// Usual length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.

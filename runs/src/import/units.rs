@@ -47,6 +47,15 @@ pub(super) fn factor(unit: &str) -> Option<f64> {
 /// The unit that a column's name says: in brackets, or as its last word.
 pub(super) fn in_name(name: &str) -> Option<&'static str> {
     let inside = |open, close| name.split_once(open).and_then(|(_, rest)| rest.split_once(close)).map(|(unit, _)| unit);
+    // What is written for a stroke: `speed_rad_s`, `rate_deg_per_s`.
+    let lower = name.to_ascii_lowercase();
+    let behind = [("rad_s", "rad/s"), ("rad_per_s", "rad/s"), ("deg_s", "deg/s"), ("deg_per_s", "deg/s")];
+    let is_last = |ending: &str| {
+        lower.strip_suffix(ending).is_some_and(|rest| rest.is_empty() || rest.ends_with(['_', ' ', '/', '.', '-']))
+    };
+    if let Some((_, unit)) = behind.into_iter().find(|(ending, _)| is_last(ending)) {
+        return Some(unit);
+    }
     let last = || name.rsplit(['_', ' ', '/', '.', '-']).next().filter(|word| word.len() < name.len());
     let said = inside('[', ']').or_else(|| inside('(', ')')).or_else(last)?;
     let plain = match said.trim() {
@@ -120,6 +129,8 @@ mod tests {
             ("pos_m", "m"),
             ("encoderLeft (meters)", "m"),
             ("Speed (steps/s)", "counts/s"),
+            ("feedback_deg_s", "deg/s"),
+            ("omega_rad_per_s", "rad/s"),
         ] {
             assert_eq!(in_name(name), Some(unit), "{name}");
         }

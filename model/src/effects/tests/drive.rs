@@ -72,6 +72,16 @@ fn a_spring_turns_back_to_its_rest() {
 }
 
 #[test]
+fn a_weight_on_a_rope_pulls_wherever_it_is() {
+    let mut plant = lifted("hanging-load", &[("torque_1_nm", 0.03)]);
+    run(&mut plant, [0.0; 3], 3000);
+    let per_rad = Robot::racbot().counts_per_wheel_rad();
+    // The motor brakes it, and nothing holds it.
+    assert!(plant.encoder_after()[0] / per_rad > 10.0, "{:?}", plant.encoder_after());
+    assert_eq!(plant.encoder_after()[1..], [0.0; 2]);
+}
+
+#[test]
 fn what_sticks_lets_go_at_the_stribeck_torque() {
     let moved = |torque: f64| {
         let mut plant = lifted("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)]);

@@ -1,7 +1,7 @@
 //! What a series seems to be, by its name and its range.
 
 use super::super::{Series, Table, units};
-use super::time_unit;
+use super::{bench, time_unit};
 use crate::columns::{Column, MOST_DUTY};
 
 /// What a series seems to be.
@@ -61,6 +61,11 @@ const WORDS: [(Kind, &[&str]); 10] = [
     ),
 ];
 
+/// Words of a supply.
+pub(super) fn supply_words() -> impl Iterator<Item = &'static str> {
+    WORDS.iter().filter(|(kind, _)| *kind == Kind::Supply).flat_map(|(_, names)| names.iter().copied())
+}
+
 /// What names of axes are written with in one word, before or behind: `ox`, `xgt`, `thodom`.
 const AFFIXES: [&str; 11] = ["o", "odo", "odom", "dr", "gt", "true", "cam", "mocap", "vicon", "opti", "gps"];
 /// Headings, the longer names first.
@@ -68,6 +73,12 @@ const HEADINGS: [&str; 6] = ["heading", "theta", "yaw", "phi", "rz", "th"];
 
 /// Words that number wheels, in the order in which `racbot init` numbers them.
 const CORNERS: [&str; 4] = ["fl", "fr", "rl", "rr"];
+
+/// Words of what was asked for.
+pub(super) const WANTED: [&str; 9] =
+    ["goal", "target", "desired", "commanded", "ref", "reference", "setpoint", "demand", "wanted"];
+/// Letters that engineers give angles of joints.
+pub(super) const ANGLES: [&str; 5] = ["angle", "theta", "phi", "alpha", "q"];
 
 /// A series and what it seems to be.
 pub(super) struct Guess<'a> {
@@ -85,8 +96,11 @@ pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
     let (mut guesses, mut rest) =
         recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, &from_zero));
-    driving_volts(&mut guesses);
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
+    bench::driving_volts(&mut guesses);
+    bench::angles(&mut guesses, &mut rest, &from_zero);
+    bench::torques(&mut guesses, &mut rest, &from_zero);
+    guesses.sort_by_key(|g| g.column);
     (guesses, rest)
 }
 
@@ -109,30 +123,9 @@ fn digits(name: &str) -> Option<(String, usize)> {
 }
 
 /// The wheel that a name numbers, from 0.
-fn numbered(name: &str, from_zero: &[String]) -> Option<usize> {
+pub(super) fn numbered(name: &str, from_zero: &[String]) -> Option<usize> {
     let counted = digits(name).filter(|(stem, _)| from_zero.contains(stem));
     counted.map(|(_, number)| number).or_else(|| number(&words(&spaced(name).to_lowercase())))
-}
-
-/// Volts without a duty or a current beside a wheel are what drives it, though they stand still throughout a step.
-fn driving_volts(guesses: &mut [Guess]) {
-    let has = |wanted: fn(&Column) -> bool| guesses.iter().any(|g| wanted(&g.column));
-    let driven = has(|c| matches!(c, Column::Duty(_) | Column::Current(_)));
-    let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_) | Column::Speed(_))).count();
-    if driven || wheels != 1 {
-        return;
-    }
-    let bare = |name: &str| {
-        let lower = spaced(name).to_lowercase();
-        let words = words(&lower);
-        let supply = WORDS.iter().filter(|(kind, _)| *kind == Kind::Supply).flat_map(|(_, names)| *names);
-        let mut supply = supply.copied().chain(["bus", "bat", "source", "psu", "vcc", "vin", "input", "in"]);
-        words.iter().any(|w| w.starts_with("volt")) && !supply.any(|w| words.contains(&w))
-    };
-    if let Some(volts) = guesses.iter_mut().find(|g| g.column == Column::Supply && bare(&g.series.name)) {
-        (volts.column, volts.unit) = (Column::Duty(0), "V");
-    }
-    guesses.sort_by_key(|g| g.column);
 }
 
 /// Series of each kind so far, and whether one of them numbered its wheel.
@@ -230,7 +223,7 @@ fn drop_broken_groups<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Serie
 }
 
 /// A name with a blank before each capital that follows a small letter: `leftEncoder`, `left Encoder`.
-fn spaced(name: &str) -> String {
+pub(super) fn spaced(name: &str) -> String {
     let mut out = String::new();
     let mut small = false;
     for c in name.chars() {
@@ -244,7 +237,7 @@ fn spaced(name: &str) -> String {
 }
 
 /// The words of a name; of one that is whose axis it is, both.
-fn words(name: &str) -> Vec<&str> {
+pub(super) fn words(name: &str) -> Vec<&str> {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     words
         .flat_map(|word| glued(word).map_or([word, ""], |(whose, axis)| [whose, axis]))
@@ -272,8 +265,9 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     let axis = axis(&words);
     // Where a motor should be is no column, and no encoder's.
     let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
-    let wanted = any(&["goal", "target", "desired", "ref", "reference", "setpoint"]);
-    if wanted && axis.is_none() && any(&["position", "pos", "angle"]) {
+    let place =
+        any(&["position", "pos", "angle"]) || any(&ANGLES) || said.is_some_and(|unit| units::is_like(unit, "rad"));
+    if any(&WANTED) && place && axis.is_none() {
         return None;
     }
     // Flags and bounds of a current or a duty are none.
@@ -318,6 +312,8 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     } else {
         kind
     };
+    // A speed that was asked for is no wheel's own.
+    let kind = if kind == Kind::Speed && any(&WANTED) { Kind::Reference } else { kind };
     let of_odometry = wheels.odometry && kind == Kind::Camera && words.windows(2).any(|pair| pair == ["pose", "pose"]);
     let kind = if of_odometry { Kind::Odometry } else { kind };
     let (so_far, numbered) = &mut wheels.seen[kind as usize];
@@ -392,6 +388,10 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
             (wheel || turns && axis.is_none()).then_some(Kind::Speed)
         }
         _ if has(&["voltage", "volts", "volt"]) => volts(series),
+        // What turns by its unit is a shaft, where it is no body.
+        _ if units::in_name(&series.name).is_some_and(|unit| units::is_like(unit, "rad/s")) => {
+            (axis.is_none() && !has(&["gyro", "imu", "body", "robot", "base", "rate"])).then_some(Kind::Speed)
+        }
         // A share that a motor was told; in no other unit is that known.
         _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
         _ if has(&["mode", "state", "error", "status", "pid", "load", "temp"]) => None,
@@ -403,10 +403,10 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
 }
 
 /// Whose volts they are: a supply neither stands at 0 nor turns round, and at half of its voltage a battery is empty. What
-/// is 0 throughout was not measured.
+/// below a millivolt throughout was not measured.
 fn volts(series: &Series) -> Option<Kind> {
     let [low, high] = series.range();
-    if low == 0.0 && high == 0.0 {
+    if low.abs().max(high.abs()) < 1e-3 {
         return None;
     }
     Some(if low > 0.5 * high { Kind::Supply } else { Kind::Duty })

@@ -1,5 +1,6 @@
 //! A first map for a file, guessed from the names and ranges of its series, for its owner to correct.
 
+mod bench;
 mod guess;
 
 use std::fmt::Write as _;
@@ -147,6 +148,10 @@ fn columns(guesses: &[Guess], none: &str) -> String {
                 format!("{} # in rad/s at the wheel? Else {{ from = {0}, unit = \"rpm\" }}", quoted(&series.name))
             }
             "" => quoted(&series.name),
+            bench::TORQUE => format!(
+                "{} # Nm at the output shaft: a current beside torque_constant = 1 and gear_ratio = 1",
+                quoted(&series.name)
+            ),
             unit if angle => format!(
                 "{{ from = {}, unit = \"{unit}\", counts_per_rev = 65536 }} # what the encoder counts a turn",
                 quoted(&series.name)

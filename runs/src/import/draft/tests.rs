@@ -381,3 +381,43 @@ fn the_height_of_a_message_is_no_heading() {
     let map = drafted(&twist, ["1,0.1,0,0,0,0,0.2", "2,0.2,0,0,0,0,0.3", "3,0,0,0,0,0,0.1"]);
     assert!(map.contains("cmd_vx = \"/cmd_vel/linear.x\"") && map.contains("cmd_w = \"/cmd_vel/angular.z\""), "{map}");
 }
+
+/// Joints and motors on a bench log an angle and a torque under the letters of a book, and what was asked for beside it.
+#[test]
+fn angles_and_torques_of_joints_are_understood() {
+    let pendulum = drafted("time,position,velocity,torque", ["0,0.5,0,0.25", "1,0.25,1,-0.5", "2,1.75,1,3"]);
+    assert!(pendulum.contains("current_1 = \"torque\" # Nm at the output shaft"), "{pendulum}");
+    let joints = drafted(
+        "time,q1,q2,dq1,dq2,tau1,tau2",
+        ["0,0.5,0.25,0,0,1,1.5", "1,0.25,0.5,1,1,2,2.5", "2,1.75,0.5,1,1,3,3.5"],
+    );
+    for line in ["enc_1 = { from = \"q1\", unit = \"rad\"", "enc_2 = { from = \"q2\"", "current_2 = \"tau2\" #"] {
+        assert!(joints.contains(line), "{line}\n{joints}");
+    }
+    let measured = drafted(
+        "time,pos_meas1,pos_filt1,tau_con1,tau_fric1,tau_meas1",
+        ["0,0.5,0.5,1,0,1.5", "1,0.25,0.5,2,0,2.5", "2,1.75,0.5,3,0,3.5"],
+    );
+    assert!(measured.contains("current_1 = \"tau_meas1\"") && !measured.contains("current_2"), "{measured}");
+    let qube = drafted(
+        "t,target_theta,target_alpha,theta,alpha,plant_input",
+        ["0,0,0.5,0.25,0,1", "1,0,0.5,0.5,1,2", "2,0,0.5,0.75,2,3"],
+    );
+    assert!(qube.contains("enc_1 = { from = \"theta\"") && !qube.contains("ref_1"), "{qube}");
+    let speeds = drafted(
+        "time_s,commanded_deg_s,angle_deg,feedback_deg_s",
+        ["0.0,800,135.81,0.0", "0.1,800,139.56,757.13", "0.2,800,143.47,794.44"],
+    );
+    for line in ["ref_1 = { from = \"commanded_deg_s\", unit = \"deg/s\" }", "speed_1 = { from = \"feedback_deg_s\""] {
+        assert!(speeds.contains(line), "{line}\n{speeds}");
+    }
+    let quaternion = drafted("time,current,q0,q1,q2,q3", ["0,1,1,0,0,0.5", "1,2,0.5,0.5,0,0.5", "2,3,0.5,0.5,0.5,0.5"]);
+    assert!(!quaternion.contains("enc_1 = {"), "{quaternion}");
+}
+
+/// Volts that nobody measured are some 1e-124, and no drive.
+#[test]
+fn volts_that_were_not_measured_are_none() {
+    let stand = drafted("time,Voltage (V),rpm", ["0,6.2e-124,0", "1,3.7e-125,10", "2,5.3e-124,20"]);
+    assert!(stand.contains("speed_1 = ") && !stand.contains("duty_1"), "{stand}");
+}

@@ -1,0 +1,138 @@
+//! What a motor or a joint on a bench logs without a telling word: volts, an angle, a torque.
+
+use super::super::{Series, units};
+use super::guess::{ANGLES, Guess, WANTED, numbered, spaced, supply_words, words};
+use crate::columns::Column;
+
+/// The unit of a current that is a torque at the output shaft.
+pub(super) const TORQUE: &str = "Nm";
+/// Angles beyond which a shaft turns in degrees rather than in radians: eight turns.
+const DEGREES: f64 = 50.0;
+
+/// Volts without a duty or a current beside a wheel are what drives it, though they stand still throughout a step.
+pub(super) fn driving_volts(guesses: &mut [Guess]) {
+    let has = |wanted: fn(&Column) -> bool| guesses.iter().any(|g| wanted(&g.column));
+    let driven = has(|c| matches!(c, Column::Duty(_) | Column::Current(_)));
+    let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_) | Column::Speed(_))).count();
+    if driven || wheels != 1 {
+        return;
+    }
+    let bare = |name: &str| {
+        let lower = spaced(name).to_lowercase();
+        let words = words(&lower);
+        let mut supply = supply_words().chain(["bus", "bat", "source", "psu", "vcc", "vin", "input", "in"]);
+        words.iter().any(|w| w.starts_with("volt")) && !supply.any(|w| words.contains(&w))
+    };
+    if let Some(volts) = guesses.iter_mut().find(|g| g.column == Column::Supply && bare(&g.series.name)) {
+        (volts.column, volts.unit) = (Column::Duty(0), "V");
+    }
+}
+
+/// Of a log without wheels and poses the angles are what its motors turn: the first, and each that numbers its motor.
+pub(super) fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+    let moves = |g: &Guess| {
+        matches!(
+            g.column,
+            Column::Counts(_) | Column::Speed(_) | Column::Camera(_) | Column::Odometry(_) | Column::Command(_)
+        )
+    };
+    if guesses.iter().any(moves) {
+        return;
+    }
+    // Four q are a quaternion; beside their rates or torques they are joints.
+    let joints =
+        rest.iter().any(|s| stem(s).iter().any(|word| ["dq", "qd", "tau", "torque", "effort"].contains(&&**word)));
+    let is_angle = |series: &Series| {
+        let words = stem(series);
+        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let turns = |unit| units::is_like(unit, "rad");
+        (has(&ANGLES[..3]) || joints && has(&["q"]) || units::in_name(&series.name).is_some_and(turns))
+            && !has(&WANTED)
+            && !has(&[
+                "x",
+                "y",
+                "z",
+                "roll",
+                "pitch",
+                "yaw",
+                "heading",
+                "error",
+                "dot",
+                "vel",
+                "velocity",
+                "rate",
+                "electrical",
+            ])
+    };
+    take(
+        guesses,
+        rest,
+        from_zero,
+        |series| is_angle(series).then_some(0),
+        |series, wheel| {
+            let [low, high] = series.range();
+            let said = units::in_name(&series.name).filter(|unit| units::is_like(unit, "rad"));
+            let whole = series.values.iter().all(|x| x.fract() == 0.0);
+            let unit = match low.abs().max(high.abs()) {
+                most if most > DEGREES && whole => "",
+                most if most > DEGREES => "deg",
+                _ => "rad",
+            };
+            Guess { series, column: Column::Counts(wheel), unit: said.unwrap_or(unit) }
+        },
+    );
+}
+
+/// Where neither duties nor currents are logged, the torques of turning motors are what drives them.
+pub(super) fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+    let turns = |i: usize| move |g: &Guess| [Column::Counts(i), Column::Speed(i)].contains(&g.column);
+    if guesses.iter().any(|g| matches!(g.column, Column::Duty(_) | Column::Current(_))) {
+        return;
+    }
+    let turning: Vec<bool> = (0..8).map(|i| guesses.iter().any(turns(i))).collect();
+    // Measured ones first, asked for ones last; parts and bounds of a torque are none.
+    let rank = |series: &Series| {
+        let words = stem(series);
+        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let wheel = numbered(&series.name, from_zero).unwrap_or(0);
+        let is = has(&["torque", "tau", "effort"])
+            && !has(&[
+                "fric", "friction", "ff", "gravity", "limit", "max", "min", "ext", "external", "error", "x", "y", "z",
+            ]);
+        (is && turning.get(wheel) == Some(&true)).then(|| match () {
+            () if has(&["meas", "measured", "act", "actual", "feedback", "fb"]) => 0,
+            () if has(&WANTED) || has(&["con", "cmd", "command", "des", "control"]) => 2,
+            () => 1,
+        })
+    };
+    take(guesses, rest, from_zero, rank, |series, wheel| Guess {
+        series,
+        column: Column::Current(wheel),
+        unit: TORQUE,
+    });
+}
+
+/// Takes from the rest what has a rank, the lowest first, one series a motor; of several without a number the first.
+fn take<'a>(
+    guesses: &mut Vec<Guess<'a>>,
+    rest: &mut Vec<&'a Series>,
+    from_zero: &[String],
+    rank: impl Fn(&Series) -> Option<usize>,
+    guess: impl Fn(&'a Series, usize) -> Guess<'a>,
+) {
+    let mut ranked: Vec<(usize, &'a Series)> = rest.iter().filter_map(|s| rank(s).map(|rank| (rank, *s))).collect();
+    ranked.sort_by_key(|(rank, _)| *rank);
+    for (_, series) in ranked {
+        let found = guess(series, numbered(&series.name, from_zero).unwrap_or(0));
+        if guesses.iter().all(|g| g.column != found.column) {
+            rest.retain(|other| !std::ptr::eq(*other, series));
+            guesses.push(found);
+        }
+    }
+}
+
+/// The words of a name, without the numbers behind them.
+fn stem(series: &Series) -> Vec<String> {
+    let lower = spaced(&series.name).to_lowercase();
+    words(&lower).iter().map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned()).collect()
+}
