@@ -2,7 +2,7 @@
 
 use super::super::{Series, units};
 use super::guess::{ANGLES, Guess, WANTED, numbered, spaced, supply_words, words};
-use crate::columns::Column;
+use crate::columns::{Column, MOST_DUTY};
 
 /// The unit of a current that is a torque at the output shaft.
 pub(super) const TORQUE: &str = "Nm";
@@ -26,6 +26,24 @@ pub(super) fn driving_volts(guesses: &mut [Guess]) {
     if let Some(volts) = guesses.iter_mut().find(|g| g.column == Column::Supply && bare(&g.series.name)) {
         (volts.column, volts.unit) = (Column::Duty(0), "V");
     }
+}
+
+/// Of one motor alone what it was told as a share drives it, whatever it is called: `m_power`, `throttle`.
+pub(super) fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+    let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_))).count();
+    let others = guesses.iter().any(|g| matches!(g.column, Column::Duty(_) | Column::Command(_) | Column::Camera(_)));
+    if others || wheels != 1 {
+        return;
+    }
+    let rank = |series: &Series| {
+        let words = stem(series);
+        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let [low, high] = series.range();
+        let share = low < high && low >= -MOST_DUTY && high <= MOST_DUTY;
+        let watts = has(&["w", "watt", "watts", "electrical", "mechanical", "electric", "consumed", "average"]);
+        (share && has(&["power", "throttle"]) && !watts).then_some(0)
+    };
+    take(guesses, rest, from_zero, rank, |series, wheel| Guess { series, column: Column::Duty(wheel), unit: "" });
 }
 
 /// Of a log without wheels and poses the angles are what its motors turn: the first, and each that numbers its motor.

@@ -98,6 +98,7 @@ pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
         recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, &from_zero));
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
     bench::driving_volts(&mut guesses);
+    bench::shares(&mut guesses, &mut rest, &from_zero);
     bench::angles(&mut guesses, &mut rest, &from_zero);
     bench::torques(&mut guesses, &mut rest, &from_zero);
     guesses.sort_by_key(|g| g.column);

@@ -415,6 +415,15 @@ fn angles_and_torques_of_joints_are_understood() {
     assert!(!quaternion.contains("enc_1 = {"), "{quaternion}");
 }
 
+/// What one motor alone was told is its duty, and what it took in watts is not.
+#[test]
+fn the_power_of_one_motor_is_its_duty() {
+    let told = drafted("time,m_power,motor_current,motor_position", ["0,0,0.5,3", "1,0.5,0.7,7", "2,0.95,0.8,12"]);
+    assert!(told.contains("duty_1 = \"m_power\""), "{told}");
+    let watts = drafted("time,Power (W),motor_current,motor_position", ["0,0,0.5,3", "1,0.5,0.7,7", "2,0.95,0.8,12"]);
+    assert!(!watts.contains("duty_1"), "{watts}");
+}
+
 /// Volts that nobody measured are some 1e-124, and no drive.
 #[test]
 fn volts_that_were_not_measured_are_none() {
