@@ -46,6 +46,8 @@ pub struct Thresholds {
     pub as_well: f64,
     /// [`thresholds::UNDECIDED`].
     pub undecided: f64,
+    /// [`thresholds::DWARFS`].
+    pub dwarfs: f64,
     /// [`thresholds::FROM_NOISE`].
     pub from_noise: f64,
     /// [`thresholds::TOLD`].
@@ -81,6 +83,7 @@ impl Default for Thresholds {
             far_left: thresholds::FAR_LEFT,
             as_well: thresholds::AS_WELL,
             undecided: thresholds::UNDECIDED,
+            dwarfs: thresholds::DWARFS,
             from_noise: thresholds::FROM_NOISE,
             told: thresholds::TOLD,
             least_together: thresholds::LEAST_TOGETHER,
