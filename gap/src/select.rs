@@ -2,6 +2,7 @@
 
 mod alternatives;
 mod design;
+mod dwarfed;
 mod gates;
 mod join;
 mod left;
@@ -30,6 +31,7 @@ pub use crate::candidates::candidates;
 pub use crate::state::is_material;
 pub use alternatives::{Alternatives, alternatives, figures, sign_flip};
 pub use design::{Design, Trial};
+pub(crate) use dwarfed::dwarfed;
 pub(crate) use plain::{held_out, plain};
 pub use sure::estimates;
 pub(crate) use undecided::undecided;

@@ -73,6 +73,8 @@ pub enum Refusal {
     SaysNothing,
     /// Others undo most of what it does.
     Cancelled,
+    /// What no effect explains is far more than what it closes.
+    Dwarfed,
 }
 
 impl Refusal {
@@ -84,6 +86,7 @@ impl Refusal {
             Self::AtBound => "it fits best at the bound of what is physical",
             Self::SaysNothing => "its interval is wider than what is physical",
             Self::Cancelled => "what else was fitted would undo most of it",
+            Self::Dwarfed => "no effect explains what remains beside what it closes",
         }
     }
 }

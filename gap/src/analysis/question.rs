@@ -20,7 +20,7 @@ use crate::{GapError, command, controller, timing};
 use links::effect::Effect;
 use links::effects;
 use links::effects::camera_clock::CameraClock;
-use links::motion::{MotionLink, MotionModel, WINDOW_FRAMES, WINDOW_S};
+use links::motion::{MotionLink, MotionModel, WINDOW_S};
 use links::pieces::{Driving, PIECE, Pieces, segments};
 
 /// A data set and what is asked of it.
@@ -65,8 +65,7 @@ impl<'a> Question<'a> {
         let frames = set.logs.iter().map(|log| log.camera().iter().map(|f| (f.t, f.pose)).collect());
         let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
         let noise = model::fit::with_headings(noise, set.logs.iter().any(|log| log.layout().source.positions_only));
-        let rate = robot.camera_rate_hz;
-        let window_s = if rate > 0.0 { WINDOW_S.max(WINDOW_FRAMES / rate) } else { WINDOW_S };
+        let window_s = model::fit::window_s(WINDOW_S, robot.camera_rate_hz);
         Ok(Self { set, options, robot, catalogue, noise, window_s, geometry, every_run: true, currents })
     }
 

@@ -368,8 +368,13 @@ fn admitted(
             all.iter().position(|c| c.effect.name() == name)
         };
         let worst = faults.max_by(|a, b| a.0.p.total_cmp(&b.0.p).then(rank(a.0).cmp(&rank(b.0))));
-        let Some((estimate, why)) = worst else { return (selection, refused) };
-        let name = selection.state.active[estimate.index].effect.name().to_owned();
+        let worst = worst.map(|(e, why)| (e.index, why)).or_else(|| {
+            let (index, share) = select::dwarfed(problem, &selection.state, start, thresholds)?;
+            let why = format!("{}, {:.0} times as much", Refusal::Dwarfed.reason(), 1.0 / share.max(0.01));
+            Some((index, (Refusal::Dwarfed, why)))
+        });
+        let Some((index, why)) = worst else { return (selection, refused) };
+        let name = selection.state.active[index].effect.name().to_owned();
         refused.push(not_named(problem, &name, &why));
         selection = select::without(problem, &selection, from, |a| a.effect.name() != name, all, thresholds);
     }

@@ -16,6 +16,7 @@ mod pairs;
 mod partial;
 mod replayed;
 mod scale;
+mod slipping;
 mod smoothed;
 
 use common::{RICH, example, names, simulate, value, with};

@@ -20,7 +20,7 @@ use crate::segment::Segment;
 use crate::values::Values;
 
 pub(crate) use track::Path;
-pub use windows::{MotionLink, WINDOW_FRAMES, WINDOW_S, WindowResiduals};
+pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.
 pub type AngleChange = Box<dyn Fn(&Segment, &mut [Vec<f64>]) + Send + Sync>;

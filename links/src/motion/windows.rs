@@ -32,9 +32,6 @@ const MEDIAN_OF_CHI3: f64 = 1.538_2;
 /// Length of a window, s: a league robot drives 0.7 m in it. Over four seconds, slip and creep of the wheels stood far
 /// above the camera's noise on recordings of slower machines, and nothing passed on held-out runs.
 pub const WINDOW_S: f64 = 1.0;
-/// Frames of a camera of fewer a second for which a window is longer: half of them pay for the start pose and for what
-/// is lost at its ends.
-pub const WINDOW_FRAMES: f64 = 8.0;
 
 /// The motion link of a data set.
 pub struct MotionLink<'a> {

@@ -7,7 +7,8 @@ use super::excitation::{Excitation, best_direction};
 use super::size::{Estimated, Sizes};
 use super::structure::{self, Part};
 use super::{KinematicModel, KinematicParameter};
-use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals};
+use crate::fit::{Fit, FitError, FitOptions, covariance_at, fit, residuals, window_s};
+use estimation::statistics::median;
 use runs::Run;
 use runs::frames::wrap_angle;
 use runs::robot::{Layout, Robot};
@@ -140,7 +141,8 @@ impl SkewEstimate {
 /// [`FitError::NotFinite`] if the robot or the logs hold numbers that lead nowhere.
 pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitError> {
     let n = robot.wheel_count();
-    let options = FitOptions { window_s: WINDOW_S, noise: robot.camera_noise, ..FitOptions::default() };
+    let window_s = window_s(WINDOW_S, frames_per_s(runs));
+    let options = FitOptions { window_s, noise: robot.camera_noise, ..FitOptions::default() };
     let (parts, blocks) = match structure::choose(robot, runs, &options) {
         Ok(chosen) => chosen,
         Err(FitError::NoWindows) => return Ok(nothing(robot, runs)),
@@ -205,7 +207,7 @@ pub fn estimate_skew(robot: &Robot, runs: &[Run]) -> Result<SkewEstimate, FitErr
     estimate.remarks.extend(said);
     if blocks < structure::FEWEST_BLOCKS {
         estimate.remarks.push(format!(
-            "Camera and encoders overlap for {blocks} stretches of {WINDOW_S:.0} s, too few to test what part of the robot is at \
+            "Camera and encoders overlap for {blocks} stretches of {window_s:.0} s, too few to test what part of the robot is at \
              fault on stretches that had no part in the fit: whether it is a skew, a radius or the marker is not proven. Log \
              at least {}.",
             structure::FEWEST_BLOCKS
@@ -280,6 +282,13 @@ fn refused(robot: &Robot, estimate: &SkewEstimate, far: bool) -> SkewEstimate {
     SkewEstimate { residual: estimate.residual, remarks: vec![remark], ..none }
 }
 
+/// Usual frames a second of the camera in some logs; 0 where there are none.
+fn frames_per_s(runs: &[Run]) -> f64 {
+    let steps = runs.iter().flat_map(|run| run.camera.windows(2).map(|f| run.t[f[1].tick] - run.t[f[0].tick]));
+    let usual = median(&mut steps.collect::<Vec<f64>>());
+    if usual > 0.0 { usual.recip() } else { 0.0 }
+}
+
 /// Logs without a single window of camera and encoders.
 fn nothing(robot: &Robot, runs: &[Run]) -> SkewEstimate {
     let n = robot.wheel_count();
@@ -290,8 +299,8 @@ fn nothing(robot: &Robot, runs: &[Run]) -> SkewEstimate {
         "The logs have no camera poses (cam_x, cam_y, cam_theta), so nothing can be said about the skews. Log an \
          overhead camera while the robot drives straight in several directions."
     } else {
-        "Nowhere in the logs are there four camera frames within a second, so nothing can be said about the skews. \
-         Log more frames."
+        "Nowhere in the logs are there four camera frames close to each other beside encoder counts, so nothing can be \
+         said about the skews. Log more frames."
     };
     let skew_rad = nominal_skew(robot);
     SkewEstimate {

@@ -59,6 +59,14 @@ impl Default for FitOptions {
     }
 }
 
+/// Frames that a window holds at least: half of them pay for the start pose and for what is lost at its ends.
+const WINDOW_FRAMES: f64 = 8.0;
+
+/// Length of a window, s, that usually is so long: longer where a camera has few frames a second (0: of unknown rate).
+pub fn window_s(usual_s: f64, camera_rate_hz: f64) -> f64 {
+    if camera_rate_hz > 0.0 { usual_s.max(WINDOW_FRAMES / camera_rate_hz) } else { usual_s }
+}
+
 /// Why there is nothing to fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {

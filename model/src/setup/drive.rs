@@ -239,31 +239,45 @@ fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     // Commands run ahead of the wheels, in every log by its own lag. Sums of what the wheels drove, of what was asked
     // for, of both along and across each other, and their number; only of logs whose wheels follow.
     let of = |s: &Signals, lag: usize| {
-        let mut sums = [0.0; 5];
+        let mut sums = [0.0; 7];
         for (k, c) in s.command.iter().enumerate().filter(|(_, c)| c.iter().all(|x| x.is_finite())) {
             let w: Vec<f64> = s.speed.iter().filter_map(|w| w.get(k + lag).copied()).collect();
             if w.len() == s.speed.len() {
                 let p = geometry.twist(&w);
                 let (driven, asked) = (p.vx * p.vx + p.vy * p.vy, c[0] * c[0] + c[1] * c[1]);
                 let (along, across) = (c[0] * p.vx + c[1] * p.vy, c[1] * p.vx - c[0] * p.vy);
-                sums.iter_mut().zip([driven, asked, along, across, 1.0]).for_each(|(sum, x)| *sum += x);
+                let turns = [c[2] * p.omega, (c[2] * p.omega).abs()];
+                let all = [driven, asked, along, across, 1.0, turns[0], turns[1]];
+                sums.iter_mut().zip(all).for_each(|(sum, x)| *sum += x);
             }
         }
         sums
     };
-    let follows =
-        |[driven, asked, along, across, _]: [f64; 5]| f64::hypot(along, across) / f64::sqrt(driven * asked).max(1e-300);
+    let follows = |[driven, asked, along, across, ..]: [f64; 7]| {
+        f64::hypot(along, across) / f64::sqrt(driven * asked).max(1e-300)
+    };
     let best = |s| (0..=LAGS).map(|lag| of(s, lag)).max_by(|a, b| follows(*a).total_cmp(&follows(*b)));
     let logs = signals.iter().filter_map(best).filter(|sums| follows(*sums) >= FOLLOWS);
-    let all = logs.fold([0.0; 5], |all, of| std::array::from_fn(|i| all[i] + of[i]));
+    let all = logs.fold([0.0; 7], |all, of| std::array::from_fn(|i| all[i] + of[i]));
     let (follows, turn, n) = (follows(all), f64::atan2(all[3], all[2]), all[4] as usize);
     // What wheels that are wired in another order make of a command is no frame: frames are quarter turns.
     let quarter = (turn / std::f64::consts::FRAC_PI_2).round() * std::f64::consts::FRAC_PI_2;
     if n < FEWEST || follows < FOLLOWS || quarter == 0.0 || (turn - quarter).abs() > 0.4 {
         return None;
     }
+    // Where turns are the other way round, too, no frame is wrong but what positive speed of a wheel means.
+    let back = quarter.abs() > 3.0;
+    if back && all[5] < -FOLLOWS * all[6] {
+        let what = "commands say the opposite of what the wheels drive, ways and turns alike: positive speeds drive every \
+                    wheel the other way than robot.toml says";
+        let remedy = "add pi to drive_rad of every [[wheel]] (`racbot init --turns` says which way they turn the robot), or \
+                      change the signs of all encoders or speeds";
+        return Some(Mistake::new("command-frame", "[[wheel]]", what.to_owned(), remedy.to_owned()));
+    }
     let what = format!("commands point {:.0} degrees from where the wheels drive", turn.to_degrees());
-    let remedy = if (turn.to_degrees() + 90.0).abs() < 30.0 {
+    let remedy = if back {
+        "change the signs of cmd_vx and cmd_vy; or, where commanded turns are the other way round, too, those of all encoders"
+    } else if (turn.to_degrees() + 90.0).abs() < 30.0 {
         "they look like x forward, y left (ROS REP-103): here x is to the right and y forward, so write cmd_vx = -y and \
          cmd_vy = x"
     } else {

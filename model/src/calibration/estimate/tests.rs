@@ -258,3 +258,21 @@ fn wheels_that_were_read_seldom_turn_between_readings() {
     assert!((radius - 0.05).abs() < 0.003, "{radius}");
     assert!(e.latency_s.value.abs() < 0.005 && e.residual.reduced_chi2 < 1.2, "{:?} {:?}", e.latency_s, e.residual);
 }
+
+/// A camera of one frame a second, beside a robot that drives for minutes.
+#[test]
+fn few_frames_a_second_are_enough() {
+    let run = |seed: u64| {
+        let mut run = log([4.0, -3.0, 2.0], seed);
+        let every = (1.0 / (run.t[run.camera[1].tick] - run.t[run.camera[0].tick])).round() as usize;
+        run.camera = run.camera.into_iter().step_by(every).collect();
+        run
+    };
+    let runs: Vec<Run> = (1..=6).map(run).collect();
+    let e = estimate_skew(&Robot::racbot(), &runs).unwrap();
+    let got = degrees(&e);
+    for (i, j, half) in &e.differences {
+        let off = (got[*i] - got[*j]) - ([4.0, -3.0, 2.0][*i] - [4.0, -3.0, 2.0][*j]);
+        assert!(off.abs() < half.to_degrees() && half.to_degrees() < 2.0, "{got:?} {half} {:?}", e.remarks);
+    }
+}

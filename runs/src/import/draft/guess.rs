@@ -28,7 +28,7 @@ const WORDS: [(Kind, &[&str]); 10] = [
     (Kind::Gyro, &["gyro", "gyroscope", "angular_velocity"]),
     (Kind::Acceleration, &["acc", "accel", "acceleration", "linear_acceleration"]),
     (Kind::Command, &["cmd", "command", "soll", "twist", "desired"]),
-    (Kind::Reference, &["ref", "reference", "setpoint", "target", "set"]),
+    (Kind::Reference, &["ref", "reference", "setpoint", "target", "set", "sp"]),
     (Kind::Counts, &["enc", "encoder", "tick", "ticks", "counts", "count", "position", "pos"]),
     (Kind::Odometry, &["odom", "odometry", "odo", "o", "dr", "reckoning"]),
     (
@@ -70,6 +70,9 @@ pub(super) fn supply_words() -> impl Iterator<Item = &'static str> {
 const AFFIXES: [&str; 11] = ["o", "odo", "odom", "dr", "gt", "true", "cam", "mocap", "vicon", "opti", "gps"];
 /// Headings, the longer names first.
 const HEADINGS: [&str; 6] = ["heading", "theta", "yaw", "phi", "rz", "th"];
+
+/// Velocities of a body, along x, along y (with b: in the body's frame) and of its turn.
+const BODY_SPEEDS: [&str; 8] = ["vx", "vbx", "vy", "vby", "w", "wb", "wz", "omega"];
 
 /// Words that number wheels, in the order in which `racbot init` numbers them.
 const CORNERS: [&str; 4] = ["fl", "fr", "rl", "rr"];
@@ -175,6 +178,28 @@ pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
         (x.unit, y.unit) = (unit, unit);
     }
     (guesses, rest)
+}
+
+/// Velocities of the body in a log that has nothing else which moves, taken out of the rest: keys of a map, and series.
+/// Beside a second file with the pose they are the robot's own odometry.
+pub(super) fn velocities<'a>(guesses: &[Guess], rest: &mut Vec<&'a Series>) -> Vec<(&'static str, &'a Series)> {
+    let moves =
+        |c: Column| matches!(c, Column::Counts(_) | Column::Speed(_) | Column::Odometry(_) | Column::Command(_));
+    if guesses.iter().any(|g| moves(g.column)) {
+        return Vec::new();
+    }
+    let keys = [("odom_vx", &["v", "vx"][..]), ("odom_vy", &["vy"]), ("odom_w", &["w", "wz", "omega"])];
+    let of = |(key, names): (&'static str, &[&str])| {
+        let is = |series: &&&Series| matches!(words(&series.name.to_lowercase())[..], [word] if names.contains(&word));
+        Some((key, *rest.iter().find(is)?))
+    };
+    let found: Vec<(&str, &Series)> = keys.into_iter().filter_map(of).collect();
+    let has = |key: &str| found.iter().any(|(k, _)| *k == key);
+    if !(has("odom_vx") && has("odom_w")) {
+        return Vec::new();
+    }
+    rest.retain(|series| found.iter().all(|(_, s)| s.name != series.name));
+    found
 }
 
 /// Which of x, y and heading a series of a tracker is.
@@ -301,12 +326,15 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     let kind = kinds
         .find(|kind| match kind {
             Kind::Command => axis.is_some() && plane && !own_twist,
+            // A set point of a velocity of the body was commanded; of a place it is where it should go.
+            Kind::Reference if axis.is_some() => any(&BODY_SPEEDS),
             Kind::Camera | Kind::Odometry => axis.is_some() && plane && !own_twist,
             Kind::Gyro | Kind::Acceleration => axis.is_some(),
             Kind::Supply => true,
             _ => axis.is_none(),
         })
         .or_else(|| wordless(&words, axis, series).filter(|_| plane && !own_twist))?;
+    let kind = if kind == Kind::Reference && axis.is_some() { Kind::Command } else { kind };
     let rate = any(&["rate", "speed", "velocity", "vel"]);
     let kind = if kind == Kind::Counts && (rate || said.is_some_and(|unit| unit.ends_with("/s") || unit == "rpm")) {
         Kind::Speed
@@ -397,10 +425,16 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
         _ if has(&["mode", "state", "error", "status", "pid", "load", "temp"]) => None,
         _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
-        // Control engineers call what they put into a motor u.
-        [word] if word.trim_end_matches(|c: char| c.is_ascii_digit()) == "u" => share.then_some(Kind::Duty),
+        // Control engineers call the speed of a wheel w, and what they put into a motor u.
+        [word] if ["w", "omega"].iter().any(|name| numbers(word, name)) => Some(Kind::Speed),
+        [word] if *word == "u" || numbers(word, "u") => share.then_some(Kind::Duty),
         _ => (wheel && whole && counted && axis.is_none()).then_some(Kind::Counts),
     }
+}
+
+/// Whether a word is a name with a number behind it: `w1`.
+fn numbers(word: &str, name: &str) -> bool {
+    word.strip_prefix(name).is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// Whose volts they are: a supply neither stands at 0 nor turns round, and at half of its voltage a battery is empty. What
@@ -438,9 +472,9 @@ fn number(words: &[&str]) -> Option<usize> {
 fn axis(words: &[&str]) -> Option<usize> {
     let last = words.iter().rev();
     let named = |word: &&str| match *word {
-        "x" | "vx" => Some(0),
-        "y" | "vy" => Some(1),
-        "z" | "w" | "omega" => Some(2),
+        "x" | "vx" | "vbx" => Some(0),
+        "y" | "vy" | "vby" => Some(1),
+        "z" | "w" | "wb" | "wz" | "omega" => Some(2),
         word => HEADINGS.contains(&word).then_some(2),
     };
     // Of a quaternion its heading alone.

@@ -15,7 +15,7 @@ use crate::columns::Column;
 /// The text of a map for a file: columns that were recognised by their names, and the rest as comments with their ranges.
 pub fn draft(table: &Table) -> String {
     let (guesses, rest) = guesses(table);
-    log(table, &guesses, &rest)
+    log(table, &guesses, &[], &rest)
 }
 
 /// The same for a log and a second file with the pose, each with its path.
@@ -27,7 +27,8 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
         rest.extend(guesses.extract_if(.., camera).map(|g| g.series));
         reckoned(table.0, &mut guesses, &mut rest);
     }
-    let mut out = log(table.0, &guesses, &rest);
+    let own = guess::velocities(&guesses, &mut rest);
+    let mut out = log(table.0, &guesses, &own, &rest);
     let file = quoted(&truth::pattern(table.1, poses.1));
     let _ = writeln!(
         out,
@@ -67,7 +68,7 @@ fn clock(tables: [&Table; 2]) -> &'static str {
     if shared > 0.5 * shorter && !from_zero { "same" } else { "match" }
 }
 
-fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
+fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Series]) -> String {
     let mut out = String::from("# Guessed from names and ranges: check every line.\n");
     for remark in &table.remarks {
         let _ = writeln!(out, "# Note: {remark}.");
@@ -77,7 +78,15 @@ fn log(table: &Table, guesses: &[Guess], rest: &[&Series]) -> String {
         "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
     );
     out.push_str("\n[columns]\n");
-    out += &columns(guesses, "# enc_1 = \"...\"\n");
+    out += &columns(guesses, if own.is_empty() { "# enc_1 = \"...\"\n" } else { "" });
+    for (name, series) in own {
+        let _ = writeln!(
+            out,
+            "{name} = {} # as the robot's odometry has it? Commanded: cmd_{}",
+            quoted(&series.name),
+            &name[5..]
+        );
+    }
     out + &unused(rest)
 }
 
@@ -101,7 +110,7 @@ fn time(table: &Table, name: &str) -> String {
     }
     match increasing(table) {
         Some(s) => {
-            let (column, unit) = (quoted(&s.name), time_unit(&s.values, 1.0));
+            let (column, unit) = (quoted(of_every_kind(table, &s.name)), time_unit(&s.values, 1.0));
             format!("\n[{name}]\ncolumn = {column} # is it? it increases from row to row\nunit = \"{unit}\"\n")
         }
         None => format!(
@@ -109,6 +118,17 @@ fn time(table: &Table, name: &str) -> String {
              points of a characteristic, each when its speed had settled, are no log\n"
         ),
     }
+}
+
+/// The name of a column of time: where lines begin with a word, and those of every word have their time in the same column,
+/// that column's alone, for the name with a word is the time of its lines alone.
+fn of_every_kind<'a>(table: &Table, name: &'a str) -> &'a str {
+    let Some((_, column)) = name.split_once('/').filter(|(_, column)| !column.contains('/')) else { return name };
+    let mut kinds: Vec<&str> = table.series.iter().filter_map(|s| Some(s.name.split_once('/')?.0)).collect();
+    kinds.dedup();
+    let rises = |s: &Series| s.values.windows(2).all(|w| w[1] >= w[0]) && s.values.first() < s.values.last();
+    let timed = |kind: &&str| table.find(&format!("{kind}/{column}")).is_some_and(rises);
+    if kinds.iter().all(timed) { column } else { name }
 }
 
 /// The stamp that a robot gave its messages, where it gave them one: `rostopic echo -p` has it beside the time at which

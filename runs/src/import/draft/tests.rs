@@ -430,3 +430,64 @@ fn volts_that_were_not_measured_are_none() {
     let stand = drafted("time,Voltage (V),rpm", ["0,6.2e-124,0", "1,3.7e-125,10", "2,5.3e-124,20"]);
     assert!(stand.contains("speed_1 = ") && !stand.contains("duty_1"), "{stand}");
 }
+
+/// A three-wheeled robot of a thesis, whose commands are set points of its body's velocities.
+#[test]
+fn speeds_and_set_points_of_control_engineers_are_understood() {
+    let names = "t, ax, ay, alpha, w1, w2, w3, vbx_sp, vby_sp, wb_sp";
+    let rows = [
+        "0.01,0.1,0,6.2,-4.8,2.4,9.5,0.35,0,-1.2",
+        "0.02,0.1,0,6.2,-4.8,2.4,9.5,0.35,0,0",
+        "0.03,0,0,6,-5,2,9,0.35,0,0",
+    ];
+    let map = drafted(names, rows);
+    for line in [
+        "speed_1 = \"w1\" # in rad/s at the wheel?",
+        "speed_3 = \"w3\" # in rad/s at the wheel?",
+        "cmd_vx = \"vbx_sp\"",
+        "cmd_vy = \"vby_sp\"",
+        "cmd_w = \"wb_sp\"",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    // Where it should be is no velocity.
+    let map = drafted("t,enc_1,target_x,target_y,target_theta", ["0,1,1,1,1", "1,2,1,1,1", "2,3,1,1,1"]);
+    assert!(!map.contains("\ncmd_"), "{map}");
+}
+
+/// An odometry of velocities alone, beside the file with the pose.
+#[test]
+fn velocities_beside_a_file_with_the_pose_are_odometry() {
+    let table = |text: &str| {
+        Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &Clock { rows: true, ..Clock::default() }).unwrap()
+    };
+    let truth = table("time,x,y\n0.1,0,0\n0.2,0,0.1\n0.35,0,0.2\n");
+    let of = |text: &str| draft_two([(&table(text), Path::new("odom.csv")), (&truth, Path::new("gt.csv"))]);
+    let map = of("time,v,w\n0.1,0.5,0.1\n0.2,0.5,0.1\n0.35,0.5,0.1\n");
+    for line in ["\nodom_vx = \"v\" # ", "\nodom_w = \"w\" # "] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    Map::parse(&map, Path::new("map.toml")).unwrap();
+    let map = of("time,vx,vy,w,enc_1,enc_2\n0.1,0.5,0,0.1,1,2\n0.2,0.5,0,0.1,3,4\n0.35,0.5,0,0.1,5,6\n");
+    assert!(!map.contains("\nodom_"), "{map}");
+}
+
+/// A file of lines each of which begins with what it is: all have their time in one column.
+#[test]
+fn lines_of_several_kinds_have_each_their_own_time() {
+    let rows = |loops: [&str; 3]| {
+        let row =
+            |i: usize| format!("odom2 {0} 0.5 0 0.1\nangle {0} 0.3\nloop {1} 7\n", 0.1 * i as f64 + 0.03, loops[i]);
+        (0..3).map(row).collect::<String>()
+    };
+    let map = |loops: [&str; 3]| {
+        let bytes = rows(loops);
+        let clock = Clock { rows: true, ..Clock::default() };
+        draft(&Table::of_bytes(bytes.as_bytes(), Path::new("x.txt"), None, &clock).unwrap())
+    };
+    let timed = map(["0.05", "0.15", "0.25"]);
+    assert!(timed.contains("column = \"column_2\" # is it?"), "{timed}");
+    // A kind whose second column is no time says nothing of the others'.
+    let other = map(["3", "1", "2"]);
+    assert!(other.contains("column = \"odom2/column_2\" # is it?"), "{other}");
+}

@@ -1,0 +1,37 @@
+//! What closes little beside what nothing explains.
+
+use super::held_out;
+use crate::problem::Problem;
+use crate::state::State;
+use crate::thresholds::Thresholds;
+use links::effect::Link;
+
+/// The named effect that closes least beside what all of them leave above the noise, and which share of that it closes, each
+/// fitted with nothing adjusted; `None` where every one closes enough. Where wheels slip, much is left whatever is named, and
+/// every law that bends ways a little closes a part of it. On the drive other laws are tried in its place, see
+/// [`undecided`](super::undecided).
+pub(crate) fn dwarfed(
+    problem: &Problem,
+    state: &State,
+    start: &State,
+    thresholds: &Thresholds,
+) -> Option<(usize, f64)> {
+    let from = start.active.len();
+    let named: Vec<usize> = (from..state.active.len()).filter(|i| state.active[*i].is_named()).collect();
+    if problem.link() != Link::Motion || named.is_empty() {
+        return None;
+    }
+    let left = |without: Option<usize>| {
+        let mut kept = start.clone();
+        kept.active.extend(named.iter().filter(|i| Some(**i) != without).map(|i| state.active[*i].clone()));
+        problem.fit(&mut kept);
+        held_out(problem, &kept)
+    };
+    let (all, n) = left(None);
+    if all < thresholds.dwarfs.powi(2) * n {
+        return None;
+    }
+    let share = |i: &usize| (*i, (left(Some(*i)).0 - all) / (all - n));
+    let alone = named.iter().filter(|i| !state.active[**i].together).map(share);
+    alone.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share < thresholds.undecided)
+}
