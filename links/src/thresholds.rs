@@ -60,11 +60,11 @@ pub const AS_WELL: f64 = 1.15;
 /// same robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
 pub const UNDECIDED: f64 = 0.3;
 
-/// Floors left on the link of camera and wheels from which nothing has a name that closes less than [`UNDECIDED`] of what
+/// Floors left in the window in the middle, on the link of camera and wheels, from which nothing has a name that closes less than [`UNDECIDED`] of what
 /// is left above the noise. On squares of a real robot with four mecanum wheels 4.0 were left, and skews of 1 to 2 degrees
 /// closed 0.14 of them, one factor of its sideways motion as much; simulated slip that grows with the speed left 2.7, and the
 /// angles of two wheels closed 0.19. On circles of the same robot 1.8 were left, and what closed a tenth was an expert's, too.
-pub const DWARFS: f64 = 2.5;
+pub const DWARFS: f64 = 2.0;
 
 /// Floors from which a law that leaves them is far from the noise beside one that does not: a motor of 12 counts a turn
 /// whose torque constant was 13 % off left 2.0 by viscous friction and 1.1 by the torque constant.
