@@ -410,5 +410,5 @@ fn wheels_faster_than_their_set_points_are_told() {
     };
     assert_eq!((said(1.0), said(0.9)), (Vec::<String>::new(), Vec::new()));
     let told = said(0.75);
-    assert!(told.len() == 1 && told[0].contains("wheels turn 1.33"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("wheels turn 1.3"), "{told:?}");
 }
