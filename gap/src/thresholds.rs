@@ -144,12 +144,12 @@ thresholds! {
     /// Share of what a law leaves above the noise, beyond that many floors, within which another law is as good: on the
     /// same robot friction leaves 8 % more than a bridge that is not linear, and neither half of the gap.
     undecided: f64 = 0.3,
-    /// Floors left on the link of camera and wheels from which nothing has a name that closes less than the share of
+    /// Floors left in the window in the middle, on the link of camera and wheels, from which nothing has a name that closes less than the share of
     /// `undecided` of what is left above the noise. On squares of a real robot with four mecanum wheels 4.0 were left, and
     /// skews of 1 to 2 degrees closed 0.14 of them, one factor of its sideways motion as much; simulated slip that grows with
     /// the speed left 2.7, and the angles of two wheels closed 0.19. On circles of the same robot 1.8 were left, and what
     /// closed a tenth was an expert's, too.
-    dwarfs: f64 = 2.5,
+    dwarfs: f64 = 2.0,
     /// Floors from which a law that leaves them is far from the noise beside one that does not: a motor of 12 counts a
     /// turn whose torque constant was 13 % off left 2.0 by viscous friction and 1.1 by the torque constant.
     from_noise: f64 = 1.5,

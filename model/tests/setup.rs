@@ -432,3 +432,19 @@ fn wheels_that_all_turn_the_other_way_are_no_frame() {
     set.runs.iter_mut().flat_map(|run| run.counts.iter_mut().flatten()).for_each(|n| *n = -*n);
     assert!(told(&set).contains("positive speeds drive every wheel the other way"), "{}", told(&set));
 }
+
+/// Without duties nothing else says that wheels do more than they were asked for.
+#[test]
+fn wheels_faster_than_their_set_points_are_told() {
+    let said = |factor: f64| {
+        let mut set = open("runs/wheel-skew");
+        for run in &mut set.runs {
+            run.duty.clear();
+            run.reference.iter_mut().flatten().for_each(|r| *r *= factor);
+        }
+        found(set.robot.clone(), &set.runs).iter().map(Mistake::sentence).collect::<Vec<_>>()
+    };
+    assert_eq!((said(1.0), said(0.9)), (Vec::<String>::new(), Vec::new()));
+    let told = said(0.75);
+    assert!(told.len() == 1 && told[0].contains("wheels turn 1.3"), "{told:?}");
+}
