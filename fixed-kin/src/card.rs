@@ -55,6 +55,8 @@ pub struct Card {
     commit: Commit,
     safety: Safety,
     kicker: Kicker,
+    /// Inputs in which the kicker has come to rest: only others, or strobes, can wake it.
+    kicker_rests: Option<kicker::Inputs>,
     interrupt: Interrupt,
     link: Link,
     imu: imu_spi::Port,
@@ -89,6 +91,7 @@ impl Card {
             commit: Commit::default(),
             safety: Safety::default(),
             kicker: Kicker::default(),
+            kicker_rests: None,
             interrupt: Interrupt::default(),
             link: Link::new(15),
             imu: imu_spi::Port::default(),
@@ -114,7 +117,7 @@ impl Card {
             encoder_errors: 0,
         };
         // The capacitor counts as full until its input has been low for a while.
-        card.kicker.clock(&card.kicker_inputs());
+        card.clock_kicker(card.kicker_inputs());
         card
     }
 
@@ -284,7 +287,7 @@ impl Card {
         }
         if self.plain.write(register, data) {
             if register.offset == map::KICKER_CONTROL.offset {
-                self.kicker.clock(&self.kicker_inputs());
+                self.clock_kicker(self.kicker_inputs());
             }
             return;
         }
@@ -294,7 +297,7 @@ impl Card {
             }
             o if o == map::FAULTS.offset && data != 0 => {
                 self.safety.clock(&safety::Inputs { clear_faults: data as u8, ..self.safety_inputs() });
-                self.kicker.clock(&kicker::Inputs { clear: true, ..self.kicker_inputs() });
+                self.clock_kicker(kicker::Inputs { clear: true, ..self.kicker_inputs() });
             }
             o if o == map::ENCODER_ERROR.offset => self.encoder_errors &= !(data as u8),
             o if o == map::STALL.offset => {
@@ -310,7 +313,7 @@ impl Card {
             o if o == map::COMMIT_SET_POINTS.offset => self.commit(Group::SetPoints, data),
             o if o == map::COMMIT_CONFIGURATION.offset => self.commit(Group::Configuration, data),
             o if o == map::KICKER_FIRE.offset && data == map::KICKER_FIRE_WORD => {
-                self.kicker.clock(&kicker::Inputs { fire: true, ..self.kicker_inputs() });
+                self.clock_kicker(kicker::Inputs { fire: true, ..self.kicker_inputs() });
             }
             o if o == map::CONFIGURATION.offset => {
                 self.commit.stage(Group::Configuration, offset / 4, data);
@@ -512,13 +515,23 @@ impl Card {
         }
     }
 
+    fn clock_kicker(&mut self, inputs: kicker::Inputs) {
+        self.kicker.clock(&inputs);
+        self.kicker_rests = None;
+    }
+
     fn advance_kicker(&mut self, clocks: u32) {
         let quiet = self.kicker_inputs();
+        if self.kicker_rests == Some(quiet) {
+            return;
+        }
+        self.kicker_rests = None;
         for _ in 0..clocks / kicker::microsecond_clocks(self.plain.of(&map::CLOCKS_PER_MICROSECOND)) {
             let before = self.kicker;
             self.kicker.clock(&kicker::Inputs { microsecond: true, ..quiet });
             self.kicker.clock(&quiet);
             if self.kicker == before {
+                self.kicker_rests = Some(quiet);
                 break;
             }
         }

@@ -99,7 +99,8 @@ fn weak_robots_that_push_head_on_stall_say_so_and_part_when_they_are_told() {
 
 #[test]
 fn one_that_pushes_moves_one_that_is_weaker_and_goes_on() {
-    let mut world = placed(&[strong(), Robot::racbot()], &[[-0.3, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    // Beside the middle: head on it is left to the last digits to which side they roll off each other.
+    let mut world = placed(&[strong(), Robot::racbot()], &[[-0.3, 0.008, 0.0], [0.0, 0.0, 0.0]]);
     drive(&mut world, &[local(0, 0.5, 0.0, 0.0), local(1, 0.0, 0.0, 0.0)], 3_000);
     let [pusher, pushed] = [0, 1].map(|id| world.robot_of(Team::Blue, id).unwrap());
     assert!(pusher.fault().is_none() && pushed.pose().x > 0.1, "{:?} {:?}", pusher.fault(), pushed.pose());

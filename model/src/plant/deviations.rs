@@ -115,6 +115,23 @@ impl Deviations {
         self.heating[0] != 0.0 || self.wheels.iter().any(|w| w.ripple != [0.0; 2])
     }
 
+    /// Whether all of this is between duty and winding or between shaft and counts: no force of it changes within a tick.
+    pub(super) fn are_steady(&self) -> bool {
+        let electrical = Self {
+            dead_band: self.dead_band,
+            dead_band_passes: self.dead_band_passes,
+            curvature: self.curvature,
+            coasting: self.coasting,
+            duty_delay_s: self.duty_delay_s,
+            battery: self.battery,
+            heating: self.heating,
+            loss_threshold: self.loss_threshold,
+            encoder_delay_s: self.encoder_delay_s,
+            ..Self::default()
+        };
+        *self == electrical
+    }
+
     /// Torque of what hangs on wheel `i` and of a spring on its shaft, Nm, at an angle.
     pub(super) fn at_angle(&self, i: usize, angle: f64) -> f64 {
         let w = self.wheel(i);

@@ -7,6 +7,7 @@ mod friction;
 mod loads;
 mod rolling;
 mod slipping;
+mod turning;
 
 use nalgebra::Vector3;
 
@@ -39,15 +40,19 @@ pub const GRAVITY: f64 = 9.806_65;
 const LOOSE_CREEP_S_PER_KG: f64 = 0.001;
 /// Longest internal step, s. Halving it changes a second of driving by less than 0.1 mm.
 const LONGEST_STEP_S: f64 = 0.000_25;
+/// Longest step of wheels that turn on, s, while no force on them or on the body depends on where they are.
+const LONGEST_TURN_S: f64 = 0.001;
 
 /// The robot as a dynamic system.
 ///
 /// The platform is a rigid body in the plane, its centre of mass at the chassis centre. The body
 /// twist, body frame and pose are those of [`Twist`] and [`Pose`]; Coriolis terms act on the
-/// platform's mass only, for the wheels' spin has no part in them. [`Deviations`] change all that. Integration is implicit in the
-/// damping and the friction (so that a wheel stands still instead of chattering about zero) and
-/// exact in the rotation of the body frame, half of which goes before the push and half after; it
-/// creates no energy.
+/// platform's mass only, for the wheels' spin has no part in them. [`Deviations`] change all that.
+///
+/// While rolling wheels turn on, a step is exact in the motors, their damping and friction, and of second order in the
+/// turn of the body frame. Where one stops, starts or slips, steps are small and implicit in the damping and the friction
+/// (so that a wheel stands still instead of chattering about zero) and exact in the rotation of the body frame, half of
+/// which goes before the push and half after. Neither creates energy.
 #[derive(Debug, Clone)]
 pub struct Plant {
     geometry: Geometry,
@@ -65,6 +70,8 @@ pub struct Plant {
     current_per_torque: f64,
     /// `None` for the nominal model.
     deviations: Option<Box<Deviations>>,
+    /// No force of the deviations changes within a tick.
+    steady: bool,
     delayed: bridge::Delayed,
     encoders: Vec<encoder::Encoder>,
     /// Force on the body beside that of the wheels: N, N, Nm.
@@ -76,6 +83,7 @@ pub struct Plant {
     after: Vec<f64>,
     contacts: Vec<slipping::ContactPoint>,
     rolling: Option<Box<rolling::Tables>>,
+    turning: Option<Box<turning::Tables>>,
     /// Friction coefficient of the floor while wheels that otherwise roll are knocked loose.
     loose: Option<f64>,
     /// Duties as they act in this tick.
@@ -134,6 +142,7 @@ impl Plant {
             rotor_inertia: robot.motor.rotor_inertia,
             current_per_torque: 1.0 / (robot.gear_ratio * robot.motor.torque_constant),
             deviations: None,
+            steady: true,
             delayed: bridge::Delayed::new(),
             encoders: vec![encoder::Encoder::default(); n],
             push: Vector3::zeros(),
@@ -143,6 +152,7 @@ impl Plant {
             before: vec![0.0; n],
             after: vec![0.0; n],
             rolling: None,
+            turning: None,
             loose: None,
             acting: vec![0.0; n],
         })
@@ -159,6 +169,7 @@ impl Plant {
     #[must_use]
     pub fn with_deviations(mut self, deviations: &Deviations) -> Self {
         self.deviations = (*deviations != Deviations::default()).then(|| Box::new(deviations.clone()));
+        self.steady = deviations.are_steady();
         self.set_radii();
         self
     }
@@ -216,11 +227,26 @@ impl Plant {
             self.set_radii();
         }
         self.before.copy_from_slice(&self.after);
-        // A tick that is a multiple of the longest step up to rounding gets no extra step.
-        let steps = (dt / LONGEST_STEP_S - 1e-6).ceil().max(1.0);
-        let h = dt / steps;
         self.walk = Walk::from(self.walk.pose());
-        for _ in 0..steps as usize {
+        let rolls = self.support == Support::Floor && self.contact == Contact::Rolling;
+        let (steps, h) = parts(dt, if self.steady { LONGEST_TURN_S } else { LONGEST_STEP_S });
+        for _ in 0..steps {
+            if rolls && self.loose.is_none() {
+                self.load();
+                if self.turn_on(h) {
+                    continue;
+                }
+            }
+            self.step_finely(h);
+        }
+        for i in 0..self.wheels.len() {
+            self.after[i] = self.read_encoder(i, dt) * self.counts_per_rad;
+        }
+    }
+
+    fn step_finely(&mut self, dt: f64) {
+        let (steps, h) = parts(dt, LONGEST_STEP_S);
+        for _ in 0..steps {
             self.load();
             match (self.support, self.contact, self.loose) {
                 (Support::Blocks, ..) => self.step_on_blocks(h),
@@ -234,9 +260,6 @@ impl Plant {
                     self.step_slipping(h, friction_coefficient, creep_s_per_kg);
                 }
             }
-        }
-        for i in 0..self.wheels.len() {
-            self.after[i] = self.read_encoder(i, dt) * self.counts_per_rad;
         }
     }
 
@@ -318,8 +341,15 @@ impl Plant {
         for (i, (contact, nominal)) in self.contacts.iter_mut().zip(nominal).enumerate() {
             contact.lever = nominal.lever * self.deviations.as_ref().map_or(1.0, |d| d.radius(i, self.wheels[i].angle));
         }
-        self.rolling = None;
+        (self.rolling, self.turning) = (None, None);
     }
+}
+
+/// How many equal steps of at most `longest` make up `dt`, and their length.
+fn parts(dt: f64, longest: f64) -> (usize, f64) {
+    // A time that is a multiple of the longest step up to rounding gets no extra step.
+    let steps = (dt / longest - 1e-6).ceil().max(1.0);
+    (steps as usize, dt / steps)
 }
 
 /// Change of a twist because the body frame turns on by ω·h: the Coriolis acceleration, exactly.

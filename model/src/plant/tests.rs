@@ -202,6 +202,76 @@ fn the_internal_step_is_fine_enough() {
     assert!(usual.distance(fine) < 1e-4 && wrap_angle(usual.theta - fine.theta).abs() < 3e-3, "{usual:?} {fine:?}");
 }
 
+/// Duties that push and brake, at a tick.
+fn shove(tick: usize) -> [f64; 3] {
+    let a = 0.004 * tick as f64;
+    [0.6 + 0.3 * (3.0 * a).sin(), -0.5 + 0.4 * (2.0 * a).cos(), if tick % 200 < 100 { 0.7 } else { 0.1 }]
+}
+
+/// The equations of motion of a plant without deviations whose wheels turn: change of its twist a second, at a twist.
+fn accelerations(plant: &Plant, twist: Vector3<f64>) -> Vector3<f64> {
+    let rows: Vec<_> = plant.contacts.iter().map(|contact| contact.row / contact.lever).collect();
+    let spin: nalgebra::Matrix3<f64> = rows.iter().zip(&plant.axes).map(|(r, a)| r * r.transpose() * a.inertia()).sum();
+    let inverse = (plant.platform() + spin).try_inverse().unwrap();
+    let frame = plant.platform() * Vector3::new(twist.z * twist.y, -twist.z * twist.x, 0.0);
+    let mut rates = Vector3::zeros();
+    // The gear's loss depends on the acceleration; every round is nearer by the gear's loss.
+    for _ in 0..20 {
+        let mut force = frame;
+        for ((row, axis), wheel) in rows.iter().zip(&plant.axes).zip(&plant.wheels) {
+            let speed = row.dot(&twist);
+            let (winding, dry) = (wheel.drive - axis.damping * speed, axis.coulomb.copysign(speed));
+            let transmitted = winding - axis.rotor_inertia * row.dot(&rates) - dry;
+            force += row * (winding - axis.friction_limit(transmitted).copysign(speed));
+        }
+        rates = inverse * force;
+    }
+    rates
+}
+
+/// A step by the fourth-order Runge-Kutta method.
+fn runge_kutta(plant: &mut Plant, h: f64) {
+    let twist = plant.twist_vector();
+    let a = accelerations(plant, twist);
+    let b = accelerations(plant, twist + a * (0.5 * h));
+    let c = accelerations(plant, twist + b * (0.5 * h));
+    let d = accelerations(plant, twist + c * h);
+    plant.move_body(twist + (a + 2.0 * b + 2.0 * c + d) * (h / 6.0), h);
+}
+
+#[test]
+fn a_whole_tick_of_wheels_that_turn_on_is_nearer_than_small_steps() {
+    let start = || Plant::new(&Robot::racbot()).unwrap().moving(Twist::new(-0.2, 0.9, -12.0));
+    let drive = |way: &dyn Fn(&mut Plant)| {
+        let mut plant = start();
+        for tick in 0..500 {
+            plant.energise(&shove(tick), 7.2, 1e-3);
+            way(&mut plant);
+        }
+        plant
+    };
+    let fine = drive(&|plant| (0..50).for_each(|_| runge_kutta(plant, 2e-5)));
+    let whole = drive(&|plant| assert!(plant.turn_on(1e-3), "a wheel stood"));
+    let usual = drive(&|plant| plant.step_finely(1e-3));
+    let off = |plant: &Plant| (plant.pose().distance(fine.pose()), (plant.twist().omega - fine.twist().omega).abs());
+    let ((whole_m, whole_rad_s), (usual_m, usual_rad_s)) = (off(&whole), off(&usual));
+    println!("{whole_m:.1e} m, {whole_rad_s:.1e} rad/s; in small steps {usual_m:.1e} m, {usual_rad_s:.1e} rad/s");
+    assert!(whole_m < usual_m && whole_rad_s < usual_rad_s / 100.0);
+}
+
+#[test]
+fn a_deviation_of_nothing_moves_nothing() {
+    let nominal = Plant::new(&Robot::racbot()).unwrap();
+    let wheels = vec![WheelDeviation { dry_nm: 1e-12, viscous_nms: -1e-14, ..WheelDeviation::default() }; 3];
+    let almost = nominal.clone().with_deviations(&Deviations { wheels, ..Deviations::default() });
+    let end = |mut plant: Plant| {
+        (0..1000).for_each(|tick| plant.step(&shove(tick), 7.2, 1e-3));
+        plant.pose()
+    };
+    let (nominal, almost) = (end(nominal), end(almost));
+    assert!(nominal.distance(almost) < 5e-5 && (nominal.theta - almost.theta).abs() < 1e-3, "{nominal:?} {almost:?}");
+}
+
 #[test]
 fn a_speed_loop_drives_the_plant_to_its_set_points() {
     let robot = Robot::racbot();

@@ -58,6 +58,7 @@ impl Motion {
 
     /// Edge `index`, in the order of time.
     #[must_use]
+    #[inline]
     pub fn edge(&self, index: u64) -> Edge {
         let (start, up) = (self.shown[0], self.way > 0.0);
         let (count, line) = if up {
