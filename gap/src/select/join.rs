@@ -42,7 +42,9 @@ fn joined(
         let added = design.own_part(a, b).min(design.own_part(b, a));
         let fits = |c: &usize| {
             let candidate = &all[*c];
-            let named = active.iter().any(|o| o.effect.name() == candidate.effect.name());
+            // Another form of one of the two may do what both do: friction of the other sense is this one beside a weight.
+            let others = active.iter().enumerate().filter(|(i, _)| *i != a && *i != b);
+            let named = others.into_iter().any(|(_, o)| o.effect.name() == candidate.effect.name());
             candidate.form.free.len() < most && !named && !candidate.effect.probe() && !candidate.switched()
         };
         let left = |c: usize| (design.left_by(c, &[a, b])[1], c);
@@ -57,7 +59,7 @@ fn joined(
             let alternative = finish(state, settled, from, thresholds);
             let sound = alternative.state.active[a].worth() && !stopped(&alternative.state.active[a]);
             if sound
-                && alternative.against(best) < thresholds.doubtful
+                && alternative.against(best) < thresholds.doubtful.max(thresholds.tie(added))
                 && !problem.runs_away(&alternative.state, &best.state, thresholds)
             {
                 return Some(alternative);
