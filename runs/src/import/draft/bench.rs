@@ -1,7 +1,7 @@
 //! What a motor or a joint on a bench logs without a telling word: volts, an angle, a torque.
 
-use super::super::{Series, units};
-use super::guess::{ANGLES, Guess, WANTED, numbered, spaced, supply_words, words};
+use super::super::{Series, Table, units};
+use super::guess::{ANGLES, Guess, WANTED, by_names, from_zero, numbered, spaced, supply_words, words};
 use crate::columns::{Column, MOST_DUTY};
 
 /// The unit of a current that is a torque at the output shaft.
@@ -9,8 +9,20 @@ pub(super) const TORQUE: &str = "Nm";
 /// Angles beyond which a shaft turns in degrees rather than in radians: eight turns.
 const DEGREES: f64 = 50.0;
 
+/// What the series of a log seem to be, by their names and by what else there is, and the rest.
+pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+    let from_zero = from_zero(table);
+    let (mut guesses, mut rest) = by_names(table);
+    driving_volts(&mut guesses);
+    shares(&mut guesses, &mut rest, &from_zero);
+    angles(&mut guesses, &mut rest, &from_zero);
+    torques(&mut guesses, &mut rest, &from_zero);
+    guesses.sort_by_key(|g| g.column);
+    (guesses, rest)
+}
+
 /// Volts without a duty or a current beside a wheel are what drives it, though they stand still throughout a step.
-pub(super) fn driving_volts(guesses: &mut [Guess]) {
+fn driving_volts(guesses: &mut [Guess]) {
     let has = |wanted: fn(&Column) -> bool| guesses.iter().any(|g| wanted(&g.column));
     let driven = has(|c| matches!(c, Column::Duty(_) | Column::Current(_)));
     let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_) | Column::Speed(_))).count();
@@ -29,7 +41,7 @@ pub(super) fn driving_volts(guesses: &mut [Guess]) {
 }
 
 /// Of one motor alone what it was told as a share drives it, whatever it is called: `m_power`, `throttle`.
-pub(super) fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
     let wheels = guesses.iter().filter(|g| matches!(g.column, Column::Counts(_))).count();
     let others = guesses.iter().any(|g| matches!(g.column, Column::Duty(_) | Column::Command(_) | Column::Camera(_)));
     if others || wheels != 1 {
@@ -47,7 +59,7 @@ pub(super) fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series
 }
 
 /// Of a log without wheels and poses the angles are what its motors turn: the first, and each that numbers its motor.
-pub(super) fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
     let moves = |g: &Guess| {
         matches!(
             g.column,
@@ -102,7 +114,7 @@ pub(super) fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series
 }
 
 /// Where neither duties nor currents are logged, the torques of turning motors are what drives them.
-pub(super) fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
+fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zero: &[String]) {
     let turns = |i: usize| move |g: &Guess| [Column::Counts(i), Column::Speed(i)].contains(&g.column);
     if guesses.iter().any(|g| matches!(g.column, Column::Duty(_) | Column::Current(_))) {
         return;

@@ -1,7 +1,7 @@
 //! What a series seems to be, by its name and its range.
 
 use super::super::{Series, Table, units};
-use super::{bench, time_unit};
+use super::time_unit;
 use crate::columns::{Column, MOST_DUTY};
 
 /// What a series seems to be.
@@ -90,26 +90,21 @@ pub(super) struct Guess<'a> {
     pub(super) unit: &'static str,
 }
 
-/// What the series of a log seem to be, and the rest.
-pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+/// What the series of a log seem to be by their names, and the rest.
+pub(super) fn by_names(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let mut wheels = Wheels { odometry: is_odometry(table), ..Wheels::default() };
     let from_zero = from_zero(table);
     // What numbers its wheel goes before what leaves it open.
     let numbered = |series: &&Series| numbered(&series.name, &from_zero).is_some();
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
-    let (mut guesses, mut rest) =
+    let (guesses, mut rest) =
         recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, &from_zero));
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
-    bench::driving_volts(&mut guesses);
-    bench::shares(&mut guesses, &mut rest, &from_zero);
-    bench::angles(&mut guesses, &mut rest, &from_zero);
-    bench::torques(&mut guesses, &mut rest, &from_zero);
-    guesses.sort_by_key(|g| g.column);
     (guesses, rest)
 }
 
 /// Names, each with what stands for its number, whose motors are counted from 0: `motor0` beside `motor1`.
-fn from_zero(table: &Table) -> Vec<String> {
+pub(super) fn from_zero(table: &Table) -> Vec<String> {
     let stems = |wanted: usize| {
         let of = move |series: &Series| digits(&series.name).filter(|(_, n)| *n == wanted).map(|(stem, _)| stem);
         table.series.iter().filter_map(of)

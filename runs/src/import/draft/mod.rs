@@ -6,7 +6,8 @@ mod guess;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use self::guess::{Guess, guesses, pose};
+use self::bench::guesses;
+use self::guess::{Guess, pose};
 use super::fill::register;
 use super::time::usual_step;
 use super::{Series, Table, truth, units};
