@@ -9,7 +9,7 @@ use links::effect::Link;
 
 /// The named effect that closes least beside what all of them leave above the noise, and which share of that it closes, each
 /// fitted with nothing adjusted; `None` where every one closes enough. Where wheels slip, much is left whatever is named, and
-/// every law that bends ways a little closes a part of it. On the drive other laws are tried in its place, see
+/// every law that bends ways a little closes a part of it; slip itself does not, whose law leaves most of it. On the drive other laws are tried in its place, see
 /// [`undecided`](super::undecided).
 pub(crate) fn dwarfed(
     problem: &Problem,
@@ -37,6 +37,7 @@ pub(crate) fn dwarfed(
         return None;
     }
     let share = |i: &usize| (*i, (left(Some(*i)).0 - all) / (all - n));
-    let alone = named.iter().filter(|i| !state.active[**i].together).map(share);
+    let bends = |i: &&usize| !state.active[**i].together && state.active[**i].effect.name() != "wheel-slip";
+    let alone = named.iter().filter(bends).map(share);
     alone.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share < thresholds.undecided)
 }
