@@ -1,6 +1,7 @@
 //! What closes little beside what nothing explains.
 
-use super::plain::losses;
+use super::left::Left;
+use super::simpler::bare;
 use crate::problem::Problem;
 use crate::state::State;
 use crate::thresholds::Thresholds;
@@ -22,21 +23,18 @@ pub(crate) fn dwarfed(
     if problem.link() != Link::Motion || named.is_empty() {
         return None;
     }
-    let left = |without: Option<usize>| {
-        let mut kept = start.clone();
-        kept.active.extend(named.iter().filter(|i| Some(**i) != without).map(|i| state.active[*i].clone()));
-        problem.fit(&mut kept);
-        let (clusters, n) = losses(problem, &kept);
-        (clusters.iter().sum::<f64>(), n, clusters, kept)
+    let kept = |without: Option<usize>| {
+        bare(problem, start, named.iter().filter(|i| Some(**i) != without).map(|i| &state.active[*i]))
     };
-    let (all, n, clusters, kept) = left(None);
+    let whole = kept(None);
+    let left = Left::of(problem, &whole);
     // A push, or a start on which wheels slipped, is in a few windows; what no law explains is in most of them.
-    let sizes = problem.linearise_nothing(&kept);
-    let mut each: Vec<f64> = clusters.iter().zip(&sizes.clusters).map(|(left, c)| left / c.n.max(1.0)).collect();
+    let sizes = problem.linearise_nothing(&whole);
+    let mut each: Vec<f64> = left.clusters.iter().zip(&sizes.clusters).map(|(left, c)| left / c.n.max(1.0)).collect();
     if median(&mut each) < thresholds.dwarfs.powi(2) {
         return None;
     }
-    let share = |i: &usize| (*i, (left(Some(*i)).0 - all) / (all - n));
+    let share = |i: &usize| (*i, (Left::of(problem, &kept(Some(*i))).sum() - left.sum()) / left.excess());
     let bends = |i: &&usize| !state.active[**i].together && state.active[**i].effect.name() != "wheel-slip";
     let alone = named.iter().filter(bends).map(share);
     alone.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share < thresholds.undecided)

@@ -7,7 +7,7 @@ use crate::thresholds::Thresholds;
 
 /// What a state leaves, by clusters, and how much of it is more than noise.
 pub(super) struct Left {
-    clusters: Vec<f64>,
+    pub(super) clusters: Vec<f64>,
     n: f64,
 }
 
@@ -25,7 +25,7 @@ impl Left {
         Self { clusters, n: equations.plain().1 }
     }
 
-    fn sum(&self) -> f64 {
+    pub(super) fn sum(&self) -> f64 {
         self.clusters.iter().sum()
     }
 

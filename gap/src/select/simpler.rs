@@ -50,7 +50,7 @@ fn of_one(
     if named.is_empty() {
         return None;
     }
-    let now = bare(problem, start, &named, Left::fitted);
+    let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
     let sized = |a: &Active| a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1;
     let mut laws = laws(problem, start, all, sized);
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
@@ -83,7 +83,7 @@ fn of_two(
     if parameters < 2 {
         return None;
     }
-    let now = bare(problem, start, &named, Left::of);
+    let now = Left::of(problem, &bare(problem, start, named.iter().copied()));
     if !now.is_far(thresholds) {
         return None;
     }
@@ -110,12 +110,12 @@ fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
     found.state.active[start.active.len()..].iter().filter(|a| a.is_named()).collect()
 }
 
-/// What named effects leave with nothing adjusted beside them.
-fn bare(problem: &Problem, start: &State, named: &[&Active], left: fn(&Problem, &State) -> Left) -> Left {
+/// Named effects fitted with nothing adjusted beside them.
+pub(super) fn bare<'a>(problem: &Problem, start: &State, named: impl IntoIterator<Item = &'a Active>) -> State {
     let mut state = start.clone();
-    state.active.extend(named.iter().copied().cloned());
+    state.active.extend(named.into_iter().cloned());
     problem.fit(&mut state);
-    left(problem, &state)
+    state
 }
 
 /// Whether laws that were fitted alone may have a name: each material, within its bounds, and cancelled by no other.
