@@ -12,7 +12,7 @@ const DEGREES: f64 = 50.0;
 /// What the series of a log seem to be, by their names and by what else there is, and the rest.
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let from_zero = from_zero(table);
-    let (mut guesses, mut rest) = by_names(table);
+    let (mut guesses, mut rest) = by_names(table, &from_zero);
     driving_volts(&mut guesses);
     shares(&mut guesses, &mut rest, &from_zero);
     angles(&mut guesses, &mut rest, &from_zero);
@@ -48,8 +48,7 @@ fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zer
         return;
     }
     let rank = |series: &Series| {
-        let words = stem(series);
-        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let has = said(series);
         let [low, high] = series.range();
         let share = low < high && low >= -MOST_DUTY && high <= MOST_DUTY;
         let watts = has(&["w", "watt", "watts", "electrical", "mechanical", "electric", "consumed", "average"]);
@@ -70,11 +69,9 @@ fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zer
         return;
     }
     // Four q are a quaternion; beside their rates or torques they are joints.
-    let joints =
-        rest.iter().any(|s| stem(s).iter().any(|word| ["dq", "qd", "tau", "torque", "effort"].contains(&&**word)));
+    let joints = rest.iter().any(|s| said(s)(&["dq", "qd", "tau", "torque", "effort"]));
     let is_angle = |series: &Series| {
-        let words = stem(series);
-        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let has = said(series);
         let turns = |unit| units::is_like(unit, "rad");
         (has(&ANGLES[..3]) || joints && has(&["q"]) || units::in_name(&series.name).is_some_and(turns))
             && !has(&WANTED)
@@ -101,14 +98,14 @@ fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zer
         |series| is_angle(series).then_some(0),
         |series, wheel| {
             let [low, high] = series.range();
-            let said = units::in_name(&series.name).filter(|unit| units::is_like(unit, "rad"));
+            let unit_said = units::in_name(&series.name).filter(|unit| units::is_like(unit, "rad"));
             let whole = series.values.iter().all(|x| x.fract() == 0.0);
             let unit = match low.abs().max(high.abs()) {
                 most if most > DEGREES && whole => "",
                 most if most > DEGREES => "deg",
                 _ => "rad",
             };
-            Guess { series, column: Column::Counts(wheel), unit: said.unwrap_or(unit) }
+            Guess { series, column: Column::Counts(wheel), unit: unit_said.unwrap_or(unit) }
         },
     );
 }
@@ -122,8 +119,7 @@ fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_ze
     let turning: Vec<bool> = (0..8).map(|i| guesses.iter().any(turns(i))).collect();
     // Measured ones first, asked for ones last; parts and bounds of a torque are none.
     let rank = |series: &Series| {
-        let words = stem(series);
-        let has = |some: &[&str]| words.iter().any(|word| some.contains(&&**word));
+        let has = said(series);
         let wheel = numbered(&series.name, from_zero).unwrap_or(0);
         let is = has(&["torque", "tau", "effort"])
             && !has(&[
@@ -161,8 +157,10 @@ fn take<'a>(
     }
 }
 
-/// The words of a name, without the numbers behind them.
-fn stem(series: &Series) -> Vec<String> {
+/// Whether one of some words stands in a name, whatever number follows it.
+fn said(series: &Series) -> impl Fn(&[&str]) -> bool {
     let lower = spaced(&series.name).to_lowercase();
-    words(&lower).iter().map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned()).collect()
+    let stem = |word: &&str| word.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
+    let words: Vec<String> = words(&lower).iter().map(stem).collect();
+    move |some| words.iter().any(|word| some.contains(&&**word))
 }

@@ -91,14 +91,12 @@ pub(super) struct Guess<'a> {
 }
 
 /// What the series of a log seem to be by their names, and the rest.
-pub(super) fn by_names(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
+pub(super) fn by_names<'a>(table: &'a Table, from_zero: &[String]) -> (Vec<Guess<'a>>, Vec<&'a Series>) {
     let mut wheels = Wheels { odometry: is_odometry(table), ..Wheels::default() };
-    let from_zero = from_zero(table);
     // What numbers its wheel goes before what leaves it open.
-    let numbered = |series: &&Series| numbered(&series.name, &from_zero).is_some();
+    let numbered = |series: &&Series| numbered(&series.name, from_zero).is_some();
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
-    let (guesses, mut rest) =
-        recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, &from_zero));
+    let (guesses, mut rest) = recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, from_zero));
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
     (guesses, rest)
 }
@@ -286,8 +284,7 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     let axis = axis(&words);
     // Where a motor should be is no column, and no encoder's.
     let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
-    let place =
-        any(&["position", "pos", "angle"]) || any(&ANGLES) || said.is_some_and(|unit| units::is_like(unit, "rad"));
+    let place = any(&["position", "pos"]) || any(&ANGLES) || said.is_some_and(|unit| units::is_like(unit, "rad"));
     if any(&WANTED) && place && axis.is_none() {
         return None;
     }
