@@ -33,7 +33,7 @@ pub struct PenalisedFit {
 /// How a column takes part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Role {
-    /// Not at all.
+    /// Left out of the fit: stays at its present value.
     Out,
     /// Held near an offset: (standard deviation, present value).
     Held(f64, f64),

@@ -22,7 +22,7 @@ use crate::pose::{DisplacementMatrix, Pose, displacement};
 use crate::slew::SlewLimits;
 use crate::speed::{EncoderSample, SpeedMode, SpeedState};
 
-/// What the set points are.
+/// Whether the host sets wheel speeds or a velocity of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SetPointMode {
     /// One wheel speed per axis, in [`Speed`] words.
@@ -127,7 +127,7 @@ pub struct TickInputs {
     pub tick_period: u32,
     /// How speeds are measured.
     pub speed_mode: SpeedMode,
-    /// What the set points are.
+    /// Whether the host sets wheel speeds or a velocity of the body.
     pub set_point_mode: SetPointMode,
     /// Whether a pose is kept; without it the pose is zero.
     pub odometry: bool,

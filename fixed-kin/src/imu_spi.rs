@@ -119,7 +119,7 @@ pub struct Inputs {
     pub miso: bool,
     /// Data-ready line of the sensor.
     pub ready: bool,
-    /// Bank to read.
+    /// Bank of the memory that is read.
     pub read_bank: u8,
     /// Word to read, 3 bits.
     pub read_word: u8,

@@ -195,7 +195,7 @@ impl<'a> Pieces<'a> {
         self.all.is_empty()
     }
 
-    /// A segment.
+    /// The segment at `index`, cut from its run unless it is kept.
     pub fn get(&self, index: usize) -> Arc<Segment> {
         if let Some(kept) = self.kept.get(index) {
             return kept.get_or_init(|| Arc::new(self.derive(index))).clone();

@@ -25,7 +25,7 @@ impl Values {
         self.get(&wheel_name(stem, i, unit)) + self.get(&join(stem, unit))
     }
 
-    /// Sets a value.
+    /// Sets the value called `name`, or adds it at the end.
     pub fn set(&mut self, name: &str, value: f64) {
         match self.0.iter_mut().find(|(n, _)| n == name) {
             Some(slot) => slot.1 = value,

@@ -186,7 +186,7 @@ pub struct Walk {
 }
 
 impl Walk {
-    /// From a pose.
+    /// A walk that begins at `pose`.
     #[inline]
     pub fn from(pose: Pose) -> Self {
         let (sin, cos) = pose.theta.sin_cos();

@@ -14,7 +14,7 @@ pub struct WrapperPacket {
     pub detection: Option<DetectionFrame>,
     #[prost(message, optional, tag = "2")]
     pub geometry: Option<GeometryData>,
-    /// [`Source`].
+    /// Where the frame is from, one of [`Source`].
     #[prost(enumeration = "Source", optional, tag = "3")]
     pub source: Option<i32>,
 }

@@ -11,7 +11,7 @@ pub enum FpgaError {
     /// The co-simulation.
     #[error(transparent)]
     Cosim(#[from] crate::cosim::CosimError),
-    /// The circuit of a bitstream.
+    /// The circuit of a bitstream does not settle.
     #[error(transparent)]
     Circuit(#[from] bitstream::simulation::Unsettled),
     /// Frames that make no circuit.

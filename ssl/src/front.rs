@@ -64,7 +64,7 @@ pub struct State {
 
 /// What stands behind a front.
 pub trait Robots {
-    /// The pilot and the state of a robot.
+    /// What drives robot `id` of `team`, and where it is; `None` where that robot is not on the field.
     fn robot(&mut self, team: Team, id: u32) -> Option<(Rc<RefCell<Pilot>>, State)>;
 
     /// Does what the control port is asked for; what could not be done.

@@ -24,7 +24,7 @@ pub struct Body {
 /// Two bodies that overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// Which of the bodies.
+    /// Indices of the two bodies that touch.
     pub bodies: [usize; 2],
     /// Direction from the first to the second, of length 1.
     pub normal: [f64; 2],

@@ -29,7 +29,7 @@ pub struct RobotCommand {
     pub dribbler_speed: Option<f32>,
 }
 
-/// How it is to move.
+/// Wheel speeds, or a velocity in the robot's or the field's frame.
 #[derive(Clone, Copy, PartialEq, Message)]
 pub struct RobotMoveCommand {
     #[prost(oneof = "MoveCommand", tags = "1, 2, 3")]

@@ -112,7 +112,7 @@ impl SimulatedRobot {
         Ok(())
     }
 
-    /// What it is.
+    /// Sizes and limits of this robot's model.
     #[must_use]
     pub fn kind(&self) -> &Kind {
         &self.kind

@@ -65,7 +65,7 @@ pub struct Proven {
     pub assertions: usize,
     /// Time for the proof.
     pub time: Duration,
-    /// Time for all mutants.
+    /// From the first mutant to the last answer.
     pub mutants_time: Duration,
 }
 

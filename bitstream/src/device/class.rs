@@ -48,7 +48,7 @@ pub struct Attribute {
 }
 
 impl Attribute {
-    /// The choice of this name.
+    /// Index of the choice called `name` among this attribute's values.
     #[must_use]
     pub fn choice(&self, name: &str) -> Option<usize> {
         match &self.coding {
@@ -87,17 +87,17 @@ pub enum PipKind {
     },
     /// A buffer of one input, one way.
     Buffer {
-        /// 1 is on.
+        /// Attribute whose value 1 turns the buffer on.
         attribute: u16,
     },
     /// A pass transistor used one way: between a driver and a single-length wire.
     Switch {
-        /// 1 is on.
+        /// Attribute whose value 1 turns the buffer on.
         attribute: u16,
     },
     /// A pass transistor that joins two wires, both ways.
     Gate {
-        /// 1 is on.
+        /// Attribute whose value 1 turns the buffer on.
         attribute: u16,
     },
     /// Always on, no bits.
@@ -109,7 +109,7 @@ pub enum PipKind {
 pub struct ClassPip {
     /// From this wire.
     pub from: u16,
-    /// To this one.
+    /// Wire that the switch drives.
     pub to: u16,
     /// How it is set.
     pub kind: PipKind,
@@ -189,7 +189,7 @@ pub struct TileClass {
 }
 
 impl TileClass {
-    /// The attribute of this name.
+    /// Index of the attribute called `name`; `None` where this class has none.
     #[must_use]
     pub fn attribute(&self, name: &str) -> Option<u16> {
         self.by_name.get(name).copied()

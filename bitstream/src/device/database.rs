@@ -57,7 +57,7 @@ pub(super) struct RawClass {
     pub(super) cells: usize,
     /// Names of its rectangles of bits.
     pub(super) rectangles: Vec<&'static str>,
-    /// What it has.
+    /// Lines of the class, in the order of the file.
     pub(super) lines: Vec<Line>,
 }
 

@@ -16,7 +16,7 @@ pub struct Arc {
 pub struct Pip {
     /// Where the switch stands.
     pub tile: TileId,
-    /// From this wire.
+    /// Wire that drives the switch.
     pub from: WireId,
     /// To this one; a gate leads both ways.
     pub to: WireId,

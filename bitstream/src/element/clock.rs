@@ -7,7 +7,7 @@ use crate::device::{Device, TileId};
 /// A global clock pad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClockPad {
-    /// Its buffer.
+    /// Standard of its input, or off.
     pub input: InputBuffer,
 }
 

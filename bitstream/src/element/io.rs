@@ -98,7 +98,7 @@ impl Driver {
 /// An input/output block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Io {
-    /// The input buffer.
+    /// Standard of the input, or off.
     pub input: InputBuffer,
     /// The input goes through a delay before I.
     pub delay_i: bool,

@@ -37,7 +37,7 @@ pub enum Signal {
 }
 
 impl Signal {
-    /// A net as it is.
+    /// The net without inversion.
     #[must_use]
     pub fn of(net: Net) -> Self {
         Self::Wire { net, inverted: false }
@@ -92,7 +92,7 @@ pub struct FlipFlop {
     pub asynchronous: bool,
     /// Value after configuration; `None` if the source defines none.
     pub initial: Option<bool>,
-    /// Output net.
+    /// Net that Q drives.
     pub output: Net,
 }
 
@@ -101,7 +101,7 @@ pub struct FlipFlop {
 pub struct MemoryPort {
     /// Width of a word: 1, 2, 4, 8 or 16 bits.
     pub width: usize,
-    /// Clock net.
+    /// Net that clocks the port.
     pub clock: Net,
     /// Port enable.
     pub enable: Signal,
@@ -168,7 +168,7 @@ pub struct CarryXor {
 /// A multiplexer of two tables: `output = select ? high : low`.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct WideMux {
-    /// Which one.
+    /// Chooses `high` where it is 1.
     pub select: Signal,
     /// For select 0.
     pub low: Signal,

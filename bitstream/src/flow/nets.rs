@@ -39,7 +39,7 @@ pub struct Routed {
     pub sinks: Vec<Pin>,
 }
 
-/// All nets.
+/// Every net of the design with its driver and what it leads to.
 #[derive(Clone, Debug, Default)]
 pub struct Nets {
     /// Nets through the general interconnect.

@@ -56,7 +56,7 @@ impl Packed {
         Ok(packed)
     }
 
-    /// All slices.
+    /// Slices, column by column, each from below.
     pub fn slices(&self) -> impl Iterator<Item = &Slice> {
         self.columns.iter().flat_map(|column| &column.slices)
     }

@@ -86,7 +86,7 @@ pub struct Design<'a> {
     pub nets: &'a Nets,
     /// Its timing graph.
     pub graph: &'a Graph,
-    /// Its constraints.
+    /// Periods of the clocks, and what pads may take.
     pub constraints: &'a Constraints,
 }
 

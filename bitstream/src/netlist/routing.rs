@@ -207,7 +207,7 @@ impl Routing {
         })
     }
 
-    /// The output on a wire.
+    /// What drives `wire`; `None` for a wire that nothing drives.
     #[must_use]
     pub fn output(&self, wire: WireId) -> Option<Output> {
         self.list.get(self.outputs[wire.0 as usize] as usize).copied()

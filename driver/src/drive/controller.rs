@@ -28,7 +28,7 @@ pub enum Controller {
     Paper {
         /// Turns set points and poses into velocities of the body.
         motion: MotionController,
-        /// Set points.
+        /// Set points in order of time.
         points: Vec<SetPoint>,
         /// What became of them.
         arrivals: Vec<Arrival>,

@@ -129,7 +129,7 @@ impl SysfsCard {
         Ok(file)
     }
 
-    /// Which slot.
+    /// Where on the bus the card is.
     #[must_use]
     pub fn slot(&self) -> &Slot {
         &self.slot

@@ -24,7 +24,7 @@ use links::motion::{MotionLink, WindowResiduals};
 /// An analysis under way.
 pub(super) struct Workflow<'a> {
     pub(super) question: &'a Question<'a>,
-    /// All data.
+    /// Pieces of the runs, links, logs and the thresholds that decide.
     pub(super) data: Data<'a>,
     /// What of them causes are looked for in; `None` for all.
     sample: Option<Data<'a>>,

@@ -105,7 +105,6 @@ fn of_two(
     first_of_least(better, thresholds)
 }
 
-/// What a selection names.
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
     found.state.active[start.active.len()..].iter().filter(|a| a.is_named()).collect()
 }

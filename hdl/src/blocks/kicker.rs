@@ -64,7 +64,7 @@ pub struct Kicker {
     pub by_time: Signal<In, Bit>,
     /// Charger on.
     pub charge: Signal<Out, Bit>,
-    /// Trigger on.
+    /// Drives the kick transistor.
     pub trigger: Signal<Out, Bit>,
     /// A fire request would be taken.
     pub ready: Signal<Out, Bit>,

@@ -44,7 +44,7 @@ pub struct RadioAt<const HALF: u64, const WHOLE: u64> {
     pub taken: Signal<In, Bit>,
     /// `radio` is written.
     pub select_write: Signal<In, Bit>,
-    /// Its bit 0.
+    /// Bit 0 of the word written: 1 lets the radio command.
     pub select: Signal<In, Bit>,
     /// A word is offered to the core; holds until taken.
     pub offer: Signal<Out, Bit>,

@@ -95,7 +95,7 @@ pub struct RegisterFile {
     pub tick_period: Signal<Out, Bits<24>>,
     /// High for the clock in which `tick_period` is written.
     pub tick_period_written: Signal<Out, Bit>,
-    /// `mode`.
+    /// The register `mode` as last written.
     pub mode: Signal<Out, Bits<4>>,
     /// The register `encoder_filter` as last written.
     pub encoder_filter: Signal<Out, Bits<4>>,

@@ -17,7 +17,7 @@ use rust_hdl::prelude::*;
 pub struct SnapshotAddress {
     /// Word of the snapshot.
     pub word: Signal<In, Bits<5>>,
-    /// Bank, 0 to 2.
+    /// Bank that the word is in, 0 to 2.
     pub bank: Signal<In, Bits<2>>,
     /// Address in the memory.
     pub address: Signal<Out, Bits<8>>,

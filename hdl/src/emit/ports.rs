@@ -119,7 +119,7 @@ impl Ports {
         self.list.iter().filter(|p| p.direction != Direction::In)
     }
 
-    /// The port of this name.
+    /// The port called `name`, as Verilog spells it.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Port> {
         self.list.iter().find(|p| p.name == name)

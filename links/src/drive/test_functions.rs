@@ -509,7 +509,7 @@ impl<'a> DriveLink<'a> {
         &self.test_functions[test_function].weights
     }
 
-    /// Cluster of a test function.
+    /// Index of the cluster that `test_function` counts in.
     pub fn cluster(&self, test_function: usize) -> usize {
         self.test_functions[test_function].cluster
     }

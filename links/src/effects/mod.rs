@@ -147,7 +147,7 @@ pub fn exact_equation(name: &str) -> &'static str {
     }
 }
 
-/// The effect of this name.
+/// The effect called `name` in the catalogue.
 pub fn find(name: &str) -> Option<Box<dyn Effect>> {
     catalogue().into_iter().find(|e| e.name() == name)
 }

@@ -277,7 +277,6 @@ pub fn overall(fits: &[Fit]) -> f64 {
     rms(fits.iter().map(|f| f.floors))
 }
 
-/// Windows of a segment.
 fn cut(segment: usize, s: &Segment, felt: &Felt) -> Vec<Window> {
     let tick = (s.t[s.t.len() - 1] - s.t[0]) / (s.t.len() - 1) as f64;
     let every = ((NODES_S / tick).round() as usize).max(FEWEST_TICKS);

@@ -39,7 +39,7 @@ pub trait PoseModel {
     }
 }
 
-/// How to fit.
+/// Limits of the search, and what is free in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitOptions {
     /// Length of a window, s.

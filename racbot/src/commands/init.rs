@@ -95,7 +95,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "NM/A")]
     torque_constant: Option<f64>,
 
-    /// Inertia of a rotor
+    /// Inertia of a motor's rotor about its own shaft
     #[arg(long, value_name = "KGM2")]
     rotor_inertia: Option<f64>,
 

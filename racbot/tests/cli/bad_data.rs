@@ -57,7 +57,6 @@ fn set_points_with_three_numbers_are_refused() {
     }
 }
 
-/// A data set with one run.
 fn data_set(folder: &Path, run: &str) {
     fs::write(folder.join("robot.toml"), robot_toml()).unwrap();
     fs::write(folder.join("run.csv"), run).unwrap();

@@ -204,7 +204,7 @@ impl Table {
         self.series[at].values.push(value);
     }
 
-    /// A series by its name.
+    /// The series called `name`, as the file spells it.
     pub fn find(&self, name: &str) -> Option<&Series> {
         self.index.get(name).map(|i| &self.series[*i])
     }

@@ -8,7 +8,7 @@ use serde_json::Value;
 /// Names of the tests, one of which every such file has: the voltage ramps or jumps.
 const TESTS: [&str; 4] = ["slow-forward", "slow-backward", "fast-forward", "fast-backward"];
 
-/// A mechanism with one motor.
+/// Columns of a test of a mechanism with one motor.
 const MECHANISM: [&str; 4] = ["time", "motor_voltage", "position (rev)", "motor_velocity (rev/s)"];
 /// A drive train.
 const DRIVETRAIN: [&str; 9] = [

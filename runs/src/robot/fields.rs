@@ -33,7 +33,7 @@ pub(super) struct Synonym {
     pub(super) name: &'static str,
     /// The number it stands for.
     pub(super) of: &'static str,
-    /// What it means.
+    /// What a reader of the file is told of it.
     pub(super) meaning: &'static str,
     /// Its value from that of the key.
     pub(super) value: fn(&Robot, f64) -> f64,

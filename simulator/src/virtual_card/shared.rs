@@ -41,7 +41,7 @@ impl SharedCard {
         (plant.pose(), plant.twist())
     }
 
-    /// A camera above it.
+    /// An overhead camera that sees this card's robot.
     #[must_use]
     pub fn camera(&self, model: CameraModel, seed: u64) -> CameraAbove {
         CameraAbove { card: self.clone(), camera: Camera::new(model, seed) }

@@ -19,7 +19,7 @@ pub struct NamedEffect {
 pub struct Answer {
     /// `agrees`, `missing-effect`, `ambiguous`, `unexplained` or `not-compared`.
     pub verdict: String,
-    /// Named effects.
+    /// What the analysis named, in its order.
     pub effects: Vec<NamedEffect>,
     /// Sets of effects that cannot be told apart.
     pub alternatives: Vec<Vec<String>>,

@@ -110,7 +110,7 @@ pub fn simulate(case: &Case) -> Vec<Log> {
         .collect()
 }
 
-/// The truth of a case.
+/// What a case hides, as written to its truth file.
 #[must_use]
 pub fn truth(case: &Case) -> Truth {
     let seen = |hidden: &Hidden| {

@@ -367,7 +367,7 @@ pub(super) fn plain(albedo: [f64; 3]) -> Finish {
     Finish { albedo, gloss: 0.0, sharpness: 1.0 }
 }
 
-/// A ball of a finish.
+/// A ball on the carpet, or `above` metres over it.
 pub(super) fn ball(number: usize, x: f64, y: f64, above: f64, finish: Finish, seed: u32) -> Body {
     let centre = Point::new(x, y, BALL_RADIUS + above);
     let shape = Shape::Sphere { centre, radius: BALL_RADIUS };

@@ -13,9 +13,9 @@ pub(crate) const COLUMN_SLICES: usize = 28;
 /// What a carry multiplexer gives when its select is 0.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Data {
-    /// 0.
+    /// Ground.
     Zero,
-    /// 1.
+    /// Supply.
     One,
     /// The first input pin of the table, joined to this net.
     Pin(Net),

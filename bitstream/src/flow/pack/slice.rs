@@ -44,7 +44,7 @@ pub struct Half {
 pub struct Flop {
     /// Index in the logic's flip-flops.
     pub index: usize,
-    /// Output net.
+    /// Net that Q drives.
     pub output: Net,
     /// Value after configuration and on reset.
     pub initial: bool,
@@ -120,10 +120,10 @@ pub enum CarryIn {
 /// What the carry multiplexers of a slice generate.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum CarryData {
-    /// 0.
+    /// Ground.
     #[default]
     Zero,
-    /// 1.
+    /// Supply.
     One,
     /// Pin 1 of each table.
     Pin,
@@ -132,7 +132,7 @@ pub enum CarryData {
 /// What the flip-flops of a slice share.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub struct Control {
-    /// Clock net.
+    /// Net that clocks both flip-flops.
     pub clock: Net,
     /// Counts falling edges.
     pub falling: bool,

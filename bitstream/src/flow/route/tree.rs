@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 /// A switch of a net, from a wire of the tree to a new one.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Branch {
-    /// From this wire.
+    /// Wire of the tree that drives the switch.
     pub from: WireId,
-    /// To this one.
+    /// Wire that it leads to, new in the tree.
     pub to: WireId,
     /// Through this switch.
     pub pip: PipId,

@@ -29,7 +29,7 @@ pub(super) struct Runs<'a> {
     pub(super) manoeuvre: Manoeuvre,
     /// Controller's belief; its effects belong to the file, not to the belief.
     pub(super) believed: &'a Robot,
-    /// The robot as it is.
+    /// The robot that is driven, hidden effects included.
     pub(super) actual: &'a Robot,
     pub(super) camera: bool,
     pub(super) start: Pose,

@@ -103,7 +103,6 @@ pub(crate) struct Options {
     name: String,
 }
 
-/// What the camera is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum CameraUse {
     /// There is none

@@ -61,7 +61,6 @@ const WORDS: [(Kind, &[&str]); 10] = [
     ),
 ];
 
-/// Words of a supply.
 pub(super) fn supply_words() -> impl Iterator<Item = &'static str> {
     WORDS.iter().filter(|(kind, _)| *kind == Kind::Supply).flat_map(|(_, names)| names.iter().copied())
 }

@@ -91,7 +91,7 @@ fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Serie
     out + &unused(rest)
 }
 
-/// The table of the time.
+/// The `[time]` table of a map for `table`.
 fn time(table: &Table, name: &str) -> String {
     if let Some((column, unit)) = &table.time {
         let longest = table.series.iter().max_by_key(|s| s.t.len()).map_or(&[][..], |s| &s.t);

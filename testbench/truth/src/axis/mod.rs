@@ -127,7 +127,7 @@ pub(crate) struct AxisCase {
     /// Duty or set point of speed, row by row, of every run.
     drives: Vec<drives::Drive>,
     seed: u64,
-    /// What is hidden.
+    /// Effects that the simulated machine has and its `robot.toml` does not.
     pub(crate) effects: Vec<Hidden>,
 }
 
