@@ -8,22 +8,19 @@ use runs::{Columns, Log};
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding, quantum};
 use crate::parts::parts;
+use crate::thresholds::Thresholds;
 use crate::words;
 use links::effect::Link;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
-/// Share of ticks that may differ, and of those that may follow the command of the tick before (it arrived within the
-/// tick).
-const WRONG_SHARE: f64 = 0.01;
-/// A hypothesis must remove this share of the error's square.
-const REMOVED: f64 = 0.9;
 
 /// Compares the logged set points with those the geometry makes of the logged commands.
 pub(crate) fn analyse(
     robot: &Robot,
     geometry: &Geometry,
     logs: &[Log],
+    thresholds: &Thresholds,
     remarks: &mut Vec<String>,
 ) -> Option<ExactLink> {
     let n = robot.wheel_count();
@@ -32,7 +29,8 @@ pub(crate) fn analyse(
     if logs.is_empty() {
         return None;
     }
-    words::command(robot, &logs).or_law(WRONG_SHARE, remarks, || Some(analyse_matrix(robot, geometry, &logs)))
+    let law = || Some(analyse_matrix(robot, geometry, &logs, thresholds));
+    words::command(robot, &logs).or_law(thresholds.differs[0], remarks, law)
 }
 
 /// What is read here.
@@ -86,6 +84,8 @@ struct Matrix<'a> {
     rows: Vec<[f64; 3]>,
     /// What rounding of commands and set points leaves, rad/s.
     tolerance: f64,
+    /// Share of ticks that may differ.
+    differs: f64,
 }
 
 impl Matrix<'_> {
@@ -133,7 +133,7 @@ impl Matrix<'_> {
     /// With a stated latency; a few commands may have arrived within their tick and act in the next.
     fn stated(&self, order: &Order, late: Late) -> Compared {
         let or_one_more = self.compared(order, Late { or_one_more: true, ..late });
-        if or_one_more.older as f64 <= WRONG_SHARE * or_one_more.all as f64 {
+        if or_one_more.older as f64 <= self.differs * or_one_more.all as f64 {
             return or_one_more;
         }
         self.compared(order, late)
@@ -141,7 +141,8 @@ impl Matrix<'_> {
 }
 
 /// In floating point, by the geometry of `robot.toml` and the order and latency that it states.
-fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLink {
+fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds: &Thresholds) -> ExactLink {
+    let differs = thresholds.differs[0];
     let n = robot.wheel_count();
     let references = Columns { reference: true, ..Columns::NONE };
     let quantum_ref = robot.ref_quantum.unwrap_or_else(|| quantum(logs, references, |r| &r.reference));
@@ -150,7 +151,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
     let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
     let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
-    let matrix = Matrix { robot, logs, rows, tolerance };
+    let matrix = Matrix { robot, logs, rows, tolerance, differs };
     let tick = logs[0].tick_s().unwrap_or(0.001);
     let filed = robot.effect("command-latency").and_then(|e| e.value("latency_s")).map(|s| Late::of(s, tick));
     let straight = given_order(robot, n);
@@ -166,7 +167,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
         unexplained: false,
         replay: None,
     };
-    if link.wrong_share <= WRONG_SHARE || stated.square().sqrt() < 1e-3 * references_rms(logs).max(1e-9) {
+    if link.wrong_share <= differs || stated.square().sqrt() < 1e-3 * references_rms(logs).max(1e-9) {
         return link;
     }
     let finding = |name: &'static str, wheels, parameters, found: &Compared| {
@@ -196,7 +197,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log]) -> ExactLin
         let parameters = vec![("latency_s".to_owned(), (late.ticks as f64 + older) * tick, interval)];
         best = (found.square(), Some(finding("command-latency", Vec::new(), parameters, &found)), found.rms);
     }
-    if best.1.is_some() && best.0 < (1.0 - REMOVED) * stated.square() {
+    if best.1.is_some() && best.0 < (1.0 - thresholds.removes[0]) * stated.square() {
         link.after = best.2;
         link.finding = best.1;
     } else {
@@ -228,7 +229,9 @@ fn latency(matrix: &Matrix, order: &Order, most: usize) -> Option<(Late, Compare
     });
     let better = in_turn.min_by(|a, b| a.1.square().total_cmp(&b.1.square()));
     match better {
-        Some(better) if whole.1.wrong_share() > WRONG_SHARE && better.1.wrong_share() <= WRONG_SHARE => Some(better),
+        Some(better) if whole.1.wrong_share() > matrix.differs && better.1.wrong_share() <= matrix.differs => {
+            Some(better)
+        }
         _ => Some(whole),
     }
 }

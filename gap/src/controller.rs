@@ -7,6 +7,7 @@ use runs::{Columns, Log};
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
 use crate::parts::parts;
+use crate::thresholds::Thresholds;
 use crate::words;
 use links::effect::Link;
 use replay::{Replayed, replay, totals};
@@ -16,21 +17,12 @@ mod replay;
 
 pub(crate) use counts::with_other_counts;
 
-/// Share of ticks that may differ by more than rounding.
-const WRONG_SHARE: f64 = 0.005;
-/// A hypothesis must remove this share of the error's square.
-const REMOVED: f64 = 0.8;
-/// And leave at most this share of the wrong ticks wrong. True gains, found to 0.05 %, left 0.6 of them; with a gear ratio in
-/// the file that was 19 % off, gains without an integrator removed 0.9 of the square and left 1.01.
-const LEFT_WRONG: f64 = 0.8;
 /// How far the arithmetic of another controller may stray: fixed-point or single-precision numbers, that an
 /// integrator adds up.
 const SLACK: f64 = 5e-5;
 /// Last steps of the searches for an integrator's limit (duty) and for gains (relative).
 const FINE_LIMIT: f64 = 0.01;
 const FINEST_GAIN: f64 = 0.000_5;
-/// Rates that differ by more cannot be replayed.
-const RATE_TOLERANCE: f64 = 0.05;
 
 /// One way the loop may have run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,14 +69,19 @@ pub(crate) const LOOP_SCALE: &str = "loop_scale";
 const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
 
 /// Replays the duties of every run and wheel; says why where it cannot.
-pub(crate) fn analyse(robot: &Robot, logs: &[Log], remarks: &mut Vec<String>) -> Option<ExactLink> {
+pub(crate) fn analyse(
+    robot: &Robot,
+    logs: &[Log],
+    thresholds: &Thresholds,
+    remarks: &mut Vec<String>,
+) -> Option<ExactLink> {
     let logs = with_loops(robot, logs);
     if logs.is_empty() {
         return None;
     }
-    words::controller(robot, &logs).or_law(WRONG_SHARE, remarks, || {
-        let logs = at_rate(robot, logs);
-        (!logs.is_empty()).then(|| analyse_law(robot, &logs))
+    words::controller(robot, &logs).or_law(thresholds.differs[1], remarks, || {
+        let logs = at_rate(robot, logs, thresholds);
+        (!logs.is_empty()).then(|| analyse_law(robot, &logs, thresholds))
     })
 }
 
@@ -100,13 +97,14 @@ fn with_loops<'a>(robot: &Robot, logs: &'a [Log<'a>]) -> Vec<&'a Log<'a>> {
 }
 
 /// Those of them with a row for every period of the loop.
-fn at_rate<'a>(robot: &Robot, mut logs: Vec<&'a Log<'a>>) -> Vec<&'a Log<'a>> {
-    logs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < RATE_TOLERANCE));
+fn at_rate<'a>(robot: &Robot, mut logs: Vec<&'a Log<'a>>, thresholds: &Thresholds) -> Vec<&'a Log<'a>> {
+    logs.retain(|r| r.tick_s().is_some_and(|t| (t * robot.control_rate_hz - 1.0).abs() < thresholds.rate));
     logs
 }
 
 /// In floating point, by the law of `robot.toml`.
-fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
+fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLink {
+    let differs = thresholds.differs[1];
     let ([logged, step, floor], nominal) = stated(robot, logs);
     let rms = |law: &Law| -> Vec<f64> { replay(robot, logs, law, floor).into_iter().map(|wheel| wheel.rms).collect() };
     let nominally = replay(robot, logs, &nominal, floor);
@@ -129,7 +127,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     };
     let total = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();
     let start = total(&link.before);
-    if wrong <= WRONG_SHARE {
+    if wrong <= differs {
         return link;
     }
     let mut best: (f64, Option<Finding>, Vec<f64>) = (start, None, link.before.clone());
@@ -137,7 +135,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
         let now = replay(robot, logs, &law, floor);
         let e: Vec<f64> = now.iter().map(|wheel| wheel.rms).collect();
         let [ticks, wrong_now] = totals(&now);
-        let mends = wrong_now as f64 <= LEFT_WRONG * wrong_before as f64;
+        let mends = wrong_now as f64 <= thresholds.left_wrong * wrong_before as f64;
         if mends && total(&e) < best.0 * 0.999 {
             let evidence = Evidence::Replay { ticks, wrong: [wrong_before, wrong_now] };
             let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };
@@ -199,11 +197,11 @@ fn analyse_law(robot: &Robot, logs: &[&Log]) -> ExactLink {
     ];
     offer(gains, "pi-gain", parameters);
     // Where another law replays it all, two of them would.
-    let replayed = best.1.as_ref().is_some_and(|f| f.evidence.wrong_share().is_some_and(|share| share <= WRONG_SHARE));
-    if !replayed && let Some((finding, left)) = counts::counted(robot, logs, &nominal, floor, wrong_before) {
+    let replayed = best.1.as_ref().is_some_and(|f| f.evidence.wrong_share().is_some_and(|share| share <= differs));
+    if !replayed && let Some((finding, left)) = counts::counted(robot, logs, &nominal, floor, wrong_before, differs) {
         best = (total(&left), Some(finding), left);
     }
-    if best.0 < (1.0 - REMOVED) * start {
+    if best.0 < (1.0 - thresholds.removes[1]) * start {
         link.after = best.2;
         link.finding = best.1;
     } else {

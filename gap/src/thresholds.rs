@@ -28,7 +28,7 @@ impl Figures for f64 {
     }
 }
 
-impl Figures for [f64; 2] {
+impl<const N: usize> Figures for [f64; N] {
     fn figures(self) -> Vec<f64> {
         self.to_vec()
     }
@@ -216,6 +216,55 @@ thresholds! {
     blind: f64 = 10.0,
     /// Limit of detection, in sizes that matter, up to which the camera decides on what both links show.
     seen: f64 = 2.0,
+
+    // Structure that no effect of the catalogue leaves. Sizes are beside what the motors gave.
+    /// Chance of any false alarm of one kind in a data set, all places looked at paid for.
+    false_alarm: f64 = 1e-3,
+    /// Torque of a short push as a share of the drive's; its robust standard deviations; and what it is in units of what
+    /// a tenth of the time exceeds: pushes are rare. Reasoned.
+    burst: [f64; 3] = [0.1, 9.0, 5.0],
+    /// Share of its impulse that a push leaves with the robot: a wheel that slips, or crosses its gear's play, gives back
+    /// what it took. Reasoned.
+    pushed: f64 = 0.6,
+    /// Mean torque of some seconds along the rotation as a share of the drive's, and in standard errors of such means.
+    /// Reasoned.
+    stretch: [f64; 2] = [0.05, 8.0],
+    /// Amplitude of a line in the spectrum of a wheel's torque as a share of the drive's; its share of the squared torque
+    /// that is left; and its amplitude beside what the drive did at that frequency: below, it is a misfit of a law.
+    line: [f64; 3] = [0.03, 0.1, 0.15],
+    /// Amplitude of a rolling radius that varies with the wheel's angle, and of a torque that does, as a share of the
+    /// drive's: handed from roller to roller every omni wheel bobs by some hundredths of a millimetre and is pushed by a
+    /// few mNm, which look like a radius that varies by up to 0.0035.
+    ripple: [f64; 2] = [0.006, 0.07],
+    /// Share of the weight on a wheel, at its rim, by which rollers push as they are handed over, whatever the speed: three
+    /// wheels, and four, of which one always hangs. 0.01 to 0.04 and up to 0.1 in a rigid-body engine.
+    bobs: [f64; 2] = [0.05, 0.2],
+    /// Chance of phases that agree as well in noise, whatever the amplitudes: bursts are no lines.
+    phases: f64 = 1e-4,
+    /// Accelerations beyond which a rotor must be between its flanks, in those that stalled motors can give a wheel with
+    /// its share of the robot, for they brake twice as hard; share of the ticks about one that are beyond, where a wheel
+    /// rattles; and share of all ticks at which it must.
+    rattles: [f64; 3] = [2.0, 0.3, 0.05],
+    /// Shaking of a rotor from which its play has a name, rad at the motor shaft: a gear's backlash is given in tenths of
+    /// a degree to degrees there.
+    shakes: f64 = 0.03,
+    /// Share of the camera's frames that repeat the one before while the wheels turn, from which it is said.
+    frozen: f64 = 0.015,
+    /// How far a camera's frame may lie from the one before, in the way that the fastest wheels of the piece make possible
+    /// and, added to that, in the noise of a frame; and share of the frames that may lie farther. Reasoned.
+    torn: [f64; 3] = [2.0, 10.0, 0.1],
+
+    // Links that are replayed tick by tick.
+    /// Share of ticks that may differ by more than rounding: set points, duties. As many set points may follow the
+    /// command of the tick before, which arrived within the tick.
+    differs: [f64; 2] = [0.01, 0.005],
+    /// Share of the squared error that a hypothesis must remove: set points, duties.
+    removes: [f64; 2] = [0.9, 0.8],
+    /// Share of the wrong ticks that it may leave wrong. True gains, found to 0.05 %, left 0.6 of them; with a gear ratio
+    /// in the file that was 19 % off, gains without an integrator removed 0.9 of the square and left 1.01.
+    left_wrong: f64 = 0.8,
+    /// Share by which the rate of a log may differ from that of the loop that is replayed.
+    rate: f64 = 0.05,
 
     // Logs that say nothing of a drive.
     /// Time constant up to which a firmware filters the speeds that it logs, s: 10 to 50 ms are usual, and a mean of

@@ -228,7 +228,7 @@ impl<'a> Workflow<'a> {
         let (robot, catalogue, pieces) = (&self.question.robot, self.data.catalogue, self.searched().pieces);
         // Wheels that slide chatter from roller to roller.
         let slides = self.start.active.iter().any(|a| a.effect.name() == "wheel-slip");
-        let rattling = patterns::rattling(pieces, robot, &self.start.drive(None), catalogue)
+        let rattling = patterns::rattling(pieces, robot, &self.start.drive(None), catalogue, &self.thresholds)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
         if rattling.is_some() && !outcome.named.is_empty() {
             let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
@@ -242,7 +242,7 @@ impl<'a> Workflow<'a> {
         let misses = Misses::new(self.seen.as_ref(), self.thresholds.missed[0]);
         let rolls = |run: usize, t: f64| !misses.are_near(run, t);
         let model = outcome.selection.state.drive(None);
-        let leftover = crate::leftover::drive(pieces, &model, &link.masked(), &rolls, link.sizes);
+        let leftover = crate::leftover::drive(pieces, &model, &link.masked(), &rolls, link.sizes, &self.thresholds);
         // Beside a named effect only what its law's inexactness cannot leave.
         let explained = if outcome.named.is_empty() { 0.0 } else { before.powi(2) - after.powi(2) };
         for structure in leftover.structures {

@@ -6,6 +6,7 @@ use runs::robot::{Robot, Support};
 
 use super::found::Named;
 use crate::evidence::{Evidence, Interval};
+use crate::thresholds::Thresholds;
 use links::drive::DriveModel;
 use links::effect::{Effect, Link, wheel_name};
 use links::pieces::Pieces;
@@ -79,8 +80,9 @@ pub(super) fn rattling(
     robot: &Robot,
     model: &DriveModel,
     catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
 ) -> Option<Named> {
-    let rattles = Some(crate::leftover::rattle(pieces.iter(), robot, model)).filter(|r| !r.is_empty())?;
+    let rattles = Some(crate::leftover::rattle(pieces.iter(), robot, model, thresholds)).filter(|r| !r.is_empty())?;
     let mean = rattles.iter().map(|r| r.1).sum::<f64>() / rattles.len() as f64;
     let alike = rattles.len() > 1 && rattles.iter().all(|r| (r.1 / mean - 1.0).abs() < ALIKE);
     let middle = 0.5 * (PLAY_SHARE[0] + PLAY_SHARE[1]);

@@ -74,8 +74,8 @@ impl<'a> Question<'a> {
         let (robot, logs) = (&self.robot, &self.set.logs);
         let links = [
             timing::analyse(robot, logs),
-            command::analyse(robot, &self.geometry, logs, remarks),
-            controller::analyse(robot, logs, remarks),
+            command::analyse(robot, &self.geometry, logs, &self.options.thresholds, remarks),
+            controller::analyse(robot, logs, &self.options.thresholds, remarks),
         ];
         links.into_iter().flatten().collect()
     }

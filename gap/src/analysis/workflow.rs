@@ -64,8 +64,12 @@ impl<'a> Workflow<'a> {
             findings.found.push(active.clone());
             start.active.push(active);
         }
-        findings.unexplained.extend(crate::leftover::frozen(pieces));
-        findings.unexplained.extend(crate::leftover::torn(pieces));
+        findings.unexplained.extend(crate::leftover::frozen(pieces, &question.options.thresholds));
+        findings.unexplained.extend(crate::leftover::torn(
+            pieces,
+            [motion.noise[0], motion.noise[1]],
+            &question.options.thresholds,
+        ));
         let thresholds = question.options.thresholds.clone();
         Self { question, data, sample, nominal, start, thresholds, findings, seen: None }
     }
@@ -100,7 +104,7 @@ impl<'a> Workflow<'a> {
     /// What the controller says of a radius that the camera does not tell from counts.
     fn shared_counts(&mut self) {
         let scale = counts::for_radius(&self.findings.named, &self.findings.alternatives);
-        let replayed = scale.and_then(|s| with_other_counts(&self.question.robot, self.data.logs, s));
+        let replayed = scale.and_then(|s| with_other_counts(&self.question.robot, self.data.logs, s, &self.thresholds));
         self.findings.remarks.extend(replayed.map(|(ticks, wrong)| counts::shared(ticks, wrong)));
     }
 

@@ -7,9 +7,10 @@ use runs::robot::Robot;
 use runs::{CountSource, Log};
 
 use super::replay::{Replayed, replay, totals, walk};
-use super::{ENCODER_SCALE, LOOP_SCALE, Law, WRONG_SHARE, at_rate, stated, with_loops};
+use super::{ENCODER_SCALE, LOOP_SCALE, Law, at_rate, stated, with_loops};
 use crate::evidence::{Evidence, Interval};
 use crate::exact::Finding;
+use crate::thresholds::Thresholds;
 use links::effect::Link;
 
 /// Duty from which an output counts as saturated, where it says nothing of the speed: 1, but for rounding.
@@ -24,8 +25,8 @@ fn by_counts(logs: &[&Log]) -> bool {
     logs.iter().all(of_encoders)
 }
 
-fn is_exact(wheels: &[Replayed]) -> bool {
-    wheels.iter().all(|w| w.ticks > 0 && w.wrong_share() <= WRONG_SHARE)
+fn is_exact(wheels: &[Replayed], differs: f64) -> bool {
+    wheels.iter().all(|w| w.ticks > 0 && w.wrong_share() <= differs)
 }
 
 /// The number of counts with which all duties replay, if the file's gains do it with no other, and the RMS beyond rounding
@@ -36,6 +37,7 @@ pub(super) fn counted(
     nominal: &Law,
     floor: f64,
     wrong: u64,
+    differs: f64,
 ) -> Option<(Finding, Vec<f64>)> {
     if !by_counts(logs) {
         return None;
@@ -59,10 +61,10 @@ pub(super) fn counted(
     // Set points at rest: then other gains do the same, and which of the two it is does not show.
     let share = nominal.counts / best;
     let gains = Law { kp: nominal.kp * share, ki: nominal.ki * share, ..*nominal };
-    if !is_exact(&replayed) || is_exact(&replay(robot, logs, &gains, floor)) {
+    if !is_exact(&replayed, differs) || is_exact(&replay(robot, logs, &gains, floor), differs) {
         return None;
     }
-    let exact = |counts: f64| is_exact(&replay(robot, logs, &with(counts), floor));
+    let exact = |counts: f64| is_exact(&replay(robot, logs, &with(counts), floor), differs);
     let end = |sign: f64| {
         let mut off = STEPS[1];
         while off < 0.5 && exact(best * (1.0 + sign * off)) {
@@ -111,8 +113,14 @@ fn by_changes(robot: &Robot, logs: &[&Log], law: &Law) -> Option<f64> {
 
 /// What of the duties is wrong with the file's counts and with as many more: ticks in all, wrong with the file's and with
 /// the others. `None` where no counts tell, or where the duties do not replay with the file's.
-pub(crate) fn with_other_counts(robot: &Robot, logs: &[Log], scale: f64) -> Option<(u64, [u64; 2])> {
-    let logs = at_rate(robot, with_loops(robot, logs));
+pub(crate) fn with_other_counts(
+    robot: &Robot,
+    logs: &[Log],
+    scale: f64,
+    thresholds: &Thresholds,
+) -> Option<(u64, [u64; 2])> {
+    let differs = thresholds.differs[1];
+    let logs = at_rate(robot, with_loops(robot, logs), thresholds);
     if logs.is_empty() || !by_counts(&logs) {
         return None;
     }
@@ -120,5 +128,5 @@ pub(crate) fn with_other_counts(robot: &Robot, logs: &[Log], scale: f64) -> Opti
     let other = Law { counts: nominal.counts * (1.0 + scale), ..nominal };
     let [ours, theirs] = [nominal, other].map(|law| replay(robot, &logs, &law, floor));
     let [[ticks, with_ours], [_, with_theirs]] = [&ours, &theirs].map(|wheels| totals(wheels));
-    (is_exact(&ours) && !is_exact(&theirs)).then_some((ticks, [with_ours, with_theirs]))
+    (is_exact(&ours, differs) && !is_exact(&theirs, differs)).then_some((ticks, [with_ours, with_theirs]))
 }

@@ -3,29 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::{Series, Structure};
+use crate::thresholds::Thresholds;
 use estimation::statistics::median;
 
-/// Torque of a burst, share of the drive's, ...
-const MATERIAL: f64 = 0.1;
-/// ... in robust standard deviations, ...
-const OUT: f64 = 9.0;
-/// ... and in units of what a tenth of the time exceeds: bursts are rare.
-const RARE: f64 = 5.0;
 /// Fewer bursts than this may be anything.
 const FEWEST: usize = 2;
-/// Length of a stretch, s, and the mean torque along the rotation worth mentioning in it.
+/// Length of a stretch, s.
 const STRETCH_S: f64 = 2.0;
-const STRETCH_MATERIAL: f64 = 0.05;
-/// Its size in standard errors.
-const STRETCH_OUT: f64 = 8.0;
 
 /// Moments between two that belong to one event.
 const NEAR: i64 = 8;
 /// Moments round an event that its impulse is taken over.
 const ROUND: i64 = 4;
-/// Net impulse over all impulse: a push changes the robot's momentum; a wheel that slips, or crosses
-/// its gear's play, gives back what it took.
-const NET: f64 = 0.6;
 
 /// Moments in a row that stand out.
 struct Event {
@@ -55,7 +44,12 @@ fn pushed(series: &Series, e: &Event) -> f64 {
 }
 
 /// Short pushes: collisions, kicks, a foot on the field.
-pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_nm: f64) -> Option<Structure> {
+pub(super) fn bursts(
+    series: &Series,
+    rolls: &dyn Fn(usize, f64) -> bool,
+    drive_nm: f64,
+    thresholds: &Thresholds,
+) -> Option<Structure> {
     // Norm over the wheels and largest torque of every moment.
     let mut moments: BTreeMap<(usize, i64), (f64, f64)> = BTreeMap::new();
     for w in &series.wheels {
@@ -72,11 +66,12 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_
     let mut norms: Vec<f64> = moments.values().map(|m| (m.0 / n).sqrt()).collect();
     norms.sort_by(f64::total_cmp);
     let usual = norms[norms.len() * 9 / 10];
-    let limit = OUT.max(RARE * usual);
+    let [material, out, rare] = thresholds.burst;
+    let limit = out.max(rare * usual);
     let mut events: Vec<Event> = Vec::new();
     let total: f64 = moments.values().map(|m| m.0).sum();
     for (at, (square, torque)) in &moments {
-        if (square / n).sqrt() < limit || *torque < MATERIAL * drive_nm {
+        if (square / n).sqrt() < limit || *torque < material * drive_nm {
             continue;
         }
         match events.last_mut() {
@@ -90,7 +85,7 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_
     let run_of = |segment: usize| {
         series.wheels.iter().find_map(|w| w.segment.iter().position(|s| *s == segment).map(|b| w.run[b])).unwrap_or(0)
     };
-    events.retain(|e| pushed(series, e) > NET && rolls(run_of(e.segment), e.first as f64 * series.hop));
+    events.retain(|e| pushed(series, e) > thresholds.pushed && rolls(run_of(e.segment), e.first as f64 * series.hop));
     let power: f64 = events
         .iter()
         .map(|e| moments.range((e.segment, e.first - 1)..=(e.segment, e.last + 1)).map(|m| m.1.0).sum::<f64>())
@@ -114,12 +109,13 @@ pub(super) fn bursts(series: &Series, rolls: &dyn Fn(usize, f64) -> bool, drive_
 }
 
 /// A wheel that is braked or pushed for seconds in one run and not in the others.
-pub(super) fn stretches(series: &Series, drive_nm: f64) -> Option<Structure> {
+pub(super) fn stretches(series: &Series, drive_nm: f64, thresholds: &Thresholds) -> Option<Structure> {
     let length = (STRETCH_S / series.hop) as usize;
     if length < 2 {
         // Rows so far apart hold no stretch.
         return None;
     }
+    let [material, out] = thresholds.stretch;
     let mut worst: Option<(f64, f64, usize, usize, f64)> = None;
     for (i, w) in series.wheels.iter().enumerate() {
         let along: Vec<f64> = w.torque.iter().zip(&w.sign).map(|(x, s)| x * s).collect();
@@ -139,7 +135,7 @@ pub(super) fn stretches(series: &Series, drive_nm: f64) -> Option<Structure> {
         let mut sizes: Vec<f64> = means.iter().map(|m| m.1.abs()).collect();
         let error = (1.4826 * median(&mut sizes)).max(f64::MIN_POSITIVE);
         for (first, mean) in means {
-            if mean.abs() > STRETCH_MATERIAL * drive_nm && mean.abs() > STRETCH_OUT * error {
+            if mean.abs() > material * drive_nm && mean.abs() > out * error {
                 let size = mean.abs() / error;
                 if worst.is_none_or(|o| size > o.4) {
                     worst = Some((mean, w.t[first], w.run[first], i, size));

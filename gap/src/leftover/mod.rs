@@ -13,6 +13,7 @@ mod spectrum;
 
 use std::collections::HashSet;
 
+use crate::thresholds::Thresholds;
 use links::drive::{DriveLink, DriveModel, Generic, Left};
 use links::effect::Sizes;
 use links::pieces::Pieces;
@@ -26,8 +27,6 @@ pub(crate) use rattle::rattle;
 const TEST_FUNCTION_S: f64 = 0.05;
 /// Torques this near a masked test function are left out, s.
 const MASK_S: f64 = 0.06;
-/// Probability of any false alarm of one kind in a data set.
-const FALSE_ALARM: f64 = 1e-3;
 
 /// Something that no smooth law of the catalogue leaves.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +55,7 @@ pub(crate) fn drive(
     mask: &[(usize, usize)],
     rolls: &dyn Fn(usize, f64) -> bool,
     sizes: Sizes,
+    thresholds: &Thresholds,
 ) -> Leftover {
     let mut out = Leftover { structures: Vec::new(), ripple: None };
     let Some(link) = DriveLink::with_test_functions(pieces, model, TEST_FUNCTION_S) else { return out };
@@ -79,16 +79,16 @@ pub(crate) fn drive(
         lefts.push(left);
     }
     let series = Series::new(&link, model, &residuals.at, &lefts);
-    out.structures.extend(spectrum::lines(&series, sizes.drive_nm));
-    out.structures.extend(bursts::bursts(&series, rolls, sizes.drive_nm));
-    out.structures.extend(bursts::stretches(&series, sizes.drive_nm));
+    out.structures.extend(spectrum::lines(&series, sizes.drive_nm, thresholds));
+    out.structures.extend(bursts::bursts(&series, rolls, sizes.drive_nm, thresholds));
+    out.structures.extend(bursts::stretches(&series, sizes.drive_nm, thresholds));
     let slips = |segment: usize, ticks: std::ops::Range<usize>| {
         let s = pieces.get(segment);
         let seen = [ticks.start, (ticks.start + ticks.end) / 2, ticks.end].map(|k| s.t[k.min(s.t.len() - 1)]);
         !seen.into_iter().all(|t| rolls(s.run, t))
             || (ticks.start / near..=ticks.end / near).any(|part| slips.contains(&(segment, part)))
     };
-    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.drive_nm);
+    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.drive_nm, thresholds);
     out.ripple = ripple;
     out.structures.extend(structures);
     out

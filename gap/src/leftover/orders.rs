@@ -8,7 +8,8 @@
 use model::plant::GRAVITY;
 use std::f64::consts::{PI, TAU};
 
-use super::{FALSE_ALARM, Structure};
+use super::Structure;
+use crate::thresholds::Thresholds;
 use estimation::parallel::each;
 use estimation::statistics::{chi2_upper, median};
 use links::drive::{DriveLink, DriveModel};
@@ -22,17 +23,8 @@ const RANGE_HZ: [f64; 2] = [3.0, 120.0];
 const SLOWEST: f64 = 1.0;
 /// Highest order looked at: rollers of a wheel.
 const HIGHEST: usize = 40;
-/// Relative amplitude of a rolling radius worth naming, and of a torque beside the drive's: handed
-/// from roller to roller every omni wheel bobs by some hundredths of a millimetre and is pushed by a few
-/// mNm, which look like a radius that varies by up to 0.0035.
-const MATERIAL: [f64; 2] = [0.006, 0.07];
-/// Share of the weight on a wheel, at its rim, by which rollers push as they are handed over, whatever the speed: 0.01
-/// to 0.04 on three wheels in a rigid-body engine, up to 0.1 on four, of which one always hangs.
-const BOBS: [f64; 2] = [0.05, 0.2];
 /// No omni wheel has fewer rollers.
 const FEWEST_ROLLERS: f64 = 6.0;
-/// Chance of phases that agree as well in noise, whatever the amplitudes: bursts are no lines.
-const PHASES: f64 = 1e-4;
 /// Ticks beyond which blocks are skipped.
 const MOST_TICKS: usize = 150_000;
 /// Bins a factor of ten of frequency, for the noise.
@@ -78,6 +70,7 @@ pub(super) fn orders(
     model: &DriveModel,
     slips: &dyn Fn(usize, std::ops::Range<usize>) -> bool,
     drive_nm: f64,
+    thresholds: &Thresholds,
 ) -> (Option<Ripple>, Vec<Structure>) {
     let n = link.noise.len();
     let mut candidates: Vec<f64> = (2..=HIGHEST).map(|k| k as f64).collect();
@@ -99,7 +92,7 @@ pub(super) fn orders(
     }
     // What a wheel carries, at its rim, as an acceleration of the wheel.
     let carried = GRAVITY * model.mass / n as f64 * model.wheel_radius_m;
-    let bob = BOBS[usize::from(n > 3)] * carried / model.felt_inertia().max(f64::MIN_POSITIVE);
+    let bob = thresholds.bobs[usize::from(n > 3)] * carried / model.felt_inertia().max(f64::MIN_POSITIVE);
     let tests = 2.0 * n as f64 * candidates.len() as f64;
     let mut ripples: Vec<(usize, usize, Line)> = Vec::new();
     let mut structures = Vec::new();
@@ -108,7 +101,12 @@ pub(super) fn orders(
         let lines: Vec<[Line; 2]> = blocks
             .iter()
             .zip(&candidates)
-            .map(|(b, o)| [line(b, *o, 0, &noise[0], |speed| o * speed * speed), line(b, *o, 1, &noise[1], |_| 1.0)])
+            .map(|(b, o)| {
+                [
+                    line(b, *o, 0, &noise[0], thresholds.phases, |speed| o * speed * speed),
+                    line(b, *o, 1, &noise[1], thresholds.phases, |_| 1.0),
+                ]
+            })
             .collect();
         let Some((best, _)) = lines.iter().enumerate().max_by(|a, b| {
             let most = |l: &[Line; 2]| l[0].strength.max(l[1].strength);
@@ -119,13 +117,17 @@ pub(super) fn orders(
         let [radius, torque] = lines[best];
         let order = candidates[best];
         let whole = (order - order.round()).abs() < 1e-9;
-        if whole && order >= FEWEST_ROLLERS && radius.strength >= torque.strength && radius.p * tests < FALSE_ALARM {
-            if radius.amplitude >= MATERIAL[0] && radius.reach >= bob {
+        if whole
+            && order >= FEWEST_ROLLERS
+            && radius.strength >= torque.strength
+            && radius.p * tests < thresholds.false_alarm
+        {
+            if radius.amplitude >= thresholds.ripple[0] && radius.reach >= bob {
                 ripples.push((wheel, order as usize, radius));
             }
         } else if !(whole && order >= FEWEST_ROLLERS)
-            && torque.p * tests < FALSE_ALARM
-            && torque.amplitude >= MATERIAL[1] * drive_nm
+            && torque.p * tests < thresholds.false_alarm
+            && torque.amplitude >= thresholds.ripple[1] * drive_nm
         {
             structures.push(Structure {
                 text: format!(
@@ -224,7 +226,7 @@ fn bin(f: f64) -> usize {
 }
 
 /// Fits amplitude times `basis` to one wheel's blocks, phase free in every run.
-fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, basis: impl Fn(f64) -> f64) -> Line {
+fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, by_chance: f64, basis: impl Fn(f64) -> f64) -> Line {
     let mut runs: Vec<(usize, [f64; 2], f64)> = Vec::new();
     let mut phases: Vec<[f64; 3]> = Vec::new();
     let mut known = [0.0; 2];
@@ -270,7 +272,7 @@ fn line(blocks: &[Block], order: f64, of: usize, noise: &Noise, basis: impl Fn(f
     let weight: f64 = runs.iter().map(|r| r.2).sum();
     let square: f64 = runs.iter().map(|r| (r.1[0].powi(2) + r.1[1].powi(2)) / r.2).sum::<f64>() / weight;
     let bias = runs.len() as f64 * overlap / weight;
-    let agrees = by_phase < PHASES;
+    let agrees = by_phase < by_chance;
     Line {
         p: if agrees { chi2_upper(2.0 * statistic, 2.0 * runs.len() as f64) } else { 1.0 },
         strength: if agrees { statistic } else { 0.0 },

@@ -9,23 +9,17 @@ use std::sync::Arc;
 use runs::is_from_speeds;
 use runs::robot::Robot;
 
+use crate::thresholds::Thresholds;
 use links::drive::DriveModel;
 use links::effect::Sizes;
 use links::segment::Segment;
 
 /// Counts by which second differences of a steady wheel may differ from 0, twice.
 const QUANTISATION: f64 = 4.0;
-/// Times the acceleration that stalled motors can give a wheel with its share of the robot: they brake twice as hard.
-const BEYOND: f64 = 2.0;
 /// Ticks longer than this, s, do not show what happens at hundreds of hertz.
 const LONGEST_TICK_S: f64 = 0.004;
-/// Ticks about a tick over which rattling is told from single knocks, and the share of them beyond.
+/// Ticks about a tick over which rattling is told from single knocks.
 const NEAR: usize = 15;
-const SHARE: f64 = 0.3;
-/// Share of the ticks of all runs at which a wheel rattles.
-const OFTEN: f64 = 0.05;
-/// Shaking worth naming, rad at the motor shaft.
-const MATERIAL: f64 = 0.03;
 /// Share of the places of a rotor between its flanks that are looked at, the same on either side.
 const MIDDLE: f64 = 0.9;
 /// Length of the mean that is the robot's motion, s.
@@ -36,6 +30,7 @@ pub(crate) fn rattle(
     segments: impl Iterator<Item = Arc<Segment>>,
     robot: &Robot,
     model: &DriveModel,
+    thresholds: &Thresholds,
 ) -> Vec<(usize, f64)> {
     // Speeds do not tell what a count is, and what a firmware makes of counts is its own.
     if is_from_speeds(robot) {
@@ -46,24 +41,25 @@ pub(crate) fn rattle(
     let response = (0..robot.wheel_count())
         .map(|i| mechanics.response.row(i).iter().map(|x| x.abs()).sum::<f64>())
         .fold(0.0, f64::max);
-    let most = BEYOND * Sizes::of(robot).stall_nm * response;
+    let [beyond, share, often] = thresholds.rattles;
+    let most = beyond * Sizes::of(robot).stall_nm * response;
     let n = robot.wheel_count();
     let (mut all, mut ticks) = (vec![Vec::new(); n], 0);
     for s in segments.filter(|s| s.angle.len() == n && s.t.len() > 4 * NEAR) {
         ticks += s.t.len();
         for (wheel, places) in all.iter_mut().enumerate() {
-            places.extend(between_flanks(&s, wheel, count, most).into_iter().map(|x| x as f32));
+            places.extend(between_flanks(&s, wheel, count, most, share).into_iter().map(|x| x as f32));
         }
     }
     let mut found = Vec::new();
     for (wheel, places) in all.iter_mut().enumerate() {
-        if (places.len() as f64) < OFTEN * ticks as f64 || places.is_empty() {
+        if (places.len() as f64) < often * ticks as f64 || places.is_empty() {
             continue;
         }
         places.sort_by(f32::total_cmp);
         let at = |share: f64| f64::from(places[((places.len() - 1) as f64 * share) as usize]);
         let play = (at(0.5 + 0.5 * MIDDLE) - at(0.5 - 0.5 * MIDDLE)) * model.gear_ratio;
-        if play >= MATERIAL {
+        if play >= thresholds.shakes {
             found.push((wheel, play));
         }
     }
@@ -71,7 +67,7 @@ pub(crate) fn rattle(
 }
 
 /// Where the encoder is beside the robot's motion, rad at the wheel, while it rattles.
-fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64) -> Vec<f64> {
+fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64, share: f64) -> Vec<f64> {
     let angle = &s.angle[wheel];
     let n = angle.len();
     let tick = (s.t[n - 1] - s.t[0]) / (n - 1) as f64;
@@ -103,7 +99,7 @@ fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64) -> Vec<f64> 
                 near += usize::from(beyond[k + edge - 1]);
                 near -= usize::from(beyond[k - edge - 1]);
             }
-            (near as f64 > SHARE * 2.0 * edge as f64).then(|| {
+            (near as f64 > share * 2.0 * edge as f64).then(|| {
                 let mean: f64 = window.iter().zip(&angle[k - half..]).map(|(w, a)| w * a).sum::<f64>() / total;
                 angle[k] - mean
             })
@@ -114,6 +110,10 @@ fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64) -> Vec<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn rattle(segment: Segment, robot: &Robot, model: &DriveModel) -> Vec<(usize, f64)> {
+        super::rattle(std::iter::once(Arc::new(segment)), robot, model, &Thresholds::default())
+    }
 
     /// A wheel that speeds up, its encoder moved by `jitter` of the tick, in counts.
     fn segment(robot: &Robot, jitter: impl Fn(usize) -> f64) -> Segment {
@@ -143,11 +143,7 @@ mod tests {
             angle.push((40.0 * now * scale).floor() / scale);
         }
         let turning = Segment { angle: vec![angle; robot.wheel_count()], t, ..Segment::default() };
-        assert!(rattle(one(turning), &robot, &model).is_empty());
-    }
-
-    fn one(segment: Segment) -> impl Iterator<Item = Arc<Segment>> {
-        std::iter::once(Arc::new(segment))
+        assert!(rattle(turning, &robot, &model).is_empty());
     }
 
     #[test]
@@ -157,13 +153,13 @@ mod tests {
         let play = 0.1;
         let width = play / robot.gear_ratio * robot.counts_per_wheel_rad();
         let bouncing = segment(&robot, |k| width * ((k as f64 / 3.7).fract() - 0.5));
-        let found = rattle(one(bouncing), &robot, &model);
+        let found = rattle(bouncing, &robot, &model);
         assert_eq!(found.len(), robot.wheel_count());
         for (_, found) in found {
             assert!((found / play - 1.0).abs() < 0.15, "{found}");
         }
         let knocks = segment(&robot, |k| if k % 200 == 0 { width } else { 0.0 });
-        assert!(rattle(one(knocks), &robot, &model).is_empty());
-        assert!(rattle(one(segment(&robot, |_| 0.0)), &robot, &model).is_empty());
+        assert!(rattle(knocks, &robot, &model).is_empty());
+        assert!(rattle(segment(&robot, |_| 0.0), &robot, &model).is_empty());
     }
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::{FALSE_ALARM, Series, Structure, Wheel};
+use super::{Series, Structure, Wheel};
+use crate::thresholds::Thresholds;
 use estimation::statistics::{chi2_upper, median};
 
 /// Lowest frequency looked at, Hz: below, the drive itself is the spectrum.
@@ -14,21 +15,15 @@ const SIDE: usize = 16;
 /// Longest piece that one phase is asked of, s, and number of pieces at most.
 const PIECE_S: f64 = 20.0;
 const MOST_PIECES: usize = 16;
-/// Amplitude worth mentioning, share of the drive's.
-const MATERIAL: f64 = 0.03;
-/// Share of the squared torque left that a line has to make up.
-const SHARE: f64 = 0.1;
 /// The floor round a line is known to about 15 %; two deviations more are asked for.
 const UNSURE: f64 = 1.3;
-/// A line that is this much smaller than what the drive did at that frequency is a misfit of its laws.
-const OF_DRIVE: f64 = 0.15;
 
 /// The strongest line of each wheel that stands out of the coloured noise round it.
-pub(super) fn lines(series: &Series, drive_nm: f64) -> Vec<Structure> {
-    series.wheels.iter().enumerate().filter_map(|(i, w)| line(w, i, series, drive_nm)).collect()
+pub(super) fn lines(series: &Series, drive_nm: f64, thresholds: &Thresholds) -> Vec<Structure> {
+    series.wheels.iter().enumerate().filter_map(|(i, w)| line(w, i, series, drive_nm, thresholds)).collect()
 }
 
-fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64) -> Option<Structure> {
+fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64, thresholds: &Thresholds) -> Option<Structure> {
     let pieces = pieces(w);
     let longest = pieces.iter().map(|p| w.t[p[p.len() - 1]] - w.t[p[0]]).fold(0.0, f64::max);
     let highest = 0.4 / series.hop;
@@ -68,7 +63,7 @@ fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64) -> Option<Struc
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     // Four grid points are one independent frequency.
     let tests = (grid.len() as f64 / 4.0).max(1.0) * series.wheels.len() as f64 * 2.0;
-    if chi2_upper(2.0 * ratio / UNSURE, 2.0 * parts) * tests > FALSE_ALARM {
+    if chi2_upper(2.0 * ratio / UNSURE, 2.0 * parts) * tests > thresholds.false_alarm {
         return None;
     }
     let f = grid[best];
@@ -84,7 +79,8 @@ fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64) -> Option<Struc
     }
     let share = square / total.max(1e-300);
     let amplitude = (2.0 * square / n.max(1.0)).sqrt() / passed(f, 2.0 * series.hop);
-    if amplitude < MATERIAL * drive_nm || share < SHARE || square < OF_DRIVE.powi(2) * done {
+    let [material, of_rest, of_drive] = thresholds.line;
+    if amplitude < material * drive_nm || share < of_rest || square < of_drive.powi(2) * done {
         return None;
     }
     Some(Structure {
@@ -166,10 +162,10 @@ mod tests {
 
     #[test]
     fn a_line_is_found_in_coloured_noise_and_noise_is_none() {
-        let found = lines(&series(4.0, 1), 0.05);
+        let found = lines(&series(4.0, 1), 0.05, &Thresholds::default());
         assert!(found.len() == 1 && found[0].text.contains("3.3"), "{found:?}");
         for seed in 2..100 {
-            assert_eq!(lines(&series(0.0, seed), 0.01), [], "seed {seed}");
+            assert_eq!(lines(&series(0.0, seed), 0.01, &Thresholds::default()), [], "seed {seed}");
         }
     }
 }
