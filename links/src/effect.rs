@@ -243,8 +243,6 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
-    /// Share of the time in which wheels turn that they turn their rarer way, of the wheel with the least.
-    pub back_share: f64,
 }
 
 impl Sizes {
@@ -268,7 +266,6 @@ impl Sizes {
             test_function_s: crate::drive::TEST_FUNCTION_S,
             run_s: f64::INFINITY,
             reach_rad: 1.0,
-            back_share: 0.5,
         }
     }
 

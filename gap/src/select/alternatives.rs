@@ -133,11 +133,14 @@ pub fn alternatives(
         {
             continue;
         }
-        if difference < tie.max(thresholds.doubtful) && (twin(t.candidate) || is_material(candidate, &values)) {
+        // A spring that is all preload is a weight: what has more to fit must do its part by more than that.
+        let no_more = candidate.form.free.len() <= own.form.free.len();
+        let is_twin = twin(t.candidate) && no_more;
+        if difference < tie.max(thresholds.doubtful) && (is_twin || is_material(candidate, &values)) {
             sets.push(vec![name.clone(), alternative_name.clone()]);
             told.push(alternative_name.clone());
             let preferred = CONVENTIONS.iter().any(|(a, b)| *a == name && *b == alternative_name);
-            ambiguous |= difference < tie && candidate.form.free.len() <= own.form.free.len() && !preferred;
+            ambiguous |= difference < tie && no_more && !preferred;
         }
     }
     for other in twins_of_parts(&found.design, index, thresholds) {

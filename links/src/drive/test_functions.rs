@@ -153,7 +153,6 @@ impl<'a> DriveLink<'a> {
         if pieces.robot().support == Support::Blocks {
             link.sizes.moved_nm = thresholds::PEAK_OF_RMS * link.took(nominal);
         }
-        link.sizes.back_share = link.back_share();
         link.sizes.test_function_s = link.length();
         link.sizes.run_s = longest;
         link.sizes.reach_rad = reached.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
@@ -173,28 +172,6 @@ impl<'a> DriveLink<'a> {
             wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
         });
         estimation::statistics::rms(counted)
-    }
-
-    /// Share of the test functions in which a wheel turned that it turned its rarer way, of the wheel with the least.
-    fn back_share(&self) -> f64 {
-        let n = self.noise.len();
-        let part = |range: &Range<usize>| {
-            let s = self.pieces.get(self.test_functions[range.start].segment);
-            let ahead = |b: &TestFunction, i: usize| s.angle[i][b.first + b.intervals] > s.angle[i][b.first];
-            let mut ways = vec![[0_usize; 2]; n];
-            for b in &self.test_functions[range.clone()] {
-                for i in (0..n).filter(|i| b.weights[*i] > 0.0) {
-                    ways[i][usize::from(ahead(b, i))] += 1;
-                }
-            }
-            ways
-        };
-        let parts = each(&self.by_segment(), &part);
-        let share = |i: usize| {
-            let [back, ahead] = parts.iter().fold([0, 0], |sum, ways| [sum[0] + ways[i][0], sum[1] + ways[i][1]]);
-            back.min(ahead) as f64 / (back + ahead).max(1) as f64
-        };
-        (0..n).map(share).fold(0.5, f64::min)
     }
 
     /// Torque that the measured accelerations took of a model where wheels turned, RMS, Nm at the wheel shaft.

@@ -1,6 +1,5 @@
 //! `hanging-load`: a weight that pulls an axis one way wherever it is, such as a lift, a winch or an upright spindle.
 
-use model::setup::BOTH_WAYS;
 use runs::robot::Robot;
 
 use crate::drive::DriveModel;
@@ -31,10 +30,6 @@ impl Effect for HangingLoad {
     }
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
-        // One way alone it is a friction.
-        if sizes.back_share < BOTH_WAYS {
-            return Vec::new();
-        }
         let (drive, most) = (sizes.drive_nm, sizes.carried_nm());
         let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * drive, [-most, most], 0.03 * drive);
         Form::alone(robot, p)

@@ -15,7 +15,6 @@ mod time;
 use runs::robot::Robot;
 use runs::{Logs, is_dead_reckoning, is_from_speeds};
 
-pub use drive::BOTH_WAYS;
 pub use orders::orders;
 
 /// Something set up wrongly, with what shows it and what mends it.

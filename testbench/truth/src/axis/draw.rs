@@ -41,6 +41,7 @@ fn machine(rng: &mut ChaCha8Rng) -> Axis {
         stribeck: [0.0, 1.0],
         viscous: 0.0,
         gravity: [0.0; 2],
+        hanging: 0.0,
         cogging: [0.0; 2],
         dead_band: 0.0,
         curvature: 0.0,

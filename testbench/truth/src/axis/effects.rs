@@ -38,7 +38,7 @@ fn signed(value: f64, rng: &mut ChaCha8Rng) -> f64 {
     if rng.random_bool(0.5) { value } else { -value }
 }
 
-const CATALOGUE: [Entry; 13] = [
+const CATALOGUE: [Entry; 14] = [
     entry("coulomb-friction", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, _| {
         let torque = value * axis.stall();
         axis.dry.iter_mut().for_each(|dry| *dry += torque);
@@ -120,6 +120,13 @@ const CATALOGUE: [Entry; 13] = [
             axis.gravity = [value * axis.stall() * sin, value * axis.stall() * cos];
             // Counts begin anywhere, so that nobody knows how much of it is sine and how much cosine.
             Vec::new()
+        })
+    },
+    Entry {
+        floor: false,
+        ..entry("hanging-load", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, rng| {
+            axis.hanging = signed(value * axis.stall(), rng);
+            vec![("torque_1_nm", axis.hanging)]
         })
     },
 ];

@@ -42,6 +42,8 @@ pub(crate) struct Axis {
     pub(crate) viscous: f64,
     /// Torque at angle θ: `g[0] sin θ + g[1] cos θ`, Nm.
     pub(crate) gravity: [f64; 2],
+    /// Torque of a weight on a rope or a spindle, the same at every angle, Nm.
+    pub(crate) hanging: f64,
     /// Torque of the magnets over the motor's angle: amplitude at the output, Nm, and how often a motor turn.
     pub(crate) cogging: [f64; 2],
     /// Duty that the bridge swallows.
