@@ -224,8 +224,9 @@ thresholds! {
     /// a tenth of the time exceeds: pushes are rare. Reasoned.
     burst: [f64; 3] = [0.1, 9.0, 5.0],
     /// Share of its impulse that a push leaves with the robot: a wheel that slips, or crosses its gear's play, gives back
-    /// what it took. Reasoned.
-    pushed: f64 = 0.6,
+    /// what it took; and its torque in that which the acceleration of the moment took: a push is what accelerates. Where
+    /// rows are far apart beside a motor's time constant its laws are off by 0.2 of that as duties step.
+    pushed: [f64; 2] = [0.6, 0.5],
     /// Mean torque of some seconds along the rotation as a share of the drive's, and in standard errors of such means.
     /// Reasoned.
     stretch: [f64; 2] = [0.05, 8.0],

@@ -117,7 +117,8 @@ impl Workflow<'_> {
         located
     }
 
-    /// What remains on the links, in sentences; where it is too much, it stays unexplained.
+    /// What remains on the links, in sentences; where it is too much, it stays unexplained, but for logs too short for any
+    /// name: there the floor is no better known than the gap.
     fn remains(&mut self, links: &[LinkGap], located: &[Located], felt: &[Fit]) -> Vec<String> {
         let findings = &mut self.findings;
         // What slides drives no body as Newton has it: the name says so already.
@@ -125,7 +126,10 @@ impl Workflow<'_> {
         let mut sentences = Vec::new();
         for link in links.iter().filter(|l| !(slides && l.link == Link::Drive)) {
             match gaps::remains(link, located, felt, &self.thresholds) {
-                Some(Remains::Open(structure)) if !findings.unexplained.iter().any(|u| u.link == link.link) => {
+                Some(Remains::Open(structure))
+                    if !findings.unexplained.iter().any(|u| u.link == link.link)
+                        && gaps::has_limits(link.link, &findings.limits, self.data.catalogue) =>
+                {
                     findings.unexplained.push(Leftover { link: link.link, structure });
                 }
                 Some(Remains::Beside(sentence)) if findings.shows_without_size(link.link) => {

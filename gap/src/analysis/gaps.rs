@@ -205,6 +205,12 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
     out
 }
 
+/// Whether any effect of a link has a limit from which it would be named.
+pub(super) fn has_limits(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>]) -> bool {
+    let known = |e: &Arc<dyn Effect>| limits.iter().any(|l| l.name == e.name() && l.material > 0.0);
+    catalogue.iter().any(|e| e.link() == link && known(e))
+}
+
 /// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
 pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>], most: f64) -> Option<(Link, String)> {
     let own = catalogue.iter().filter(|e| e.link() == link);

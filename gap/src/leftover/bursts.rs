@@ -24,8 +24,9 @@ struct Event {
     torque: f64,
 }
 
-/// Share of an event's impulse that stays, at the wheel that felt most of it.
-fn pushed(series: &Series, e: &Event) -> f64 {
+/// Share of an event's impulse that stays, and its torque beside what the acceleration took, at the wheel that felt most of
+/// it.
+fn pushed(series: &Series, e: &Event) -> [f64; 2] {
     series
         .wheels
         .iter()
@@ -34,13 +35,14 @@ fn pushed(series: &Series, e: &Event) -> f64 {
                 let k = (w.t[*b] / series.hop).round() as i64;
                 w.segment[*b] == e.segment && k >= e.first - ROUND && k <= e.last + ROUND
             };
-            let (net, all) = (0..w.t.len())
-                .filter(inside)
-                .fold((0.0, 0.0), |(net, all), b| (net + w.torque[b], all + w.torque[b].abs()));
-            (all, net.abs() / all.max(1e-300))
+            let inside: Vec<usize> = (0..w.t.len()).filter(inside).collect();
+            let most = |of: &[f64]| inside.iter().map(|b| of[*b].abs()).fold(0.0, f64::max);
+            let net: f64 = inside.iter().map(|b| w.torque[*b]).sum();
+            let all: f64 = inside.iter().map(|b| w.torque[*b].abs()).sum();
+            (all, [net.abs() / all.max(1e-300), most(&w.torque) / most(&w.done).max(1e-300)])
         })
         .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or(0.0, |x| x.1)
+        .map_or([0.0; 2], |x| x.1)
 }
 
 /// Short pushes: collisions, kicks, a foot on the field.
@@ -85,7 +87,8 @@ pub(super) fn bursts(
     let run_of = |segment: usize| {
         series.wheels.iter().find_map(|w| w.segment.iter().position(|s| *s == segment).map(|b| w.run[b])).unwrap_or(0)
     };
-    events.retain(|e| pushed(series, e) > thresholds.pushed && rolls(run_of(e.segment), e.first as f64 * series.hop));
+    let is_push = |e: &Event| pushed(series, e).iter().zip(thresholds.pushed).all(|(share, least)| *share > least);
+    events.retain(|e| is_push(e) && rolls(run_of(e.segment), e.first as f64 * series.hop));
     let power: f64 = events
         .iter()
         .map(|e| moments.range((e.segment, e.first - 1)..=(e.segment, e.last + 1)).map(|m| m.1.0).sum::<f64>())

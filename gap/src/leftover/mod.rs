@@ -117,6 +117,10 @@ struct Series {
     wheels: Vec<Wheel>,
     /// Distance of two test functions, s.
     hop: f64,
+    /// What a wheel turns as, kg m².
+    inertia: f64,
+    /// One count of an encoder at the wheel, rad.
+    count_rad: f64,
 }
 
 impl Series {
@@ -140,6 +144,7 @@ impl Series {
                 })
             })
             .collect::<Vec<_>>();
-        Self { hop: 0.5 * link.length(), wheels }
+        let (inertia, count_rad) = (model.felt_inertia(), link.sizes.count_rad);
+        Self { hop: 0.5 * link.length(), inertia, count_rad, wheels }
     }
 }

@@ -68,9 +68,9 @@ fn of_one(
     first_of_least(better.into_iter().flatten().collect(), thresholds)
 }
 
-/// Two laws of a parameter each in place of named ones of no fewer parameters, where those leave much above the noise:
-/// fewer parameters that leave less, or as many that leave less over all clusters. Of pairs between which the data do
-/// not decide the first of the catalogue.
+/// Two laws of a parameter each in place of named ones of no fewer parameters. Where those leave much above the noise:
+/// fewer parameters that leave less, or as many that leave less over all clusters; elsewhere, what leaves noise where they
+/// leave far more. Of pairs between which the data do not decide the first of the catalogue.
 fn of_two(
     problem: &Problem,
     start: &State,
@@ -84,9 +84,7 @@ fn of_two(
         return None;
     }
     let now = Left::of(problem, &bare(problem, start, named.iter().copied()));
-    if !now.is_far(thresholds) {
-        return None;
-    }
+    let is_far = now.is_far(thresholds);
     let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
     let laws = laws(problem, start, all, plain);
     let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
@@ -99,7 +97,8 @@ fn of_two(
             state.active.extend(pair.map(|i| laws[i].clone()));
             problem.fit(&mut state);
             let left = Left::of(problem, &state);
-            (now.above(&left) > needed && is_sound(problem, start, &state, thresholds)).then_some((state, left))
+            let better = if is_far { now.above(&left) > needed } else { now.far_above(&left, thresholds) };
+            (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
         })
         .collect();
     first_of_least(better, thresholds)

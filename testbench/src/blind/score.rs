@@ -12,7 +12,7 @@ pub enum Grade {
     Right,
     /// What is hidden stands in a set of look-alikes with what is named, and nothing else is named.
     Within,
-    /// Right or within, and more besides.
+    /// Right or within, and more besides; with nothing hidden, that something is missing, without a name.
     Extra,
     /// Several are hidden, some are found, nothing else is named.
     Partial,
@@ -75,10 +75,14 @@ fn each_stands(named: &[NamedEffect], hidden: &[&Hidden], answer: &Answer) -> bo
     })
 }
 
-/// Grades an answer against what is hidden. With nothing hidden, `Right` is to name nothing.
+/// Grades an answer against what is hidden. With nothing hidden, `Right` is to name nothing and to see nothing.
 pub fn grade(hidden: &[Hidden], answer: &Answer) -> Grade {
     if hidden.is_empty() {
-        return if answer.effects.is_empty() { Grade::Right } else { Grade::Wrong };
+        return match answer.effects.is_empty() {
+            true if answer.verdict == "unexplained" => Grade::Extra,
+            true => Grade::Right,
+            false => Grade::Wrong,
+        };
     }
     if answer.effects.is_empty() {
         return Grade::Nothing;
@@ -246,6 +250,8 @@ mod tests {
         assert_eq!(graded(&[("wheel-radius", &[1]), ("floor-tilt", &[])], &[]), Grade::Extra);
         assert_eq!(graded(&[], &[]), Grade::Nothing);
         assert_eq!(grade(&[], &say(&[], &[])), Grade::Right);
+        let sees = Answer { verdict: "unexplained".to_owned(), ..say(&[], &[]) };
+        assert_eq!(grade(&[], &sees), Grade::Extra);
         assert_eq!(grade(&[], &say(&[("floor-tilt", &[])], &[])), Grade::Wrong);
         let both = [hide("wheel-radius", &[1]), hide("floor-tilt", &[])];
         assert_eq!(grade(&both, &say(&[("floor-tilt", &[])], &[])), Grade::Partial);
