@@ -4,7 +4,7 @@ use crate::Run;
 use crate::frames::Pose;
 
 /// Poses from which the habit is told.
-const FEWEST: usize = 60;
+pub(super) const FEWEST: usize = 60;
 /// Share of poses that repeat the one before to the last digit, from which the log holds poses: a camera of half the
 /// log's rate repeats every second one. A tracker that loses the robot now and then stays below.
 const HABIT: f64 = 0.4;

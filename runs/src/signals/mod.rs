@@ -5,6 +5,7 @@ mod camera;
 mod derive;
 mod headings;
 mod held;
+mod interpolated;
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -132,6 +133,7 @@ pub(crate) struct Reading {
     derive: derive::Derive,
     held: held::Held,
     camera: camera::Repeats,
+    interpolated: interpolated::Interpolated,
     headings: headings::Headings,
 }
 
@@ -156,6 +158,7 @@ impl Reading {
             derive: derive::Derive::new(source, &as_logged(robot, source, None), robot, first),
             held: held::Held::of(first),
             camera: camera::Repeats::of(first),
+            interpolated: interpolated::Interpolated::of(first),
             headings: headings::Headings::of(&as_logged(robot, source, None)),
         })
     }
@@ -165,6 +168,7 @@ impl Reading {
         run.source = self.source;
         self.held.apply(&mut run);
         self.camera.apply(&mut run);
+        self.interpolated.apply(&mut run);
         self.derive.apply(&mut run);
         if self.source.positions_only {
             self.headings.apply(&mut run);
@@ -175,6 +179,7 @@ impl Reading {
         }
         run.notes.extend(self.held.note(&run));
         run.notes.extend(self.camera.note(&run));
+        run.notes.extend(self.interpolated.note(&run));
         run.notes.extend(self.derive.note());
         run
     }

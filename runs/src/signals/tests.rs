@@ -124,3 +124,74 @@ fn a_robot_that_says_too_little_for_its_log_is_told_all_at_once() {
     std::fs::write(folder.path().join("run.csv"), "t,odom_x,odom_y,odom_theta\n0,0,0,0\n1,1,1,0\n").unwrap();
     assert_eq!(DataSet::open(folder.path()).unwrap().runs[0].counts.len(), 3);
 }
+
+/// Poses of frames 30 times a second, to rows 500 times a second: between the frames they are lines.
+#[test]
+fn interpolated_poses_are_samples_where_frames_were() {
+    let mut state = 7_u32;
+    let mut random = move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1_u32 << 23) - 1.0
+    };
+    let pose = |t: f64| [0.8 * (1.1 * t).sin(), 0.5 * (0.7 * t).cos(), 0.9 * t];
+    let mut seen = |t: f64, noise: f64| pose(t).map(|v| v + noise * random());
+    let period = 1.0 / 30.0;
+    let rows = |frames: &[[f64; 3]], step: f64| {
+        let sample = |tick: usize| {
+            let place = 0.002 * tick as f64 / period;
+            let (frame, share) = (place as usize, place.fract());
+            let at = |i: usize| frames[frame][i] + share * (frames[frame + 1][i] - frames[frame][i]);
+            let [x, y, theta] = [0, 1, 2].map(|i| (at(i) / step).round() * step);
+            CameraSample { tick, pose: Pose::new(x, y, wrap_angle(theta)) }
+        };
+        (0..3000).map(sample).collect::<Vec<_>>()
+    };
+    let run = |camera| {
+        let t = (0..3000).map(|k| 0.002 * k as f64).collect();
+        read(Run { t, camera, has_camera: true, ..Run::default() })
+    };
+    for (noise, step) in [(1e-3, 1e-5), (3e-3, 1e-5), (2e-3, 1e-6)] {
+        let frames: Vec<[f64; 3]> = (0..200).map(|k| seen(period * f64::from(k), noise)).collect();
+        let kept = run(rows(&frames, step));
+        let number = kept.camera.len();
+        assert!((150..=185).contains(&number), "{noise} {step}: {number} of 180 frames");
+        assert!(kept.notes.iter().any(|n| n.contains("interpolated")), "{:?}", kept.notes);
+        // Next to a frame: no more than half a row from it.
+        let off = |s: &CameraSample| {
+            let place = 0.002 * s.tick as f64 / period;
+            (place - place.round()).abs() * period
+        };
+        let near = kept.camera.iter().filter(|s| off(s) <= 0.0021).count();
+        assert!(near as f64 > 0.97 * number as f64, "{near} of {number}");
+    }
+    // A camera of every row, noisy or smooth, finely or coarsely written, keeps all of it.
+    for (noise, step) in [(1e-3, 1e-5), (1e-5, 1e-5), (2e-5, 1e-5), (0.0, 1e-7), (0.0, 1e-5), (0.0, 1e-3), (5e-4, 1e-3)]
+    {
+        let written = |tick: usize| {
+            let [x, y, theta] = seen(0.002 * tick as f64, noise).map(|v| (v / step).round() * step);
+            CameraSample { tick, pose: Pose::new(x, y, wrap_angle(theta)) }
+        };
+        let camera: Vec<CameraSample> = (0..3000).map(written).collect();
+        let kept = run(camera);
+        assert_eq!(kept.camera.len(), 3000, "{noise} {step}: {:?}", kept.notes);
+    }
+    // A camera of every row that loses the robot for 0.3 s now and then, bridged by lines.
+    let mut camera: Vec<CameraSample> = (0..3000)
+        .map(|tick| {
+            let [x, y, theta] = seen(0.002 * tick as f64, 1e-3).map(|v| (v / 1e-5).round() * 1e-5);
+            CameraSample { tick, pose: Pose::new(x, y, theta) }
+        })
+        .collect();
+    for lost in [400, 1200, 2500] {
+        let [a, b] = [camera[lost].pose, camera[lost + 150].pose];
+        for k in 0..=150 {
+            let share = k as f64 / 150.0;
+            let [x, y, theta] = [(a.x, b.x), (a.y, b.y), (a.theta, b.theta)]
+                .map(|(a, b)| ((a + share * (b - a)) / 1e-5).round() * 1e-5);
+            camera[lost + k].pose = Pose::new(x, y, theta);
+        }
+    }
+    let kept = run(camera);
+    assert!((2550..=2560).contains(&kept.camera.len()), "{}", kept.camera.len());
+    assert!(kept.notes.iter().any(|n| n.contains("bridged by lines")), "{:?}", kept.notes);
+}
