@@ -1,5 +1,7 @@
 //! An analysis under way: link after link, each from what the one before left.
 
+use std::sync::Arc;
+
 use runs::Logs;
 use runs::robot::Support;
 
@@ -10,14 +12,14 @@ use super::gaps;
 use super::measure::Data;
 use super::order::{TWO_SIDED, order_named};
 use super::question::Question;
-use super::study::{chosen, study};
+use super::study::{Outcome, chosen, study};
 use crate::controller::with_other_counts;
 use crate::exact::{ExactLink, Finding};
 use crate::options::Stage;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
-use links::effect::Link;
+use links::effect::{Effect, Link};
 use links::effects;
 use links::motion::{MotionLink, WindowResiduals};
 
@@ -111,14 +113,13 @@ impl<'a> Workflow<'a> {
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
-            let (link, catalogue) = (self.searched().motion, self.data.catalogue);
-            let problem = Problem::Motion(link);
-            let whole = || self.beyond().map(|data| Problem::Motion(data.motion));
-            let matters = gaps::motion_matters(link, &self.thresholds);
-            let selection = chosen(&problem, &self.start, &[], catalogue, &self.thresholds, matters);
-            self.question.options.reached(Stage::MotionChosen);
-            let outcome =
-                study(&problem, &whole, &self.start, selection, catalogue, &self.thresholds, self.thresholds.far);
+            let link = self.searched().motion;
+            let mut outcome = self.motion_studied(self.data.catalogue);
+            if self.drive_is_in_step(&outcome) {
+                let here: Vec<_> = self.data.catalogue.iter().filter(|e| e.name() != LATE_COUNTS).cloned().collect();
+                outcome = self.motion_studied(&here);
+                self.findings.remarks.push(IN_STEP.to_owned());
+            }
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);
@@ -128,6 +129,32 @@ impl<'a> Workflow<'a> {
             self.findings.remarks.push(missing(self.question.set));
         }
         self.question.options.reached(Stage::MotionStudied);
+    }
+
+    /// What is found between encoders and camera by effects of a catalogue.
+    fn motion_studied(&self, here: &[Arc<dyn Effect>]) -> Outcome {
+        let problem = Problem::Motion(self.searched().motion);
+        let whole = || self.beyond().map(|data| Problem::Motion(data.motion));
+        let matters = gaps::motion_matters(self.searched().motion, &self.thresholds);
+        let selection = chosen(&problem, &self.start, &[], here, &self.thresholds, matters);
+        self.question.options.reached(Stage::MotionChosen);
+        study(&problem, &whole, &self.start, selection, here, &self.thresholds, self.thresholds.far)
+    }
+
+    /// Whether counts were found to be late against the camera, and the drive, which shows late counts as well, has them in
+    /// step with the duties: then it is the frames that are stamped early.
+    fn drive_is_in_step(&self, outcome: &Outcome) -> bool {
+        if !outcome.named.iter().any(|n| n.name == LATE_COUNTS) {
+            return false;
+        }
+        let mut without = outcome.written.clone();
+        without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
+        // What any law of a wheel's own speed and duty leaves: what else is missing on the drive is in neither.
+        let scatter = |state: &State| -> Option<f64> {
+            Some(self.searched().drive(state, None)?.link.noise.iter().map(|n| n * n).sum())
+        };
+        let both = scatter(&outcome.written).zip(scatter(&without));
+        both.is_some_and(|(late, in_step)| late > (1.0 + self.thresholds.worse) * in_step)
     }
 
     /// Takes over what the replayed links gave; their gaps.
@@ -153,11 +180,16 @@ impl<'a> Workflow<'a> {
                 });
                 findings.leave(link.link, [structure]);
             }
-            findings.remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()));
+            findings.remarks.extend(link.replay.as_ref().map(|r| r.remark.clone()).filter(|said| !said.is_empty()));
         }
         links.iter().map(gaps::exact_gap).collect()
     }
 }
+
+/// Counts that are older than their rows, and what is said where the drive does not have them so.
+const LATE_COUNTS: &str = "encoder-lag";
+const IN_STEP: &str = "The drive has counts and duties in step: against the camera the whole log is late, or its frames are \
+     stamped early.";
 
 fn exact_named(f: &Finding, link: &ExactLink) -> Named {
     let square = |e: &[f64]| e.iter().map(|x| x * x).sum::<f64>();

@@ -97,7 +97,9 @@ pub fn alternatives(
         }
         // An effect has several shapes, and which one is the twin shows only after a fit.
         let shapes = tried.iter().filter(|n| **n == alternative_name).count();
+        // What each run has of its own holds what all have in common, and is the cause only where they differ.
         if told.contains(&alternative_name)
+            || candidate.effect.nuisance()
             || shapes >= MOST_SHAPES
             || !(t.material || twin(t.candidate))
             || without.active.iter().any(|a| a.effect.name() == alternative_name)
@@ -159,6 +161,9 @@ pub fn alternatives(
 /// Effects that the active ones together can do, and could not without this one; and those that this one, which has
 /// several parameters, can nearly do.
 fn shared(design: &Design, index: usize, thresholds: &Thresholds) -> Vec<String> {
+    if design.state.active[index].effect.nuisance() {
+        return Vec::new();
+    }
     let jj = design.linear.equations.information();
     let done = |columns: &[usize], c: usize| {
         let a = DMatrix::from_fn(columns.len(), columns.len(), |i, j| jj[(columns[i], columns[j])]);

@@ -7,7 +7,8 @@ use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
 /// Clocks of robot and camera that were set against each other anew for every run: what a recording started by hand
-/// has. What all runs share is [`super::camera_latency`], how fast the clocks part [`super::camera_timing`].
+/// has. Frames that are equally old in all runs are [`super::camera_latency`]; where each run has its clock, what they
+/// have in common is no latency. How fast clocks part is [`super::camera_timing`].
 pub struct CameraClock {
     /// Runs of the data set; the effect has no form with fewer than two.
     pub runs: usize,
@@ -21,8 +22,7 @@ impl CameraClock {
         format!("offset_{}_s", run + 1)
     }
 
-    /// Seconds by which each run's frames are older than the mean of all runs. Offsets sum to 0, so that of the last
-    /// run follows from the others.
+    /// Seconds by which each run's frames are old. A file that leaves out the last run has offsets that sum to 0.
     fn offsets(&self, values: &Values) -> Vec<f64> {
         let mut offsets: Vec<f64> = (0..self.runs).map(|run| values.get(&Self::parameter(run))).collect();
         let sum: f64 = offsets.iter().sum();
@@ -41,7 +41,7 @@ impl Effect for CameraClock {
     }
 
     fn equation(&self) -> &str {
-        "frames of run i show the robot at t - offset_i_s; offsets of all runs sum to 0, and are fitted anew for the runs at hand"
+        "frames of run i show the robot at t - offset_i_s, fitted anew for the runs at hand"
     }
 
     fn reference(&self) -> &str {
@@ -64,7 +64,7 @@ impl Effect for CameraClock {
                 super::camera_latency::material(robot),
             )
         };
-        vec![Form::whole((0..self.runs - 1).map(p).collect())]
+        vec![Form::whole((0..self.runs).map(p).collect())]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
@@ -87,21 +87,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn offsets_sum_to_nothing_and_one_run_has_none() {
+    fn every_run_has_an_offset_and_one_run_has_none() {
         let robot = Robot::racbot();
         assert!(CameraClock { runs: 1 }.forms(&robot).is_empty());
         let clock = CameraClock { runs: 3 };
-        assert_eq!(clock.forms(&robot)[0].free.len(), 2);
+        assert_eq!(clock.forms(&robot)[0].free.len(), 3);
         let mut values = Values::default();
         values.set("offset_1_s", 0.02);
         values.set("offset_2_s", -0.05);
-        let mut model = MotionModel::new(&robot);
-        clock.motion(&values, &mut model);
-        let wanted = [0.02, -0.05, 0.03];
-        assert!(
-            model.clock_offset_s.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12),
-            "{:?}",
-            model.clock_offset_s
-        );
+        let told = |values: &Values, wanted: [f64; 3]| {
+            let mut model = MotionModel::new(&robot);
+            clock.motion(values, &mut model);
+            let found = &model.clock_offset_s;
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        };
+        told(&values, [0.02, -0.05, 0.03]);
+        values.set("offset_3_s", 0.01);
+        told(&values, [0.02, -0.05, 0.01]);
     }
 }
