@@ -24,8 +24,8 @@ const NOT_BY_DEAD_RECKONING: [&str; 11] = [
 const ONLY_BY_DEAD_RECKONING: [&str; 2] = ["odometry-curl", "odometry-drift"];
 
 /// What acts on the body, at the contact with the floor, or follows the way, none of which there is while the wheels are off
-/// the floor; and a resistance, which there does what an inertia and frictions that are all as much larger do.
-const NOT_ON_BLOCKS: [&str; 13] = [
+/// the floor.
+const NOT_ON_BLOCKS: [&str; 12] = [
     "wheel-creep",
     "wheel-slip",
     "robot-mass",
@@ -35,7 +35,6 @@ const NOT_ON_BLOCKS: [&str; 13] = [
     "carpet-grain",
     "roller-friction",
     "heading-drag",
-    "winding-resistance",
     "probe-heading-friction",
     "probe-position-force",
     "probe-position-drag",
