@@ -68,18 +68,27 @@ pub struct Parameter {
     pub start: Option<f64>,
     /// Material if below this, for parameters that are large in the nominal model.
     pub below: Option<f64>,
+    /// Whether the lower bound is where it can no longer be told from what is there anyway.
+    pub blurred: bool,
 }
 
 impl Parameter {
     /// A parameter that is 0 in the nominal model.
     pub fn new(name: impl Into<String>, scale: f64, bounds: [f64; 2], material: f64) -> Self {
-        Self { name: name.into(), scale, bounds, material, start: None, below: None }
+        Self { name: name.into(), scale, bounds, material, start: None, below: None, blurred: false }
     }
 
     /// A parameter that is material if it falls below `limit`.
     #[must_use]
     pub fn material_below(mut self, limit: f64) -> Self {
         self.below = Some(limit);
+        self
+    }
+
+    /// A parameter that at its lower bound cannot be told from what is there anyway.
+    #[must_use]
+    pub fn blurred_below(mut self) -> Self {
+        self.blurred = true;
         self
     }
 
@@ -283,6 +292,11 @@ impl Sizes {
     /// Torque at most that a weight or a spring gives at the output shaft of an axis, Nm.
     pub fn carried_nm(&self) -> f64 {
         thresholds::CARRIED * self.drive_nm.max(self.stall_nm).max(self.moved_nm)
+    }
+
+    /// Speed about 0 within which the direction of a wheel is not known, rad/s, where rows are not far apart.
+    pub fn turns_round(&self) -> f64 {
+        crate::segment::turns_round(self.count_rad, 0.0, self.speed)
     }
 
     /// The same for wheels that turned at this speed, rad/s, if they did.

@@ -124,10 +124,13 @@ pub(crate) fn usual_speed(robot: &Robot, logs: &[Log]) -> f64 {
 
 /// Speed about 0 within which the direction of a wheel is not known, rad/s: a share of the `speed` of the log, and some
 /// counts within the smoothing.
-fn turns_round(robot: &Robot, t: &[f64], speed: f64) -> f64 {
-    let tick = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
-    let quantum = 1.0 / robot.counts_per_wheel_rad() / SMOOTHING_S.max(2.0 * tick);
+pub(crate) fn turns_round(count_rad: f64, tick_s: f64, speed: f64) -> f64 {
+    let quantum = count_rad / SMOOTHING_S.max(2.0 * tick_s);
     (thresholds::TURNS_ROUND * speed).max(thresholds::TURNS_ROUND_COUNTS * quantum)
+}
+
+fn mean_tick(t: &[f64]) -> f64 {
+    (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64
 }
 
 /// Derives a segment from the ticks of `part`.
@@ -156,7 +159,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
             .collect();
         s.zero = (0..n).map(|i| zero(part, i, &s.angle[i], robot.counts_per_wheel_rad())).collect();
         s.speed = smooth_speeds(&t, &s.angle);
-        s.turning = turns_round(robot, &t, place.speed);
+        s.turning = turns_round(1.0 / robot.counts_per_wheel_rad(), mean_tick(&t), place.speed);
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
     }
     // Duties of motors that nobody described predict nothing.
@@ -339,8 +342,7 @@ pub fn smooth_sign(speed: f64, width: f64) -> f64 {
 
 /// Whether the loop set further duties between the rows of a log.
 fn between_rows(robot: &Robot, t: &[f64]) -> bool {
-    let tick = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
-    tick * robot.control_rate_hz > thresholds::ROWS_APART
+    mean_tick(t) * robot.control_rate_hz > thresholds::ROWS_APART
 }
 
 /// In place of a signal at each tick its mean until the next, if it goes there straight.

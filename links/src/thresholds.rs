@@ -58,6 +58,8 @@ pub struct Estimate {
     pub sized: bool,
     /// Whether the effect is absent at 0.
     pub absent_at_zero: bool,
+    /// Whether at its lower bound it cannot be told from what is there anyway.
+    pub blurred: bool,
 }
 
 /// Why something is not named.
@@ -112,6 +114,9 @@ pub fn gate(estimates: &[Estimate], p_value: Option<f64>) -> Result<(), Refusal>
     if sized().any(|e| at_bound(e) && !(e.absent_at_zero && e.value.abs() < 0.05 * (e.bounds[1] - e.bounds[0]))) {
         return Err(Refusal::AtBound);
     }
+    if estimates.iter().any(|e| e.blurred && e.value <= e.bounds[0] + AT_BOUND * (e.bounds[1] - e.bounds[0])) {
+        return Err(Refusal::AtBound);
+    }
     let says_nothing = |e: &Estimate| {
         let width = e.interval[1] - e.interval[0];
         width.is_nan() || width > e.bounds[1] - e.bounds[0]
@@ -134,6 +139,7 @@ mod tests {
             bounds: [-0.6, 2.0],
             sized: true,
             absent_at_zero: true,
+            blurred: false,
         }
     }
 
@@ -158,6 +164,9 @@ mod tests {
         assert_eq!(gate(&[estimate(0.2, 0.1), estimate(0.0, 0.1)], Some(0.001)), Ok(()));
         // Where nothing has a size, only significance counts.
         let place = Estimate { sized: false, ..estimate(2.0, 9.0) };
+        let blurred = |value: f64| Estimate { sized: false, blurred: true, ..estimate(value, 0.1) };
+        assert_eq!(gate(&[estimate(0.2, 0.1), blurred(-0.6)], None), Err(Refusal::AtBound));
+        assert_eq!(gate(&[estimate(0.2, 0.1), blurred(0.1)], None), Ok(()));
         assert_eq!(gate(&[place], Some(0.01)), Ok(()));
     }
 }

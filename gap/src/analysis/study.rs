@@ -395,6 +395,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
             sized: p.material.is_finite() && no_angle,
             // What is switched on is not absent at 0, unless it may be 0 and was only begun elsewhere.
             absent_at_zero: p.below.is_none() && (p.start.is_none() || p.bounds[0] <= 0.0),
+            blurred: p.blurred,
         }
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();

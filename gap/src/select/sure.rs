@@ -39,6 +39,7 @@ fn estimates_of(
             bounds: p.bounds,
             sized: p.material.is_finite(),
             absent_at_zero: p.below.is_none(),
+            blurred: p.blurred,
         }
     };
     free.iter().enumerate().map(estimate).collect()

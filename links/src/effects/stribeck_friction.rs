@@ -8,6 +8,11 @@ use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
 /// Speed over which it turns round, in that of other friction: nearer to rest, because it is largest there.
 const TURNS_ROUND: f64 = 0.375;
 
+/// Speed over which it falls, at least, in that at which friction turns round: what lies within is the friction that the
+/// file has, whose direction near rest is not known. On a simulated robot with 720 counts a wheel turn, whose friction
+/// turns round within 0.04 rad/s, 0.3 rad/s were named on a control, at a turning round of 0.29.
+const BEYOND: f64 = 1.7;
+
 /// Friction that is larger near standstill.
 pub(super) struct StribeckFriction;
 
@@ -33,18 +38,17 @@ impl Effect for StribeckFriction {
     }
 
     fn forms_in(&self, _robot: &Robot, s: &Sizes) -> Vec<Form> {
+        let speeds = [BEYOND * s.turns_round(), 0.7 * s.speed];
         // Near rest beside the speed of the log: 1.5, 3 and 6 rad/s where wheels turn at 17.
-        [0.09, 0.18, 0.36]
-            .into_iter()
-            .map(|w| {
-                let drive = s.drive_nm;
-                let bounds = [-0.1 * drive, drive.max(s.stall_nm)];
-                let torque = Parameter::new("torque_nm", 0.01 * drive, bounds, 0.05 * drive);
-                let speed =
-                    Parameter::new("speed_rad_s", 0.018 * s.speed, [0.04 * s.speed, 0.7 * s.speed], f64::INFINITY);
-                Form::whole(vec![torque.from(0.1 * drive), speed.from(w * s.speed)])
-            })
-            .collect()
+        let from = [0.09, 0.18, 0.36].into_iter().filter(|w| w * s.speed > speeds[0]);
+        from.map(|w| {
+            let drive = s.drive_nm;
+            let bounds = [-0.1 * drive, drive.max(s.stall_nm)];
+            let torque = Parameter::new("torque_nm", 0.01 * drive, bounds, 0.05 * drive);
+            let speed = Parameter::new("speed_rad_s", 0.018 * s.speed, speeds, f64::INFINITY).blurred_below();
+            Form::whole(vec![torque.from(0.1 * drive), speed.from(w * s.speed)])
+        })
+        .collect()
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
@@ -64,5 +68,28 @@ impl Effect for StribeckFriction {
 
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("a slow ramp of the duty with the wheels lifted", 3.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_falls_over_more_than_the_speed_at_which_friction_turns_round() {
+        let robot = Robot::racbot();
+        let fine = Sizes::of(&robot);
+        let least = |s: &Sizes| -> Vec<f64> {
+            StribeckFriction.forms_in(&robot, s).iter().map(|form| form.free[1].bounds[0]).collect()
+        };
+        assert!(least(&fine).len() == 3 && (least(&fine)[0] / (0.04 * fine.speed) - 1.0).abs() < 0.01);
+        // Counts of which one within the smoothing is a tenth of the speed of the log, and all of it.
+        let coarse = |share: f64| Sizes { count_rad: share * fine.speed * 0.03, ..fine };
+        let tenth = least(&coarse(0.1));
+        assert!(
+            tenth.len() == 2 && tenth.iter().all(|low| (low / (0.17 * fine.speed) - 1.0).abs() < 0.01),
+            "{tenth:?}"
+        );
+        assert_eq!(least(&coarse(1.0)), Vec::<f64>::new());
     }
 }
