@@ -448,3 +448,39 @@ fn wheels_faster_than_their_set_points_are_told() {
     let told = said(0.75);
     assert!(told.len() == 1 && told[0].contains("wheels turn 1.3"), "{told:?}");
 }
+
+/// Set points of up to twice what a firmware's limit of 0.3 lets the motors reach: they are asked for in vain, in the right
+/// unit. Of motors of which the duties speak otherwise the set points may be wrong.
+#[test]
+fn a_limit_of_the_firmware_is_no_unit() {
+    let robot = Robot { support: Support::Blocks, ..Robot::racbot() };
+    let free = robot.supply_v / (robot.motor.back_emf() * robot.gear_ratio);
+    let counts = robot.counts_per_wheel_rad();
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let mut run = Run { name: "limited".to_owned(), ..Run::default() };
+    let (mut asked, mut speed, mut angle) = (0.0, 0.0, 0.0);
+    let (mut references, mut duties, mut angles) = (vec![], vec![], vec![]);
+    for row in 0..30_000_u32 {
+        if row % 1500 == 0 {
+            asked = rng.random_range(-0.7..0.7) * free;
+        }
+        let duty = (0.02 * f64::signum(asked) + asked / free).clamp(-0.3, 0.3);
+        let steady = (duty - 0.02 * f64::signum(asked)) * free;
+        speed += 1e-3 * (steady - speed) / 0.05;
+        angle += 1e-3 * speed;
+        run.t.push(1e-3 * f64::from(row));
+        references.push(asked);
+        duties.push(duty);
+        angles.push((angle * counts) as i64);
+    }
+    run.reference = vec![references; 3];
+    run.duty = vec![duties; 3];
+    run.counts = vec![angles; 3];
+    run.count_gaps = vec![Vec::new(); 3];
+    let said =
+        |robot: Robot| found(robot, std::slice::from_ref(&run)).iter().map(Mistake::sentence).collect::<Vec<_>>();
+    assert_eq!(said(robot.clone()), Vec::<String>::new());
+    let mut other = robot;
+    other.supply_v *= 1.8;
+    assert!(said(other).iter().any(|s| s.contains("set points are")), "without motors that are its own");
+}

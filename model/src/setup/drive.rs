@@ -34,6 +34,11 @@ const SIZE: f64 = 0.3;
 const LEVEL: f64 = 0.05;
 /// Spans by which commands may run ahead.
 const LAGS: usize = 6;
+/// Share of an axis's largest duty from which a firmware's limit holds it, where it cannot follow.
+const HELD: f64 = 0.99;
+/// Ratio of supplies up to which duties and speeds speak of the motors of the file, so that what these cannot follow is a
+/// limit: counts of half the lines would make it 0.5.
+const ITS_MOTORS: f64 = 1.5;
 /// Samples from which anything is said.
 const FEWEST: usize = 50;
 /// Ratio of supplies from which they are not one robot's: a battery between full and empty has 1.5.
@@ -199,16 +204,31 @@ fn positions(signals: &[Signals]) -> Option<Mistake> {
     Some(Mistake::new("reference-position", "ref_1", what.to_owned(), remedy.to_owned()))
 }
 
+/// Duty of each axis from which its firmware holds it back; none where the logs have none, or where they speak of other
+/// motors than the file, so that the speeds may be wrong.
+fn limits(robot: &Robot, signals: &[Signals]) -> Vec<f64> {
+    let axes = signals.iter().map(|s| s.duty.len()).min().unwrap_or(0);
+    let its_own = drive_lacks(robot).is_empty()
+        && by_duties(robot, signals, &|_| true)
+            .is_some_and(|volts| (1.0 / ITS_MOTORS..ITS_MOTORS).contains(&(volts / robot.supply_v)));
+    let largest = |i: usize| signals.iter().flat_map(|s| &s.duty[i]).fold(0.0, |most: f64, duty| most.max(duty.abs()));
+    if its_own { (0..axes).map(|i| HELD * largest(i)).collect() } else { Vec::new() }
+}
+
 /// Set points in another unit, or speeds that are wrong beside them.
 fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     // Wheels follow their set points: the lag at which they do so best, log by log. One that asks for what no motor can
     // do says nothing, and does not drown the others; nor does a wheel that is still on its way.
+    let limits = limits(robot, signals);
     let of = |s: &Signals, lag: usize| -> Vec<(f64, f64)> {
-        let axes = s.speed.iter().zip(&s.acceleration).zip(&s.reference);
-        let pairs = axes.flat_map(|((w, a), r)| w.iter().zip(a).skip(lag).zip(r));
-        let arrived = |((w, a), _): &((&f64, &f64), &f64)| a.abs() * SETTLED_S <= w.abs();
-        let pairs = pairs.filter(arrived).map(|((w, _), r)| (*w, *r));
-        pairs.filter(|(w, r)| w.is_finite() && r.is_finite()).collect()
+        let held = |i: usize, k: usize| limits.get(i).is_some_and(|limit| s.duty[i][k].abs() >= *limit);
+        let axes = s.speed.iter().zip(&s.acceleration).zip(&s.reference).enumerate();
+        let rows = axes.flat_map(|(i, ((w, a), r))| {
+            let late = (lag..).zip(w.iter().zip(a).skip(lag)).zip(r);
+            late.filter(move |((k, _), _)| !held(i, *k)).map(|((_, (w, a)), r)| (w, a, r))
+        });
+        let arrived = rows.filter(|(w, a, _)| a.abs() * SETTLED_S <= w.abs()).map(|(w, _, r)| (*w, *r));
+        arrived.filter(|(w, r)| w.is_finite() && r.is_finite()).collect()
     };
     let follows = |pairs: &[(f64, f64)]| correlation(pairs.iter().copied());
     let best = |s| (0..=LAGS).map(|lag| of(s, lag)).max_by(|a, b| follows(a).total_cmp(&follows(b)));
