@@ -2,7 +2,7 @@
 
 use runs::robot::Robot;
 use runs::ticks::{Gaps, Ticks};
-use runs::{Columns, Log};
+use runs::{Columns, CountSource, Log};
 
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, FIRST, Finding, Replay, quantum};
@@ -14,6 +14,7 @@ use replay::{Replayed, replay, totals};
 
 mod counts;
 mod replay;
+mod told;
 
 pub(crate) use counts::with_other_counts;
 
@@ -36,9 +37,24 @@ struct Law {
     shift: [usize; 2],
     /// Counts a wheel turn that speeds are reckoned with, in those of the file.
     counts: f64,
+    /// Largest duty that is given.
+    most: f64,
+    /// Output from which the integrator is held.
+    held_from: f64,
 }
 
 impl Law {
+    /// The nominal rules, without gains.
+    const PLAIN: Self = Self {
+        kp: 0.0,
+        ki: 0.0,
+        windup: None,
+        duty_quantum: 0.0,
+        shift: [0, 0],
+        counts: 1.0,
+        most: 1.0,
+        held_from: 1.0,
+    };
     /// Effects of this link.
     const EFFECTS: [&str; 4] = ["pi-gain", "integrator-windup", "quantisation", "sample-order"];
 
@@ -57,6 +73,7 @@ impl Law {
             duty_quantum: value("quantisation", "duty_quantum").unwrap_or(duty_quantum),
             shift,
             counts: 1.0 + value(ENCODER_SCALE, LOOP_SCALE).unwrap_or(0.0),
+            ..Self::PLAIN
         }
     }
 }
@@ -66,7 +83,8 @@ pub(crate) const ENCODER_SCALE: &str = "encoder-scale";
 pub(crate) const LOOP_SCALE: &str = "loop_scale";
 
 /// What is read here.
-const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, measured: true, ..Columns::NONE };
+const COLUMNS: Columns =
+    Columns { reference: true, counts: true, duty: true, measured: true, sensors: true, ..Columns::NONE };
 
 /// Replays the duties of every run and wheel; says why where it cannot.
 pub(crate) fn analyse(
@@ -79,10 +97,30 @@ pub(crate) fn analyse(
     if logs.is_empty() {
         return None;
     }
-    words::controller(robot, &logs).or_law(thresholds.differs[1], remarks, || {
-        let logs = at_rate(robot, logs, thresholds);
+    let link = words::controller(robot, &logs).or_law(thresholds.differs[1], remarks, || {
+        let logs = at_rate(robot, logs.clone(), thresholds);
         (!logs.is_empty()).then(|| analyse_law(robot, &logs, thresholds))
-    })
+    })?;
+    if !is_replayed(&link, thresholds) && logs.iter().any(|log| has_speeds_alone(log)) {
+        remarks.push(NOT_THE_LOOPS.to_owned());
+        return None;
+    }
+    Some(link)
+}
+
+/// Why logged speeds from which the duties do not follow say nothing of the loop.
+const NOT_THE_LOOPS: &str = "Controller: not compared. The duties do not follow from the logged speeds (speed_1..), which need \
+     not be those that the loop measures: log counts, or the loop's speeds as meas_1...";
+
+/// Whether the duties follow to the last digit, by the law of the file or by what was found.
+fn is_replayed(link: &ExactLink, thresholds: &Thresholds) -> bool {
+    let left = link.finding.as_ref().and_then(|f| f.evidence.wrong_share());
+    link.wrong_share.min(left.unwrap_or(f64::INFINITY)) <= thresholds.differs[1]
+}
+
+/// Whether the speeds that a log has in place of counts stand for those that the loop measured.
+fn has_speeds_alone(log: &Log) -> bool {
+    log.layout().source.counts == CountSource::Speeds && log.layout().measured.is_empty()
 }
 
 /// Logs with all that a speed loop has; none where the file, as that of another machine may, says nothing of one.
@@ -207,6 +245,10 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
     } else {
         // What a stated effect of this link leaves is its remainder, not a new structure.
         link.unexplained = Law::EFFECTS.iter().all(|name| robot.effect(name).is_none());
+        if let Some(structure) = told::structure(robot, logs, &nominal, floor, &nominally, thresholds) {
+            let replay = link.replay.take().unwrap_or_default();
+            link.replay = Some(Replay { structure: Some(structure), ..replay });
+        }
     }
     link
 }

@@ -256,6 +256,9 @@ thresholds! {
     torn: [f64; 3] = [2.0, 10.0, 0.1],
 
     // Links that are replayed tick by tick.
+    /// Largest duty below which the firmware may limit it, and the share of the ticks at which it must lie there. Reasoned:
+    /// a bridge gives all but its dead times, and a peak that is reached once is no limit.
+    limited: [f64; 2] = [0.98, 0.01],
     /// Share of ticks that may differ by more than rounding: set points, duties. As many set points may follow the
     /// command of the tick before, which arrived within the tick.
     differs: [f64; 2] = [0.01, 0.005],

@@ -34,7 +34,7 @@ impl Integral {
         } else {
             let held = |x: f64| {
                 let unlimited = proportional + (x + more);
-                unlimited.abs() > 1.0 && error * unlimited > 0.0
+                unlimited.abs() > law.held_from && error * unlimited > 0.0
             };
             // Held from a bound on outwards, the one on the error's side.
             let (inner, outer) = if error > 0.0 { (low, high) } else { (high, low) };
@@ -42,7 +42,7 @@ impl Integral {
                 (false, false) => (inner + more, outer + more),
                 (true, true) => (inner, outer),
                 _ => {
-                    let bound = error.signum() - proportional;
+                    let bound = error.signum() * law.held_from - proportional;
                     let ends = [inner + more, bound - more, bound, outer];
                     let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
                     let most = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -55,9 +55,9 @@ impl Integral {
     }
 
     /// What a logged duty says of the integrator behind its tick.
-    fn narrow(&mut self, proportional: f64, duty: f64, half: f64) {
-        let low = if duty - half <= -1.0 { self.low } else { self.low.max(duty - half - proportional) };
-        let high = if duty + half >= 1.0 { self.high } else { self.high.min(duty + half - proportional) };
+    fn narrow(&mut self, proportional: f64, duty: f64, half: f64, most: f64) {
+        let low = if duty - half <= -most { self.low } else { self.low.max(duty - half - proportional) };
+        let high = if duty + half >= most { self.high } else { self.high.min(duty + half - proportional) };
         if low <= high {
             (self.low, self.high) = (low, high);
         }
@@ -113,7 +113,7 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
     let per_count = rate / (robot.counts_per_wheel_rad() * law.counts);
     let half = floor.max(0.5 * law.duty_quantum + SLACK);
     let rounded = |u: f64| {
-        let u = u.clamp(-1.0, 1.0);
+        let u = u.clamp(-law.most, law.most);
         if law.duty_quantum > 0.0 { (u / law.duty_quantum).round() * law.duty_quantum } else { u }
     };
     let wheel = |_| Wheel { integral: Integral::UNKNOWN, square: 0.0, wrong: 0, all: 0 };
@@ -122,7 +122,8 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
         wheels.iter_mut().for_each(|w| w.integral = Integral::UNKNOWN);
         walk(robot, log, |run, ticks, k, steady| {
             for (wheel, state) in wheels.iter_mut().enumerate() {
-                let speed = |k: usize| match run.measured.get(wheel) {
+                // Speeds in place of counts are the best that is known of what the loop measured.
+                let speed = |k: usize| match run.measured.get(wheel).or(run.speed.get(wheel)) {
                     Some(measured) => measured[k],
                     None => ticks.moved(wheel, k).map_or(f64::NAN, |counts| counts as f64 * per_count),
                 };
@@ -148,7 +149,7 @@ pub(super) fn replay(robot: &Robot, logs: &[&Log], law: &Law, floor: f64) -> Vec
                 // A guess of the rounding shifts the highest level by some thousandths of it.
                 let e = ((low - logged).max(logged - high).max(0.0) - floor).max(0.0);
                 if e == 0.0 {
-                    state.integral.narrow(law.kp * error, logged, half);
+                    state.integral.narrow(law.kp * error, logged, half, law.most);
                 }
                 if known {
                     state.square += e * e;
@@ -191,7 +192,7 @@ mod tests {
     }
 
     fn nominal(robot: &Robot) -> Law {
-        Law { kp: robot.pi.kp, ki: robot.pi.ki, windup: None, duty_quantum: 0.001, shift: [0, 0], counts: 1.0 }
+        Law { kp: robot.pi.kp, ki: robot.pi.ki, duty_quantum: 0.001, ..Law::PLAIN }
     }
 
     const FLOOR: f64 = 0.000_5 + SLACK;
@@ -223,7 +224,7 @@ mod tests {
 
     #[test]
     fn bounds_hold_the_integrator_wherever_it_is_held() {
-        let law = Law { kp: 0.02, ki: 30.0, windup: None, duty_quantum: 0.0, shift: [0, 0], counts: 1.0 };
+        let law = Law { kp: 0.02, ki: 30.0, ..Law::PLAIN };
         let pi = model::pi::PiLaw { kp: law.kp, ki: law.ki, rate_hz: 1000.0, duty_quantum: 0.0, integral_limit: None };
         let (mut truth, mut bounds) = (0.4, Integral { low: -0.9, high: 1.3 });
         for k in 0..3_000 {
