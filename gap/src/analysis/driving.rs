@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use runs::CountSource;
+use runs::robot::Support;
 
 use super::found::Named;
 use super::gaps;
@@ -86,6 +87,10 @@ impl<'a> Workflow<'a> {
             ratios::tie(&mut outcome, &self.start, &link.sizes);
         }
         self.findings.remarks.extend(ratios::of_rotor_and_load(&outcome.named, &self.start.robot));
+        if let Some(said) = ratios::of_counts(&outcome.named, &self.start.robot) {
+            self.findings.remarks.push(said);
+            outcome.ambiguous = true;
+        }
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.filtered(&mut outcome);
@@ -184,13 +189,19 @@ impl<'a> Workflow<'a> {
         let shown = |e: &Arc<dyn Effect>| {
             let mut own = self.findings.limits.iter().filter(|l| l.name == e.name()).peekable();
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
-            let hidden = e.link() != Link::Drive && self.seen.is_none();
+            // Nor from duties alone what a camera that is far from its noise does not have.
+            let hidden = e.link() != Link::Drive && (self.seen.is_none() || self.motion_is_far());
             let grain = || e.name() == "carpet-grain" && ways_lie_along_one_line(self.searched().pieces);
             hidden
                 || drives && own.peek().is_some() && own.all(|l| l.limit < self.thresholds.seen * l.material)
                 || grain()
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
+    }
+
+    /// Whether what the camera saw remains far from its noise with what is named for it.
+    fn motion_is_far(&self) -> bool {
+        self.findings.held_out.iter().any(|(link, left)| *link == Link::Motion && *left > self.thresholds.far)
     }
 
     /// What is selected, and the floor above which it was looked for. What has a name is no noise: the next effect is
@@ -258,7 +269,7 @@ impl<'a> Workflow<'a> {
                 Err(structure) => self.findings.leave(Link::Drive, [structure]),
             }
         }
-        if rattling.is_some() && !self.data.has_motion {
+        if rattling.is_some() && !self.data.has_motion && robot.support == Support::Floor {
             // Sliding wheels shake, too; a camera would have seen that.
             self.findings.alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
         }

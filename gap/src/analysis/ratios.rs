@@ -1,6 +1,7 @@
 //! Behind measured currents only ratios show: the torque constant, all inertia and all friction times one factor change
 //! nothing.
 
+use runs::is_from_speeds;
 use runs::robot::{Robot, Support};
 
 use super::found::Named;
@@ -55,6 +56,27 @@ pub(super) fn of_rotor_and_load(named: &[Named], robot: &Robot) -> Option<String
          {file:.3e} ({:+.0} %). Logs of an axis alone do not tell which of {ROTOR_INERTIA} and wheel_inertia_kg_m2 is off.",
         file + more,
         100.0 * more / file
+    ))
+}
+
+/// Counts of a turn in those of the file, where a decoder misses edges: one of two, or three of four.
+const DECODED: [f64; 2] = [0.5, 0.25];
+
+/// An axis whose speeds are a part of the true ones shows its back-EMF as so much more braking, and its inertia as so much
+/// more: what a viscous friction that is just that may be instead, in a sentence.
+pub(super) fn of_counts(named: &[Named], robot: &Robot) -> Option<String> {
+    let viscous = named.iter().find(|n| n.name == FRICTIONS[1])?;
+    let [low, high] = viscous.parameters.iter().find(|(p, ..)| p == "coefficient_nms")?.2.ends()?;
+    let motor = &robot.motor;
+    let by_itself = robot.gear_ratio.powi(2) * motor.torque_constant * motor.back_emf() / motor.resistance_ohm;
+    let told = |part: &&f64| (low..=high).contains(&((1.0 / **part - 1.0) * by_itself));
+    let part = DECODED.iter().find(told).filter(|_| robot.support == Support::Blocks && !is_from_speeds(robot))?;
+    let counts = part * robot.encoder_counts_per_motor_rev;
+    Some(format!(
+        "The viscous friction is {:.0} times what the back-EMF brakes by itself: an encoder that gives {part} of the counts of \
+         the file shows a motor so. Turn the shaft by hand and count: with encoder_counts_per_motor_rev = {counts:.0} that is \
+         the cause, and what is named with it as well.",
+        1.0 / part - 1.0,
     ))
 }
 

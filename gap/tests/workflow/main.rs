@@ -1,5 +1,6 @@
 //! The workflow from logs to a named effect and back.
 
+mod benches;
 mod catalogue;
 mod common;
 mod counts;

@@ -1,0 +1,147 @@
+//! Motors on a bench, as others log them: speeds in place of counts, a limit of the firmware, an encoder that is decoded
+//! otherwise than the file says, a circuit with more resistance.
+
+use gap::{Analysis, Verdict};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use runs::Run;
+
+use super::common::{names, of_files, value, with_dry_friction};
+use links::effect::Link;
+
+const VOLT: f64 = 12.0;
+const OHM: f64 = 2.2;
+const KT: f64 = 0.03;
+const INERTIA: f64 = 4e-5;
+const DRY_NM: f64 = 0.006;
+const COUNTS: f64 = 2000.0;
+const KP: f64 = 0.012;
+const KI: f64 = 0.08;
+/// Seconds a row, and steps of the simulation in one.
+const ROW_S: f64 = 0.005;
+const STEPS: u32 = 50;
+
+/// A motor as it is, where that is not what the file says, and how it is logged.
+#[derive(Clone, Copy)]
+struct Bench {
+    ohm: f64,
+    /// Counts of a turn that come.
+    counts: f64,
+    /// Largest duty that the firmware gives.
+    most: f64,
+    /// Gains of the loop; none for duties that are set.
+    gains: Option<[f64; 2]>,
+    /// Speeds of differences, through a filter that takes this share of the new one, in place of counts.
+    filtered: Option<f64>,
+}
+
+const PLAIN: Bench = Bench { ohm: OHM, counts: COUNTS, most: 1.0, gains: Some([KP, KI]), filtered: None };
+
+impl Bench {
+    fn run(self, seed: u64) -> Run {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut run = Run { name: format!("run_{seed}"), ..Run::default() };
+        let (mut angle, mut speed, mut integral, mut seen) = (0.0, 0.0_f64, 0.0, 0.0);
+        let (mut asked, mut set, mut last) = (0.0, 0.0_f64, 0_i64);
+        let (mut counts, mut speeds, mut duties, mut references) = (vec![], vec![], vec![], vec![]);
+        for row in 0..2400_u32 {
+            if row % 110 == 0 {
+                asked = if row < 2200 { rng.random_range(-0.6..0.6) * VOLT / KT } else { 0.0 };
+            }
+            set += (asked - set).clamp(-8.0, 8.0);
+            let count = (angle * self.counts / std::f64::consts::TAU).floor() as i64;
+            let measured = (count - last) as f64 / ROW_S * std::f64::consts::TAU / COUNTS;
+            last = count;
+            seen += self.filtered.unwrap_or(1.0) * (measured - seen);
+            let duty: f64 = match self.gains {
+                Some([kp, ki]) => {
+                    let error = set - measured;
+                    let more = integral + ki * ROW_S * error;
+                    if (kp * error + more).abs() <= 1.0 || error * (kp * error + more) < 0.0 {
+                        integral = more;
+                    }
+                    kp * error + integral
+                }
+                None => set * KT / VOLT,
+            };
+            let duty = (duty.clamp(-self.most, self.most) * 1e5).round() / 1e5;
+            run.t.push(f64::from(row) * ROW_S);
+            counts.push(count);
+            speeds.push((seen * 1e4).round() / 1e4);
+            duties.push(duty);
+            references.push(set);
+            for _ in 0..STEPS {
+                let torque = KT * (VOLT * duty - KT * speed) / self.ohm;
+                speed = with_dry_friction(speed, torque, DRY_NM, INERTIA, ROW_S / f64::from(STEPS));
+                angle += speed * ROW_S / f64::from(STEPS);
+            }
+        }
+        run.duty = vec![duties];
+        if self.gains.is_some() {
+            run.reference = vec![references];
+        }
+        if self.filtered.is_some() {
+            run.speed = vec![speeds];
+        } else {
+            (run.counts, run.count_gaps) = (vec![counts], vec![Vec::new()]);
+        }
+        run
+    }
+
+    fn told(self, seed: u64) -> Analysis {
+        let text = format!(
+            "encoder_counts_per_motor_rev = {COUNTS}\ngear_ratio = 1\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+             wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {INERTIA}\n\
+             friction_torque = {DRY_NM}\n[pi]\nkp = {KP}\nki = {KI}\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
+        );
+        of_files(&text, (0..4).map(|n| self.run(10 * seed + n)))
+    }
+}
+
+#[test]
+fn a_bench_as_its_file_has_it_agrees() {
+    for bench in [PLAIN, Bench { gains: None, ..PLAIN }, Bench { filtered: Some(1.0), ..PLAIN }] {
+        let a = bench.told(1);
+        assert_eq!((a.verdict, &names(&a)[..]), (Verdict::Agrees, &[][..]), "{}", a.terminal_summary());
+    }
+}
+
+/// A resistance does what an inertia and a friction that are both as much larger do, with one figure in place of two.
+#[test]
+fn more_resistance_in_the_circuit_is_told() {
+    for (seed, scale) in [(2, 0.2), (3, 0.35), (4, -0.2)] {
+        let a = Bench { ohm: OHM * (1.0 + scale), gains: None, ..PLAIN }.told(seed);
+        let own = names(&a) == ["winding-resistance"];
+        assert!(own && (value(&a, "scale") / scale - 1.0).abs() < 0.15, "{scale}: {}", a.terminal_summary());
+    }
+}
+
+/// The duties follow from the speeds that the log has, or it is not said that no law replays them.
+#[test]
+fn speeds_in_place_of_counts_stand_for_those_of_the_loop() {
+    let compared = |a: &Analysis| a.links.iter().any(|l| l.link == Link::Controller);
+    let as_measured = Bench { filtered: Some(1.0), ..PLAIN }.told(5);
+    assert!(compared(&as_measured), "{}", as_measured.terminal_summary());
+    let filtered = Bench { filtered: Some(0.3), ..PLAIN }.told(5);
+    assert!(!compared(&filtered), "{}", filtered.terminal_summary());
+    assert!(filtered.unexplained.iter().all(|u| u.link != Link::Controller), "{:?}", filtered.unexplained);
+    assert!(filtered.remarks.iter().any(|r| r.starts_with("Controller: not compared")), "{:?}", filtered.remarks);
+}
+
+#[test]
+fn a_limit_of_the_output_is_said() {
+    let a = Bench { most: 0.35, ..PLAIN }.told(6);
+    assert_eq!(a.verdict, Verdict::Unexplained, "{}", a.terminal_summary());
+    let said = a.unexplained.iter().any(|u| u.structure.contains("duties are limited to 0.350"));
+    assert!(said, "{:?}", a.unexplained);
+    assert!(names(&a).is_empty(), "{}", a.terminal_summary());
+}
+
+/// Half the counts: the back-EMF brakes twice as much for what is seen, and twice as much seems to turn.
+#[test]
+fn an_encoder_that_gives_half_of_its_counts_is_thought_of() {
+    let a = Bench { counts: COUNTS / 2.0, gains: None, ..PLAIN }.told(7);
+    assert!(names(&a).contains(&"viscous-friction"), "{}", a.terminal_summary());
+    assert_eq!(a.verdict, Verdict::Ambiguous, "{}", a.terminal_summary());
+    assert!(a.remarks.iter().any(|r| r.contains("encoder_counts_per_motor_rev = 1000")), "{:?}", a.remarks);
+}
