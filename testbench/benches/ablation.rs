@@ -132,6 +132,7 @@ const VARIANTS: &[(&str, &str, Change)] = &[
     ("shakes", "off", |t| t.shakes = 0.0),
     ("frozen", "off", |t| t.frozen = 0.0),
     ("torn", "halved", |t| t.torn = t.torn.map(|s| 0.5 * s)),
+    ("limited", "off", |t| t.limited[0] = 0.0),
     ("differs", "doubled", |t| t.differs = t.differs.map(|d| 2.0 * d)),
     ("removes", "off", |t| t.removes = [0.0; 2]),
     ("left_wrong", "off", |t| t.left_wrong = f64::INFINITY),
