@@ -50,6 +50,11 @@ pub fn fits(name: &str, robot: &Robot) -> bool {
     if elsewhere.contains(&name) {
         return false;
     }
+    // On blocks it does what an inertia and frictions that are all as much larger do; where the file has no friction that
+    // is the inertia alone.
+    if name == "winding-resistance" && robot.support == Support::Blocks && robot.motor.friction_torque <= 0.0 {
+        return false;
+    }
     if runs::is_dead_reckoning(robot) {
         return !NOT_BY_DEAD_RECKONING.contains(&name);
     }
@@ -77,7 +82,10 @@ mod tests {
         let blocks = Robot { support: Support::Blocks, ..robot.clone() };
         assert!(NOT_ON_BLOCKS.iter().all(|name| fits(name, &robot) && !fits(name, &blocks)));
         assert!(ONLY_ON_BLOCKS.iter().all(|name| fits(name, &blocks) && !fits(name, &robot)));
-        assert!(fits("coulomb-friction", &blocks));
+        assert!(fits("coulomb-friction", &blocks) && fits("winding-resistance", &blocks));
+        let mut smooth = blocks.clone();
+        smooth.motor.friction_torque = 0.0;
+        assert!(!fits("winding-resistance", &smooth));
         for (name, on) in [
             ("wheel-skew", [true, false, false]),
             ("wheel-radius", [true, true, false]),
