@@ -3,13 +3,12 @@
 use estimation::statistics::median;
 use nalgebra::{Matrix3, Vector3};
 use runs::robot::{Robot, Support};
-use runs::{Columns, DutySource, Log, Run, drive_lacks, is_from_speeds};
+use runs::{DutySource, Log, drive_lacks, is_from_speeds};
 
-use super::samples::{Wheels, correlation};
+use super::samples::correlation;
+use super::signals::{Signals, signals};
 use super::{Mistake, common_ratio, is_true, near, short};
 
-/// Length over which a speed is taken, s.
-const SPAN_S: f64 = 0.05;
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
 /// Correlation with the angle of its axis from which a set point that does not follow the speed is a position: speeds have
@@ -46,18 +45,6 @@ const SUPPLY: f64 = 1.75;
 /// The same by what the duties achieve, which loads falsify.
 const BY_DUTIES: [f64; 2] = [0.45, 2.2];
 
-/// Speeds and what was asked for at the same time.
-struct Signals {
-    /// Wheel speeds, rad/s by robot.toml, `[wheel][sample]`.
-    speed: Vec<Vec<f64>>,
-    /// Accelerations, rad/s².
-    acceleration: Vec<Vec<f64>>,
-    reference: Vec<Vec<f64>>,
-    duty: Vec<Vec<f64>>,
-    command: Vec<[f64; 3]>,
-    supply: Vec<f64>,
-}
-
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let mut found = Vec::new();
     let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();
@@ -67,54 +54,6 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     found.extend(commands(robot, &signals));
     found.extend(supply(robot, &signals));
     found
-}
-
-fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
-    let wheels = Wheels::of(robot, log)?;
-    let columns = Columns { command: true, reference: true, duty: true, supply: true, ..Columns::NONE };
-    let run: Run = log.part(0..log.len().min(200_000), columns);
-    let n = robot.wheel_count();
-    let mut out = Signals {
-        speed: vec![Vec::new(); n],
-        acceleration: vec![Vec::new(); n],
-        reference: vec![Vec::new(); if run.reference.len() == n { n } else { 0 }],
-        duty: vec![Vec::new(); if run.duty.len() == n { n } else { 0 }],
-        command: Vec::new(),
-        supply: run.supply_v.iter().flatten().copied().filter(|v| v.is_finite()).collect(),
-    };
-    let (first, last) = (*wheels.t.first()?, *wheels.t.last()?);
-    let span = SPAN_S.max(2.0 * log.tick_s()?);
-    let held = |column: &[f64], from: usize, to: usize| {
-        let values: Vec<f64> = column[from..=to].iter().copied().filter(|v| v.is_finite()).collect();
-        values.iter().sum::<f64>() / values.len() as f64
-    };
-    let number = ((last - first) / span).floor().min(4000.0) as usize;
-    for k in 1..number.saturating_sub(1) {
-        let t = first + k as f64 * span;
-        let row = |t: f64| run.t.partition_point(|x| *x <= t).saturating_sub(1).min(run.len() - 1);
-        let (a, b) = (row(t - 0.5 * span), row(t + 0.5 * span));
-        let (Some(back), Some(here), Some(ahead)) = (
-            wheels.turned(t - 1.0 * span, t),
-            wheels.turned(t - 0.5 * span, t + 0.5 * span),
-            wheels.turned(t, t + span),
-        ) else {
-            continue;
-        };
-        for i in 0..n {
-            out.speed[i].push(here[i] / span);
-            out.acceleration[i].push((ahead[i] - back[i]) / (span * span));
-        }
-        for (slot, column) in out.reference.iter_mut().zip(&run.reference) {
-            slot.push(held(column, a, b));
-        }
-        for (slot, column) in out.duty.iter_mut().zip(&run.duty) {
-            slot.push(held(column, a, b));
-        }
-        if let Some(command) = &run.command {
-            out.command.push([0, 1, 2].map(|j| held(&command[j], a, b)));
-        }
-    }
-    Some(out)
 }
 
 /// Slope of y over x through the origin.

@@ -10,6 +10,7 @@ mod inertial;
 mod motors;
 mod orders;
 mod samples;
+mod signals;
 mod time;
 
 use runs::robot::Robot;
