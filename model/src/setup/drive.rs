@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use runs::robot::{Robot, Support};
 use runs::{DutySource, Log, drive_lacks, is_from_speeds};
 
+use super::axes;
 use super::samples::correlation;
 use super::signals::{Signals, signals};
 use super::{Mistake, common_ratio, is_true, near, short};
@@ -49,8 +50,16 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let mut found = Vec::new();
     let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();
     let currents = logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
-    found.extend(unsigned(robot, &signals, if currents { "current" } else { "duty" }));
-    found.extend(positions(&signals).or_else(|| references(robot, &signals)));
+    let stem = if currents { "current" } else { "duty" };
+    found.extend(unsigned(robot, &signals, stem));
+    found.extend(axes::against(robot, &signals, stem));
+    match positions(&signals) {
+        Some(mistake) => found.push(mistake),
+        None => {
+            found.extend(axes::still(robot, &signals));
+            found.extend(references(robot, &signals));
+        }
+    }
     found.extend(commands(robot, &signals));
     found.extend(supply(robot, &signals));
     found

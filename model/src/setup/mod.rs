@@ -4,6 +4,7 @@
 //! is a ratio or a turn, fitted over all logs; a mistake is a ratio of 1000, 57.3, 9.55, 4, 2 or a quarter turn, far from
 //! what a robot that differs from its drawing can show.
 
+mod axes;
 mod camera;
 mod drive;
 mod inertial;
@@ -70,6 +71,10 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     }
     let mut found = drive::mistakes(&robot, &set.logs);
     found.extend(camera::mistakes(&robot, &set.logs, &found));
+    if found.iter().any(|m| m.kind == "encoder-order") {
+        // It says which of the two is the wrong way round.
+        found.retain(|m| m.kind != "drive-reversed");
+    }
     found.extend(inertial::mistakes(&robot, &set.logs, &found));
     if found.is_empty() {
         // Speeds that are wrong would be too fast for any motor.

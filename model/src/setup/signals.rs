@@ -10,6 +10,8 @@ const SPAN_S: f64 = 0.05;
 
 /// Speeds and what was asked for at the same time.
 pub(super) struct Signals {
+    /// Distance of two samples, s.
+    pub(super) span_s: f64,
     /// Wheel speeds, rad/s by robot.toml, `[wheel][sample]`.
     pub(super) speed: Vec<Vec<f64>>,
     /// Accelerations, rad/s².
@@ -25,7 +27,9 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
     let columns = Columns { command: true, reference: true, duty: true, supply: true, ..Columns::NONE };
     let run: Run = log.part(0..log.len().min(200_000), columns);
     let n = robot.wheel_count();
+    let span = SPAN_S.max(2.0 * log.tick_s()?);
     let mut out = Signals {
+        span_s: span,
         speed: vec![Vec::new(); n],
         acceleration: vec![Vec::new(); n],
         reference: vec![Vec::new(); if run.reference.len() == n { n } else { 0 }],
@@ -34,7 +38,6 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
         supply: run.supply_v.iter().flatten().copied().filter(|v| v.is_finite()).collect(),
     };
     let (first, last) = (*wheels.t.first()?, *wheels.t.last()?);
-    let span = SPAN_S.max(2.0 * log.tick_s()?);
     let held = |column: &[f64], from: usize, to: usize| {
         let values: Vec<f64> = column[from..=to].iter().copied().filter(|v| v.is_finite()).collect();
         values.iter().sum::<f64>() / values.len() as f64

@@ -1,0 +1,75 @@
+//! Axes that stand still or turn against their drive are told, by name; good ones and loads are not.
+
+use std::path::Path;
+
+use model::setup::{Mistake, mistakes};
+use runs::robot::Robot;
+use runs::{DataSet, DutySource, Logs, Run, Source};
+
+fn set(name: &str) -> DataSet {
+    let mut set = DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data").join(name)).unwrap();
+    for run in &mut set.runs {
+        // As a bench without a camera logs it.
+        run.has_camera = false;
+        run.camera.clear();
+    }
+    set
+}
+
+fn told(set: &DataSet) -> Vec<String> {
+    let set = DataSet { folder: "set".into(), robot: set.robot.clone(), runs: set.runs.clone() };
+    mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect()
+}
+
+#[test]
+fn an_encoder_that_stands_still_is_told() {
+    let mut set = set("runs/wheel-skew");
+    for run in &mut set.runs {
+        run.duty.clear();
+        // Edges of noise on a cable that leads nowhere.
+        run.counts[1] = (0..run.len()).map(|k| i64::from(k % 97 == 0)).collect();
+    }
+    let said = told(&set);
+    assert!(said.iter().any(|s| s.starts_with("enc_2: it stands still: set points ask for ")), "{said:?}");
+    assert!(!said.iter().any(|s| s.starts_with("enc_1: it stands") || s.starts_with("enc_3: it stands")), "{said:?}");
+}
+
+#[test]
+fn a_drive_the_other_way_round_is_told() {
+    let mut set = set("real/robojackets-excitation");
+    assert_eq!(told(&set), Vec::<String>::new());
+    set.runs.iter_mut().flat_map(|run| &mut run.duty[2]).for_each(|d| *d = -*d);
+    let said = told(&set);
+    let expected = "duty_3: the axis turns the other way than it drives, both ways; change its sign, or that of enc_3";
+    assert!(said.iter().any(|s| s.starts_with(expected)), "{said:?}");
+    assert!(said.iter().filter(|s| s.contains("turns the other way")).count() == 1, "{said:?}");
+}
+
+/// A weight on a winch turns it backwards against its motor, one way; a spring drives it back half of the time.
+#[test]
+fn loads_that_pull_are_no_reversed_drives() {
+    let text = "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\nwheel_inertia_kg_m2 = 0\n\
+                [motor]\ntorque_constant = 1\nrotor_inertia = 0.02\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
+    let robot = Robot::parse_partial(text, Path::new("robot.toml")).unwrap();
+    for (weight, spring) in [(0.5, 0.0), (0.0, 4.0)] {
+        let mut run = Run { name: "run_1".to_owned(), ..Run::default() };
+        let (mut angle, mut speed, mut currents, mut counts) = (0.0_f64, 0.0_f64, Vec::new(), Vec::new());
+        for k in 0..6000 {
+            let t = 0.005 * f64::from(k);
+            let wanted = 8.0 * (0.9 * t).sin();
+            let current = (0.4 * (wanted - speed) + weight).clamp(-2.0, 2.0);
+            run.t.push(t);
+            currents.push(current);
+            counts.push((angle / std::f64::consts::TAU * 65536.0).floor() as i64);
+            for _ in 0..20 {
+                speed += 0.00025 * (current - weight - spring * angle - 0.01 * speed) / 0.02;
+                angle += 0.00025 * speed;
+            }
+        }
+        run.source = Source { duties: DutySource::Currents, ..Source::default() };
+        (run.duty, run.counts, run.count_gaps) = (vec![currents], vec![counts], vec![Vec::new()]);
+        let set = DataSet { folder: "set".into(), robot: robot.clone(), runs: vec![run] };
+        let said = told(&set);
+        assert!(!said.iter().any(|s| s.contains("the other way")), "{weight} {spring}: {said:?}");
+    }
+}
