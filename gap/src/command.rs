@@ -14,6 +14,9 @@ use links::effect::Link;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
+/// Part of a number by which it may be off as it was written: six digits are what `%g` and the streams of C++ write, and a
+/// map's scale hides where they end.
+const DIGITS: f64 = 1e-5;
 
 /// Compares the logged set points with those the geometry makes of the logged commands.
 pub(crate) fn analyse(
@@ -82,7 +85,7 @@ struct Matrix<'a> {
     robot: &'a Robot,
     logs: &'a [&'a Log<'a>],
     rows: Vec<[f64; 3]>,
-    /// What rounding of commands and set points leaves, rad/s.
+    /// What rounding of commands and set points to a fixed step leaves, rad/s; to a number of digits see [`DIGITS`].
     tolerance: f64,
     /// Share of ticks that may differ.
     differs: f64,
@@ -109,8 +112,10 @@ impl Matrix<'_> {
                 for i in 0..n {
                     let (row, sign) = order[i];
                     let off = |ticks: usize| {
-                        let expected = sign * (0..3).map(|j| self.rows[row][j] * command[j][k - ticks]).sum::<f64>();
-                        ((run.reference[i][k] - expected).abs() - self.tolerance).max(0.0)
+                        let terms = [0, 1, 2].map(|j| self.rows[row][j] * command[j][k - ticks]);
+                        let expected = sign * terms.iter().sum::<f64>();
+                        let digits = DIGITS * terms.iter().map(|x| x.abs()).sum::<f64>();
+                        ((run.reference[i][k] - expected).abs() - self.tolerance - digits).max(0.0)
                     };
                     let mut e = off(late.ticks);
                     if late.or_one_more && e > 0.0 {
@@ -159,7 +164,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds:
     let mut link = ExactLink {
         link: Link::Command,
         unit: "rad/s",
-        floor: tolerance,
+        floor: tolerance + DIGITS * references_rms(logs),
         after: stated.rms.clone(),
         before: stated.rms.clone(),
         wrong_share: stated.wrong_share(),
