@@ -101,7 +101,7 @@ pub(super) fn bursts(
     let run = run_of(largest.segment);
     Some(Structure {
         text: format!(
-            "{} short pushes of about {:.0} mNm at a wheel, the largest in run {} at {:.2} s; nothing between them",
+            "{} short pushes of about {:.0} mNm at a wheel, the largest in run {} at {:.2} s; nothing like them between",
             events.len(),
             1e3 * median(&mut sizes),
             run + 1,

@@ -124,8 +124,10 @@ pub(super) fn sentence(a: &Analysis) -> String {
             } else {
                 format!(" Nearest in the catalogue: {}.", a.nearest.join(", "))
             };
-            let stop = if first.ends_with('?') { "" } else { "." };
-            format!("Model and data disagree, and no effect of the catalogue explains it{first}{stop}{near}")
+            // A structure may be a small part of what is left.
+            let more = if first.contains("floors remain") { String::new() } else { words::and_more(a) };
+            let stop = if more.is_empty() && first.ends_with('?') { "" } else { "." };
+            format!("Model and data disagree, and no effect of the catalogue explains it{first}{more}{stop}{near}")
         }
     }
 }
