@@ -115,8 +115,8 @@ fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
     };
     let wheel = (0..axes).find(lost)?;
     let what = "it is never negative though the axis turns both ways: its sign is lost".to_owned();
-    let remedy =
-        "log it with its sign; where only its size is measured, give it that of the command or of the motor's voltage";
+    let remedy = "log it with its sign; where only its size is measured, give it that of the command, the set point or the motor's \
+         voltage: sign = \"...\" beside from = in the map";
     Some(Mistake::new("drive-unsigned", &format!("{stem}_{}", wheel + 1), what, remedy.to_owned()))
 }
 

@@ -61,6 +61,8 @@ pub(super) struct Scaled {
     /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
     /// bits, in the file's unit.
     wraps: Option<f64>,
+    /// A series that has the sign which the value lacks: a command, or a direction of 0 and 1.
+    sign: Option<String>,
 }
 
 /// Velocities of the body that its odometry was made of: integrated, they are the odometry.
@@ -83,8 +85,8 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             );
             return Err(fail("is no column of a run".to_owned(), hint));
         }
-        let (from, name, scale, offset, limit, per_rev, wraps, increments) = match source {
-            Source::Name(from) => (from, "", 1.0, 0.0, None, None, None, false),
+        let (from, name, scale, offset, limit, per_rev, wraps, increments, sign) = match source {
+            Source::Name(from) => (from, "", 1.0, 0.0, None, None, None, false, None),
             Source::Scaled(s) => (
                 &s.from,
                 s.unit.as_str(),
@@ -94,6 +96,7 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
                 s.counts_per_rev,
                 s.wraps,
                 s.increments,
+                s.sign.as_deref(),
             ),
         };
         if let Some(n) = wraps.filter(|n| !(n.is_finite() && *n > 0.0)) {
@@ -101,6 +104,14 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
         }
         if let Some(n) = limit.filter(|n| !(n.is_finite() && *n > 0.0)) {
             return Err(fail(format!("limit = {n} is no limit"), "such as limit = 1 of a duty".to_owned()));
+        }
+        let sized = matches!(
+            column,
+            Column::Duty(_) | Column::Current(_) | Column::Speed(_) | Column::Measured(_) | Column::Reference(_)
+        );
+        if sign.is_some() && !sized {
+            let hint = "it is for what drives a wheel or how fast it turns: duty_, current_, speed_, meas_, ref_";
+            return Err(fail("sign has no meaning here".to_owned(), hint.to_owned()));
         }
         let angle = ["rad", "deg", "rev"].contains(&name);
         let counted = matches!(column, Column::Counts(_));
@@ -148,6 +159,7 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             wraps,
             turn: per_rev.filter(|_| !turns && !increments).map(|_| TAU / unit),
             increments,
+            sign,
             rate: rate.is_some(),
         });
     }

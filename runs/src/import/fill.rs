@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
+use super::Series;
 use crate::Run;
 use crate::columns::Column;
 use crate::error::InputError;
@@ -23,6 +24,8 @@ pub(super) struct Wanted<'a> {
     pub(super) turn: Option<f64>,
     /// Whether each value is what came since the row before.
     pub(super) increments: bool,
+    /// The series whose sign the values get.
+    pub(super) sign: Option<&'a str>,
     /// Whether it is the rate of the column.
     pub(super) rate: bool,
 }
@@ -56,6 +59,27 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         now
     };
     values.iter().map(follow).collect()
+}
+
+/// The sign, at some times, of a series that has one: its last sample's, and where that is 0 the one before; of a series of
+/// nothing but 0 and 1, a direction, 0 is backwards.
+pub(super) fn signs(of: &Series, at: &[f64]) -> Vec<f64> {
+    let direction = of.values.iter().all(|x| *x == 0.0 || *x == 1.0);
+    let mut next = 0;
+    let mut sign = 1.0;
+    let mut until = |t: f64| {
+        while next < of.t.len() && of.t[next] <= t {
+            let value = of.values[next];
+            if direction {
+                sign = if value == 0.0 { -1.0 } else { 1.0 };
+            } else if value != 0.0 {
+                sign = value.signum();
+            }
+            next += 1;
+        }
+        sign
+    };
+    at.iter().map(|t| until(*t)).collect()
 }
 
 /// Share of a register's range by which a counter leaps only where it begins again: no wheel passes from one end of 65536

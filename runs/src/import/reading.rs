@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::columns::{RATES, Source, wanted};
-use super::fill::{Wanted, counts, integrate, unwrapped};
+use super::fill::{Wanted, counts, integrate, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense};
 use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
@@ -81,6 +81,7 @@ impl Reading {
                 wraps: None,
                 turn: None,
                 increments: false,
+                sign: None,
                 rate: false,
             }));
         }
@@ -131,6 +132,17 @@ impl Reading {
             };
             series.push(found);
         }
+        let mut sign_of = Vec::new();
+        for w in &wanted {
+            let signed = w.sign.map(|name| {
+                let none = || {
+                    let what = format!("sign: has no series {name:?}");
+                    InputError::new(path, what, table.suggestion(name)).field(w.column.name())
+                };
+                table.find(name).ok_or_else(none)
+            });
+            sign_of.push(signed.transpose()?);
+        }
         let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| nanoseconds(*t))).collect();
         keys.sort_unstable();
         keys.dedup();
@@ -146,11 +158,12 @@ impl Reading {
         let poses = poses.map(|(_, s)| s.t.len()).max().unwrap_or(0);
         let headed = columns.contains(&Column::Camera(2));
         let mut camera = vec![[f64::NAN; 3]; if run.has_camera { ticks } else { 0 }];
-        for (w, s) in wanted.iter().zip(&series) {
+        for ((w, s), sign) in wanted.iter().zip(&series).zip(&sign_of) {
             let mut column = vec![f64::NAN; ticks];
-            for (t, value) in s.t.iter().zip(unwrapped(w, &s.values).iter()) {
+            let sign = sign.map_or_else(|| vec![1.0; s.t.len()], |of| signs(of, &s.t));
+            for ((t, value), sign) in s.t.iter().zip(unwrapped(w, &s.values).iter()).zip(sign) {
                 if let Ok(tick) = keys.binary_search(&nanoseconds(*t)) {
-                    let value = units::times(*value, w.factor) + w.offset;
+                    let value = units::times(*value, sign * w.factor) + w.offset;
                     column[tick] = w.limit.map_or(value, |limit| value.clamp(-limit, limit));
                 }
             }

@@ -194,6 +194,27 @@ fn wpilib_logs_are_read() {
     assert_eq!((value("volts.1"), value("n")), (Some((1.6, 11.0)), Some((1.6, -7.0))));
 }
 
+/// Sensors of currents and bridges with a direction of their own log sizes alone.
+#[test]
+fn a_size_gets_the_sign_of_another_series() {
+    let table = table(b"t,amps,asked,pwm,dir\n0,1,0,10,1\n1,2,5,20,0\n2,3,-5,30,0\n3,4,0,40,1\n", "log.csv");
+    let map = "[columns]\ncurrent_1 = { from = \"amps\", scale = 0.5, sign = \"asked\" }\n\
+               duty_1 = { from = \"pwm\", unit = \"percent\", sign = \"dir\" }\n";
+    let made = run(map, &table).unwrap();
+    assert_eq!(made.current[0], [0.5, 1.0, -1.5, -2.0]);
+    assert_eq!(made.duty[0], [0.1, -0.2, -0.3, 0.4]);
+    for (map, message) in [
+        (
+            "[columns]\ncurrent_1 = { from = \"amps\", sign = \"askd\" }\n",
+            "sign: has no series \"askd\"; did you mean asked?",
+        ),
+        ("[columns]\nenc_1 = { from = \"amps\", sign = \"asked\" }\n", "sign has no meaning here"),
+    ] {
+        let e = run(map, &table).unwrap_err();
+        assert!(e.contains(message), "{map:?}: {e}");
+    }
+}
+
 #[test]
 fn any_csv_by_names_units_signs_and_frame() {
     let text = "__time,/a/left,/a/x,/a/y,yaw,vel.x,vel.y,mode\n10.0,1,1000,50,90,,,auto\n10.5,,,,,0.5,0.1,\n11,3,2000,60,180,,,x\n";
