@@ -7,13 +7,28 @@ use std::path::Path;
 use super::line::with_units;
 use super::rows::{self, Rows};
 use super::sheet::{Sheet, numbered};
-use super::{Clock, Table, heading};
+use super::{Clock, Table, dates, heading};
 use crate::error::InputError;
 
 /// Rows without a number below the names at most, and before the numbers: units, and short names.
 const HEADER_ROWS: usize = 2;
 
+/// Rows of one time, of all, from which times that were written as a time of day are too coarse to tell rows apart.
+const COARSE: f64 = 0.5;
+
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
+    let error = match read_by(bytes, path, clock) {
+        Err(error) if clock.rows && clock.column.is_none() => error,
+        done => return done,
+    };
+    // Whoever looks what is in a file gets to see the rest of it, too, where its time is none.
+    let counted = Clock { column: Some(""), ..*clock };
+    let mut table = read_by(bytes, path, &counted).map_err(|_| error.clone())?;
+    table.remarks.push(format!("{}: {}; {}", error.field, error.what, error.hint));
+    Ok(table)
+}
+
+fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
     let mut csv = ::csv::ReaderBuilder::new()
         .delimiter(separator)
@@ -32,6 +47,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     // Whether a row is read and not looked at yet.
     let mut pending = false;
     let mut widths = Widths::default();
+    let mut days = Days::default();
     let mut begin = |prefix: &str, names: Vec<String>| {
         let rows = Rows::new(prefix, &names, clock);
         if rows.is_none() {
@@ -72,15 +88,24 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
         let Some(rows) = &mut kinds[at].1 else { continue };
         let line = record.position().map_or(1, ::csv::Position::line) as usize;
         widths.see(&record);
-        let number = |i: usize| record.get(i).and_then(|field| number(field, separator));
+        let plain = |i: usize| record.get(i).and_then(|field| number(field, separator));
+        let mut dated = None;
         if let Some((at, name)) = rows.time_column()
             && let Some(field) = record.get(at).filter(|f| !f.is_empty())
-            && number(at).is_none()
+            && plain(at).is_none()
         {
-            let what = format!("{:?} is no time", String::from_utf8_lossy(field));
-            return Err(InputError::new(path, what, "write times as numbers").at(line, 1).field(name));
+            let text = String::from_utf8_lossy(field);
+            let Some(seconds) = dates::seconds(&text) else {
+                let hint = "write times as numbers, or as 2024-05-01T12:00:03.25 or 12:00:03.25";
+                return Err(InputError::new(path, format!("{text:?} is no time"), hint).at(line, 1).field(name));
+            };
+            days.see(seconds, line, name);
+            dated = Some((at, rows.in_its_unit(seconds)));
         }
-        rows.push(&mut table, line, number);
+        rows.push(&mut table, line, |i| dated.filter(|(at, _)| *at == i).map(|(_, t)| t).or_else(|| plain(i)));
+    }
+    if let Some(error) = days.too_coarse(path) {
+        return Err(error);
     }
     match timeless {
         Some(error) if kinds.iter().all(|(_, rows)| rows.is_none()) => return Err(error),
@@ -90,6 +115,42 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
     table.remarks.extend(widths.remark());
     headings(&mut table);
     Ok(table)
+}
+
+/// Times of day, and how many rows have that of the row before.
+#[derive(Default)]
+struct Days {
+    rows: usize,
+    repeated: usize,
+    ends: Option<[f64; 2]>,
+    /// The first row of another's time: its line, and the column.
+    at: Option<(usize, String)>,
+}
+
+impl Days {
+    fn see(&mut self, seconds: f64, line: usize, name: &str) {
+        let [first, last] = self.ends.unwrap_or([seconds, f64::NAN]);
+        self.rows += 1;
+        if seconds == last {
+            self.repeated += 1;
+            self.at.get_or_insert_with(|| (line, name.to_owned()));
+        }
+        self.ends = Some([first, seconds]);
+    }
+
+    fn too_coarse(&self, path: &Path) -> Option<InputError> {
+        let ([first, last], (line, name)) = (self.ends?, self.at.as_ref()?);
+        if (self.repeated as f64) < COARSE * self.rows as f64 {
+            return None;
+        }
+        let each = self.rows as f64 / (self.rows - self.repeated).max(1) as f64;
+        let rate = self.rows as f64 / (last - first).max(1.0);
+        let what = format!("its times are too coarse: {each:.0} rows have the same");
+        let hint = format!(
+            "give another column of time, or how many rows come in a second in place of one: [time] rate_hz = {rate:.0}"
+        );
+        Some(InputError::new(path, what, hint).at(*line, 1).field(name.clone()))
+    }
 }
 
 /// How many names a table has, and how many fields its rows.
@@ -183,6 +244,24 @@ mod tests {
         for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
             assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
         }
+    }
+
+    #[test]
+    fn times_of_day_are_times_unless_they_are_too_coarse() {
+        let plain =
+            table("TIMESTAMP,a\n2024-05-01 12:00:59.90,1\n2024-05-01 12:01:00.15,2\n2024-05-01 12:01:00.40,3\n");
+        let times = &plain.unwrap().series[0].t;
+        assert!((times[1] - times[0] - 0.25).abs() < 1e-6 && (times[2] - times[1] - 0.25).abs() < 1e-6, "{times:?}");
+        let rows: String = (0..90).map(|k| format!("2022-11-16.19:06:{:02},{k}\n", 18 + k / 30)).collect();
+        let text = format!("TIMESTAMP,a\n{rows}");
+        let error = table(&text).unwrap_err().to_string();
+        assert!(error.contains("TIMESTAMP: its times are too coarse: 30 rows have the same"), "{error}");
+        assert!(error.contains("rate_hz = 45"), "{error}");
+        // Whoever asks what is in it is shown the rest.
+        let seen = read(text.as_bytes(), Path::new("x.csv"), &Clock { rows: true, ..Clock::default() });
+        let seen = seen.unwrap();
+        assert!(seen.time.is_none() && seen.find("a").is_some_and(|a| a.values.len() == 90), "{:?}", seen.remarks);
+        assert!(seen.remarks[0].starts_with("TIMESTAMP: its times are too coarse"), "{:?}", seen.remarks);
     }
 
     #[test]

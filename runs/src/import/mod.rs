@@ -7,6 +7,7 @@ mod agreement;
 mod cdr;
 mod columns;
 mod csv;
+mod dates;
 mod draft;
 mod fill;
 mod frame;

@@ -101,6 +101,11 @@ impl<'a> Rows<'a> {
         self.at.map(|at| (self.names[at].clone(), self.unit_s))
     }
 
+    /// Seconds in the unit of its column of time.
+    pub(super) fn in_its_unit(&self, seconds: f64) -> f64 {
+        seconds / self.unit_s
+    }
+
     /// The column of time and its name.
     pub(super) fn time_column(&self) -> Option<(usize, &str)> {
         self.at.map(|at| (at, self.names[at].as_str()))

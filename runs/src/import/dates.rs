@@ -1,0 +1,56 @@
+//! Times written as a date and a time of day, or as a time of day alone: `2024-05-01T12:00:03.25Z`, `12:00:03,25`.
+
+/// Days before each month of a year that is none of 366 days.
+const DAYS: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
+
+/// Seconds since 1970, or since midnight where there is no date; `None` for what is neither. A zone behind it is the same
+/// for all rows, and says nothing of how far they are apart.
+pub(super) fn seconds(text: &str) -> Option<f64> {
+    let text = text.trim().trim_matches('"');
+    let end = text.find(|c: char| !(c.is_ascii_digit() || ['-', '/'].contains(&c)))?;
+    let (day, clock) = if text[..end].contains(['-', '/']) {
+        let clock = text[end..].strip_prefix(['T', ' ', '.', '_'])?;
+        (day(&text[..end])?, clock)
+    } else {
+        (0.0, text)
+    };
+    let end = clock.find(['Z', '+', '-', ' ']).unwrap_or(clock.len());
+    let mut parts = clock[..end].split(':');
+    let [hours, minutes] = [parts.next()?, parts.next()?].map(|part| part.parse::<u32>().ok().map(f64::from));
+    let seconds: f64 = parts.next()?.replace(',', ".").parse().ok()?;
+    let known = parts.next().is_none() && hours? < 24.0 && minutes? < 60.0 && (0.0..61.0).contains(&seconds);
+    known.then(|| 86_400.0 * day + 3600.0 * hours.unwrap_or(0.0) + 60.0 * minutes.unwrap_or(0.0) + seconds)
+}
+
+/// Days since 1970 of a date, year first.
+fn day(date: &str) -> Option<f64> {
+    let parts: Vec<u32> = date.split(['-', '/']).map(|part| part.parse().ok()).collect::<Option<_>>()?;
+    let [year, month, day] = parts[..] else { return None };
+    if !((1970..2200).contains(&year) && (1..=12).contains(&month) && (1..=31).contains(&day)) {
+        return None;
+    }
+    let leap = |year: u32| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    let leaps = (1970..year).filter(|y| leap(*y)).count() as f64;
+    let this = f64::from(u8::from(leap(year) && month > 2));
+    Some(365.0 * f64::from(year - 1970) + leaps + DAYS[month as usize - 1] + this + f64::from(day - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_and_times_of_day_are_seconds() {
+        assert_eq!(seconds("1970-01-02T00:00:01.5Z"), Some(86_401.5));
+        assert_eq!(seconds("2024-03-01 12:00:03"), Some(1_709_294_403.0));
+        for same in ["2022-11-16.19:06:18", "2022/11/16 19:06:18", "2022-11-16T19:06:18+01:00", "2022-11-16_19:06:18,0"]
+        {
+            assert_eq!(seconds(same), Some(1_668_625_578.0), "{same}");
+        }
+        assert_eq!(seconds("19:06:18.250"), Some(68_778.25));
+        for none in ["x", "12:60:00", "3-4-2022 10:00:00", "2022-13-01 00:00:00", "10:00", "-0.5", "1e-5", "2022-11-16"]
+        {
+            assert_eq!(seconds(none), None, "{none}");
+        }
+    }
+}
