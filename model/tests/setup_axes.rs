@@ -45,6 +45,17 @@ fn a_drive_the_other_way_round_is_told() {
     assert!(said.iter().filter(|s| s.contains("turns the other way")).count() == 1, "{said:?}");
 }
 
+/// A motor that was plugged in the other way for a part of its logs.
+#[test]
+fn a_drive_that_is_the_other_way_round_in_some_logs_is_told_with_their_names() {
+    let mut set = set("real/robojackets-excitation");
+    let name = set.runs[0].name.clone();
+    set.runs[0].duty[0].iter_mut().for_each(|d| *d = -*d);
+    let said = told(&set);
+    let expected = format!("duty_1: the axis turns the other way than it drives, both ways, in 1 of 2 logs ({name})");
+    assert!(said.iter().any(|s| s.starts_with(&expected)), "{said:?}");
+}
+
 /// A weight on a winch turns it backwards against its motor, one way; a spring drives it back half of the time.
 #[test]
 fn loads_that_pull_are_no_reversed_drives() {

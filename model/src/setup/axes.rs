@@ -52,33 +52,48 @@ pub(super) fn still(robot: &Robot, signals: &[Signals]) -> Vec<Mistake> {
     (0..axes).filter_map(of).collect()
 }
 
-/// Axes that turn backwards where they are driven forwards, and forwards where backwards.
+/// Of both ways in which an axis is driven: the way with the drive less that against it, all of the way, and moments.
+type Ways = [[f64; 3]; 2];
+
+/// Axes that turn backwards where they are driven forwards, and forwards where backwards, in all logs or in some.
 pub(super) fn against(robot: &Robot, signals: &[Signals], stem: &str) -> Vec<Mistake> {
     let axes = signals.iter().map(|s| s.duty.len().min(s.speed.len())).max().unwrap_or(0);
     let counted = if is_from_speeds(robot) { "speed" } else { "enc" };
-    let turns_against = |i: &usize| {
-        // Of both ways driven: the way with the drive less that against it, all of the way, and moments.
-        let mut sums = [[0.0, 0.0, 0.0]; 2];
-        for s in signals.iter().filter(|s| *i < s.duty.len()) {
-            for (duty, speed) in s.duty[*i].iter().zip(&s.speed[*i]) {
-                if duty.is_finite() && *duty != 0.0 && *speed != 0.0 {
-                    let sum = &mut sums[usize::from(*duty < 0.0)];
-                    let with = speed * duty.signum();
-                    sum.iter_mut().zip([with, with.abs(), 1.0]).for_each(|(sum, x)| *sum += x);
-                }
-            }
-        }
-        let way = sums[0][1] + sums[1][1];
-        sums.iter().all(|[with, all, n]| *n >= FEWEST as f64 && *all >= EACH_WAY * way && *with <= AGAINST * all)
+    let mistake = |i: usize| {
+        let ways: Vec<Ways> = signals.iter().map(|s| ways(s, i)).collect();
+        let all = ways.iter().fold([[0.0; 3]; 2], |sum, ways| {
+            std::array::from_fn(|way| std::array::from_fn(|k| sum[way][k] + ways[way][k]))
+        });
+        // Some were wired another way, or logged by another program.
+        let some: Vec<&str> =
+            signals.iter().zip(&ways).filter(|(_, ways)| is_against(ways)).map(|(s, _)| s.log.as_str()).collect();
+        let others = format!("{counted}_{} where that counts the wrong way (scale = -1 in the map)", i + 1);
+        let (which, remedy) = if is_against(&all) {
+            (String::new(), format!("change its sign, or that of {others}"))
+        } else if some.is_empty() {
+            return None;
+        } else {
+            let which = format!(", in {} of {} logs ({})", some.len(), signals.len(), some.join(", "));
+            (which, format!("convert these by a map with its sign changed, or that of {others}"))
+        };
+        let what = format!("the axis turns the other way than it drives, both ways{which}");
+        Some(Mistake::new("drive-reversed", &format!("{stem}_{}", i + 1), what, remedy))
     };
-    let against: Vec<usize> = (0..axes).filter(turns_against).collect();
-    let mistake = |i: &usize| {
-        let what = "the axis turns the other way than it drives, both ways".to_owned();
-        let remedy = format!(
-            "change its sign, or that of {counted}_{} where that counts the wrong way (scale = -1 in the map)",
-            i + 1
-        );
-        Mistake::new("drive-reversed", &format!("{stem}_{}", i + 1), what, remedy)
-    };
-    against.iter().map(mistake).collect()
+    (0..axes).filter_map(mistake).collect()
+}
+
+fn ways(s: &Signals, axis: usize) -> Ways {
+    let mut ways = [[0.0; 3]; 2];
+    let rows = s.duty.get(axis).into_iter().flatten().zip(s.speed.get(axis).into_iter().flatten());
+    for (duty, speed) in rows.filter(|(duty, speed)| duty.is_finite() && **duty != 0.0 && **speed != 0.0) {
+        let with = speed * duty.signum();
+        let way = &mut ways[usize::from(*duty < 0.0)];
+        way.iter_mut().zip([with, with.abs(), 1.0]).for_each(|(sum, x)| *sum += x);
+    }
+    ways
+}
+
+fn is_against(ways: &Ways) -> bool {
+    let way = ways[0][1] + ways[1][1];
+    ways.iter().all(|[with, all, n]| *n >= FEWEST as f64 && *all >= EACH_WAY * way && *with <= AGAINST * all)
 }

@@ -10,6 +10,8 @@ const SPAN_S: f64 = 0.05;
 
 /// Speeds and what was asked for at the same time.
 pub(super) struct Signals {
+    /// Name of the log.
+    pub(super) log: String,
     /// Distance of two samples, s.
     pub(super) span_s: f64,
     /// Wheel speeds, rad/s by robot.toml, `[wheel][sample]`.
@@ -29,6 +31,7 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
     let n = robot.wheel_count();
     let span = SPAN_S.max(2.0 * log.tick_s()?);
     let mut out = Signals {
+        log: log.name.to_string(),
         span_s: span,
         speed: vec![Vec::new(); n],
         acceleration: vec![Vec::new(); n],

@@ -86,6 +86,8 @@ pub struct Clock<'a> {
     pub unit_s: Option<f64>,
     /// There is none: so many rows a second.
     pub rate_hz: Option<f64>,
+    /// It is a counter that begins again after so many, in the file's unit.
+    pub wraps: Option<f64>,
     /// Which recording of the file, from 1.
     pub recording: Option<usize>,
     /// Count rows where there is no such column.

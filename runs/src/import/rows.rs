@@ -157,6 +157,11 @@ impl<'a> Rows<'a> {
     /// The time of a counter of 16 or 32 bits that began again, which shows by a step over the end that is as usual.
     fn counted_on(&mut self, t: f64) -> f64 {
         let (last, step, lost) = &mut self.register;
+        if let Some(wraps) = self.clock.wraps {
+            *lost += if t < *last { wraps } else { 0.0 };
+            *last = t;
+            return t + *lost;
+        }
         let again = [16, 32].map(|bits| 2.0_f64.powi(bits)).into_iter().find(|range| {
             let over = t + range - *last;
             t < *last && t >= 0.0 && *last < *range && over > 0.0 && over <= USUAL * *step
@@ -254,6 +259,18 @@ mod tests {
         assert!(of(3).unwrap_err().contains("has no recording 3: its time starts 2 times"));
         let ramps = "t,duty,pos\n0,0,0\n1,0,0\n2,0,0\n";
         assert!(made(&format!("[time]\nrecording = 2\n{COLUMNS}"), ramps).unwrap_err().contains("starts 1 times"));
+    }
+
+    /// Rows of a radio with their packet's number, of 8 bits, some lost.
+    #[test]
+    fn numbers_of_packets_are_a_time() {
+        let of = |time: &str, numbers: &[u32]| {
+            let rows: String = numbers.iter().enumerate().map(|(i, n)| format!("{n},0.2,{i}\n")).collect();
+            made(&format!("[time]\ncolumn = \"packet\"\n{time}{COLUMNS}"), &format!("packet,duty,pos\n{rows}"))
+        };
+        let run = of("per_second = 100\nwraps = 256\n", &[250, 252, 255, 1, 200, 255, 3]).unwrap();
+        assert_eq!(run.t, [0.0, 0.02, 0.05, 0.07, 2.06, 2.61, 2.65]);
+        assert!(of("wraps = 0\n", &[1, 2]).unwrap_err().contains("time.wraps: 0 is no end of a counter"));
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub(super) struct Time {
     unit: Option<String>,
     /// In place of a unit: so many of the column are a second.
     per_second: Option<f64>,
+    /// The column is a counter that begins again after so many of its own unit.
+    wraps: Option<f64>,
     /// Rows a second, of a file without a column of time.
     rate_hz: Option<f64>,
     /// Which recording of a file with several, from 1.
@@ -43,12 +45,18 @@ impl Time {
             column: self.column.as_deref(),
             unit_s: self.unit_s()?,
             rate_hz: self.rate_hz,
+            wraps: self.wraps,
             recording: self.recording,
             rows: false,
         })
     }
 
     fn unit_s(&self) -> Result<Option<f64>, InputError> {
+        if let Some(n) = self.wraps.filter(|n| !(n.is_finite() && *n > 0.0) || self.column.is_none()) {
+            let hint = "such as column = \"packet\" and wraps = 256";
+            return Err(InputError::new(Path::new(""), format!("{n} is no end of a counter in a column"), hint)
+                .field("time.wraps"));
+        }
         if let Some(rate) = self.rate_hz {
             let fail = |what: String, hint: &str| Err(InputError::new(Path::new(""), what, hint).field("time.rate_hz"));
             if !(rate.is_finite() && rate > 0.0) {
