@@ -5,6 +5,7 @@ use gap::{Analysis, Options, Verdict, analyse};
 use links::effect::Link;
 use model::manoeuvre::Manoeuvre;
 use runs::DataSet;
+use runs::frames::Twist;
 use runs::robot::Robot;
 
 /// An effect, how it really is, and a statement of it that is false.
@@ -75,6 +76,35 @@ fn commands_that_slide_past_the_tick_are_late_by_a_part_of_it() {
     assert!(ends[0] == 0.0 && (ends[1] / tick - 1.0).abs() < 0.01, "{ends:?}");
     let again = analysed(&set, a.robot.clone());
     assert_eq!(again.verdict, Verdict::Agrees, "{}", again.terminal_summary());
+}
+
+/// A host that writes six digits, and set points of the motors that a map brought to the wheels: their steps are no decimals.
+#[test]
+fn six_digits_are_no_disagreement() {
+    let six = |x: f64| -> f64 { format!("{x:.5e}").parse().unwrap() };
+    let mut set = set(&Robot::racbot());
+    let geometry = set.robot.geometry().unwrap();
+    let gear = 16.3;
+    for run in &mut set.runs {
+        let command = run.command.as_mut().unwrap();
+        command.iter_mut().flatten().for_each(|x| *x = six(*x + 0.1));
+        for k in 0..run.t.len() {
+            let twist = Twist::new(command[0][k], command[1][k], command[2][k]);
+            for (reference, speed) in run.reference.iter_mut().zip(geometry.wheel_speeds(twist)) {
+                reference[k] = six(speed * gear) / gear;
+            }
+        }
+        run.duty.clear();
+        run.camera.clear();
+    }
+    let a = analysed(&set, set.robot.clone());
+    let command = a.links.iter().find(|l| l.link == Link::Command).unwrap();
+    assert!(command.before < 1.01, "{}", a.terminal_summary());
+    // Four digits are more than that.
+    set.runs.iter_mut().flat_map(|run| run.reference.iter_mut().flatten()).for_each(|r| *r *= 1.001);
+    let a = analysed(&set, set.robot.clone());
+    let command = a.links.iter().find(|l| l.link == Link::Command).unwrap();
+    assert!(command.before > 10.0, "{}", a.terminal_summary());
 }
 
 /// Set points that follow no command, in a log with a gap every tenth of a second: a latency longer than that compares
