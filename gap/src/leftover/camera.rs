@@ -81,7 +81,7 @@ mod tests {
     fn frames_that_no_wheels_lead_to_are_told_from_frames_in_bunches() {
         assert!(said(|_, _| ()).is_none());
         let another = |n: usize, frame: &mut CameraSample| {
-            if n % 8 == 0 {
+            if n.is_multiple_of(8) {
                 frame.pose.x += 0.5;
             }
         };
