@@ -14,9 +14,6 @@ use links::effect::Link;
 
 /// Longest latency looked for, s.
 const LONGEST_S: f64 = 0.3;
-/// Part of a number by which it may be off as it was written: six digits are what `%g` and the streams of C++ write, and a
-/// map's scale hides where they end.
-const DIGITS: f64 = 1e-5;
 
 /// Compares the logged set points with those the geometry makes of the logged commands.
 pub(crate) fn analyse(
@@ -85,10 +82,12 @@ struct Matrix<'a> {
     robot: &'a Robot,
     logs: &'a [&'a Log<'a>],
     rows: Vec<[f64; 3]>,
-    /// What rounding of commands and set points to a fixed step leaves, rad/s; to a number of digits see [`DIGITS`].
+    /// What rounding of commands and set points to a fixed step leaves, rad/s; to a number of digits see `digits`.
     tolerance: f64,
     /// Share of ticks that may differ.
     differs: f64,
+    /// See [`Thresholds::digits`].
+    digits: f64,
 }
 
 impl Matrix<'_> {
@@ -114,7 +113,7 @@ impl Matrix<'_> {
                     let off = |ticks: usize| {
                         let terms = [0, 1, 2].map(|j| self.rows[row][j] * command[j][k - ticks]);
                         let expected = sign * terms.iter().sum::<f64>();
-                        let digits = DIGITS * terms.iter().map(|x| x.abs()).sum::<f64>();
+                        let digits = self.digits * terms.iter().map(|x| x.abs()).sum::<f64>();
                         ((run.reference[i][k] - expected).abs() - self.tolerance - digits).max(0.0)
                     };
                     let mut e = off(late.ticks);
@@ -156,7 +155,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds:
     let rows: Vec<[f64; 3]> = (0..n).map(|i| [0, 1, 2].map(|j| geometry.inverse()[(i, j)])).collect();
     let steepest = rows.iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let tolerance = 0.51 * quantum_ref + 0.51 * quantum_cmd * steepest + 1e-6;
-    let matrix = Matrix { robot, logs, rows, tolerance, differs };
+    let matrix = Matrix { robot, logs, rows, tolerance, differs, digits: thresholds.digits };
     let tick = logs[0].tick_s().unwrap_or(0.001);
     let filed = robot.effect("command-latency").and_then(|e| e.value("latency_s")).map(|s| Late::of(s, tick));
     let straight = given_order(robot, n);
@@ -164,7 +163,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds:
     let mut link = ExactLink {
         link: Link::Command,
         unit: "rad/s",
-        floor: tolerance + DIGITS * references_rms(logs),
+        floor: tolerance + thresholds.digits * references_rms(logs),
         after: stated.rms.clone(),
         before: stated.rms.clone(),
         wrong_share: stated.wrong_share(),

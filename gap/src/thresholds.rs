@@ -262,6 +262,9 @@ thresholds! {
     /// Share of ticks that may differ by more than rounding: set points, duties. As many set points may follow the
     /// command of the tick before, which arrived within the tick.
     differs: [f64; 2] = [0.01, 0.005],
+    /// Part of a set point by which it may be off as it was written: six digits are what `%g` and the streams of C++ write,
+    /// and a map's scale hides where they end.
+    digits: f64 = 1e-5,
     /// Share of the squared error that a hypothesis must remove: set points, duties.
     removes: [f64; 2] = [0.9, 0.8],
     /// Share of the wrong ticks that it may leave wrong. True gains, found to 0.05 %, left 0.6 of them; with a gear ratio

@@ -134,6 +134,7 @@ const VARIANTS: &[(&str, &str, Change)] = &[
     ("torn", "halved", |t| t.torn = t.torn.map(|s| 0.5 * s)),
     ("limited", "off", |t| t.limited[0] = 0.0),
     ("differs", "doubled", |t| t.differs = t.differs.map(|d| 2.0 * d)),
+    ("digits", "off", |t| t.digits = 0.0),
     ("removes", "off", |t| t.removes = [0.0; 2]),
     ("left_wrong", "off", |t| t.left_wrong = f64::INFINITY),
     ("no_noise", "off", |t| t.no_noise = f64::INFINITY),
