@@ -43,8 +43,12 @@ impl Netlist {
             "read_verilog design.v; {}; write_verilog -noattr netlist.v; write_json netlist.json",
             synthesis::commands(top)
         );
-        let folder = folder::cached(&format!("netlist-{top}"), &[verilog, &script], |folder| {
+        let maps = synthesis::maps();
+        let inputs: Vec<&str> =
+            [verilog, &script].into_iter().chain(maps.iter().map(|(_, text)| text.as_str())).collect();
+        let folder = folder::cached(&format!("netlist-{top}"), &inputs, |folder| {
             folder::write(&folder.join("design.v"), verilog)?;
+            maps.iter().try_for_each(|(name, text)| folder::write(&folder.join(name), text))?;
             folder::must("yosys", &["-q", "-p", &script], folder, top).map(|_| ())
         })?;
         let read = |name: &str| {

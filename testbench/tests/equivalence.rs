@@ -63,6 +63,51 @@ fn a_block_that_is_not_its_text_is_seen() {
     assert!(bad.differences.is_empty() && bad.starts.different > 0, "{bad:?}");
 }
 
+/// What the flow maps by rules of its own: counters of every shape that it looks for, comparisons each way, short sums.
+#[test]
+fn loaded_counters_comparisons_and_short_sums_are_their_text() {
+    let mut ports = vec!["input clock".to_owned(), "input [13:0] word".into(), "input load".into()];
+    let mut body = String::new();
+    // Registers inside, so that their names stay when ports get their buffers.
+    let register = |ports: &mut Vec<String>, name: &str, width: usize| {
+        ports.push(format!("output [{0}:0] {name}_out", width - 1));
+        format!("reg [{0}:0] {name} = 0; assign {name}_out = {name};\n", width - 1)
+    };
+    let mut bits = 0;
+    for width in [7, 11] {
+        for (sign, way) in [('+', "up"), ('-', "down")] {
+            for (what, filled) in [(format!("word[{}:0]", width - 1), "word"), (format!("~{width}'d0"), "ones")] {
+                for (test, side) in [("load", "high"), ("!load", "low")] {
+                    let name = format!("{way}_{filled}_{side}_{width}");
+                    body += &register(&mut ports, &name, width);
+                    body += &format!("always @(posedge clock) {name} <= {test} ? {what} : {name} {sign} 1'd1;\n");
+                    bits += width;
+                }
+            }
+        }
+    }
+    for (at, test) in ["<", "<=", ">", ">="].into_iter().enumerate() {
+        body += &register(&mut ports, &format!("compared_{at}"), 3);
+        body += &format!(
+            "always @(posedge clock) compared_{at} <= {{up_word_low_11 {test} word, word {test} 14'd1234, word[3:0] {test} word[7:4]}};\n"
+        );
+    }
+    body += &register(&mut ports, "short", 3);
+    body += "always @(posedge clock) short <= load ? word[2:0] - word[5:3] : word[2:0] + 1'd1;\n";
+    let text = format!("module rules({});\n{body}endmodule\n", ports.join(", "));
+    let netlist = Netlist::of(&text, "rules").unwrap_or_else(|error| panic!("{error}"));
+    let found = compare(&text, &netlist.json(), "rules").unwrap_or_else(|error| panic!("{error}"));
+    assert!(found.holds() && found.flip_flops == bits + 15, "{found:?}");
+    let wrong = text.replace("word >= 14'd1234", "word > 14'd1234");
+    assert_ne!(wrong, text);
+    let bad = compare(&wrong, &netlist.json(), "rules").unwrap_or_else(|error| panic!("{error}"));
+    assert!(!bad.differences.is_empty(), "{bad:?}");
+    // A counter's bit is one table and its sum; the rest is what compares and adds shortly.
+    let tables: usize = netlist.cells.iter().filter(|(cell, _)| cell.starts_with("LUT")).map(|(_, used)| used).sum();
+    assert!(tables <= bits + 80, "{tables} tables for {bits} bits: {:?}", netlist.cells);
+    assert_eq!(netlist.cells["XORCY"], bits, "a counter that is not on a carry chain");
+}
+
 /// A block memory that is joined, set or filled otherwise than its memory: none of these may be proven.
 #[test]
 fn a_memory_that_is_mapped_wrongly_is_seen() {

@@ -1,23 +1,52 @@
 //! Runs yosys: Verilog to a netlist of this family's cells.
 
+mod counters;
+
 use super::{FlowError, Progress, Stage};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What abc does with the logic between flip-flops. First it is rebuilt to be shallow (`if -g`), then mapped again and again,
-/// which wins back the tables that this took: one round left 7 ends in 10 of those that were too slow, five half.
-const MAPPING: &str = "+strash;&get,-n;&fraig,-x;&put;scorr;dc2;strash;if,-g,-K,6;\
-    strash;dch,-f;if;mfs2;strash;dch,-f;if;mfs2;strash;dch,-f;if;mfs2;\
-    strash;dch,-f;if;mfs2;strash;dch,-f;if;mfs2;lutpack,-S,1";
+/// What abc does with the logic between flip-flops, once, again and again, and at the end. `if` maps for the fewest levels, then
+/// for area; `mfs2` wins back tables and their inputs. Rebuilding for depth before (`if -g`) left some fifty tables more, and the
+/// logic behind the longest comparisons, whose carries abc does not know to be late, no shallower.
+const BEFORE: &str = "+strash;&get,-n;&fraig,-x;&put;scorr;dc2;strash;";
+const ROUND: &str = "strash;dch,-f;if;mfs2;";
+const ROUNDS: usize = 8;
+const BEHIND: &str = "lutpack,-S,1;lutpack,-S,3,-z;mfs2,-a,-e;lutpack";
+
+/// Most bits of a comparison and of a sum that are left to tables. A comparison in tables takes a table a bit less one, but runs
+/// through all of them.
+const COMPARED_IN_TABLES: u32 = 5;
+const ADDED_IN_TABLES: u32 = 3;
+
+/// What [`commands`] reads beside the design: names and texts of files in the folder where yosys runs.
+#[must_use]
+pub fn maps() -> [(&'static str, String); 4] {
+    [
+        ("compare.v", include_str!("synthesis/compare.v").to_owned()),
+        ("sums.v", include_str!("synthesis/sums.v").to_owned()),
+        ("counters.il", counters::shapes()),
+        ("counters.v", counters::map()),
+    ]
+}
 
 /// What yosys does between reading a design and writing its netlist. Cells are mapped with carry chains, block
 /// memories, buffers of pads and of clocks; without multiplexers of tables, which take more tables here than
-/// multiplexers made of tables do. The step `map_luts` is that of `synth_xilinx`, but for what abc is told.
+/// multiplexers made of tables do. The steps `coarse` and `map_luts` are those of `synth_xilinx`, but for comparisons, loaded
+/// counters and short sums in the first, and for what abc is told in the second. Where a multiplexer has nothing on one side
+/// (`-mux_undef`), it goes before counters are looked for, which stand behind it.
 #[must_use]
 pub fn commands(top: &str) -> String {
     let synth = format!("synth_xilinx -family xcv -top {top} -flatten -nowidelut");
+    let compared = format!("techmap -map compare.v -D TABLES={COMPARED_IN_TABLES}");
+    let counted = format!("opt -mux_undef; extract -map counters.il {top}; techmap -map counters.v {top}");
+    // Written and read again, cells come to abc in another order: in the one case compared that left 20 tables fewer.
+    let ordered = "write_rtlil cells.il; design -reset; read_rtlil cells.il";
+    let mapping = [BEFORE, &ROUND.repeat(ROUNDS), BEHIND].concat();
+    let added = format!("techmap -map sums.v -D TABLES={ADDED_IN_TABLES}");
     format!(
-        "{synth} -run begin:map_luts; opt_expr -mux_undef -noclkinv; abc -lut 4 -script {MAPPING}; clean; \
+        "{synth} -run begin:coarse; {compared}; {counted}; alumacc; share; opt; memory -nomap; opt_clean; {added}; \
+         {synth} -run map_memory:map_luts; opt_expr -mux_undef -noclkinv; {ordered}; abc -lut 4 -script {mapping}; clean; \
          techmap -map +/xilinx/ff_map.v; techmap -map +/xilinx/lut_map.v -map +/xilinx/cells_map.v -D LUT_WIDTH=4; \
          xilinx_dffopt -lut4; opt_lut_ins -tech xilinx; {synth} -run finalize:check"
     )
@@ -38,8 +67,9 @@ pub fn synthesise(verilog: &str, top: &str, folder: &Path, progress: &mut Progre
     let file = |name: &str| folder.join(name);
     let failed = |what: String| FlowError::Synthesis { what };
     std::fs::create_dir_all(folder).map_err(|error| failed(format!("{}: {error}", folder.display())))?;
-    std::fs::write(file("design.v"), verilog)
-        .map_err(|error| failed(format!("{}: {error}", file("design.v").display())))?;
+    for (name, text) in maps().iter().map(|(name, text)| (*name, text.as_str())).chain([("design.v", verilog)]) {
+        std::fs::write(file(name), text).map_err(|error| failed(format!("{}: {error}", file(name).display())))?;
+    }
     let run = Command::new("yosys")
         .args(["-q", "-p", &script(top)])
         .current_dir(folder)

@@ -12,8 +12,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Moves a temperature for every movable part. On one gateware 100 made the wires 5 to 7 % shorter than 30, and 300 another
-/// 3 to 4 %; 70 take about as long as the router.
-const MOVES: usize = 70;
+/// 3 to 4 %; 160 take about twice as long as the router.
+const MOVES: usize = 160;
 /// The first temperature is this times twice the mean change of a move. From twice alone the first moves were taken
 /// only where they gain, which froze most of the first placement: wires were 10 to 15 % longer.
 const HOT: i64 = 10;
