@@ -112,7 +112,7 @@ impl SimulatedRobot {
         Ok(())
     }
 
-    /// Sizes and limits of this robot's model.
+    /// The robot as believed and as it is, its hull, its fastest kicks.
     #[must_use]
     pub fn kind(&self) -> &Kind {
         &self.kind

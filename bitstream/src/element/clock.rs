@@ -7,7 +7,7 @@ use crate::device::{Device, TileId};
 /// A global clock pad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClockPad {
-    /// Standard of its input, or off.
+    /// What turns the voltage at its pad into a bit.
     pub input: InputBuffer,
 }
 

@@ -98,7 +98,7 @@ impl Driver {
 /// An input/output block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Io {
-    /// Standard of the input, or off.
+    /// What turns the voltage at its pad into a bit.
     pub input: InputBuffer,
     /// The input goes through a delay before I.
     pub delay_i: bool,

@@ -86,7 +86,7 @@ pub struct Design<'a> {
     pub nets: &'a Nets,
     /// Its timing graph.
     pub graph: &'a Graph,
-    /// Periods of the clocks, and what pads may take.
+    /// Places of the pads, periods of the clocks, and when pads are due.
     pub constraints: &'a Constraints,
 }
 

@@ -207,12 +207,11 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
 
 /// Whether any effect of a link has a limit from which it would be named.
 pub(super) fn has_limits(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>]) -> bool {
-    let known = |e: &Arc<dyn Effect>| limits.iter().any(|l| l.name == e.name() && l.material > 0.0);
-    catalogue.iter().any(|e| e.link() == link && known(e))
+    !least_limits(link, limits, catalogue).is_empty()
 }
 
-/// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
-pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>], most: f64) -> Option<(Link, String)> {
+/// The least limit of every effect of a link that has one, in sizes that matter, from the least on.
+fn least_limits<'a>(link: Link, limits: &'a [Limit], catalogue: &[Arc<dyn Effect>]) -> Vec<(f64, &'a Limit)> {
     let own = catalogue.iter().filter(|e| e.link() == link);
     let least = own.filter_map(|e| {
         let own = limits.iter().filter(|l| l.name == e.name() && l.material > 0.0);
@@ -220,6 +219,12 @@ pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>],
     });
     let mut least: Vec<(f64, &Limit)> = least.collect();
     least.sort_by(|a, b| a.0.total_cmp(&b.0));
+    least
+}
+
+/// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
+pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>], most: f64) -> Option<(Link, String)> {
+    let least = least_limits(link, limits, catalogue);
     let named = match least.get(least.len() / 2) {
         Some((ratio, _)) if *ratio > most => {
             format!("most effects would be named there from {ratio:.0} times what matters, or more")

@@ -39,7 +39,7 @@ pub trait PoseModel {
     }
 }
 
-/// Limits of the search, and what is free in it.
+/// Windows, noise and steps of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitOptions {
     /// Length of a window, s.

@@ -23,7 +23,7 @@ pub(crate) struct Options {
     #[arg(value_name = "DATASET", required_if_eq("procedure", "estimate"))]
     data_set: Option<PathBuf>,
 
-    /// What the sizes of the robot are fitted to
+    /// Procedure by which the skews are found
     #[arg(long, value_enum, default_value_t)]
     procedure: Procedure,
 
