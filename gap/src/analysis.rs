@@ -6,6 +6,7 @@ mod counts;
 mod cut;
 mod driven;
 mod driving;
+mod filtered;
 mod findings;
 mod found;
 mod gaps;

@@ -51,7 +51,9 @@ impl Intervals {
         let df = self.clusters.saturating_sub(active.form.free.len());
         let steps: Vec<f64> = self.left_out.iter().map(|s| s[column]).collect();
         let runs = if active.effect.nuisance() { &[][..] } else { &steps[..] };
-        half_width(self.scatter[column], self.missed[column] + self.usual(p).powi(2), df, runs, self.runs_differ)
+        let half =
+            half_width(self.scatter[column], self.missed[column] + self.usual(p).powi(2), df, runs, self.runs_differ);
+        half.hypot(p.open)
     }
 
     /// Of friction and motors every robot has a little beyond its file, of which a name does not speak.

@@ -274,9 +274,6 @@ thresholds! {
     rate: f64 = 0.05,
 
     // Logs that say nothing of a drive.
-    /// Time constant up to which a firmware filters the speeds that it logs, s: 10 to 50 ms are usual, and a mean of
-    /// 100 ms is the longest that a motor controller for robots has by itself. Reasoned, from their manuals.
-    filter_s: f64 = 0.11,
     /// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
     no_noise: f64 = 0.15,
     /// Share of what a duty varies that its wheel's motion accounts for, from which it is this drive's, however much

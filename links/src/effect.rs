@@ -70,12 +70,14 @@ pub struct Parameter {
     pub below: Option<f64>,
     /// Whether the lower bound is where it can no longer be told from what is there anyway.
     pub blurred: bool,
+    /// By how much the log leaves it open at most, the same in every run.
+    pub open: f64,
 }
 
 impl Parameter {
     /// A parameter that is 0 in the nominal model.
     pub fn new(name: impl Into<String>, scale: f64, bounds: [f64; 2], material: f64) -> Self {
-        Self { name: name.into(), scale, bounds, material, start: None, below: None, blurred: false }
+        Self { name: name.into(), scale, bounds, material, start: None, below: None, blurred: false, open: 0.0 }
     }
 
     /// A parameter that is material if it falls below `limit`.
@@ -98,6 +100,13 @@ impl Parameter {
             Some(limit) => value < limit,
             None => self.material.is_finite() && value.abs() >= self.material,
         }
+    }
+
+    /// A parameter that the log leaves open by as much either way.
+    #[must_use]
+    pub fn open_by(mut self, open: f64) -> Self {
+        self.open = open;
+        self
     }
 
     /// A parameter tried from `start`, its effect absent without it.

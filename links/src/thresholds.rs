@@ -35,6 +35,10 @@ pub const SLIDES: f64 = 0.9;
 /// Slip of a rolling wheel, in the same units: creep and noise stay below. 1.5 rad/s on the simulator.
 pub const ROLLING: f64 = 3.75;
 
+/// Time constant up to which a firmware filters the speeds that it logs, s: 10 to 50 ms are usual, and a mean of
+/// 100 ms is the longest that a motor controller for robots has by itself. Reasoned, from their manuals.
+pub const FILTER_S: f64 = 0.11;
+
 /// Control periods between two rows of a log from which the duty is not taken as held in between.
 pub const ROWS_APART: f64 = 1.5;
 

@@ -3,16 +3,14 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use runs::CountSource;
 use runs::robot::Support;
 
-use super::found::Named;
 use super::gaps;
 use super::measure::{Data, Drive};
 use super::misses::Misses;
 use super::study::{self, Outcome, chosen, study};
 use super::workflow::Workflow;
-use super::{patterns, ratios};
+use super::{filtered, patterns, ratios};
 use crate::options::Stage;
 use crate::problem::Problem;
 use crate::select::Selection;
@@ -139,11 +137,14 @@ impl<'a> Workflow<'a> {
         }
         let scatters =
             format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
-        let own = links::drive::accounted(link, &self.start.drive(None))
-            .into_iter()
-            .all(|share| share > self.thresholds.foreign);
+        let counted = !runs::is_from_speeds(&self.question.robot) && worst <= links::drive::of_a_count(link);
+        let own = counted
+            || links::drive::accounted(link, &self.start.drive(None))
+                .into_iter()
+                .all(|share| share > self.thresholds.foreign);
         if own {
-            self.findings.remarks.push(format!("What the motors do {scatters}: smaller effects do not show."));
+            let by = if counted { ", no more than single counts of the encoder make" } else { "" };
+            self.findings.remarks.push(format!("What the motors do {scatters}{by}: smaller effects do not show."));
         } else {
             let driven = if self.question.currents { "currents" } else { "duties" };
             let structure =
@@ -152,35 +153,16 @@ impl<'a> Workflow<'a> {
         }
     }
 
-    /// Says of an inertia or a delay that was found from logged speeds what else it may be: a filter in the firmware makes
-    /// them late as both would.
+    /// Says of a delay or an inertia that was found from logged speeds what a filter in the firmware has to do with it.
     fn filtered(&mut self, outcome: &mut Outcome) {
-        let speeds = self.data.logs.iter().any(|log| log.layout().source.counts == CountSource::Speeds);
-        let m = &self.question.robot.motor;
-        // What a rotor's inertia makes of a motor's time constant.
-        let of_rotor = m.rotor_inertia * m.resistance_ohm / (m.torque_constant * m.back_emf());
-        let late = |n: &Named| {
-            let value = n.parameters.first().map_or(0.0, |(_, value, _)| *value);
-            match n.name.as_str() {
-                "rotor-inertia" => value * of_rotor,
-                "actuation-latency" => value,
-                _ => 0.0,
-            }
-        };
-        let found: Vec<(&str, f64)> = outcome.named.iter().map(|n| (n.name.as_str(), late(n))).collect();
-        let found: Vec<(&str, f64)> = found.into_iter().filter(|(_, late_s)| *late_s > 0.0).collect();
-        let filter_s: f64 = found.iter().map(|(_, late_s)| late_s).sum();
-        if !speeds || filter_s <= 0.0 || filter_s > self.thresholds.filter_s {
+        if !runs::is_from_speeds(&self.question.robot) {
             return;
         }
-        let names: Vec<&str> = found.iter().map(|(name, _)| *name).collect();
-        self.findings.remarks.push(format!(
-            "Found from speeds that the log has in place of counts: {}. Where the firmware filters them by {:.0} ms, that is \
-             what it looks like. Log counts, or speeds without the filter, to tell.",
-            names.join(" and "),
-            1e3 * filter_s
-        ));
-        outcome.ambiguous = true;
+        let alone = self.question.robot.support == Support::Blocks && !self.question.currents;
+        let exchanged = if alone { filtered::exchanged(&outcome.named, &self.start.drive(None)) } else { None };
+        let said: Vec<String> = filtered::of_delay(&outcome.named).into_iter().chain(exchanged).collect();
+        outcome.ambiguous |= !said.is_empty();
+        self.findings.remarks.extend(said);
     }
 
     /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties. Nor is

@@ -143,7 +143,7 @@ fn every_effect_simulated_in_is_found() {
 
 /// The simulator has no camera with a clock of its own, and no rollers that give way: their logs are changed. Odometry in
 /// place of wheels stands in `odometry`.
-const NOT_SIMULATED: [&str; 4] = ["camera-clock", "sideways-creep", "odometry-curl", "odometry-drift"];
+const NOT_SIMULATED: [&str; 5] = ["camera-clock", "sideways-creep", "odometry-curl", "odometry-drift", "speed-filter"];
 
 #[test]
 fn the_table_holds_the_whole_catalogue() {

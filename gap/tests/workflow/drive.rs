@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{RICH, names, simulate, with};
+use super::common::{RICH, names, of_files, simulate, with, with_dry_friction};
 use super::scale::servo;
 use estimation::statistics::rms;
 use gap::problem::Problem;
@@ -198,4 +198,32 @@ fn a_drive_that_scatters_is_not_called_another() {
     let a = gap::analyse(&set, &gap::Options::default()).unwrap();
     assert!(a.remarks.iter().any(|r| r.contains("smaller effects do not show")), "{:?}", a.remarks);
     assert!(!a.unexplained.iter().any(|u| u.structure.contains(FOREIGN)), "{}", a.terminal_summary());
+}
+
+/// One step of the duty of a slow axis behind an encoder of 127 counts a turn, the last of which flickers.
+#[test]
+fn a_coarse_encoder_is_not_called_another_drive() {
+    let text = "encoder_counts_per_wheel_rev = 127\ngear_ratio = 17.4\nsupply_v = 24\nsupport = \"blocks\"\nwheel_radius_m = 1\n\
+                wheel_inertia_kg_m2 = 0.0109\n[motor]\nresistance_ohm = 80\ntorque_constant = 0.139\n\
+                rotor_inertia = 6.4e-6\nfriction_torque = 7.5e-4\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 90\n";
+    for seed in 0..4 {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut run = Run { name: "step".into(), ..Run::default() };
+        let (mut speed, mut angle) = (0.0_f64, 0.0);
+        let (mut duties, mut counts) = (Vec::new(), Vec::new());
+        for row in 0..510_u32 {
+            let duty = if row < 18 { 0.0 } else { 0.456 };
+            run.t.push(0.01 * f64::from(row));
+            duties.push(duty);
+            counts.push((angle * 127.0 / std::f64::consts::TAU + rng.random_range(-0.6..0.6)).floor() as i64);
+            for _ in 0..10 {
+                let torque = 17.4 * 0.139 * (24.0 * duty - 0.139 * 17.4 * speed) / 80.0;
+                speed = with_dry_friction(speed, torque, 17.4 * 7.5e-4, 0.0109 + 17.4 * 17.4 * 6.4e-6, 1e-3);
+                angle += 1e-3 * speed;
+            }
+        }
+        (run.duty, run.counts, run.count_gaps) = (vec![duties], vec![counts], vec![Vec::new()]);
+        let a = of_files(text, [run]);
+        assert!(names(&a).is_empty() && a.verdict != gap::Verdict::Unexplained, "{seed}: {}", a.terminal_summary());
+    }
 }

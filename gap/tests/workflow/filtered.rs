@@ -1,8 +1,9 @@
 //! Speeds that a firmware filters before it logs them.
 
-use gap::{Analysis, Verdict};
+use gap::{Analysis, Interval, Verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 use runs::Run;
 
 use super::common::{names, of_files};
@@ -14,8 +15,23 @@ const GEAR: f64 = 9.68;
 /// At the motor shaft, kg m².
 const ROTOR: f64 = 4e-7;
 
-/// A lifted motor under steps of its duty, its speed filtered by so many seconds.
-fn steps(seed: u64, filter_s: f64) -> Analysis {
+/// What a motor is like beyond its file, and how its speed is logged.
+#[derive(Clone, Copy, Default)]
+struct Logged {
+    /// Time constant of a low-pass, s.
+    filter_s: f64,
+    /// That of another after it, s.
+    again_s: f64,
+    /// Length of a mean, s.
+    mean_s: f64,
+    /// Age of the duty that acts, s.
+    late_s: f64,
+    /// Inertia, relative.
+    heavier: f64,
+}
+
+/// A lifted motor under steps of its duty, with noise of the logged speed in rad/s.
+fn steps(seed: u64, logged: Logged, noise: f64) -> Analysis {
     let text = format!(
         "encoder_counts_per_motor_rev = 2048\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
          wheel_radius_m = 0.03\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {ROTOR}\n\
@@ -24,19 +40,26 @@ fn steps(seed: u64, filter_s: f64) -> Analysis {
     let run = |n| {
         let mut rng = ChaCha8Rng::seed_from_u64(10 * seed + n);
         let mut run = Run { name: format!("{n}"), ..Run::default() };
-        let (mut speed, mut seen, mut duty) = (0.0_f64, 0.0, 0.0);
-        let (mut duties, mut speeds) = (Vec::new(), Vec::new());
-        for row in 0..8000 {
+        let (mut speed, mut seen, mut duty) = (0.0_f64, [0.0; 2], 0.0);
+        let (mut duties, mut speeds, mut past) = (Vec::<f64>::new(), Vec::new(), Vec::new());
+        for row in 0..4000_usize {
             if row % 250 == 0 {
                 duty = rng.random_range(-0.8..0.8);
             }
-            run.t.push(f64::from(row) * 1e-3);
+            run.t.push(row as f64 * 1e-3);
             duties.push(duty);
-            speeds.push(seen + rng.random_range(-0.3..0.3));
+            past.push(seen[1]);
+            let meant = &past[row.saturating_sub((logged.mean_s * 1e3) as usize)..];
+            speeds.push(meant.iter().sum::<f64>() / meant.len() as f64 + noise * rng.random_range(-1.0..1.0));
+            let acts = row.checked_sub((logged.late_s * 1e3) as usize).map_or(0.0, |k| duties[k]);
             for _ in 0..10 {
-                let torque = KT * (VOLT * duty - KT * GEAR * speed) / OHM;
-                speed += 1e-4 * torque / ROTOR / GEAR;
-                seen += if filter_s > 0.0 { 1e-4 * (speed - seen) / filter_s } else { speed - seen };
+                let torque = KT * (VOLT * acts - KT * GEAR * speed) / OHM;
+                speed += 1e-4 * torque / ROTOR / (1.0 + logged.heavier) / GEAR;
+                let mut input = speed;
+                for (out, s) in seen.iter_mut().zip([logged.filter_s, logged.again_s]) {
+                    *out += if s > 0.0 { 1e-4 * (input - *out) / s } else { input - *out };
+                    input = *out;
+                }
             }
         }
         (run.duty, run.speed) = (vec![duties], vec![speeds]);
@@ -45,16 +68,83 @@ fn steps(seed: u64, filter_s: f64) -> Analysis {
     of_files(&text, (0..4).map(run))
 }
 
-/// A filter of 20 ms makes nearly twice the inertia of a motor whose own time constant is 22 ms.
+const PLAIN: Logged = Logged { filter_s: 0.0, again_s: 0.0, mean_s: 0.0, late_s: 0.0, heavier: 0.0 };
+/// Time constant of the motor, s.
+const OWN_S: f64 = ROTOR * OHM / (KT * KT);
+
+/// Whether a parameter's interval holds a value.
+fn holds(a: &Analysis, name: &str, value: f64) -> bool {
+    let effect = a.effects.iter().find(|e| e.name == name);
+    effect.is_some_and(|e| matches!(e.parameters[0].2, Interval::Ci95([low, high]) if low <= value && value <= high))
+}
+
 #[test]
-fn a_filter_on_speeds_is_not_called_inertia_for_sure() {
-    let a = steps(1, 0.02);
-    // Inertia and delay together are as late as the filter; neither is sure.
-    assert_eq!(a.verdict, Verdict::Ambiguous, "{}", a.terminal_summary());
-    let said = |r: &&String| r.starts_with("Found from speeds that the log has in place of counts: rotor-inertia");
-    let said = a.remarks.iter().find(said).unwrap_or_else(|| panic!("{}", a.terminal_summary()));
-    assert!((18..=23).any(|ms| said.contains(&format!("filters them by {ms} ms"))), "{said}");
-    let a = steps(1, 0.0);
+fn a_low_pass_on_speeds_is_named_with_its_time_constant() {
+    let cases = [(0.005, 1.0), (0.01, 0.3), (0.01, 2.0), (0.05, 1.0), (0.1, 0.3)];
+    let faults: Vec<String> = cases
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(k, (filter_s, noise))| {
+            let a = steps(20 + k as u64, Logged { filter_s, ..PLAIN }, noise);
+            let right = names(&a) == ["speed-filter"] && holds(&a, "speed-filter", filter_s);
+            (!right).then(|| format!("{filter_s} {noise}: {:?} {}", a.effects, a.terminal_summary()))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn what_is_no_low_pass_is_not_called_one() {
+    let a = steps(1, PLAIN, 0.3);
     assert_eq!((a.verdict, &names(&a)[..]), (Verdict::Agrees, &[][..]), "{}", a.terminal_summary());
-    assert!(!a.remarks.iter().any(|r| r.contains("firmware filters")), "{:?}", a.remarks);
+    for noise in [0.3, 2.0] {
+        let a = steps(2, Logged { heavier: 0.8, ..PLAIN }, noise);
+        let right = names(&a) == ["rotor-inertia"] && holds(&a, "rotor-inertia", 0.8);
+        let tied = a.alternatives.iter().flatten().any(|name| name == "speed-filter");
+        assert!(right && !tied, "{noise}: {}", a.terminal_summary());
+        assert!(!a.remarks.iter().any(|r| r.contains("filter")), "{:?}", a.remarks);
+        let a = steps(3, Logged { late_s: 0.02, ..PLAIN }, noise);
+        assert!(names(&a) == ["actuation-latency"], "{noise}: {}", a.terminal_summary());
+    }
+    // A mean is as late throughout as a delay.
+    let a = steps(4, Logged { mean_s: 0.04, ..PLAIN }, 1.0);
+    let said = a.remarks.iter().any(|r| (38..=41).any(|ms| r.contains(&format!("a mean of {ms} ms"))));
+    assert!(said && a.verdict == Verdict::Ambiguous, "{}", a.terminal_summary());
+}
+
+#[test]
+fn a_filter_as_slow_as_its_motor_may_be_either() {
+    for (seed, filter_s, heavier) in [(5, 0.02, 0.0), (6, 0.03, 0.0), (7, 0.05, 0.5), (8, 0.012, 0.4)] {
+        let a = steps(seed, Logged { filter_s, heavier, ..PLAIN }, 1.0);
+        let tied = a
+            .alternatives
+            .iter()
+            .any(|set| ["speed-filter", "rotor-inertia"].iter().all(|n| set.contains(&(*n).to_owned())));
+        // Of which of the two that are named, and of the two exchanged, one is the truth.
+        let exchanged = a.remarks.iter().find_map(|r| {
+            let (_, after) = r.split_once("a speed-filter of ")?;
+            let (ms, inertia) = after.split_once(" ms with ")?;
+            Some((ms.parse::<f64>().ok()?, inertia.to_owned()))
+        });
+        let is_true = holds(&a, "speed-filter", filter_s) && (heavier == 0.0 || holds(&a, "rotor-inertia", heavier));
+        let other_is_true = exchanged.is_some_and(|(ms, inertia)| {
+            let turns = inertia
+                .split_once(" of ")
+                .and_then(|(_, r)| r.split_once(" %"))
+                .map_or(0.0, |(p, _)| p.parse::<f64>().unwrap());
+            (1e-3 * ms / filter_s - 1.0).abs() < 0.12 && ((1.0 + 0.01 * turns) / (1.0 + heavier) - 1.0).abs() < 0.12
+        });
+        assert!(OWN_S > 0.02 && a.verdict == Verdict::Ambiguous, "{}", a.terminal_summary());
+        assert!(is_true && (tied || heavier > 0.0) || other_is_true, "{filter_s} {heavier}: {}", a.terminal_summary());
+    }
+}
+
+/// A filter of second order is one of first order and a delay, about.
+#[test]
+fn two_filters_are_a_filter_and_a_delay() {
+    let a = steps(9, Logged { filter_s: 0.01, again_s: 0.01, ..PLAIN }, 1.0);
+    assert_eq!(names(&a), ["speed-filter", "actuation-latency"], "{}", a.terminal_summary());
+    let late: f64 = a.effects.iter().map(|e| e.parameters[0].1).sum();
+    assert!((late - 0.02).abs() < 0.002 && a.verdict == Verdict::Ambiguous, "{late}");
+    assert!(a.remarks.iter().any(|r| r.contains("or filters twice")), "{:?}", a.remarks);
 }

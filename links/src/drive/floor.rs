@@ -179,6 +179,13 @@ pub fn accounted(link: &DriveLink, model: &DriveModel) -> Vec<f64> {
     (0..n).map(of).collect()
 }
 
+/// Torque that one count more or less makes in a test function at most, Nm at the wheel shaft: with sin²(πt/L) over L/2, twice
+/// by parts, a step of an angle weighs 2π/L² where the slope is largest.
+pub fn of_a_count(link: &DriveLink) -> f64 {
+    let heaviest = link.inertia.diagonal().iter().copied().fold(0.0, f64::max);
+    heaviest * link.sizes.count_rad * std::f64::consts::TAU / link.length().powi(2)
+}
+
 fn neighbours(residuals: &DriveResiduals, wheel: usize) -> f64 {
     let mut differences: Vec<f64> = residuals.torque.windows(5).map(|w| (w[4][wheel] - w[0][wheel]).abs()).collect();
     estimation::statistics::median(&mut differences) / (0.6745 * 2.0_f64.sqrt())

@@ -100,6 +100,12 @@ struct Axis {
 }
 
 impl Axis {
+    /// Duty that keeps a speed, rad/s.
+    fn holds(&self, speed: f64, sign: f64, supply: f64) -> f64 {
+        let volts = (self.damping * speed + self.coulomb * sign) / self.gain;
+        if supply > 0.0 { volts / supply } else { 0.0 }
+    }
+
     /// Torque that the gear loses, Nm, by size.
     fn lost(&self, winding: f64, sign: f64, carried: f64) -> f64 {
         self.loss * (self.passed * (winding - self.coulomb * sign) - (1.0 - self.passed) * carried).abs()
@@ -328,6 +334,7 @@ impl DriveModel {
         let g = self.gear_ratio;
         let (mut duty, mut speed, mut sign) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut passed: Vec<Option<LowPass>> = vec![None; n];
         let mut loads = Loads::none(n);
         let start = s.stretch[0];
         let from_wheels: Option<Vec<[f64; 3]>> = self.twist_per_wheel_speed().map(|m| {
@@ -367,6 +374,11 @@ impl DriveModel {
                 };
                 for map in &self.duty_maps {
                     u = map(i, u);
+                }
+                // Of wheels that are read through a low-pass all is late as they are: what drives them, too.
+                if self.reading_filter_s > 0.0 {
+                    let began = || LowPass { at: axes[i].holds(s.speed[i][k], s.sign[i][k], s.supply[k]) };
+                    u = passed[i].get_or_insert_with(began).over_row(u, dt / self.reading_filter_s);
                 }
                 duty[i] = u;
                 sign[i] = over_row(&s.sign[i], k);
@@ -466,6 +478,22 @@ impl DriveModel {
 /// Mean from a tick to the next of a signal that is known at the ticks: a load acts for as long as the duty of its row.
 fn over_row(values: &[f64], k: usize) -> f64 {
     0.5 * (values[k] + values[k + 1])
+}
+
+/// A low-pass of first order.
+#[derive(Debug, Clone, Copy)]
+struct LowPass {
+    at: f64,
+}
+
+impl LowPass {
+    /// Mean of what comes out while `held` goes in for `rows` time constants.
+    fn over_row(&mut self, held: f64, rows: f64) -> f64 {
+        let begins = self.at - held;
+        let kept = (-rows).exp();
+        self.at = held + begins * kept;
+        held + begins * (1.0 - kept) / rows
+    }
 }
 
 /// A held signal `ticks` ago, 0 before its start.

@@ -21,7 +21,7 @@ use crate::values::Values;
 
 pub use crate::segment::smooth_sign;
 pub use columns::Side;
-pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor};
+pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
 pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
 pub(crate) use test_functions::TEST_FUNCTION_S;
@@ -96,6 +96,8 @@ pub struct DriveModel {
     pub axes: Vec<AxisModel>,
     /// Age of the duty that acts, s.
     pub duty_delay_s: f64,
+    /// Time constant of the low-pass between the wheels' angles and those of the log, s.
+    pub reading_filter_s: f64,
     /// What the bridge makes of a duty.
     pub duty_maps: Vec<DutyMap>,
     /// What the load makes of the supply.
@@ -138,6 +140,7 @@ impl DriveModel {
             gear_ratio: robot.gear_ratio,
             axes: vec![axis; n],
             duty_delay_s: 0.0,
+            reading_filter_s: 0.0,
             duty_maps: Vec::new(),
             supply_maps: Vec::new(),
             loads: Vec::new(),
@@ -151,7 +154,8 @@ impl DriveModel {
     /// Whether it is `base` with further effects that change nothing but loads and offsets.
     fn only_loads_more(&self, base: &Self) -> bool {
         let numbers = |m: &Self| {
-            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, m.duty_delay_s)
+            let late_s = [m.duty_delay_s, m.reading_filter_s];
+            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, late_s)
         };
         self.effects.starts_with(&base.effects)
             && numbers(self) == numbers(base)

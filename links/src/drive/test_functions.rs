@@ -40,7 +40,7 @@ pub struct DriveLink<'a> {
     /// The pieces of the runs.
     pub pieces: &'a Pieces<'a>,
     /// Torque per wheel acceleration of the robot that the link was made with: the unit of residuals.
-    inertia: DMatrix<f64>,
+    pub(super) inertia: DMatrix<f64>,
     /// Standard deviation of the unexplained torque of one test function, Nm, one a wheel.
     pub noise: Vec<f64>,
     /// What torques and speeds are large beside.

@@ -28,7 +28,8 @@ impl Effect for ActuationLatency {
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         // A logged speed is of the moment or of the row before, and a noisy log does not tell which.
         let row = if runs::is_from_speeds(robot) { 1.0 / robot.control_rate_hz } else { 0.0 };
-        vec![Form::whole(vec![Parameter::new("latency_s", 0.002, [-0.001, 0.3], row.max(0.004))])]
+        let latency = Parameter::new("latency_s", 0.002, [-0.001, 0.3], row.max(0.004));
+        vec![Form::whole(vec![latency.open_by(0.5 * row)])]
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

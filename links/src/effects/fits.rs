@@ -46,6 +46,10 @@ const ONLY_ON_BLOCKS: [&str; 4] = ["encoder-eccentricity", "gravity-load", "hang
 
 /// Whether a robot can have an effect.
 pub fn fits(name: &str, robot: &Robot) -> bool {
+    // Counts are what they are; what a firmware makes of them is in the speeds that it logs.
+    if name == "speed-filter" && !runs::is_from_speeds(robot) {
+        return false;
+    }
     let elsewhere: &[&str] = if robot.support == Support::Blocks { &NOT_ON_BLOCKS } else { &ONLY_ON_BLOCKS };
     if elsewhere.contains(&name) {
         return false;

@@ -44,6 +44,7 @@ mod roller_friction;
 mod roller_ripple;
 mod rotor_inertia;
 mod sideways_creep;
+mod speed_filter;
 mod stribeck_friction;
 mod torque_constant;
 mod viscous_friction;
@@ -125,6 +126,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(carpet_grain::CarpetGrain),
         Box::new(heading_drag::HeadingDrag),
         Box::new(actuation_latency::ActuationLatency),
+        Box::new(speed_filter::SpeedFilter),
         Box::new(wheel_order::WheelOrder),
     ];
     named.into_iter().chain(probes::all()).collect()
@@ -159,7 +161,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 38] = [
+    const NAMES: [(&str, &[&str]); 39] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -182,6 +184,7 @@ mod tests {
         ("imu-mount", &["x_rad", "y_rad", "z_rad", "x_m", "y_m"]),
         ("camera-latency", &["latency_s"]),
         ("actuation-latency", &["latency_s"]),
+        ("speed-filter", &["time_s"]),
         ("marker-heading", &["angle_rad"]),
         ("marker-offset", &["x_m", "y_m"]),
         ("centre-of-mass", &["x_m", "y_m"]),

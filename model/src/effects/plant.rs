@@ -69,6 +69,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
         "actuation-latency" => d.duty_delay_s = value("latency_s"),
         "battery-sag" => d.battery = [value("drop_v"), value("resistance_ohm")],
         "motor-heating" => d.heating = [value("rise"), effect.value("time_s").unwrap_or(30.0)],
+        "speed-filter" => d.encoder_filter_s = value("time_s"),
         "encoder-lag" => d.encoder_delay_s = value("latency_s"),
         _ => return false,
     }

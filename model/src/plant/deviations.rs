@@ -41,6 +41,8 @@ pub struct Deviations {
     pub loss_threshold: f64,
     /// Age of the counts that are read, s.
     pub encoder_delay_s: f64,
+    /// Time constant of a low-pass on what the encoders read, s.
+    pub encoder_filter_s: f64,
 }
 
 /// What one wheel does beyond its nominal model.
@@ -127,6 +129,7 @@ impl Deviations {
             heating: self.heating,
             loss_threshold: self.loss_threshold,
             encoder_delay_s: self.encoder_delay_s,
+            encoder_filter_s: self.encoder_filter_s,
             ..Self::default()
         };
         *self == electrical

@@ -13,6 +13,8 @@ pub(super) struct Encoder {
     counted: f64,
     /// Where the motor is in the play, rad at the motor shaft, and how fast it crosses it, rad/s.
     play: [f64; 2],
+    /// What came through the low-pass, rad at the wheel.
+    passed: f64,
     /// What was counted at the last ticks, newest last.
     past: VecDeque<f64>,
 }
@@ -37,7 +39,11 @@ impl Plant {
         e.counted += moved * kept * (1.0 + w.encoder);
         let (sin, cos) = (w.eccentric_order * wheel.angle).sin_cos();
         // Counts begin at 0 wherever the shaft stands.
-        let read = e.counted + w.eccentric_rad[0] * sin + w.eccentric_rad[1] * (cos - 1.0);
+        let mut read = e.counted + w.eccentric_rad[0] * sin + w.eccentric_rad[1] * (cos - 1.0);
+        if d.encoder_filter_s > 0.0 {
+            e.passed += (read - e.passed) * -(-dt / d.encoder_filter_s).exp_m1();
+            read = e.passed;
+        }
         let ticks = d.encoder_delay_s / dt;
         if ticks <= 0.0 {
             return read;

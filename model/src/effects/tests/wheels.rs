@@ -40,6 +40,9 @@ fn encoders() {
     let true_counts = |ticks| counted("wheel-skew", &[], ticks);
     close(counted("encoder-scale", &[("scale_2", 0.25)], 800), true_counts(800) * 1.25, 1e-9);
     close(counted("encoder-lag", &[("latency_s", 0.0205)], 800), 0.5 * (true_counts(780) + true_counts(779)), 1e-9);
+    // Late by its time constant, of what turns steadily.
+    let steady = true_counts(1500) - true_counts(1499);
+    close(counted("speed-filter", &[("time_s", 0.02)], 1500), true_counts(1500) - 20.0 * steady, 2e-3);
     close(counted("encoder-loss", &[("loss_2", 0.1), ("threshold_rad_s", 0.0)], 800), 0.9 * true_counts(800), 1e-3);
     close(counted("encoder-loss", &[("loss_2", 0.1), ("threshold_rad_s", 500.0)], 800), true_counts(800), 1e-9);
     // Only what turns faster than the threshold is lost.

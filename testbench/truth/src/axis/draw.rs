@@ -69,6 +69,7 @@ fn logger(axis: &Axis, speeds: bool, rng: &mut ChaCha8Rng) -> Logger {
         stamp_s: Some(1e-3).filter(|_| row_s >= 0.005 && rng.random_bool(0.3)),
         lost: one_of(rng, &[0.0, 0.0, 0.0, 0.01]),
         mean_rows: speeds.then_some(1),
+        filter_s: 0.0,
         duty_steps: Some(one_of(rng, &[255.0, 1000.0, 0.0])).filter(|steps| *steps > 0.0),
         supply: rng.random_bool(0.4),
     }

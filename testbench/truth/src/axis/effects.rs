@@ -38,7 +38,7 @@ fn signed(value: f64, rng: &mut ChaCha8Rng) -> f64 {
     if rng.random_bool(0.5) { value } else { -value }
 }
 
-const CATALOGUE: [Entry; 14] = [
+const CATALOGUE: [Entry; 15] = [
     entry("coulomb-friction", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, _| {
         let torque = value * axis.stall();
         axis.dry.iter_mut().for_each(|dry| *dry += torque);
@@ -127,6 +127,14 @@ const CATALOGUE: [Entry; 14] = [
         ..entry("hanging-load", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, rng| {
             axis.hanging = signed(value * axis.stall(), rng);
             vec![("torque_1_nm", axis.hanging)]
+        })
+    },
+    Entry {
+        counts: false,
+        ..entry("speed-filter", [0.05, 0.1, 0.15, 0.25, 0.4], |axis, logger, value, _| {
+            let time = value * axis.time_constant().min(0.25);
+            logger.filter_s = time;
+            vec![("time_s", time)]
         })
     },
 ];

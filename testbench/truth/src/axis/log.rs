@@ -35,20 +35,27 @@ pub(super) fn csv(recording: &Recording, logger: &Logger, axes: usize, seed: u64
         }
     }
     text += if logger.supply { ",supply_v\n" } else { "\n" };
+    let mut filtered = vec![0.0; axes];
     for k in 0..recording.t.len() {
+        // A firmware filters at every row, whether it arrives or not.
+        if let Some(rows) = logger.mean_rows {
+            let before = k.saturating_sub(rows);
+            let passed = (recording.t[k] - recording.t[before]).max(0.2 * logger.row_s);
+            let kept = if logger.filter_s > 0.0 { (-logger.row_s / logger.filter_s).exp() } else { 0.0 };
+            for (out, counts) in filtered.iter_mut().zip(&counted) {
+                let speed = (counts[k] - counts[before]) / per_rad / passed;
+                *out = speed + kept * (*out - speed);
+            }
+        }
         if rng.random_bool(logger.lost) {
             continue;
         }
         let stamp = logger.stamp_s.map_or(recording.t[k], |step| (recording.t[k] / step).round() * step);
         let _ = write!(text, "{stamp:.6}");
-        for counts in &counted {
+        for (counts, speed) in counted.iter().zip(&filtered) {
             let _ = match logger.mean_rows {
                 None => write!(text, ",{}", counts[k]),
-                Some(rows) => {
-                    let before = k.saturating_sub(rows);
-                    let passed = (recording.t[k] - recording.t[before]).max(0.2 * logger.row_s);
-                    write!(text, ",{:.5}", (counts[k] - counts[before]) / per_rad / passed)
-                }
+                Some(_) => write!(text, ",{speed:.5}"),
             };
         }
         for _ in 0..axes {

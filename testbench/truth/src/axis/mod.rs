@@ -97,6 +97,8 @@ pub(crate) struct Logger {
     pub(crate) lost: f64,
     /// Mean speeds of so many rows in place of counts.
     pub(crate) mean_rows: Option<usize>,
+    /// Time constant of the firmware's low-pass on those, s.
+    pub(crate) filter_s: f64,
     /// Steps of the duty from 0 to 1, where it has any.
     pub(crate) duty_steps: Option<f64>,
     /// Whether `supply_v` is logged.

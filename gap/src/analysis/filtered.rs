@@ -1,0 +1,54 @@
+//! What a firmware's filter on logged speeds may be, beside what is named.
+
+use super::found::Named;
+use links::drive::DriveModel;
+use links::thresholds::FILTER_S;
+
+const FILTER: &str = "speed-filter";
+const INERTIA: &str = "rotor-inertia";
+const LATENCY: &str = "actuation-latency";
+
+fn parameter(named: &[Named], name: &str) -> Option<(f64, Option<[f64; 2]>)> {
+    let found = named.iter().find(|n| n.name == name)?;
+    found.parameters.first().map(|(_, value, interval)| (*value, interval.ends()))
+}
+
+/// A delay that was found from speeds: a filter of higher order, or a mean, makes them late without the shape of a low-pass
+/// of first order. In a sentence.
+pub(super) fn of_delay(named: &[Named]) -> Option<String> {
+    let (late_s, _) = parameter(named, LATENCY)?;
+    let (names, all_s) = match parameter(named, FILTER) {
+        Some((filter_s, _)) => (format!("{FILTER} and {LATENCY}"), late_s + filter_s),
+        None => (LATENCY.to_owned(), late_s),
+    };
+    (late_s > 0.0 && all_s <= FILTER_S).then(|| {
+        format!(
+            "Found from speeds that the log has in place of counts: {names}. Where the firmware takes a mean of {:.0} ms, or \
+             filters twice, that is what it looks like. Log counts, or speeds without the filter, to tell.",
+            2e3 * all_s
+        )
+    })
+}
+
+/// A motor is a low-pass of its duty as a filter is one of its speed, and what comes out of both does not tell which is
+/// which: inertia and filter with their time constants exchanged, in a sentence.
+pub(super) fn exchanged(named: &[Named], model: &DriveModel) -> Option<String> {
+    let (filter_s, within) = parameter(named, FILTER)?;
+    let (heavier, _) = parameter(named, INERTIA)?;
+    let (rotor, axis) = (model.gear_ratio.powi(2) * model.axes[0].rotor_inertia, &model.axes[0]);
+    let braking = axis.braking(model.gear_ratio);
+    let file_s = model.felt_inertia() / braking;
+    let motor_s = file_s + heavier * rotor / braking;
+    let holds_file = within.is_some_and(|[low, high]| (low..=high).contains(&file_s));
+    let inertia = match (filter_s - file_s) * braking / rotor {
+        _ if holds_file => "the inertia of the file".to_owned(),
+        scale => format!("{INERTIA} of {:+.0} %", 100.0 * scale),
+    };
+    (motor_s.is_finite() && motor_s <= FILTER_S).then(|| {
+        format!(
+            "A filter and an inertia may change places: a {FILTER} of {:.1} ms with {inertia} does the same as what is named. \
+             Log counts, or speeds without the filter, to tell.",
+            1e3 * motor_s
+        )
+    })
+}
