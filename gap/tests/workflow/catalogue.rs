@@ -142,7 +142,7 @@ fn every_effect_simulated_in_is_found() {
 }
 
 /// The simulator has no camera with a clock of its own, and no rollers that give way: their logs are changed. Odometry in
-/// place of wheels stands in `odometry`.
+/// place of wheels stands in `odometry`, a filter on logged speeds in `filtered`.
 const NOT_SIMULATED: [&str; 5] = ["camera-clock", "sideways-creep", "odometry-curl", "odometry-drift", "speed-filter"];
 
 #[test]
