@@ -160,7 +160,14 @@ impl<'a> Workflow<'a> {
         }
         let alone = self.question.robot.support == Support::Blocks && !self.question.currents;
         let exchanged = if alone { filtered::exchanged(&outcome.named, &self.start.drive(None)) } else { None };
-        let said: Vec<String> = filtered::of_delay(&outcome.named).into_iter().chain(exchanged).collect();
+        let delay = filtered::of_delay(&outcome.named);
+        if delay.is_some() {
+            let set = filtered::DELAYS.map(str::to_owned).to_vec();
+            if !outcome.sets.contains(&set) && !outcome.named.iter().any(|n| n.name == set[1]) {
+                outcome.sets.push(set);
+            }
+        }
+        let said: Vec<String> = delay.into_iter().chain(exchanged).collect();
         outcome.ambiguous |= !said.is_empty();
         self.findings.remarks.extend(said);
     }

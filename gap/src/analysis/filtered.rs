@@ -7,6 +7,8 @@ use links::thresholds::FILTER_S;
 const FILTER: &str = "speed-filter";
 const INERTIA: &str = "rotor-inertia";
 const LATENCY: &str = "actuation-latency";
+/// A delay, and what looks like one.
+pub(super) const DELAYS: [&str; 2] = [LATENCY, FILTER];
 
 fn parameter(named: &[Named], name: &str) -> Option<(f64, Option<[f64; 2]>)> {
     let found = named.iter().find(|n| n.name == name)?;

@@ -16,7 +16,7 @@ impl Effect for SpeedFilter {
     }
 
     fn equation(&self) -> &str {
-        "logged speed w_log of a speed w: time_s dw_log/dt = w - w_log"
+        "logged speed w_log follows a speed w by time_s dw_log/dt = w - w_log"
     }
 
     fn reference(&self) -> &str {

@@ -102,10 +102,10 @@ const CATALOGUE: [Entry; 15] = [
             vec![("sin_1_rad", value * cos), ("cos_1_rad", value * sin)]
         })
     },
-    // Speeds that a firmware takes over several rows are late by half of them.
+    // A firmware that takes speeds over several rows smooths them.
     Entry {
         counts: false,
-        looks_like: Some("actuation-latency"),
+        looks_like: Some("speed-filter"),
         ..entry("mean-speeds", [0.05, 0.1, 0.15, 0.25, 0.4], |axis, logger, value, _| {
             let rows = 2.0 * value * axis.time_constant().min(0.3) / logger.row_s;
             logger.mean_rows = Some(1 + (rows.round() as usize).max(1));
