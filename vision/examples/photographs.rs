@@ -23,7 +23,7 @@ const FOUND: f64 = 0.5;
 /// The second operating point of the tables.
 const STRICT: f64 = 0.5;
 /// Scores at which the whole is given.
-const SCORES: [f64; 7] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
+const SCORES: [f64; 7] = [0.1, 0.2, 0.3, DEFAULT_SCORE, 0.4, STRICT, 0.7];
 
 /// Balls that count, those found, and what was found besides.
 #[derive(Default)]
