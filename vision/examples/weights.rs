@@ -14,12 +14,14 @@ mod nets;
 
 use rayon::prelude::*;
 use std::path::Path;
-use vision::ball::features::{COUNT, NAMES};
+use vision::ball::features::{COUNT, Features, NAMES};
 use vision::ball::{Candidate, candidates};
-use vision::render::{Label, sample};
+use vision::render::{Label, samples};
 
 /// Side of the pictures, pixels.
 const SIDE: usize = 224;
+/// Cameras that take each: what they make of colours and edges differs more than what they see.
+const CAMERAS: usize = 2;
 /// Weights per feature; knots are quantiles of all candidates.
 const KNOTS: usize = 9;
 /// Overlap from which on a candidate is a ball, and below which it is none; between, nothing is learnt.
@@ -55,8 +57,8 @@ fn main() {
     let mut cases: Vec<Case> = seeds
         .into_par_iter()
         .flat_map_iter(|seed| {
-            let rendered = sample(seed, SIDE, SIDE).rendered;
-            cases(&candidates(&rendered.picture), &rendered.balls)
+            let pictures = samples(seed, SIDE, SIDE, CAMERAS).into_iter().map(|sample| sample.rendered);
+            pictures.flat_map(|rendered| cases(&candidates(&rendered.picture), &rendered.balls)).collect::<Vec<_>>()
         })
         .collect();
     for folder in std::env::args().skip(1 + arguments.len()) {
@@ -147,11 +149,16 @@ fn place(value: f32, knots: &[f32; KNOTS]) -> (usize, f32) {
     (above, share.clamp(0.0, 1.0))
 }
 
+/// Sets of weights: of large candidates and of small ones.
+const SETS: usize = 2;
+/// Numbers of a set.
+const SET: usize = COUNT * KNOTS;
+
 fn train(cases: &[Case]) {
     let knots: [[f32; KNOTS]; COUNT] = std::array::from_fn(|feature| quantiles(cases, feature));
     let places: Vec<[(usize, f32); COUNT]> =
         cases.iter().map(|case| std::array::from_fn(|i| place(case.features[i], &knots[i]))).collect();
-    let size = COUNT * KNOTS + 1;
+    let size = SETS * SET + 1;
     let (mut weights, mut mean, mut square) = (vec![0.0_f32; size], vec![0.0_f32; size], vec![0.0_f32; size]);
     let mut loss = 0.0;
     for round in 1..=ROUNDS {
@@ -161,16 +168,25 @@ fn train(cases: &[Case]) {
             .fold(
                 || (vec![0.0_f32; size], 0.0_f64),
                 |(mut sums, mut total), (case, places)| {
+                    let small = Features(case.features).smallness();
+                    let parts = [(0, 1.0 - small), (SET, small)];
                     let mut odds = weights[size - 1];
-                    for (i, &(above, share)) in places.iter().enumerate() {
-                        odds += weights[i * KNOTS + above - 1] * (1.0 - share) + weights[i * KNOTS + above] * share;
+                    for (set, part) in parts.iter().filter(|(_, part)| *part > 0.0) {
+                        let terms = places.iter().enumerate().map(|(i, &(above, share))| {
+                            let at = set + i * KNOTS + above;
+                            weights[at - 1] * (1.0 - share) + weights[at] * share
+                        });
+                        odds += part * terms.sum::<f32>();
                     }
                     let truth = f32::from(u8::from(case.ball));
                     let error = 1.0 / (1.0 + (-odds).exp()) - truth;
                     total += f64::from((1.0 + (if case.ball { -odds } else { odds }).exp()).ln());
-                    for (i, &(above, share)) in places.iter().enumerate() {
-                        sums[i * KNOTS + above - 1] += error * (1.0 - share);
-                        sums[i * KNOTS + above] += error * share;
+                    for (set, part) in parts.iter().filter(|(_, part)| *part > 0.0) {
+                        for (i, &(above, share)) in places.iter().enumerate() {
+                            let at = set + i * KNOTS + above;
+                            sums[at - 1] += error * part * (1.0 - share);
+                            sums[at] += error * part * share;
+                        }
                     }
                     sums[size - 1] += error;
                     (sums, total)
@@ -185,9 +201,7 @@ fn train(cases: &[Case]) {
             );
         loss = total / cases.len() as f64;
         let mut slope: Vec<f32> = sums.iter().map(|s| s / cases.len() as f32).collect();
-        for i in 0..COUNT {
-            let part = &weights[i * KNOTS..(i + 1) * KNOTS];
-            let slope = &mut slope[i * KNOTS..(i + 1) * KNOTS];
+        for (part, slope) in weights.chunks_exact(KNOTS).zip(slope.chunks_exact_mut(KNOTS)) {
             for k in 0..KNOTS {
                 slope[k] += RIDGE * part[k];
             }
@@ -206,8 +220,8 @@ fn train(cases: &[Case]) {
             let v = square[k] / (1.0 - 0.999_f32.powi(round as i32));
             weights[k] -= RATE * m / (v.sqrt() + 1e-8);
         }
-        for (part, direction) in weights.chunks_mut(KNOTS).zip(DIRECTION) {
-            monotone(part, f32::from(direction));
+        for (part, direction) in weights.chunks_exact_mut(KNOTS).zip(DIRECTION.iter().cycle()) {
+            monotone(part, f32::from(*direction));
         }
     }
     let balls = cases.iter().filter(|case| case.ball).count();
@@ -240,7 +254,7 @@ fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32], nets: &[String]) {
     println!("use super::net::Net;\n");
     println!("/// Number of features.\npub const COUNT: usize = {COUNT};\n");
     println!("/// Odds of a candidate whose weights are all zero, logarithm.");
-    println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[COUNT * KNOTS]);
+    println!("pub(super) const OFFSET: f32 = {:.3};\n", weights[SETS * SET]);
     let about = |what: &str| {
         println!("/// {what}\n#[rustfmt::skip]");
         println!(r#"#[allow(clippy::approx_constant, reason = "a trained number may resemble one of mathematics")]"#);
@@ -256,7 +270,10 @@ fn print(knots: &[[f32; KNOTS]; COUNT], weights: &[f32], nets: &[String]) {
     };
     rows("KNOTS", "Values of a feature at which its weight is given.", &|i| knots[i].to_vec());
     println!();
-    rows("WEIGHTS", "Logarithm of odds at each knot.", &|i| weights[i * KNOTS..(i + 1) * KNOTS].to_vec());
+    for (name, what, set) in [("LARGE", "large", 0), ("SMALL", "small", SET)] {
+        let what = format!("Logarithm of odds at each knot, of {what} candidates.");
+        rows(name, &what, &|i| weights[set + i * KNOTS..][..KNOTS].to_vec());
+    }
     println!();
     about("Nets; the last number of a row is what is added.");
     println!("pub(super) const NETS: [Net<{{ COUNT + 1 }}>; {}] = [\n{}\n];", nets.len(), nets.join("\n"));

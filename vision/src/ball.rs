@@ -30,7 +30,7 @@ const SAME: f64 = 0.3;
 
 /// Score from which on a candidate is reported: recall and precision, for balls of more than 8 pixels of 224, are about equal
 /// there on rendered pictures of seeds from 30 000 on; docs/measured/ball-detection.md has others.
-pub const DEFAULT_SCORE: f64 = 0.35;
+pub const DEFAULT_SCORE: f64 = 0.3;
 
 /// Radius of a golf ball, m (rules of golf: at least 42.67 mm across).
 pub const RADIUS: f64 = 0.021_35;

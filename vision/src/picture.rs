@@ -1,5 +1,6 @@
 //! A colour picture, and reading it from a file.
 
+mod jpeg;
 mod orientation;
 mod read;
 
@@ -123,15 +124,7 @@ impl Picture {
     /// When memory runs out.
     #[must_use]
     pub fn to_jpeg(&self, quality: u8, subsampled: bool) -> Vec<u8> {
-        use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
-        let mut bytes = Vec::new();
-        let mut encoder = Encoder::new(&mut bytes, quality);
-        encoder.set_sampling_factor(if subsampled { SamplingFactor::F_2_2 } else { SamplingFactor::F_1_1 });
-        // Sides are at most LARGEST_SIDE.
-        encoder
-            .encode(self.pixels.as_flattened(), self.width as u16, self.height as u16, ColorType::Rgb)
-            .expect("memory takes every picture");
-        bytes
+        jpeg::encoded(self, quality, subsampled)
     }
 
     /// Checks that the picture shows something.

@@ -10,7 +10,7 @@ mod scene;
 mod sensor;
 mod shape;
 
-pub use random::{Sample, sample};
+pub use random::{Sample, sample, samples};
 pub use scene::World;
 pub use sensor::Sensor;
 
@@ -68,6 +68,26 @@ pub fn render(
     grid: usize,
     rng: &mut ChaCha8Rng,
 ) -> Rendered {
+    expose(world, camera, shutter, grid, rng).developed(sensor, rng)
+}
+
+/// The light behind a lens, and what is in it. Tracing rays takes ten times as long as what a sensor does with them.
+#[derive(Clone, Debug)]
+struct Exposure {
+    width: usize,
+    height: usize,
+    light: Vec<[f64; 3]>,
+    balls: Vec<Label>,
+}
+
+impl Exposure {
+    fn developed(&self, sensor: &Sensor, rng: &mut ChaCha8Rng) -> Rendered {
+        let picture = sensor.develop(self.width, self.height, self.light.clone(), rng);
+        Rendered { picture, balls: self.balls.clone() }
+    }
+}
+
+fn expose(world: &World, camera: &Camera, shutter: Shutter, grid: usize, rng: &mut ChaCha8Rng) -> Exposure {
     let (width, height) = (camera.width, camera.height);
     let mut light = Vec::with_capacity(width * height);
     let mut seen = vec![Seen::default(); world.balls()];
@@ -104,7 +124,7 @@ pub fn render(
         seen.label(whole, step)
     });
     let balls = balls.collect();
-    Rendered { picture: sensor.develop(width, height, light, rng), balls }
+    Exposure { width, height, light, balls }
 }
 
 /// Rays that met a ball.

@@ -120,15 +120,24 @@ impl Outline {
         let step = (0.7 * pixel).clamp(0.03, 0.2);
         let mut before = f32::NAN;
         let mut scale = 0.45;
+        // Of several the nearest counts: a highlight has edges too.
+        let mut nearest = Crossing::None;
         while scale < REACH {
-            let Some(value) = at(scale) else { return Crossing::Outside };
+            let Some(value) = at(scale) else { break };
             if value < half && before >= half {
-                return Crossing::At(scale - step * (half - value) / (before - value));
+                let found = scale - step * (half - value) / (before - value);
+                match nearest {
+                    Crossing::At(other) if (other - 1.0).abs() < (found - 1.0).abs() => break,
+                    _ => nearest = Crossing::At(found),
+                }
+                if found > 1.0 {
+                    break;
+                }
             }
             before = value;
             scale += step;
         }
-        Crossing::None
+        nearest
     }
 
     fn judge(&mut self, crossings: &[Crossing], shown: usize) {
@@ -206,4 +215,26 @@ fn ellipse(points: impl Iterator<Item = [f32; 2]>) -> Option<[f32; 4]> {
 fn distance(ellipse: &[f32; 4], p: [f32; 2]) -> f32 {
     let [cu, cv, a, b] = *ellipse;
     ((p[0] - cu) / a).hypot((p[1] - cv) / b) - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_highlight_does_not_move_the_outline() {
+        // A red disc of radius 12 on green, with a white spot of radius 2.5 near its edge.
+        let within =
+            |i: usize, [x, y]: [f32; 2], r: f32| ((i % 64) as f32 + 0.5 - x).hypot((i / 64) as f32 + 0.5 - y) < r;
+        let value = |i: usize| match i {
+            i if within(i, [26.0, 26.0], 2.5) => 0.0,
+            i if within(i, [32.0, 32.0], 12.0) => 0.4,
+            _ => -0.3,
+        };
+        let redness = Raster { width: 64, height: 64, data: (0..64 * 64).map(value).collect() };
+        let blob = super::super::regions::regions(&redness, -0.3, 1)[0];
+        let outline = Outline::refine(&redness, blob).expect("the disc has an outline");
+        assert!(outline.agreeing > 0.99 && outline.rough < 0.05, "{outline:?}");
+        assert!((outline.cx - 32.0).hypot(outline.cy - 32.0) < 0.3, "{outline:?}");
+    }
 }

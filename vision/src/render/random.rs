@@ -3,7 +3,7 @@
 use super::light::{Finish, Lamp};
 use super::scene::{Body, Ground, Surface, World, ball, plain};
 use super::shape::Shape;
-use super::{BALL_RADIUS, Point, Rendered, Sensor, Shutter, render};
+use super::{BALL_RADIUS, Point, Rendered, Sensor, Shutter, expose};
 use crate::camera::Camera;
 use crate::field::Field;
 use rand::{RngExt, SeedableRng};
@@ -24,6 +24,12 @@ pub struct Sample {
 /// The picture of a seed, `width` by `height` pixels, of a camera whose own format may be another (4:3 or 16:9, squeezed).
 #[must_use]
 pub fn sample(seed: u64, width: usize, height: usize) -> Sample {
+    samples(seed, width, height, 1).remove(0)
+}
+
+/// The picture of a seed as `count` cameras deliver it, behind one lens in one place; the first one is [`sample`]'s.
+#[must_use]
+pub fn samples(seed: u64, width: usize, height: usize, count: usize) -> Vec<Sample> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let rng = &mut rng;
     let camera = lens(width, height, rng);
@@ -40,9 +46,14 @@ pub fn sample(seed: u64, width: usize, height: usize) -> Sample {
     let (turn, nod) = (shake(rng), shake(rng) * 0.6);
     let rolling = rng.random_range(0.0..0.8);
     let shutter = Shutter { pose, moved: [0.0; 2], turn, nod, rolling };
-    let sensor = sensor(rng);
-    let rendered = render(&world, &camera, shutter, &sensor, 2, rng);
-    Sample { rendered, camera, pose }
+    let mut sensor = self::sensor(rng);
+    let exposure = expose(&world, &camera, shutter, 2, rng);
+    let mut one = || {
+        let rendered = exposure.developed(&sensor, rng);
+        sensor = self::sensor(rng);
+        Sample { rendered, camera, pose }
+    };
+    (0..count).map(|_| one()).collect()
 }
 
 fn lens(width: usize, height: usize, rng: &mut ChaCha8Rng) -> Camera {
@@ -63,7 +74,7 @@ fn sensor(rng: &mut ChaCha8Rng) -> Sensor {
     let warm: f64 = rng.random_range(-0.28..0.28);
     let tint: f64 = rng.random_range(-0.1..0.1);
     Sensor {
-        exposure: 2.0_f64.powf(rng.random_range(-1.0..1.7)),
+        exposure: 2.0_f64.powf(rng.random_range(-1.0..2.0)),
         white_balance: [warm.exp(), tint.exp(), (-warm).exp()],
         grey_world: if rng.random_bool(0.4) { rng.random_range(0.0..0.8) } else { 0.0 },
         saturation: rng.random_range(0.65..1.35),
@@ -74,7 +85,7 @@ fn sensor(rng: &mut ChaCha8Rng) -> Sensor {
         sharpening: rng.random_range(0.0..0.8),
         noise: [rng.random_range(0.0..0.05), rng.random_range(0.0..0.015)],
         dirt: if rng.random_bool(0.25) { rng.random_range(1..5) } else { 0 },
-        quality: (!rng.random_bool(0.1)).then(|| rng.random_range(45..97)),
+        quality: (!rng.random_bool(0.1)).then(|| rng.random_range(25..97)),
         subsampled: rng.random_bool(0.7),
     }
 }
