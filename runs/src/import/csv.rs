@@ -196,18 +196,23 @@ fn number(field: &[u8], separator: u8) -> Option<f64> {
     }
 }
 
-/// Quaternions, four columns whose names differ in their last letter only, give headings: `.../orientation/z` and its
-/// like, `.../orientation/yaw`.
+/// Quaternions, columns whose names differ in their last letter only, give headings: `.../orientation/z` and its like,
+/// `.../orientation/yaw`. What only turns on the floor may have `z` and `w` alone.
 fn headings(table: &mut Table) {
-    let ends = ["x", "y", "z", "w"];
     let stems: Vec<String> = table.series.iter().filter_map(|s| s.name.strip_suffix('w').map(str::to_owned)).collect();
     for stem in stems {
-        let parts: Vec<&super::Series> = ends.iter().filter_map(|end| table.find(&format!("{stem}{end}"))).collect();
-        let [x, y, z, w] = parts[..] else { continue };
-        let together = [x, y, z].iter().all(|s| s.t == w.t);
-        let turned = |i: usize| [x.values[i], y.values[i], z.values[i], w.values[i]];
+        let [x, y, z, w] = ["x", "y", "z", "w"].map(|end| table.find(&format!("{stem}{end}")));
+        let (Some(z), Some(w)) = (z, w) else { continue };
+        let tilts = [x, y].into_iter().flatten().collect::<Vec<_>>();
+        if tilts.len() == 1 || tilts.iter().chain([&z]).any(|s| s.t != w.t) {
+            continue;
+        }
+        let turned = |i: usize| {
+            let tilt = |k: usize| tilts.get(k).map_or(0.0, |s| s.values[i]);
+            [tilt(0), tilt(1), z.values[i], w.values[i]]
+        };
         let unit = |q: [f64; 4]| (q.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 0.02;
-        if !together || !(0..w.t.len()).all(|i| unit(turned(i))) {
+        if !(0..w.t.len()).all(|i| unit(turned(i))) {
             continue;
         }
         let times = w.t.clone();
@@ -233,6 +238,22 @@ mod tests {
                 .unwrap();
         assert_eq!(read.find("PWM").unwrap().values, [0.0, 9.0, 1.0]);
         assert_eq!(read.find("v").unwrap().t, [1.0, 2.0, 4.0]);
+    }
+
+    #[test]
+    fn quaternions_are_headings() {
+        let [half, whole] = [0.5_f64.sqrt(), std::f64::consts::FRAC_PI_2];
+        let yaw = |text: &str, name: &str| table(text).unwrap().find(name).map(|s| s.values.clone());
+        for text in [
+            format!("t,q/z,q/w\n0,0,1\n1,{half},{half}\n"),
+            format!("t,q/x,q/y,q/z,q/w\n0,0,0,0,1\n1,0,0,{half},{half}\n"),
+        ] {
+            let yaw = yaw(&text, "q/yaw").unwrap();
+            assert!(yaw[0] == 0.0 && (yaw[1] - whole).abs() < 1e-9, "{yaw:?}");
+        }
+        // Speeds and what tilts without saying how far are none.
+        assert_eq!(yaw("t,z,w\n0,0.1,0.3\n1,0.1,0.4\n", "yaw"), None);
+        assert_eq!(yaw("t,q/x,q/z,q/w\n0,0,0,1\n1,0,0,1\n", "q/yaw"), None);
     }
 
     #[test]

@@ -57,9 +57,12 @@ impl<'a> Sheet<'a> {
         let mut said = || said.next().filter(|said| said.len() == fields.len() && said.len() > 1);
         let texts = fields.iter().any(|field| !is_number(field, separator));
         let names = if texts {
-            // Names after the mark of a remark, as of `rostopic echo -p`, above rows of numbers and texts.
+            // Names after the mark of a remark, as of `rostopic echo -p`, above rows of numbers and texts; or none, where a
+            // row has a word or a hexadecimal among its numbers.
             let row = !fields[0].is_empty() && is_number(&fields[0], separator);
-            said().filter(|names| row && names.iter().all(|name| !is_number(name, separator)))
+            let numbers = fields.iter().filter(|field| !field.is_empty() && is_number(field, separator)).count();
+            let named = said().filter(|names| row && names.iter().all(|name| !is_number(name, separator)));
+            named.or_else(|| (row && 2 * numbers > fields.len()).then(|| numbered(fields.len())))
         } else {
             // Units may stand in a line of their own below the names.
             let named = said().and_then(|last| {
@@ -135,6 +138,13 @@ mod tests {
         );
         assert_eq!(sheet("# a,b,c\ntime,0,1\n0,5,6\n").0, None);
         assert_eq!(sheet("% by me\n% t,u\n% [#],[V]\nnan,nan;\n0,1;\n").0, names(&["t", "u [V]"]));
+        // A row with a text among its numbers holds no names.
+        let row = "% 1 time, 2 flags, 3 speed\n0.1 0x0 1.5\n0.2 0x1 2\n";
+        assert_eq!(
+            sheet(row),
+            (names(&["column_1", "column_2", "column_3"]), "\n0.1;0x0;1.5\n0.2;0x1;2\n".into(), ';')
+        );
+        assert_eq!(sheet("0.1,on,1.5\n0.2,off,2\n").0, names(&["column_1", "column_2", "column_3"]));
         assert_eq!(sheet("").0, None);
     }
 }
