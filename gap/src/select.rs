@@ -232,57 +232,78 @@ fn swap(
 ) -> (Selection, bool) {
     let mut changed = false;
     for index in from..best.state.active.len() {
-        let mut without = best.state.clone();
-        let own = without.active.remove(index);
-        let rank = |name: &str| all.iter().position(|c| c.effect.name() == name).unwrap_or(usize::MAX);
-        let design = Design::new(problem, &without, all, thresholds);
-        let trials = design.trials(thresholds);
-        let gain_of_own = trials
-            .iter()
-            .filter(|t| design.candidates[t.candidate].effect.name() == own.effect.name())
-            .map(|t| t.gain)
-            .fold(0.0, f64::max);
-        // Laws that leave much above the noise are not exact enough to decide by little.
-        let (square, n) = best.design.linear.equations.plain();
-        let open = thresholds.undecided * (square - n).max(0.0) / best.design.variance;
-        let far = raw(&best) > thresholds.far_left && problem.link() == Link::Drive;
-        let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
-        let most = if far { 8 } else { 3 };
-        let mut tried: Vec<&str> = vec![own.effect.name()];
-        for t in &trials {
-            let candidate = &design.candidates[t.candidate];
-            let name = candidate.effect.name();
-            if t.gain < thresholds.near(gain_of_own).min(gain_of_own - tie) || tried.len() > most {
-                break;
-            }
-            if tried.contains(&name) || !t.material || best.state.active.iter().any(|a| a.effect.name() == name) {
-                continue;
-            }
-            tried.push(name);
-            let mut state = without.clone();
-            state.active.insert(index, placed(candidate, &t.values));
-            let settled = settle(problem, &mut state, all, thresholds);
-            let alternative = finish(state, settled, from, thresholds);
-            let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
-            // What leaves far more than another law of no more parameters is not chosen, however it looks with
-            // everything else adjusted.
-            let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];
-            if fewer <= more && leaves_far_more(problem, &alternative, &best, thresholds) {
-                continue;
-            }
-            let clear = more <= fewer && leaves_far_more(problem, &best, &alternative, thresholds);
-            let needed = if simpler || clear { tie } else { -tie };
-            let even = || simpler && leaves_as_little(problem, &alternative, &best, thresholds);
-            if (alternative.against(&best) < needed || even())
-                && !problem.runs_away(&alternative.state, &without, thresholds)
-            {
-                best = alternative;
-                changed = true;
-                break;
-            }
+        // What took the place may have an equal that comes earlier in turn, which the former explained too much for.
+        let mut simpler_alone = false;
+        while let Some(other) = swapped(problem, &best, index, simpler_alone, from, all, thresholds) {
+            (best, changed, simpler_alone) = (other, true, true);
         }
     }
     (best, changed)
+}
+
+/// A selection in which another effect stands for one, if it explains the same better, or as well and comes earlier in the
+/// catalogue; or only where it is simpler, too.
+fn swapped(
+    problem: &Problem,
+    best: &Selection,
+    index: usize,
+    simpler_alone: bool,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let mut without = best.state.clone();
+    let own = without.active.remove(index);
+    let rank = |name: &str| all.iter().position(|c| c.effect.name() == name).unwrap_or(usize::MAX);
+    let design = Design::new(problem, &without, all, thresholds);
+    let trials = design.trials(thresholds);
+    let gain_of_own = trials
+        .iter()
+        .filter(|t| design.candidates[t.candidate].effect.name() == own.effect.name())
+        .map(|t| t.gain)
+        .fold(0.0, f64::max);
+    // Laws that leave much above the noise are not exact enough to decide by little.
+    let (square, n) = best.design.linear.equations.plain();
+    let open = thresholds.undecided * (square - n).max(0.0) / best.design.variance;
+    let far = raw(best) > thresholds.far_left && problem.link() == Link::Drive;
+    let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
+    let most = if far { 8 } else { 3 };
+    let mut tried: Vec<&str> = vec![own.effect.name()];
+    for t in &trials {
+        let candidate = &design.candidates[t.candidate];
+        let name = candidate.effect.name();
+        if t.gain < thresholds.near(gain_of_own).min(gain_of_own - tie) || tried.len() > most {
+            break;
+        }
+        let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
+        if simpler_alone && !simpler
+            || tried.contains(&name)
+            || !t.material
+            || best.state.active.iter().any(|a| a.effect.name() == name)
+        {
+            continue;
+        }
+        tried.push(name);
+        let mut state = without.clone();
+        state.active.insert(index, placed(candidate, &t.values));
+        let settled = settle(problem, &mut state, all, thresholds);
+        let alternative = finish(state, settled, from, thresholds);
+        // What leaves far more than another law of no more parameters is not chosen, however it looks with
+        // everything else adjusted.
+        let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];
+        if fewer <= more && leaves_far_more(problem, &alternative, best, thresholds) {
+            continue;
+        }
+        let clear = more <= fewer && leaves_far_more(problem, best, &alternative, thresholds);
+        let needed = if simpler || clear { tie } else { -tie };
+        let even = || simpler && leaves_as_little(problem, &alternative, best, thresholds);
+        if (alternative.against(best) < needed || even())
+            && !problem.runs_away(&alternative.state, &without, thresholds)
+        {
+            return Some(alternative);
+        }
+    }
+    None
 }
 
 /// The best pair or triple by the linear objective.
