@@ -7,11 +7,14 @@ use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
 use crate::inertial::Felt;
-use crate::thresholds;
+use crate::thresholds::{self, TEST_FUNCTION_S};
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
 /// millisecond the quantum of a speed, 0.83 rad/s, becomes 0.04 rad/s.
-const SMOOTHING_S: f64 = 0.03;
+pub(crate) const SMOOTHING_S: f64 = 0.03;
+/// Where an axis turns by fewer counts than this in that time, it is longer, up to the length of a test function: a servo
+/// whose potentiometer has 102 steps a turn makes one count in 60 ms, and by one in 30 ms it never turned at all.
+const SMOOTHED_COUNTS: f64 = 2.0;
 /// One camera frame at the time it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
@@ -98,14 +101,22 @@ pub(crate) struct Place<'a> {
 /// Speed of the wheels while they turned, rad/s: how long they stood makes no difference. Of a long log some parts are
 /// looked at.
 pub(crate) fn usual_speed(robot: &Robot, logs: &[Log]) -> f64 {
+    let per_count = 1.0 / robot.counts_per_wheel_rad();
+    let speed = mean_speed(per_count, logs, SMOOTHING_S);
+    // Of none or one count in a step the mean is that of one.
+    let coarse = speed * SMOOTHING_S < SMOOTHED_COUNTS * per_count;
+    if coarse { mean_speed(per_count, logs, TEST_FUNCTION_S) } else { speed }
+}
+
+/// The same by what turned in steps of so many seconds.
+fn mean_speed(per_count: f64, logs: &[Log], step_s: f64) -> f64 {
     /// Ticks of a part, and parts of a log at most.
     const PART: usize = 1 << 12;
     const PARTS: usize = 24;
-    let per_count = 1.0 / robot.counts_per_wheel_rad();
     let (mut square, mut sum) = (0.0, 0.0);
     for log in logs {
         let every = log.len().div_ceil(PART).div_ceil(PARTS).max(1) * PART;
-        let step = log.tick_s().map_or(1, |t| (SMOOTHING_S / t).round().max(2.0) as usize);
+        let step = log.tick_s().map_or(1, |t| (step_s / t).round().max(2.0) as usize);
         for first in (0..log.len()).step_by(every) {
             let columns = Columns { counts: true, ..Columns::NONE };
             let part = log.part(first..(first + PART).min(log.len()), columns);
@@ -125,8 +136,14 @@ pub(crate) fn usual_speed(robot: &Robot, logs: &[Log]) -> f64 {
 /// Speed about 0 within which the direction of a wheel is not known, rad/s: a share of the `speed` of the log, and some
 /// counts within the smoothing.
 pub(crate) fn turns_round(count_rad: f64, tick_s: f64, speed: f64) -> f64 {
-    let quantum = count_rad / SMOOTHING_S.max(2.0 * tick_s);
+    let quantum = count_rad / smoothing_s(count_rad, speed).max(2.0 * tick_s);
     (thresholds::TURNS_ROUND * speed).max(thresholds::TURNS_ROUND_COUNTS * quantum)
+}
+
+/// Time over which the speeds of wheels that turn at `speed` are smoothed, s.
+fn smoothing_s(count_rad: f64, speed: f64) -> f64 {
+    let counts_s = SMOOTHED_COUNTS * count_rad / speed.max(f64::MIN_POSITIVE);
+    counts_s.clamp(SMOOTHING_S, TEST_FUNCTION_S)
 }
 
 fn mean_tick(t: &[f64]) -> f64 {
@@ -158,8 +175,9 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
             })
             .collect();
         s.zero = (0..n).map(|i| zero(part, i, &s.angle[i], robot.counts_per_wheel_rad())).collect();
-        s.speed = smooth_speeds(&t, &s.angle);
-        s.turning = turns_round(1.0 / robot.counts_per_wheel_rad(), mean_tick(&t), place.speed);
+        let count_rad = 1.0 / robot.counts_per_wheel_rad();
+        s.speed = smooth_speeds(&t, &s.angle, smoothing_s(count_rad, place.speed));
+        s.turning = turns_round(count_rad, mean_tick(&t), place.speed);
         s.sign = s.speed.iter().map(|v| v.iter().map(|w| smooth_sign(*w, s.turning)).collect()).collect();
     }
     // Duties of motors that nobody described predict nothing.
@@ -373,11 +391,12 @@ fn held(values: &[f64], first: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Derivatives at each tick from a Hann-weighted mean of the increments around it, one row for each of `angles`.
-pub(crate) fn smooth_speeds(t: &[f64], angles: &[Vec<f64>]) -> Vec<Vec<f64>> {
+/// Derivatives at each tick from a Hann-weighted mean of the increments within so many seconds around it, one row for each
+/// of `angles`.
+pub(crate) fn smooth_speeds(t: &[f64], angles: &[Vec<f64>], smoothing_s: f64) -> Vec<Vec<f64>> {
     let n = t.len();
     let tick = (t[n - 1] - t[0]) / (n - 1) as f64;
-    let half = ((0.5 * SMOOTHING_S / tick).round() as usize).max(1);
+    let half = ((0.5 * smoothing_s / tick).round() as usize).max(1);
     let weights: Vec<f64> = (0..2 * half)
         .map(|j| {
             let x = (j as f64 + 0.5) / (2 * half) as f64;
@@ -447,4 +466,21 @@ pub(crate) fn regular_stamps(seen: &[Seen], rate: f64, tick: f64) -> Vec<f64> {
     let line: Vec<f64> = numbers.iter().map(|n| mean_t + sxy / sxx * (n - mean_n)).collect();
     let worst = line.iter().zip(&raw).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     if worst <= 1.01 * tick { line } else { raw }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slow_axes_with_coarse_encoders_turn() {
+        // A count in 60 ms of a potentiometer with 102 steps a turn, and one in a millisecond of a motor's encoder.
+        let step = std::f64::consts::TAU / 102.4;
+        assert!(turns_round(step, 0.002, 1.0) < 0.6, "{}", turns_round(step, 0.002, 1.0));
+        assert_eq!((smoothing_s(step, 0.01), smoothing_s(1e-3, 17.0)), (TEST_FUNCTION_S, SMOOTHING_S));
+        let t: Vec<f64> = (0..1000).map(|k| 0.002 * f64::from(k)).collect();
+        let angles = vec![t.iter().map(|t| (t / step).floor() * step).collect()];
+        let speeds = &smooth_speeds(&t, &angles, smoothing_s(step, 1.0))[0];
+        assert!(speeds[100..900].iter().all(|w| (0.4..1.6).contains(w)), "{speeds:?}");
+    }
 }

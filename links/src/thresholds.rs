@@ -21,6 +21,9 @@ pub const GRIP: f64 = 0.43;
 /// Speed of a drive in shares of its no-load speed, where no log tells: that of the simulator's manoeuvres.
 pub const USUAL_SPEED: f64 = 0.06;
 
+/// Length of a test function of the drive where nothing asks for longer ones, s.
+pub const TEST_FUNCTION_S: f64 = 0.12;
+
 /// Speed about 0 within which friction turns round, as a share of the speed of the log: 0.4 rad/s where wheels turn at
 /// 17 (four example sets).
 pub const TURNS_ROUND: f64 = 0.0235;

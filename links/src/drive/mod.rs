@@ -20,11 +20,11 @@ use crate::segment::Segment;
 use crate::values::Values;
 
 pub use crate::segment::smooth_sign;
+pub(crate) use crate::thresholds::TEST_FUNCTION_S;
 pub use columns::Side;
 pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
 pub use forces::{Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
-pub(crate) use test_functions::TEST_FUNCTION_S;
 pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.

@@ -18,8 +18,7 @@ use crate::thresholds;
 use estimation::normal_equations::Cluster;
 use estimation::sums::dot;
 
-/// Length of a test function, s, and in ticks at least.
-pub(crate) const TEST_FUNCTION_S: f64 = 0.12;
+/// Length of a test function in ticks at least.
 const FEWEST_TICKS: f64 = 12.0;
 /// Length of a cluster, s, and in half test functions at least.
 const CLUSTER_S: f64 = 1.0;

@@ -4,7 +4,7 @@ use model::plant::GRAVITY;
 
 use super::Sensor;
 use crate::motion::{MotionModel, Path};
-use crate::segment::{Segment, smooth_speeds};
+use crate::segment::{SMOOTHING_S, Segment, smooth_speeds};
 
 /// Distance of the sums that an accelerometer needs, s: short against the smoothing of the wheels' speeds.
 const SUMMED_S: f64 = 0.005;
@@ -53,7 +53,7 @@ impl<'a> Ride<'a> {
         let speed = if model.angles.is_empty() {
             &segment.speed
         } else {
-            changed = smooth_speeds(&segment.t, path.angles());
+            changed = smooth_speeds(&segment.t, path.angles(), SMOOTHING_S);
             &changed
         };
         let columns = path.columns();
