@@ -306,7 +306,7 @@ fn a_spring_is_named_over_turns_and_tied_with_a_weight_within_a_little() {
 /// Potentiometers of 100 steps a turn, which make one in as many ms as a speed was smoothed over.
 #[test]
 fn an_axis_with_a_coarse_encoder_that_turns_slowly_is_compared() {
-    let slow = Servo { counts: 102.4, about: Some([0.1, 0.6]), ..QUIET };
+    let slow = Servo { counts: 102.4, about: Some([0.1, 1.0]), ..QUIET };
     let faults: Vec<String> = [0.12, 0.2, 0.0, 0.0]
         .into_par_iter()
         .enumerate()
