@@ -10,10 +10,10 @@ use hdl::board::Board;
 use hdl::design::{NAME, content_hash};
 use hdl::emit::ucf::ucf;
 
-/// Seed of the committed bitstream. Of the two that were placed, the slowest path between registers is within 60 % of the period
-/// with this one (17.8 ns, least slack 2.9 ns), and takes 18.9 ns with 16. Placed with 70 moves in place of 160, 21 seeds (1 to 22
-/// without 15) took 18.2 ns at best. Whoever changes the gateware tries others again.
-pub const SEED: u64 = 9;
+/// Seed of the committed bitstream. Of 1 to 20 the slowest path between registers is within 60 % of the period with this one
+/// alone (17.96 ns, least slack 2.2 ns); without rounds of routing after the first that is legal none is. With 160 moves in
+/// place of 70 the best of 1 to 12 took 18.06 ns. Whoever changes the gateware tries others again.
+pub const SEED: u64 = 3;
 /// The header's date and time: the same sources give the same bytes on any day.
 const DATE: (&str, &str) = ("2000/01/01", "00:00:00");
 

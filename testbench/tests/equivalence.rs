@@ -73,7 +73,8 @@ fn loaded_counters_comparisons_and_short_sums_are_their_text() {
         ports.push(format!("output [{0}:0] {name}_out", width - 1));
         format!("reg [{0}:0] {name} = 0; assign {name}_out = {name};\n", width - 1)
     };
-    let mut bits = 0;
+    // What is loaded with ones is set by its flip-flops, and bit 0 of such a counter only turns.
+    let (mut bits, mut turning) = (0, 0);
     for width in [7, 11] {
         for (sign, way) in [('+', "up"), ('-', "down")] {
             for (what, filled) in [(format!("word[{}:0]", width - 1), "word"), (format!("~{width}'d0"), "ones")] {
@@ -82,6 +83,7 @@ fn loaded_counters_comparisons_and_short_sums_are_their_text() {
                     body += &register(&mut ports, &name, width);
                     body += &format!("always @(posedge clock) {name} <= {test} ? {what} : {name} {sign} 1'd1;\n");
                     bits += width;
+                    turning += usize::from(filled == "ones");
                 }
             }
         }
@@ -105,7 +107,38 @@ fn loaded_counters_comparisons_and_short_sums_are_their_text() {
     // A counter's bit is one table and its sum; the rest is what compares and adds shortly.
     let tables: usize = netlist.cells.iter().filter(|(cell, _)| cell.starts_with("LUT")).map(|(_, used)| used).sum();
     assert!(tables <= bits + 80, "{tables} tables for {bits} bits: {:?}", netlist.cells);
-    assert_eq!(netlist.cells["XORCY"], bits, "a counter that is not on a carry chain");
+    assert_eq!(netlist.cells["XORCY"], bits - turning, "a counter that is not on a carry chain");
+}
+
+/// Sums that the flow maps by rules of its own, each with a register behind it: a plain counter up and down, whose bit 0 needs no chain;
+/// a sum that turns into a difference; one whose second operand is stored; and a comparison whose answer is called late.
+#[test]
+fn plain_counters_turned_sums_and_late_answers_are_their_text() {
+    const WIDTH: usize = 16;
+    let text = format!(
+        "module sums(input clock, input turn, input [{0}:0] word, output [{0}:0] up_out, down_out, turned_out, total_out, output late_out);\n\
+         reg [{0}:0] a = 0, b = 0, c = 0, d = 0, up = 5, down = 9, turned = 0, total = 0; reg late = 0;\n\
+         assign up_out = up; assign down_out = down; assign turned_out = turned; assign total_out = total; assign late_out = late;\n\
+         wire [{0}:0] left = turn ? ~a : a; wire [{0}:0] sum = left + b;\n\
+         always @(posedge clock) begin\n\
+         a <= word; b <= a; c <= b; d <= c; up <= up + 1'd1; down <= down - 1'd1; turned <= turn ? ~sum : sum; total <= (turn ? ~c : c) + d;\n\
+         late <= (a >= d) & turn;\nend\nendmodule\n",
+        WIDTH - 1
+    );
+    let netlist = Netlist::of(&text, "sums").unwrap_or_else(|error| panic!("{error}"));
+    let against = |text: &str| compare(text, &netlist.json(), "sums").unwrap_or_else(|error| panic!("{error}"));
+    let found = against(&text);
+    assert!(found.holds() && found.flip_flops == 8 * WIDTH + 1, "{found:?}");
+    let wrong = [("~sum : sum", "~sum : left"), ("~c : c", "c : c"), ("up + 1'd1", "up + 2'd3"), ("a >= d", "a > d")];
+    for (from, to) in wrong {
+        assert!(text.contains(from), "{from}");
+        assert!(!against(&text.replace(from, to)).differences.is_empty(), "{to}");
+    }
+    let used = |cell: &str| netlist.cells.get(cell).copied().unwrap_or(0);
+    assert_eq!(used("XORCY"), 2 * WIDTH + 2 * (WIDTH - 1), "{:?}", netlist.cells);
+    // A table a bit of each sum and of the comparison, and the one behind it; what has one input is a wire to the flow.
+    assert_eq!(used("LUT2") + used("LUT3") + used("LUT4"), 3 * WIDTH + 1, "{:?}", netlist.cells);
+    assert_eq!(used("VCC") + used("GND"), 0, "what was not to be known is still there: {:?}", netlist.cells);
 }
 
 /// A block memory that is joined, set or filled otherwise than its memory: none of these may be proven.

@@ -56,6 +56,11 @@ impl Congestion {
         self.shared()
     }
 
+    /// Sharing costs so much again; what was shared before stays dear.
+    pub(super) fn relax(&mut self, pressure: u64) {
+        self.pressure = pressure;
+    }
+
     /// The price of taking a wire, in 1/256.
     fn price(&self, wire: u32, base: u16) -> u64 {
         let wire = wire as usize;

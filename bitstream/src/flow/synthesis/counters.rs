@@ -10,10 +10,6 @@ use std::ops::RangeInclusive;
 /// one of the three slowest paths. Narrower ones are often loaded by what is decoded late: from 4 bits on it was 33 tables
 /// fewer, and their slowest path before placement 18.0 ns, where now it is 16.9 ns beside the kicker's.
 const WIDTHS: RangeInclusive<u32> = 7..=16;
-/// For how wide ones a map is written. More than are looked for change nothing but the numbers in the names of cells, and with them
-/// the order in which abc takes what is alike: with these it left 3183 tables, with [`WIDTHS`] alone 3192, and a write enable of a
-/// memory half a nanosecond slower.
-const MAPPED: RangeInclusive<u32> = 4..=16;
 
 /// What it is loaded with.
 #[derive(Clone, Copy, Eq, PartialEq)]
@@ -32,9 +28,9 @@ struct Shape {
 }
 
 impl Shape {
-    fn all(widths: RangeInclusive<u32>) -> impl Iterator<Item = Self> {
+    fn all() -> impl Iterator<Item = Self> {
         let words = [Word::Port, Word::Fill('0'), Word::Fill('1')];
-        widths.flat_map(move |width| {
+        WIDTHS.flat_map(move |width| {
             words.into_iter().flat_map(move |word| {
                 [(false, false), (false, true), (true, false), (true, true)].map(|(down, low)| Self {
                     width,
@@ -66,7 +62,7 @@ impl Shape {
 /// The shapes to look for, as RTLIL.
 pub(super) fn shapes() -> String {
     let mut text = String::new();
-    for shape in Shape::all(WIDTHS) {
+    for shape in Shape::all() {
         let (name, width) = (shape.name(), shape.width);
         let (sum, other) = if shape.low { ('A', 'B') } else { ('B', 'A') };
         let (port, word) = match shape.fill() {
@@ -90,7 +86,7 @@ pub(super) fn shapes() -> String {
 /// What each of them becomes, as Verilog.
 pub(super) fn map() -> String {
     let mut text = include_str!("counter.v").to_owned();
-    for shape in Shape::all(MAPPED) {
+    for shape in Shape::all() {
         let (name, width) = (shape.name(), shape.width);
         let (port, word) = match shape.fill() {
             None => (format!("input [{}:0] D, ", width - 1), "D".to_owned()),

@@ -13,7 +13,7 @@ use crate::flow::pack::{CarryIn, Packed, Shape, Slice};
 use std::collections::BTreeMap;
 
 /// What a path between registers should take at most, % of the period: the target of the gateware.
-const SHARE: u32 = 60;
+pub(super) const SHARE: u32 = 60;
 /// What a path from or to a pad should leave, ps: about what the last bitstream left that aimed at slack alone (3.2 ns).
 const RESERVE: u32 = 3_200;
 

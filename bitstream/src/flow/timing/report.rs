@@ -1,7 +1,7 @@
 //! Arrival times, slack, and the worst paths.
 
 use super::delays::{CLOCK_SKEW, MEMORY_TO_OUTPUT};
-use super::graph::{Arc, End, From, Graph};
+use super::graph::{Arc, End, From, Graph, SHARE};
 use crate::flow::netlist::Net;
 
 /// A step of a path: a net and when it arrives at the next part, in ps after the clock.
@@ -83,6 +83,16 @@ impl Report {
     pub fn misses(&self) -> i64 {
         let slack = self.domains.iter().filter_map(|domain| domain.worst.first()).map(TimedPath::slack);
         -slack.min().unwrap_or(0)
+    }
+
+    /// By how much the slowest path between registers takes more than it should ([`SHARE`]), in ps; less than 0 if it takes less.
+    #[must_use]
+    pub(crate) fn inside_misses(&self) -> i64 {
+        let missed = |domain: &DomainReport| {
+            let inside = domain.inside.as_ref()?;
+            Some(i64::from(inside.delay) - i64::from(domain.period / 100 * SHARE))
+        };
+        self.domains.iter().filter_map(missed).max().unwrap_or(0)
     }
 
     /// The same with so many paths.
