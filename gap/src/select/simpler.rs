@@ -36,9 +36,11 @@ pub(super) fn simpler(
 }
 
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one
-/// of them, or one that comes earlier in the catalogue. And one of several where it leaves as little as they. Another may leave less by how exact the laws are: through an encoder
-/// of few counts a dead band leaves less than the dry friction that is at work. Of laws between which the data do not
-/// decide that of fewest parameters, and of those the first of the catalogue.
+/// of them, or one that comes earlier in the catalogue. And one of several where it leaves as little as they.
+///
+/// Another may leave less by how exact the laws are: through an encoder of few counts a dead band leaves less than the dry
+/// friction that is at work. Of laws between which the data do not decide that of fewest parameters, and of those the first
+/// of the catalogue.
 fn of_one(
     problem: &Problem,
     start: &State,
