@@ -58,6 +58,27 @@ impl Linear {
     }
 }
 
+/// A direction in which a link is differentiated.
+struct Move {
+    /// From where; `None`: the state itself, predicted once for all.
+    low: Option<State>,
+    /// To where.
+    high: State,
+    /// The step between them.
+    step: f64,
+    /// Whether it changes inertias alone.
+    inertia_alone: bool,
+    /// What the derivative depends on, if it is the same whatever loads are added.
+    key: Option<String>,
+}
+
+impl Move {
+    /// To an effect as a whole, from the state or to it.
+    fn whole(high: State, step: f64) -> Self {
+        Self { low: None, high, step, inertia_alone: false, key: None }
+    }
+}
+
 /// Steps of Gauss-Newton at most.
 const STEPS: usize = 8;
 
@@ -97,13 +118,16 @@ impl Problem<'_> {
     /// Residuals and the derivatives by all active parameters of this link and all candidates.
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
-        // From, to (`None`: the state itself, predicted once for all), the step between them, and what the derivative
-        // depends on if it is the same whatever loads are added.
-        let mut moves: Vec<(Option<State>, State, f64, Option<String>)> = Vec::new();
+        let mut moves: Vec<Move> = Vec::new();
         let besides = self.besides_loads(state);
+        let alone = self.link() == Link::Drive && state.drive(None).torques_stand_alone();
         let key = |a: &Active, p: &Parameter| {
             let is_load = self.link() == Link::Drive && a.effect.is_load();
-            is_load.then(|| format!("{besides}{} {:?} {}", a.effect.name(), a.form.fixed, p.name))
+            // Nor do loads change what a bridge or a winding does: no line, but the same where its values are.
+            let electrical = alone && a.effect.before_current();
+            let at = if is_load { &[][..] } else { &a.values.0 };
+            (is_load || electrical)
+                .then(|| format!("{besides}{} {:?} {at:?} {}", a.effect.name(), a.form.fixed, p.name))
         };
         for index in state.fitted_on(self.link()) {
             let a = &state.active[index];
@@ -111,7 +135,8 @@ impl Problem<'_> {
                 let h = 0.05 * p.scale;
                 owners.push(Owner::Active(index, j));
                 let [low, high] = [-h, h].map(|by| state.with(index, a.moved(j, by)));
-                moves.push((Some(low), high, 2.0 * h, key(a, p)));
+                let (inertia_alone, key) = (a.effect.is_inertia(), key(a, p));
+                moves.push(Move { low: Some(low), high, step: 2.0 * h, inertia_alone, key });
             }
         }
         for index in state.fitted_on(self.link()).into_iter().filter(|i| state.active[*i].switched()) {
@@ -119,7 +144,7 @@ impl Problem<'_> {
             off.active.remove(index);
             owners.push(Owner::Whole(index));
             // Backwards, which turns the sign round.
-            moves.push((None, off, -1.0, None));
+            moves.push(Move::whole(off, -1.0));
         }
         // Forms of one effect share parameters: each is worked out once.
         let mut known: HashMap<(&str, String, &str), usize> = HashMap::new();
@@ -131,7 +156,7 @@ impl Problem<'_> {
                 let mut on = state.clone();
                 on.active.push(candidate.clone());
                 column_of.push(moves.len());
-                moves.push((None, on, 1.0, None));
+                moves.push(Move::whole(on, 1.0));
                 continue;
             }
             for (j, p) in candidate.form.free.iter().enumerate() {
@@ -152,22 +177,24 @@ impl Problem<'_> {
                 let both = p.bounds[0] < 0.0 && !(self.link() == Link::Drive && candidate.effect.is_load());
                 let low = both.then(|| side(-h));
                 let step = if low.is_some() { 2.0 * h } else { h };
-                moves.push((low, side(h), step, key(candidate, p)));
+                let (inertia_alone, key) = (candidate.effect.is_inertia(), key(candidate, p));
+                moves.push(Move { low, high: side(h), step, inertia_alone, key });
             }
         }
         let columns = moves.len();
         let clusters: Vec<Cluster> = match self {
             Self::Motion(link) => {
-                let sides: Vec<(Option<MotionModel>, MotionModel, f64)> =
-                    moves.iter().map(|(a, b, h, _)| (a.as_ref().map(|a| a.motion(None)), b.motion(None), *h)).collect();
+                let side = |m: &Move| (m.low.as_ref().map(|low| low.motion(None)), m.high.motion(None), m.step);
+                let sides: Vec<(Option<MotionModel>, MotionModel, f64)> = moves.iter().map(side).collect();
                 link.linearise(&state.motion(None), &sides)
             }
             Self::Drive(link) => {
-                let side = |(low, high, step, key): (Option<State>, State, f64, Option<String>)| Side {
-                    low: low.map(|low| low.drive(None)),
-                    high: high.drive(None),
-                    step,
-                    key,
+                let side = |m: Move| Side {
+                    low: m.low.map(|low| low.drive(None)),
+                    high: m.high.drive(None),
+                    step: m.step,
+                    inertia_alone: m.inertia_alone,
+                    key: m.key,
                 };
                 let sides: Vec<Side> = moves.into_iter().map(side).collect();
                 link.linearise(&state.drive(None), &sides)

@@ -199,6 +199,10 @@ pub trait Effect: Send + Sync {
     fn is_load(&self) -> bool {
         false
     }
+    /// Whether it changes inertias alone, which no torque and no force depends on while wheels drive a robot.
+    fn is_inertia(&self) -> bool {
+        false
+    }
     /// Whether it acts before the current of a motor and changes that alone: where currents are logged, nothing is left of
     /// it.
     fn before_current(&self) -> bool {

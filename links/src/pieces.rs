@@ -25,7 +25,7 @@ pub const PIECE: usize = 1 << 16;
 /// and behind: a window of camera frames, a test function.
 const BEFORE: usize = 1 << 12;
 const BEHIND: usize = 1 << 12;
-/// Segments, in pieces' lengths, that are kept once they are derived, some 9 MB each with three wheels: 17 minutes at
+/// Segments, in pieces' lengths, that are kept once they are derived, some 12 MB each with three wheels and their test functions: 17 minutes at
 /// 1 kHz. Of the others only the last ones.
 const KEPT: usize = 16;
 const RECENT: usize = 2;
@@ -209,6 +209,11 @@ impl<'a> Pieces<'a> {
         recent.truncate(RECENT - 1);
         recent.push_front((index, new.clone()));
         new
+    }
+
+    /// How many segments, from the first on, are kept once they are derived.
+    pub(crate) fn kept(&self) -> usize {
+        self.kept.len()
     }
 
     /// All segments, one after the other.

@@ -49,6 +49,8 @@ pub struct Segment {
     pub twist: Vec<Twist>,
     /// Heading (world, or from the start of the segment without a camera) at each tick, rad.
     pub heading: Vec<f64>,
+    /// Cosine and sine of the heading.
+    pub facing: Vec<[f64; 2]>,
     /// Position in the field at each tick, m.
     pub position: Vec<[f64; 2]>,
     /// Camera frames worth using.
@@ -215,6 +217,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     let frames = if place.cut == [false; 2] { s.frames.len() } else { place.stretch_frames };
     s.has_world = frames >= 4 && !s.frames.is_empty();
     s.place(geometry, robot.camera_latency_s, place.pose);
+    s.facing = s.heading.iter().map(|heading| [heading.cos(), heading.sin()]).collect();
     s
 }
 
@@ -259,6 +262,7 @@ impl Segment {
             supply: ticks.iter().map(|k| self.supply[*k]).collect(),
             twist: ticks.iter().map(|k| self.twist[*k]).collect(),
             heading: ticks.iter().map(|k| self.heading[*k]).collect(),
+            facing: ticks.iter().map(|k| self.facing[*k]).collect(),
             position: ticks.iter().map(|k| self.position[*k]).collect(),
             frames: self.frames.clone(),
             own: 0..ticks.len(),
@@ -355,7 +359,8 @@ fn zero(run: &Run, wheel: usize, angle: &[f64], counts_per_rad: f64) -> f64 {
 
 /// Direction of a speed, −1 to 1, smooth over about `width` on either side of 0.
 pub fn smooth_sign(speed: f64, width: f64) -> f64 {
-    (speed / width).tanh()
+    // tanh, by one exponential: a library's is exact beside 0, too, where nothing is told from 0, and takes twice as long.
+    1.0 - 2.0 / (1.0 + (2.0 * speed / width).exp())
 }
 
 /// Whether the loop set further duties between the rows of a log.

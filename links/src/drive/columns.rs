@@ -16,6 +16,8 @@ pub struct Side {
     pub high: DriveModel,
     /// Step between them.
     pub step: f64,
+    /// Whether it changes inertias alone.
+    pub inertia_alone: bool,
     /// What the derivative depends on, where it is the same for every model with other loads.
     pub key: Option<String>,
 }
@@ -94,7 +96,13 @@ mod tests {
     #[test]
     fn what_is_not_asked_for_makes_room() {
         let robot = runs::robot::Robot::racbot();
-        let side = |key: &str| Side { low: None, high: DriveModel::new(&robot), step: 1.0, key: Some(key.to_owned()) };
+        let side = |key: &str| Side {
+            low: None,
+            high: DriveModel::new(&robot),
+            step: 1.0,
+            inertia_alone: false,
+            key: Some(key.to_owned()),
+        };
         let columns = Columns::default();
         let half: Column = Arc::new(vec![0.0; ROOM / 2]);
         columns.begin();

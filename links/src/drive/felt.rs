@@ -8,7 +8,8 @@ use estimation::parallel::each;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use std::ops::Range;
 
-use super::test_functions::{BodyFelt, DriveLink, Shape, TestFunction};
+use super::laid::Shape;
+use super::test_functions::{BodyFelt, DriveLink, TestFunction};
 use super::{DriveModel, Side};
 use crate::inertial::{Integral, Sensor};
 use crate::segment::Segment;
@@ -34,8 +35,8 @@ impl DriveLink<'_> {
             if !self.test_functions[range.clone()].iter().any(|b| b.slips) {
                 continue;
             }
-            let shapes = self.shapes(&s, &range);
-            let Some(left) = self.felt_left(model, sensor, &s, &range, &shapes) else { continue };
+            let laid = self.laid(&s, &range);
+            let Some(left) = self.felt_left(model, sensor, &s, &range, &laid.shapes) else { continue };
             for (a, b) in left.iter().zip(left.iter().skip(APART)) {
                 for (apart, (a, b)) in apart.iter_mut().zip(a.iter().zip(b)).filter(|(_, (a, b))| (*b - *a).is_finite())
                 {
@@ -82,11 +83,11 @@ impl DriveLink<'_> {
             // From the sensor's place to the centre of mass.
             let [x, y] = [0, 1].map(|i| sensor.place_m[i] - model.centre_of_mass[i]);
             let measured = [body.x + x * spun + y * spins, body.y + y * spun - x * spins];
-            let mut push = [mean(&|k| forces[k * (n + 3) + n]), mean(&|k| forces[k * (n + 3) + n + 1])];
+            let mut push = [mean(&|k| forces[n][k]), mean(&|k| forces[n + 1][k])];
             for i in 0..n {
                 let turns =
                     model.axes[i].encoder_scale * accelerated(b, shape, |k| s.angle[i][k] - s.angle[i][b.first]);
-                let passed = mean(&|k| forces[k * (n + 3) + i]) - model.spinning_inertia(i) * turns;
+                let passed = mean(&|k| forces[i][k]) - model.spinning_inertia(i) * turns;
                 push[0] += rows[(i, 0)] * passed;
                 push[1] += rows[(i, 1)] * passed;
             }

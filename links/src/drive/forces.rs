@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
-use model::plant::GRAVITY;
 use runs::frames::Twist;
 use runs::robot::Support;
 
+use super::signals::Signals;
 use super::{Ahead, DriveModel};
 use crate::segment::Segment;
 
@@ -35,6 +35,8 @@ pub struct Instant<'a> {
     pub twist: Twist,
     /// Heading of the body x axis in the world, rad.
     pub heading: f64,
+    /// Its cosine and sine.
+    pub facing: [f64; 2],
     /// Place in the field, m.
     pub position: [f64; 2],
     /// What [`super::Prepare`] made, `[preparation][wheel][tick]`.
@@ -49,9 +51,19 @@ impl Instant<'_> {
         self.segment.turning * self.sliding_per_turning
     }
 
+    /// Cosine and sine of so many times the heading.
+    pub fn facing_times(&self, times: f64) -> [f64; 2] {
+        if !(0.0..8.0).contains(&times) || times.fract() != 0.0 {
+            let (s, c) = (times * self.heading).sin_cos();
+            return [c, s];
+        }
+        let [c, s] = self.facing;
+        (0..times as u32).fold([1.0, 0.0], |[a, b], _| [a * c - b * s, a * s + b * c])
+    }
+
     /// Body velocity in world axes, m/s.
     pub fn world_velocity(&self) -> [f64; 2] {
-        let (s, c) = self.heading.sin_cos();
+        let [c, s] = self.facing;
         [c * self.twist.vx - s * self.twist.vy, s * self.twist.vx + c * self.twist.vy]
     }
 }
@@ -67,60 +79,39 @@ pub struct Loads {
 }
 
 impl Loads {
-    fn none(wheels: usize) -> Self {
+    pub(super) fn none(wheels: usize) -> Self {
         Self { wheel: vec![0.0; wheels], carried: vec![0.0; wheels], body: [0.0; 3] }
     }
 
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.wheel.fill(0.0);
         self.carried.fill(0.0);
         self.body = [0.0; 3];
     }
 
-    /// Adds a force in world axes, N, at the chassis centre.
-    pub fn push_world(&mut self, heading: f64, force: [f64; 2]) {
-        let (s, c) = heading.sin_cos();
-        self.body[0] += c * force[0] + s * force[1];
-        self.body[1] += -s * force[0] + c * force[1];
+    /// Adds a force in world axes, N, at the chassis centre of a body that faces so.
+    pub fn push_world(&mut self, facing: [f64; 2], force: [f64; 2]) {
+        let [right, forward] = in_body(facing, force);
+        self.body[0] += right;
+        self.body[1] += forward;
     }
 }
 
-/// What is the same at every tick of an axis, at its output shaft.
-struct Axis {
-    /// Nm per volt.
-    gain: f64,
-    /// Nm per rad/s.
-    damping: f64,
-    /// Friction of the motor, Nm.
-    coulomb: f64,
-    /// Share of the transmitted torque that is lost.
-    loss: f64,
-    /// Share of the winding's torque that passes through the gear: off the floor, what turns the rotor does not.
-    passed: f64,
+/// A force in world axes along those of a body that faces so.
+pub(super) fn in_body([c, s]: [f64; 2], force: [f64; 2]) -> [f64; 2] {
+    [c * force[0] + s * force[1], -s * force[0] + c * force[1]]
 }
 
-impl Axis {
-    /// Duty that keeps a speed, rad/s.
-    fn holds(&self, speed: f64, sign: f64, supply: f64) -> f64 {
-        let volts = (self.damping * speed + self.coulomb * sign) / self.gain;
-        if supply > 0.0 { volts / supply } else { 0.0 }
-    }
-
-    /// Torque that the gear loses, Nm, by size.
-    fn lost(&self, winding: f64, sign: f64, carried: f64) -> f64 {
-        self.loss * (self.passed * (winding - self.coulomb * sign) - (1.0 - self.passed) * carried).abs()
-    }
-}
+/// Torques of the wheels and forces on the body at the ticks of a segment but the last, `[wheels + 3][tick]`.
+pub type Forces = Vec<Vec<f64>>;
 
 /// Torques and forces of a model at every tick of a segment, with all that further loads look at.
 pub(super) struct Base<'a> {
     model: &'a DriveModel,
     segment: &'a Segment,
     /// As of [`DriveModel::forces`].
-    pub(super) forces: Vec<f64>,
-    /// `[tick][SIGNALS wheels + 4]`, flat, without the last tick: duty, speed, sign, winding, sideways speed and carried
-    /// torque of the wheels, twist, supply.
-    signals: Vec<f64>,
+    pub(super) forces: Forces,
+    signals: Signals,
     prepared: Vec<Vec<Vec<f64>>>,
 }
 
@@ -133,24 +124,18 @@ enum Axes {
     Inertial,
 }
 
-/// Signals of a wheel.
-const SIGNALS: usize = 6;
-
 impl<'a> Base<'a> {
-    /// Of a model at a segment; without its signals, unless loads are to be added.
-    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, with_signals: bool) -> Self {
-        let prepared: Vec<Vec<Vec<f64>>> = model.prepare.iter().map(|p| p(model, segment)).collect();
-        let room = if with_signals { segment.t.len() * (SIGNALS * model.wheels.len() + 4) } else { 0 };
-        let mut signals = Vec::with_capacity(room);
-        let forces = model.evaluate(segment, &prepared, with_signals.then_some(&mut signals), Axes::Body);
+    /// Of a model at a segment; what loads look at is worked out if loads are to be added.
+    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, more: bool) -> Self {
+        let prepared = model.prepared(segment);
+        let (forces, signals) = model.evaluate(segment, &prepared, more, Axes::Body);
         Self { model, segment, forces, signals, prepared }
     }
 
-    /// What a model that only adds loads to this one adds to its torques and forces, `[wheels + 3][tick]`; nothing where
-    /// that is 0 throughout. `None` for a model that changes more.
+    /// What a model that only adds loads to this one adds to its torques and forces; nothing where that is 0 throughout.
+    /// `None` for a model that changes more.
     pub(super) fn loads_of(&self, other: &DriveModel) -> Option<Vec<Option<Vec<f64>>>> {
-        let s = self.segment;
-        let n = self.model.wheels.len();
+        let (s, n) = (self.segment, self.model.wheels.len());
         if !other.only_loads_more(self.model) {
             return None;
         }
@@ -158,7 +143,7 @@ impl<'a> Base<'a> {
         if more.is_empty() {
             return Some(vec![None; n + 3]);
         }
-        if self.signals.is_empty() {
+        if !self.signals.all {
             return None;
         }
         let new = &other.prepare[self.prepared.len()..];
@@ -167,37 +152,15 @@ impl<'a> Base<'a> {
         } else {
             Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
         };
-        let mut out = vec![vec![0.0; s.t.len()]; n + 3];
-        let mut loads = Loads::none(n);
+        let mut out = vec![vec![0.0; self.signals.ticks()]; n + 3];
         let axes = self.model.constants();
-        let braking = self.model.braking();
-        let sliding_per_turning = self.model.sliding_per_turning();
-        for (k, signals) in self.signals.chunks_exact(SIGNALS * n + 4).enumerate() {
-            let (by_wheel, whole) = signals.split_at(SIGNALS * n);
-            let wheel = |index: usize| &by_wheel[index * n..(index + 1) * n];
-            let now = Instant {
-                segment: s,
-                tick: k,
-                time_s: s.t[k] - s.stretch[0],
-                duty: wheel(0),
-                supply: whole[3],
-                speed: wheel(1),
-                sign: wheel(2),
-                winding: wheel(3),
-                braking: &braking,
-                sideways: wheel(4),
-                twist: Twist::new(whole[0], whole[1], whole[2]),
-                heading: s.heading[k],
-                position: s.position[k],
-                prepared: &prepared,
-                sliding_per_turning,
-            };
-            loads.clear();
+        self.model.each_instant(s, &self.signals, &prepared, |k, now, loads| {
             for term in more {
-                term(&now, &mut loads);
+                term(now, loads);
             }
             for (i, axis) in axes.iter().enumerate() {
-                let (before, more) = (wheel(5)[i], loads.carried[i]);
+                let before = self.signals.carried[i].get(k).copied().unwrap_or(0.0);
+                let more = loads.carried[i];
                 if more != 0.0 {
                     let lost = |carried| axis.lost(now.winding[i], now.sign[i], carried);
                     loads.wheel[i] += more - now.sign[i] * (lost(before + more) - lost(before));
@@ -206,7 +169,7 @@ impl<'a> Base<'a> {
             for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
                 row[k] = *x;
             }
-        }
+        });
         Some(out.into_iter().map(|row| row.iter().any(|x| *x != 0.0).then_some(row)).collect())
     }
 
@@ -217,39 +180,20 @@ impl<'a> Base<'a> {
 }
 
 impl DriveModel {
-    fn sliding_per_turning(&self) -> f64 {
+    pub(super) fn sliding_per_turning(&self) -> f64 {
         crate::thresholds::SLIDES * self.wheel_radius_m
     }
 
     /// Torque by which the back-EMF brakes each wheel, Nm per rad/s.
-    fn braking(&self) -> Vec<f64> {
+    pub(super) fn braking(&self) -> Vec<f64> {
         self.axes.iter().map(|a| a.braking(self.gear_ratio)).collect()
-    }
-
-    fn constants(&self) -> Vec<Axis> {
-        let g = self.gear_ratio;
-        let of = |a: &super::AxisModel| {
-            let gain = g * a.torque_constant / a.resistance;
-            let rotor = g * g * a.rotor_inertia;
-            Axis {
-                gain,
-                damping: a.braking(g) * a.encoder_scale,
-                coulomb: g * a.friction,
-                loss: a.gear_loss,
-                passed: match self.support {
-                    Support::Blocks => a.load_inertia / (a.load_inertia + rotor).max(1e-300),
-                    Support::Floor => 1.0,
-                },
-            }
-        };
-        self.axes.iter().map(of).collect()
     }
 
     /// Largest torque with which each wheel may stick, Nm, at the start of a segment: of friction, and of a bridge that does
     /// nothing at small duties, which near rest does the same.
     pub(super) fn standing_friction(&self, s: &Segment) -> Vec<f64> {
         let n = self.wheels.len();
-        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
+        let prepared = self.prepared(s);
         let still = vec![0.0; n];
         let braking = self.braking();
         let turning = |sense: f64| {
@@ -266,6 +210,7 @@ impl DriveModel {
                 sideways: &still,
                 twist: Twist::default(),
                 heading: s.heading[0],
+                facing: s.facing[0],
                 position: s.position[0],
                 prepared: &prepared,
                 sliding_per_turning: self.sliding_per_turning(),
@@ -295,212 +240,73 @@ impl DriveModel {
         idle
     }
 
-    /// Wheel torques and body forces at every tick of a segment, `[tick][wheels + 3]`, flat.
-    pub fn forces(&self, s: &Segment) -> Vec<f64> {
-        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
-        self.evaluate(s, &prepared, None, Axes::Body)
+    /// What the terms with memory prepare.
+    fn prepared(&self, s: &Segment) -> Vec<Vec<Vec<f64>>> {
+        self.prepare.iter().map(|p| p(self, s)).collect()
+    }
+
+    /// Wheel torques and body forces at the ticks of a segment. Inertias have no part in them on the floor, as
+    /// [`crate::effect::Effect::is_inertia`] says; nor may terms have.
+    pub fn forces(&self, s: &Segment) -> Forces {
+        self.evaluate(s, &self.prepared(s), false, Axes::Body).0
     }
 
     /// The same without gravity and what turning axes add: what an accelerometer feels.
-    pub(super) fn felt_forces(&self, s: &Segment) -> Vec<f64> {
-        let prepared: Vec<Vec<Vec<f64>>> = self.prepare.iter().map(|p| p(self, s)).collect();
-        self.evaluate(s, &prepared, None, Axes::Inertial)
+    pub(super) fn felt_forces(&self, s: &Segment) -> Forces {
+        self.evaluate(s, &self.prepared(s), false, Axes::Inertial).0
     }
 
-    /// The same; writes down what loads look at, if that is asked for.
-    fn evaluate(
-        &self,
-        s: &Segment,
-        prepared: &[Vec<Vec<f64>>],
-        mut signals: Option<&mut Vec<f64>>,
-        axes_of: Axes,
-    ) -> Vec<f64> {
+    /// Torques and forces, and the signals that they come from: all of them if further loads ask for `more`.
+    fn evaluate(&self, s: &Segment, prepared: &[Vec<Vec<f64>>], more: bool, axes_of: Axes) -> (Forces, Signals) {
         let n = self.wheels.len();
-        let width = n + 3;
-        let ticks = s.t.len();
-        let mut out = vec![0.0; ticks * width];
-        if s.duty.len() != n || s.angle.len() != n {
-            return out;
+        let ticks = s.t.len().saturating_sub(1);
+        if s.duty.len() != n || s.angle.len() != n || ticks == 0 {
+            return (vec![vec![0.0; ticks]; n + 3], Signals::default());
         }
-        let free: Vec<[f64; 3]> = self
-            .wheels
-            .iter()
-            .map(|w| {
-                // Perpendicular to the traction direction.
-                let [ax, ay] = w.traction();
-                [-ay, ax, w.x_m * ax + w.y_m * ay]
-            })
-            .collect();
-        let g = self.gear_ratio;
-        let (mut duty, mut speed, mut sign) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let (mut winding, mut sideways, mut currents) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let mut passed: Vec<Option<LowPass>> = vec![None; n];
-        let mut loads = Loads::none(n);
-        let start = s.stretch[0];
-        let from_wheels: Option<Vec<[f64; 3]>> = self.twist_per_wheel_speed().map(|m| {
-            let of_wheel = |(i, a): (usize, &super::AxisModel)| [0, 1, 2].map(|j| m[(j, i)] * a.encoder_scale);
-            self.axes.iter().enumerate().map(of_wheel).collect()
-        });
-        let sliding_per_turning = self.sliding_per_turning();
-        // Only terms and maps look at more than duties and counts.
-        let bare = self.loads.is_empty() && self.supply_maps.is_empty() && signals.is_none();
         let axes = self.constants();
-        let braking = self.braking();
-        for k in 0..ticks - 1 {
-            let dt = s.t[k + 1] - s.t[k];
-            let per_dt = 1.0 / dt;
-            // By the wheels as they are: skews and radii that were found turn the Coriolis force, too.
-            let twist = match &from_wheels {
-                Some(columns) => {
-                    let mut sum = [0.0; 3];
-                    for (column, speed) in columns.iter().zip(&s.speed) {
-                        for (sum, c) in sum.iter_mut().zip(column) {
-                            *sum += c * over_row(speed, k);
-                        }
-                    }
-                    Twist::new(sum[0], sum[1], sum[2])
+        // Only terms and maps look at more than duties and counts.
+        let all = more || !self.loads.is_empty() || !self.supply_maps.is_empty();
+        let turns = axes_of == Axes::Body && self.support == Support::Floor;
+        let mut signals = Signals::of(self, s, &axes, all, turns);
+        if !self.supply_maps.is_empty() {
+            signals.lay();
+            signals.supply = self.mapped_supply(s, &signals, prepared);
+        }
+        signals.wind(s, &axes);
+        if more || !self.loads.is_empty() {
+            signals.lay();
+        }
+        let mut out = vec![vec![0.0; ticks]; n + 3];
+        if turns {
+            self.inertial(s, &signals, &mut out[n..]);
+        }
+        if self.loads.is_empty() {
+            signals.carried = vec![Vec::new(); n];
+        } else {
+            let mut carried = vec![vec![0.0; ticks]; n];
+            self.each_instant(s, &signals, prepared, |k, now, loads| {
+                for (slot, row) in loads.body.iter_mut().zip(&out[n..]) {
+                    *slot = row[k];
                 }
-                None => {
-                    let (at, next) = (s.twist[k], s.twist[k + 1]);
-                    let mean = |a: f64, b: f64| 0.5 * (a + b);
-                    Twist::new(mean(at.vx, next.vx), mean(at.vy, next.vy), mean(at.omega, next.omega))
-                }
-            };
-            for i in 0..n {
-                let mut u = if self.duty_delay_s == 0.0 {
-                    s.duty[i][k]
-                } else {
-                    delayed(&s.duty[i], k, self.duty_delay_s / dt)
-                };
-                for map in &self.duty_maps {
-                    u = map(i, u);
-                }
-                // Of wheels that are read through a low-pass all is late as they are: what drives them, too.
-                if self.reading_filter_s > 0.0 {
-                    let began = || LowPass { at: axes[i].holds(s.speed[i][k], s.sign[i][k], s.supply[k]) };
-                    u = passed[i].get_or_insert_with(began).over_row(u, dt / self.reading_filter_s);
-                }
-                duty[i] = u;
-                sign[i] = over_row(&s.sign[i], k);
-                if bare {
-                    continue;
-                }
-                speed[i] = self.axes[i].encoder_scale * over_row(&s.speed[i], k);
-                sideways[i] = free[i][0] * twist.vx + free[i][1] * twist.vy + free[i][2] * twist.omega;
-            }
-            let mut supply = s.supply[k];
-            if !self.supply_maps.is_empty() {
-                let mut mapped = |from: f64| {
-                    for i in 0..n {
-                        let axis = &self.axes[i];
-                        currents[i] = (duty[i] * from - axis.back_emf * g * speed[i]) / axis.resistance;
-                    }
-                    let now = Instant {
-                        segment: s,
-                        tick: k,
-                        time_s: s.t[k] - start,
-                        duty: &duty,
-                        supply: s.supply[k],
-                        speed: &speed,
-                        sign: &sign,
-                        winding: &winding,
-                        braking: &braking,
-                        sideways: &sideways,
-                        twist,
-                        heading: s.heading[k],
-                        position: s.position[k],
-                        prepared,
-                        sliding_per_turning,
-                    };
-                    self.supply_maps.iter().fold(s.supply[k], |v, map| map(&now, v, &currents))
-                };
-                // The supply sets the currents and they the supply: the fixed point, by a secant.
-                let first = mapped(supply);
-                let second = mapped(first);
-                let slope = if first == supply { 0.0 } else { (second - first) / (first - supply) };
-                supply = if slope < 0.95 { first + (second - first) / (1.0 - slope) } else { second };
-            }
-            for i in 0..n {
-                // Raw increments where the equation is linear: nothing is lost by smoothing.
-                let raw = (s.angle[i][k + 1] - s.angle[i][k]) * per_dt;
-                winding[i] = axes[i].gain * duty[i] * supply - axes[i].damping * raw;
-            }
-            loads.clear();
-            if self.support == Support::Floor && axes_of == Axes::Body {
-                let [cx, cy] = self.centre_of_mass;
-                let (px, py) = (self.mass * (twist.vx - twist.omega * cy), self.mass * (twist.vy + twist.omega * cx));
-                loads.body =
-                    [twist.omega * py, -twist.omega * px, -self.mass * twist.omega * (cx * twist.vx + cy * twist.vy)];
-                if self.slope_rad != [0.0; 2] {
-                    loads.push_world(s.heading[k], self.slope_rad.map(|slope| self.mass * GRAVITY * slope));
-                }
-            }
-            if !self.loads.is_empty() {
-                let now = Instant {
-                    segment: s,
-                    tick: k,
-                    time_s: s.t[k] - start,
-                    duty: &duty,
-                    supply,
-                    speed: &speed,
-                    sign: &sign,
-                    winding: &winding,
-                    braking: &braking,
-                    sideways: &sideways,
-                    twist,
-                    heading: s.heading[k],
-                    position: s.position[k],
-                    prepared,
-                    sliding_per_turning,
-                };
                 for term in &self.loads {
-                    term(&now, &mut loads);
+                    term(now, loads);
                 }
-            }
-            for (i, axis) in axes.iter().enumerate() {
-                let lost = axis.lost(winding[i], sign[i], loads.carried[i]);
-                loads.wheel[i] += winding[i] + loads.carried[i] - sign[i] * (axis.coulomb + lost);
-            }
-            let row = &mut out[k * width..(k + 1) * width];
-            row[..n].copy_from_slice(&loads.wheel);
-            row[n..].copy_from_slice(&loads.body);
-            if let Some(signals) = &mut signals {
-                for part in [&duty, &speed, &sign, &winding, &sideways, &loads.carried] {
-                    signals.extend_from_slice(part);
+                for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
+                    row[k] = *x;
                 }
-                signals.extend([twist.vx, twist.vy, twist.omega, supply]);
+                for (row, x) in carried.iter_mut().zip(&loads.carried) {
+                    row[k] = *x;
+                }
+            });
+            signals.carried = carried;
+        }
+        for (i, axis) in axes.iter().enumerate() {
+            let given = signals.winding[i].iter().zip(&signals.sign[i]);
+            let carried = signals.carried[i].iter().copied().chain(std::iter::repeat(0.0));
+            for ((out, (winding, sign)), carried) in out[i].iter_mut().zip(given).zip(carried) {
+                *out += winding + carried - sign * (axis.coulomb + axis.lost(*winding, *sign, carried));
             }
         }
-        out
+        (out, signals)
     }
-}
-
-/// Mean from a tick to the next of a signal that is known at the ticks: a load acts for as long as the duty of its row.
-fn over_row(values: &[f64], k: usize) -> f64 {
-    0.5 * (values[k] + values[k + 1])
-}
-
-/// A low-pass of first order.
-#[derive(Debug, Clone, Copy)]
-struct LowPass {
-    at: f64,
-}
-
-impl LowPass {
-    /// Mean of what comes out while `held` goes in for `rows` time constants.
-    fn over_row(&mut self, held: f64, rows: f64) -> f64 {
-        let begins = self.at - held;
-        let kept = (-rows).exp();
-        self.at = held + begins * kept;
-        held + begins * (1.0 - kept) / rows
-    }
-}
-
-/// A held signal `ticks` ago, 0 before its start.
-fn delayed(values: &[f64], k: usize, ticks: f64) -> f64 {
-    let at = |m: i64| if m < 0 { 0.0 } else { values[(m as usize).min(values.len() - 1)] };
-    let whole = ticks.floor();
-    let share = ticks - whole;
-    let m = k as i64 - whole as i64;
-    (1.0 - share) * at(m) + share * at(m - 1)
 }

@@ -10,7 +10,11 @@ mod felt;
 mod floor;
 mod forces;
 mod free_run;
+mod laid;
+mod signals;
 mod test_functions;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
@@ -23,7 +27,7 @@ pub use crate::segment::smooth_sign;
 pub(crate) use crate::thresholds::TEST_FUNCTION_S;
 pub use columns::Side;
 pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
-pub use forces::{Instant, Loads};
+pub use forces::{Forces, Instant, Loads};
 pub use free_run::{further, in_own_torque, runaway};
 pub use test_functions::{DriveLink, DriveResiduals};
 
@@ -165,6 +169,12 @@ impl DriveModel {
             && self.support == base.support
             && self.duty_maps.len() == base.duty_maps.len()
             && self.supply_maps.len() == base.supply_maps.len()
+    }
+
+    /// Whether no torque depends on an inertia, or a motor's on a load: on blocks a gear that loses passes on what does not turn
+    /// its rotor.
+    pub fn torques_stand_alone(&self) -> bool {
+        self.support == Support::Floor || self.axes.iter().all(|a| a.gear_loss == 0.0)
     }
 
     /// Mean inertia a wheel feels while the others are free to follow, kg m² at its shaft.

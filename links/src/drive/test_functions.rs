@@ -1,18 +1,20 @@
 //! Weak form: test functions, and the unexplained torque of each.
 
+use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector};
 use runs::robot::Support;
 
 use super::columns::{Column, Columns, Side};
-use super::forces::Base;
+use super::forces::{Base, Forces};
+use super::laid::{Laid, Shape};
 use super::{Ahead, DriveModel, Mechanics};
 use crate::effect::Sizes;
 use crate::inertial::Sensor;
-use crate::pieces::Pieces;
+use crate::pieces::{Pieces, by_segment};
 use crate::segment::Segment;
 use crate::thresholds;
 use estimation::normal_equations::Cluster;
@@ -45,6 +47,7 @@ pub struct DriveLink<'a> {
     /// What torques and speeds are large beside.
     pub sizes: Sizes,
     pub(super) test_functions: Vec<TestFunction>,
+    pub(super) laid: Vec<OnceLock<Arc<Laid>>>,
     columns: Columns,
     /// What an inertial sensor tells where wheels slip.
     pub(super) felt: Option<BodyFelt>,
@@ -61,11 +64,11 @@ pub(super) struct BodyFelt {
 pub(super) struct TestFunction {
     pub(super) segment: usize,
     /// Where it begins and how long it is, s.
-    start: f64,
-    length: f64,
+    pub(super) start: f64,
+    pub(super) length: f64,
     /// Its first tick, on which it is 0, and its number of intervals from tick to tick.
     pub(super) first: usize,
-    intervals: usize,
+    pub(super) intervals: usize,
     /// 1 where the wheel turned, 0 where it may have been stuck.
     weights: Vec<f64>,
     /// Share of the test function in which it may have been stuck, one a wheel.
@@ -74,14 +77,6 @@ pub(super) struct TestFunction {
     pub(super) slips: bool,
     /// Cluster, unique over all segments.
     pub(super) cluster: usize,
-}
-
-/// A test function's weights.
-pub(super) struct Shape {
-    /// Of the angles: second differences of the test function, from the test function's first tick.
-    pub(super) angle: Vec<f64>,
-    /// Of the intervals from tick to tick, summing to 1.
-    pub(super) force: Vec<f64>,
 }
 
 /// Unexplained torques.
@@ -145,6 +140,7 @@ impl<'a> DriveLink<'a> {
             noise: vec![1.0; n],
             sizes,
             test_functions,
+            laid: (0..pieces.kept()).map(|_| OnceLock::new()).collect(),
             columns: Columns::default(),
             felt: None,
         };
@@ -290,19 +286,7 @@ impl<'a> DriveLink<'a> {
 
     /// Test functions of each segment.
     pub(super) fn by_segment(&self) -> Vec<Range<usize>> {
-        let mut first = 0;
-        self.test_functions
-            .chunk_by(|a, b| a.segment == b.segment)
-            .map(|part| {
-                first += part.len();
-                first - part.len()..first
-            })
-            .collect()
-    }
-
-    /// The shapes of some test functions of one segment.
-    pub(super) fn shapes(&self, s: &Segment, range: &Range<usize>) -> Vec<Shape> {
-        each(&self.test_functions[range.clone()], &|b| b.shape(s))
+        by_segment(&self.test_functions, |b| b.segment)
     }
 
     /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
@@ -316,15 +300,13 @@ impl<'a> DriveLink<'a> {
         model: &DriveModel,
         s: &Segment,
         range: &Range<usize>,
-        shapes: &[Shape],
-        (forces, inertia): (&[f64], Option<&DMatrix<f64>>),
-        measured: &[DVector<f64>],
+        Laid { shapes, measured }: &Laid,
+        (forces, inertia): (&Forces, Option<&DMatrix<f64>>),
     ) -> Option<Vec<DVector<f64>>> {
         let mechanics = model.mechanics()?;
-        let n = model.wheels.len();
         let offsets: Vec<(Ahead, Vec<Vec<f64>>)> = model.offsets.iter().map(|(what, o)| (*what, o(model, s))).collect();
         let out = self.test_functions[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
-            let mut a = b.acceleration(shape, forces, n, &mechanics, model);
+            let mut a = b.acceleration(shape, forces, &mechanics, model);
             for offset in &offsets {
                 b.offset(shape, offset, &mechanics, model, &mut a);
             }
@@ -363,20 +345,10 @@ impl<'a> DriveLink<'a> {
         let Some(Mechanics { inertia, .. }) = model.mechanics() else { return Vec::new() };
         let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            self.measured_part(&s, range, &self.shapes(&s, range))
+            self.laid(&s, range).measured.clone()
         };
         let measured = each(&self.by_segment(), &part).concat();
         measured.into_iter().map(|a| &inertia * a).collect()
-    }
-
-    fn measured_part(&self, s: &Segment, range: &Range<usize>, shapes: &[Shape]) -> Vec<DVector<f64>> {
-        let measured = self.test_functions[range.clone()].iter().zip(shapes).map(|(b, shape)| {
-            DVector::from_fn(self.noise.len(), |i, _| {
-                let own = &s.angle[i][b.first..];
-                shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum()
-            })
-        });
-        measured.collect()
     }
 
     /// Unexplained wheel acceleration at every inner tick of a segment, rad/s², and the torque it
@@ -387,13 +359,13 @@ impl<'a> DriveLink<'a> {
     pub fn raw(&self, model: &DriveModel, segment: usize) -> Option<[Vec<Vec<f64>>; 2]> {
         let mechanics = model.mechanics()?;
         let (n, s) = (self.noise.len(), &*self.pieces.get(segment));
-        let (width, ticks) = (n + 3, s.t.len());
+        let ticks = s.t.len();
         let forces = model.forces(s);
         let acceleration = |k: usize| {
-            let row = &forces[k * width..(k + 1) * width];
-            let mut a = &mechanics.response * DVector::from_column_slice(&row[..n]);
+            let (wheel, on_body) = forces.split_at(n);
+            let mut a = &mechanics.response * DVector::from_fn(n, |i, _| wheel[i][k]);
             if let Some(body) = &mechanics.body {
-                a += body * DVector::from_column_slice(&row[n..]);
+                a += body * DVector::from_fn(3, |j, _| on_body[j][k]);
             }
             a
         };
@@ -434,9 +406,8 @@ impl<'a> DriveLink<'a> {
     fn residuals_in(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<DriveResiduals> {
         let part = |range: &Range<usize>| -> Option<Vec<Vec<f64>>> {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            let shapes = self.shapes(&s, range);
-            let measured = self.measured_part(&s, range, &shapes);
-            let left = self.unexplained_part(model, &s, range, &shapes, (&model.forces(&s), inertia), &measured)?;
+            let laid = self.laid(&s, range);
+            let left = self.unexplained_part(model, &s, range, &laid, (&model.forces(&s), inertia))?;
             Some(left.iter().map(|torque| torque.iter().copied().collect()).collect())
         };
         let torque: Option<Vec<_>> = each(&self.by_segment(), &part).into_iter().collect();
@@ -453,13 +424,13 @@ impl<'a> DriveLink<'a> {
     pub fn means(&self, quantities: usize, of: impl Fn(&Segment, usize, &mut [f64]) + Sync) -> Vec<Vec<f64>> {
         let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.test_functions[range.start].segment);
-            let shapes = self.shapes(&s, range);
+            let laid = self.laid(&s, range);
             let mut values = vec![0.0; quantities * s.t.len()];
             for (k, row) in values.chunks_mut(quantities).enumerate() {
                 of(&s, k, row);
             }
             let mut means = vec![vec![0.0; range.len()]; quantities];
-            for (place, (b, shape)) in self.test_functions[range.clone()].iter().zip(&shapes).enumerate() {
+            for (place, (b, shape)) in self.test_functions[range.clone()].iter().zip(&laid.shapes).enumerate() {
                 for (j, w) in shape.force.iter().enumerate() {
                     let row = &values[(b.first + j) * quantities..][..quantities];
                     means.iter_mut().zip(row).for_each(|(mean, x)| mean[place] += w * x);
@@ -505,10 +476,9 @@ impl<'a> DriveLink<'a> {
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.test_functions[range.start].segment);
-            let shapes = self.shapes(s, &range);
-            let measured = self.measured_part(s, &range, &shapes);
-            let left = |model: &DriveModel, forces: &[f64]| {
-                self.unexplained_part(model, s, &range, &shapes, (forces, Some(&self.inertia)), &measured)
+            let laid = self.laid(s, &range);
+            let left = |model: &DriveModel, forces: &Forces| {
+                self.unexplained_part(model, s, &range, &laid, (forces, Some(&self.inertia)))
             };
             let known: Vec<Option<Column>> = sides.iter().map(|side| self.columns.find(range.start, side)).collect();
             let start = Base::new(model, s, known.iter().any(Option::is_none));
@@ -518,7 +488,7 @@ impl<'a> DriveLink<'a> {
                 if known[i].is_some() {
                     return known[i].clone();
                 }
-                let added = |model: &DriveModel| self.added_part(model, &start, &range, &shapes);
+                let added = |model: &DriveModel| self.added_part(model, &start, &range, &laid.shapes);
                 let only_more = side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
                 let mut column = Vec::with_capacity(range.len() * n);
                 let mut keep = |low: Option<&DVector<f64>>, high: &DVector<f64>| {
@@ -528,11 +498,15 @@ impl<'a> DriveLink<'a> {
                     let high = high.iter().enumerate();
                     high.for_each(|(b, high)| keep(low.as_ref().map(|low| &low[b]), high));
                 } else {
+                    let forces = |changed: &DriveModel| {
+                        let same = side.inertia_alone && changed.torques_stand_alone();
+                        if same { Cow::Borrowed(&start.forces) } else { Cow::Owned(changed.forces(s)) }
+                    };
                     let low = match &side.low {
-                        Some(low) => Some(left(low, &low.forces(s))?),
+                        Some(low) => Some(left(low, &forces(low))?),
                         None => None,
                     };
-                    let high = left(&side.high, &side.high.forces(s))?;
+                    let high = left(&side.high, &forces(&side.high))?;
                     let low = low.as_ref().unwrap_or(&base);
                     // What a model explains more is left less.
                     low.iter().zip(&high).for_each(|(low, high)| keep(Some(high), low));
@@ -558,7 +532,7 @@ impl<'a> DriveLink<'a> {
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
                 first += part.len();
             }
-            clusters.extend(self.felt_clusters(model, sides, s, &range, &shapes));
+            clusters.extend(self.felt_clusters(model, sides, s, &range, &laid.shapes));
         }
         clusters
     }
@@ -611,49 +585,8 @@ impl TestFunction {
         self.first + self.intervals / 2
     }
 
-    fn shape(&self, s: &Segment) -> Shape {
-        let t = &s.t[self.first..=self.first + self.intervals];
-        let value = |t: f64| {
-            let x = (t - self.start) / self.length;
-            if (0.0..=1.0).contains(&x) { (std::f64::consts::PI * x).sin().powi(2) } else { 0.0 }
-        };
-        let m = t.len();
-        // With duty held from tick to tick the acceleration a_k is constant there, and exactly
-        // Δθ_k/h_k − Δθ_{k−1}/h_{k−1} = (a_k·h_k + a_{k−1}·h_{k−1})/2: summed with the test function's
-        // values and by parts this gives the weights of angles and intervals.
-        let mut angle = vec![0.0; m];
-        let mut force = vec![0.0; m - 1];
-        for k in 1..m - 1 {
-            let (before, after) = (t[k] - t[k - 1], t[k + 1] - t[k]);
-            let shape = value(t[k]);
-            angle[k - 1] += shape / before;
-            angle[k] -= shape * (1.0 / before + 1.0 / after);
-            angle[k + 1] += shape / after;
-            force[k - 1] += 0.5 * shape * before;
-            force[k] += 0.5 * shape * after;
-        }
-        let total: f64 = force.iter().sum();
-        angle.iter_mut().for_each(|w| *w /= total);
-        force.iter_mut().for_each(|w| *w /= total);
-        Shape { angle, force }
-    }
-
-    fn acceleration(
-        &self,
-        shape: &Shape,
-        forces: &[f64],
-        n: usize,
-        mechanics: &Mechanics,
-        model: &DriveModel,
-    ) -> DVector<f64> {
-        let width = n + 3;
-        let mut mean = vec![0.0; width];
-        for (j, w) in shape.force.iter().enumerate() {
-            let row = &forces[(self.first + j) * width..(self.first + j + 1) * width];
-            for (slot, x) in mean.iter_mut().zip(row) {
-                *slot += w * x;
-            }
-        }
+    fn acceleration(&self, shape: &Shape, forces: &Forces, mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
+        let mean: Vec<f64> = forces.iter().map(|row| dot(&shape.force, &row[self.first..])).collect();
         self.accelerated(&mean, mechanics, model)
     }
 

@@ -46,7 +46,7 @@ impl Effect for CarpetGrain {
         model.loads.push(Box::new(move |now, loads| {
             let v = now.world_velocity();
             let f = -force * smooth_sign(v[0] * g[0] + v[1] * g[1], 2.0 * now.sliding());
-            loads.push_world(now.heading, [f * g[0], f * g[1]]);
+            loads.push_world(now.facing, [f * g[0], f * g[1]]);
         }));
     }
 

@@ -78,7 +78,7 @@ mod tests {
                     _ => stronger.drive(&values("scale", 0.3), &mut model),
                 }
             }
-            model.forces(&segment)
+            model.forces(&segment).concat()
         };
         let (one, other) = (forces([0, 1]), forces([1, 0]));
         let most = one.iter().fold(0.0_f64, |most, x| most.max(x.abs()));

@@ -53,7 +53,7 @@ impl Effect for HeadingDrag {
         let (a, b, n) = (values.get("cos_nm"), values.get("sin_nm"), values.find("harmonic").unwrap_or(1.0));
         let mean = values.get("mean_nm");
         model.loads.push(Box::new(move |now, loads| {
-            let (s, c) = (n * now.heading).sin_cos();
+            let [c, s] = now.facing_times(n);
             let t = mean + a * c + b * s;
             for i in 0..now.sign.len() {
                 loads.wheel[i] -= t * now.sign[i];

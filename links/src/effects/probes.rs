@@ -161,7 +161,7 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
                 let t: Vec<[f64; 3]> =
                     (0..m.wheels.len()).map(|i| ["cos", "sin", "mean"].map(|s| v.wheel(s, i, "nm"))).collect();
                 m.loads.push(Box::new(move |now, loads| {
-                    let (s, c) = (n * now.heading).sin_cos();
+                    let [c, s] = now.facing_times(n);
                     for (i, [a, b, mean]) in t.iter().enumerate() {
                         loads.wheel[i] -= (a * c + b * s + mean) * now.sign[i];
                     }
@@ -194,7 +194,7 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
                 let (k, x, y) = (v.get("stiffness_n_per_m"), v.get("x_n"), v.get("y_n"));
                 m.loads.push(Box::new(move |now, loads| {
                     let [px, py] = now.position;
-                    loads.push_world(now.heading, [x - k * px, y - k * py]);
+                    loads.push_world(now.facing, [x - k * px, y - k * py]);
                 }));
             },
             describe: |v| {
@@ -226,7 +226,7 @@ pub(super) fn all() -> Vec<Box<dyn Effect>> {
                     if now.position[0] * x + now.position[1] * y > 0.0 {
                         let [vx, vy] = now.world_velocity();
                         let speed = vx.hypot(vy).max(0.02);
-                        loads.push_world(now.heading, [-f * vx / speed, -f * vy / speed]);
+                        loads.push_world(now.facing, [-f * vx / speed, -f * vy / speed]);
                     }
                 }));
             },

@@ -33,6 +33,10 @@ impl Effect for RotorInertia {
         vec![Form::whole(vec![Parameter::new("scale", (0.2 * material).max(0.02), [-0.9, 200.0], material)])]
     }
 
+    fn is_inertia(&self) -> bool {
+        true
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         model.axes.iter_mut().for_each(|a| a.rotor_inertia *= 1.0 + values.get("scale"));
     }

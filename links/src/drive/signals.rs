@@ -1,0 +1,299 @@
+//! What the terms of the drive model look at, column by column: each is a loop over ticks that a processor runs several at a
+//! time.
+
+use model::plant::GRAVITY;
+use runs::frames::Twist;
+use runs::robot::Support;
+
+use super::DriveModel;
+use super::forces::{Instant, Loads, in_body};
+use crate::segment::Segment;
+
+/// What is the same at every tick of an axis, at its output shaft.
+pub(super) struct Axis {
+    /// Nm per volt.
+    pub(super) gain: f64,
+    /// Nm per rad/s.
+    damping: f64,
+    /// Friction of the motor, Nm.
+    pub(super) coulomb: f64,
+    /// Share of the transmitted torque that is lost.
+    loss: f64,
+    /// Share of the winding's torque that passes through the gear: off the floor, what turns the rotor does not.
+    passed: f64,
+}
+
+impl Axis {
+    /// Duty that keeps a speed, rad/s.
+    fn holds(&self, speed: f64, sign: f64, supply: f64) -> f64 {
+        let volts = (self.damping * speed + self.coulomb * sign) / self.gain;
+        if supply > 0.0 { volts / supply } else { 0.0 }
+    }
+
+    /// Torque that the gear loses, Nm, by size.
+    pub(super) fn lost(&self, winding: f64, sign: f64, carried: f64) -> f64 {
+        self.loss * (self.passed * (winding - self.coulomb * sign) - (1.0 - self.passed) * carried).abs()
+    }
+}
+
+/// Signals that each wheel has, in [`Signals::lay`].
+const BY_WHEEL: usize = 5;
+
+/// Signals of a model at the ticks of a segment but the last; means from each to the next.
+#[derive(Default)]
+pub(super) struct Signals {
+    /// Whether all are here, or only those that torques without further loads come from.
+    pub(super) all: bool,
+    /// Duty that acts, −1 to 1, `[wheel][tick]`, as the others of the wheels.
+    pub(super) duty: Vec<Vec<f64>>,
+    /// Speed, rad/s.
+    pub(super) speed: Vec<Vec<f64>>,
+    /// Direction of rotation, −1 to 1.
+    pub(super) sign: Vec<Vec<f64>>,
+    /// Torque of the winding at the wheel shaft, Nm.
+    pub(super) winding: Vec<Vec<f64>>,
+    /// Speed of the contact in the direction in which its rollers roll, m/s.
+    pub(super) sideways: Vec<Vec<f64>>,
+    /// Torque of the loads that a gear carries, Nm; empty where there are none.
+    pub(super) carried: Vec<Vec<f64>>,
+    /// To the right, forward, counter-clockwise: m/s, m/s, rad/s.
+    pub(super) twist: [Vec<f64>; 3],
+    /// V.
+    pub(super) supply: Vec<f64>,
+    /// The wheels' duties, speeds, directions, windings and sideways speeds once more, tick by tick, as terms look at them.
+    rows: Vec<f64>,
+}
+
+impl Signals {
+    /// Of a model, but for its windings; twists and what they make only where they are looked at.
+    pub(super) fn of(model: &DriveModel, s: &Segment, axes: &[Axis], all: bool, twist: bool) -> Self {
+        let n = model.wheels.len();
+        let mut out = Self { all, supply: s.supply[..s.t.len() - 1].to_vec(), ..Self::default() };
+        out.duty = (0..n).map(|i| model.acting_duty(s, i, &axes[i])).collect();
+        out.sign = s.sign.iter().map(|sign| over_rows(sign, 1.0)).collect();
+        if all || twist {
+            out.twist = model.twists(s);
+        }
+        if all {
+            out.speed = s.speed.iter().zip(&model.axes).map(|(w, axis)| over_rows(w, axis.encoder_scale)).collect();
+            out.sideways = model.rolls_free(&out.twist);
+        }
+        out
+    }
+
+    /// Lays the wheels' signals side by side, tick by tick, for [`DriveModel::each_instant`].
+    pub(super) fn lay(&mut self) {
+        let n = self.duty.len();
+        let columns = [&self.duty, &self.speed, &self.sign, &self.winding, &self.sideways];
+        self.rows = vec![0.0; BY_WHEEL * n * self.ticks()];
+        for (kind, columns) in columns.into_iter().enumerate() {
+            for (i, column) in columns.iter().enumerate() {
+                let slots = self.rows.iter_mut().skip(kind * n + i).step_by(BY_WHEEL * n);
+                slots.zip(column).for_each(|(slot, x)| *slot = *x);
+            }
+        }
+    }
+
+    /// Ticks but the last.
+    pub(super) fn ticks(&self) -> usize {
+        self.supply.len()
+    }
+
+    /// Torques of the windings by duties and supply. Raw increments of the angles where the equation is linear: nothing is
+    /// lost by smoothing.
+    pub(super) fn wind(&mut self, s: &Segment, axes: &[Axis]) {
+        let of = |((duty, angle), axis): ((&Vec<f64>, &Vec<f64>), &Axis)| {
+            let turned = angle.windows(2).zip(s.t.windows(2));
+            let driven = duty.iter().zip(&self.supply).zip(turned);
+            driven
+                .map(|((duty, supply), (angle, t))| {
+                    let per_dt = 1.0 / (t[1] - t[0]);
+                    axis.gain * duty * supply - axis.damping * ((angle[1] - angle[0]) * per_dt)
+                })
+                .collect()
+        };
+        self.winding = self.duty.iter().zip(&s.angle).zip(axes).map(of).collect();
+    }
+}
+
+impl DriveModel {
+    pub(super) fn constants(&self) -> Vec<Axis> {
+        let g = self.gear_ratio;
+        let of = |a: &super::AxisModel| {
+            let gain = g * a.torque_constant / a.resistance;
+            let rotor = g * g * a.rotor_inertia;
+            Axis {
+                gain,
+                damping: a.braking(g) * a.encoder_scale,
+                coulomb: g * a.friction,
+                loss: a.gear_loss,
+                passed: match self.support {
+                    Support::Blocks => a.load_inertia / (a.load_inertia + rotor).max(1e-300),
+                    Support::Floor => 1.0,
+                },
+            }
+        };
+        self.axes.iter().map(of).collect()
+    }
+
+    /// Duty of a wheel that acts at the ticks of a segment.
+    fn acting_duty(&self, s: &Segment, wheel: usize, axis: &Axis) -> Vec<f64> {
+        let logged = &s.duty[wheel];
+        let ticks = s.t.len() - 1;
+        let dt = |k: usize| s.t[k + 1] - s.t[k];
+        let mut duty: Vec<f64> = if self.duty_delay_s == 0.0 {
+            logged[..ticks].to_vec()
+        } else {
+            (0..ticks).map(|k| delayed(logged, k, self.duty_delay_s / dt(k))).collect()
+        };
+        for map in &self.duty_maps {
+            duty.iter_mut().for_each(|u| *u = map(wheel, *u));
+        }
+        // Of wheels that are read through a low-pass all is late as they are: what drives them, too.
+        if self.reading_filter_s > 0.0 && ticks > 0 {
+            let mut passed = LowPass { at: axis.holds(s.speed[wheel][0], s.sign[wheel][0], s.supply[0]) };
+            for (k, u) in duty.iter_mut().enumerate() {
+                *u = passed.over_row(*u, dt(k) / self.reading_filter_s);
+            }
+        }
+        duty
+    }
+
+    /// Body twists by the wheels as they are: skews and radii that were found turn the Coriolis force, too.
+    fn twists(&self, s: &Segment) -> [Vec<f64>; 3] {
+        let Some(per_speed) = self.twist_per_wheel_speed() else {
+            let mean = |of: fn(&Twist) -> f64| s.twist.windows(2).map(|t| 0.5 * (of(&t[0]) + of(&t[1]))).collect();
+            return [mean(|t| t.vx), mean(|t| t.vy), mean(|t| t.omega)];
+        };
+        let mut out = [0; 3].map(|_| vec![0.0; s.t.len() - 1]);
+        for (j, out) in out.iter_mut().enumerate() {
+            for (i, (speed, axis)) in s.speed.iter().zip(&self.axes).enumerate() {
+                let per_speed = per_speed[(j, i)] * axis.encoder_scale;
+                out.iter_mut().zip(speed.windows(2)).for_each(|(sum, w)| *sum += per_speed * (0.5 * (w[0] + w[1])));
+            }
+        }
+        out
+    }
+
+    /// Speeds of the contacts across their traction, m/s, `[wheel][tick]`.
+    fn rolls_free(&self, [vx, vy, omega]: &[Vec<f64>; 3]) -> Vec<Vec<f64>> {
+        let of = |wheel: &runs::geometry::Wheel| {
+            let [ax, ay] = wheel.traction();
+            let free = [-ay, ax, wheel.x_m * ax + wheel.y_m * ay];
+            let twists = vx.iter().zip(vy).zip(omega);
+            twists.map(|((vx, vy), omega)| free[0] * vx + free[1] * vy + free[2] * omega).collect()
+        };
+        self.wheels.iter().map(of).collect()
+    }
+
+    /// Supplies that the model's maps make, V.
+    pub(super) fn mapped_supply(&self, s: &Segment, signals: &Signals, prepared: &[Vec<Vec<f64>>]) -> Vec<f64> {
+        let g = self.gear_ratio;
+        let mut currents = vec![0.0; self.wheels.len()];
+        let mut out = Vec::with_capacity(signals.ticks());
+        self.each_instant(s, signals, prepared, |_, now, _| {
+            let mut mapped = |from: f64| {
+                for (i, (current, axis)) in currents.iter_mut().zip(&self.axes).enumerate() {
+                    *current = (now.duty[i] * from - axis.back_emf * g * now.speed[i]) / axis.resistance;
+                }
+                self.supply_maps.iter().fold(now.supply, |v, map| map(now, v, &currents))
+            };
+            // The supply sets the currents and they the supply: the fixed point, by a secant.
+            let first = mapped(now.supply);
+            let second = mapped(first);
+            let slope = if first == now.supply { 0.0 } else { (second - first) / (first - now.supply) };
+            out.push(if slope < 0.95 { first + (second - first) / (1.0 - slope) } else { second });
+        });
+        out
+    }
+
+    /// Forces of axes that turn with the body, and of a floor that slopes, added to forces on the body, `[3][tick]`.
+    pub(super) fn inertial(&self, s: &Segment, signals: &Signals, body: &mut [Vec<f64>]) {
+        let ([cx, cy], mass) = (self.centre_of_mass, self.mass);
+        let [vx, vy, omega] = &signals.twist;
+        let [right, forward, turning] = body else { return };
+        for (k, ((vx, vy), omega)) in vx.iter().zip(vy).zip(omega).enumerate() {
+            let (px, py) = (mass * (vx - omega * cy), mass * (vy + omega * cx));
+            right[k] += omega * py;
+            forward[k] += -omega * px;
+            turning[k] += -mass * omega * (cx * vx + cy * vy);
+        }
+        if self.slope_rad != [0.0; 2] {
+            let pull = self.slope_rad.map(|slope| mass * GRAVITY * slope);
+            for (k, facing) in s.facing.iter().enumerate().take(right.len()) {
+                let [x, y] = in_body(*facing, pull);
+                right[k] += x;
+                forward[k] += y;
+            }
+        }
+    }
+
+    /// Calls for every tick with what terms see of it, and loads of 0; the signals are laid out.
+    pub(super) fn each_instant(
+        &self,
+        s: &Segment,
+        signals: &Signals,
+        prepared: &[Vec<Vec<f64>>],
+        mut of: impl FnMut(usize, &Instant, &mut Loads),
+    ) {
+        let n = self.wheels.len();
+        let mut loads = Loads::none(n);
+        let braking = self.braking();
+        let sliding_per_turning = self.sliding_per_turning();
+        let [vx, vy, omega] = &signals.twist;
+        for (k, row) in signals.rows.chunks_exact(BY_WHEEL * n).enumerate() {
+            let [duty, speed, sign, winding, sideways] = [0, 1, 2, 3, 4].map(|kind| &row[kind * n..(kind + 1) * n]);
+            let now = Instant {
+                segment: s,
+                tick: k,
+                time_s: s.t[k] - s.stretch[0],
+                duty,
+                supply: signals.supply[k],
+                speed,
+                sign,
+                winding,
+                braking: &braking,
+                sideways,
+                twist: Twist::new(vx[k], vy[k], omega[k]),
+                heading: s.heading[k],
+                facing: s.facing[k],
+                position: s.position[k],
+                prepared,
+                sliding_per_turning,
+            };
+            loads.clear();
+            of(k, &now, &mut loads);
+        }
+    }
+}
+
+/// Means from each tick to the next of a signal that is known at the ticks, times a factor: a load acts for as long as the
+/// duty of its row.
+fn over_rows(values: &[f64], factor: f64) -> Vec<f64> {
+    values.windows(2).map(|v| factor * (0.5 * (v[0] + v[1]))).collect()
+}
+
+/// A low-pass of first order.
+#[derive(Debug, Clone, Copy)]
+struct LowPass {
+    at: f64,
+}
+
+impl LowPass {
+    /// Mean of what comes out while `held` goes in for `rows` time constants.
+    fn over_row(&mut self, held: f64, rows: f64) -> f64 {
+        let begins = self.at - held;
+        let kept = (-rows).exp();
+        self.at = held + begins * kept;
+        held + begins * (1.0 - kept) / rows
+    }
+}
+
+/// A held signal `ticks` ago, 0 before its start.
+fn delayed(values: &[f64], k: usize, ticks: f64) -> f64 {
+    let at = |m: i64| if m < 0 { 0.0 } else { values[(m as usize).min(values.len() - 1)] };
+    let whole = ticks.floor();
+    let share = ticks - whole;
+    let m = k as i64 - whole as i64;
+    (1.0 - share) * at(m) + share * at(m - 1)
+}
