@@ -85,12 +85,13 @@ impl Signals {
     pub(super) fn lay(&mut self) {
         let n = self.duty.len();
         let columns = [&self.duty, &self.speed, &self.sign, &self.winding, &self.sideways];
-        self.rows = vec![0.0; BY_WHEEL * n * self.ticks()];
-        for (kind, columns) in columns.into_iter().enumerate() {
-            for (i, column) in columns.iter().enumerate() {
-                let slots = self.rows.iter_mut().skip(kind * n + i).step_by(BY_WHEEL * n);
-                slots.zip(column).for_each(|(slot, x)| *slot = *x);
-            }
+        // Windings are not there yet where the supply is worked out.
+        let none = Vec::new();
+        let flat: Vec<&[f64]> =
+            columns.iter().flat_map(|c| (0..n).map(|i| c.get(i).unwrap_or(&none).as_slice())).collect();
+        self.rows.clear();
+        for k in 0..self.ticks() {
+            self.rows.extend(flat.iter().map(|column| column.get(k).copied().unwrap_or(0.0)));
         }
     }
 
