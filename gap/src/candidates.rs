@@ -26,6 +26,8 @@ pub fn candidates_of(
 ) -> Vec<Active> {
     let wanted = catalogue.iter().filter(|e| {
         acts(e.as_ref()) && !state.active.iter().any(|a| a.effect.name() == e.name())
+            // A filter beside late counts is another delay.
+            && !(e.name() == "speed-filter" && state.active.iter().any(|a| a.effect.name() == "encoder-lag"))
             // Creep is slip below the limit of friction: one law of the contact is named.
             && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
             && links::effects::fits(e.name(), &state.robot)

@@ -115,6 +115,7 @@ impl<'a> Workflow<'a> {
         if self.data.has_motion {
             let link = self.searched().motion;
             let mut outcome = self.motion_studied(self.data.catalogue);
+            self.late_or_filtered(&mut outcome);
             if self.drive_is_in_step(&outcome) {
                 let here: Vec<_> = self.data.catalogue.iter().filter(|e| e.name() != LATE_COUNTS).cloned().collect();
                 outcome = self.motion_studied(&here);
@@ -149,12 +150,57 @@ impl<'a> Workflow<'a> {
         }
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
-        // What any law of a wheel's own speed and duty leaves: what else is missing on the drive is in neither.
+        self.drive_scatters_more(&outcome.written, &without)
+    }
+
+    /// Whether the drive scatters more beside one state than beside another: by what any law of a wheel's own speed and
+    /// duty leaves, for what else is missing on the drive is in neither.
+    fn drive_scatters_more(&self, one: &State, other: &State) -> bool {
         let scatter = |state: &State| -> Option<f64> {
             Some(self.searched().drive(state, None)?.link.noise.iter().map(|n| n * n).sum())
         };
-        let both = scatter(&outcome.written).zip(scatter(&without));
-        both.is_some_and(|(late, in_step)| late > (1.0 + self.thresholds.worse) * in_step)
+        let both = scatter(one).zip(scatter(other));
+        both.is_some_and(|(one, other)| one > (1.0 + self.thresholds.worse) * other)
+    }
+
+    /// Against a camera speeds that a firmware filters are late as counts would be; the drive shows the shape of a filter.
+    /// Where it does not, both are said.
+    fn late_or_filtered(&self, outcome: &mut Outcome) {
+        // Frames that seem early are counts that are late, by another name.
+        let late_s = |a: &Active| match (a.effect.name(), a.values.get(&a.form.free[0].name)) {
+            (LATE_COUNTS, late_s) if late_s > 0.0 => Some(late_s),
+            (LATE_FRAMES, late_s) if late_s < 0.0 => Some(-late_s),
+            _ => None,
+        };
+        let own = |a: &&Active| !a.given;
+        let late: Vec<_> = outcome.written.active.iter().filter(own).filter(|a| late_s(a).is_some()).collect();
+        let Some(time_s) = late.iter().filter_map(|a| late_s(a)).reduce(f64::max) else { return };
+        if !runs::is_from_speeds(&self.question.robot) {
+            return;
+        }
+        let filter: Arc<dyn Effect> = Arc::from(effects::filter_seen());
+        let mut without = outcome.written.clone();
+        without.active.retain(|a| a.given || late_s(a).is_none());
+        let mut filtered = without.clone();
+        for form in filter.forms(&self.question.robot) {
+            let mut active = Active::new(filter.clone(), form);
+            active.values.set(&active.form.free[0].name, time_s);
+            filtered.active.push(active);
+        }
+        let is_filter = [&outcome.written, &without].iter().all(|other| self.drive_scatters_more(other, &filtered));
+        if is_filter {
+            // For the motion all three are one; where two are named, the camera may be late as well.
+            let one =
+                |name: &str| name == LATE_COUNTS || name == filter.name() || name == LATE_FRAMES && late.len() < 2;
+            let others = self.data.catalogue.iter().filter(|e| !one(e.name()));
+            let here: Vec<_> = others.cloned().chain([filter.clone()]).collect();
+            *outcome = self.motion_studied(&here);
+        } else if late.iter().any(|a| a.effect.name() == LATE_COUNTS)
+            && !self.drive_scatters_more(&filtered, &outcome.written)
+        {
+            outcome.ambiguous = true;
+            outcome.sets.push(vec![LATE_COUNTS.to_owned(), filter.name().to_owned()]);
+        }
     }
 
     /// Takes over what the replayed links gave; their gaps.
@@ -188,6 +234,7 @@ impl<'a> Workflow<'a> {
 
 /// Counts that are older than their rows, and what is said where the drive does not have them so.
 const LATE_COUNTS: &str = "encoder-lag";
+const LATE_FRAMES: &str = "camera-latency";
 const IN_STEP: &str = "The drive has counts and duties in step: against the camera the whole log is late, or its frames are \
      stamped early.";
 

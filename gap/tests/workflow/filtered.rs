@@ -1,12 +1,14 @@
 //! Speeds that a firmware filters before it logs them.
 
 use gap::{Analysis, Interval, Verdict};
+use model::manoeuvre::Manoeuvre;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use runs::Run;
+use runs::robot::Robot;
 
-use super::common::{names, of_files};
+use super::common::{names, of_files, simulate, with};
 
 const VOLT: f64 = 12.0;
 const OHM: f64 = 3.8;
@@ -147,4 +149,43 @@ fn two_filters_are_a_filter_and_a_delay() {
     let late: f64 = a.effects.iter().map(|e| e.parameters[0].1).sum();
     assert!((late - 0.02).abs() < 0.002 && a.verdict == Verdict::Ambiguous, "{late}");
     assert!(a.remarks.iter().any(|r| r.contains("or filters twice")), "{:?}", a.remarks);
+}
+
+/// A robot with a camera whose firmware logs speeds through a low-pass, or late, in place of counts.
+fn driven(seed: u64, name: &str, parameter: &str, seconds: f64) -> Analysis {
+    let robot = Robot::racbot();
+    let truth = with(&robot, name, &[(parameter, seconds)]);
+    let drives = [Manoeuvre::Square, Manoeuvre::StopAndGo, Manoeuvre::Star, Manoeuvre::Chirp];
+    let set = simulate(&truth, &drives, seed);
+    let per_count = 1.0 / robot.counts_per_wheel_rad();
+    let runs = set.runs.into_iter().map(|mut run| {
+        let speed = |i: usize| {
+            let counts = run.cumulative(i);
+            let turned = |k: usize| per_count * (counts[k] - counts[k.saturating_sub(1)]);
+            (0..run.t.len()).map(|k| turned(k) / (run.t[1] - run.t[0])).collect()
+        };
+        run.speed = (0..robot.wheel_count()).map(speed).collect();
+        run.counts.clear();
+        run
+    });
+    of_files(&set.robot.to_toml(), runs)
+}
+
+/// Against a camera a low-pass is a delay; the drive shows its shape.
+#[test]
+fn a_low_pass_on_the_speeds_of_a_robot_is_no_late_counts() {
+    let faults: Vec<String> = [0.01, 0.02, 0.04]
+        .into_par_iter()
+        .enumerate()
+        .flat_map(|(k, seconds)| {
+            let filter = driven(60 + k as u64, "speed-filter", "time_s", seconds);
+            let lag = driven(60 + k as u64, "encoder-lag", "latency_s", seconds);
+            let right = names(&filter) == ["speed-filter"] && holds(&filter, "speed-filter", seconds);
+            let said = format!("{seconds}: {:?} {}", filter.effects, filter.terminal_summary());
+            let late = names(&lag) == ["encoder-lag"] && holds(&lag, "encoder-lag", seconds);
+            let lags = format!("{seconds} late: {:?} {}", lag.effects, lag.terminal_summary());
+            [(!right).then_some(said), (!late).then_some(lags)].into_iter().flatten().collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -201,7 +201,8 @@ impl<'a> DriveLink<'a> {
             for test_function in &mut self.test_functions[range] {
                 let end = test_function.first + test_function.intervals;
                 let slips = (0..s.angle.len()).any(|i| {
-                    let off = |k: usize| changed[i][k] - s.angle[i][k];
+                    // What a filter holds back did not slip.
+                    let off = |k: usize| changed[i][k] - s.angle[i][k] - motion.reading_filter_s * s.speed[i][k];
                     (off(end) - off(test_function.first)).abs()
                         > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[test_function.first])
                 });

@@ -126,7 +126,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(carpet_grain::CarpetGrain),
         Box::new(heading_drag::HeadingDrag),
         Box::new(actuation_latency::ActuationLatency),
-        Box::new(speed_filter::SpeedFilter),
+        Box::new(speed_filter::SpeedFilter { seen: false }),
         Box::new(wheel_order::WheelOrder),
     ];
     named.into_iter().chain(probes::all()).collect()
@@ -152,6 +152,11 @@ pub fn exact_equation(name: &str) -> &'static str {
 /// The effect called `name` in the catalogue.
 pub fn find(name: &str) -> Option<Box<dyn Effect>> {
     catalogue().into_iter().find(|e| e.name() == name)
+}
+
+/// The low-pass on logged speeds, to be found between wheels and a camera, where the catalogue looks for late encoders.
+pub fn filter_seen() -> Box<dyn Effect> {
+    Box::new(speed_filter::SpeedFilter { seen: true })
 }
 
 #[cfg(test)]

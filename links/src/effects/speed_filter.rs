@@ -8,7 +8,10 @@ use crate::motion::MotionModel;
 use crate::thresholds;
 
 /// A low-pass of first order between an encoder and the logged speed.
-pub(super) struct SpeedFilter;
+pub(super) struct SpeedFilter {
+    /// Whether a camera may show it, too: there it is a delay of the encoders by another name.
+    pub(super) seen: bool,
+}
 
 impl Effect for SpeedFilter {
     fn name(&self) -> &str {
@@ -27,6 +30,10 @@ impl Effect for SpeedFilter {
         Link::Drive
     }
 
+    fn also(&self) -> Option<Link> {
+        self.seen.then_some(Link::Motion)
+    }
+
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let row = 1.0 / robot.control_rate_hz;
         let time = Parameter::new("time_s", 0.002, [0.0, thresholds::FILTER_S], row.max(0.004));
@@ -35,9 +42,14 @@ impl Effect for SpeedFilter {
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
-        // Far above its time constant a low-pass is a delay by it.
-        model.latency_s -= values.get("time_s");
-        model.encoder_lag_s += values.get("time_s");
+        // What went in is what comes out, and the time constant times its rate.
+        let time_s = values.get("time_s");
+        model.reading_filter_s += time_s;
+        model.angles.push(Box::new(move |segment, angles| {
+            for (angle, speed) in angles.iter_mut().zip(&segment.speed) {
+                angle.iter_mut().zip(speed).for_each(|(a, w)| *a += time_s * w);
+            }
+        }));
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

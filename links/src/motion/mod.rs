@@ -49,6 +49,8 @@ pub struct MotionModel {
     pub slope_rad: [f64; 2],
     /// Age of the counts at their tick, s.
     pub encoder_lag_s: f64,
+    /// Time constant of the low-pass between the wheels' angles and those of the log, s; among `angles`, too.
+    pub reading_filter_s: f64,
     /// Drift of the camera's origin, m/s.
     pub drift: [f64; 2],
     /// Seconds by which the camera's clock runs ahead per second of a run.
@@ -98,6 +100,7 @@ impl MotionModel {
             sensor: Sensor::of(robot),
             slope_rad: [0.0; 2],
             encoder_lag_s: 0.0,
+            reading_filter_s: 0.0,
             drift: [0.0; 2],
             clock_drift: 0.0,
             clock_offset_s: Vec::new(),
