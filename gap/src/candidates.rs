@@ -16,6 +16,10 @@ pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, s
     candidates_of(state, catalogue, link, sizes, acts)
 }
 
+/// Effects beside which another is not looked for: creep is slip below the limit of friction, and one law of the contact is
+/// named; a filter beside late counts is another delay.
+const BESIDE: [(&str, &str); 2] = [("wheel-slip", "wheel-creep"), ("encoder-lag", "speed-filter")];
+
 /// Every form of the effects that act, each to be fitted on a link; of those only that the robot can have.
 pub fn candidates_of(
     state: &State,
@@ -24,13 +28,10 @@ pub fn candidates_of(
     sizes: &Sizes,
     acts: impl Fn(&dyn Effect) -> bool,
 ) -> Vec<Active> {
+    let there = |name: &str| state.active.iter().any(|a| a.effect.name() == name);
     let wanted = catalogue.iter().filter(|e| {
-        acts(e.as_ref()) && !state.active.iter().any(|a| a.effect.name() == e.name())
-            // A filter beside late counts is another delay.
-            && !(e.name() == "speed-filter" && state.active.iter().any(|a| a.effect.name() == "encoder-lag"))
-            // Creep is slip below the limit of friction: one law of the contact is named.
-            && !(e.name() == "wheel-creep" && state.active.iter().any(|a| a.effect.name() == "wheel-slip"))
-            && links::effects::fits(e.name(), &state.robot)
+        let stood_for = BESIDE.iter().any(|(beside, name)| e.name() == *name && there(beside));
+        acts(e.as_ref()) && !there(e.name()) && !stood_for && links::effects::fits(e.name(), &state.robot)
     });
     wanted
         .flat_map(|e| e.forms_in(&state.robot, sizes).into_iter().map(|f| Active { link, ..Active::new(e.clone(), f) }))
