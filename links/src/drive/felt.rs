@@ -8,8 +8,8 @@ use estimation::parallel::each;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use std::ops::Range;
 
-use super::laid::Shape;
-use super::test_functions::{BodyFelt, DriveLink, TestFunction};
+use super::laid::{Shape, TestFunction};
+use super::test_functions::{BodyFelt, DriveLink};
 use super::{DriveModel, Side};
 use crate::inertial::{Integral, Sensor};
 use crate::segment::Segment;

@@ -1,14 +1,29 @@
 //! Test functions laid over their segment: their weights, and the accelerations that the encoders measured. Neither depends on
 //! a model, and both are kept as long as their segment is.
 
-use std::ops::Range;
-use std::sync::Arc;
-
-use estimation::parallel::each;
 use nalgebra::DVector;
 
-use super::test_functions::{DriveLink, TestFunction};
 use crate::segment::Segment;
+
+/// One test function on one segment.
+#[derive(Debug, Clone)]
+pub(super) struct TestFunction {
+    pub(super) segment: usize,
+    /// Where it begins and how long it is, s.
+    pub(super) start: f64,
+    pub(super) length: f64,
+    /// Its first tick, on which it is 0, and its number of intervals from tick to tick.
+    pub(super) first: usize,
+    pub(super) intervals: usize,
+    /// 1 where the wheel turned, 0 where it may have been stuck.
+    pub(super) weights: Vec<f64>,
+    /// Share of the test function in which it may have been stuck, one a wheel.
+    pub(super) stuck: Vec<f64>,
+    /// Whether a wheel slips in it.
+    pub(super) slips: bool,
+    /// Cluster, unique over all segments.
+    pub(super) cluster: usize,
+}
 
 /// A test function's weights.
 pub(super) struct Shape {
@@ -27,7 +42,7 @@ pub(super) struct Laid {
 }
 
 impl Laid {
-    fn new(own: &[TestFunction], s: &Segment, shapes: Vec<Shape>) -> Self {
+    pub(super) fn new(own: &[TestFunction], s: &Segment, shapes: Vec<Shape>) -> Self {
         let measured = own.iter().zip(&shapes).map(|(b, shape)| {
             DVector::from_fn(s.angle.len(), |i, _| {
                 let own = &s.angle[i][b.first..];
@@ -35,21 +50,6 @@ impl Laid {
             })
         });
         Self { measured: measured.collect(), shapes }
-    }
-}
-
-impl DriveLink<'_> {
-    /// The test functions of one segment.
-    pub(super) fn laid(&self, s: &Segment, range: &Range<usize>) -> Arc<Laid> {
-        let own = &self.test_functions[range.clone()];
-        match own.first().and_then(|b| self.laid.get(b.segment)) {
-            // By one thread alone: while it waited for others it might be given work that waits for it.
-            Some(kept) => {
-                let new = || Arc::new(Laid::new(own, s, own.iter().map(|b| b.shape(s)).collect()));
-                kept.get_or_init(new).clone()
-            }
-            None => Arc::new(Laid::new(own, s, each(own, &|b| b.shape(s)))),
-        }
     }
 }
 

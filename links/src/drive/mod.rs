@@ -10,6 +10,7 @@ mod felt;
 mod floor;
 mod forces;
 mod free_run;
+mod instant;
 mod laid;
 mod signals;
 mod test_functions;
@@ -27,8 +28,9 @@ pub use crate::segment::smooth_sign;
 pub(crate) use crate::thresholds::TEST_FUNCTION_S;
 pub use columns::Side;
 pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
-pub use forces::{Forces, Instant, Loads};
+pub use forces::Forces;
 pub use free_run::{further, in_own_torque, runaway};
+pub use instant::{Instant, Loads};
 pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.

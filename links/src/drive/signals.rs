@@ -6,7 +6,7 @@ use runs::frames::Twist;
 use runs::robot::Support;
 
 use super::DriveModel;
-use super::forces::{Instant, Loads, in_body};
+use super::instant::{Instant, Loads, in_body};
 use crate::segment::Segment;
 
 /// What is the same at every tick of an axis, at its output shaft.

@@ -10,7 +10,7 @@ use runs::robot::Support;
 
 use super::columns::{Column, Columns, Side};
 use super::forces::{Base, Forces};
-use super::laid::{Laid, Shape};
+use super::laid::{Laid, Shape, TestFunction};
 use super::{Ahead, DriveModel, Mechanics};
 use crate::effect::Sizes;
 use crate::inertial::Sensor;
@@ -57,26 +57,6 @@ pub struct DriveLink<'a> {
 pub(super) struct BodyFelt {
     pub(super) sensor: Sensor,
     pub(super) noise: [f64; 2],
-}
-
-/// One test function on one segment.
-#[derive(Debug, Clone)]
-pub(super) struct TestFunction {
-    pub(super) segment: usize,
-    /// Where it begins and how long it is, s.
-    pub(super) start: f64,
-    pub(super) length: f64,
-    /// Its first tick, on which it is 0, and its number of intervals from tick to tick.
-    pub(super) first: usize,
-    pub(super) intervals: usize,
-    /// 1 where the wheel turned, 0 where it may have been stuck.
-    weights: Vec<f64>,
-    /// Share of the test function in which it may have been stuck, one a wheel.
-    stuck: Vec<f64>,
-    /// Whether a wheel slips in it.
-    pub(super) slips: bool,
-    /// Cluster, unique over all segments.
-    pub(super) cluster: usize,
 }
 
 /// Unexplained torques.
@@ -288,6 +268,19 @@ impl<'a> DriveLink<'a> {
     /// Test functions of each segment.
     pub(super) fn by_segment(&self) -> Vec<Range<usize>> {
         by_segment(&self.test_functions, |b| b.segment)
+    }
+
+    /// The test functions of one segment.
+    pub(super) fn laid(&self, s: &Segment, range: &Range<usize>) -> Arc<Laid> {
+        let own = &self.test_functions[range.clone()];
+        match own.first().and_then(|b| self.laid.get(b.segment)) {
+            // By one thread alone: while it waited for others it might be given work that waits for it.
+            Some(kept) => {
+                let new = || Arc::new(Laid::new(own, s, own.iter().map(|b| b.shape(s)).collect()));
+                kept.get_or_init(new).clone()
+            }
+            None => Arc::new(Laid::new(own, s, each(own, &|b| b.shape(s)))),
+        }
     }
 
     /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
