@@ -64,7 +64,7 @@ pub fn analyse_logs(set: &Logs, options: &Options) -> Result<Analysis, GapError>
 fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     let mut question = Question::new(set, options)?;
     let mut remarks = set.notes();
-    let exact = question.exact_links(&mut remarks);
+    let mut exact = question.exact_links(&mut remarks);
     remarks.extend(question.judge_clocks());
     let (pieces, crossed) = question.cut();
     if pieces.whole.is_empty() {
@@ -78,6 +78,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     workflow.counts(&exact);
     workflow.motion();
     workflow.drive();
+    workflow.judge_stamps(&mut exact);
     let replayed = workflow.exact(&exact);
     let written = workflow.written()?;
     workflow.answer(written, exact, replayed)

@@ -5,7 +5,9 @@ use runs::robot::Robot;
 
 use crate::evidence::{Evidence, Interval};
 use crate::exact::{ExactLink, Finding};
+use crate::thresholds::Thresholds;
 use links::effect::Link;
+use links::motion::WindowResiduals;
 
 /// Scatter of the stamps about a regular grid that rounding to a tick cannot give, in ticks, and
 /// the least that matters, s.
@@ -82,6 +84,87 @@ pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
         unexplained: false,
         replay: None,
     })
+}
+
+/// Takes the name back where frames come unevenly and nothing shows that their stamps do not say when; what is to be said.
+///
+/// A pose that was taken on the grid is off by what the robot moved until its stamp. `seen` is what camera and wheels
+/// leave with all that is named there, in units of `noise`.
+pub(crate) fn uneven(
+    link: &mut ExactLink,
+    (robot, logs): (&Robot, &[Log]),
+    noise: [f64; 3],
+    seen: &[WindowResiduals],
+    thresholds: &Thresholds,
+) -> Option<String> {
+    let told = off_by_stamps(robot, logs, noise, seen);
+    let [least, sigmas] = thresholds.stamps;
+    let [shown, follows] = told.map_or([false; 2], |[share, error]| {
+        [share > least && share > sigmas * error, share + sigmas * error < 1.0 - least]
+    });
+    if shown {
+        return None;
+    }
+    let finding = link.finding.take()?;
+    link.before.clone_from(&link.after);
+    let value = |name: &str| finding.parameters.iter().find(|(p, ..)| p == name).map_or(0.0, |(_, v, _)| *v);
+    let lost =
+        if value("dropped") > 0.0 { format!(", {:.0} % missing", 100.0 * value("dropped")) } else { String::new() };
+    let what = if follows {
+        "their poses follow the stamps: frames came unevenly, and the stamps say when"
+    } else {
+        "the poses do not tell whether frames came so, or their stamps scatter: drive faster to tell"
+    };
+    Some(format!("The camera's stamps are {:.1} ms RMS off a regular grid{lost}; {what}.", 1e3 * value("jitter_s")))
+}
+
+/// Weight of a frame, what it is off by where its stamp scatters, and what it is off by, both in units of the noise.
+type Frame = (f64, [f64; 3], [f64; 3]);
+
+/// Share of what the robot moved between a frame's regular time and its stamp by which the poses are off, and its
+/// standard error: 1 where stamps scatter about capture times, 0 where frames are taken when their stamps say.
+fn off_by_stamps(robot: &Robot, logs: &[Log], noise: [f64; 3], seen: &[WindowResiduals]) -> Option<[f64; 2]> {
+    let late: Vec<Vec<(f64, f64)>> = logs
+        .iter()
+        .map(|log| {
+            let stamps: Vec<f64> = log.camera().iter().map(|f| f.t).collect();
+            let grid = if stamps.len() < 16 { stamps.clone() } else { grid(&stamps, robot.camera_rate_hz) };
+            stamps.iter().zip(grid).map(|(s, g)| (*s, s - g)).collect()
+        })
+        .collect();
+    let (mut moved, mut mixed, mut square, mut n) = (0.0, 0.0, 0.0, 0.0_f64);
+    for window in seen.iter().filter(|w| w.t.len() >= 4) {
+        let frames = late.get(window.run)?;
+        let last = window.t.len() - 1;
+        let mut rows: Vec<Frame> = Vec::new();
+        for (i, t) in window.t.iter().enumerate() {
+            let at = frames.partition_point(|(stamp, _)| *stamp < *t);
+            let Some((_, late)) = frames.get(at).filter(|(stamp, _)| *stamp == *t) else { continue };
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
+            let (from, to) = (&window.predicted[a], &window.predicted[b]);
+            let gained = [to.x - from.x, to.y - from.y, runs::frames::wrap_angle(to.theta - from.theta)];
+            let by = late / (window.t[b] - window.t[a]);
+            rows.push((window.weights[i], [0, 1, 2].map(|j| -gained[j] * by / noise[j]), window.residuals[i]));
+        }
+        let whole: f64 = rows.iter().map(|r| r.0).sum();
+        for j in 0..3 {
+            // The pose of a window's start is fitted to all of its frames.
+            let mean = |of: &dyn Fn(&Frame) -> f64| {
+                rows.iter().map(|r| r.0 * of(r)).sum::<f64>() / whole.max(f64::MIN_POSITIVE)
+            };
+            let [u, r] = [mean(&|r| r.1[j]), mean(&|r| r.2[j])];
+            for row in &rows {
+                let [du, dr] = [row.1[j] - u, row.2[j] - r];
+                moved += row.0 * du * du;
+                mixed += row.0 * du * dr;
+                square += row.0 * dr * dr;
+                n += row.0;
+            }
+        }
+    }
+    let share = mixed / moved;
+    let error = ((square - share * mixed).max(0.0) / n / moved).sqrt();
+    (share.is_finite() && error.is_finite()).then_some([share, error])
 }
 
 /// Whether `robot.toml` states these values, each within what is known of it.

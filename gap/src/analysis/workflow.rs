@@ -19,6 +19,7 @@ use crate::options::Stage;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
+use crate::timing;
 use links::effect::{Effect, Link};
 use links::effects;
 use links::motion::{MotionLink, WindowResiduals};
@@ -200,6 +201,16 @@ impl<'a> Workflow<'a> {
         {
             outcome.ambiguous = true;
             outcome.sets.push(vec![LATE_COUNTS.to_owned(), filter.name().to_owned()]);
+        }
+    }
+
+    /// Takes back what stamps alone said of the camera where the poses do not say so.
+    pub(super) fn judge_stamps(&mut self, links: &mut [ExactLink]) {
+        let question = self.question;
+        let (seen, noise) = (self.seen.as_deref().unwrap_or(&[]), self.searched().motion.noise);
+        let logs = (&question.robot, self.data.logs);
+        for link in links.iter_mut().filter(|l| l.link == Link::Timing && l.finding.is_some()) {
+            self.findings.remarks.extend(timing::uneven(link, logs, noise, seen, &self.thresholds));
         }
     }
 

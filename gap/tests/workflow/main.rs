@@ -19,6 +19,7 @@ mod replayed;
 mod scale;
 mod slipping;
 mod smoothed;
+mod uneven;
 
 use common::{RICH, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};
