@@ -247,7 +247,12 @@ impl Problem<'_> {
     pub fn is_cancelled(&self, state: &State, index: usize, start: &State, thresholds: &Thresholds) -> bool {
         let open = |state: &State| {
             let (square, n) = self.linearise_nothing(state).plain();
-            (square - n, n)
+            // What is unknown of the loads of a light axis is as much larger in the torque of a heavy one.
+            let own = match self {
+                Self::Drive(link) => links::drive::in_own_torque(link, &state.drive(None)),
+                Self::Motion(_) => None,
+            };
+            (own.map_or(square, |own| square.min(own.iter().sum())) - n, n)
         };
         let mut without = state.clone();
         without.active.remove(index);
@@ -289,7 +294,8 @@ impl Problem<'_> {
                     let Owner::Active(index, j) = owner else { continue };
                     let p = state.active[index].form.free[j].clone();
                     let now = state.active[index].values.get(&p.name);
-                    let next = (now + factor * x).clamp(p.bounds[0], p.bounds[1]);
+                    // Halved from the bound on, where it leads beyond: else no halving of a long step leaves the bound.
+                    let next = now + factor * ((now + x).clamp(p.bounds[0], p.bounds[1]) - now);
                     largest = largest.max((next - now).abs() / p.scale);
                     trial.active[index].values.set(&p.name, next);
                 }

@@ -16,7 +16,8 @@ use super::{DriveLink, DriveModel, DriveResiduals};
 /// the log and lasts for a cluster, or until a wheel may have been stuck or slipped.
 pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     let mechanics = model.mechanics()?;
-    let residuals = link.residuals(model)?;
+    // In its own torque, whose inertia turns it into what its speeds gain.
+    let residuals = link.residuals_in_own_torque(model)?;
     let damping = model.axes.iter().map(|a| a.braking(model.gear_ratio) * a.encoder_scale);
     let damping = DVector::from_iterator(model.axes.len(), damping);
     // Test functions overlap by half: each stands for that much of the log.
