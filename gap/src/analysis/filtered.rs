@@ -37,12 +37,12 @@ pub(super) fn of_delay(named: &[Named]) -> Option<String> {
 pub(super) fn exchanged(named: &[Named], model: &DriveModel) -> Option<String> {
     let (filter_s, within) = parameter(named, FILTER)?;
     let (heavier, _) = parameter(named, INERTIA)?;
-    let (rotor, axis) = (model.gear_ratio.powi(2) * model.axes[0].rotor_inertia, &model.axes[0]);
-    let braking = axis.braking(model.gear_ratio);
+    let scaled = model.inertia_of_scale(0);
+    let braking = model.axes[0].braking(model.gear_ratio);
     let file_s = model.felt_inertia() / braking;
-    let motor_s = file_s + heavier * rotor / braking;
+    let motor_s = file_s + heavier * scaled / braking;
     let holds_file = within.is_some_and(|[low, high]| (low..=high).contains(&file_s));
-    let inertia = match (filter_s - file_s) * braking / rotor {
+    let inertia = match (filter_s - file_s) * braking / scaled {
         _ if holds_file => "the inertia of the file".to_owned(),
         scale => format!("{INERTIA} of {:+.0} %", 100.0 * scale),
     };

@@ -45,17 +45,16 @@ pub(super) fn said(support: Support) -> String {
 
 /// A rotor's inertia that is named on an axis with a load stands for both: what both together turn as, in a sentence.
 pub(super) fn of_rotor_and_load(named: &[Named], robot: &Robot) -> Option<String> {
-    let rotor = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
-    let file = rotor + robot.wheel_inertia_kg_m2;
+    let file = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2;
     if robot.support != Support::Blocks || robot.wheel_inertia_kg_m2 <= 0.0 {
         return None;
     }
-    let more = rotor * scale(named, ROTOR_INERTIA)?;
+    let more = scale(named, ROTOR_INERTIA)?;
     Some(format!(
         "{ROTOR_INERTIA} stands for rotor and load: at the output shaft both together turn as {:.3e} kg m², where the file has \
          {file:.3e} ({:+.0} %). Logs of an axis alone do not tell which of {ROTOR_INERTIA} and wheel_inertia_kg_m2 is off.",
-        file + more,
-        100.0 * more / file
+        file * (1.0 + more),
+        100.0 * more
     ))
 }
 
@@ -87,7 +86,7 @@ pub(super) fn tie(outcome: &mut Outcome, start: &State, sizes: &Sizes) {
     let [motor, rotor] = [TORQUE_CONSTANT, ROTOR_INERTIA].map(|name| scale(&outcome.named, name));
     let (own, other, factor) = match (motor, rotor) {
         (Some(s), None) => (TORQUE_CONSTANT, ROTOR_INERTIA, 1.0 / (1.0 + s)),
-        (None, Some(s)) => (ROTOR_INERTIA, TORQUE_CONSTANT, 1.0 / (1.0 + s * rotors_share(robot))),
+        (None, Some(s)) => (ROTOR_INERTIA, TORQUE_CONSTANT, 1.0 / (1.0 + s)),
         _ => return,
     };
     if robot.support != Support::Blocks || !FRICTIONS.iter().all(|name| is_free(name, outcome, start, sizes, factor)) {
@@ -98,12 +97,6 @@ pub(super) fn tie(outcome: &mut Outcome, start: &State, sizes: &Sizes) {
         outcome.sets.push(set);
     }
     outcome.ambiguous = true;
-}
-
-/// Share of the rotors in what turns on blocks.
-fn rotors_share(robot: &Robot) -> f64 {
-    let rotor = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
-    rotor / (rotor + robot.wheel_inertia_kg_m2).max(f64::MIN_POSITIVE)
 }
 
 /// Whether a friction may take the factor: it is named anyway, or what the model has of it changes by less than what

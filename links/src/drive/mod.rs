@@ -194,6 +194,14 @@ impl DriveModel {
         self.rotor_at_wheel(wheel) + self.axes[wheel].load_inertia
     }
 
+    /// Inertia that `rotor-inertia` scales at a wheel's shaft, kg m²: on blocks all that turns.
+    pub fn inertia_of_scale(&self, wheel: usize) -> f64 {
+        match self.support {
+            Support::Blocks => self.spinning_inertia(wheel),
+            Support::Floor => self.rotor_at_wheel(wheel),
+        }
+    }
+
     /// Inertia that moves in the play of a gear, at the wheel's shaft, kg m²: the rotor's, or none where the file gives
     /// all that turns as one.
     pub fn moves_in_play(&self, wheel: usize) -> f64 {

@@ -3,7 +3,7 @@
 use super::{Applied, of_wheel};
 use crate::motor::{COPPER_PER_K, MAGNET_PER_K};
 use crate::plant::{Contact, WheelDeviation};
-use runs::robot::Effect;
+use runs::robot::{Effect, Support};
 
 /// Coefficient of friction where only creep is given: more than any wheel uses.
 const HELD: f64 = 10.0;
@@ -29,7 +29,10 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
         "winding-resistance" => robot.motor.resistance_ohm *= scale,
         "robot-mass" => robot.mass_kg *= scale,
         "yaw-inertia" => robot.yaw_inertia_kg_m2 *= scale,
-        "rotor-inertia" => robot.motor.rotor_inertia *= scale,
+        "rotor-inertia" => {
+            robot.motor.rotor_inertia *= scale;
+            robot.wheel_inertia_kg_m2 *= if robot.support == Support::Blocks { scale } else { 1.0 };
+        }
         "motor-heating" => {
             let warmer = value("start_k");
             let magnets = 1.0 - MAGNET_PER_K * warmer;

@@ -71,7 +71,7 @@ const CATALOGUE: [Entry; 15] = [
             let own = axis.gear * axis.gear * axis.rotor / axis.inertia();
             let scale = (signed(value, rng) / own).max(-0.7);
             axis.rotor *= 1.0 + scale;
-            vec![("scale", scale)]
+            vec![("scale", scale * own)]
         })
     },
     entry("dead-band", [0.03, 0.045, 0.06, 0.1, 0.15], |axis, _, value, _| {
