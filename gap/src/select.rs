@@ -6,6 +6,7 @@ mod dwarfed;
 mod gates;
 mod join;
 mod left;
+mod lighter;
 mod plain;
 mod simpler;
 mod spanning;
@@ -99,6 +100,11 @@ pub fn select(
     thresholds: &Thresholds,
 ) -> Selection {
     let all = problem.candidates(start, catalogue);
+    let light = if known.is_empty() {
+        lighter::lighter(problem, start, &all, thresholds)
+    } else {
+        lighter::kept(problem, start, known)
+    };
     let best = searched(problem, start, known, &all, thresholds);
     // What is left far above the noise is not a little of everything: another search in which next to nothing is
     // adjusted without a name.
@@ -110,6 +116,10 @@ pub fn select(
     } else {
         best
     };
+    // Beside a gap that wide nothing is a margin: what is missing with it is looked for with nothing adjusted.
+    let begun = |laws: &[Active]| plain(problem, start, laws, &all, thresholds, false);
+    let other = if light.is_empty() { None } else { begun(&light) };
+    let best = other.filter(|other| thresholds.as_well * raw(other) < raw(&best)).unwrap_or(best);
     simpler::simpler(problem, start, best, &all, thresholds)
 }
 

@@ -74,7 +74,7 @@ pub(super) fn chosen(
         return selection;
     }
     let all = problem.candidates(start, catalogue);
-    let Some(plain) = select::plain(problem, start, &all, thresholds, false) else { return selection };
+    let Some(plain) = select::plain(problem, start, &[], &all, thresholds, false) else { return selection };
     let needed = [&selection, &plain].map(|s| needed(problem, start, s));
     if is_better(needed[1], needed[0], thresholds) { plain } else { selection }
 }
@@ -237,7 +237,7 @@ fn several(
     begun.active.extend(judged.written.active[from..].iter().map(|a| Active { given: true, ..a.clone() }));
     let left: Vec<Active> =
         all.iter().filter(|c| !begun.active.iter().any(|a| a.effect.name() == c.effect.name())).cloned().collect();
-    let mut found = select::plain(problem, &begun, &left, thresholds, true)?;
+    let mut found = select::plain(problem, &begun, &[], &left, thresholds, true)?;
     for (index, a) in found.state.active.iter_mut().enumerate().skip(from) {
         a.given = false;
         // Named for what they do together.

@@ -30,10 +30,11 @@ struct Promise {
 }
 
 /// The effects that predict held-out runs best, each worth its parameters; `small` admits those below their
-/// materiality. `None` if they close too little together.
+/// materiality, beginning with those `known`. `None` if they close too little together.
 pub(crate) fn plain(
     problem: &Problem,
     start: &State,
+    known: &[Active],
     all: &[Active],
     thresholds: &Thresholds,
     small: bool,
@@ -41,6 +42,10 @@ pub(crate) fn plain(
     let from = start.active.len();
     let mut state = start.clone();
     let (before, n) = held_out(problem, &state);
+    if !known.is_empty() {
+        state.active.extend_from_slice(known);
+        problem.fit(&mut state);
+    }
     let mut refused: Vec<usize> = Vec::new();
     while state.active.len() - from < MOST {
         let Some(best) = best(problem, &state, all, thresholds, small, &refused) else { break };
