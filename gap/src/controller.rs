@@ -64,7 +64,7 @@ impl Law {
         let scale = |parameter| 1.0 + value("pi-gain", parameter).unwrap_or(0.0);
         let mut shift = [0, 0];
         if let (Some(signal), Some(ticks)) = (value("sample-order", "signal"), value("sample-order", "shift_ticks")) {
-            shift[usize::from(signal != 0.0)] = ticks.max(0.0) as usize;
+            shift = shifted(signal, ticks.max(0.0) as usize);
         }
         Self {
             kp: robot.pi.kp * scale("kp_scale"),
@@ -76,6 +76,12 @@ impl Law {
             ..Self::PLAIN
         }
     }
+}
+
+/// Ages of counts and set points in ticks, of `sample-order`: of counts, of set points, or of both, as where duties are
+/// logged late.
+fn shifted(signal: f64, ticks: usize) -> [usize; 2] {
+    [signal != 1.0, signal != 0.0].map(|older| if older { ticks } else { 0 })
 }
 
 /// The one effect that says how many counts a wheel turn has, and the number that the controller takes for it.
@@ -181,11 +187,10 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
         }
     };
     let exact = |name: &str, v: f64| (name.to_owned(), v, Interval::Exact);
-    for signal in 0..2 {
+    for signal in [0.0, 1.0, 2.0] {
         for ticks in 1..=4 {
-            let mut shift = [0, 0];
-            shift[signal] = ticks;
-            let parameters = vec![exact("signal", signal as f64), exact("shift_ticks", ticks as f64)];
+            let shift = shifted(signal, ticks);
+            let parameters = vec![exact("signal", signal), exact("shift_ticks", ticks as f64)];
             offer(Law { shift, ..nominal }, "sample-order", parameters);
         }
     }

@@ -89,6 +89,7 @@ impl<'a> Workflow<'a> {
             self.findings.remarks.push(said);
             outcome.ambiguous = true;
         }
+        self.findings.remarks.extend(logged_late(&outcome, self.question.robot.control_rate_hz));
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.filtered(&mut outcome);
@@ -264,6 +265,18 @@ impl<'a> Workflow<'a> {
         }
         self.findings.named.extend(rattling);
     }
+}
+
+/// What a latency below 0 means, in a sentence.
+fn logged_late(outcome: &Outcome, rate_hz: f64) -> Option<String> {
+    let latency = outcome.named.iter().find(|n| n.name == "actuation-latency")?.parameters.first()?.1;
+    (latency < 0.0).then(|| {
+        format!(
+            "Duties act {:.1} ms before their row: the log has them {:.1} rows late, and the machine is not early.",
+            -1e3 * latency,
+            -latency * rate_hz
+        )
+    })
 }
 
 /// Floor and correlation of the drive with what was named in the model, if they hid enough to look again.

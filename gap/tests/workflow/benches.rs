@@ -31,11 +31,25 @@ struct Bench {
     most: f64,
     /// Gains of the loop; none for duties that are set.
     gains: Option<[f64; 2]>,
+    /// Inertia of the file, in that of the motor, and dry friction, Nm.
+    told: f64,
+    dry_nm: f64,
+    /// Whether duties are logged with the row after theirs.
+    late: bool,
     /// Speeds of differences, through a filter that takes this share of the new one, in place of counts.
     filtered: Option<f64>,
 }
 
-const PLAIN: Bench = Bench { ohm: OHM, counts: COUNTS, most: 1.0, gains: Some([KP, KI]), filtered: None };
+const PLAIN: Bench = Bench {
+    ohm: OHM,
+    counts: COUNTS,
+    most: 1.0,
+    gains: Some([KP, KI]),
+    told: 1.0,
+    dry_nm: DRY_NM,
+    late: false,
+    filtered: None,
+};
 
 impl Bench {
     fn run(self, seed: u64) -> Run {
@@ -72,9 +86,13 @@ impl Bench {
             references.push(set);
             for _ in 0..STEPS {
                 let torque = KT * (VOLT * duty - KT * speed) / self.ohm;
-                speed = with_dry_friction(speed, torque, DRY_NM, INERTIA, ROW_S / f64::from(STEPS));
+                speed = with_dry_friction(speed, torque, self.dry_nm, INERTIA, ROW_S / f64::from(STEPS));
                 angle += speed * ROW_S / f64::from(STEPS);
             }
+        }
+        if self.late {
+            duties.rotate_right(1);
+            duties[0] = 0.0;
         }
         run.duty = vec![duties];
         if self.gains.is_some() {
@@ -91,8 +109,9 @@ impl Bench {
     fn told(self, seed: u64) -> Analysis {
         let text = format!(
             "encoder_counts_per_motor_rev = {COUNTS}\ngear_ratio = 1\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
-             wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {INERTIA}\n\
-             friction_torque = {DRY_NM}\n[pi]\nkp = {KP}\nki = {KI}\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
+             wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
+             friction_torque = {DRY_NM}\n[pi]\nkp = {KP}\nki = {KI}\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+            self.told * INERTIA
         );
         of_files(&text, (0..4).map(|n| self.run(10 * seed + n)))
     }
@@ -135,6 +154,37 @@ fn a_limit_of_the_output_is_said() {
     let said = a.unexplained.iter().any(|u| u.structure.contains("duties are limited to 0.350"));
     assert!(said, "{:?}", a.unexplained);
     assert!(names(&a).is_empty(), "{}", a.terminal_summary());
+}
+
+/// Ten and twenty times the inertia: the file's motor hardly moves by what the logs give it, whatever its friction, and a
+/// weight beside the shaft that bends its speeds a little was named, or nothing.
+#[test]
+fn a_file_with_far_too_much_inertia_hides_no_friction() {
+    for (seed, told) in [(8, 10.0), (9, 20.0)] {
+        let a = Bench { told, dry_nm: 0.014, gains: None, ..PLAIN }.told(seed);
+        let mut named = names(&a);
+        named.sort_unstable();
+        assert_eq!(named, ["coulomb-friction", "rotor-inertia"], "{told}: {}", a.terminal_summary());
+        for (parameter, truth) in [("scale", 1.0 / told - 1.0), ("torque_nm", 0.014 - DRY_NM)] {
+            let mut all = a.effects.iter().flat_map(|e| &e.parameters);
+            let within = all.find(|p| p.0 == parameter).and_then(|p| p.2.ends());
+            let right = within.is_some_and(|[low, high]| low < truth && truth < high && high - low < 0.5 * truth.abs());
+            assert!(right, "{told}: {truth} {}", a.terminal_summary());
+        }
+    }
+}
+
+/// A logger that writes down the duty before the loop has worked out the next one is a row late, and no motor is lighter.
+#[test]
+fn duties_that_are_logged_a_row_late_are_said_to_be() {
+    let a = Bench { gains: None, late: true, ..PLAIN }.told(10);
+    assert_eq!(names(&a), ["actuation-latency"], "{}", a.terminal_summary());
+    assert!((value(&a, "latency_s") + ROW_S).abs() < 0.1 * ROW_S, "{}", a.terminal_summary());
+    assert!(a.remarks.iter().any(|r| r.contains("the log has them 1.0 rows late")), "{:?}", a.remarks);
+    let a = Bench { late: true, ..PLAIN }.told(11);
+    let order = a.effects.iter().find(|e| e.name == "sample-order").map(|e| e.parameters.clone());
+    let of = |name: &str| order.iter().flatten().find(|p| p.0 == name).map(|p| p.1);
+    assert_eq!((of("signal"), of("shift_ticks")), (Some(2.0), Some(1.0)), "{}", a.terminal_summary());
 }
 
 /// Half the counts: the back-EMF brakes twice as much for what is seen, and twice as much seems to turn.

@@ -142,7 +142,7 @@ pub fn exact_equation(name: &str) -> &'static str {
         "integrator-windup" => "the integrator is not held at saturation but stops at limit_duty",
         "quantisation" => "duties are rounded to duty_quantum",
         "sample-order" => {
-            "the loop uses counts (signal 0) or set points (signal 1) that are shift_ticks older than logged"
+            "the loop uses counts (signal 0), set points (signal 1) or both (signal 2) that are shift_ticks older than logged"
         }
         "camera-timing" => "stamps of the camera frames scatter about their capture times by jitter_s",
         _ => "",

@@ -60,7 +60,11 @@ pub(super) fn apply(effect: &Effect, wheels: usize, control: &mut ControlDeviati
         "integrator-windup" => control.integral_limit = effect.value("limit_duty").map(f64::abs),
         "quantisation" => control.duty_quantum = effect.value("duty_quantum"),
         "sample-order" => {
-            control.shift_ticks[usize::from(value("signal") > 0.5)] = value("shift_ticks").max(0.0).round() as usize;
+            let (signal, ticks) = (value("signal").round(), value("shift_ticks").max(0.0).round() as usize);
+            // Counts, set points, or both.
+            for (older, age) in [signal != 1.0, signal != 0.0].into_iter().zip(&mut control.shift_ticks) {
+                *age = if older { ticks } else { *age };
+            }
         }
         "command-latency" => control.command_latency_s += value("latency_s"),
         "wheel-order" => {
