@@ -7,6 +7,10 @@ const DAYS: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.
 /// for all rows, and says nothing of how far they are apart.
 pub(super) fn seconds(text: &str) -> Option<f64> {
     let text = text.trim().trim_matches('"');
+    // Pictures and some loggers have colons in the date, too: `2022:06:01 13:42:57`.
+    let colons = text.split_once(' ').filter(|(date, _)| date.len() == 10 && date.matches(':').count() == 2);
+    let dashed = colons.map(|(date, clock)| format!("{} {clock}", date.replace(':', "-")));
+    let text = dashed.as_deref().unwrap_or(text);
     let end = text.find(|c: char| !(c.is_ascii_digit() || ['-', '/'].contains(&c)))?;
     let (day, clock) = if text[..end].contains(['-', '/']) {
         let clock = text[end..].strip_prefix(['T', ' ', '.', '_'])?;
@@ -47,6 +51,7 @@ mod tests {
         {
             assert_eq!(seconds(same), Some(1_668_625_578.0), "{same}");
         }
+        assert_eq!(seconds("2022:11:16 19:06:18"), Some(1_668_625_578.0));
         assert_eq!(seconds("19:06:18.250"), Some(68_778.25));
         for none in ["x", "12:60:00", "3-4-2022 10:00:00", "2022-13-01 00:00:00", "10:00", "-0.5", "1e-5", "2022-11-16"]
         {

@@ -1,5 +1,6 @@
 //! Lines in which every number follows its name, as sketches of an Arduino print them: `t,340,PWM,60,speed,1.5`,
-//! `t:340 PWM:60 speed:1.5`, `t = 340; PWM = 60`. They become a table with those names.
+//! `t:340 PWM:60 speed:1.5`, `t = 340; PWM = 60`. They become a table with those names. Behind a colon several may follow:
+//! `t: 340 ticks: 290 512` has `ticks_1` and `ticks_2`.
 
 /// Lines that are looked at to find out.
 const LOOKED_AT: usize = 64;
@@ -9,8 +10,8 @@ const LOOKED_AT: usize = 64;
 pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
     let text = String::from_utf8_lossy(bytes);
     let first: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).take(LOOKED_AT).collect();
-    let found: Vec<Vec<(&str, &str)>> = first.iter().filter_map(|line| pairs(line)).collect();
-    let names_of = |pairs: &[(&str, &str)]| pairs.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
+    let found: Vec<Vec<(String, &str)>> = first.iter().filter_map(|line| pairs(line)).collect();
+    let names_of = |pairs: &[(String, &str)]| pairs.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     let alike = |names: &[String]| found.iter().filter(|pairs| names_of(pairs) == names).count();
     let names = found.iter().map(|pairs| names_of(pairs)).find(|names| 2 * alike(names) >= first.len())?;
     // Below a row of names words are values.
@@ -35,7 +36,7 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
 }
 
 /// The names of a line and their numbers: two or more, and nothing else.
-fn pairs(line: &str) -> Option<Vec<(&str, &str)>> {
+fn pairs(line: &str) -> Option<Vec<(String, &str)>> {
     let marked = line.contains([':', '=']);
     let words: Vec<&str> = if marked || line.contains([',', ';', '\t']) {
         let apart = |c: char| [',', ';', '\t', ':', '='].contains(&c) || marked && c == ' ';
@@ -49,9 +50,27 @@ fn pairs(line: &str) -> Option<Vec<(&str, &str)>> {
     let is_name =
         |word: &str| word.starts_with(|c: char| c.is_alphabetic() || c == '_') && word.parse::<f64>().is_err();
     let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let whole = words.len() >= 4 && words.len().is_multiple_of(2);
-    let pairs: Vec<(&str, &str)> = words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
-    (whole && pairs.iter().all(|(name, number)| is_name(name) && is_number(number))).then_some(pairs)
+    let names = words.iter().filter(|word| is_name(word)).count();
+    if names < 2 || !is_name(words[0]) || !words.iter().all(|word| is_name(word) || is_number(word)) {
+        return None;
+    }
+    let mut pairs = Vec::with_capacity(words.len());
+    for group in words.chunk_by(|_, next| is_number(next)) {
+        let (name, numbers) = (group[0], &group[1..]);
+        match numbers {
+            [] => return None,
+            [number] => pairs.push((name.to_owned(), *number)),
+            // Without a mark a word may well have columns of their own behind it.
+            _ if !marks(line, name) => return None,
+            _ => pairs.extend(numbers.iter().enumerate().map(|(i, number)| (format!("{name}_{}", i + 1), *number))),
+        }
+    }
+    Some(pairs)
+}
+
+/// Whether a colon or an equals sign follows a name in a line.
+fn marks(line: &str, name: &str) -> bool {
+    line.match_indices(name).any(|(at, _)| line[at + name.len()..].trim_start().starts_with([':', '=']))
 }
 
 #[cfg(test)]
@@ -76,6 +95,8 @@ mod tests {
             assert_eq!(of(text), marked, "{text}");
         }
         assert_eq!(of("t 1 PWM 2\nt 3 PWM -4e1\n"), marked);
+        let several = Some(("time;ticks_1;ticks_2;x".to_owned(), "\n1.5;2;3;4\n2.5;3;4;-5\n".to_owned()));
+        assert_eq!(of("#drive: front\ntime: 1.5 ticks: 2 3 x: 4\ntime: 2.5 ticks: 3 4 x: -5\n"), several);
     }
 
     #[test]
@@ -86,6 +107,7 @@ mod tests {
             "ODOM 0.1 2.5\nODOM 0.2 2.6\n",
             "t,1\nt,2\nt,3\n",
             "a,1,a,2\na,1,a,2\n",
+            "IMU;2022:06:01 13:42:57.7;Gyro;1;2\nIMU;2022:06:01 13:42:57.8;Gyro;1;3\n",
             "2018-05-10 12:39:00,1\n2018-05-10 12:39:01,2\n",
             "",
         ] {

@@ -167,7 +167,13 @@ impl Table {
     /// # Errors
     /// As [`Table::read`].
     pub fn of_bytes(bytes: &[u8], path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
-        let table = match format.unwrap_or_else(|| Format::of(path, bytes)) {
+        let format = format.unwrap_or_else(|| Format::of(path, bytes));
+        if let Some((what, hint)) =
+            Some(()).filter(|()| matches!(format, Format::Csv | Format::Json)).and_then(|()| binary(bytes))
+        {
+            return Err(InputError::new(path, what, hint));
+        }
+        let table = match format {
             Format::Csv => csv::read(bytes, path, time),
             Format::Json => json::read(bytes, path, time),
             Format::Ros2 => ros2::read(bytes, path),
@@ -223,6 +229,34 @@ impl Table {
             }
         }
     }
+}
+
+/// What a file is that is no text, and what to do with it.
+fn binary(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    const KINDS: [(&[u8], &str, &str); 5] = [
+        (
+            b"#ROSBAG V",
+            "is a bag of ROS 1",
+            "convert it once: `pip install rosbags`, then `rosbags-convert --src IN.bag --dst OUT --dst-storage mcap`, and \
+             give OUT/OUT.mcap; or write its topics with `rostopic echo -p`",
+        ),
+        (
+            b"SQLite format 3",
+            "is a bag of ROS 2 in SQLite",
+            "convert it once: `ros2 bag convert` to storage mcap, or `pip install rosbags` and `rosbags-convert --src IN \
+             --dst OUT --dst-storage mcap`",
+        ),
+        (b"MATLAB 5.0 MAT", "is a file of MATLAB", "write it as text: writetable(table(...), \"log.csv\")"),
+        (b"\x89HDF", "is a file of HDF5", "write its arrays as columns of a CSV"),
+        (b"PK\x03\x04", "is an archive or a workbook", "unpack it, or save the sheet as CSV"),
+    ];
+    let known = KINDS.into_iter().find(|(magic, ..)| bytes.starts_with(magic)).map(|(_, what, hint)| (what, hint));
+    // Two bytes a letter, as some spreadsheets write: every second byte is 0.
+    let wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    known.or_else(|| wide.then_some(("is text in UTF-16", "save it as UTF-8"))).or_else(|| {
+        let begin = &bytes[..bytes.len().min(1024)];
+        begin.contains(&0).then_some(("is no text", "see `racbot convert --help` for formats"))
+    })
 }
 
 /// Heading of a quaternion x, y, z, w: the angle about the vertical.

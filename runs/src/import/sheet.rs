@@ -53,8 +53,13 @@ impl<'a> Sheet<'a> {
             separator = b';'; // beside which a decimal comma is one
         }
         let fields = fields(first, blanks, separator);
-        let mut said = before.iter().rev().map(|line| super::line::fields(line, blanks, separator));
-        let mut said = || said.next().filter(|said| said.len() == fields.len() && said.len() > 1);
+        let fit = |said: &Vec<String>| said.len() == fields.len() && said.len() > 1;
+        let named = |line: &&[u8]| {
+            let plain = super::line::fields(line, blanks, separator);
+            if fit(&plain) { plain } else { loose(line).into_iter().find(fit).unwrap_or_default() }
+        };
+        let mut said = before.iter().rev().map(named);
+        let mut said = || said.next().filter(fit);
         let texts = fields.iter().any(|field| !is_number(field, separator));
         let names = if texts {
             // Names after the mark of a remark, as of `rostopic echo -p`, above rows of numbers and texts; or none, where a
@@ -71,11 +76,14 @@ impl<'a> Sheet<'a> {
             Some(named.unwrap_or_else(|| numbered(fields.len())))
         };
         let rows = if blanks || !before.is_empty() { Cow::Owned(plain(bytes, blanks)) } else { Cow::Borrowed(bytes) };
-        // Of one such line its word is the name of the column of time, and numbers name the others.
+        // Of one such line its word is the name of the column of time, and numbers name the others. Words may stand among
+        // the numbers: `IMU;2022:06:01 13:42:57.76;Orientation;0.2;0.1`.
         let tagged = second.is_some_and(|second| {
             [fields, super::line::fields(second, blanks, separator)].iter().all(|fields| {
-                let [word, numbers @ ..] = &fields[..] else { return false };
-                !is_number(word, separator) && numbers.len() > 1 && numbers.iter().all(|n| is_number(n, separator))
+                let [word, rest @ ..] = &fields[..] else { return false };
+                let is_time = |field: &String| super::dates::seconds(field).is_some();
+                let numbers = rest.iter().filter(|n| is_number(n, separator) || is_time(n)).count();
+                !is_number(word, separator) && !is_time(word) && rest.len() > 1 && 2 * numbers > rest.len()
             })
         });
         Self { names: names.filter(|_| !first.is_empty()), rows, separator, tagged }
@@ -85,6 +93,19 @@ impl<'a> Sheet<'a> {
 /// What a line says after the mark of a remark.
 fn remark(line: &[u8]) -> Option<&[u8]> {
     REMARKS.iter().find_map(|mark| line.strip_prefix(mark.as_bytes())).map(<[u8]>::trim_ascii)
+}
+
+/// The names of a remark in the ways in which they may be apart, where rows are apart in another: by commas, semicolons,
+/// or more blanks than one, `Time [s]    forward velocity [m/s]`.
+fn loose(line: &[u8]) -> Vec<Vec<String>> {
+    let text = String::from_utf8_lossy(line);
+    let clean = |parts: Vec<&str>| -> Vec<String> { parts.into_iter().map(|part| part.trim().to_owned()).collect() };
+    let mut ways = vec![clean(text.split(',').collect()), clean(text.split(';').collect())];
+    ways.push(clean(
+        text.split("  ").flat_map(|part| part.split('\t')).filter(|part| !part.trim().is_empty()).collect(),
+    ));
+    ways.retain(|names| names.iter().all(|name| name.starts_with(char::is_alphabetic)));
+    ways
 }
 
 /// Whether a field is a unit alone: `[V]`, `(turns/s)`.
@@ -136,7 +157,16 @@ mod tests {
             sheet("%time,frame,enc\n5,odom,1\n6,odom,2\n"),
             (names(&["time", "frame", "enc"]), "\n5,odom,1\n6,odom,2\n".into(), ',')
         );
-        assert_eq!(sheet("# a,b,c\ntime,0,1\n0,5,6\n").0, None);
+        assert_eq!(sheet("# a,b,c\ntime,u,1\n0,5,6\n").0, None);
+        // Names apart otherwise than the numbers.
+        let two = names(&["Time [s]", "forward velocity [m/s]"]);
+        for head in [
+            "# Time [s]    forward velocity [m/s]",
+            "# Time [s]\tforward velocity [m/s]",
+            "# Time [s], forward velocity [m/s]",
+        ] {
+            assert_eq!(sheet(&format!("# by me, in 2009\n{head}\n0.1 \t 2\n0.2 \t 3\n")).0, two, "{head}");
+        }
         assert_eq!(sheet("% by me\n% t,u\n% [#],[V]\nnan,nan;\n0,1;\n").0, names(&["t", "u [V]"]));
         // A row with a text among its numbers holds no names.
         let row = "% 1 time, 2 flags, 3 speed\n0.1 0x0 1.5\n0.2 0x1 2\n";

@@ -310,3 +310,28 @@ fn commands_stand_for_wheels_that_nobody_logged() {
     let bare = Table::of_bytes(b"t,enc_1\n0,1\n1,2\n", Path::new("in.csv"), None, &Clock::default()).unwrap();
     assert!(map.run(&bare, Path::new("in")).unwrap_err().to_string().contains("the wheels are logged"));
 }
+
+#[test]
+fn what_is_no_text_is_not_read_as_text() {
+    for (bytes, what) in [
+        (&b"#ROSBAG V2.0\nE\0\0\0\0"[..], "is a bag of ROS 1; convert it once"),
+        (b"SQLite format 3\0", "is a bag of ROS 2 in SQLite"),
+        (b"MATLAB 5.0 MAT-file", "is a file of MATLAB"),
+        (b"\xff\xfet\0,\0", "UTF-16"),
+        (b"1,2\0\0\0\x01", "is no text"),
+    ] {
+        assert!(error(bytes, "log.csv").contains(what), "{}", error(bytes, "log.csv"));
+    }
+}
+
+#[test]
+fn lines_of_several_kinds_may_have_dates_and_words() {
+    let text = "IMU;2022:06:01 13:42:57.75;Orientation;0.1;0.2\nOdometry;2022:06:01 13:42:57.75;Position;1;2;Speed;0.5\n\
+                IMU;2022:06:01 13:42:58.00;Orientation;0.3;0.2\nOdometry;2022:06:01 13:42:58.25;Position;2;2;Speed;0.5\n";
+    let clock = Clock { column: Some("column_2"), ..Clock::default() };
+    let table = Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &clock).unwrap();
+    let x = table.find("Odometry/column_4").unwrap();
+    assert_eq!(x.values, [1.0, 2.0]);
+    assert!((x.t[1] - x.t[0] - 0.5).abs() < 1e-6);
+    assert_eq!(table.find("IMU/column_4").unwrap().values, [0.1, 0.3]);
+}

@@ -63,20 +63,36 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
         "usec" | "µs" | "μs" | "micros" => "us",
         "msec" | "millis" => "ms",
         "nsec" | "nanos" => "ns",
-        "°" | "degrees" | "grad" => "deg",
-        "°/s" | "dps" => "deg/s",
+        "°" | "degree" | "degrees" | "grad" => "deg",
+        "radian" | "radians" => "rad",
+        "°/s" | "dps" | "deg/sec" | "degrees/s" | "degrees/sec" => "deg/s",
+        "rad/sec" | "radians/s" | "radians/sec" => "rad/s",
+        "m/sec" | "meters/s" | "metres/s" => "m/s",
         "ticks" | "steps" => "counts",
         "ticks/s" | "steps/s" | "pulses/s" => "counts/s",
         "turns" | "revs" | "revolutions" => "rev",
         "turns/s" | "rps" => "rev/s",
         "pct" => "percent",
-        "meters" | "metres" => "m",
+        "meter" | "meters" | "metre" | "metres" => "m",
+        "millimeters" | "millimetres" => "mm",
+        "volt" | "volts" => "V",
+        "amps" | "ampere" | "amperes" => "A",
         other => other,
     };
     let same = |(unit, _): &&(&'static str, f64)| !matches!(*unit, "" | "1") && unit.eq_ignore_ascii_case(plain);
     // A bare letter at the end is rather a name's: `pos_m`, but `motor_A`.
     let sure = |unit: &&'static str| unit.len() > 1 || plain == *unit;
     UNITS.iter().find(same).map(|(unit, _)| *unit).filter(sure)
+}
+
+/// A name without the unit that stands in brackets behind it, or without brackets in which none stands.
+pub(super) fn without(name: &str) -> &str {
+    let ends = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
+        let (bare, rest) = name.split_once(open)?;
+        let inside = rest.trim_end().strip_suffix(close)?;
+        (inside.trim().is_empty() || in_name(name).is_some()).then_some(bare.trim_end())
+    });
+    ends.filter(|bare| !bare.is_empty()).unwrap_or(name)
 }
 
 /// Whether a unit can be one of what `ours` is a unit of: seconds of milliseconds, no inches of amperes.
@@ -131,11 +147,26 @@ mod tests {
             ("Speed (steps/s)", "counts/s"),
             ("feedback_deg_s", "deg/s"),
             ("omega_rad_per_s", "rad/s"),
+            ("position_value (degree)", "deg"),
+            ("angular velocity[rad/sec]", "rad/s"),
         ] {
             assert_eq!(in_name(name), Some(unit), "{name}");
         }
         for name in ["t", "ms", "left wheel", "motor_a", "x"] {
             assert_eq!(in_name(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_unit_in_brackets_is_no_part_of_a_name() {
+        for (name, bare) in [
+            ("x (cm)", "x"),
+            ("v[m/s]", "v"),
+            ("left velocity ()", "left velocity"),
+            ("a (left)", "a (left)"),
+            ("(m)", "(m)"),
+        ] {
+            assert_eq!(without(name), bare);
         }
     }
 

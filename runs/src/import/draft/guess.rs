@@ -68,7 +68,7 @@ pub(super) fn supply_words() -> impl Iterator<Item = &'static str> {
 /// What names of axes are written with in one word, before or behind: `ox`, `xgt`, `thodom`.
 const AFFIXES: [&str; 11] = ["o", "odo", "odom", "dr", "gt", "true", "cam", "mocap", "vicon", "opti", "gps"];
 /// Headings, the longer names first.
-const HEADINGS: [&str; 6] = ["heading", "theta", "yaw", "phi", "rz", "th"];
+const HEADINGS: [&str; 7] = ["heading", "theta", "yaw", "phi", "psi", "rz", "th"];
 
 /// Velocities of a body, along x, along y (with b: in the body's frame) and of its turn.
 const BODY_SPEEDS: [&str; 8] = ["vx", "vbx", "vy", "vby", "w", "wb", "wz", "omega"];
@@ -121,7 +121,7 @@ fn digits(name: &str) -> Option<(String, usize)> {
 /// The wheel that a name numbers, from 0.
 pub(super) fn numbered(name: &str, from_zero: &[String]) -> Option<usize> {
     let counted = digits(name).filter(|(stem, _)| from_zero.contains(stem));
-    counted.map(|(_, number)| number).or_else(|| number(&words(&spaced(name).to_lowercase())))
+    counted.map(|(_, number)| number).or_else(|| number(&words(&spaced(units::without(name)).to_lowercase())))
 }
 
 /// Series of each kind so far, and whether one of them numbered its wheel.
@@ -152,9 +152,19 @@ fn recognised<'a>(
             None => rest.push(series),
         }
     }
+    heading_of_odometry(&mut guesses);
     drop_broken_groups(&mut guesses, &mut rest);
     guesses.sort_by_key(|g| g.column);
     (guesses, rest)
+}
+
+/// A heading without a place beside an odometry without a heading is the odometry's.
+fn heading_of_odometry(guesses: &mut [Guess]) {
+    let has = |column: Column| guesses.iter().any(|g| g.column == column);
+    let place = |of: fn(usize) -> Column| has(of(0)) && has(of(1));
+    if place(Column::Odometry) && !has(Column::Odometry(2)) && !has(Column::Camera(0)) && !has(Column::Camera(1)) {
+        guesses.iter_mut().filter(|g| g.column == Column::Camera(2)).for_each(|g| g.column = Column::Odometry(2));
+    }
 }
 
 /// The pose in a file that has little else, whatever the tracker is called: the first series that are its x, y and
@@ -172,20 +182,35 @@ pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     (guesses, rest)
 }
 
+/// Keys of a map for the body's velocities, and what they are called.
+const VELOCITIES: [(&str, &[&str]); 3] = [
+    ("odom_vx", &["v", "vx", "forward velocity", "linear velocity", "forward speed", "linear speed"]),
+    ("odom_vy", &["vy", "lateral velocity", "sideways velocity"]),
+    ("odom_w", &["w", "wz", "omega", "angular velocity", "rotational velocity", "angular speed", "yaw rate"]),
+];
+
 /// Velocities of the body in a log that has nothing else which moves, taken out of the rest: keys of a map, and series.
 /// Beside a second file with the pose they are the robot's own odometry.
-pub(super) fn velocities<'a>(guesses: &[Guess], rest: &mut Vec<&'a Series>) -> Vec<(&'static str, &'a Series)> {
+pub(super) fn velocities<'a>(
+    guesses: &mut Vec<Guess<'a>>,
+    rest: &mut Vec<&'a Series>,
+) -> Vec<(&'static str, &'a Series)> {
+    let called = |series: &Series, names: &[&str]| {
+        names.contains(&&*words(&units::without(&series.name).to_lowercase()).join(" "))
+    };
+    // What turns beside what goes forward is no shaft, though its unit is one of shafts.
+    let [forward, sideways, turn] = VELOCITIES;
+    if rest.iter().any(|series| called(series, forward.1)) {
+        let body = |g: &mut Guess| matches!(g.column, Column::Speed(_)) && called(g.series, turn.1);
+        rest.extend(guesses.extract_if(.., body).map(|g| g.series));
+    }
     let moves =
         |c: Column| matches!(c, Column::Counts(_) | Column::Speed(_) | Column::Odometry(_) | Column::Command(_));
     if guesses.iter().any(|g| moves(g.column)) {
         return Vec::new();
     }
-    let keys = [("odom_vx", &["v", "vx"][..]), ("odom_vy", &["vy"]), ("odom_w", &["w", "wz", "omega"])];
-    let of = |(key, names): (&'static str, &[&str])| {
-        let is = |series: &&&Series| matches!(words(&series.name.to_lowercase())[..], [word] if names.contains(&word));
-        Some((key, *rest.iter().find(is)?))
-    };
-    let found: Vec<(&str, &Series)> = keys.into_iter().filter_map(of).collect();
+    let of = |(key, names): (&'static str, &[&str])| Some((key, *rest.iter().find(|series| called(series, names))?));
+    let found: Vec<(&str, &Series)> = [forward, sideways, turn].into_iter().filter_map(of).collect();
     let has = |key: &str| found.iter().any(|(k, _)| *k == key);
     if !(has("odom_vx") && has("odom_w")) {
         return Vec::new();
@@ -196,9 +221,14 @@ pub(super) fn velocities<'a>(guesses: &[Guess], rest: &mut Vec<&'a Series>) -> V
 
 /// Which of x, y and heading a series of a tracker is.
 fn part_of_pose(name: &str) -> Option<usize> {
-    let lower = spaced(name).to_lowercase();
+    let lower = spaced(units::without(name)).to_lowercase();
     let words = words(&lower);
     let has = |some: &[&str]| words.iter().any(|word| some.contains(word));
+    // An angle by its unit has no parts.
+    let angle = units::in_name(name).is_some_and(|unit| units::is_like(unit, "rad"));
+    if angle && matches!(words[..], ["orientation" | "rotation" | "angle" | "bearing"]) {
+        return Some(2);
+    }
     if has(&HEADINGS) || words.iter().any(|word| word.ends_with("yaw")) {
         return Some(2);
     }
@@ -229,8 +259,12 @@ fn drop_broken_groups<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Serie
         [Column::Command, Column::Camera, Column::Odometry, Column::Gyro, Column::Acceleration];
     for group in groups {
         let has = |i: usize| guesses.iter().any(|g| g.column == group(i));
-        // A sideways command may be missing, see [`super::Map`].
-        let whole = has(0) && has(2) && (has(1) || group(0) == Column::Command(0));
+        // A sideways command may be missing, see [`super::Map`], and a camera's headings; an odometry's are asked for.
+        let whole = match group(0) {
+            Column::Command(_) => has(0) && has(2),
+            Column::Camera(_) | Column::Odometry(_) => has(0) && has(1),
+            _ => has(0) && has(1) && has(2),
+        };
         if !whole {
             let (broken, kept): (Vec<_>, Vec<_>) =
                 std::mem::take(guesses).into_iter().partition(|g| (0..3).any(|i| g.column == group(i)));
@@ -276,7 +310,7 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     if !matches!(ours, Column::Other | Column::Time) {
         return Some((ours, ""));
     }
-    let lower = spaced(&series.name).to_lowercase();
+    let lower = spaced(units::without(&series.name)).to_lowercase();
     let words = words(&lower);
     let said = units::in_name(&series.name);
     let number = numbered(&series.name, from_zero);
@@ -369,6 +403,10 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
 
 /// The unit that its name says, or its range; none where it is ours.
 fn unit(column: Column, series: &Series) -> &'static str {
+    let lower = spaced(&series.name).to_lowercase();
+    if matches!(column, Column::Camera(0 | 1)) && words(&lower).iter().any(|w| ["px", "pixel", "pixels"].contains(w)) {
+        return PIXELS;
+    }
     let said = units::in_name(&series.name).filter(|unit| *unit != column.unit() && fits(column, unit));
     said.unwrap_or_else(|| by_range(column, series))
 }
@@ -488,6 +526,41 @@ fn drives_in_metres(series: &Series) -> bool {
 fn time_unit_s(t: &[f64]) -> f64 {
     units::of_time(time_unit(t, 1.0)).unwrap_or(1.0)
 }
+
+/// What a series may be that was not recognised, for its owner to decide, in a remark behind it.
+pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
+    let lower = spaced(units::without(&series.name)).to_lowercase();
+    let words = words(&lower);
+    let beside = |name: &str| rest.iter().any(|s| s.name.eq_ignore_ascii_case(name));
+    let [low, high] = series.range();
+    let most = low.abs().max(high.abs());
+    let from = super::quoted(&series.name);
+    match words[..] {
+        ["u"] if most > MOST_DUTY => {
+            format!("; what drives it? duty_1 = {{ from = {from}, scale = ... }}, 1 / the most that it can be")
+        }
+        ["y"] if beside("u") => format!(
+            "; what it measures? speed_1 = {{ from = {from}, unit = \"deg/s\" }}, or an angle: enc_1 = {{ from = {from}, unit = \
+             \"deg\", counts_per_rev = 65536 }}"
+        ),
+        ["r"] if beside("u") => format!("; set points? ref_1 = {{ from = {from}, unit = ... }}, of a speed"),
+        _ if most > MOST_DUTY
+            && units::in_name(&series.name).is_none()
+            && words.iter().any(|w| ["command", "cmd", "output", "power", "throttle"].contains(w)) =>
+        {
+            let wheel = number(&words).map_or(1, |wheel| wheel + 1);
+            let full = full_duty(most);
+            format!(
+                "; steps of a PWM? duty_{wheel} with scale = {:.6}, 1 / {full}; a set point? ref_{wheel}",
+                1.0 / full
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+/// What is measured in an image; how many metres that is only its owner knows.
+pub(super) const PIXELS: &str = "px";
 
 /// The unit of a duty in steps of its PWM.
 pub(super) const STEPS: &str = "steps";

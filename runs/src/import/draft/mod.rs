@@ -28,7 +28,7 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
         rest.extend(guesses.extract_if(.., camera).map(|g| g.series));
         reckoned(table.0, &mut guesses, &mut rest);
     }
-    let own = guess::velocities(&guesses, &mut rest);
+    let own = guess::velocities(&mut guesses, &mut rest);
     let mut out = log(table.0, &guesses, &own, &rest);
     let file = quoted(&truth::pattern(table.1, poses.1));
     let _ = writeln!(
@@ -37,10 +37,11 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
          clock = \"{}\" # same: one clock; own: both files begin together; match: found by the motion",
         clock([table.0, poses.0])
     );
-    out += &time(poses.0, "truth.time");
+    let (time, timed) = time(poses.0, "truth.time");
+    out += &time;
     out.push_str("\n[truth.columns]\n");
     out += &columns(&seen, "# cam_x = \"...\"\n# cam_y = \"...\"\n# cam_theta = \"...\"\n");
-    out + &unused(&other)
+    out + &unused(&other, timed.as_deref())
 }
 
 /// Beside a file with the pose, the poses of a log without wheels are the robot's own odometry.
@@ -62,11 +63,21 @@ fn reckoned<'a>(table: &'a Table, guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&
 
 /// How two clocks seem to stand: the same where their times lie over each other, and not just because both count from 0.
 fn clock(tables: [&Table; 2]) -> &'static str {
-    let [a, b] = tables.map(Table::times);
+    let [Some(a), Some(b)] = tables.map(ends) else { return "match" };
     let shorter = (a[1] - a[0]).min(b[1] - b[0]);
     let shared = a[1].min(b[1]) - a[0].max(b[0]);
     let from_zero = a[0].abs().max(b[0].abs()) < 0.1 * shorter;
     if shared > 0.5 * shorter && !from_zero { "same" } else { "match" }
+}
+
+/// First and last time of a file, s; of one whose times have no name, those that its map takes.
+fn ends(table: &Table) -> Option<[f64; 2]> {
+    if table.time.is_some() || !rows_are_numbered(table) {
+        return Some(table.times());
+    }
+    let guessed = increasing(table)?;
+    let unit_s = units::of_time(time_unit(&guessed.values, 1.0))?;
+    Some(guessed.range().map(|t| t * unit_s))
 }
 
 fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Series]) -> String {
@@ -74,7 +85,8 @@ fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Serie
     for remark in &table.remarks {
         let _ = writeln!(out, "# Note: {remark}.");
     }
-    out += &time(table, "time");
+    let (time, timed) = time(table, "time");
+    out += &time;
     out.push_str(
         "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
     );
@@ -88,11 +100,16 @@ fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Serie
             &name[5..]
         );
     }
-    out + &unused(rest)
+    out + &unused(rest, timed.as_deref())
 }
 
-/// The `[time]` table of a map for `table`.
-fn time(table: &Table, name: &str) -> String {
+/// Whether rows stand in for times: there is no time.
+fn rows_are_numbered(table: &Table) -> bool {
+    table.series.iter().all(|s| s.t.iter().all(|t| t.fract() == 0.0))
+}
+
+/// The `[time]` table of a map for `table`, and the series that it takes for the time.
+fn time(table: &Table, name: &str) -> (String, Option<String>) {
     if let Some((column, unit)) = &table.time {
         let longest = table.series.iter().max_by_key(|s| s.t.len()).map_or(&[][..], |s| &s.t);
         // A unit that the name says is not guessed, however far apart the rows are.
@@ -101,23 +118,31 @@ fn time(table: &Table, name: &str) -> String {
         if let Some(stamp) = stamped(table).filter(|_| column == "time") {
             let why = "when it was measured; \"time\" is when it was received";
             let unit = time_unit(&stamp.values, 1.0);
-            return format!("\n[{name}]\ncolumn = {} # {why}\nunit = \"{unit}\"\n", quoted(&stamp.name));
+            let text = format!("\n[{name}]\ncolumn = {} # {why}\nunit = \"{unit}\"\n", quoted(&stamp.name));
+            return (text, Some(stamp.name.clone()));
         }
-        return format!("\n[{name}]\ncolumn = {}\nunit = \"{unit}\"\n", quoted(column));
+        return (format!("\n[{name}]\ncolumn = {}\nunit = \"{unit}\"\n", quoted(column)), Some(column.clone()));
     }
     // Rows are numbered where there is no time; some have no sample of a series.
-    if !table.series.iter().all(|s| s.t.iter().all(|t| t.fract() == 0.0)) {
-        return String::new();
+    if !rows_are_numbered(table) {
+        return (String::new(), None);
     }
     match increasing(table) {
         Some(s) => {
-            let (column, unit) = (quoted(of_every_kind(table, &s.name)), time_unit(&s.values, 1.0));
-            format!("\n[{name}]\ncolumn = {column} # is it? it increases from row to row\nunit = \"{unit}\"\n")
+            let (column, unit) = (of_every_kind(table, &s.name), time_unit(&s.values, 1.0));
+            let text = format!(
+                "\n[{name}]\ncolumn = {} # is it? it increases from row to row\nunit = \"{unit}\"\n",
+                quoted(column)
+            );
+            (text, Some(column.to_owned()))
         }
-        None => format!(
-            "\n[{name}]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second; \
+        None => {
+            let text = format!(
+                "\n[{name}]\ncolumn = \"?\" # which column is the time? Where there is none: rate_hz = 100, rows a second; \
              points of a characteristic, each when its speed had settled, are no log\n"
-        ),
+            );
+            (text, None)
+        }
     }
 }
 
@@ -146,10 +171,21 @@ fn columns(guesses: &[Guess], none: &str) -> String {
     // All motors have one supply and one full duty.
     let duties = guesses.iter().filter(|g| matches!(g.column, Column::Duty(_))).flat_map(|g| g.series.range());
     let most = duties.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let in_pixels = guesses.iter().any(|g| g.unit == guess::PIXELS);
+    let headed = guesses.iter().any(|g| g.column == Column::Odometry(2));
     for Guess { series, column, unit } in guesses {
         let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
         // What only the owner knows is no guess.
         let open = match *unit {
+            _ if matches!(column, Column::Odometry(0 | 1)) && !headed => {
+                Some(("", "the robot's own odometry needs its heading, too: odom_theta"))
+            }
+            unit if in_pixels && unit != guess::PIXELS && matches!(column, Column::Camera(_)) => {
+                Some(("", "of the pose in pixels"))
+            }
+            guess::PIXELS => {
+                Some(("scale = ...", "pixels: scale is metres a pixel; in an image y is mostly down, see [frame]"))
+            }
             unit if angle && units::is_like(unit, "m") => Some((
                 "unit = \"rad\", scale = ..., counts_per_rev = 65536",
                 "the wheel's way: scale is 1 / its radius in its unit",
@@ -161,7 +197,9 @@ fn columns(guesses: &[Guess], none: &str) -> String {
             _ => None,
         };
         if let Some((what, why)) = open {
-            let _ = writeln!(out, "# {} = {{ from = {}, {what} }} # {why}", column.name(), quoted(&series.name));
+            let from = quoted(&series.name);
+            let value = if what.is_empty() { from } else { format!("{{ from = {from}, {what} }}") };
+            let _ = writeln!(out, "# {} = {value} # {why}", column.name());
             continue;
         }
         let value = match *unit {
@@ -204,14 +242,21 @@ fn rates(column: &Column) -> bool {
     matches!(column, Column::Speed(_) | Column::Reference(_))
 }
 
-/// What was not recognised, as remarks.
-fn unused(rest: &[&Series]) -> String {
+/// What was not recognised, as remarks; the time is used.
+fn unused(rest: &[&Series], timed: Option<&str>) -> String {
+    let is_time = |series: &Series| {
+        timed.is_some_and(|time| {
+            series.name.strip_suffix(time).is_some_and(|kind| kind.is_empty() || kind.ends_with('/'))
+        })
+    };
+    let rest: Vec<&Series> = rest.iter().copied().filter(|series| !is_time(series)).collect();
     let mut out = String::from(if rest.is_empty() { "" } else { "\n# Not used:\n" });
-    for series in rest {
+    for series in &rest {
         // A signed number that was read without its sign jumps between both ends, as a counter does that begins again.
         let hint = register(&series.values).map_or_else(String::new, |range| {
             format!("; {} bits read without their sign? wraps = {range}", range.log2())
         });
+        let hint = if hint.is_empty() { guess::maybe(series, &rest) } else { hint };
         let [low, high] = series.range().map(readable);
         let _ = writeln!(out, "# {}, {low} to {high}{hint}", quoted(&series.name));
     }
@@ -231,6 +276,15 @@ fn quoted(name: &str) -> String {
 
 /// The unit of time, by its steps where its name says none: nobody logs a robot once a second.
 fn time_unit(t: &[f64], unit_s: f64) -> &'static str {
+    // Since 1970 1e9 s have passed, and 2.2e9 will have in 2039.
+    let since = |unit: f64| t.iter().all(|t| (1e9..2.2e9).contains(&(t * unit)));
+    if unit_s == 1.0
+        && !t.is_empty()
+        && let Some((_, name)) =
+            [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")].into_iter().find(|(u, _)| since(*u))
+    {
+        return name;
+    }
     match usual_step(t) {
         Some(1e6..) if unit_s == 1.0 => "ns",
         Some(1e3..) if unit_s == 1.0 => "us",

@@ -491,3 +491,84 @@ fn lines_of_several_kinds_have_each_their_own_time() {
     let other = map(["3", "1", "2"]);
     assert!(other.contains("column = \"odom2/column_2\" # is it?"), "{other}");
 }
+
+/// A file of a course, with names in a remark above blanks and units in brackets, beside its motion capture.
+#[test]
+fn names_in_remarks_and_units_in_brackets_are_understood() {
+    let table = |text: &str| {
+        Table::of_bytes(text.as_bytes(), Path::new("x.dat"), None, &Clock { rows: true, ..Clock::default() }).unwrap()
+    };
+    let log = table(
+        "# made in 2009\n# Time [s]    forward velocity [m/s]    angular velocity[rad/s]\n1248444187.156 \t 0.086 \t -0.398\n\
+         1248444187.186 \t 0.086 \t -0.398\n1248444197.197 \t 0.087 \t -0.398\n",
+    );
+    let truth = table(
+        "# Time [s]    x [m]    y [m]    orientation [rad]\n1248444187.103 \t 1.41 \t -3.89 \t 2.26\n\
+         1248444188.115 \t 1.42 \t -3.9 \t 2.27\n1248444196.141 \t 1.43 \t -3.91 \t 2.3\n",
+    );
+    let map = draft_two([(&log, Path::new("odom.dat")), (&truth, Path::new("gt.dat"))]);
+    for line in [
+        "column = \"Time [s]\"\nunit = \"s\"",
+        "\nodom_vx = \"forward velocity [m/s]\"",
+        "\nodom_w = \"angular velocity[rad/s]\"",
+        "clock = \"same\"",
+        "\ncam_x = \"x [m]\"",
+        "\ncam_theta = \"orientation [rad]\"",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    Map::parse(&map, Path::new("map.toml")).unwrap();
+    // The same without names: what increases is the time, is not called unused, and tells how the clocks stand.
+    let bare = |text: &str| table(&text.lines().filter(|l| !l.starts_with('#')).collect::<Vec<_>>().join("\n"));
+    let texts = [
+        "1600000000.5 1 2\n1600000000.6 2 2\n1600000009.7 3 2\n",
+        "1600000001.5 1 2\n1600000003.6 2 2\n1600000009.2 3 2\n",
+    ];
+    let [log, truth] = texts.map(bare);
+    let map = draft_two([(&log, Path::new("odom.dat")), (&truth, Path::new("gt.dat"))]);
+    assert!(map.contains("clock = \"same\"") && !map.contains("# \"column_1\""), "{map}");
+    assert!(map.contains("column = \"column_1\" # is it?") && map.contains("# \"column_3\", 2 to 2"), "{map}");
+}
+
+/// What a draft cannot know it asks for where it stands.
+#[test]
+fn pixels_headings_and_what_drives_are_asked_for() {
+    let rows = |row: &str| [0, 1, 2].map(|i| format!("{i}.5,{}", row.replace('i', &i.to_string())));
+    let map = |names: &str, row: &str| {
+        let rows = rows(row);
+        drafted(names, [&rows[0], &rows[1], &rows[2]])
+    };
+    let robot = map("t,left velocity (),right velocity (),x (cm),y (cm),theta (deg)", "1i,2i,3i,4i,5i");
+    for line in [
+        "speed_2 = \"left velocity ()\"",
+        "cam_x = { from = \"x (cm)\", unit = \"cm\" }",
+        "cam_theta = { from = \"theta (deg)\"",
+    ] {
+        assert!(robot.contains(line), "{line}\n{robot}");
+    }
+    let image = map("t,enc_1,enc_2,cam_x_px,cam_y_px,cam_theta", "1i,2i,30i,40i,0.i");
+    assert!(image.contains("# cam_x = { from = \"cam_x_px\", scale = ... } # pixels"), "{image}");
+    let place = map("t,enc_1,odom_x,odom_y,cmd_left", "3i,1i,2i,20i");
+    assert!(place.contains("# odom_x = \"odom_x\" # the robot's own odometry needs its heading"), "{place}");
+    assert!(place.contains("\"cmd_left\", 200 to 202; steps of a PWM? duty_2 with scale = 0.003922"), "{place}");
+    let whole = map("t,odom_x,odom_y,yaw", "1i,2i,0.i");
+    assert!(whole.contains("\nodom_x = \"odom_x\"\n") && whole.contains("odom_theta = \"yaw\""), "{whole}");
+    let seen = map("t,enc_1,enc_2,mocap_x,mocap_y", "1i,2i,0.i,0.4");
+    assert!(seen.contains("\ncam_x = \"mocap_x\"") && !seen.contains("cam_theta"), "{seen}");
+    let plant = map("t,r,y,u", "9i,8i,4i");
+    for line in
+        ["\"y\", 80 to 82; what it measures? speed_1", "\"u\", 40 to 42; what drives it? duty_1", "; set points? ref_1"]
+    {
+        assert!(plant.contains(line), "{line}\n{plant}");
+    }
+}
+
+#[test]
+fn epochs_tell_the_unit_of_time() {
+    for (first, step, unit) in [(1.6e9, 0.5, "s"), (1.6e12, 5000.0, "ms"), (1.6e15, 5000.0, "us"), (5.0, 5000.0, "us")]
+    {
+        let row = |k: f64| format!("{},{k}", first + k * step);
+        let map = drafted("t,enc_1", [&row(0.0), &row(1.0), &row(2.0)]);
+        assert!(map.contains(&format!("column = \"t\"\nunit = \"{unit}\"")), "{first}\n{map}");
+    }
+}
