@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{CountSource, Run, RunError};
-use crate::robot::{Robot, WHEELS};
+use crate::robot::{Robot, Support, WHEELS};
 
 /// How far beyond the no-load speed a count may jump. Generous: a motor pushed from outside, a
 /// supply above nominal or a coarse time stamp are no errors; a lost or swapped counter is.
@@ -51,7 +51,11 @@ impl Run {
         }
         if logged != 0 && logged != described {
             let what = format!("speaks of {logged} wheels, but the robot has {described}");
-            let hint = "use the robot.toml of the robot that drove; axes alone need support = \"blocks\"";
+            let hint = if robot.support == Support::Blocks && described == 1 {
+                "make a data set of each axis: `racbot init --axis --log LOG`"
+            } else {
+                "use the robot.toml of the robot that drove; axes alone need support = \"blocks\""
+            };
             return Err(RunError::new(path, what, hint));
         }
         if self.source.counts != CountSource::Encoders {

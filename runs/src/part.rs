@@ -40,6 +40,26 @@ impl Columns {
 }
 
 impl Run {
+    /// What a log of several axes says of one of them, as a log of an axis alone.
+    #[must_use]
+    pub fn axis(&self, axis: usize) -> Self {
+        let one = |group: &[Vec<f64>]| group.get(axis).cloned().into_iter().collect::<Vec<_>>();
+        Self {
+            name: self.name.clone(),
+            t: self.t.clone(),
+            reference: one(&self.reference),
+            counts: self.counts.get(axis).cloned().into_iter().collect(),
+            count_gaps: self.count_gaps.get(axis).cloned().into_iter().collect(),
+            duty: one(&self.duty),
+            measured: one(&self.measured),
+            supply_v: self.supply_v.clone(),
+            speed: one(&self.speed),
+            current: one(&self.current),
+            source: self.source,
+            ..Self::default()
+        }
+    }
+
     /// The columns of numbers, the time first.
     pub(super) fn reals(&self) -> Vec<&Vec<f64>> {
         let wheels = [&self.reference, &self.duty, &self.measured].into_iter().flatten();

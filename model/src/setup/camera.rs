@@ -336,9 +336,13 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             "the camera's heading is {:.0} degrees from that of the body's x axis, which points to the right",
             -fit.turn.to_degrees()
         );
-        let remedy = "write the heading of the x axis (that of the forward axis less 90 degrees), or, where [[wheel]] has x \
-                      forward, write x_m = -y, y_m = x and drive_rad + pi/2";
-        found.push(new("heading-axis", "cam_theta", what, remedy));
+        let remedy = format!(
+            "write the heading of the x axis (that of the forward axis less 90 degrees; in a map of `racbot convert` [frame] \
+             or [truth.frame] x = \"forward\" or \"right\", or offset = {:.3} of cam_theta), or, where [[wheel]] has x \
+             forward, write x_m = -y, y_m = x and drive_rad + pi/2",
+            fit.turn
+        );
+        found.push(new("heading-axis", "cam_theta", what, &remedy));
     }
     let spin = spin.unwrap_or(fit.scale);
     let told = |kinds: &[&str]| before.iter().any(|m| kinds.contains(&m.kind));

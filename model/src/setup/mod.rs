@@ -13,6 +13,7 @@ mod orders;
 mod samples;
 mod signals;
 mod time;
+mod turns;
 
 use runs::robot::Robot;
 use runs::{Logs, is_dead_reckoning, is_from_speeds};
@@ -71,6 +72,11 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     }
     let mut found = drive::mistakes(&robot, &set.logs);
     found.extend(camera::mistakes(&robot, &set.logs, &found));
+    let reversed = turns::mistakes(&robot, &set.logs, &found);
+    if !reversed.is_empty() {
+        found.retain(|m| m.kind != "robot-file");
+        found.extend(reversed);
+    }
     if found.iter().any(|m| m.kind == "encoder-order") {
         // It says which of the two is the wrong way round.
         found.retain(|m| m.kind != "drive-reversed");

@@ -11,6 +11,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use super::axes;
+
 /// Options of `init`.
 #[derive(Args, Debug)]
 pub(crate) struct Options {
@@ -39,7 +41,8 @@ pub(crate) struct Options {
     #[arg(long, value_name = "BASE,TRACK", conflicts_with = "wheels", value_delimiter = ',', num_args = 1)]
     mecanum_mm: Vec<f64>,
 
-    /// One axis alone on a bench, such as a servo or a linear drive: a motor, its gear and a load
+    /// One axis alone on a bench, such as a servo or a linear drive: a motor, its gear and a load; with a --log of several,
+    /// such as an arm's, a folder axis_1, axis_2, ... of each beside FILE
     #[arg(long, conflicts_with_all = ["wheels", "track_mm", "mecanum_mm"])]
     axis: bool,
 
@@ -134,9 +137,11 @@ struct Key {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        self.target.check_free([&self.file])?;
         let wheels = self.layout()?;
         let log = self.log.as_deref().map(signals).transpose()?;
+        if !(self.axis && log.as_ref().is_some_and(|run| run.wheel_count() > 1)) {
+            self.target.check_free([&self.file])?;
+        }
         let of = |signal: fn(&Run) -> bool| log.as_ref().is_some_and(signal);
         let counts = of(|run| !run.counts.is_empty());
         let speeds = counts || of(|run| !run.speed.is_empty() || !run.measured.is_empty());
@@ -214,6 +219,10 @@ impl Options {
         let text = self.text(&keys, &motor, &wheels);
         // What was written must be read.
         Robot::parse_partial(&text, &self.file)?;
+        let axes = log.as_ref().filter(|_| self.axis).map_or(1, Run::wheel_count);
+        if let Some(log) = self.log.as_deref().filter(|_| axes > 1) {
+            return axes::apart(&self.file, &text, &logs(log)?, axes, self.target);
+        }
         self.target.save(&self.file, &text)?;
         let what = if self.axis { "one axis".to_owned() } else { format!("{} wheels", wheels.len()) };
         let said = format!("{} with {what}\n", self.file.display());
@@ -296,17 +305,22 @@ fn number(x: f64) -> String {
     if rounded == 0.0 && x != 0.0 && x.abs() > 1e-12 { format!("{x:e}") } else { format!("{}", rounded + 0.0) }
 }
 
-/// The columns of a log, or of all logs of a folder.
+/// The columns of a log, or of the first of a folder.
 fn signals(path: &Path) -> Result<Run, Failure> {
+    Ok(Run::read(&logs(path)?[0])?)
+}
+
+/// A log, or all logs of a folder: one or more.
+fn logs(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
-        return Ok(Run::read(path)?);
+        return Ok(vec![path.to_owned()]);
     }
     let entries = std::fs::read_dir(path).map_err(|error| InputError::io(path, &error))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
     files.retain(|f| f.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("mcap")));
     files.sort();
-    let Some(first) = files.first() else {
+    if files.is_empty() {
         return Err(Failure::about(path, "holds no *.csv or *.mcap; name a log"));
-    };
-    Ok(Run::read(first)?)
+    }
+    Ok(files)
 }

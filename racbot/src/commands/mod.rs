@@ -1,5 +1,6 @@
 //! One file per subcommand: its options, what it calls, what it prints.
 
+mod axes;
 #[cfg(feature = "simulation")]
 mod bitstream;
 mod calibrate;

@@ -94,6 +94,37 @@ fn a_servo_on_a_bench_is_a_robot_of_one_axis() {
     assert!(gap.stdout.contains("coulomb-friction"), "{}", gap.stdout);
 }
 
+/// An arm's log: each of its joints is a data set, and one log against a file of one axis says how to come to that.
+#[test]
+fn a_log_of_an_arm_becomes_a_data_set_of_each_axis() {
+    let folder = tempdir().unwrap();
+    let joints = [2.0, 3.0, 5.0];
+    let mut rows = "t,enc_1,enc_2,enc_3,current_1,current_2,current_3\n".to_owned();
+    for k in 0..800 {
+        let t = 0.01 * f64::from(k);
+        let of = |f: fn(f64) -> f64, scale: f64| joints.map(|w| format!("{:.4}", scale * f(w * t)));
+        let counts = joints.map(|w| format!("{:.0}", 5000.0 * (w * t).sin()));
+        rows += &format!("{t:.2},{},{}\n", counts.join(","), of(f64::cos, 1.0).join(","));
+    }
+    fs::write(folder.path().join("arm.csv"), rows).unwrap();
+    let init =
+        ["init", "arm/robot.toml", "--axis", "--log", "arm.csv", "--gear", "1", "--counts-per-motor-rev", "4096"];
+    let motor = ["--torque-constant", "1", "--rotor-inertia", "0.01"];
+    let said = racbot(folder.path(), &[&init[..], &motor].concat()).done();
+    assert!(said.stdout.contains("the 3 axes of the logs, each a data set of its own"), "{}", said.stdout);
+    for axis in 1..=3 {
+        let set = format!("arm/axis_{axis}");
+        let run = runs::Run::read(folder.path().join(&set).join("arm.csv")).unwrap();
+        let whole = runs::Run::read(folder.path().join("arm.csv")).unwrap();
+        assert_eq!((run.wheel_count(), &run.counts[0]), (1, &whole.counts[axis - 1]));
+        assert_eq!(run.current[0], whole.current[axis - 1]);
+        racbot(folder.path(), &["check", &set]).done();
+    }
+    racbot(folder.path(), &[&init[..], &motor].concat()).refused(1, &["exists already"]);
+    racbot(folder.path(), &["check", "arm.csv", "--robot", "arm/axis_1/robot.toml"])
+        .refused(1, &["speaks of 3 wheels", "racbot init --axis --log"]);
+}
+
 #[test]
 fn a_log_with_x_forward_millimetres_and_degrees_is_converted_and_calibrates_as_the_original() {
     let folder = tempdir().unwrap();

@@ -555,7 +555,7 @@ fn pixels_headings_and_what_drives_are_asked_for() {
     assert!(whole.contains("\nodom_x = \"odom_x\"\n") && whole.contains("odom_theta = \"yaw\""), "{whole}");
     let seen = map("t,enc_1,enc_2,mocap_x,mocap_y", "1i,2i,0.i,0.4");
     assert!(seen.contains("\ncam_x = \"mocap_x\"") && !seen.contains("cam_theta"), "{seen}");
-    let plant = map("t,r,y,u", "9i,8i,4i");
+    let plant = map("t,r,y,u,enc_1", "9i,8i,4i,i");
     for line in
         ["\"y\", 80 to 82; what it measures? speed_1", "\"u\", 40 to 42; what drives it? duty_1", "; set points? ref_1"]
     {
