@@ -137,11 +137,12 @@ struct Key {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        let wheels = self.layout()?;
-        let log = self.log.as_deref().map(signals).transpose()?;
-        if !(self.axis && log.as_ref().is_some_and(|run| run.wheel_count() > 1)) {
+        // Of several axes other files are written.
+        if !(self.axis && self.log.is_some()) {
             self.target.check_free([&self.file])?;
         }
+        let wheels = self.layout()?;
+        let log = self.log.as_deref().map(signals).transpose()?;
         let of = |signal: fn(&Run) -> bool| log.as_ref().is_some_and(signal);
         let counts = of(|run| !run.counts.is_empty());
         let speeds = counts || of(|run| !run.speed.is_empty() || !run.measured.is_empty());

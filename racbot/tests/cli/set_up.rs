@@ -121,7 +121,9 @@ fn a_log_of_an_arm_becomes_a_data_set_of_each_axis() {
         racbot(folder.path(), &["check", &set]).done();
     }
     racbot(folder.path(), &[&init[..], &motor].concat()).refused(1, &["exists already"]);
-    racbot(folder.path(), &["check", "arm.csv", "--robot", "arm/axis_1/robot.toml"])
+    fs::create_dir(folder.path().join("whole")).unwrap();
+    fs::copy(folder.path().join("arm.csv"), folder.path().join("whole/arm.csv")).unwrap();
+    racbot(folder.path(), &["check", "whole", "--robot", "arm/axis_1/robot.toml"])
         .refused(1, &["speaks of 3 wheels", "racbot init --axis --log"]);
 }
 
