@@ -296,7 +296,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             "robot-file",
             "robot.toml",
             what,
-            "take the file of the robot that drove; check [[wheel]] against it",
+            "take the file of the robot that drove; check [[wheel]] against it (wheels that steer are none of its robots)",
         )];
     }
     if fit.reading.degrees {

@@ -114,6 +114,7 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
     kinds.into_iter().filter_map(|(_, rows)| rows).for_each(|rows| rows.finish(&mut table, "line"));
     table.remarks.extend(widths.remark());
     headings(&mut table);
+    super::rotations::headings(&mut table);
     Ok(table)
 }
 

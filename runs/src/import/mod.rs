@@ -19,6 +19,7 @@ mod many;
 mod map;
 mod reading;
 mod ros2;
+mod rotations;
 mod rows;
 mod sheet;
 mod ssl;

@@ -170,7 +170,9 @@ fn heading_of_odometry(guesses: &mut [Guess]) {
 /// The pose in a file that has little else, whatever the tracker is called: the first series that are its x, y and
 /// heading, and the rest.
 pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
-    let (mut guesses, rest) = recognised(table.series.iter(), |series| {
+    // A heading that was made of a rotation goes before the parts of that.
+    let (made, plain): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(|s| s.name.ends_with("/yaw"));
+    let (mut guesses, rest) = recognised(made.into_iter().chain(plain), |series| {
         let column = Column::Camera(part_of_pose(&series.name)?);
         Some((column, unit(column, series)))
     });
