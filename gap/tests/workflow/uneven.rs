@@ -41,3 +41,29 @@ fn frames_that_come_unevenly_are_no_scatter_of_their_stamps() {
         assert!(a.remarks.iter().any(|r| r.contains("their poses follow the stamps")), "{:?}", a.remarks);
     }
 }
+
+/// A tracker that skips and waits: no beat at all.
+#[test]
+fn frames_without_a_beat_are_no_scattered_stamps() {
+    let skew = [("skew_1_rad", 0.06), ("skew_2_rad", -0.05), ("skew_3_rad", 0.04)];
+    let truths = [(Robot::racbot(), vec![]), (with(&Robot::racbot(), "wheel-skew", &skew), vec!["wheel-skew"])];
+    for (truth, expected) in truths {
+        let mut set = simulate(&Robot { camera_rate_hz: FINE_HZ, ..truth }, &RICH, 11);
+        let mut rng = ChaCha8Rng::seed_from_u64(23);
+        for run in &mut set.runs {
+            let mut next = 0;
+            let mut kept = Vec::new();
+            for (i, frame) in run.camera.iter().enumerate() {
+                if i == next {
+                    next += rng.random_range(2..7);
+                    kept.push(*frame);
+                }
+            }
+            run.camera = kept;
+        }
+        set.robot.camera_rate_hz = FINE_HZ / 4.0;
+        let a = analyse(&set, &Options::default()).unwrap();
+        assert_eq!(names(&a), expected, "{}", a.terminal_summary());
+        assert!(a.remarks.iter().any(|r| r.contains("their poses follow the stamps")), "{:?}", a.remarks);
+    }
+}
