@@ -169,9 +169,8 @@ impl Table {
     /// As [`Table::read`].
     pub fn of_bytes(bytes: &[u8], path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
         let format = format.unwrap_or_else(|| Format::of(path, bytes));
-        if let Some((what, hint)) =
-            Some(()).filter(|()| matches!(format, Format::Csv | Format::Json)).and_then(|()| binary(bytes))
-        {
+        let no_text = if matches!(format, Format::Csv | Format::Json) { binary(bytes) } else { None };
+        if let Some((what, hint)) = no_text {
             return Err(InputError::new(path, what, hint));
         }
         let table = match format {
