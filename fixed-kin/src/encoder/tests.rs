@@ -168,3 +168,23 @@ fn a_pulse_just_long_enough_keeps_its_length() {
         assert_eq!(high, width, "filter {filter}");
     }
 }
+
+/// What takes steps as they come has each of them once, with its direction: the count has it in the clock after, and the
+/// sample of the count in that to come.
+#[test]
+fn a_step_is_told_before_it_is_counted() {
+    let mut bench = Bench::new(2, 0);
+    let (mut position, mut steps, mut told) = (0, 0, Outputs::default());
+    for up in [true, true, false, true, false, false, false, true, true, true] {
+        position += if up { 1 } else { -1 };
+        for _ in 0..8 {
+            let before = bench.out;
+            bench.hold(lines(position), 1);
+            let moved = bench.out.count.wrapping_sub(before.count).cast_signed();
+            assert_eq!(moved, i16::from(told.step) * if told.up { 1 } else { -1 });
+            steps += i32::from(before.step);
+            told = before;
+        }
+    }
+    assert_eq!(steps, 10);
+}
