@@ -151,22 +151,26 @@ impl<'a> Workflow<'a> {
         }
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
-        self.drive_scatters_more(&outcome.written, &without)
+        self.is_more(self.drive_scatter(&outcome.written), self.drive_scatter(&without))
     }
 
-    /// Whether the drive scatters more beside one state than beside another: by what any law of a wheel's own speed and
-    /// duty leaves, for what else is missing on the drive is in neither.
-    fn drive_scatters_more(&self, one: &State, other: &State) -> bool {
-        let scatter = |state: &State| -> Option<f64> {
-            Some(self.searched().drive(state, None)?.link.noise.iter().map(|n| n * n).sum())
-        };
-        let both = scatter(one).zip(scatter(other));
-        both.is_some_and(|(one, other)| one > (1.0 + self.thresholds.worse) * other)
+    /// Squared scatter of the drive beside a state: by what any law of a wheel's own speed and duty leaves, for what else
+    /// is missing on the drive is in none of the states that are compared by it.
+    fn drive_scatter(&self, state: &State) -> Option<f64> {
+        Some(self.searched().drive(state, None)?.link.noise.iter().map(|n| n * n).sum())
+    }
+
+    /// Whether one squared scatter is more than another by what decides; not where one is not known.
+    fn is_more(&self, one: Option<f64>, other: Option<f64>) -> bool {
+        one.zip(other).is_some_and(|(one, other)| one > (1.0 + self.thresholds.worse) * other)
     }
 
     /// Against a camera speeds that a firmware filters are late as counts would be; the drive shows the shape of a filter.
     /// Where it does not, both are said.
     fn late_or_filtered(&self, outcome: &mut Outcome) {
+        if !runs::is_from_speeds(&self.question.robot) {
+            return;
+        }
         // Frames that seem early are counts that are late, by another name.
         let late_s = |a: &Active| match (a.effect.name(), a.values.get(&a.form.free[0].name)) {
             (LATE_COUNTS, late_s) if late_s > 0.0 => Some(late_s),
@@ -176,9 +180,6 @@ impl<'a> Workflow<'a> {
         let own = |a: &&Active| !a.given;
         let late: Vec<_> = outcome.written.active.iter().filter(own).filter(|a| late_s(a).is_some()).collect();
         let Some(time_s) = late.iter().filter_map(|a| late_s(a)).reduce(f64::max) else { return };
-        if !runs::is_from_speeds(&self.question.robot) {
-            return;
-        }
         let filter: Arc<dyn Effect> = Arc::from(effects::filter_seen());
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || late_s(a).is_none());
@@ -188,17 +189,16 @@ impl<'a> Workflow<'a> {
             active.values.set(&active.form.free[0].name, time_s);
             filtered.active.push(active);
         }
-        let is_filter = [&outcome.written, &without].iter().all(|other| self.drive_scatters_more(other, &filtered));
-        if is_filter {
+        let [written, without, filtered] =
+            [&outcome.written, &without, &filtered].map(|state| self.drive_scatter(state));
+        if [written, without].into_iter().all(|other| self.is_more(other, filtered)) {
             // For the motion all three are one; where two are named, the camera may be late as well.
             let one =
                 |name: &str| name == LATE_COUNTS || name == filter.name() || name == LATE_FRAMES && late.len() < 2;
             let others = self.data.catalogue.iter().filter(|e| !one(e.name()));
             let here: Vec<_> = others.cloned().chain([filter.clone()]).collect();
             *outcome = self.motion_studied(&here);
-        } else if late.iter().any(|a| a.effect.name() == LATE_COUNTS)
-            && !self.drive_scatters_more(&filtered, &outcome.written)
-        {
+        } else if late.iter().any(|a| a.effect.name() == LATE_COUNTS) && !self.is_more(filtered, written) {
             outcome.ambiguous = true;
             outcome.sets.push(vec![LATE_COUNTS.to_owned(), filter.name().to_owned()]);
         }
