@@ -191,32 +191,37 @@ impl<'a> Penalised<'a> {
         let k = columns.len();
         let whole = &self.totals.jj;
         let mut jj = DMatrix::from_fn(k, k, |p, q| whole[(columns[p], columns[q])]);
-        let mut meat = DMatrix::zeros(k, k);
-        let g = equations.clusters.len() as f64;
-        for c in &equations.clusters {
-            let left = &c.jr - c.jj.times(&fit.step);
-            let score = DVector::from_fn(k, |p, _| left[columns[p]]);
-            meat.ger(1.0, &score, &score, 1.0);
-        }
+        let g = equations.clusters.len();
         let free = roles.iter().filter(|r| **r == Role::Free).count() as f64;
-        meat *= g / (g - free).max(1.0);
-        let mut plain = jj.clone() * self.variance;
-        for (p, c) in columns.iter().enumerate() {
-            if let Role::Held(sd, _) = roles[*c] {
-                let weight = self.variance / (sd * sd);
-                jj[(p, p)] += weight;
-                meat[(p, p)] += weight * self.variance;
-                plain[(p, p)] += weight * self.variance;
-            }
+        let correction = (g as f64 / (g as f64 - free).max(1.0)).sqrt();
+        // Scores of the clusters and, as observations of their own, of the priors, one a column.
+        let held = columns.iter().enumerate().filter_map(|(p, c)| match roles[*c] {
+            Role::Held(sd, _) => Some((p, self.variance / (sd * sd))),
+            _ => None,
+        });
+        let held: Vec<(usize, f64)> = held.collect();
+        let mut scores = DMatrix::zeros(k, g + held.len());
+        for (c, mut score) in equations.clusters.iter().zip(scores.column_iter_mut()) {
+            let left = &c.jr - c.jj.times(&fit.step);
+            score.iter_mut().zip(&columns).for_each(|(slot, column)| *slot = correction * left[*column]);
+        }
+        for (at, (p, weight)) in held.into_iter().enumerate() {
+            jj[(p, p)] += weight;
+            scores[(p, g + at)] = (weight * self.variance).sqrt();
         }
         let Some(inverse) = inverse(&jj) else { return DMatrix::from_element(m, m, f64::INFINITY) };
-        let robust = &inverse * meat * &inverse;
-        let plain = &inverse * plain * &inverse;
+        let moved = &inverse * scores;
+        let robust = &moved * moved.transpose();
+        // The inverse is regularised: it is not that of jj to the last.
+        let told = &inverse * jj;
+        let plain = |i: usize| {
+            self.variance * told.row(i).iter().zip(inverse.column(i).iter()).map(|(a, b)| a * b).sum::<f64>()
+        };
+        let factors: Vec<f64> = (0..k).map(|i| (plain(i) / robust[(i, i)].max(1e-300)).max(1.0).sqrt()).collect();
         let mut out = DMatrix::zeros(m, m);
         for p in 0..k {
             for q in 0..k {
-                let factor = |i: usize| (plain[(i, i)] / robust[(i, i)].max(1e-300)).max(1.0).sqrt();
-                out[(columns[p], columns[q])] = robust[(p, q)] * factor(p) * factor(q);
+                out[(columns[p], columns[q])] = robust[(p, q)] * factors[p] * factors[q];
             }
         }
         out

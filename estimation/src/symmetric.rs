@@ -4,6 +4,8 @@ use std::ops::Index;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::sums::dot;
+
 /// A symmetric matrix, the columns of its upper triangle one after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric {
@@ -63,19 +65,16 @@ impl Symmetric {
 
     /// A x.
     pub fn times(&self, x: &DVector<f64>) -> DVector<f64> {
-        let mut out = DVector::zeros(self.order);
+        let mut sum = DVector::zeros(self.order);
+        let (out, x) = (sum.as_mut_slice(), x.as_slice());
         let mut upper = self.upper.as_slice();
         for c in 0..self.order {
             let (column, rest) = upper.split_at(c + 1);
             upper = rest;
-            let mut across = 0.0;
-            for r in 0..c {
-                out[r] += column[r] * x[c];
-                across += column[r] * x[r];
-            }
-            out[c] += across + column[c] * x[c];
+            out[..c].iter_mut().zip(column).for_each(|(slot, a)| *slot += a * x[c]);
+            out[c] += dot(column, x);
         }
-        out
+        sum
     }
 
     /// xᵀ A x.
