@@ -6,6 +6,7 @@
 //! counts by what it can say. Counters start anywhere, so phases are free in every piece of a log.
 
 use model::plant::GRAVITY;
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
 use super::Structure;
@@ -85,7 +86,7 @@ pub(super) fn orders(
         }
         let Some(raw) = link.raw(model, index) else { continue };
         for (wheel, slots) in demodulated.iter_mut().enumerate() {
-            let new: Vec<Vec<Block>> = each(&candidates, &|o| demodulate(index, &s, &raw, wheel, *o, stride));
+            let new = demodulate(index, &s, &raw, wheel, &candidates, stride);
             let rolling = |blocks: Vec<Block>| blocks.into_iter().filter(|b| !slips(index, b.ticks.0..b.ticks.1));
             slots.iter_mut().zip(new).for_each(|(slot, blocks)| slot.extend(rolling(blocks)));
         }
@@ -149,15 +150,16 @@ pub(super) fn orders(
     (ripple, structures)
 }
 
+/// Blocks of one wheel in a segment, one list an order.
 fn demodulate(
     index: usize,
     s: &Segment,
     raw: &[Vec<Vec<f64>>; 2],
     wheel: usize,
-    order: f64,
+    orders: &[f64],
     stride: usize,
-) -> Vec<Block> {
-    let mut out = Vec::new();
+) -> Vec<Vec<Block>> {
+    let mut out = vec![Vec::new(); orders.len()];
     let rate = (s.t.len() - 1) as f64 / (s.t[s.t.len() - 1] - s.t[0]);
     let length = (BLOCK_S * rate).round() as usize;
     if length < 20 {
@@ -165,29 +167,55 @@ fn demodulate(
     }
     let window: Vec<f64> = (0..length).map(|j| (PI * (j as f64 + 0.5) / length as f64).sin().powi(2)).collect();
     let total: f64 = window.iter().sum();
-    let mut first = s.own.start.max(1);
-    while first + length < s.t.len() && first < s.own.end {
-        let speeds = &s.speed[wheel][first..first + length];
+    let highest = RANGE_HZ[1].min(0.2 * rate);
+    let starts = (s.own.start.max(1)..s.own.end.min(s.t.len().saturating_sub(length))).step_by(stride * (length / 2));
+    let of_block = |first: &usize| -> Vec<(usize, Block)> {
+        let ticks = *first..first + length;
+        let speeds = &s.speed[wheel][ticks.clone()];
         let mean = speeds.iter().sum::<f64>() / length as f64;
-        let f = order * mean.abs() / TAU;
         let steady = speeds.iter().all(|w| w * mean > 0.0 && w.abs() > 0.5 * mean.abs());
-        if steady && mean.abs() > SLOWEST && f > RANGE_HZ[0] && f < RANGE_HZ[1].min(0.2 * rate) {
-            let mut demodulated = [[0.0; 2]; 2];
-            let mean_of =
-                |x: &[f64]| x[first..first + length].iter().zip(&window).map(|(a, w)| a * w).sum::<f64>() / total;
-            let means = [mean_of(&raw[0][wheel]), mean_of(&raw[1][wheel])];
-            for (j, w) in window.iter().enumerate() {
-                let k = first + j;
-                let (sin, cos) = (order * s.angle[wheel][k]).sin_cos();
-                for of in 0..2 {
-                    let x = w * (raw[of][wheel][k] - means[of]) / total;
-                    demodulated[of][0] += x * cos;
-                    demodulated[of][1] -= x * sin;
-                }
-            }
-            out.push(Block { segment: index, ticks: (first, first + length), speed: mean.abs(), demodulated });
+        let heard = |order: f64| (RANGE_HZ[0]..highest).contains(&(order * mean.abs() / TAU));
+        if !steady || mean.abs() <= SLOWEST || !orders.iter().any(|o| heard(*o)) {
+            return Vec::new();
         }
-        first += stride * (length / 2);
+        let weighted = [0, 1].map(|of: usize| -> Vec<f64> {
+            let own = &raw[of][wheel][ticks.clone()];
+            let mean = own.iter().zip(&window).map(|(a, w)| a * w).sum::<f64>() / total;
+            own.iter().zip(&window).map(|(a, w)| w * (a - mean) / total).collect()
+        });
+        let turned = |order: f64| -> Vec<(f64, f64)> {
+            s.angle[wheel][ticks.clone()].iter().map(|angle| (order * angle).sin_cos()).collect()
+        };
+        let once = turned(1.0);
+        // Whole orders come one after the other, each turned once more than the one before.
+        let mut whole = (1.0, once.clone());
+        let mut blocks = Vec::new();
+        for (place, order) in orders.iter().enumerate() {
+            let at = if *order == whole.0 + 1.0 {
+                whole.0 = *order;
+                whole.1.iter_mut().zip(&once).for_each(|((sin, cos), (s, c))| {
+                    (*sin, *cos) = (*sin * c + *cos * s, *cos * c - *sin * s);
+                });
+                heard(*order).then_some(Cow::Borrowed(&whole.1))
+            } else {
+                heard(*order).then(|| Cow::Owned(turned(*order)))
+            };
+            let Some(at) = at else { continue };
+            let mut demodulated = [[0.0; 2]; 2];
+            for ((sin, cos), (a, torque)) in at.iter().zip(weighted[0].iter().zip(&weighted[1])) {
+                demodulated[0][0] += a * cos;
+                demodulated[0][1] -= a * sin;
+                demodulated[1][0] += torque * cos;
+                demodulated[1][1] -= torque * sin;
+            }
+            let ticks = (ticks.start, ticks.end);
+            blocks.push((place, Block { segment: index, ticks, speed: mean.abs(), demodulated }));
+        }
+        blocks
+    };
+    let starts: Vec<usize> = starts.collect();
+    for (place, block) in each(&starts, &of_block).into_iter().flatten() {
+        out[place].push(block);
     }
     out
 }
