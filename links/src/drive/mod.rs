@@ -282,3 +282,15 @@ pub struct Mechanics {
     /// Wheel torque per wheel acceleration, N × N.
     pub inertia: DMatrix<f64>,
 }
+
+impl Mechanics {
+    /// Acceleration that the encoders see per torque of each wheel and force on the body, N × (N + 3).
+    pub(crate) fn encoders_per_torque(&self, model: &DriveModel) -> DMatrix<f64> {
+        let n = model.wheels.len();
+        DMatrix::from_fn(n, n + 3, |i, of| {
+            let wheel =
+                if of < n { self.response[(i, of)] } else { self.body.as_ref().map_or(0.0, |b| b[(i, of - n)]) };
+            wheel / model.axes[i].encoder_scale
+        })
+    }
+}

@@ -284,7 +284,7 @@ impl<'a> DriveLink<'a> {
     }
 
     /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
-    /// ticks, in the torque of an inertia, Nm.
+    /// ticks, in the torque of an inertia, Nm, one a wheel of each test function.
     ///
     /// The equation of motion is solved for the acceleration, which carries the noise; the torques that motors give are
     /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
@@ -296,42 +296,48 @@ impl<'a> DriveLink<'a> {
         range: &Range<usize>,
         Laid { shapes, measured }: &Laid,
         (forces, inertia): (&Forces, Option<&DMatrix<f64>>),
-    ) -> Option<Vec<DVector<f64>>> {
-        let mechanics = model.mechanics()?;
+    ) -> Option<Vec<f64>> {
+        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
+        let inertia = inertia.unwrap_or(&mechanics.inertia);
         let offsets: Vec<(Ahead, Vec<Vec<f64>>)> = model.offsets.iter().map(|(what, o)| (*what, o(model, s))).collect();
-        let out = self.test_functions[range.clone()].iter().zip(shapes).zip(measured).map(|((b, shape), measured)| {
-            let mut a = b.acceleration(shape, forces, &mechanics, model);
+        let given = inertia * mechanics.encoders_per_torque(model);
+        let mut torques = vec![0.0; n * range.len()];
+        let mut mean = vec![0.0; n + 3];
+        for (((b, shape), measured), torque) in
+            self.test_functions[range.clone()].iter().zip(shapes).zip(measured).zip(torques.chunks_exact_mut(n))
+        {
+            mean.iter_mut().zip(forces).for_each(|(mean, row)| *mean = dot(&shape.force, &row[b.first..]));
+            add_product(torque, inertia, 1.0, measured.as_slice());
+            add_product(torque, &given, -1.0, &mean);
             for offset in &offsets {
-                b.offset(shape, offset, &mechanics, model, &mut a);
+                add_product(torque, inertia, -1.0, b.offset(shape, offset, &mechanics, model).as_slice());
             }
-            inertia.unwrap_or(&mechanics.inertia) * (measured - a)
-        });
-        Some(out.collect())
+        }
+        Some(torques)
     }
 
-    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a test function;
-    /// `None` for one that changes more.
-    fn added_part(
-        &self,
-        model: &DriveModel,
-        base: &Base,
-        range: &Range<usize>,
-        shapes: &[Shape],
-    ) -> Option<Vec<DVector<f64>>> {
+    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a wheel of each test
+    /// function; `None` for one that changes more.
+    fn added_part(&self, model: &DriveModel, base: &Base, range: &Range<usize>, shapes: &[Shape]) -> Option<Vec<f64>> {
         let loads = base.loads_of(model)?;
         let offsets = base.offsets_of(model);
-        let mechanics = model.mechanics()?;
-        let n = model.wheels.len();
-        let out = self.test_functions[range.clone()].iter().zip(shapes).map(|(b, shape)| {
-            let mean = |row: &Option<Vec<f64>>| row.as_ref().map_or(0.0, |row| dot(&shape.force, &row[b.first..]));
-            let mut a = b.accelerated(&loads.iter().map(mean).collect::<Vec<f64>>(), &mechanics, model);
-            for offset in &offsets {
-                b.offset(shape, offset, &mechanics, model, &mut a);
+        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
+        let given = &self.inertia * mechanics.encoders_per_torque(model);
+        let mut torques = vec![0.0; n * range.len()];
+        for ((b, shape), torque) in
+            self.test_functions[range.clone()].iter().zip(shapes).zip(torques.chunks_exact_mut(n))
+        {
+            for (row, per_torque) in loads.iter().zip(given.column_iter()) {
+                let Some(row) = row else { continue };
+                let mean = dot(&shape.force, &row[b.first..]);
+                torque.iter_mut().zip(per_torque.iter()).for_each(|(slot, x)| *slot += x * mean);
             }
-            &self.inertia * a
-        });
+            for offset in &offsets {
+                add_product(torque, &self.inertia, 1.0, b.offset(shape, offset, &mechanics, model).as_slice());
+            }
+        }
         debug_assert!(loads.len() == n + 3);
-        Some(out.collect())
+        Some(torques)
     }
 
     /// Torques that the measured accelerations take of a model, Nm, one a test function.
@@ -402,7 +408,7 @@ impl<'a> DriveLink<'a> {
             let s = self.pieces.get(self.test_functions[range.start].segment);
             let laid = self.laid(&s, range);
             let left = self.unexplained_part(model, &s, range, &laid, (&model.forces(&s), inertia))?;
-            Some(left.iter().map(|torque| torque.iter().copied().collect()).collect())
+            Some(left.chunks_exact(self.noise.len()).map(<[f64]>::to_vec).collect())
         };
         let torque: Option<Vec<_>> = each(&self.by_segment(), &part).into_iter().collect();
         Some(DriveResiduals {
@@ -484,13 +490,12 @@ impl<'a> DriveLink<'a> {
                 }
                 let added = |model: &DriveModel| self.added_part(model, &start, &range, &laid.shapes);
                 let only_more = side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
-                let mut column = Vec::with_capacity(range.len() * n);
-                let mut keep = |low: Option<&DVector<f64>>, high: &DVector<f64>| {
-                    column.extend((0..n).map(|i| (high[i] - low.map_or(0.0, |low| low[i])) / side.step));
+                let slope = |low: &[f64], high: &[f64]| -> Vec<f64> {
+                    low.iter().zip(high).map(|(low, high)| (high - low) / side.step).collect()
                 };
-                if let Some((low, high)) = only_more {
-                    let high = high.iter().enumerate();
-                    high.for_each(|(b, high)| keep(low.as_ref().map(|low| &low[b]), high));
+                let column = if let Some((low, high)) = only_more {
+                    let none = || vec![0.0; high.len()];
+                    slope(&low.unwrap_or_else(none), &high)
                 } else {
                     let forces = |changed: &DriveModel| {
                         let same = side.inertia_alone && changed.torques_stand_alone();
@@ -503,8 +508,8 @@ impl<'a> DriveLink<'a> {
                     let high = left(&side.high, &forces(&side.high))?;
                     let low = low.as_ref().unwrap_or(&base);
                     // What a model explains more is left less.
-                    low.iter().zip(&high).for_each(|(low, high)| keep(Some(high), low));
-                }
+                    slope(&high, low)
+                };
                 let column = Arc::new(column);
                 self.columns.keep(range.start, side, &column);
                 Some(column)
@@ -515,7 +520,7 @@ impl<'a> DriveLink<'a> {
                 let own = first * n..first * n + rows;
                 let weights: Vec<f64> =
                     part.iter().flat_map(|b| b.weights.iter().zip(&self.noise).map(|(w, noise)| w / noise)).collect();
-                let residual = DVector::from_fn(rows, |r, _| base[first + r / n][r % n] * weights[r]);
+                let residual = DVector::from_fn(rows, |r, _| base[first * n + r] * weights[r]);
                 let mut jacobian = DMatrix::zeros(rows, columns.len());
                 for (slots, column) in jacobian.as_mut_slice().chunks_exact_mut(rows).zip(&columns) {
                     let Some(column) = column else { continue };
@@ -529,6 +534,13 @@ impl<'a> DriveLink<'a> {
             clusters.extend(self.felt_clusters(model, sides, s, &range, &laid.shapes));
         }
         clusters
+    }
+}
+
+/// Adds a matrix times a vector, times a factor.
+fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, factor: f64, x: &[f64]) {
+    for (column, x) in matrix.column_iter().zip(x) {
+        sum.iter_mut().zip(column.iter()).for_each(|(slot, a)| *slot += factor * a * x);
     }
 }
 
@@ -579,45 +591,23 @@ impl TestFunction {
         self.first + self.intervals / 2
     }
 
-    fn acceleration(&self, shape: &Shape, forces: &Forces, mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
-        let mean: Vec<f64> = forces.iter().map(|row| dot(&shape.force, &row[self.first..])).collect();
-        self.accelerated(&mean, mechanics, model)
-    }
-
-    /// Accelerations of the wheels by mean torques and forces, as the encoders see them.
-    fn accelerated(&self, mean: &[f64], mechanics: &Mechanics, model: &DriveModel) -> DVector<f64> {
-        let n = model.wheels.len();
-        let mut a = DVector::zeros(n);
-        for (of, x) in mean.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-            match &mechanics.body {
-                _ if of < n => a.axpy(*x, &mechanics.response.column(of), 1.0),
-                Some(body) => a.axpy(*x, &body.column(of - n), 1.0),
-                None => {}
-            }
-        }
-        a.iter_mut().zip(&model.axes).for_each(|(a, axis)| *a /= axis.encoder_scale);
-        a
-    }
-
-    /// Adds the acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play
-    /// by itself.
+    /// Acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play by itself.
     fn offset(
         &self,
         shape: &Shape,
         (what, offset): &(Ahead, Vec<Vec<f64>>),
         mechanics: &Mechanics,
         model: &DriveModel,
-        a: &mut DVector<f64>,
-    ) {
-        let n = a.len();
+    ) -> DVector<f64> {
+        let n = offset.len();
         let ahead = DVector::from_fn(n, |i, _| {
             let own = &offset[i][self.first..];
             shape.angle.iter().zip(own).map(|(w, x)| w * (x - own[0])).sum::<f64>()
         });
         let rotors = DVector::from_fn(n, |i, _| model.moves_in_play(i) * ahead[i]);
-        *a += match what {
+        match what {
             Ahead::Rotor => ahead - &mechanics.response * rotors,
             Ahead::Reading => ahead,
-        };
+        }
     }
 }
