@@ -20,6 +20,14 @@ pub fn candidates_in(state: &State, catalogue: &[Arc<dyn Effect>], link: Link, s
 /// named; a filter beside late counts is another delay.
 const BESIDE: [(&str, &str); 2] = [("wheel-slip", "wheel-creep"), ("encoder-lag", "speed-filter")];
 
+/// Effects that do all that another one does, so that both are never named: clocks of single runs may all be late together.
+const DOES_ALL: [(&str, &str); 1] = [("camera-clock", "camera-latency")];
+
+/// Whether an effect does all that another one does, in each of its forms.
+pub(crate) fn does_all(one: &Active, other: &Active) -> bool {
+    DOES_ALL.contains(&(one.effect.name(), other.effect.name()))
+}
+
 /// Every form of the effects that act, each to be fitted on a link; of those only that the robot can have.
 pub fn candidates_of(
     state: &State,

@@ -29,6 +29,7 @@ use join::join;
 use left::Left;
 
 pub use crate::candidates::candidates;
+use crate::candidates::does_all;
 pub use crate::state::is_material;
 pub use alternatives::{Alternatives, alternatives, figures, sign_flip};
 pub use design::{Design, Trial};
@@ -340,7 +341,10 @@ fn short_subset(design: &Design, thresholds: &Thresholds) -> Option<Vec<usize>> 
     }
     let distinct = |s: &Vec<usize>| {
         s.iter().enumerate().all(|(i, a)| {
-            s.iter().skip(i + 1).all(|b| design.candidates[*a].effect.name() != design.candidates[*b].effect.name())
+            s.iter().skip(i + 1).all(|b| {
+                let [a, b] = [a, b].map(|c| &design.candidates[*c]);
+                a.effect.name() != b.effect.name() && !does_all(a, b) && !does_all(b, a)
+            })
         })
     };
     subsets.retain(distinct);
@@ -366,9 +370,7 @@ fn forward(problem: &Problem, mut design: Design, from: usize, all: &[Active], t
             let mut active = placed(&design.candidates[next.candidate], &next.values);
             active.immaterial = !next.material;
             let mut larger = state.clone();
-            // A richer form of the same effect takes its place.
-            larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
-            larger.active.push(active);
+            replace(&mut larger, active);
             let settled = settle(problem, &mut larger, all, thresholds);
             if !improves(&settled, &design, from, thresholds) || problem.runs_away(&larger, &state, thresholds) {
                 refused.push(next.candidate);
@@ -462,6 +464,12 @@ pub(crate) fn without(
     }
     let design = settle(problem, &mut state, all, thresholds);
     finish(state, design, from, thresholds)
+}
+
+/// Adds an effect, which takes the place of another form of itself and of what it does as well.
+fn replace(state: &mut State, active: Active) {
+    state.active.retain(|a| a.given || a.effect.name() != active.effect.name() && !does_all(&active, a));
+    state.active.push(active);
 }
 
 fn placed(candidate: &Active, values: &[f64]) -> Active {

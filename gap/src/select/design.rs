@@ -5,6 +5,7 @@ use std::ops::Index;
 use estimation::parallel::numbered;
 use nalgebra::DMatrix;
 
+use crate::candidates::does_all;
 use crate::problem::{Linear, Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
@@ -521,10 +522,9 @@ impl Design {
 
     fn is_active(&self, c: usize) -> bool {
         let candidate = &self.candidates[c];
-        self.state.active.iter().any(|a| {
-            a.effect.name() == candidate.effect.name()
-                && (a.form.free.len() >= candidate.form.free.len() || a.form.fixed != candidate.form.fixed)
-                && !a.given
+        self.state.active.iter().filter(|a| !a.given).any(|a| {
+            let as_rich = a.form.free.len() >= candidate.form.free.len() || a.form.fixed != candidate.form.fixed;
+            a.effect.name() == candidate.effect.name() && as_rich || does_all(a, candidate)
         })
     }
 

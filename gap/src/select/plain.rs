@@ -7,7 +7,8 @@
 
 use estimation::parallel::numbered;
 
-use super::{Selection, finish_bare, in_parts, is_material, placed, stopped, undecided};
+use super::{Selection, finish_bare, in_parts, is_material, placed, replace, stopped, undecided};
+use crate::candidates::does_all;
 use crate::problem::{Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
@@ -53,9 +54,7 @@ pub(crate) fn plain(
         let mut larger = state.clone();
         let mut active = placed(&all[best.candidate], &best.values);
         active.immaterial = small && !is_material(&active, &active.parameters());
-        // Another form of an effect takes its place.
-        larger.active.retain(|a| a.given || a.effect.name() != active.effect.name());
-        larger.active.push(active);
+        replace(&mut larger, active);
         problem.fit(&mut larger);
         let sound = larger.active[from..].iter().all(|a| !stopped(a));
         let cancelled = |i: usize| problem.is_cancelled(&larger, i, start, thresholds);
@@ -98,7 +97,10 @@ fn best(
             let fits = !a.effect.probe() && !a.switched() && a.form.free.iter().all(|p| p.material.is_finite());
             let larger = |o: &Active| o.effect.name() == a.effect.name() && o.form.free.len() >= a.form.free.len();
             fits && !refused.contains(c)
-                && !state.active.iter().any(|o| larger(o) || o.given && o.effect.name() == a.effect.name())
+                && !state
+                    .active
+                    .iter()
+                    .any(|o| larger(o) || o.given && o.effect.name() == a.effect.name() || does_all(o, a))
         })
         .collect();
     let candidates: Vec<Active> = indices.iter().map(|c| all[*c].clone()).collect();
