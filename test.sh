@@ -92,10 +92,10 @@ if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
 fi
 # Benches are compiled by the lints and never run here.
 stage "build" cargo build --workspace --lib --bins --tests --examples --release
-# The Python package builds in a workspace of its own, and is tried as its users install it, but for the optimisation, which
-# takes a minute and is tested elsewhere.
+# The Python package builds in a workspace of its own, and is tried as its users install it, but without optimisation: that
+# takes 115 s of processor time more, its tests 35 s less, and what it computes is tested elsewhere.
 python_package() {
-    CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")/pyext "$python_environment/bin/pip" install -q \
+    CARGO_PROFILE_RELEASE_OPT_LEVEL=0 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")/pyext "$python_environment/bin/pip" install -q \
         --disable-pip-version-check './python[test]' && "$python_environment/bin/python" -m pytest -q "$PWD/python/tests"
 }
 if [ -x "$python_environment/bin/pip" ]; then
