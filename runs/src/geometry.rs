@@ -35,6 +35,12 @@ impl Wheel {
         let [ax, ay] = self.traction();
         [ax, ay, self.x_m * ay - self.y_m * ax]
     }
+
+    /// The same across it, where the rollers run free.
+    pub fn free_row(&self) -> [f64; 3] {
+        let [ax, ay] = self.traction();
+        [-ay, ax, self.x_m * ax + self.y_m * ay]
+    }
 }
 
 /// Why wheels do not make a robot.

@@ -179,8 +179,7 @@ impl DriveModel {
     /// Speeds of the contacts across their traction, m/s, `[wheel][tick]`.
     fn rolls_free(&self, [vx, vy, omega]: &[Vec<f64>; 3]) -> Vec<Vec<f64>> {
         let of = |wheel: &runs::geometry::Wheel| {
-            let [ax, ay] = wheel.traction();
-            let free = [-ay, ax, wheel.x_m * ax + wheel.y_m * ay];
+            let free = wheel.free_row();
             let twists = vx.iter().zip(vy).zip(omega);
             twists.map(|((vx, vy), omega)| free[0] * vx + free[1] * vy + free[2] * omega).collect()
         };

@@ -1,5 +1,6 @@
 //! `roller-friction`: rollers that resist being rolled sideways.
 
+use runs::geometry::Wheel;
 use runs::robot::Robot;
 
 use crate::drive::{DriveModel, smooth_sign};
@@ -42,14 +43,7 @@ impl Effect for RollerFriction {
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let force = values.get("force_n");
-        let rows: Vec<[f64; 3]> = model
-            .wheels
-            .iter()
-            .map(|w| {
-                let [ax, ay] = w.traction();
-                [-ay, ax, w.x_m * ax + w.y_m * ay]
-            })
-            .collect();
+        let rows: Vec<[f64; 3]> = model.wheels.iter().map(Wheel::free_row).collect();
         model.loads.push(Box::new(move |now, loads| {
             for (row, v) in rows.iter().zip(now.sideways) {
                 let f = -force * smooth_sign(*v, now.sliding());

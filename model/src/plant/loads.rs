@@ -35,8 +35,7 @@ impl Plant {
         if d.roller_friction_n != 0.0 {
             let speeds = Vector3::new(twist.vx, twist.vy, twist.omega);
             for wheel in self.geometry.wheels() {
-                let [ax, ay] = wheel.traction();
-                let row = Vector3::new(-ay, ax, wheel.x_m * ax + wheel.y_m * ay);
+                let row = Vector3::from(wheel.free_row());
                 push -= row * (d.roller_friction_n * (row.dot(&speeds) / SLIDE_WIDTH).tanh());
             }
         }
