@@ -12,8 +12,11 @@ pub(super) fn seconds(text: &str) -> Option<f64> {
     let dashed = colons.map(|(date, clock)| format!("{} {clock}", date.replace(':', "-")));
     let text = dashed.as_deref().unwrap_or(text);
     let end = text.find(|c: char| !(c.is_ascii_digit() || ['-', '/'].contains(&c)))?;
-    let (day, clock) = if text[..end].contains(['-', '/']) {
-        let clock = text[end..].strip_prefix(['T', ' ', '.', '_'])?;
+    // Tables of bags have a stroke between date and clock as well: `2025/07/11/14:06:03.4`.
+    let parts = text[..end].matches(['-', '/']).count();
+    let end = if parts == 3 { text[..end].rfind(['-', '/'])? } else { end };
+    let (day, clock) = if parts > 0 {
+        let clock = text[end..].strip_prefix(['T', ' ', '.', '_', '/'])?;
         (day(&text[..end])?, clock)
     } else {
         (0.0, text)
@@ -52,6 +55,7 @@ mod tests {
             assert_eq!(seconds(same), Some(1_668_625_578.0), "{same}");
         }
         assert_eq!(seconds("2022:11:16 19:06:18"), Some(1_668_625_578.0));
+        assert_eq!(seconds("2022/11/16/19:06:18.5"), Some(1_668_625_578.5));
         assert_eq!(seconds("19:06:18.250"), Some(68_778.25));
         for none in ["x", "12:60:00", "3-4-2022 10:00:00", "2022-13-01 00:00:00", "10:00", "-0.5", "1e-5", "2022-11-16"]
         {

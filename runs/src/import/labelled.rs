@@ -1,6 +1,9 @@
 //! Lines in which every number follows its name, as sketches of an Arduino print them: `t,340,PWM,60,speed,1.5`,
 //! `t:340 PWM:60 speed:1.5`, `t = 340; PWM = 60`. They become a table with those names. Behind a colon several may follow:
-//! `t: 340 ticks: 290 512` has `ticks_1` and `ticks_2`.
+//! `t: 340 ticks: 290 512` has `ticks_1` and `ticks_2`. Names may have several words, `left motor speed 23 right motor speed
+//! 25`, and units may stand behind the numbers, `speed: 23 rpm duty: 40 %`.
+
+use super::units;
 
 /// Lines that are looked at to find out.
 const LOOKED_AT: usize = 64;
@@ -50,22 +53,36 @@ fn pairs(line: &str) -> Option<Vec<(String, &str)>> {
     let is_name =
         |word: &str| word.starts_with(|c: char| c.is_alphabetic() || c == '_') && word.parse::<f64>().is_err();
     let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let names = words.iter().filter(|word| is_name(word)).count();
-    if names < 2 || !is_name(words[0]) || !words.iter().all(|word| is_name(word) || is_number(word)) {
+    let is_unit = |word: &str| word != "1" && units::factor(word).is_some();
+    let known = |word: &str| is_name(word) || is_number(word) || is_unit(word);
+    if !words.first().is_some_and(|word| is_name(word)) || !words.iter().all(|word| known(word)) {
         return None;
     }
-    let mut pairs = Vec::with_capacity(words.len());
-    for group in words.chunk_by(|_, next| is_number(next)) {
-        let (name, numbers) = (group[0], &group[1..]);
-        match numbers {
-            [] => return None,
-            [number] => pairs.push((name.to_owned(), *number)),
-            // Without a mark a word may well have columns of their own behind it.
-            _ if !marks(line, name) => return None,
-            _ => pairs.extend(numbers.iter().enumerate().map(|(i, number)| (format!("{name}_{}", i + 1), *number))),
+    let mut pairs: Vec<(String, &str)> = Vec::with_capacity(words.len());
+    let mut groups = 0;
+    for group in words.chunk_by(|word, next| is_number(next) || !is_number(word)) {
+        let numbers = group.iter().position(|word| is_number(word));
+        let (mut name, numbers) = group.split_at(numbers.unwrap_or(group.len()));
+        // A word between a number and a name is the number's unit, if it is one.
+        if let ([first, rest @ ..], Some(last)) = (name, pairs.last_mut())
+            && is_unit(first)
+            && (!rest.is_empty() || numbers.is_empty())
+        {
+            last.0 = format!("{} [{first}]", last.0);
+            name = rest;
         }
+        let name_of = name.join(" ");
+        match numbers {
+            [] if name.is_empty() => continue,
+            [] => return None,
+            [number] => pairs.push((name_of, *number)),
+            // Without a mark a word may well have columns of their own behind it.
+            _ if !marks(line, &name_of) => return None,
+            _ => pairs.extend(numbers.iter().enumerate().map(|(i, number)| (format!("{name_of}_{}", i + 1), *number))),
+        }
+        groups += 1;
     }
-    Some(pairs)
+    (groups > 1).then_some(pairs)
 }
 
 /// Whether a colon or an equals sign follows a name in a line.
@@ -95,6 +112,15 @@ mod tests {
             assert_eq!(of(text), marked, "{text}");
         }
         assert_eq!(of("t 1 PWM 2\nt 3 PWM -4e1\n"), marked);
+        let words = Some(("time;left motor speed;right motor speed".to_owned(), "1;23;25\n2;24;-25\n".to_owned()));
+        for text in [
+            "time 1 left motor speed 23 right motor speed 25\ntime 2 left motor speed 24 right motor speed -25\n",
+            "time: 1 left motor speed: 23 right motor speed: 25\ntime: 2 left motor speed: 24 right motor speed: -25\n",
+        ] {
+            assert_eq!(of(text), words, "{text}");
+        }
+        let units = Some(("t [ms];wheel speed [rpm];duty [%]".to_owned(), "1;23;40\n2;24;41\n".to_owned()));
+        assert_eq!(of("t: 1 ms wheel speed: 23 rpm duty: 40 %\nt: 2 ms wheel speed: 24 rpm duty: 41 %\n"), units);
         let several = Some(("time;ticks_1;ticks_2;x".to_owned(), "\n1.5;2;3;4\n2.5;3;4;-5\n".to_owned()));
         assert_eq!(of("#drive: front\ntime: 1.5 ticks: 2 3 x: 4\ntime: 2.5 ticks: 3 4 x: -5\n"), several);
     }

@@ -25,6 +25,10 @@ pub(super) fn numbered(columns: usize) -> Vec<String> {
 impl<'a> Sheet<'a> {
     pub(super) fn of(bytes: &'a [u8]) -> Self {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if let Some(bare) = unquoted(bytes) {
+            let Sheet { names, rows, separator, tagged } = Sheet::of(&bare);
+            return Self { names, rows: Cow::Owned(rows.into_owned()), separator, tagged };
+        }
         if let Some((names, rows)) = super::labelled::table(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
@@ -90,6 +94,22 @@ impl<'a> Sheet<'a> {
     }
 }
 
+/// The lines without their quotes, where each is in quotes as a whole: a table that was written as one column of texts.
+fn unquoted(bytes: &[u8]) -> Option<Vec<u8>> {
+    let bare = |line: &'_ [u8]| -> Option<std::ops::Range<usize>> {
+        let inside = line.trim_ascii().strip_prefix(b"\"")?.strip_suffix(b"\"")?;
+        let plain = !inside.contains(&b'"') && inside.iter().any(|b| b",;\t".contains(b));
+        let from = line.iter().position(|b| *b == b'"')? + 1;
+        plain.then_some(from..from + inside.len())
+    };
+    let filled = || bytes.split(|b| *b == b'\n').filter(|line| !line.trim_ascii().is_empty());
+    if filled().next().is_none() || !filled().all(|line| bare(line).is_some()) {
+        return None;
+    }
+    let line = |line: &[u8]| [bare(line).map_or(&[][..], |inside| &line[inside]), b"\n"].concat();
+    Some(bytes.split_inclusive(|b| *b == b'\n').flat_map(line).collect())
+}
+
 /// What a line says after the mark of a remark.
 fn remark(line: &[u8]) -> Option<&[u8]> {
     REMARKS.iter().find_map(|mark| line.strip_prefix(mark.as_bytes())).map(<[u8]>::trim_ascii)
@@ -147,6 +167,9 @@ mod tests {
     fn blanks_remarks_and_missing_names_make_one_table() {
         let names = |of: &[&str]| Some(of.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>());
         assert_eq!(sheet("t,a\n0,1\n"), (None, "t,a\n0,1\n".into(), ','));
+        let quoted = (names(&["column_1", "column_2"]), "10, 7.6e-05\n\n10, 0.02\n".into(), ',');
+        assert_eq!(sheet("\"10, 7.6e-05\"\r\n\n\"10, 0.02\""), quoted);
+        assert_eq!(sheet("\"t, s\",a\n\"0\",1\n").1, "\"t, s\",a\n\"0\",1\n");
         assert_eq!(sheet("  t   a\n  0   1,5\n"), (None, "t;a\n0;1,5\n".into(), ';'));
         assert_eq!(sheet("# by me\n# t a\n0 1\n"), (names(&["t", "a"]), "\n\n0;1\n".into(), ';'));
         assert_eq!(sheet("0.0 1.5\r\n0.1 2\r\n"), (names(&["column_1", "column_2"]), "0.0;1.5\n0.1;2\n".into(), ';'));
