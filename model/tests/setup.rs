@@ -528,3 +528,40 @@ fn turns_the_other_way_show_where_there_are_few() {
         assert!(told.len() == 1 && told[0].contains("the other way; ") && told[0].contains("are swapped"), "{told:?}");
     }
 }
+
+/// A wheel that spins twice as fast as it should for half of the time is no robot of another file: the others say so.
+#[test]
+fn a_wheel_that_slips_half_the_time_is_told_as_one() {
+    let robot = Robot::racbot();
+    for (wheel, seed) in [(0, 31), (1, 32), (2, 33)] {
+        let drives = [Manoeuvre::Star, Manoeuvre::Chirp, Manoeuvre::Square];
+        let mut runs: Vec<Run> = drives
+            .into_iter()
+            .map(|m| simulate(m, &Applied::of(&robot), &robot, Pose::default(), seed).unwrap())
+            .collect();
+        for run in &mut runs {
+            let (mut spun, mut last) = (0.0, run.counts[wheel][0]);
+            for k in 1..run.t.len() {
+                let moved = (run.counts[wheel][k] - last) as f64;
+                last = run.counts[wheel][k];
+                let slips = (run.t[k] * 2.0) as usize % 2 == 1;
+                spun += if slips { 2.5 * moved } else { 0.0 };
+                run.counts[wheel][k] += spun.round() as i64;
+            }
+            run.duty.clear();
+            run.reference.clear();
+            run.command = None;
+        }
+        let told = found(robot.clone(), &runs);
+        let said: Vec<String> = told.iter().map(Mistake::sentence).collect();
+        assert!(told.len() == 1 && told[0].kind == "wheels-slip" && told[0].nameable, "{wheel}: {said:?}");
+        assert!(said[0].contains(&format!("wheel {} slips", wheel + 1)), "{said:?}");
+        // Of the poses of another drive nothing is said to slip.
+        let poses: Vec<_> = runs.iter().map(|run| run.camera.clone()).collect();
+        runs.iter_mut().zip(poses.iter().cycle().skip(1)).for_each(|(run, camera)| {
+            run.camera = camera.iter().filter(|c| c.tick < run.t.len()).copied().collect();
+        });
+        let said: Vec<&str> = found(robot.clone(), &runs).iter().map(|m| m.kind).collect();
+        assert_eq!(said, ["robot-file"], "{wheel}");
+    }
+}

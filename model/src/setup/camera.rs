@@ -15,6 +15,7 @@ use runs::robot::{Robot, Support};
 
 use super::orders::{moved, orders, words};
 use super::samples::{STRETCH_S, Sample, of_camera};
+use super::slips::Slips;
 use super::{Mistake, common_ratio, is_true, short};
 
 /// Fewest stretches with motion that tell anything.
@@ -51,7 +52,7 @@ const STARTS: usize = 3;
 const TRUE_TURN: f64 = 0.6;
 
 /// How the columns of the camera are read.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Reading {
     degrees: bool,
     clockwise: bool,
@@ -93,6 +94,11 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     {
         (seen, found) = (long, Some(fit));
     }
+    let slips = found.as_ref().filter(|fit| fit.left > FITS).and_then(|fit| Some((slips(&geometry, &seen)?, fit.left)));
+    if let Some((slips, left)) = slips {
+        let (what, remedy) = slips.said(left);
+        return vec![Mistake { nameable: true, ..Mistake::new("wheels-slip", "cam_x", what, remedy) }];
+    }
     let mut mistakes = found.map_or_else(Vec::new, |fit| named(robot, &fit, spin(&geometry, &seen, &fit), before));
     if gained > GRAVITY {
         for mistake in &mut mistakes {
@@ -101,6 +107,17 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
         }
     }
     mistakes
+}
+
+/// Where camera and counts agree as they are read, if they do in a good part of the stretches.
+fn slips(geometry: &Geometry, samples: &[Sample]) -> Option<Slips> {
+    let seen: Vec<([f64; 2], f64)> = samples.iter().map(|s| body(s, Reading::default())).collect();
+    Slips::of(geometry, rim(geometry), samples, &seen)
+}
+
+/// Distance of the outermost wheel from the centre, m.
+fn rim(geometry: &Geometry) -> f64 {
+    geometry.wheels().iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max).max(1e-6)
 }
 
 /// Stretches of so many seconds in which the robot moves; `None` if they are too few to tell anything.
@@ -122,7 +139,7 @@ fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
 
 /// The way to read the logs that explains them as well as any, with the fewest things wrong.
 fn best(robot: &Robot, geometry: &Geometry, moving: &[Sample]) -> Option<Fit> {
-    let rim = geometry.wheels().iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max).max(1e-6);
+    let rim = rim(geometry);
     // Dead reckoning has no wheels that could be in another order.
     let mut orders = orders(robot.wheel_count());
     orders.truncate(if runs::is_dead_reckoning(robot) { 1 } else { orders.len() });
@@ -219,7 +236,9 @@ fn fit(
     let (turned_rim, seen_rim) = (rim * rim * ww, rim * rim * tt);
     let turns = share(turned_rim, pp) > LITTLE;
     let seen_to_turn = share(seen_rim, bb) > LITTLE;
-    let goes = share(bb, seen_rim) > if share(pp, turned_rim) > LITTLE { LITTLE } else { ASTRAY };
+    // Ways in another unit may be tiny beside the turns, and yet follow those by the counts.
+    let drives = share(pp, turned_rim) > LITTLE;
+    let goes = share(bb, seen_rim) > if drives { LITTLE } else { ASTRAY } || drives && left_t < FITS;
     let left = match (goes, turns) {
         (true, true) => 0.5 * (left_t + left_r),
         (false, true) => left_r,
@@ -350,7 +369,16 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
     // Where distances by the counts are wrong, too, turns tell how far.
     let own = if is_true(spin) { 1.0 } else { spin.clamp(0.05, 20.0) };
     let unit = [(1000.0, "millimetres"), (100.0, "centimetres")];
-    if let Some((unit, name)) = unit.iter().find(|(u, _)| is_true(fit.scale / (own * u))) {
+    let twice = unit.iter().find(|(u, _)| is_true(fit.scale * u / own));
+    if let Some((unit, name)) = twice.filter(|_| is_true(spin)) {
+        let what = format!(
+            "the camera's distances are {} times those of the counts: metres that were taken for {name}",
+            short(fit.scale)
+        );
+        let remedy =
+            format!("write cam_x and cam_y as they were logged (multiply them by {unit}), whatever their header says");
+        found.push(Mistake::new("camera-unit", "cam_x", what, remedy));
+    } else if let Some((unit, name)) = unit.iter().find(|(u, _)| is_true(fit.scale / (own * u))) {
         let what = format!("the camera's distances are {} times those of the counts: {name}", short(fit.scale));
         let remedy = format!("write metres (divide cam_x and cam_y by {unit}), or name the unit to `racbot convert`");
         found.push(Mistake::new("camera-unit", "cam_x", what, remedy));

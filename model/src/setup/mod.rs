@@ -12,6 +12,7 @@ mod motors;
 mod orders;
 mod samples;
 mod signals;
+mod slips;
 mod time;
 mod turns;
 

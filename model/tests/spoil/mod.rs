@@ -101,6 +101,17 @@ pub(crate) const SPOILS: &[Spoil] = &[
         },
     },
     Spoil {
+        name: "metres taken for centimetres",
+        kinds: &["camera-unit"],
+        shows: camera,
+        make: |_, runs| {
+            every_pose(runs, |p| {
+                p.x *= 1e-2;
+                p.y *= 1e-2;
+            });
+        },
+    },
+    Spoil {
         name: "image y down",
         kinds: &["camera-y-down"],
         shows: camera,
