@@ -5,7 +5,7 @@ use runs::robot::Robot;
 use runs::ticks::Ticks;
 use runs::{Columns, Log};
 
-use crate::evidence::{Evidence, Interval};
+use crate::evidence::{self, Evidence, Interval};
 use crate::exact::{ExactLink, Finding, quantum};
 use crate::parts::parts;
 use crate::thresholds::Thresholds;
@@ -72,8 +72,8 @@ impl Compared {
         self.rms.iter().map(|x| x * x).sum()
     }
 
-    fn wrong_share(&self) -> f64 {
-        self.wrong as f64 / self.all.max(1) as f64
+    fn ticks(&self) -> evidence::Ticks {
+        evidence::Ticks { all: self.all, wrong: self.wrong }
     }
 }
 
@@ -166,7 +166,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds:
         floor: tolerance + thresholds.digits * references_rms(logs),
         after: stated.rms.clone(),
         before: stated.rms.clone(),
-        wrong_share: stated.wrong_share(),
+        wrong_share: stated.ticks().wrong_share(),
         finding: None,
         unexplained: false,
         replay: None,
@@ -175,7 +175,7 @@ fn analyse_matrix(robot: &Robot, geometry: &Geometry, logs: &[&Log], thresholds:
         return link;
     }
     let finding = |name: &'static str, wheels, parameters, found: &Compared| {
-        let evidence = Evidence::Replay { ticks: found.all, wrong: [stated.wrong, found.wrong] };
+        let evidence = Evidence::Replay { nominal: stated.ticks(), with: found.ticks() };
         Finding { link: Link::Command, name, wheels, parameters, evidence }
     };
     // Every order and sign of the rows, and every latency.
@@ -233,7 +233,9 @@ fn latency(matrix: &Matrix, order: &Order, most: usize) -> Option<(Late, Compare
     });
     let better = in_turn.min_by(|a, b| a.1.square().total_cmp(&b.1.square()));
     match better {
-        Some(better) if whole.1.wrong_share() > matrix.differs && better.1.wrong_share() <= matrix.differs => {
+        Some(better)
+            if whole.1.ticks().wrong_share() > matrix.differs && better.1.ticks().wrong_share() <= matrix.differs =>
+        {
             Some(better)
         }
         _ => Some(whole),

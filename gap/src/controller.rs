@@ -154,7 +154,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
     let nominally = replay(robot, logs, &nominal, floor);
     let before: Vec<f64> = nominally.iter().map(|wheel| wheel.rms).collect();
     let wrong = nominally.iter().map(Replayed::wrong_share).fold(0.0, f64::max);
-    let [_, wrong_before] = totals(&nominally);
+    let wrongly = totals(&nominally);
     let mut link = ExactLink {
         link: Link::Controller,
         unit: "duty",
@@ -178,10 +178,10 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
     let mut offer = |law: Law, name: &'static str, parameters: Vec<(String, f64, Interval)>| {
         let now = replay(robot, logs, &law, floor);
         let e: Vec<f64> = now.iter().map(|wheel| wheel.rms).collect();
-        let [ticks, wrong_now] = totals(&now);
-        let mends = wrong_now as f64 <= thresholds.left_wrong * wrong_before as f64;
+        let with = totals(&now);
+        let mends = with.wrong_share() <= thresholds.left_wrong * wrongly.wrong_share();
         if mends && total(&e) < best.0 * 0.999 {
-            let evidence = Evidence::Replay { ticks, wrong: [wrong_before, wrong_now] };
+            let evidence = Evidence::Replay { nominal: wrongly, with };
             let finding = Finding { link: Link::Controller, name, wheels: Vec::new(), parameters, evidence };
             best = (total(&e), Some(finding), e);
         }
@@ -241,7 +241,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
     offer(gains, "pi-gain", parameters);
     // Where another law replays it all, two of them would.
     let replayed = best.1.as_ref().is_some_and(|f| f.evidence.wrong_share().is_some_and(|share| share <= differs));
-    if !replayed && let Some((finding, left)) = counts::counted(robot, logs, &nominal, floor, wrong_before, differs) {
+    if !replayed && let Some((finding, left)) = counts::counted(robot, logs, &nominal, floor, wrongly, differs) {
         best = (total(&left), Some(finding), left);
     }
     if best.0 < (1.0 - thresholds.removes[1]) * start {

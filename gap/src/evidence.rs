@@ -4,6 +4,22 @@ use serde_json::{Map, Value, json};
 
 use crate::units::short;
 
+/// Ticks that a replay compared, all wheels together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ticks {
+    /// All of them.
+    pub all: u64,
+    /// Those that differ by more than rounding.
+    pub wrong: u64,
+}
+
+impl Ticks {
+    /// Share of them that differ.
+    pub fn wrong_share(self) -> f64 {
+        self.wrong as f64 / self.all.max(1) as f64
+    }
+}
+
 /// What a name rests on.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Evidence {
@@ -16,10 +32,10 @@ pub enum Evidence {
     },
     /// Logged signals replayed tick by tick with the effect in place.
     Replay {
-        /// Ticks that were replayed, all wheels together.
-        ticks: u64,
-        /// Those that differ by more than rounding with the nominal model, and with the effect.
-        wrong: [u64; 2],
+        /// With the nominal model.
+        nominal: Ticks,
+        /// With the effect, which may leave other ticks to compare: a delay has nothing to go by behind a gap.
+        with: Ticks,
     },
     /// A pattern that was recognised.
     Pattern {
@@ -43,7 +59,7 @@ impl Evidence {
     /// Share of the replayed ticks that are wrong with the effect, where signals were replayed.
     pub fn wrong_share(&self) -> Option<f64> {
         match self {
-            Self::Replay { ticks, wrong } => Some(wrong[1] as f64 / (*ticks).max(1) as f64),
+            Self::Replay { with, .. } => Some(with.wrong_share()),
             Self::Test { .. } | Self::Pattern { .. } => None,
         }
     }
@@ -61,9 +77,10 @@ impl Evidence {
     pub fn to_json(&self) -> Value {
         match self {
             Self::Test { method, p } => json!({"kind": self.kind(), "method": method, "p": p}),
-            Self::Replay { ticks, wrong } => {
-                json!({"kind": self.kind(), "ticks": ticks, "wrong_before": wrong[0], "wrong": wrong[1]})
-            }
+            Self::Replay { nominal, with } => json!({
+                "kind": self.kind(), "ticks_before": nominal.all, "wrong_before": nominal.wrong,
+                "ticks": with.all, "wrong": with.wrong,
+            }),
             Self::Pattern { what, p } => json!({"kind": self.kind(), "what": what, "p": p}),
         }
     }
@@ -72,7 +89,12 @@ impl Evidence {
     pub fn words(&self) -> String {
         match self {
             Self::Test { p, .. } => format!("p = {}", short(*p)),
-            Self::Replay { ticks, wrong } => format!("{} of {ticks} ticks wrong, {} without it", wrong[1], wrong[0]),
+            Self::Replay { nominal, with } if nominal.all == with.all => {
+                format!("{} of {} ticks wrong, {} without it", with.wrong, with.all, nominal.wrong)
+            }
+            Self::Replay { nominal, with } => {
+                format!("{} of {} ticks wrong, {} of {} without it", with.wrong, with.all, nominal.wrong, nominal.all)
+            }
             Self::Pattern { what, p: None } => what.clone(),
             Self::Pattern { what, p: Some(p) } => format!("{what}, p = {}", short(*p)),
         }
@@ -141,7 +163,11 @@ mod tests {
         assert_eq!(Interval::Resolution([1.0, 3.0]).to_json(2.0), json!({"value": 2.0, "resolution": [1.0, 3.0]}));
         assert_eq!(Interval::Bound([1.0, 3.0]).to_json(2.0), json!({"value": 2.0, "bound": [1.0, 3.0]}));
         assert_eq!(Interval::Exact.to_json(2.0), json!({"value": 2.0}));
-        let replay = Evidence::Replay { ticks: 100, wrong: [40, 0] };
+        let [all, fewer] = [Ticks { all: 100, wrong: 40 }, Ticks { all: 90, wrong: 0 }];
+        let replay = Evidence::Replay { nominal: all, with: Ticks { all: 100, wrong: 0 } };
+        assert_eq!(replay.words(), "0 of 100 ticks wrong, 40 without it");
+        let other = Evidence::Replay { nominal: all, with: fewer };
+        assert_eq!(other.words(), "0 of 90 ticks wrong, 40 of 100 without it");
         assert_eq!((replay.p_value(), replay.kind()), (None, "replay"));
         assert_eq!(replay.to_json()["ticks"], 100);
         assert_eq!(Evidence::Pattern { what: "a line".to_owned(), p: None }.to_json()["p"], Value::Null);

@@ -8,7 +8,7 @@ use super::gaps;
 use super::measure::{Data, Drive};
 use super::study::{chosen, is_better, needed};
 use crate::controller::{ENCODER_SCALE, LOOP_SCALE};
-use crate::evidence::Interval;
+use crate::evidence::{Interval, Ticks};
 use crate::exact::Finding;
 use crate::problem::Problem;
 use crate::state::{Active, State};
@@ -111,13 +111,13 @@ pub(super) fn geared(named: &[Named], gear_ratio: f64) -> Option<String> {
     })
 }
 
-/// What the controller says of a radius that wheels and camera do not tell from counts; `ticks` of it were replayed, so
-/// many of them wrong with the file's counts and with others.
-pub(super) fn shared(ticks: u64, wrong: [u64; 2]) -> String {
+/// What the controller says of a radius that wheels and camera do not tell from counts, replayed with the file's counts
+/// and with others.
+pub(super) fn shared([ours, theirs]: [Ticks; 2]) -> String {
     format!(
-        "The controller reckons with the file's counts a turn: {} of {ticks} ticks replay wrong with them, {} with those \
+        "The controller reckons with the file's counts a turn: {} of {} ticks replay wrong with them, {} with those \
          that the camera would have. Were it {ENCODER_SCALE}, and not the radius, both would have the same wrong number.",
-        wrong[0], wrong[1]
+        ours.wrong, ours.all, theirs.wrong
     )
 }
 

@@ -108,7 +108,7 @@ impl<'a> Workflow<'a> {
     fn shared_counts(&mut self) {
         let scale = counts::for_radius(&self.findings.named, &self.findings.alternatives);
         let replayed = scale.and_then(|s| with_other_counts(&self.question.robot, self.data.logs, s, &self.thresholds));
-        self.findings.remarks.extend(replayed.map(|(ticks, wrong)| counts::shared(ticks, wrong)));
+        self.findings.remarks.extend(replayed.map(counts::shared));
     }
 
     /// Encoders to camera and inertial sensor.

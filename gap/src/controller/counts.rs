@@ -8,7 +8,7 @@ use runs::{CountSource, Log};
 
 use super::replay::{Replayed, replay, totals, walk};
 use super::{ENCODER_SCALE, LOOP_SCALE, Law, at_rate, stated, with_loops};
-use crate::evidence::{Evidence, Interval};
+use crate::evidence::{Evidence, Interval, Ticks};
 use crate::exact::Finding;
 use crate::thresholds::Thresholds;
 use links::effect::Link;
@@ -30,13 +30,13 @@ fn is_exact(wheels: &[Replayed], differs: f64) -> bool {
 }
 
 /// The number of counts with which all duties replay, if the file's gains do it with no other, and the RMS beyond rounding
-/// of every wheel that is left (duty). So many ticks are `wrong` with the file's number.
+/// of every wheel that is left (duty); `nominally` are the ticks with the file's number.
 pub(super) fn counted(
     robot: &Robot,
     logs: &[&Log],
     nominal: &Law,
     floor: f64,
-    wrong: u64,
+    nominally: Ticks,
     differs: f64,
 ) -> Option<(Finding, Vec<f64>)> {
     if !by_counts(logs) {
@@ -72,13 +72,12 @@ pub(super) fn counted(
         }
         best * (1.0 + sign * off) - 1.0
     };
-    let [ticks, left_wrong] = totals(&replayed);
     let finding = Finding {
         link: Link::Controller,
         name: ENCODER_SCALE,
         wheels: Vec::new(),
         parameters: vec![(LOOP_SCALE.to_owned(), best - 1.0, Interval::Resolution([end(-1.0), end(1.0)]))],
-        evidence: Evidence::Replay { ticks, wrong: [wrong, left_wrong] },
+        evidence: Evidence::Replay { nominal: nominally, with: totals(&replayed) },
     };
     Some((finding, replayed.iter().map(|w| w.rms).collect()))
 }
@@ -111,14 +110,13 @@ fn by_changes(robot: &Robot, logs: &[&Log], law: &Law) -> Option<f64> {
     (share.is_finite() && share > 0.0).then(|| 1.0 / share)
 }
 
-/// What of the duties is wrong with the file's counts and with as many more: ticks in all, wrong with the file's and with
-/// the others. `None` where no counts tell, or where the duties do not replay with the file's.
+/// What of the duties is wrong with the file's counts, and with as many more. `None` where no counts tell, or where the duties do not replay with the file's.
 pub(crate) fn with_other_counts(
     robot: &Robot,
     logs: &[Log],
     scale: f64,
     thresholds: &Thresholds,
-) -> Option<(u64, [u64; 2])> {
+) -> Option<[Ticks; 2]> {
     let differs = thresholds.differs[1];
     let logs = at_rate(robot, with_loops(robot, logs), thresholds);
     if logs.is_empty() || !by_counts(&logs) {
@@ -127,6 +125,6 @@ pub(crate) fn with_other_counts(
     let ([.., floor], nominal) = stated(robot, &logs);
     let other = Law { counts: nominal.counts * (1.0 + scale), ..nominal };
     let [ours, theirs] = [nominal, other].map(|law| replay(robot, &logs, &law, floor));
-    let [[ticks, with_ours], [_, with_theirs]] = [&ours, &theirs].map(|wheels| totals(wheels));
-    (is_exact(&ours, differs) && !is_exact(&theirs, differs)).then_some((ticks, [with_ours, with_theirs]))
+    let [with_ours, with_theirs] = [&ours, &theirs].map(|wheels| totals(wheels));
+    (is_exact(&ours, differs) && !is_exact(&theirs, differs)).then_some([with_ours, with_theirs])
 }

@@ -8,6 +8,7 @@ use runs::ticks::Ticks;
 use runs::{Log, Run};
 
 use super::{COLUMNS, Law, SLACK};
+use crate::evidence;
 use crate::parts::parts;
 
 /// Integrator of one axis: somewhere from `low` to `high`.
@@ -90,9 +91,10 @@ impl Replayed {
     }
 }
 
-/// Ticks of all wheels that were compared, and those of them that differ.
-pub(super) fn totals(wheels: &[Replayed]) -> [u64; 2] {
-    wheels.iter().fold([0, 0], |[ticks, wrong], w| [ticks + w.ticks, wrong + w.wrong])
+/// Ticks of all wheels.
+pub(super) fn totals(wheels: &[Replayed]) -> evidence::Ticks {
+    let [all, wrong] = wheels.iter().fold([0, 0], |[all, wrong], w| [all + w.ticks, wrong + w.wrong]);
+    evidence::Ticks { all, wrong }
 }
 
 /// Every tick of a log: the ticks around it, its place among them, and how many before it follow without a gap.
