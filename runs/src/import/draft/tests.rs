@@ -89,6 +89,14 @@ fn words_run_together_and_times_without_a_name_are_understood() {
         ["100; 0.0129; 2; -67304", "100; 0.0191; 6; -67304", "100; 0.0248; 6; -67304"],
     );
     assert!(bare.contains("column = \"column_2\" # is it?"), "{bare}");
+    // A row that stands twice, as where a logger asked more often than there was news.
+    let twice = drafted("5; 204; 7", ["5; 415; 7\n5; 415; 7", "6; 620; 8\n7; 830; 9", "8; 1041; 9"]);
+    assert!(twice.contains("column = \"column_2\" # is it?"), "{twice}");
+    let printed = |t: u32| format!("time {t} left motor speed {}.5 right motor speed {}", t % 7, t % 5);
+    let words = drafted(&printed(10), [20, 30, 40].map(printed).each_ref().map(String::as_str));
+    for line in ["column = \"time\"", "speed_2 = \"left motor speed\"", "speed_1 = \"right motor speed\""] {
+        assert!(words.contains(line), "{line}\n{words}");
+    }
 }
 
 /// A speed of the body is no wheel's where wheels have numbers, and the rate of an encoder is no count.
