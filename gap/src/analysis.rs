@@ -4,6 +4,7 @@ mod answer;
 mod clocks;
 mod counts;
 mod cut;
+mod differing;
 mod driven;
 mod driving;
 mod filtered;
@@ -33,6 +34,7 @@ use workflow::Workflow;
 
 pub use crate::limits::Limit;
 pub use crate::locate::Located;
+pub(crate) use differing::BEGINS;
 pub use driven::{Driven, Moment};
 pub use found::{Analysis, Leftover, LinkGap, Named, Verdict};
 pub use gaps::overall;

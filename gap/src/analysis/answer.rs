@@ -1,5 +1,6 @@
 //! What an analysis answers: the verdict and everything that is shown with it.
 
+use super::differing;
 use super::driven::Driven;
 use super::found::{Analysis, Leftover, LinkGap, Verdict};
 use super::gaps::{self, Remains};
@@ -10,6 +11,8 @@ use super::writing::Written;
 use crate::GapError;
 use crate::exact::ExactLink;
 use crate::locate::{self, Located};
+use crate::problem::Problem;
+use crate::state::Active;
 use links::effect::{Effect, Link, Sizes};
 use links::inertial::Fit;
 use links::motion::{MotionLink, WindowResiduals};
@@ -35,6 +38,9 @@ impl Workflow<'_> {
         }
         if self.data.has_camera() {
             driven.seen = Driven::seen(self.data.pieces, SHOWN);
+        }
+        if !odd_clock {
+            self.differ(&links, drive.as_ref());
         }
         let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
         if self.findings.named.is_empty() {
@@ -146,6 +152,24 @@ impl Workflow<'_> {
             }
         }
         sentences
+    }
+
+    /// Says in what the runs differ, where that is a good part of what is left on a link: then no one robot explains them.
+    fn differ(&mut self, links: &[LinkGap], drive: Option<&MeasuredDrive>) {
+        let mut state = self.nominal.clone();
+        state.active.extend(self.findings.found.iter().map(|a| Active { given: false, ..a.clone() }));
+        let runs = self.runs();
+        let of = |link: &LinkGap| {
+            let problem = match link.link {
+                Link::Motion if self.data.has_camera() => Problem::Motion(self.data.motion),
+                Link::Drive => Problem::Drive(&drive?.link),
+                _ => return None,
+            };
+            let structure = differing::said(&problem, &state, self.data.catalogue, &runs, &self.thresholds)?;
+            Some(Leftover { link: link.link, structure })
+        };
+        let differ: Vec<Leftover> = links.iter().filter_map(of).collect();
+        self.findings.unexplained.splice(0..0, differ);
     }
 
     /// Named effects on links that stay unexplained.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{firmware, words};
-use crate::analysis::{Analysis, Verdict, overall};
+use crate::analysis::{Analysis, BEGINS, Verdict, overall};
 use crate::units::{self, short};
 
 /// Columns of a terminal.
@@ -127,7 +127,13 @@ pub(super) fn sentence(a: &Analysis) -> String {
             // A structure may be a small part of what is left.
             let more = if first.contains("floors remain") { String::new() } else { words::and_more(a) };
             let stop = if more.is_empty() && first.ends_with('?') { "" } else { "." };
-            format!("Model and data disagree, and no effect of the catalogue explains it{first}{more}{stop}{near}")
+            // One effect of several sizes is one of the catalogue.
+            let and = if first.starts_with(&format!(": {BEGINS}")) {
+                ""
+            } else {
+                ", and no effect of the catalogue explains it"
+            };
+            format!("Model and data disagree{and}{first}{more}{stop}{near}")
         }
     }
 }

@@ -5,6 +5,7 @@ mod catalogue;
 mod common;
 mod counts;
 mod currents;
+mod differing;
 mod drive;
 mod drive_train;
 mod experiment;

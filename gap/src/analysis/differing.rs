@@ -1,0 +1,129 @@
+//! Runs of one data set that are not of one robot as it was: another battery, load or floor, a camera set up anew.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::problem::{Linear, Problem};
+use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
+use crate::units;
+use estimation::normal_equations::solve;
+use links::effect::{Effect, Parameter};
+
+/// Most parameters of an effect that runs may differ in: of more each is known too badly from one run alone. On circles of three
+/// omni wheels one run gave a wheel's radius as 20 % larger, beside two others that were smaller.
+const MOST: usize = 2;
+/// Runs whose values are all told; of more the least and the greatest.
+const TOLD: usize = 6;
+/// By how much more another effect must close to stand for one that comes earlier in the catalogue.
+const RICHER: f64 = 1.05;
+
+/// How what is said begins.
+pub(crate) const BEGINS: &str = "the runs differ";
+
+/// An effect with a size for each run.
+struct Sizes {
+    name: String,
+    parameter: Parameter,
+    parameters: usize,
+    /// Size in each run.
+    of_runs: Vec<(usize, f64)>,
+    /// What one size for all closes, in squared residuals, and what one for each run closes beside that.
+    common: f64,
+    own: f64,
+}
+
+/// In which size of what the runs differ, if one for each run closes a good part of what one for all leaves of a link, what is
+/// named fitted beside both. `state` has what is named.
+pub(super) fn said(
+    problem: &Problem,
+    state: &State,
+    catalogue: &[Arc<dyn Effect>],
+    runs: &[String],
+    thresholds: &Thresholds,
+) -> Option<String> {
+    let few = |a: &Active| (1..=MOST).contains(&a.form.free.len()) && a.form.fixed.is_empty();
+    let grows = |a: &Active| few(a) && !a.effect.probe() && !a.switched();
+    let mut candidates = problem.candidates(state, catalogue);
+    candidates.retain(grows);
+    let linear = problem.linearise(state, &candidates);
+    let (square, n) = (linear.equations.clusters.iter().map(|c| c.rr).sum::<f64>(), linear.equations.n());
+    let named = state.fitted_on(problem.link()).into_iter().filter(|i| grows(&state.active[*i]));
+    let own = named.map(|i| (linear.of_active(i), &state.active[i]));
+    let others = candidates.iter().enumerate().map(|(c, a)| (linear.of_candidate(c), a));
+    let all = own.chain(others).filter_map(|(columns, a)| sizes(&linear, &columns, a));
+    // Each parameter of a richer form has a size in each run to pay for.
+    let paid = |s: &Sizes| s.own + s.common - thresholds.costs[1] * (s.parameters * s.of_runs.len()) as f64;
+    let best = all.reduce(|best, next| if paid(&next) > RICHER * paid(&best) { next } else { best })?;
+    let share = best.own / (square - best.common).max(f64::MIN_POSITIVE);
+    let left = square - best.common - best.own;
+    let variance = (left / n.max(1.0)).max(1.0) * thresholds.correlation(problem.link());
+    let [low, high] = [f64::total_cmp, |a: &f64, b: &f64| b.total_cmp(a)]
+        .map(|by| best.of_runs.iter().copied().min_by(|a, b| by(&a.1, &b.1)).unwrap_or_default());
+    if share < thresholds.undecided
+        || best.own < thresholds.strong * variance
+        || !best.parameter.is_material(high.1 - low.1)
+    {
+        return None;
+    }
+    let told = if best.of_runs.len() > TOLD { vec![low, high] } else { best.of_runs.clone() };
+    let value = |(run, x): &(usize, f64)| {
+        let unknown = String::new();
+        format!("{} in {}", units::value(&best.parameter.name, *x), runs.get(*run).unwrap_or(&unknown))
+    };
+    let structure = format!(
+        "{BEGINS}: {} ({}) of about {} closes {:.0} % of what one size for all of them leaves; another battery, load, floor or \
+         camera in some of them? Runs that belong together want a data set of their own",
+        best.name,
+        units::label(&best.parameter.name),
+        told.iter().map(value).collect::<Vec<_>>().join(", "),
+        100.0 * share.min(1.0),
+    );
+    Some(structure)
+}
+
+/// The sizes of an effect in each run, all else that is named fitted beside it; `None` where not every run tells them.
+fn sizes(linear: &Linear, columns: &[usize], active: &Active) -> Option<Sizes> {
+    let m = columns.len();
+    let mut numbers: Vec<usize> = linear.equations.clusters.iter().map(|c| c.run).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let beside: Vec<usize> = linear.active().into_iter().filter(|c| !columns.contains(c)).collect();
+    let fit = |groups: usize, of: &dyn Fn(usize) -> usize| {
+        let size = beside.len() + groups * m;
+        let (mut jj, mut jr) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for c in &linear.equations.clusters {
+            let first = beside.len() + of(c.run) * m;
+            let own = columns.iter().enumerate().map(|(p, column)| (first + p, *column));
+            let all: Vec<(usize, usize)> = beside.iter().copied().enumerate().chain(own).collect();
+            for (p, of) in &all {
+                jr[*p] += c.jr[*of];
+                for (q, other) in &all {
+                    jj[(*p, *q)] += c.jj[(*of, *other)];
+                }
+            }
+        }
+        let tells = (beside.len()..size).all(|p| jj[(p, p)] > 0.0);
+        let step = solve(&jj, &jr);
+        tells.then(|| (step.dot(&jr), step))
+    };
+    if numbers.len() < 2 {
+        return None;
+    }
+    let (common, _) = fit(1, &|_| 0)?;
+    let (separate, step) = fit(numbers.len(), &|run| numbers.binary_search(&run).unwrap_or(0))?;
+    let own = separate - common;
+    let of = |group: usize, p: usize| step[beside.len() + group * m + p];
+    let spread = |p: usize| {
+        let of = || (0..numbers.len()).map(|group| of(group, p));
+        of().fold(f64::NEG_INFINITY, f64::max) - of().fold(f64::INFINITY, f64::min)
+    };
+    let in_sizes = |p: &usize| spread(*p) / active.form.free[*p].material;
+    let worst = (0..m).max_by(|a, b| in_sizes(a).total_cmp(&in_sizes(b)))?;
+    let parameter = active.form.free[worst].clone();
+    let now = active.values.get(&parameter.name);
+    let bounded = |x: f64| (now + x).clamp(parameter.bounds[0], parameter.bounds[1]);
+    let of_runs = numbers.iter().enumerate().map(|(group, run)| (*run, bounded(of(group, worst)))).collect();
+    Some(Sizes { name: active.effect.name().to_owned(), parameter, parameters: m, of_runs, common, own })
+}
