@@ -169,7 +169,13 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit], thresho
         1e3 * link.rms[worst][1],
         unit,
     );
-    let explained = open(link.after) < (1.0 - thresholds.explained) * open(link.before);
+    let most = if link.after < thresholds.far_open { 1.0 - thresholds.explained } else { thresholds.undecided };
+    let sentence = if link.link == Link::Motion && link.after >= thresholds.far_open {
+        format!("{sentence}; wheels that slip, and poses that a filter smoothed before they were logged, leave as much")
+    } else {
+        sentence
+    };
+    let explained = open(link.after) < most * open(link.before);
     Some(if link.after >= thresholds.far && !explained { Remains::Open(sentence) } else { Remains::Beside(sentence) })
 }
 
@@ -267,4 +273,24 @@ pub(super) fn waterfall(
     debug_assert!(now.iter().zip(links).all(|(a, b)| (a.after - b.after).abs() < 1e-6 * b.after.max(1.0)), "{after}");
     out.push(("noise floor".to_owned(), 1.0));
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_leaves_tens_of_floors_must_close_most_of_a_gap_to_explain_it() {
+        let left = |before: f64, after: f64| {
+            let (floor, rms) = (vec![1e-4; 2], vec![[1e-4 * before, 1e-4 * after]; 2]);
+            let link = LinkGap { link: Link::Motion, before, after, floor, rms, units: vec!["m"; 2], signals: 2 };
+            remains(&link, &[], &[], &Thresholds::default())
+        };
+        // Half of the square is enough near the noise, and not far from it.
+        for (before, after, open) in [(8.0, 5.0, false), (8.0, 6.5, true), (55.0, 35.0, true), (90.0, 35.0, false)] {
+            let Some(Remains::Open(said) | Remains::Beside(said)) = &left(before, after) else { panic!("{before}") };
+            assert_eq!(matches!(left(before, after), Some(Remains::Open(_))), open, "{before} {after}");
+            assert_eq!(said.contains("a filter smoothed"), after > 10.0, "{said}");
+        }
+    }
 }

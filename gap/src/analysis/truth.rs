@@ -22,6 +22,9 @@ const BEYOND_WHEELS: f64 = 10.0;
 /// What matters in a window, in the scatter of neighbouring poses, from which they are too smooth for a tracker: a league's
 /// camera has 13 at most, motion capture 10 to 20, poses by SLAM 800.
 const FINER: f64 = 30.0;
+/// The same from which no tracker is so fine, however far wheels and poses part: a video of 30 frames a second that was
+/// smoothed and laid on 100 rows a second had 240.
+const FINEST: f64 = 150.0;
 /// Residuals that the error of such a pose makes in a window, along one axis: a drift and a bend. Their median RMS is
 /// 0.83 of the standard deviation.
 const MEDIAN_OF_TWO: f64 = 0.832_6;
@@ -61,7 +64,9 @@ pub(super) fn smoothed(
     let placed = typical(&left, &[(0, x), (1, y)]);
     let pointed = if headings { typical(&left, &[(2, theta)]) } else { 0.0 };
     let beyond = finer[0] && placed > BEYOND_WHEELS * x.max(y) || finer[1] && pointed > BEYOND_WHEELS * theta;
-    if !beyond || placed > thresholds.far * way || pointed > thresholds.far * turn {
+    // Where wheels slip they part from any pose, but no tracker is that fine.
+    let finest = FINEST * x.max(y) <= way;
+    if !beyond || !finest && (placed > thresholds.far * way || pointed > thresholds.far * turn) {
         return None;
     }
     let known = |noise: f64, errs: f64, matters: f64| noise.max(errs.min(matters));

@@ -31,11 +31,14 @@ pub(crate) fn dwarfed(
     // A push, or a start on which wheels slipped, is in a few windows; what no law explains is in most of them.
     let sizes = problem.linearise_nothing(&whole);
     let mut each: Vec<f64> = left.clusters.iter().zip(&sizes.clusters).map(|(left, c)| left / c.n.max(1.0)).collect();
-    if median(&mut each) < thresholds.dwarfs.powi(2) {
+    let floors = median(&mut each).sqrt();
+    if floors < thresholds.dwarfs {
         return None;
     }
+    // Beside that much what closes less than it leaves is no answer.
+    let least = if floors < thresholds.far_open { thresholds.undecided } else { 1.0 };
     let share = |i: &usize| (*i, (Left::of(problem, &kept(Some(*i))).sum() - left.sum()) / left.excess());
     let bends = |i: &&usize| !state.active[**i].together && state.active[**i].effect.name() != "wheel-slip";
     let alone = named.iter().filter(bends).map(share);
-    alone.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share < thresholds.undecided)
+    alone.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share < least)
 }
