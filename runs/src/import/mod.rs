@@ -231,9 +231,9 @@ impl Table {
     }
 }
 
-/// What a file is that is no text, and what to do with it.
+/// What a file is that is no table of text, and what to do with it.
 fn binary(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    const KINDS: [(&[u8], &str, &str); 5] = [
+    const KINDS: [(&[u8], &str, &str); 7] = [
         (
             b"#ROSBAG V",
             "is a bag of ROS 1",
@@ -248,6 +248,8 @@ fn binary(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         ),
         (b"MATLAB 5.0 MAT", "is a file of MATLAB", "write it as text: writetable(table(...), \"log.csv\")"),
         (b"\x89HDF", "is a file of HDF5", "write its arrays as columns of a CSV"),
+        (b"At time ", "is what `tf_echo` prints", "record /tf in a bag, or write the pose with `rostopic echo -p`"),
+        (b"header:", "is what `rostopic echo` prints", "repeat it with -p, which writes a line a message"),
         (b"PK\x03\x04", "is an archive or a workbook", "unpack it, or save the sheet as CSV"),
     ];
     let known = KINDS.into_iter().find(|(magic, ..)| bytes.starts_with(magic)).map(|(_, what, hint)| (what, hint));

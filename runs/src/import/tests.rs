@@ -318,6 +318,8 @@ fn what_is_no_text_is_not_read_as_text() {
         (b"SQLite format 3\0", "is a bag of ROS 2 in SQLite"),
         (b"MATLAB 5.0 MAT-file", "is a file of MATLAB"),
         (b"\xff\xfet\0,\0", "UTF-16"),
+        (b"At time 1.5\n- Translation: [0.7, 0.1, 0.0]\n", "is what `tf_echo` prints; record /tf"),
+        (b"header: \n  seq: 1\n---\n", "repeat it with -p"),
         (b"1,2\0\0\0\x01", "is no text"),
     ] {
         assert!(error(bytes, "log.csv").contains(what), "{}", error(bytes, "log.csv"));
