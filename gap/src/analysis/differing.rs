@@ -61,8 +61,13 @@ pub(super) fn said(
     let variance = (left / n.max(1.0)).max(1.0) * thresholds.correlation(problem.link());
     let [low, high] = [f64::total_cmp, |a: &f64, b: &f64| b.total_cmp(a)]
         .map(|by| best.of_runs.iter().copied().min_by(|a, b| by(&a.1, &b.1)).unwrap_or_default());
-    if share < thresholds.undecided
+    // Far from the noise any law that bends ways has another size in every run: then it must close most.
+    let far = left > thresholds.far.powi(2) * n;
+    let least = if far { 1.0 - thresholds.undecided } else { thresholds.undecided };
+    if share < least
         || best.own < thresholds.strong * variance
+        // What is far below the floor is the law's own inexactness, and what is named may look like it in some of the runs.
+        || best.own < thresholds.undecided * n
         || !best.parameter.is_material(high.1 - low.1)
     {
         return None;
