@@ -19,6 +19,8 @@ const ELSEWHERE: [(&str, &str); 10] = [
     ("export PATH", "the command's path is the test's matter"),
     ("python3 testbench/engine/score.py", "testbench/tests/physics_engine.rs runs the engine and the scorer"),
 ];
+/// Placing takes a minute: racbot/tests/bitstream_build.rs runs it as printed.
+const PLACES: &str = "bitstream build ";
 /// Commands that need a device which is not here: what they say without it, and what is run instead.
 const WITHOUT_DEVICE: [(&str, &str, &str); 11] = [
     ("load rac4i65.bit", "rac4i65.bit: No such file", "load --card virtual"),
@@ -136,6 +138,9 @@ fn every_printed_command_does_what_is_said() {
         for command in commands(&fs::read_to_string(&page).unwrap()) {
             if let Some(arguments) = command.strip_prefix("racbot ") {
                 ours += 1;
+                if arguments.starts_with(PLACES) {
+                    continue;
+                }
                 let text = as_printed(&folder, arguments);
                 // The reader's own question, in README: which wheel?
                 if ["gap my --out out/my", "gap set"].contains(&arguments) {
