@@ -13,6 +13,7 @@ mod orders;
 mod samples;
 mod signals;
 mod slips;
+mod supply;
 mod time;
 mod turns;
 
