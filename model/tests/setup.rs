@@ -282,6 +282,19 @@ fn duties_that_hardly_follow_the_speed_say_nothing_of_a_supply() {
     assert_eq!(kinds(&bench(|k| (0.15 + 0.0006 * speed(k), speed(k)))), [""; 0]);
     // With little friction they do: 40 V where the file has 7.2.
     assert_eq!(kinds(&bench(|k| (0.005 + 0.0006 * speed(k), speed(k)))), ["supply"]);
+    // Nor does a load that hangs hide it from an axis that turns both ways.
+    let both = |k: usize| if k.is_multiple_of(2) { speed(k) } else { -speed(k) };
+    assert_eq!(kinds(&bench(|k| (0.05 + 0.0006 * both(k), both(k)))), ["supply"]);
+}
+
+/// Duties of a few thousandths that do not follow the speed, on a robot that gains speed: no motor does it with so little.
+#[test]
+fn duties_that_are_too_small_for_the_work_done_are_told() {
+    let mut set = open("runs/wheel-skew");
+    let duties = set.runs.iter_mut().flat_map(|run| &mut run.duty);
+    duties.for_each(|duty| duty.iter_mut().enumerate().for_each(|(k, d)| *d = 0.001 * (0.1 * k as f64).cos()));
+    let kinds: Vec<_> = found(set.robot.clone(), &set.runs).iter().map(|m| m.kind).collect();
+    assert_eq!(kinds, ["duty-unit"]);
 }
 
 #[test]

@@ -22,6 +22,9 @@ pub(super) enum Column {
 
 /// Most of a duty in a log: roundings of a logger may pass 1 by a digit, no more.
 pub(super) const MOST_DUTY: f64 = 1.001;
+/// What to do about more.
+pub(super) const AS_SHARE: &str =
+    "log the duty as a share of the supply: percent divided by 100, 0 to 255 by 255, volts by those of the supply";
 
 const COMMAND: [&str; 3] = ["cmd_vx", "cmd_vy", "cmd_w"];
 const CAMERA: [&str; 3] = ["cam_x", "cam_y", "cam_theta"];

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use csv::ByteRecord;
 
-use super::columns::{Column, GROUPS, MOST_DUTY, WHEEL_GROUPS, missing_member};
+use super::columns::{AS_SHARE, Column, GROUPS, MOST_DUTY, WHEEL_GROUPS, missing_member};
 use super::{CameraSample, Columns, Run, RunError};
 use crate::error::nearest;
 use crate::frames::Pose;
@@ -351,7 +351,7 @@ impl<'a> Reader<'a> {
                     self.last_t = Some(number);
                 }
                 Column::Duty(_) if number.abs() > MOST_DUTY => {
-                    return fail(format!("duty {number} is not within ±1"), "log the duty as a share of the supply");
+                    return fail(format!("duty {number} is not within ±1"), AS_SHARE);
                 }
                 Column::Camera(i) => camera[*i] = number,
                 _ => {}

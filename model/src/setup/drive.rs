@@ -20,7 +20,7 @@ const SETTLED_S: f64 = 1.0;
 /// example sets it is 1.0; robots of others had 1.3 to 1.9. From [`TRUE_RATIO`](super::TRUE_RATIO) on it is another unit.
 const FASTER: f64 = 1.25;
 /// Share of the time that an axis turns each way, from which a sign must show.
-const BOTH_WAYS: f64 = 0.1;
+pub(super) const BOTH_WAYS: f64 = 0.1;
 /// Correlation with the size of the speed from which a column follows it.
 const SIZE: f64 = 0.3;
 /// Share of a duty by which it is at one level.

@@ -1,7 +1,8 @@
 //! What the motors of `robot.toml` can move, against what the logs show them moving.
 //!
 //! Data sheets give grams, g cm², mNm and mΩ. A number that was copied without its unit is 10³ to 10⁷ times off, and then
-//! what is to be moved needs many times the torque that all motors give when they stall.
+//! what is to be moved needs many times the torque that all motors give when they stall. Duties that were scaled once too
+//! often are 100 or 255 times too small for the work that was done.
 
 use runs::robot::{Robot, Support};
 use runs::{Columns, DutySource, Log, drive_lacks, is_dead_reckoning};
@@ -27,6 +28,9 @@ const IMPOSSIBLE_BESIDE_LOADS: f64 = 10.0;
 /// Most that a floor passes on to a robot, m/s²: a coefficient of friction of 1. Wheels that slip gain more.
 const GRAVITY: f64 = 9.81;
 
+/// Rank of the torques that the wheels' work asks for, from the least, that counts for duties: pushes and falls are rarer.
+const MOST_WORK: f64 = 0.9;
+
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     if is_dead_reckoning(robot) || !drive_lacks(robot).is_empty() {
         return Vec::new();
@@ -35,14 +39,15 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     if !seen.iter().any(|gains| gains.moves) {
         return Vec::new();
     }
-    let at = |of: fn(&Gains) -> &Vec<f64>| {
+    let ranked = |of: fn(&Gains) -> &Vec<f64>, share: f64| {
         let mut all: Vec<f64> = seen.iter().flat_map(|gains| of(gains).iter().copied()).collect();
         if all.len() < FEWEST {
             return 0.0;
         }
-        let rank = (MOST_GAINS * (all.len() - 1) as f64) as usize;
+        let rank = (share * (all.len() - 1) as f64) as usize;
         *all.select_nth_unstable_by(rank, f64::total_cmp).1
     };
+    let at = |of| ranked(of, MOST_GAINS);
     let (torque, emf) = (robot.motor.torque_constant, robot.motor.back_emf());
     if emf > 0.0 && (torque / emf).max(emf / torque) > IMPOSSIBLE {
         let what = format!(
@@ -97,6 +102,9 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let gives = gear * stall;
     let impossible = if geometry.is_some() { IMPOSSIBLE } else { IMPOSSIBLE_BESIDE_LOADS };
     needs.retain(|(.., torque)| *torque > impossible * gives);
+    if needs.is_empty() {
+        return duties(logs, gives, ranked(|gains| &gains.work, MOST_WORK)).into_iter().collect();
+    }
     needs
         .into_iter()
         .map(|(key, value, torque)| {
@@ -119,14 +127,38 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
         .collect()
 }
 
-/// The greatest current of any motor, A, where currents are what drives.
-fn logged_amps(robot: &Robot, logs: &[Log]) -> Option<f64> {
-    logs.first().filter(|log| log.layout().source.duties == DutySource::Currents)?;
-    let greatest = |log: &Log| {
+/// Duties that are too small for the torque that the wheels' work needs, Nm; `gives` is what a motor gives a wheel at stall.
+fn duties(logs: &[Log], gives: f64, needs: f64) -> Option<Mistake> {
+    logs.first().filter(|log| log.layout().source.duties == DutySource::Duties)?;
+    let most = greatest(logs);
+    if most <= 0.0 || needs <= IMPOSSIBLE_BESIDE_LOADS * most * gives {
+        return None;
+    }
+    let what = format!(
+        "no duty is greater than {}, with which a motor gives a wheel {} Nm at most; to gain speed as the logs show it needs \
+         {} Nm",
+        short(most),
+        short(most * gives),
+        short(needs)
+    );
+    let remedy = "log the duty as a share of the supply (1 for all of it): was it scaled twice, as a share that is taken for \
+                  percent, or is it a position, a speed or of another motor? If not, check the inertias of robot.toml";
+    Some(Mistake::new("duty-unit", "duty_1", what, remedy.to_owned()))
+}
+
+/// The greatest duty of any motor.
+fn greatest(logs: &[Log]) -> f64 {
+    let of = |log: &Log| {
         let part = log.part(0..log.len().min(MOST_TICKS), Columns { duty: true, ..Columns::NONE });
         part.duty.iter().flatten().filter(|d| d.is_finite()).fold(0.0_f64, |most, d| most.max(d.abs()))
     };
-    let duty = logs.iter().map(greatest).fold(0.0, f64::max);
+    logs.iter().map(of).fold(0.0, f64::max)
+}
+
+/// The greatest current of any motor, A, where currents are what drives.
+fn logged_amps(robot: &Robot, logs: &[Log]) -> Option<f64> {
+    logs.first().filter(|log| log.layout().source.duties == DutySource::Currents)?;
+    let duty = greatest(logs);
     (duty > 0.0).then(|| duty * robot.supply_v / robot.motor.resistance_ohm)
 }
 
@@ -140,6 +172,9 @@ struct Gains {
     /// Of the platform, m/s² and rad/s².
     way: Vec<f64>,
     turn: Vec<f64>,
+    /// Torques of each wheel, Nm, by which the machine of the file takes up the energy that it gains, in the ways that its
+    /// wheels turn meanwhile, with its friction: no motor does more at a duty, whatever its speed.
+    work: Vec<f64>,
     /// Whether any wheel turned by more than the step of a count.
     moves: bool,
 }
@@ -158,8 +193,26 @@ impl Gains {
         let speeds: Vec<Vec<f64>> = (0..number).map_while(speed).collect();
         let step = 1.0 / robot.counts_per_wheel_rad();
         let apart = APART as f64 * span;
-        let least = 2.0 * step / (span * apart);
         let geometry = robot.geometry().ok();
+        // Energy of wheels that turn by so much less than they seem to.
+        let energy = |speeds: &[f64], less: f64| -> f64 {
+            let sure: Vec<f64> = speeds.iter().map(|w| w.signum() * (w.abs() - less).max(0.0)).collect();
+            let spins = robot.gear_ratio.powi(2) * robot.motor.rotor_inertia + robot.wheel_inertia_kg_m2;
+            let wheels: f64 = sure.iter().map(|w| 0.5 * spins * w * w).sum();
+            let body = geometry.as_ref().filter(|_| robot.support == Support::Floor).map_or(0.0, |geometry| {
+                let twist = geometry.twist(&sure);
+                let way = twist.vx.powi(2) + twist.vy.powi(2);
+                0.5 * (robot.mass_kg * way + robot.yaw_inertia_kg_m2 * twist.omega.powi(2))
+            });
+            wheels + body
+        };
+        let least = 2.0 * step / (span * apart);
+        for stretch in speeds.windows(APART + 1) {
+            let gained = energy(&stretch[APART], 2.0 * step / span) - energy(&stretch[0], -2.0 * step / span);
+            let turned: f64 = stretch.iter().flatten().map(|w| w.abs() * span).sum();
+            let lost = robot.gear_ratio * robot.motor.friction_torque;
+            out.work.extend((gained > 0.0).then_some(gained / turned + lost));
+        }
         out.moves = speeds.iter().flatten().any(|w| w.abs() * span > 2.0 * step);
         out.speed.extend(speeds.iter().flatten().map(|w| (w.abs() - 2.0 * step / span).max(0.0)));
         for (before, after) in speeds.iter().zip(speeds.iter().skip(APART)) {

@@ -193,6 +193,12 @@ pub(crate) const SPOILS: &[Spoil] = &[
         make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.duty).flatten().for_each(|d| *d = d.abs()),
     },
     Spoil {
+        name: "duties taken for percent",
+        kinds: &["supply", "duty-unit"],
+        shows: duties,
+        make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.duty).flatten().for_each(|d| *d *= 0.01),
+    },
+    Spoil {
         name: "supply of another battery",
         kinds: &["supply"],
         shows: duties,

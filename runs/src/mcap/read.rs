@@ -8,7 +8,7 @@ use mcap::MAGIC;
 
 use super::fields::{Topic, Value};
 use super::records::messages;
-use crate::columns::{Column, GROUPS, MOST_DUTY, WHEEL_GROUPS, missing_member};
+use crate::columns::{AS_SHARE, Column, GROUPS, MOST_DUTY, WHEEL_GROUPS, missing_member};
 use crate::frames::Pose;
 use crate::{CameraSample, Run, RunError};
 
@@ -142,7 +142,7 @@ impl<'a> Builder<'a> {
                 }
                 Column::Duty(_) if value.real().abs() > MOST_DUTY => {
                     let what = format!("duty {} is not within ±1", value.real());
-                    return Err(self.fail(number, column, &what, "log the duty as a share of the supply"));
+                    return Err(self.fail(number, column, &what, AS_SHARE));
                 }
                 _ => {
                     let numbers = self.reals.entry(column).or_default();
