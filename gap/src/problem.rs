@@ -112,6 +112,14 @@ impl Problem<'_> {
             // What lags by its mass: where no drive is compared, nobody vouches for a mass.
             all.retain(|a| a.effect.name() != "wheel-creep");
         }
+        all.retain(|a| !a.effect.stands_for_several());
+        all
+    }
+
+    /// What may be named in place of several candidates.
+    pub fn in_place(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+        let mut all = crate::candidates::candidates(state, catalogue, self.link());
+        all.retain(|a| a.effect.stands_for_several() && a.form.free.len() == 1 && a.form.wheels.is_empty());
         all
     }
 

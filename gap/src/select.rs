@@ -121,7 +121,8 @@ pub fn select(
     let begun = |laws: &[Active]| plain(problem, start, laws, &all, thresholds, false);
     let other = if light.is_empty() { None } else { begun(&light) };
     let best = other.filter(|other| thresholds.as_well * raw(other) < raw(&best)).unwrap_or(best);
-    simpler::simpler(problem, start, best, &all, thresholds)
+    let in_place = problem.in_place(start, catalogue);
+    simpler::simpler(problem, start, best, &all, &in_place, thresholds)
 }
 
 /// RMS of the residuals in units of the noise.

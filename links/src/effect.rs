@@ -208,6 +208,10 @@ pub trait Effect: Send + Sync {
     fn before_current(&self) -> bool {
         false
     }
+    /// Whether it is looked for only in place of several others that do the same together.
+    fn stands_for_several(&self) -> bool {
+        false
+    }
     /// Whether it only probes for structure and is never named.
     fn probe(&self) -> bool {
         false

@@ -85,6 +85,9 @@ impl<'a> Workflow<'a> {
             ratios::tie(&mut outcome, &self.start, &link.sizes);
         }
         self.findings.remarks.extend(ratios::of_rotor_and_load(&outcome.named, &self.start.robot));
+        if let Some(said) = ratios::of_wrong_counts(&mut outcome, &self.start.robot) {
+            self.findings.remarks.push(said);
+        }
         if let Some(said) = ratios::of_counts(&outcome.named, &self.start.robot) {
             self.findings.remarks.push(said);
             outcome.ambiguous = true;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use model::fit::clocks::FEW_RUNS;
 use runs::geometry::Geometry;
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 use runs::{DutySource, Logs};
 
 use super::clocks;
@@ -13,6 +13,7 @@ use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
 use crate::catalogue::strangers;
+use crate::controller::ENCODER_SCALE;
 use crate::exact::ExactLink;
 use crate::options::Options;
 use crate::state::{Active, State};
@@ -56,9 +57,12 @@ impl<'a> Question<'a> {
             }
         }
         let currents = set.logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
+        // What a current does tells no counts from an inertia.
+        let driven = robot.support == Support::Blocks && !currents;
         let catalogue = effects::catalogue_for(set.logs.len())
             .into_iter()
             .filter(|e| !(currents && e.before_current()))
+            .map(|e| if driven && e.name() == ENCODER_SCALE { effects::counts_driven() } else { e })
             .map(Arc::from)
             .chain(options.effects.iter().cloned())
             .collect();

@@ -6,6 +6,7 @@ use runs::robot::{Robot, Support};
 
 use super::found::Named;
 use super::study::Outcome;
+use crate::controller::ENCODER_SCALE;
 use crate::state::{Active, State};
 use links::effect::Sizes;
 use links::effects;
@@ -55,6 +56,25 @@ pub(super) fn of_rotor_and_load(named: &[Named], robot: &Robot) -> Option<String
          {file:.3e} ({:+.0} %). Logs of an axis alone do not tell which of {ROTOR_INERTIA} and wheel_inertia_kg_m2 is off.",
         file * (1.0 + more),
         100.0 * more
+    ))
+}
+
+/// What wrong counts mean that an axis alone shows, in a sentence; ties them with what does the same.
+pub(super) fn of_wrong_counts(outcome: &mut Outcome, robot: &Robot) -> Option<String> {
+    let more = scale(&outcome.named, ENCODER_SCALE).filter(|_| robot.support == Support::Blocks)?;
+    let set = [ENCODER_SCALE, FRICTIONS[1], ROTOR_INERTIA].map(str::to_owned).to_vec();
+    let beside = |name: &str| outcome.named.iter().any(|n| n.name == name);
+    if !outcome.sets.contains(&set) && !set[1..].iter().any(|name| beside(name)) {
+        outcome.sets.push(set);
+    }
+    outcome.ambiguous = true;
+    let is = match is_from_speeds(robot) {
+        true => format!("the speeds of the log are {:.3} times those of the shaft", 1.0 + more),
+        false => format!("encoder_counts_per_motor_rev = {:.0}", robot.encoder_counts_per_motor_rev * (1.0 + more)),
+    };
+    Some(format!(
+        "{ENCODER_SCALE}, from what the drive does: {is}. Without a look from outside that is known only beside the motor and the \
+         inertia of the file, for a viscous friction with an inertia does the same. Turn the shaft by hand and count."
     ))
 }
 

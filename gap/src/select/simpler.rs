@@ -22,6 +22,7 @@ pub(super) fn simpler(
     start: &State,
     found: Selection,
     all: &[Active],
+    in_place: &[Active],
     thresholds: &Thresholds,
 ) -> Selection {
     let mut found = found;
@@ -32,7 +33,45 @@ pub(super) fn simpler(
             found = finish_bare(problem, state, start.active.len(), all, thresholds);
         }
     }
-    found
+    match for_several(problem, start, &found, in_place, thresholds) {
+        Some(state) => finish_bare(problem, state, start.active.len(), all, thresholds),
+        None => found,
+    }
+}
+
+/// A law in place of two or more of those named, where with the others it leaves as little as they, or of one where it leaves
+/// noise and that far more; of as many that it stands for the one that leaves least.
+fn for_several(
+    problem: &Problem,
+    start: &State,
+    found: &Selection,
+    in_place: &[Active],
+    thresholds: &Thresholds,
+) -> Option<State> {
+    let named = named(start, found);
+    if named.is_empty() || in_place.is_empty() {
+        return None;
+    }
+    let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
+    let subsets = |size: usize| (0..1_u32 << named.len()).filter(move |set| set.count_ones() as usize == size);
+    // What is adjusted beside one law alone does not show among the names.
+    let most = named.len().saturating_sub(2);
+    let stands_for = |left: &Left| match named.len() {
+        1 => now.far_above(left, thresholds) && left.is_noise(thresholds),
+        _ => left.is_as_little(&now, thresholds),
+    };
+    (0..=most).find_map(|size| {
+        let tried: Vec<(&Active, u32)> =
+            in_place.iter().flat_map(|law| subsets(size).map(move |set| (law, set))).collect();
+        let fitted = each(&tried, &|(law, set)| {
+            let kept = (0..named.len()).filter(|i| set >> i & 1 == 1).map(|i| named[i]);
+            let state = bare(problem, start, std::iter::once(*law).chain(kept));
+            let left = Left::fitted(problem, &state);
+            let as_good = stands_for(&left) && is_sound(problem, start, &state, thresholds);
+            as_good.then_some((left.sum(), state))
+        });
+        fitted.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, state)| state)
+    })
 }
 
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one
@@ -57,7 +96,8 @@ fn of_one(
     let mut laws = laws(problem, start, all, sized);
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     let one_of_them = |law: &Active| named.iter().any(|n| rank(n) == rank(law));
-    laws.retain(|law| one_of_them(law) || named.iter().all(|n| rank(law) < rank(n)));
+    let several = named.len() > 1;
+    laws.retain(|law| several || one_of_them(law) || named.iter().all(|n| rank(law) < rank(n)));
     laws.sort_by_key(|law| law.form.free.len());
     let better = each(&laws, &|law| {
         let mut state = start.clone();
@@ -67,7 +107,7 @@ fn of_one(
         let far_better = || now.far_above(&left, thresholds) && left.is_noise(thresholds);
         // What a step by step search does not reach from another law: a low-pass of 50 ms looked like twice the inertia
         // and 20 ms.
-        let better = named.len() > 1 && one_of_them(law) && left.is_as_little(&now, thresholds) || far_better();
+        let better = several && left.is_as_little(&now, thresholds) || far_better();
         (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
     });
     first_of_least(better.into_iter().flatten().collect(), thresholds)

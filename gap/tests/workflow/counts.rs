@@ -4,8 +4,9 @@ use super::common::{RICH, names, simulate, value, with};
 use gap::evidence::Evidence;
 use gap::{Analysis, Options, Verdict, analyse};
 use links::effect::Link;
+use model::manoeuvre::Manoeuvre;
 use runs::DataSet;
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
 
 /// By how much more counts the encoder gives than the file says, or the controller reckons with; each on a seed of its own.
 const SIZES: [f64; 6] = [0.03, -0.03, 0.1, -0.1, 0.25, -0.2];
@@ -167,4 +168,24 @@ fn without_a_camera_the_drive_tells_whose_number_is_wrong() {
         assert!(said(&a, what), "{text}");
         agrees_again(&set, &a);
     }
+}
+
+/// Wheels off the floor, which no camera sees: to them counts of another encoder are as much more inertia and braking, and
+/// one law in place of two.
+#[test]
+fn wrong_counts_show_by_the_drive_alone() {
+    let nominal = Robot { support: Support::Blocks, wheel_inertia_kg_m2: 2e-5, ..Robot::racbot() };
+    let size = -0.45;
+    let a = analysed(&simulate(&with(&nominal, "encoder-scale", &[("scale", size)]), &[Manoeuvre::Blocks; 2], 1));
+    let text = a.terminal_summary();
+    assert_eq!((names(&a), a.verdict), (vec!["encoder-scale"], Verdict::Ambiguous), "{text}");
+    assert!((value(&a, "scale") - size).abs() < 0.03, "{text}");
+    let tie = ["encoder-scale", "viscous-friction", "rotor-inertia"];
+    assert!(a.alternatives.iter().any(|set| set == &tie), "{text}");
+    assert!(text.contains("encoder_counts_per_motor_rev = "), "{text}");
+    // A friction with an inertia of its own size is none.
+    let mut truth = with(&nominal, "viscous-friction", &[("coefficient_nms", 4e-4)]);
+    truth.effects.extend(with(&nominal, "rotor-inertia", &[("scale", 0.9)]).effects);
+    let a = analysed(&simulate(&truth, &[Manoeuvre::Blocks; 2], 3));
+    assert!(!names(&a).contains(&"encoder-scale"), "{}", a.terminal_summary());
 }

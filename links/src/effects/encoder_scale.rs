@@ -7,7 +7,10 @@ use crate::effect::{Effect, Form, Link, Parameter, Values, wheel_name};
 use crate::motion::MotionModel;
 
 /// More or fewer counts a wheel turn than stated.
-pub(super) struct EncoderScale;
+pub(super) struct EncoderScale {
+    /// The link that shows it: a camera, or for an axis alone its drive.
+    pub(super) on: Link,
+}
 
 impl Effect for EncoderScale {
     fn name(&self) -> &str {
@@ -23,7 +26,12 @@ impl Effect for EncoderScale {
     }
 
     fn link(&self) -> Link {
-        Link::Motion
+        self.on
+    }
+
+    fn stands_for_several(&self) -> bool {
+        // To an axis alone they are as much more braking by the back-EMF and inertia.
+        self.on == Link::Drive
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {

@@ -60,7 +60,7 @@ mod yaw_inertia;
 
 use model::setup::TRUE_RATIO;
 
-use crate::effect::Effect;
+use crate::effect::{Effect, Link};
 
 pub use fits::fits;
 
@@ -80,7 +80,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(wheel_radius_common::WheelRadiusCommon),
         Box::new(body_radius::BodyRadius),
         Box::new(wheel_angle::WheelAngle),
-        Box::new(encoder_scale::EncoderScale),
+        Box::new(encoder_scale::EncoderScale { on: Link::Motion }),
         Box::new(encoder_loss::EncoderLoss),
         Box::new(encoder_lag::EncoderLag),
         Box::new(wheel_creep::WheelCreep),
@@ -157,6 +157,11 @@ pub fn find(name: &str) -> Option<Box<dyn Effect>> {
 /// The low-pass on logged speeds, to be found between wheels and a camera, where the catalogue looks for late encoders.
 pub fn filter_seen() -> Box<dyn Effect> {
     Box::new(speed_filter::SpeedFilter { seen: true })
+}
+
+/// Wrong counts a turn, to be found by what drives an axis alone, which no camera sees.
+pub fn counts_driven() -> Box<dyn Effect> {
+    Box::new(encoder_scale::EncoderScale { on: Link::Drive })
 }
 
 #[cfg(test)]
