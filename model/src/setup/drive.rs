@@ -4,7 +4,7 @@ use estimation::statistics::median;
 use runs::robot::{Robot, Support};
 use runs::{DutySource, Log, drive_lacks};
 
-use super::samples::correlation;
+use super::samples::{BOTH_WAYS, FEWEST, correlation};
 use super::signals::{Signals, signals};
 use super::{Mistake, axes, common_ratio, is_true, near, short, supply};
 
@@ -19,8 +19,6 @@ const SETTLED_S: f64 = 1.0;
 /// How many times as fast as its set point a wheel turns from which that is said: load and lag make it slower, and on the
 /// example sets it is 1.0; robots of others had 1.3 to 1.9. From [`TRUE_RATIO`](super::TRUE_RATIO) on it is another unit.
 const FASTER: f64 = 1.25;
-/// Share of the time that an axis turns each way, from which a sign must show.
-pub(super) const BOTH_WAYS: f64 = 0.1;
 /// Correlation with the size of the speed from which a column follows it.
 const SIZE: f64 = 0.3;
 /// Share of a duty by which it is at one level.
@@ -32,8 +30,6 @@ const HELD: f64 = 0.99;
 /// Ratio of supplies up to which duties and speeds speak of the motors of the file, so that what these cannot follow is a
 /// limit: counts of half the lines would make it 0.5.
 const ITS_MOTORS: f64 = 1.5;
-/// Samples from which anything is said.
-pub(super) const FEWEST: usize = 50;
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let mut found = Vec::new();
     let signals: Vec<Signals> = logs.iter().filter_map(|log| signals(robot, log)).collect();

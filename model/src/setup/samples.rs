@@ -5,6 +5,10 @@ use runs::frames::{Pose, wrap_angle};
 use runs::robot::Robot;
 use runs::{Columns, Log, is_from_speeds};
 
+/// Share of the time that an axis turns each way, from which a sign must show.
+pub(super) const BOTH_WAYS: f64 = 0.1;
+/// Samples from which anything is said.
+pub(super) const FEWEST: usize = 50;
 /// Ticks of a log that are looked at.
 pub(super) const MOST_TICKS: usize = 200_000;
 /// Stretches of a log that are compared.

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use runs::robot::{Robot, Support};
 use runs::{drive_lacks, is_from_speeds};
 
-use super::drive::{BOTH_WAYS, FEWEST};
+use super::samples::{BOTH_WAYS, FEWEST};
 use super::signals::Signals;
 use super::{Mistake, near, short};
 
