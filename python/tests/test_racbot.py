@@ -1,6 +1,7 @@
 """The Python package against files of the repository and against itself."""
 import csv
 import pathlib
+import shutil
 import sys
 
 import numpy as np
@@ -77,11 +78,16 @@ def test_the_environment_keeps_gymnasiums_rules_and_can_be_solved():
     assert there
 
 
-def test_many_logs_are_judged_by_dask():
+def test_many_logs_are_judged_by_dask(tmp_path):
     pytest.importorskip("dask")
     sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "examples"))
     import judge_folder
 
-    judged = judge_folder.judge_all(SET)
-    assert [result["verdict"] for result in judged] == ["missing-effect"]
-    assert "wheel-skew" in judged[0]["effects"]
+    for name in ("first", "second"):
+        shutil.copytree(DATA / "real" / "differential-squares", tmp_path / name)
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "robot.toml").write_text("wheels = none\n")
+    broken, first, second = judge_folder.judge_all(tmp_path)
+    assert first["verdict"] == second["verdict"] and first["effects"] == second["effects"]
+    assert first["effects"] == ["camera-clock", "body-radius"]
+    assert broken["verdict"] == "error" and "robot.toml" in broken["effects"][0]
