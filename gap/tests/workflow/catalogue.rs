@@ -132,7 +132,7 @@ fn every_effect_simulated_in_is_found() {
             let nominal = Robot { support, ..Robot::racbot() };
             let truth = with(&nominal, case.name, case.parameters);
             let mut set = simulate(&truth, case.drives, 40 + k as u64);
-            set.runs.iter_mut().for_each(|r| cut(r, 9.0));
+            set.runs.iter_mut().for_each(|r| cut(r, 7.0));
             let a = analyse(&set, &Options::default()).unwrap();
             fault(case, &a).map(|f| format!("{}: {f}", case.name))
         })
