@@ -202,8 +202,8 @@ thresholds! {
     /// made of it: 4 mm and 0.02 rad where wheels roll 0.42 m in a second, 8 cm from the centre (four example sets).
     matters: [f64; 2] = [0.0095, 0.0038],
     /// Noise floors left of a link from which what is named must close all of its squared gap but the share of `undecided`
-    /// to be the answer, each of it more than is left; else it is merely the nearest. The radii of four mecanum wheels closed more than half and left 35
-    /// floors, which rollers that slip had made.
+    /// to be the answer, each of it more than is left; else it is merely the nearest. The radii of four mecanum wheels
+    /// closed more than half and left 35 floors, which rollers that slip had made.
     far_open: f64 = 10.0,
     /// Noise floors that are worth a sentence.
     worth_saying: f64 = 1.5,

@@ -138,6 +138,11 @@ const VARIANTS: &[(&str, &str, Change)] = &[
     ("removes", "off", |t| t.removes = [0.0; 2]),
     ("left_wrong", "off", |t| t.left_wrong = f64::INFINITY),
     ("no_noise", "off", |t| t.no_noise = f64::INFINITY),
+    ("far_open", "off", |t| t.far_open = f64::INFINITY),
+    ("far_open", "halved", |t| t.far_open *= 0.5),
+    ("stamps", "off", |t| t.stamps = [0.0, f64::NEG_INFINITY]),
+    ("rate", "off", |t| t.rate = f64::INFINITY),
+    ("foreign", "off", |t| t.foreign = 0.0),
 ];
 
 /// Data that all variants look at.
