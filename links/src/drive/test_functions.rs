@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use estimation::parallel::{each, numbered};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView, DVectorViewMut};
 use runs::robot::Support;
 
 use super::columns::{Column, Columns, Side};
@@ -361,14 +361,8 @@ impl<'a> DriveLink<'a> {
         let (n, s) = (self.noise.len(), &*self.pieces.get(segment));
         let ticks = s.t.len();
         let forces = model.forces(s);
-        let acceleration = |k: usize| {
-            let (wheel, on_body) = forces.split_at(n);
-            let mut a = &mechanics.response * DVector::from_fn(n, |i, _| wheel[i][k]);
-            if let Some(body) = &mechanics.body {
-                a += body * DVector::from_fn(3, |j, _| on_body[j][k]);
-            }
-            a
-        };
+        let given = mechanics.encoders_per_torque(model);
+        let acceleration = |k: usize| &given * DVector::from_fn(n + 3, |of, _| forces[of][k]);
         let follow = &mechanics.response * &mechanics.inertia;
         let share: Vec<f64> = (0..n).map(|i| follow[(i, i)].max(0.1)).collect();
         let mut out = [vec![vec![0.0; ticks]; n], vec![vec![0.0; ticks]; n]];
@@ -379,7 +373,7 @@ impl<'a> DriveLink<'a> {
             let a = DVector::from_fn(n, |i, _| {
                 let angle = &s.angle[i];
                 let measured = ((angle[k + 1] - angle[k]) / g - (angle[k] - angle[k - 1]) / h) * 2.0 / (g + h);
-                measured - (before[i] * h + now[i] * g) / (h + g) / model.axes[i].encoder_scale
+                measured - (before[i] * h + now[i] * g) / (h + g)
             });
             let torque = &mechanics.inertia * &a;
             let a = &follow * a;
@@ -539,9 +533,8 @@ impl<'a> DriveLink<'a> {
 
 /// Adds a matrix times a vector, times a factor.
 fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, factor: f64, x: &[f64]) {
-    for (column, x) in matrix.column_iter().zip(x) {
-        sum.iter_mut().zip(column.iter()).for_each(|(slot, a)| *slot += factor * a * x);
-    }
+    let (rows, columns) = matrix.shape();
+    DVectorViewMut::from_slice(sum, rows).gemv(factor, matrix, &DVectorView::from_slice(x, columns), 1.0);
 }
 
 /// Numbers the clusters of logs of so many seconds: short ones where the wheel that turns least turns no longer.
