@@ -43,6 +43,10 @@ pub(super) fn said(
     runs: &[String],
     thresholds: &Thresholds,
 ) -> Option<String> {
+    // One run differs from none.
+    if runs.len() < 2 {
+        return None;
+    }
     let few = |a: &Active| (1..=MOST).contains(&a.form.free.len()) && a.form.fixed.is_empty();
     let grows = |a: &Active| few(a) && !a.effect.probe() && !a.switched();
     let mut candidates = problem.candidates(state, catalogue);
@@ -52,7 +56,13 @@ pub(super) fn said(
     let named = state.fitted_on(problem.link()).into_iter().filter(|i| grows(&state.active[*i]));
     let own = named.map(|i| (linear.of_active(i), &state.active[i]));
     let others = candidates.iter().enumerate().map(|(c, a)| (linear.of_candidate(c), a));
-    let all = own.chain(others).filter_map(|(columns, a)| sizes(&linear, &columns, a));
+    let mut numbers: Vec<usize> = linear.equations.clusters.iter().map(|c| c.run).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    if numbers.len() < 2 {
+        return None;
+    }
+    let all = own.chain(others).filter_map(|(columns, a)| sizes(&linear, &numbers, &columns, a));
     // Each parameter of a richer form has a size in each run to pay for.
     let paid = |s: &Sizes| s.own + s.common - thresholds.costs[1] * (s.parameters * s.of_runs.len()) as f64;
     let best = all.reduce(|best, next| if paid(&next) > RICHER * paid(&best) { next } else { best })?;
@@ -88,12 +98,10 @@ pub(super) fn said(
     Some(structure)
 }
 
-/// The sizes of an effect in each run, all else that is named fitted beside it; `None` where not every run tells them.
-fn sizes(linear: &Linear, columns: &[usize], active: &Active) -> Option<Sizes> {
+/// The sizes of an effect in each run of these `numbers`, all else that is named fitted beside it; `None` where not every
+/// run tells them.
+fn sizes(linear: &Linear, numbers: &[usize], columns: &[usize], active: &Active) -> Option<Sizes> {
     let m = columns.len();
-    let mut numbers: Vec<usize> = linear.equations.clusters.iter().map(|c| c.run).collect();
-    numbers.sort_unstable();
-    numbers.dedup();
     let beside: Vec<usize> = linear.active().into_iter().filter(|c| !columns.contains(c)).collect();
     let fit = |groups: usize, of: &dyn Fn(usize) -> usize| {
         let size = beside.len() + groups * m;
@@ -113,9 +121,6 @@ fn sizes(linear: &Linear, columns: &[usize], active: &Active) -> Option<Sizes> {
         let step = solve(&jj, &jr);
         tells.then(|| (step.dot(&jr), step))
     };
-    if numbers.len() < 2 {
-        return None;
-    }
     let (common, _) = fit(1, &|_| 0)?;
     let (separate, step) = fit(numbers.len(), &|run| numbers.binary_search(&run).unwrap_or(0))?;
     let own = separate - common;
