@@ -110,7 +110,8 @@ fn by_changes(robot: &Robot, logs: &[&Log], law: &Law) -> Option<f64> {
     (share.is_finite() && share > 0.0).then(|| 1.0 / share)
 }
 
-/// What of the duties is wrong with the file's counts, and with as many more. `None` where no counts tell, or where the duties do not replay with the file's.
+/// What of the duties is wrong with the file's counts, and with as many more. `None` where no counts tell, or where the
+/// duties do not replay with the file's.
 pub(crate) fn with_other_counts(
     robot: &Robot,
     logs: &[Log],
