@@ -1,5 +1,7 @@
 //! A piece of a run without gaps, with everything the links need derived from it once.
 
+use std::sync::OnceLock;
+
 use estimation::sums::dot;
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
 use runs::geometry::Geometry;
@@ -25,7 +27,7 @@ pub struct Frame {
 }
 
 /// A piece of a run without gaps in time.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Segment {
     /// Index of the run in the data set.
     pub run: usize,
@@ -71,6 +73,30 @@ pub struct Segment {
     pub stretch: [f64; 2],
     /// The stretch before its first tick: length in s and mean squared duty of each wheel, second by second.
     pub before: Vec<(f64, Vec<f64>)>,
+    rows: OnceLock<Rows>,
+}
+
+/// What the wheels did from each tick to the next, `[wheel][tick]`, whatever the model.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rows {
+    /// Speed by the angles at both ends, rad/s.
+    pub(crate) rate: Vec<Vec<f64>>,
+    /// Mean of the smoothed speeds, rad/s, and of the directions at both ends.
+    pub(crate) speed: Vec<Vec<f64>>,
+    pub(crate) sign: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    fn of(s: &Segment) -> Self {
+        let per_s: Vec<f64> = s.t.windows(2).map(|t| 1.0 / (t[1] - t[0])).collect();
+        let rate = |angle: &Vec<f64>| angle.windows(2).zip(&per_s).map(|(a, per_s)| (a[1] - a[0]) * per_s).collect();
+        let mean = |values: &Vec<f64>| values.windows(2).map(|v| 0.5 * (v[0] + v[1])).collect();
+        Self {
+            rate: s.angle.iter().map(rate).collect(),
+            speed: s.speed.iter().map(mean).collect(),
+            sign: s.sign.iter().map(mean).collect(),
+        }
+    }
 }
 
 /// Where a segment lies in its log, and what only the log before it tells.
@@ -222,6 +248,11 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
 }
 
 impl Segment {
+    /// From each tick to the next.
+    pub(crate) fn rows(&self) -> &Rows {
+        self.rows.get_or_init(|| Rows::of(self))
+    }
+
     /// Number of wheels with encoders.
     pub fn wheels(&self) -> usize {
         self.angle.len()
@@ -269,6 +300,7 @@ impl Segment {
             before: self.before.clone(),
             // The sensor's links cut the segments as they are.
             felt: None,
+            rows: OnceLock::new(),
             ..*self
         })
     }

@@ -19,7 +19,7 @@ pub(super) struct Base<'a> {
     segment: &'a Segment,
     /// As of [`DriveModel::forces`].
     pub(super) forces: Forces,
-    signals: Signals,
+    signals: Signals<'a>,
     prepared: Vec<Vec<Vec<f64>>>,
 }
 
@@ -67,15 +67,18 @@ impl<'a> Base<'a> {
                 term(now, loads);
             }
             for (i, axis) in axes.iter().enumerate() {
-                let before = self.signals.carried[i].get(k).copied().unwrap_or(0.0);
                 let more = loads.carried[i];
                 if more != 0.0 {
+                    let before = self.signals.carried[i].get(k).copied().unwrap_or(0.0);
                     let lost = |carried| axis.lost(now.winding[i], now.sign[i], carried);
                     loads.wheel[i] += more - now.sign[i] * (lost(before + more) - lost(before));
                 }
             }
-            for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
-                row[k] = *x;
+            let (wheels, body) = out.split_at_mut(n);
+            for (row, x) in wheels.iter_mut().zip(&loads.wheel).chain(body.iter_mut().zip(&loads.body)) {
+                if *x != 0.0 {
+                    row[k] = *x;
+                }
             }
         });
         Some(out.into_iter().map(|row| row.iter().any(|x| *x != 0.0).then_some(row)).collect())
@@ -165,7 +168,13 @@ impl DriveModel {
     }
 
     /// Torques and forces, and the signals that they come from: all of them if further loads ask for `more`.
-    fn evaluate(&self, s: &Segment, prepared: &[Vec<Vec<f64>>], more: bool, axes_of: Axes) -> (Forces, Signals) {
+    fn evaluate<'a>(
+        &self,
+        s: &'a Segment,
+        prepared: &[Vec<Vec<f64>>],
+        more: bool,
+        axes_of: Axes,
+    ) -> (Forces, Signals<'a>) {
         let n = self.wheels.len();
         let ticks = s.t.len().saturating_sub(1);
         if s.duty.len() != n || s.angle.len() != n || ticks == 0 {
@@ -178,7 +187,7 @@ impl DriveModel {
         let mut signals = Signals::of(self, s, &axes, all, turns);
         if !self.supply_maps.is_empty() {
             signals.lay();
-            signals.supply = self.mapped_supply(s, &signals, prepared);
+            signals.supply = self.mapped_supply(s, &signals, prepared).into();
         }
         signals.wind(s, &axes);
         if more || !self.loads.is_empty() {
@@ -209,10 +218,13 @@ impl DriveModel {
             signals.carried = carried;
         }
         for (i, axis) in axes.iter().enumerate() {
-            let given = signals.winding[i].iter().zip(&signals.sign[i]);
-            let carried = signals.carried[i].iter().copied().chain(std::iter::repeat(0.0));
-            for ((out, (winding, sign)), carried) in out[i].iter_mut().zip(given).zip(carried) {
-                *out += winding + carried - sign * (axis.coulomb + axis.lost(*winding, *sign, carried));
+            let given = out[i].iter_mut().zip(&signals.winding[i]).zip(&*signals.sign[i]);
+            let of_motor = |winding, sign, carried| winding + carried - sign * (axis.coulomb + axis.lost(winding, sign, carried));
+            if signals.carried[i].is_empty() {
+                given.for_each(|((out, winding), sign)| *out += of_motor(*winding, *sign, 0.0));
+            } else {
+                let carried = given.zip(&signals.carried[i]);
+                carried.for_each(|(((out, winding), sign), carried)| *out += of_motor(*winding, *sign, *carried));
             }
         }
         (out, signals)

@@ -1,6 +1,8 @@
 //! What the terms of the drive model look at, column by column: each is a loop over ticks that a processor runs several at a
 //! time.
 
+use std::borrow::Cow;
+
 use model::plant::GRAVITY;
 use runs::frames::Twist;
 use runs::robot::Support;
@@ -39,17 +41,23 @@ impl Axis {
 /// Signals that each wheel has, in [`Signals::lay`].
 const BY_WHEEL: usize = 5;
 
+/// Ticks that are laid out at a time: what is written stays at hand from the first signal to the last.
+const TOGETHER: usize = 64;
+
+/// A signal of each wheel; the segment's own where a model leaves it as it is.
+type ByWheel<'a> = Vec<Cow<'a, [f64]>>;
+
 /// Signals of a model at the ticks of a segment but the last; means from each to the next.
 #[derive(Default)]
-pub(super) struct Signals {
+pub(super) struct Signals<'a> {
     /// Whether all are here, or only those that torques without further loads come from.
     pub(super) all: bool,
     /// Duty that acts, −1 to 1, `[wheel][tick]`, as the others of the wheels.
-    pub(super) duty: Vec<Vec<f64>>,
+    pub(super) duty: ByWheel<'a>,
     /// Speed, rad/s.
-    pub(super) speed: Vec<Vec<f64>>,
+    pub(super) speed: ByWheel<'a>,
     /// Direction of rotation, −1 to 1.
-    pub(super) sign: Vec<Vec<f64>>,
+    pub(super) sign: ByWheel<'a>,
     /// Torque of the winding at the wheel shaft, Nm.
     pub(super) winding: Vec<Vec<f64>>,
     /// Speed of the contact in the direction in which its rollers roll, m/s.
@@ -59,23 +67,24 @@ pub(super) struct Signals {
     /// To the right, forward, counter-clockwise: m/s, m/s, rad/s.
     pub(super) twist: [Vec<f64>; 3],
     /// V.
-    pub(super) supply: Vec<f64>,
+    pub(super) supply: Cow<'a, [f64]>,
     /// The wheels' duties, speeds, directions, windings and sideways speeds once more, tick by tick, as terms look at them.
     rows: Vec<f64>,
 }
 
-impl Signals {
+impl<'a> Signals<'a> {
     /// Of a model, but for its windings; twists and what they make only where they are looked at.
-    pub(super) fn of(model: &DriveModel, s: &Segment, axes: &[Axis], all: bool, twist: bool) -> Self {
+    pub(super) fn of(model: &DriveModel, s: &'a Segment, axes: &[Axis], all: bool, twist: bool) -> Self {
         let n = model.wheels.len();
-        let mut out = Self { all, supply: s.supply[..s.t.len() - 1].to_vec(), ..Self::default() };
+        let rows = s.rows();
+        let mut out = Self { all, supply: Cow::Borrowed(&s.supply[..s.t.len() - 1]), ..Self::default() };
         out.duty = (0..n).map(|i| model.acting_duty(s, i, &axes[i])).collect();
-        out.sign = s.sign.iter().map(|sign| over_rows(sign, 1.0)).collect();
+        out.sign = rows.sign.iter().map(|sign| Cow::Borrowed(sign.as_slice())).collect();
         if all || twist {
             out.twist = model.twists(s);
         }
         if all {
-            out.speed = s.speed.iter().zip(&model.axes).map(|(w, axis)| over_rows(w, axis.encoder_scale)).collect();
+            out.speed = rows.speed.iter().zip(&model.axes).map(|(w, axis)| scaled(w, axis.encoder_scale)).collect();
             out.sideways = model.rolls_free(&out.twist);
         }
         out
@@ -83,16 +92,26 @@ impl Signals {
 
     /// Lays the wheels' signals side by side, tick by tick, for [`DriveModel::each_instant`].
     pub(super) fn lay(&mut self) {
-        let n = self.duty.len();
-        let columns = [&self.duty, &self.speed, &self.sign, &self.winding, &self.sideways];
-        // Windings are not there yet where the supply is worked out.
-        let none = Vec::new();
-        let flat: Vec<&[f64]> =
-            columns.iter().flat_map(|c| (0..n).map(|i| c.get(i).unwrap_or(&none).as_slice())).collect();
-        self.rows.clear();
-        for k in 0..self.ticks() {
-            self.rows.extend(flat.iter().map(|column| column.get(k).copied().unwrap_or(0.0)));
+        let (n, ticks) = (self.duty.len(), self.ticks());
+        let mut rows = std::mem::take(&mut self.rows);
+        rows.clear();
+        rows.resize(BY_WHEEL * n * ticks, 0.0);
+        let mut columns: Vec<(usize, &[f64])> = Vec::with_capacity(BY_WHEEL * n);
+        for (kind, signals) in [&self.duty, &self.speed, &self.sign].into_iter().enumerate() {
+            columns.extend(signals.iter().enumerate().map(|(i, x)| (kind * n + i, &**x)));
         }
+        // Windings are not there yet where the supply is worked out.
+        for (kind, signals) in [(3, &self.winding), (4, &self.sideways)] {
+            columns.extend(signals.iter().enumerate().map(|(i, x)| (kind * n + i, x.as_slice())));
+        }
+        for (block, rows) in rows.chunks_mut(TOGETHER * BY_WHEEL * n).enumerate() {
+            for (place, column) in &columns {
+                for (row, value) in rows.chunks_exact_mut(BY_WHEEL * n).zip(&column[block * TOGETHER..]) {
+                    row[*place] = *value;
+                }
+            }
+        }
+        self.rows = rows;
     }
 
     /// Ticks but the last.
@@ -103,17 +122,12 @@ impl Signals {
     /// Torques of the windings by duties and supply. Raw increments of the angles where the equation is linear: nothing is
     /// lost by smoothing.
     pub(super) fn wind(&mut self, s: &Segment, axes: &[Axis]) {
-        let of = |((duty, angle), axis): ((&Vec<f64>, &Vec<f64>), &Axis)| {
-            let turned = angle.windows(2).zip(s.t.windows(2));
-            let driven = duty.iter().zip(&self.supply).zip(turned);
-            driven
-                .map(|((duty, supply), (angle, t))| {
-                    let per_dt = 1.0 / (t[1] - t[0]);
-                    axis.gain * duty * supply - axis.damping * ((angle[1] - angle[0]) * per_dt)
-                })
-                .collect()
+        let of = |((duty, rate), axis): ((&Cow<[f64]>, &Vec<f64>), &Axis)| {
+            let (gain, damping) = (axis.gain, axis.damping);
+            let driven = duty.iter().zip(&*self.supply).zip(rate);
+            driven.map(|((duty, supply), rate)| gain * duty * supply - damping * rate).collect()
         };
-        self.winding = self.duty.iter().zip(&s.angle).zip(axes).map(of).collect();
+        self.winding = self.duty.iter().zip(&s.rows().rate).zip(axes).map(of).collect();
     }
 }
 
@@ -138,9 +152,12 @@ impl DriveModel {
     }
 
     /// Duty of a wheel that acts at the ticks of a segment.
-    fn acting_duty(&self, s: &Segment, wheel: usize, axis: &Axis) -> Vec<f64> {
+    fn acting_duty<'a>(&self, s: &'a Segment, wheel: usize, axis: &Axis) -> Cow<'a, [f64]> {
         let logged = &s.duty[wheel];
         let ticks = s.t.len() - 1;
+        if self.duty_delay_s == 0.0 && self.duty_maps.is_empty() && self.reading_filter_s <= 0.0 {
+            return Cow::Borrowed(&logged[..ticks]);
+        }
         let dt = |k: usize| s.t[k + 1] - s.t[k];
         let mut duty: Vec<f64> = if self.duty_delay_s == 0.0 {
             logged[..ticks].to_vec()
@@ -157,7 +174,7 @@ impl DriveModel {
                 *u = passed.over_row(*u, dt(k) / self.reading_filter_s);
             }
         }
-        duty
+        Cow::Owned(duty)
     }
 
     /// Body twists by the wheels as they are: skews and radii that were found turn the Coriolis force, too.
@@ -168,9 +185,9 @@ impl DriveModel {
         };
         let mut out = [0; 3].map(|_| vec![0.0; s.t.len() - 1]);
         for (j, out) in out.iter_mut().enumerate() {
-            for (i, (speed, axis)) in s.speed.iter().zip(&self.axes).enumerate() {
+            for (i, (speed, axis)) in s.rows().speed.iter().zip(&self.axes).enumerate() {
                 let per_speed = per_speed[(j, i)] * axis.encoder_scale;
-                out.iter_mut().zip(speed.windows(2)).for_each(|(sum, w)| *sum += per_speed * (0.5 * (w[0] + w[1])));
+                out.iter_mut().zip(speed).for_each(|(sum, w)| *sum += per_speed * w);
             }
         }
         out
@@ -267,10 +284,8 @@ impl DriveModel {
     }
 }
 
-/// Means from each tick to the next of a signal that is known at the ticks, times a factor: a load acts for as long as the
-/// duty of its row.
-fn over_rows(values: &[f64], factor: f64) -> Vec<f64> {
-    values.windows(2).map(|v| factor * (0.5 * (v[0] + v[1]))).collect()
+fn scaled(values: &[f64], factor: f64) -> Cow<'_, [f64]> {
+    if factor == 1.0 { Cow::Borrowed(values) } else { values.iter().map(|x| factor * x).collect() }
 }
 
 /// A low-pass of first order.
