@@ -79,6 +79,13 @@ impl Move {
     }
 }
 
+/// Effects of a state that change its drive by more than loads, with their values, in words.
+fn besides_loads(state: &State, counts: impl Fn(&Active) -> bool) -> String {
+    let acts = |a: &&Active| DriveModel::is_changed_by(&state.robot, &*a.effect, &a.values);
+    let others = state.active.iter().filter(|a| !a.effect.is_load() && counts(a)).filter(acts);
+    others.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
+}
+
 /// Steps of Gauss-Newton at most.
 const STEPS: usize = 8;
 
@@ -127,13 +134,15 @@ impl Problem<'_> {
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
         let mut moves: Vec<Move> = Vec::new();
-        let besides = self.besides_loads(state);
         let alone = self.link() == Link::Drive && state.drive(None).torques_stand_alone();
-        let key = |a: &Active, p: &Parameter| {
+        let besides = besides_loads(state, |_| true);
+        let of_motion = if alone { besides_loads(state, |a| !a.effect.before_current()) } else { besides.clone() };
+        let key = |a: &Active, p: &Parameter, step: f64| {
             let is_load = self.link() == Link::Drive && a.effect.is_load();
             // Nor do loads change what a bridge or a winding does: no line, but the same where its values are.
             let electrical = alone && a.effect.before_current();
-            let at = if is_load { &[][..] } else { &a.values.0 };
+            let at = if is_load { None } else { Some((&a.values.0, step)) };
+            let besides = if is_load && !a.effect.looks_at_motors() { &of_motion } else { &besides };
             (is_load || electrical)
                 .then(|| format!("{besides}{} {:?} {at:?} {}", a.effect.name(), a.form.fixed, p.name))
         };
@@ -143,7 +152,7 @@ impl Problem<'_> {
                 let h = 0.05 * p.scale;
                 owners.push(Owner::Active(index, j));
                 let [low, high] = [-h, h].map(|by| state.with(index, a.moved(j, by)));
-                let (inertia_alone, key) = (a.effect.is_inertia(), key(a, p));
+                let (inertia_alone, key) = (a.effect.is_inertia(), key(a, p, h));
                 moves.push(Move { low: Some(low), high, step: 2.0 * h, inertia_alone, key });
             }
         }
@@ -185,7 +194,7 @@ impl Problem<'_> {
                 let both = p.bounds[0] < 0.0 && !(self.link() == Link::Drive && candidate.effect.is_load());
                 let low = both.then(|| side(-h));
                 let step = if low.is_some() { 2.0 * h } else { h };
-                let (inertia_alone, key) = (candidate.effect.is_inertia(), key(candidate, p));
+                let (inertia_alone, key) = (candidate.effect.is_inertia(), key(candidate, p, h));
                 moves.push(Move { low, high: side(h), step, inertia_alone, key });
             }
         }
@@ -214,12 +223,6 @@ impl Problem<'_> {
             clusters.into_iter().map(|c| c.spread(&column_of)).collect()
         };
         Linear { equations: NormalEquations::new(clusters), owners }
-    }
-
-    /// All of a state that is no load in proportion to its parameters, and so changes what loads do.
-    fn besides_loads(&self, state: &State) -> String {
-        let others = state.active.iter().filter(|a| !a.effect.is_load());
-        others.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
     }
 
     /// Whether an effect changes what the motors have to move.

@@ -199,6 +199,10 @@ pub trait Effect: Send + Sync {
     fn is_load(&self) -> bool {
         false
     }
+    /// Whether a load that it adds depends on what the motors are.
+    fn looks_at_motors(&self) -> bool {
+        false
+    }
     /// Whether it changes inertias alone, which no torque and no force depends on while wheels drive a robot.
     fn is_inertia(&self) -> bool {
         false

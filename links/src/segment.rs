@@ -73,12 +73,13 @@ pub struct Segment {
     pub stretch: [f64; 2],
     /// The stretch before its first tick: length in s and mean squared duty of each wheel, second by second.
     pub before: Vec<(f64, Vec<f64>)>,
-    rows: OnceLock<Rows>,
+    /// What its wheels did from each tick to the next, worked out when it is first asked for.
+    pub rows: OnceLock<Rows>,
 }
 
 /// What the wheels did from each tick to the next, `[wheel][tick]`, whatever the model.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rows {
+pub struct Rows {
     /// Speed by the angles at both ends, rad/s.
     pub(crate) rate: Vec<Vec<f64>>,
     /// Mean of the smoothed speeds, rad/s, and of the directions at both ends.

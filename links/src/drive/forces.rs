@@ -219,7 +219,8 @@ impl DriveModel {
         }
         for (i, axis) in axes.iter().enumerate() {
             let given = out[i].iter_mut().zip(&signals.winding[i]).zip(&*signals.sign[i]);
-            let of_motor = |winding, sign, carried| winding + carried - sign * (axis.coulomb + axis.lost(winding, sign, carried));
+            let of_motor =
+                |winding, sign, carried| winding + carried - sign * (axis.coulomb + axis.lost(winding, sign, carried));
             if signals.carried[i].is_empty() {
                 given.for_each(|((out, winding), sign)| *out += of_motor(*winding, *sign, 0.0));
             } else {

@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::{Robot, Support};
 
+use crate::effect::Effect;
 use crate::segment::Segment;
 use crate::values::Values;
 
@@ -159,12 +160,25 @@ impl DriveModel {
 
     /// Whether it is `base` with further effects that change nothing but loads and offsets.
     fn only_loads_more(&self, base: &Self) -> bool {
+        self.effects.starts_with(&base.effects) && self.same_but_for_loads(base)
+    }
+
+    /// Whether an effect with these values changes anything of a robot's model.
+    pub fn is_changed_by(robot: &Robot, effect: &dyn Effect, values: &Values) -> bool {
+        let nominal = Self::new(robot);
+        let mut with = Self::new(robot);
+        effect.drive(values, &mut with);
+        let adds = !with.loads.is_empty() || !with.offsets.is_empty() || !with.prepare.is_empty();
+        adds || !with.same_but_for_loads(&nominal)
+    }
+
+    /// Whether nothing but loads and offsets differs.
+    fn same_but_for_loads(&self, base: &Self) -> bool {
         let numbers = |m: &Self| {
             let late_s = [m.duty_delay_s, m.reading_filter_s];
             (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, late_s)
         };
-        self.effects.starts_with(&base.effects)
-            && numbers(self) == numbers(base)
+        numbers(self) == numbers(base)
             && self.wheels == base.wheels
             && self.radius_scale == base.radius_scale
             && self.axes == base.axes

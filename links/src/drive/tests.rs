@@ -86,3 +86,35 @@ fn what_a_load_or_a_bridge_changes_no_other_load_does() {
         }
     });
 }
+
+#[test]
+fn what_a_bridge_or_a_camera_changes_no_load_of_the_motion_does() {
+    on_a_drive(|robot, pieces| {
+        let link = DriveLink::new(pieces, &DriveModel::new(robot)).unwrap();
+        let left = |effects: &[(&dyn Effect, Values)]| link.residuals(&with(robot, effects)).unwrap().torque.concat();
+        let loads = moved(robot, |e| e.is_load() && !e.looks_at_motors());
+        let nothing = left(&[]);
+        let changes = |besides: &[f64], effects: &[(&dyn Effect, Values)]| -> Vec<f64> {
+            left(effects).iter().zip(besides).map(|(with, without)| with - without).collect()
+        };
+        let alone: Vec<Vec<f64>> = loads.iter().map(|(e, v)| changes(&nothing, &[(&**e, v.clone())])).collect();
+        for name in ["winding-resistance", "battery-sag", "dead-band"] {
+            let bridge = crate::effects::find(name).unwrap();
+            let values = moved(robot, |e| e.name() == name).remove(0).1;
+            assert!(bridge.before_current() && DriveModel::is_changed_by(robot, &*bridge, &values), "{name}");
+            let other = left(&[(&*bridge, values.clone())]);
+            assert!(other != nothing);
+            for ((load, at), alone) in loads.iter().zip(&alone) {
+                let beside = changes(&other, &[(&*bridge, values.clone()), (&**load, at.clone())]);
+                let largest = alone.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
+                let apart = alone.iter().zip(&beside).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                assert!(apart <= 1e-9 * largest, "{} beside {name}: {apart} of {largest} Nm", load.name());
+            }
+        }
+        for (effect, values) in
+            moved(robot, |e| ["camera-latency", "marker-offset", "lens-distortion"].contains(&e.name()))
+        {
+            assert!(!DriveModel::is_changed_by(robot, &*effect, &values), "{}", effect.name());
+        }
+    });
+}

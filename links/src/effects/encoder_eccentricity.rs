@@ -61,6 +61,10 @@ impl Effect for EncoderEccentricity {
         true
     }
 
+    fn looks_at_motors(&self) -> bool {
+        true
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let order = values.find(ORDER).unwrap_or(1.0);
         let ahead = values.with_angle(model.wheels.len(), "rad");
