@@ -52,6 +52,36 @@ pub(super) fn still(robot: &Robot, signals: &[Signals]) -> Vec<Mistake> {
     (0..axes).filter_map(of).collect()
 }
 
+/// Cosine of speeds and set points below which an axis turns the other way than it is asked to: a loop follows its set points
+/// or lags behind them.
+const UNASKED: f64 = -0.8;
+
+/// Axes that turn the other way than their set points ask.
+pub(super) fn unasked(robot: &Robot, signals: &[Signals], before: &[Mistake]) -> Vec<Mistake> {
+    let axes = signals.iter().map(|s| s.reference.len().min(s.speed.len())).max().unwrap_or(0);
+    let counted = if is_from_speeds(robot) { "speed" } else { "enc" };
+    let of = |i: usize| {
+        let rows =
+            signals.iter().filter(|s| i < s.reference.len()).flat_map(|s| s.speed[i].iter().zip(&s.reference[i]));
+        let (mut both, mut turned, mut asked) = (0.0, 0.0, 0.0);
+        for (speed, reference) in rows.filter(|(w, r)| w.is_finite() && r.is_finite()) {
+            both += speed * reference;
+            turned += speed * speed;
+            asked += reference * reference;
+        }
+        (asked > 0.0 && turned > 0.0 && both < UNASKED * (turned * asked).sqrt()).then(|| {
+            let what = "the axis turns the other way than its set points ask".to_owned();
+            let remedy = format!(
+                "change the sign of {counted}_{n} (scale = -1 in the map), or that of ref_{n} and what drives it",
+                n = i + 1
+            );
+            Mistake::new("drive-reversed", &format!("{counted}_{}", i + 1), what, remedy)
+        })
+    };
+    let known = |i: &usize| before.iter().any(|m| m.is_reversed(*i));
+    (0..axes).filter(|i| !known(i)).filter_map(of).collect()
+}
+
 /// Of both ways in which an axis is driven: the way with the drive less that against it, all of the way, and moments.
 type Ways = [[f64; 3]; 2];
 

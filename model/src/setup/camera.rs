@@ -347,8 +347,17 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
     if !changed.is_empty() {
         let what = format!("camera and counts agree only if {}", words(&fit.order));
         let column = format!("enc_{}", changed[0] + 1);
-        let remedy = "mend the wiring, the columns of the log or the order of [[wheel]]";
-        found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, remedy) });
+        // A wheel that is driven and counted the other way is a matter of cables, which has a name; counts alone are not.
+        let counts_alone = (0..fit.order.len())
+            .all(|i| fit.order[i].0 == i && before.iter().any(|m| m.is_reversed(i)) == changed.contains(&i));
+        if counts_alone {
+            let what = format!("{what}, against what drives it");
+            let remedy = "change the sign of these counts alone (scale = -1 in the map)";
+            found.push(new("encoder-order", &column, what, remedy));
+        } else {
+            let remedy = "mend the wiring, the columns of the log or the order of [[wheel]]";
+            found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, remedy) });
+        }
     }
     if fit.turn.abs() > TRUE_TURN {
         let what = format!(

@@ -41,6 +41,8 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
         Some(mistake) => found.push(mistake),
         None => {
             found.extend(axes::still(robot, &signals));
+            let unasked = axes::unasked(robot, &signals, &found);
+            found.extend(unasked);
             found.extend(references(robot, &signals));
         }
     }

@@ -38,6 +38,12 @@ pub struct Mistake {
 }
 
 impl Mistake {
+    /// Whether what drives this axis (from 0), or its set points, go against its counts.
+    fn is_reversed(&self, axis: usize) -> bool {
+        let number = self.column.rsplit('_').next().and_then(|n| n.parse::<usize>().ok());
+        self.kind == "drive-reversed" && number == Some(axis + 1)
+    }
+
     fn new(kind: &'static str, column: &str, what: String, remedy: String) -> Self {
         Self { kind, column: column.to_owned(), what, remedy, nameable: false }
     }
