@@ -84,18 +84,21 @@ impl<'a> Workflow<'a> {
     }
 }
 
-/// Whether a fitted effect, as written, leaves its link where it was.
+/// Whether a fitted effect, as written, leaves its link where it was. Without a camera what moves the body shows on the
+/// other links alone.
 fn is_idle(n: &Named, measured: &Measured, thresholds: &Thresholds) -> bool {
-    let link = measured.links.iter().find(|l| l.link == n.link);
     // Of poses with much noise an effect may close all there is to close and still be a small share: no more is asked of
     // the file than of the fit, and of the limit that is printed.
     let falls = match n.link {
         Link::Motion => (1.0 - thresholds.share(Link::Motion)).sqrt(),
         _ => thresholds.falls,
     };
+    let is_seen = measured.links.iter().any(|l| l.link == n.link);
+    let mut shown = measured.links.iter().filter(|l| l.link == n.link || !is_seen && l.link.is_fitted()).peekable();
     matches!(n.evidence, Evidence::Test { .. })
         && n.link.is_fitted()
-        && link.is_some_and(|l| l.after >= falls * l.before)
+        && shown.peek().is_some()
+        && shown.all(|l| l.after >= falls * l.before)
 }
 
 /// What to say of logs whose times cannot be seconds.
