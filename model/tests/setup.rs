@@ -189,6 +189,26 @@ fn an_order_that_hides_the_turns_answers_for_them() {
     );
 }
 
+/// A wheel that is driven and counted the other way goes on, for `wheel-order` says it; a column alone is to be mended.
+#[test]
+fn counts_alone_that_are_reversed_are_told_from_a_wheel() {
+    for wheel in 0..3 {
+        let mut set = open("runs/wheel-skew");
+        set.runs.iter_mut().for_each(|run| run.command = None);
+        let told = |set: &DataSet| {
+            let mistakes = found(set.robot.clone(), &set.runs);
+            let [mistake] = &mistakes[..] else { panic!("{mistakes:?}") };
+            assert_eq!((mistake.kind, &mistake.column), ("encoder-order", &format!("enc_{}", wheel + 1)));
+            mistake.nameable
+        };
+        set.runs.iter_mut().flat_map(|run| &mut run.counts[wheel]).for_each(|c| *c = -*c);
+        assert!(!told(&set), "counts {wheel}");
+        set.runs.iter_mut().flat_map(|run| &mut run.duty[wheel]).for_each(|d| *d = -*d);
+        set.runs.iter_mut().flat_map(|run| &mut run.reference[wheel]).for_each(|r| *r = -*r);
+        assert!(told(&set), "wheel {wheel}");
+    }
+}
+
 /// Two wheels that drive at one speed and turn at another, both in m/s at the rim, with a marker ahead of them; what the
 /// wheels read scatters by `noise` m/s.
 fn marked_ahead(speed: f64, turn: f64, noise: f64) -> DataSet {
