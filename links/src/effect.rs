@@ -154,6 +154,15 @@ impl Form {
             .collect()
     }
 
+    /// All motors alike by one `scale`, and where there are several, each alone by a `scale` of its own.
+    pub fn all_or_one(robot: &Robot, parameter: impl Fn(String) -> Parameter) -> Vec<Self> {
+        let mut forms = vec![Self::whole(vec![parameter("scale".to_owned())])];
+        if robot.wheel_count() > 1 {
+            forms.extend(Self::alone(robot, |i| parameter(wheel_name("scale", i, ""))));
+        }
+        forms
+    }
+
     /// Every wheel alone, with two parameters of its own, and all together if there are several.
     pub fn axes(robot: &Robot, parameters: impl Fn(usize) -> [Parameter; 2]) -> Vec<Self> {
         let of = |wheels: Vec<usize>| {

@@ -45,6 +45,13 @@ impl Axis {
         }
     }
 
+    /// The same with a torque and back-EMF constant, and a resistance, that are larger by these shares.
+    #[must_use]
+    pub fn with_motor(self, constant: f64, resistance: f64) -> Self {
+        let (k, r) = (1.0 + constant, 1.0 + resistance);
+        Self { torque_per_volt: self.torque_per_volt * k / r, damping: self.damping * k * k / r, ..self }
+    }
+
     /// Rotor and load at the wheel shaft, kg m².
     pub fn inertia(&self) -> f64 {
         self.rotor_inertia + self.load_inertia

@@ -14,7 +14,7 @@ impl Effect for TorqueConstant {
     }
 
     fn equation(&self) -> &str {
-        "torque and back-EMF constant times (1 + scale)"
+        "torque and back-EMF constant times (1 + scale), of every motor or of one"
     }
 
     fn reference(&self) -> &str {
@@ -25,13 +25,13 @@ impl Effect for TorqueConstant {
         Link::Drive
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("scale", 0.02, [-0.6, 1.0], 0.05)])]
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        Form::all_or_one(robot, |name| Parameter::new(name, 0.02, [-0.6, 1.0], 0.05))
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let s = 1.0 + values.get("scale");
-        for a in &mut model.axes {
+        for (i, a) in model.axes.iter_mut().enumerate() {
+            let s = 1.0 + values.wheel("scale", i, "");
             a.torque_constant *= s;
             a.back_emf *= s;
         }

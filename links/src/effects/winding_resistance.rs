@@ -14,7 +14,7 @@ impl Effect for WindingResistance {
     }
 
     fn equation(&self) -> &str {
-        "resistance of every motor's circuit times (1 + scale)"
+        "resistance of the circuit times (1 + scale), of every motor or of one"
     }
 
     fn reference(&self) -> &str {
@@ -29,14 +29,15 @@ impl Effect for WindingResistance {
         true
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
         // Material is what weakens a stalled motor as much as a material torque constant.
-        vec![Form::whole(vec![Parameter::new("scale", 0.02, [-0.6, 3.0], 0.05)])]
+        Form::all_or_one(robot, |name| Parameter::new(name, 0.02, [-0.6, 3.0], 0.05))
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let s = 1.0 + values.get("scale");
-        model.axes.iter_mut().for_each(|a| a.resistance *= s);
+        for (i, a) in model.axes.iter_mut().enumerate() {
+            a.resistance *= 1.0 + values.wheel("scale", i, "");
+        }
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {

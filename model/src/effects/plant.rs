@@ -25,8 +25,12 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
             let back_emf = robot.motor.back_emf() * scale;
             robot.motor.torque_constant *= scale;
             robot.motor.back_emf_constant = Some(back_emf);
+            of_one_motor(effect, applied, |w, x| w.torque_constant = x);
         }
-        "winding-resistance" => robot.motor.resistance_ohm *= scale,
+        "winding-resistance" => {
+            robot.motor.resistance_ohm *= scale;
+            of_one_motor(effect, applied, |w, x| w.resistance = x);
+        }
         "robot-mass" => robot.mass_kg *= scale,
         "yaw-inertia" => robot.yaw_inertia_kg_m2 *= scale,
         "rotor-inertia" => {
@@ -47,6 +51,18 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
         _ => return false,
     }
     true
+}
+
+/// What the motor of one wheel has beyond what `scale` does to all of them.
+fn of_one_motor(effect: &Effect, applied: &mut Applied, set: fn(&mut WheelDeviation, f64)) {
+    let all = 1.0 + effect.value("scale").unwrap_or(0.0);
+    let n = applied.robot.wheel_count();
+    for i in 0..n {
+        let together = 1.0 + of_wheel(effect, "scale", i, "");
+        if together != all {
+            set(&mut applied.deviations.wheels_mut(n)[i], together / all - 1.0);
+        }
+    }
 }
 
 /// What acts on the whole robot.

@@ -38,9 +38,10 @@ impl Plant {
             if ohm != 0.0 {
                 // The bridges draw Σ u·i with i = (u·V − e)/R; V = supply − ohm·Σ u·i is linear in V.
                 let (mut slope, mut idle) = (0.0, 0.0);
-                for ((u, wheel), axis) in acting.iter().zip(&self.wheels).zip(&self.axes) {
-                    let conductance = axis.torque_per_volt * self.current_per_torque;
-                    let back_emf = axis.damping * wheel.speed * self.current_per_torque;
+                for (i, ((u, wheel), axis)) in acting.iter().zip(&self.wheels).zip(&self.axes).enumerate() {
+                    let per_torque = self.current_per_torque / (1.0 + d.wheel(i).torque_constant);
+                    let conductance = axis.torque_per_volt * per_torque;
+                    let back_emf = axis.damping * wheel.speed * per_torque;
                     slope += u * u * conductance;
                     idle += u * back_emf;
                 }

@@ -52,6 +52,10 @@ pub struct WheelDeviation {
     pub radius: f64,
     /// Amplitude of the radius' ripple, relative: cosine and sine of the wheel's angle times the order.
     pub ripple: [f64; 2],
+    /// Torque and back-EMF constant of its motor, relative.
+    pub torque_constant: f64,
+    /// Resistance of its motor's circuit, relative.
+    pub resistance: f64,
     /// Dry friction at the wheel shaft, Nm.
     pub dry_nm: f64,
     /// Dry friction while it turns backwards and forwards only, Nm.

@@ -170,6 +170,10 @@ impl Plant {
     pub fn with_deviations(mut self, deviations: &Deviations) -> Self {
         self.deviations = (*deviations != Deviations::default()).then(|| Box::new(deviations.clone()));
         self.steady = deviations.are_steady();
+        for (i, axis) in self.axes.iter_mut().enumerate() {
+            *axis = axis.with_motor(deviations.wheel(i).torque_constant, deviations.wheel(i).resistance);
+        }
+        self.cold.clone_from(&self.axes);
         self.set_radii();
         self
     }

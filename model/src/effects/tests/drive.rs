@@ -160,6 +160,34 @@ fn windings_may_be_warm_from_the_start() {
 }
 
 #[test]
+fn one_motor_differs_from_the_others() {
+    let free = |name, p: &[(&str, f64)]| {
+        let mut applied = applied(name, p);
+        applied.robot.support = Support::Blocks;
+        applied.robot.motor.friction_torque = 0.0;
+        let mut plant = applied.plant().unwrap();
+        run(&mut plant, [0.5; 3], 3000);
+        [0, 1, 2].map(|i| speed(&plant, i))
+    };
+    // Without friction the no-load speed is the supply's over the constant, whatever the resistance.
+    let nominal = free("wheel-skew", &[]);
+    let weak = free("torque-constant", &[("scale_2", -0.2)]);
+    close(weak[1] / nominal[1], 1.0 / 0.8, 1e-3);
+    close(weak[0], nominal[0], 1e-6);
+    let both = free("torque-constant", &[("scale", 0.1), ("scale_2", -0.2)]);
+    close(both[0] / nominal[0], 1.0 / 1.1, 1e-3);
+    close(both[1] / nominal[1], 1.0 / 0.9, 1e-3);
+    // At the start a winding of twice the resistance gives half the torque.
+    let pushed = |p: &[(&str, f64)]| {
+        let mut plant = lifted("winding-resistance", p);
+        plant.step(&[1.0; 3], 7.2, 1e-6);
+        [0, 1, 2].map(|i| speed(&plant, i))
+    };
+    let (alike, one) = (pushed(&[]), pushed(&[("scale_3", 1.0)]));
+    assert!(one[0] == alike[0] && one[2] < 0.51 * alike[2], "{one:?} of {alike:?}");
+}
+
+#[test]
 fn figures_of_motor_and_gear() {
     let robot = |name, p: &[(&str, f64)]| applied(name, p).robot;
     let strong = robot("torque-constant", &[("scale", 0.1)]);
