@@ -88,7 +88,7 @@ impl<'a> Workflow<'a> {
         if let Some(said) = ratios::of_wrong_counts(&mut outcome, &self.start.robot) {
             self.findings.remarks.push(said);
         }
-        if let Some(said) = ratios::of_counts(&outcome.named, &self.start.robot) {
+        if let Some(said) = ratios::of_counts(&outcome.named, &self.start.robot, self.data.has_camera()) {
             self.findings.remarks.push(said);
             outcome.ambiguous = true;
         }

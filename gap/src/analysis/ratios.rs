@@ -31,8 +31,9 @@ fn scale(named: &[Named], name: &str) -> Option<f64> {
 
 /// Whether both sides of a ratio are named: then their common factor is chosen by what is not named.
 pub(super) fn are_named_on_both_sides(named: &[Named], support: Support) -> bool {
-    let all = std::iter::once(TORQUE_CONSTANT).chain(inertias(support).iter().copied());
-    all.into_iter().all(|name| named.iter().any(|n| n.name == name))
+    // The constant of one motor is no common factor.
+    scale(named, TORQUE_CONSTANT).is_some()
+        && inertias(support).iter().all(|name| named.iter().any(|n| n.name == *name))
 }
 
 /// What is said then.
@@ -81,20 +82,24 @@ pub(super) fn of_wrong_counts(outcome: &mut Outcome, robot: &Robot) -> Option<St
 /// Counts of a turn in those of the file, where a decoder misses edges: one of two, or three of four.
 const DECODED: [f64; 2] = [0.5, 0.25];
 
-/// An axis whose speeds are a part of the true ones shows its back-EMF as so much more braking, and its inertia as so much
-/// more: what a viscous friction that is just that may be instead, in a sentence.
-pub(super) fn of_counts(named: &[Named], robot: &Robot) -> Option<String> {
-    let viscous = named.iter().find(|n| n.name == FRICTIONS[1])?;
-    let [low, high] = viscous.parameters.iter().find(|(p, ..)| p == "coefficient_nms")?.2.ends()?;
+/// A wheel whose speeds are a part of the true ones shows its back-EMF as so much more braking, and its inertia as so much
+/// more: what a viscous friction that is just that may be instead, in a sentence. A camera would have `seen` the counts.
+pub(super) fn of_counts(named: &[Named], robot: &Robot, seen: bool) -> Option<String> {
+    let viscous = named.iter().find(|n| n.name == FRICTIONS[1] && n.wheels.len() < 2)?;
+    let [low, high] = viscous.parameters.iter().find(|(p, ..)| p.starts_with("coefficient"))?.2.ends()?;
     let motor = &robot.motor;
     let by_itself = robot.gear_ratio.powi(2) * motor.torque_constant * motor.back_emf() / motor.resistance_ohm;
     let told = |part: &&f64| (low..=high).contains(&((1.0 / **part - 1.0) * by_itself));
-    let part = DECODED.iter().find(told).filter(|_| robot.support == Support::Blocks && !is_from_speeds(robot))?;
+    let part = DECODED.iter().find(told).filter(|_| !seen && !is_from_speeds(robot))?;
     let counts = part * robot.encoder_counts_per_motor_rev;
+    let (of, with) = match viscous.wheels[..] {
+        [wheel] => (format!(" of wheel {wheel}"), format!("{counts:.0} counts a turn of that motor")),
+        _ => (String::new(), format!("encoder_counts_per_motor_rev = {counts:.0}")),
+    };
     Some(format!(
-        "The viscous friction is {:.0} times what the back-EMF brakes by itself: an encoder that gives {part} of the counts of \
-         the file shows a motor so. Turn the shaft by hand and count: with encoder_counts_per_motor_rev = {counts:.0} that is \
-         the cause, and what is named with it as well.",
+        "The viscous friction{of} is {:.0} times what the back-EMF brakes by itself: an encoder that gives {part} of the counts \
+         of the file shows a motor so. Turn the shaft by hand and count: with {with} that is the cause, and what is named with \
+         it as well.",
         1.0 / part - 1.0,
     ))
 }
