@@ -483,11 +483,9 @@ fn wheels_faster_than_their_set_points_are_told() {
     assert!(told.len() == 1 && told[0].contains("wheels turn 1.3"), "{told:?}");
 }
 
-/// Set points of up to twice what a firmware's limit of 0.3 lets the motors reach: they are asked for in vain, in the right
-/// unit. Of motors of which the duties speak otherwise the set points may be wrong.
-#[test]
-fn a_limit_of_the_firmware_is_no_unit() {
-    let robot = Robot { support: Support::Blocks, ..Robot::racbot() };
+/// Three axes on blocks whose set points change every 1.5 s, with the duty that the firmware gives for one, a share of the
+/// no-load speed.
+fn asked_for(robot: &Robot, firmware: impl Fn(f64) -> f64) -> Run {
     let free = robot.supply_v / (robot.motor.back_emf() * robot.gear_ratio);
     let counts = robot.counts_per_wheel_rad();
     let mut rng = ChaCha8Rng::seed_from_u64(4);
@@ -498,7 +496,7 @@ fn a_limit_of_the_firmware_is_no_unit() {
         if row % 1500 == 0 {
             asked = rng.random_range(-0.7..0.7) * free;
         }
-        let duty = (0.02 * f64::signum(asked) + asked / free).clamp(-0.3, 0.3);
+        let duty = firmware(asked / free);
         let steady = (duty - 0.02 * f64::signum(asked)) * free;
         speed += 1e-3 * (steady - speed) / 0.05;
         angle += 1e-3 * speed;
@@ -511,12 +509,32 @@ fn a_limit_of_the_firmware_is_no_unit() {
     run.duty = vec![duties; 3];
     run.counts = vec![angles; 3];
     run.count_gaps = vec![Vec::new(); 3];
+    run
+}
+
+/// Set points of up to twice what a firmware's limit of 0.3 lets the motors reach: they are asked for in vain, in the right
+/// unit. Of motors of which the duties speak otherwise the set points may be wrong.
+#[test]
+fn a_limit_of_the_firmware_is_no_unit() {
+    let robot = Robot { support: Support::Blocks, ..Robot::racbot() };
+    let run = asked_for(&robot, |asked| (0.02 * f64::signum(asked) + asked).clamp(-0.3, 0.3));
     let said =
         |robot: Robot| found(robot, std::slice::from_ref(&run)).iter().map(Mistake::sentence).collect::<Vec<_>>();
     assert_eq!(said(robot.clone()), Vec::<String>::new());
     let mut other = robot;
     other.supply_v *= 1.8;
     assert!(said(other).iter().any(|s| s.contains("set points are")), "without motors that are its own");
+}
+
+/// A weak loop that gets halfway to its set points is no set-up mistake, but for what duties know of no motor.
+#[test]
+fn a_loop_that_does_not_keep_up_may_go_on() {
+    let robot = Robot { support: Support::Blocks, ..Robot::racbot() };
+    let mut run = asked_for(&robot, |asked| 0.02 * f64::signum(asked) + 0.5 * asked);
+    let [mistake] = &found(robot.clone(), std::slice::from_ref(&run))[..] else { panic!("one was to be found") };
+    assert!(mistake.nameable && mistake.sentence().contains("does not keep up"), "{}", mistake.sentence());
+    run.duty.clear();
+    assert!(found(robot, &[run]).iter().any(|m| m.kind == "reference-unit" && !m.nameable));
 }
 
 /// Two wheels that drive to and fro and hardly turn, in the camera's headings or its positions alone: turns the other way

@@ -142,11 +142,15 @@ fn positions(signals: &[Signals]) -> Option<Mistake> {
 /// motors than the file, so that the speeds may be wrong.
 fn limits(robot: &Robot, signals: &[Signals]) -> Vec<f64> {
     let axes = signals.iter().map(|s| s.duty.len()).min().unwrap_or(0);
-    let its_own = drive_lacks(robot).is_empty()
-        && supply::by_duties(robot, signals, &|_| true)
-            .is_some_and(|volts| (1.0 / ITS_MOTORS..ITS_MOTORS).contains(&(volts / robot.supply_v)));
     let largest = |i: usize| signals.iter().flat_map(|s| &s.duty[i]).fold(0.0, |most: f64, duty| most.max(duty.abs()));
-    if its_own { (0..axes).map(|i| HELD * largest(i)).collect() } else { Vec::new() }
+    if are_its_motors(robot, signals) { (0..axes).map(|i| HELD * largest(i)).collect() } else { Vec::new() }
+}
+
+/// Whether duties and speeds speak of the motors of the file.
+fn are_its_motors(robot: &Robot, signals: &[Signals]) -> bool {
+    drive_lacks(robot).is_empty()
+        && supply::by_duties(robot, signals, &|_| true)
+            .is_some_and(|volts| (1.0 / ITS_MOTORS..ITS_MOTORS).contains(&(volts / robot.supply_v)))
 }
 
 /// Set points in another unit, or speeds that are wrong beside them.
@@ -192,6 +196,12 @@ fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
         return Some(mistake);
     }
     let what = format!("set points are {} times the speeds of the wheels", short(ratio));
+    // Where duties say that motors, gear and counts are the file's, a loop may as well not get that far.
+    if ratio > 1.0 && !near(ratio, robot.gear_ratio) && are_its_motors(robot, signals) {
+        let what = format!("{what}, which is no unit that is known");
+        let remedy = "a loop that does not keep up with them leaves as much; else write rad/s at the wheel".to_owned();
+        return Some(Mistake { nameable: true, ..Mistake::new("reference-unit", "ref_1", what, remedy) });
+    }
     let shaft = if near(ratio, robot.gear_ratio) { " (these look like speeds of the motor shaft)" } else { "" };
     let remedy = format!("write rad/s at the wheel{shaft}, or check gear_ratio and encoder_counts_per_motor_rev");
     Some(Mistake::new("reference-unit", "ref_1", what, remedy))
