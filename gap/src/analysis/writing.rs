@@ -3,7 +3,7 @@
 use runs::Log;
 use runs::robot::Robot;
 
-use super::found::Named;
+use super::found::{LinkGap, Named};
 use super::measure::Measured;
 use super::robot_file::{robot_text, with_effects};
 use super::workflow::Workflow;
@@ -47,7 +47,7 @@ impl<'a> Workflow<'a> {
                 .findings
                 .named
                 .iter()
-                .filter(|n| is_idle(n, &measured, &self.thresholds))
+                .filter(|n| is_idle(n, &measured.links, &self.thresholds))
                 .map(|n| n.name.clone())
                 .collect();
             if gone.is_empty() {
@@ -86,15 +86,15 @@ impl<'a> Workflow<'a> {
 
 /// Whether a fitted effect, as written, leaves its link where it was. Without a camera what moves the body shows on the
 /// other links alone.
-fn is_idle(n: &Named, measured: &Measured, thresholds: &Thresholds) -> bool {
+fn is_idle(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> bool {
     // Of poses with much noise an effect may close all there is to close and still be a small share: no more is asked of
     // the file than of the fit, and of the limit that is printed.
     let falls = match n.link {
         Link::Motion => (1.0 - thresholds.share(Link::Motion)).sqrt(),
         _ => thresholds.falls,
     };
-    let is_seen = measured.links.iter().any(|l| l.link == n.link);
-    let mut shown = measured.links.iter().filter(|l| l.link == n.link || !is_seen && l.link.is_fitted()).peekable();
+    let is_seen = links.iter().any(|l| l.link == n.link);
+    let mut shown = links.iter().filter(|l| l.link == n.link || !is_seen && l.link.is_fitted()).peekable();
     matches!(n.evidence, Evidence::Test { .. })
         && n.link.is_fitted()
         && shown.peek().is_some()
@@ -110,4 +110,38 @@ fn odd_clock(robot: &Robot, logs: &[Log], thresholds: &Thresholds) -> Option<Str
              seconds (are these milliseconds?)."
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn creep() -> Named {
+        Named {
+            name: "wheel-creep".to_owned(),
+            equation: String::new(),
+            link: Link::Motion,
+            wheels: Vec::new(),
+            parameters: Vec::new(),
+            gain: 0.0,
+            evidence: Evidence::Test { method: "", p: 0.0002 },
+            conditional_on: Vec::new(),
+        }
+    }
+
+    fn gap(link: Link, before: f64, after: f64) -> LinkGap {
+        LinkGap { link, before, after, floor: Vec::new(), rms: Vec::new(), units: Vec::new(), signals: 1 }
+    }
+
+    #[test]
+    fn without_a_camera_an_effect_must_serve_another_link() {
+        let idle = |links: &[LinkGap]| is_idle(&creep(), links, &Thresholds::default());
+        let [gyro, drive] = [Link::Gyroscope, Link::Drive];
+        assert!(idle(&[gap(gyro, 0.8, 1.1), gap(drive, 0.5, 0.9)]));
+        assert!(!idle(&[gap(gyro, 3.0, 0.9), gap(drive, 0.5, 0.9)]));
+        assert!(!idle(&[gap(gyro, 0.8, 0.8), gap(drive, 3.0, 0.9)]));
+        // With one it is the camera's word.
+        assert!(idle(&[gap(Link::Motion, 1.0, 1.1), gap(drive, 3.0, 0.9)]));
+        assert!(!idle(&[]));
+    }
 }
