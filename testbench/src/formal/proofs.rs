@@ -247,7 +247,7 @@ pub const PROOFS: &[Proof] = &[
                 "begins_access = access & ~run_q",
             ),
             mutant("starts in the middle of an access", "live_d = enable & (live_q | ~run_q)", "live_d = enable"),
-            mutant("a word that is not whole", "word_end = 5'b11110", "word_end = 5'b11100"),
+            mutant("a word of two bits", "word_end = 5'b11110", "word_end = 5'b00010"),
             mutant("rests at the wrong level", "clock_high_d = idle_high;", "clock_high_d = 1'b0;"),
         ],
         ..proof(
