@@ -14,6 +14,7 @@ mod frame;
 mod join;
 mod json;
 mod labelled;
+mod legend;
 mod line;
 mod many;
 mod map;
