@@ -71,7 +71,9 @@ impl<'a> Sheet<'a> {
             let row = !fields[0].is_empty() && is_number(&fields[0], separator);
             let numbers = fields.iter().filter(|field| !field.is_empty() && is_number(field, separator)).count();
             let named = said().filter(|names| row && names.iter().all(|name| !is_number(name, separator)));
-            named.or_else(|| super::legend::names(&before, fields.len()).filter(|_| row)).or_else(|| (row && 2 * numbers > fields.len()).then(|| numbered(fields.len())))
+            named
+                .or_else(|| super::legend::names(&before, fields.len()).filter(|_| row))
+                .or_else(|| (row && 2 * numbers > fields.len()).then(|| numbered(fields.len())))
         } else {
             // Units may stand in a line of their own below the names.
             let named = said().and_then(|last| {

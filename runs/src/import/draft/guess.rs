@@ -1,6 +1,7 @@
 //! What a series seems to be, by its name and its range.
 
 use super::super::{Series, Table, units};
+use super::present::meant;
 use super::time_unit;
 use crate::columns::{Column, MOST_DUTY};
 
@@ -95,7 +96,10 @@ pub(super) fn by_names<'a>(table: &'a Table, from_zero: &[String]) -> (Vec<Guess
     // What numbers its wheel goes before what leaves it open.
     let numbered = |series: &&Series| numbered(&series.name, from_zero).is_some();
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
-    let (guesses, mut rest) = recognised(first.into_iter().chain(then), |series| guess(series, &mut wheels, from_zero));
+    let (guesses, mut rest) = recognised(first.into_iter().chain(then), |series| match meant(table, series) {
+        Some(name) => guess(&Series { name, ..series.clone() }, &mut wheels, from_zero),
+        None => guess(series, &mut wheels, from_zero),
+    });
     rest.sort_by_key(|series| table.series.iter().position(|other| std::ptr::eq(*series, other)));
     (guesses, rest)
 }
@@ -319,7 +323,9 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     let axis = axis(&words);
     // Where a motor should be is no column, and no encoder's.
     let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
-    let place = any(&["position", "pos"]) || any(&ANGLES) || said.is_some_and(|unit| units::is_like(unit, "rad"));
+    let place = any(&["position", "pos", "counts", "ticks"])
+        || any(&ANGLES)
+        || said.is_some_and(|unit| units::is_like(unit, "rad"));
     if any(&WANTED) && place && axis.is_none() {
         return None;
     }

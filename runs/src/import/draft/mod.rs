@@ -2,6 +2,7 @@
 
 mod bench;
 mod guess;
+mod present;
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -580,3 +580,26 @@ fn epochs_tell_the_unit_of_time() {
         assert!(map.contains(&format!("column = \"t\"\nunit = \"{unit}\"")), "{first}\n{map}");
     }
 }
+
+#[test]
+fn what_is_now_is_no_current() {
+    let ssl = drafted(
+        "t,CURRENT_M1,CURRENT_M2,PWM_M1,PWM_M2,DESIRED_M1,DESIRED_M2",
+        ["0,0,0,15,15,40,40", "0.1,3.1,2.3,15,15,40,40", "0.2,6.1,5.4,15,15,40,40"],
+    );
+    for line in
+        ["speed_1 = \"CURRENT_M1\" # in rad/s", "speed_2 = \"CURRENT_M2\"", "ref_1 = \"DESIRED_M1\"", "duty_2 = "]
+    {
+        assert!(ssl.contains(line), "{line}\n{ssl}");
+    }
+    let servo = drafted("t,currentPosition,current,pwm", ["0,0,0.5,10", "0.1,7,0.5,10", "0.2,9,0.4,10"]);
+    assert!(servo.contains("enc_1 = \"currentPosition\"") && servo.contains("current_1 = \"current\""), "{servo}");
+    let motor = drafted("t,current,target,rpm", ["0,0.1,50,10", "0.1,0.7,50,20", "0.2,0.9,50,30"]);
+    assert!(motor.contains("current_1 = \"current\""), "{motor}");
+}
+
+#[test]
+fn counts_that_are_asked_for_are_no_speed() {
+    let servo = drafted("Time,EncoderPosition,TargetCounts", ["0,0,700", "0.1,7,700", "0.2,9,700"]);
+    assert!(servo.contains("enc_1 = \"EncoderPosition\"") && !servo.contains("ref_1"), "{servo}");
+}
