@@ -422,6 +422,38 @@ fn of_speeds(set: &mut DataSet) {
     }
 }
 
+/// One file of a session was recorded with a heading of another axis, or in millimetres: it is said which.
+#[test]
+fn a_frame_that_is_wrong_in_one_log_is_told_of_that_log() {
+    let spoil = |wrong: fn(&mut Pose)| {
+        let mut set = marked_ahead(0.4, 0.3, 0.0);
+        set.runs[1].camera.iter_mut().for_each(|sample| wrong(&mut sample.pose));
+        let said = found(set.robot.clone(), &set.runs);
+        let sentences = said.iter().map(Mistake::sentence).collect::<Vec<_>>();
+        (said, format!("in {} (1 of 2 logs that show it) ", set.runs[1].name), sentences)
+    };
+    let (said, which, sentences) = spoil(|pose| pose.theta += std::f64::consts::PI);
+    assert!(said.len() == 1 && said[0].kind == "heading-axis" && said[0].what.starts_with(&which), "{sentences:?}");
+    let (said, which, sentences) = spoil(|pose| (pose.x, pose.y) = (1000.0 * pose.x, 1000.0 * pose.y));
+    assert!(said.len() == 1 && said[0].kind == "camera-unit" && said[0].what.starts_with(&which), "{sentences:?}");
+}
+
+/// A heading that is half a turn off is no slip, however rims jump where rows were lost.
+#[test]
+fn a_turned_heading_is_no_slip() {
+    let mut set = marked_ahead(0.4, 0.3, 0.0);
+    for run in &mut set.runs {
+        run.camera.iter_mut().for_each(|sample| sample.pose.theta += std::f64::consts::PI);
+        let jump = (0.5 / set.robot.wheel_radius_m * set.robot.counts_per_wheel_rad()) as i64;
+        for counts in &mut run.counts {
+            (0..counts.len()).for_each(|k| counts[k] += jump * (k as i64 / 200));
+        }
+    }
+    let said = found(set.robot.clone(), &set.runs);
+    let sentences: Vec<String> = said.iter().map(Mistake::sentence).collect();
+    assert!(said.iter().any(|m| m.kind == "heading-axis" && !m.nameable), "{sentences:?}");
+}
+
 /// Speeds that scatter by 0.35 m/s from row to row seem to gain 16 m/s² now and then, on any floor.
 #[test]
 fn noise_of_speeds_is_no_slip() {
