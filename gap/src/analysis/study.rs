@@ -193,10 +193,18 @@ pub(super) fn study<'a>(
     }
 }
 
-/// A parameter as it is told: no interval of a share reaches beyond nothing and all.
+/// A parameter as it is told: no interval of a share reaches beyond nothing and all, and none of a factor below nothing.
 fn told((p, (name, value, interval)): (&Parameter, &(String, f64, Interval))) -> (String, f64, Interval) {
+    let may_be = if p.name.starts_with("share") || p.bounds == [0.0, 1.0] {
+        [0.0, 1.0]
+    } else if p.name.starts_with("scale") {
+        [-1.0, f64::INFINITY] // of 1 + scale
+    } else {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    };
     let within = match interval {
-        Interval::Ci95(ends) if p.bounds == [0.0, 1.0] => Interval::Ci95(ends.map(|end| end.clamp(0.0, 1.0))),
+        // An estimate scatters about its end.
+        Interval::Ci95(ends) => Interval::Ci95(ends.map(|end| end.clamp(may_be[0].min(*value), may_be[1].max(*value)))),
         other => *other,
     };
     (name.clone(), *value, within)
@@ -525,5 +533,11 @@ mod tests {
         let scale = Parameter::new("scale", 0.01, [-0.6, 0.6], 0.004);
         let known = ("scale".to_owned(), 0.55, Interval::Ci95([0.45, 0.65]));
         assert_eq!(told((&scale, &known)).2, known.2);
+        // A motor with less than no torque constant is none.
+        let known = ("scale".to_owned(), -0.58, Interval::Ci95([-1.09, -0.07]));
+        assert_eq!(told((&scale, &known)).2, Interval::Ci95([-1.0, -0.07]));
+        let bridge = Parameter::new("share", 0.02, [0.0, 1.3], 0.12);
+        let known = ("share".to_owned(), 1.01, Interval::Ci95([0.9, 1.1]));
+        assert_eq!(told((&bridge, &known)).2, Interval::Ci95([0.9, 1.01]));
     }
 }

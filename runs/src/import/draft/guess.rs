@@ -453,7 +453,14 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
             let turns = units::in_name(&series.name).is_some_and(|unit| ["rad/s", "rev/s", "counts/s"].contains(&unit));
             (wheel || turns && axis.is_none()).then_some(Kind::Speed)
         }
-        _ if has(&["voltage", "volts", "volt"]) => volts(series),
+        // A motor on the left has no supply of its own.
+        _ if has(&["voltage", "volts", "volt"]) => {
+            if has(&["left", "right"]) || has(&CORNERS) {
+                volts(series).map(|_| Kind::Duty)
+            } else {
+                volts(series)
+            }
+        }
         // What turns by its unit is a shaft, where it is no body.
         _ if units::in_name(&series.name).is_some_and(|unit| units::is_like(unit, "rad/s")) => {
             (axis.is_none() && !has(&["gyro", "imu", "body", "robot", "base", "rate"])).then_some(Kind::Speed)

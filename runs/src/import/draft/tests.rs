@@ -603,3 +603,14 @@ fn counts_that_are_asked_for_are_no_speed() {
     let servo = drafted("Time,EncoderPosition,TargetCounts", ["0,0,700", "0.1,7,700", "0.2,9,700"]);
     assert!(servo.contains("enc_1 = \"EncoderPosition\"") && !servo.contains("ref_1"), "{servo}");
 }
+
+#[test]
+fn volts_of_a_side_are_of_a_motor() {
+    let volts = "t,motor voltage left [V],motor voltage right [V],battery [V],wheel velocity left,wheel velocity right";
+    let map = drafted(volts, ["0,1.1,1.2,12,0,0", "0.1,1.9,1.8,12,2,2", "0.2,1.9,1.8,12,3,3"]);
+    for line in
+        ["duty_1 = { from = \"motor voltage right", "duty_2 = { from = \"motor voltage left", "supply_v = \"battery"]
+    {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+}
