@@ -1,27 +1,74 @@
-//! What turns far more lightly than its file has it.
+//! What turns far more lightly than its file has it, or more heavily.
 //!
 //! Accelerations go with the inverse of what is moved, and a straight line through the file's value ends where a tenth of
 //! it is moved: it closes next to nothing of the gap that a file with ten times the inertia opens, and whatever bends
-//! speeds a little, or nothing, was named there.
+//! speeds a little, or nothing, was named there. A load that the file lacks is a straight line's, but not beside a friction
+//! that it lacks, too, where each drive is one step: each of the two by itself closes what the other undoes.
+
+use std::sync::Arc;
 
 use estimation::parallel::each;
 
-use super::{is_material, stopped};
+use super::simpler::simpler;
+use super::{Selection, is_material, plain, stopped, without};
 use crate::problem::Problem;
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
-use links::effect::Link;
+use links::effect::{Effect, Link, Parameter};
 
 /// Inertia left of the file's, below which a straight line through it does not reach.
 const STRAIGHT: f64 = 0.1;
 /// Scale of the file's inertia from which what was found is kept so: half of it is less than any margin is.
 const HALF: f64 = -0.5;
 
+/// Scale of the file's inertia from which a heavier one is fitted: three times as much turns.
+const HEAVIER: f64 = 2.0;
+
+/// A drive explained from an inertia on that is heavier than the file's; nothing where that explains little.
+pub(crate) fn heavier(
+    problem: &Problem,
+    start: &State,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let all = problem.candidates(start, catalogue);
+    let laws = begun(problem, start, &all, thresholds, |p| (p.bounds[1] > HEAVIER).then_some(HEAVIER));
+    let inertia = laws.first()?.clone();
+    let found = plain(problem, start, &laws, &all, thresholds, false)?;
+    let mut found = simpler(problem, start, found, &all, &problem.in_place(start, catalogue), thresholds);
+    // What the wrong inertia opens is no measure of what two laws beside the right one may undo of each other.
+    let mut beside = start.clone();
+    beside.active.push(inertia);
+    let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
+    loop {
+        let from = start.active.len();
+        let undone = |i: &usize| {
+            let own = &found.state.active[*i];
+            own.effect.name() != beside.active[from].effect.name()
+                && problem.is_cancelled(&found.state, *i, &beside, thresholds)
+        };
+        let worst = (from..found.state.active.len()).filter(undone).max_by_key(|i| rank(&found.state.active[*i]));
+        let Some(name) = worst.map(|i| found.state.active[i].effect.name().to_owned()) else { return Some(found) };
+        found = without(problem, &found, from, |a| a.effect.name() != name, &all, thresholds);
+    }
+}
+
 /// An inertia that by itself, or with one law of one parameter beside it, closes a good part of the gap of a drive that is
 /// far from its noise, fitted from its lightest on; nothing where none does. Friction alone makes the drive look weak, and
 /// so what it moves look heavy: a tenth of the inertia behind an unknown friction of a tenth of the stall torque leaves
 /// most of the gap without that friction.
 pub(super) fn lighter(problem: &Problem, start: &State, all: &[Active], thresholds: &Thresholds) -> Vec<Active> {
+    begun(problem, start, all, thresholds, |p| (p.bounds[0] < STRAIGHT - 1.0).then_some(p.bounds[0]))
+}
+
+/// The same of an inertia that is fitted from a value of its own on, and ends on that side of the file's.
+fn begun(
+    problem: &Problem,
+    start: &State,
+    all: &[Active],
+    thresholds: &Thresholds,
+    from_value: impl Fn(&Parameter) -> Option<f64>,
+) -> Vec<Active> {
     let (square, n) = problem.linearise_nothing(start).plain();
     if problem.link() != Link::Drive || square < thresholds.far_left.powi(2) * n {
         return Vec::new();
@@ -34,12 +81,13 @@ pub(super) fn lighter(problem: &Problem, start: &State, all: &[Active], threshol
     let (inertias, others): (Vec<&Active>, Vec<&Active>) =
         all.iter().filter(plain).partition(|a| problem.changes_inertia(start, a));
     let mut tried: Vec<Vec<Active>> = Vec::new();
-    for inertia in inertias.into_iter().filter(|a| a.form.free[0].bounds[0] < STRAIGHT - 1.0) {
+    for inertia in inertias {
         let p = &inertia.form.free[0];
-        let mut lightest = inertia.clone();
-        lightest.values.set(&p.name, p.bounds[0]);
-        tried.push(vec![lightest.clone()]);
-        tried.extend(others.iter().map(|other| vec![lightest.clone(), (*other).clone()]));
+        let Some(value) = from_value(p) else { continue };
+        let mut begun = inertia.clone();
+        begun.values.set(&p.name, value);
+        tried.push(vec![begun.clone()]);
+        tried.extend(others.iter().map(|other| vec![begun.clone(), (*other).clone()]));
     }
     let from = start.active.len();
     let fitted = each(&tried, &|laws| {
@@ -50,8 +98,9 @@ pub(super) fn lighter(problem: &Problem, start: &State, all: &[Active], threshol
         problem.fit(&mut state);
         let (left, _) = problem.linearise_nothing(&state).plain();
         let found = &state.active[from..];
-        let is_lighter = found[0].values.get(&found[0].form.free[0].name) < 0.0;
-        let sound = is_lighter && found.iter().all(|a| is_material(a, &a.parameters()) && !stopped(a));
+        let value = |a: &Active| a.values.get(&a.form.free[0].name);
+        let same_side = value(&found[0]) * value(&laws[0]) > 0.0;
+        let sound = same_side && found.iter().all(|a| is_material(a, &a.parameters()) && !stopped(a));
         let closes = square - left >= thresholds.closes * square;
         (sound && closes && !problem.runs_away(&state, start, thresholds)).then(|| (left, found.to_vec()))
     });
