@@ -18,6 +18,7 @@ mod pairs;
 mod partial;
 mod replayed;
 mod scale;
+mod single_steps;
 mod slipping;
 mod smoothed;
 mod uneven;

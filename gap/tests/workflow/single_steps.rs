@@ -1,0 +1,70 @@
+//! A motor's step response alone, from rest or from full speed the other way: the commonest log of a bench.
+
+use super::common::{names, of_files, with_dry_friction};
+use gap::{Analysis, Interval};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use runs::Run;
+
+/// Supply, V, resistance, ohm, motor constant, Nm/A, and gear.
+const VOLT: f64 = 24.0;
+const OHM: f64 = 0.6;
+const KT: f64 = 0.0251;
+const GEAR: f64 = 3.0;
+/// Inertia of all that turns, at the motor shaft, kg m², and friction at the output shaft, Nm.
+const INERTIA: f64 = 4e-5;
+const DRY: f64 = 0.04;
+/// Duty of the steps, and the row, s, in which the encoder's count is a speed of 0.767 rad/s.
+const DUTY: f64 = 0.15;
+const ROW_S: f64 = 0.00215;
+const COUNT: f64 = 0.767;
+
+fn step(index: usize, seed: u64) -> Run {
+    let mut rng = ChaCha8Rng::seed_from_u64(100 * seed + index as u64);
+    let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
+    let (duty, mut speed) = if index.is_multiple_of(2) { (DUTY, 0.0) } else { (-DUTY, 43.0) };
+    let (mut duties, mut speeds) = (Vec::new(), Vec::new());
+    for row in 0..465 {
+        run.t.push(ROW_S * f64::from(row));
+        duties.push(duty);
+        speeds.push(((speed / COUNT + rng.random_range(-0.5..0.5)).round()) * COUNT);
+        for _ in 0..20 {
+            let torque = GEAR * KT * (duty * VOLT - KT * GEAR * speed) / OHM;
+            speed = with_dry_friction(speed, torque, DRY, GEAR * GEAR * INERTIA, ROW_S / 20.0);
+        }
+    }
+    run.duty = vec![duties];
+    run.speed = vec![speeds];
+    run
+}
+
+/// With so many times too little inertia in the file.
+fn analysed(factor: f64, seed: u64) -> Analysis {
+    let text = format!(
+        "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+         wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
+         friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+        INERTIA / factor
+    );
+    of_files(&text, (0..6).map(|i| step(i, seed)))
+}
+
+/// A gripper or a wheel on the shaft that nobody wrote into the file, beside a friction that nobody wrote either.
+#[test]
+fn a_load_that_the_file_lacks_is_found() {
+    let cases: Vec<(f64, u64)> = [2.0, 3.0, 5.0].into_iter().flat_map(|factor| [1, 2].map(|s| (factor, s))).collect();
+    let fault = |(factor, seed): (f64, u64)| {
+        let a = analysed(factor, seed);
+        let sized = |name: &str, truth: f64, off: f64| {
+            a.effects.iter().filter(|e| e.name == name).any(|e| {
+                let (_, value, interval) = &e.parameters[0];
+                matches!(interval, Interval::Ci95(_)) && (value - truth).abs() < off
+            })
+        };
+        let found = sized("rotor-inertia", factor - 1.0, 0.12 * factor) && sized("coulomb-friction", DRY, 0.25 * DRY);
+        (!found).then(|| format!("{factor}, {seed}: {:?}\n{}", names(&a), a.terminal_summary()))
+    };
+    let faults: Vec<String> = cases.into_par_iter().filter_map(fault).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
