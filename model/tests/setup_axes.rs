@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use model::setup::{Mistake, mistakes};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use runs::robot::Robot;
 use runs::{DataSet, DutySource, Logs, Run, Source};
 
@@ -83,4 +85,41 @@ fn loads_that_pull_are_no_reversed_drives() {
         let said = told(&set);
         assert!(!said.iter().any(|s| s.contains("the other way")), "{weight} {spring}: {said:?}");
     }
+}
+
+/// A motor in a loop whose set point changes every ten seconds; its header was shifted by one, so that the set point stands as
+/// the speed and the speed as the duty. A coarse encoder behind a duty that changes in every row is no such thing.
+#[test]
+fn a_set_point_in_the_column_of_the_speed_is_told() {
+    let text = "gear_ratio = 30\nsupply_v = 12\nsupport = \"blocks\"\nwheel_radius_m = 1\nwheel_inertia_kg_m2 = 0\n\
+                encoder_counts_per_wheel_rev = 360\n[motor]\nresistance_ohm = 4\ntorque_constant = 0.01\nrotor_inertia = 1e-6\n\
+                friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let (mut t, mut asked, mut duty, mut speed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut w, mut integral) = (0.0_f64, 0.0_f64);
+    for k in 0..1200 {
+        let set_point = [24.0, 20.0, 27.0, 22.0, 25.0, 21.0][k / 200];
+        // A count of a coarse encoder within a row is 2 rad/s.
+        let seen = ((w + random.random_range(-0.5..0.5)) / 2.0).round() * 2.0;
+        integral += 0.004 * (set_point - seen);
+        let u = (0.01 * (set_point - seen) + integral).clamp(-1.0, 1.0);
+        t.push(0.05 * k as f64);
+        asked.push(set_point);
+        duty.push(u);
+        speed.push(seen);
+        w += (38.0 * u - w) * 0.3;
+    }
+    let told = |speed: &[f64], duty: &[f64]| {
+        let folder = tempfile::tempdir().unwrap();
+        let row = |k: usize| format!("{},{},{}\n", t[k], speed[k], duty[k]);
+        let rows: String = (0..t.len()).map(row).collect();
+        std::fs::write(folder.path().join("robot.toml"), text).unwrap();
+        std::fs::write(folder.path().join("run_1.csv"), format!("t,speed_1,duty_1\n{rows}")).unwrap();
+        let logs = Logs::open(folder.path()).unwrap();
+        mistakes(&logs).iter().map(Mistake::sentence).collect::<Vec<_>>()
+    };
+    assert!(!told(&speed, &duty).iter().any(|said| said.contains("set point")), "{:?}", told(&speed, &duty));
+    let shifted: Vec<f64> = speed.iter().map(|w| w / 40.0).collect();
+    let said = told(&asked, &shifted);
+    assert!(said.len() == 1 && said[0].starts_with("speed_1: it changes in 5 of 1200 rows and duty_1 in "), "{said:?}");
 }

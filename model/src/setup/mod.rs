@@ -7,6 +7,7 @@
 mod axes;
 mod camera;
 mod drive;
+mod held;
 mod inertial;
 mod motors;
 mod orders;
@@ -76,6 +77,10 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     let found = time::mistakes(&set.robot, &robot, &set.logs);
     if !found.is_empty() {
         // Every speed would be wrong.
+        return found;
+    }
+    let found = held::mistakes(&robot, &set.logs);
+    if !found.is_empty() {
         return found;
     }
     let mut found = drive::mistakes(&robot, &set.logs);
