@@ -16,6 +16,10 @@ use links::segment::Segment;
 
 /// Counts by which second differences of a steady wheel may differ from 0, twice.
 const QUANTISATION: f64 = 4.0;
+/// Width of the steps that are one, in the least: one of ten counts is rounded to ten or eleven.
+const STEP_WIDTH: f64 = 1.15;
+/// Share of all steps that are the least one, from which that is what the encoder counts.
+const STEPS: f64 = 0.1;
 /// Ticks longer than this, s, do not show what happens at hundreds of hertz.
 const LONGEST_TICK_S: f64 = 0.004;
 /// Ticks about a tick over which rattling is told from single knocks.
@@ -66,9 +70,20 @@ pub(crate) fn rattle(
     found
 }
 
+/// The step in which an angle was logged, rad, if it shows: of angles in radians nobody may know what the encoder counts, and
+/// its map has a finer number.
+fn step_of(angle: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = angle.windows(2).map(|a| (a[1] - a[0]).abs()).filter(|step| *step > 0.0).collect();
+    steps.sort_by(f64::total_cmp);
+    let Some(least) = steps.get(steps.len() / 100).map(|least| least * STEP_WIDTH) else { return 0.0 };
+    let same = steps.partition_point(|step| *step <= least);
+    if same as f64 >= STEPS * steps.len() as f64 { least } else { 0.0 }
+}
+
 /// Where the encoder is beside the robot's motion, rad at the wheel, while it rattles.
 fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64, share: f64) -> Vec<f64> {
     let angle = &s.angle[wheel];
+    let count = count.max(step_of(angle));
     let n = angle.len();
     let tick = (s.t[n - 1] - s.t[0]) / (n - 1) as f64;
     if tick > LONGEST_TICK_S {
@@ -142,6 +157,18 @@ mod tests {
             t.push(now + 1e-3 * random());
             angle.push((40.0 * now * scale).floor() / scale);
         }
+        let turning = Segment { angle: vec![angle; robot.wheel_count()], t, ..Segment::default() };
+        assert!(rattle(turning, &robot, &model).is_empty());
+    }
+
+    /// A shaft that swings through less than a count a tick, of whose encoder the file has ten times as many counts.
+    #[test]
+    fn a_coarser_encoder_than_the_file_has_is_no_play() {
+        let robot = Robot::racbot();
+        let model = DriveModel::new(&robot);
+        let step = 40.0 / robot.counts_per_wheel_rad();
+        let t: Vec<f64> = (0..4000).map(|k| 1e-3 * f64::from(k)).collect();
+        let angle: Vec<f64> = t.iter().map(|t| (4.0 * (3.0 * t).sin() / step).round() * step).collect();
         let turning = Segment { angle: vec![angle; robot.wheel_count()], t, ..Segment::default() };
         assert!(rattle(turning, &robot, &model).is_empty());
     }

@@ -2,6 +2,7 @@
 
 use super::super::{Series, Table, units};
 use super::guess::{ANGLES, Guess, WANTED, by_names, from_zero, numbered, spaced, supply_words, words};
+use super::present::meant;
 use crate::columns::{Column, MOST_DUTY};
 
 /// The unit of a current that is a torque at the output shaft.
@@ -12,7 +13,7 @@ const DEGREES: f64 = 50.0;
 /// What the series of a log seem to be, by their names and by what else there is, and the rest.
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let from_zero = from_zero(table);
-    let (mut guesses, mut rest) = by_names(table, &from_zero);
+    let (mut guesses, mut rest) = by_names(table, &from_zero, meant);
     driving_volts(&mut guesses);
     shares(&mut guesses, &mut rest, &from_zero);
     angles(&mut guesses, &mut rest, &from_zero);

@@ -1,7 +1,6 @@
 //! What a series seems to be, by its name and its range.
 
 use super::super::{Series, Table, units};
-use super::present::meant;
 use super::time_unit;
 use crate::columns::{Column, MOST_DUTY};
 
@@ -91,7 +90,11 @@ pub(super) struct Guess<'a> {
 }
 
 /// What the series of a log seem to be by their names, and the rest.
-pub(super) fn by_names<'a>(table: &'a Table, from_zero: &[String]) -> (Vec<Guess<'a>>, Vec<&'a Series>) {
+pub(super) fn by_names<'a>(
+    table: &'a Table,
+    from_zero: &[String],
+    meant: fn(&Table, &Series) -> Option<String>,
+) -> (Vec<Guess<'a>>, Vec<&'a Series>) {
     let mut wheels = Wheels { odometry: is_odometry(table), ..Wheels::default() };
     // What numbers its wheel goes before what leaves it open.
     let numbered = |series: &&Series| numbered(&series.name, from_zero).is_some();
