@@ -119,7 +119,9 @@ pub(super) fn study<'a>(
     let from = start.active.len();
     let (mut judged, mut refused) = sound(problem, selection, start, &all, thresholds);
     // Where laws that bend speeds stood for a load that the file lacks, each of them is taken back, and nothing is left.
+    // Of a robot on the floor a rotor is a small part of what its motors move.
     if problem.link() == Link::Drive
+        && start.robot.support == Support::Blocks
         && judged.rms >= thresholds.far_left
         && let Some(heavier) = select::heavier(problem, start, catalogue, thresholds)
     {
