@@ -34,7 +34,7 @@ pub use crate::state::is_material;
 pub use alternatives::{Alternatives, alternatives, figures, sign_flip};
 pub use design::{Design, Trial};
 pub(crate) use dwarfed::dwarfed;
-pub(crate) use lighter::heavier;
+pub(crate) use lighter::{heavier, is_heavier};
 pub(crate) use plain::{held_out, plain};
 pub use sure::estimates;
 pub(crate) use undecided::undecided;

@@ -126,7 +126,9 @@ pub(super) fn study<'a>(
         && let Some(heavier) = select::heavier(problem, start, catalogue, thresholds)
     {
         let (again, more) = sound(problem, heavier, start, &all, thresholds);
-        if again.rms.powi(2) < (1.0 - thresholds.explained) * judged.rms.powi(2) {
+        let named = &again.written.active[from..];
+        let closes = again.rms.powi(2) < (1.0 - thresholds.explained) * judged.rms.powi(2);
+        if closes && select::is_heavier(problem, start, named) {
             (judged, refused) = (again, more);
         }
     }

@@ -28,6 +28,16 @@ const HEAVIER: f64 = 2.0;
 /// of the blind bench) a tenth of the inertia was named with two laws more.
 const STRAIGHT_UP: f64 = 0.5;
 
+fn weighs_more(inertia: &Active) -> bool {
+    inertia.form.free.first().is_some_and(|p| inertia.values.get(&p.name) > STRAIGHT_UP)
+}
+
+/// Whether an inertia that is so much heavier is named: without it what else was found from there is no better a guess than
+/// what was found from the file's.
+pub(crate) fn is_heavier(problem: &Problem, start: &State, named: &[Active]) -> bool {
+    named.iter().any(|a| a.is_named() && weighs_more(a) && problem.changes_inertia(start, a))
+}
+
 /// A drive explained from an inertia on that is heavier than the file's; nothing where that explains little.
 pub(crate) fn heavier(
     problem: &Problem,
@@ -37,7 +47,7 @@ pub(crate) fn heavier(
 ) -> Option<Selection> {
     let all = problem.candidates(start, catalogue);
     let laws = begun(problem, start, &all, thresholds, |p| (p.bounds[1] > HEAVIER).then_some(HEAVIER));
-    let inertia = laws.first().filter(|a| a.values.get(&a.form.free[0].name) > STRAIGHT_UP)?.clone();
+    let inertia = laws.first().filter(|a| weighs_more(a))?.clone();
     let found = plain(problem, start, &laws, &all, thresholds, false)?;
     let mut found = simpler(problem, start, found, &all, &problem.in_place(start, catalogue), thresholds);
     // What the wrong inertia opens is no measure of what two laws beside the right one may undo of each other.

@@ -1,4 +1,4 @@
-//! Names of columns that a file tells in remarks above its numbers, each behind the number of its column, as `% 1 time [s]` or
+//! Names of columns that a file tells in remarks above its numbers, each after the number of its column, as `% 1 time [s]` or
 //! `% 2 3 wheel velocity [m/s] left, right: 0.1 0.2`.
 
 use super::units;
@@ -68,7 +68,7 @@ fn line(remark: &str) -> Option<Line<'_>> {
 }
 
 /// What a text says of each of so many columns: `x, y [m, m]` of two, `velocity [m/s] left, right` of two, and where examples
-/// stand behind a colon, a word among them that begins what is said of the rest, as `left, right: 0.1 0.2 delay 3 4` of four.
+/// stand after a colon, a word among them that begins what is said of the rest, as `left, right: 0.1 0.2 delay 3 4` of four.
 fn parts(text: &str, columns: usize) -> Vec<String> {
     let (said, examples) = text.split_once(':').unwrap_or((text, ""));
     let (said, units) = without_units(said);
@@ -93,7 +93,7 @@ fn parts(text: &str, columns: usize) -> Vec<String> {
     if items.len() == columns {
         return items.iter().enumerate().map(|(i, item)| with_unit(format!("{stem}{item}"), i)).collect();
     }
-    // Of several values a pair, say, each group behind a word of its own.
+    // Of several values a pair, say, each group after a word of its own.
     let words: Vec<&str> = examples.split_whitespace().filter(|w| w.starts_with(char::is_alphabetic)).collect();
     if items.len() > 1 && columns == items.len() * (words.len() + 1) {
         let group = |(g, word): (usize, &str)| -> Vec<String> {
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(plain, ["time [s]", "left speed [m/s]", "right speed [m/s]"]);
         assert_eq!(of("col 0: t\ncol 1: enc", 2).unwrap(), ["t", "enc"]);
         assert_eq!(of("1) t\n2) enc\n4) u", 4).unwrap(), ["t", "enc", "column_3", "u"]);
-        let log = " 1    time 3.04 sec, from Anna (8)\n 2  3   (mission 0), state 8\n 4  5 motor voltage [V] left, right: 1.2 1.3\n \
+        let log = " 1    time 3.04 sec, of robot (8)\n 2  3   (mission 0), state 8\n 4  5 motor voltage [V] left, right: 1.2 1.3\n \
                    6 9 wheel velocity [m/s] left, right: 0.07 0.09 delay 0.005 0.004 (sec)\n\
                    10 11 12 pose x,y,h [m,m,rad]: 0.8 -3e-5 0";
         let names = [

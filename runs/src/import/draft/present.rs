@@ -5,7 +5,7 @@ use super::guess::{ANGLES, WANTED, spaced, words};
 
 /// The word that is either.
 const CURRENT: &str = "current";
-/// What stands behind it where it is no current.
+/// What stands after it where it is no current.
 const QUANTITIES: [&str; 18] = [
     "position", "pos", "speed", "velocity", "vel", "rpm", "heading", "yaw", "pose", "x", "y", "tick", "ticks", "count",
     "counts", "encoder", "enc", "state",
