@@ -135,3 +135,43 @@ fn is_free(name: &str, outcome: &Outcome, start: &State, sizes: &Sizes, factor: 
     let stated: f64 = start.active.iter().filter(|a| a.effect.name() == name).map(given).sum();
     outcome.named.iter().any(|n| n.name == name) || (factor - 1.0).abs() * (of_motor + stated) < parameter.material
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::{Evidence, Interval};
+    use links::effect::Link;
+
+    fn viscous(wheels: &[usize], parameter: &str, [low, high]: [f64; 2]) -> [Named; 1] {
+        [Named {
+            name: FRICTIONS[1].to_owned(),
+            equation: String::new(),
+            link: Link::Drive,
+            wheels: wheels.to_vec(),
+            parameters: vec![(parameter.to_owned(), 0.5 * (low + high), Interval::Ci95([low, high]))],
+            gain: 0.0,
+            evidence: Evidence::Test { method: "", p: 0.0002 },
+            conditional_on: Vec::new(),
+        }]
+    }
+
+    #[test]
+    fn friction_that_is_the_brake_of_the_motor_may_be_lost_counts() {
+        let robot = Robot::racbot();
+        let motor = &robot.motor;
+        let brakes = robot.gear_ratio.powi(2) * motor.torque_constant * motor.back_emf() / motor.resistance_ohm;
+        let about = |times: f64| [0.9 * times * brakes, 1.1 * times * brakes];
+        let said = |named: &[Named], seen: bool| of_counts(named, &robot, seen);
+        // Half of the counts: speeds twice as large, which brake once more; a quarter: three times more.
+        let half = said(&viscous(&[2], "coefficient_2_nms", about(1.0)), false).unwrap();
+        assert!(half.contains("of wheel 2") && half.contains("0.5 of the counts"), "{half}");
+        let quarter = said(&viscous(&[], "coefficient_nms", about(3.0)), false).unwrap();
+        assert!(!quarter.contains("wheel") && quarter.contains("0.25 of the counts"), "{quarter}");
+        let whole = format!("encoder_counts_per_motor_rev = {:.0}", 0.25 * robot.encoder_counts_per_motor_rev);
+        assert!(quarter.contains(&whole), "{quarter}");
+        // A camera sees the counts; of another size, or of several wheels each its own, it is a friction.
+        assert_eq!(said(&viscous(&[2], "coefficient_2_nms", about(1.0)), true), None);
+        assert_eq!(said(&viscous(&[], "coefficient_nms", about(1.8)), false), None);
+        assert_eq!(said(&viscous(&[1, 2], "coefficient_1_nms", about(1.0)), false), None);
+    }
+}
