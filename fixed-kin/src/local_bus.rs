@@ -208,6 +208,22 @@ mod tests {
     }
 
     #[test]
+    fn a_read_gives_the_word_that_stood_two_clocks_after_it_was_asked_for() {
+        let mut bus = LocalBus::new();
+        bus.clock(&Inputs { ads_n: false, ..Inputs::default() });
+        let mut asked = None;
+        for clock in 1..READ_CLOCKS {
+            if bus.outputs(false).read {
+                asked = Some(clock);
+            }
+            bus.clock(&Inputs { read_data: 0x100 + clock, blast_n: false, ..Inputs::default() });
+        }
+        let given = bus.outputs(false);
+        assert!(!given.ready_n && given.lad_drive);
+        assert_eq!(given.lad, 0x100 + asked.unwrap() + 2);
+    }
+
+    #[test]
     fn a_burst_without_end_ends_with_the_window() {
         let mut bus = LocalBus::new();
         bus.clock(&Inputs { ads_n: false, ..Inputs::default() });

@@ -59,3 +59,76 @@ fn reading<C: PciCard>(window: &mut RegisterWindow<C>) -> Result<(Duration, u32)
     }
     best.map(|(_, at, clocks)| (at, clocks)).ok_or(ClockError::Still(0, Duration::ZERO))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pci::Bar;
+
+    /// A card whose clock runs at a frequency while the host's time passes; an access takes 2 µs.
+    struct Ticking {
+        now: Duration,
+        hz: f64,
+        /// Accesses so far, and the one whose word is misread.
+        accesses: usize,
+        misread: Option<usize>,
+    }
+
+    impl Ticking {
+        fn at(hz: f64) -> Self {
+            Self { now: Duration::from_millis(7), hz, accesses: 0, misread: None }
+        }
+    }
+
+    impl PciCard for Ticking {
+        fn read32(&mut self, _: Bar, _: u32) -> Result<u32, PciError> {
+            self.now += Duration::from_micros(1);
+            let clocks = (self.now.as_secs_f64() * self.hz) as u64 as u32;
+            self.now += Duration::from_micros(1);
+            self.accesses += 1;
+            Ok(if self.misread == Some(self.accesses) { clocks ^ 0x0040_0000 } else { clocks })
+        }
+        fn write32(&mut self, _: Bar, _: u32, _: u32) -> Result<(), PciError> {
+            Ok(())
+        }
+        fn write8(&mut self, _: Bar, _: u32, _: u8) -> Result<(), PciError> {
+            Ok(())
+        }
+        fn has(&self, _: Bar) -> bool {
+            true
+        }
+        fn now(&mut self) -> Duration {
+            self.now
+        }
+        fn sleep(&mut self, time: Duration) {
+            self.now += time;
+        }
+    }
+
+    const OVER: Duration = Duration::from_millis(60);
+
+    #[test]
+    fn a_frequency_is_known_to_a_clock_in_each_third() {
+        for hz in [25e6, 33_333_333.0, 34e6] {
+            let measured = measure_clock(&mut Ticking::at(hz), OVER).unwrap();
+            // One clock of a third at either end.
+            assert!((measured - hz).abs() < 2.0 * 3.0 / OVER.as_secs_f64(), "{measured} of {hz}");
+        }
+    }
+
+    #[test]
+    fn one_misread_word_does_not_count() {
+        for misread in 1..=6 * READINGS as usize {
+            let mut card = Ticking { misread: Some(misread), ..Ticking::at(33e6) };
+            let measured = measure_clock(&mut card, OVER).unwrap();
+            assert!((measured - 33e6).abs() < 2.0 * 3.0 / OVER.as_secs_f64(), "{misread}: {measured}");
+        }
+    }
+
+    #[test]
+    fn a_clock_that_stands_has_no_frequency() {
+        assert!(
+            matches!(measure_clock(&mut Ticking::at(0.0), OVER), Err(ClockError::Still(0, time)) if !time.is_zero())
+        );
+    }
+}
