@@ -25,8 +25,8 @@ pub const PIECE: usize = 1 << 16;
 /// and behind: a window of camera frames, a test function.
 const BEFORE: usize = 1 << 12;
 const BEHIND: usize = 1 << 12;
-/// Segments, in pieces' lengths, that are kept once they are derived, some 12 MB each with three wheels and their test functions: 17 minutes at
-/// 1 kHz. Of the others only the last ones.
+/// Segments, in pieces' lengths, that are kept once they are derived, some 17 MB each with three wheels, their rows and their
+/// test functions: 17 minutes at 1 kHz. Of the others only the last ones.
 const KEPT: usize = 16;
 const RECENT: usize = 2;
 /// Ticks of a sample. Of 50 minutes at 1 kHz a search in 4.4 named what a search in all named (skews; the estimates, of
