@@ -62,6 +62,23 @@ pub struct Named {
     pub conditional_on: Vec<String>,
 }
 
+#[cfg(test)]
+impl Named {
+    /// A name without parameters, on wheels from 1.
+    pub(crate) fn bare(name: &str, link: Link, wheels: &[usize]) -> Self {
+        Self {
+            name: name.to_owned(),
+            equation: String::new(),
+            link,
+            wheels: wheels.to_vec(),
+            parameters: Vec::new(),
+            gain: 0.0,
+            evidence: Evidence::Test { method: "", p: 0.0002 },
+            conditional_on: Vec::new(),
+        }
+    }
+}
+
 /// Structure that no effect of the catalogue explains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leftover {

@@ -139,20 +139,12 @@ fn is_free(name: &str, outcome: &Outcome, start: &State, sizes: &Sizes, factor: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::{Evidence, Interval};
+    use crate::evidence::Interval;
     use links::effect::Link;
 
     fn viscous(wheels: &[usize], parameter: &str, [low, high]: [f64; 2]) -> [Named; 1] {
-        [Named {
-            name: FRICTIONS[1].to_owned(),
-            equation: String::new(),
-            link: Link::Drive,
-            wheels: wheels.to_vec(),
-            parameters: vec![(parameter.to_owned(), 0.5 * (low + high), Interval::Ci95([low, high]))],
-            gain: 0.0,
-            evidence: Evidence::Test { method: "", p: 0.0002 },
-            conditional_on: Vec::new(),
-        }]
+        let known = (parameter.to_owned(), 0.5 * (low + high), Interval::Ci95([low, high]));
+        [Named { parameters: vec![known], ..Named::bare(FRICTIONS[1], Link::Drive, wheels) }]
     }
 
     #[test]

@@ -116,26 +116,14 @@ fn odd_clock(robot: &Robot, logs: &[Log], thresholds: &Thresholds) -> Option<Str
 mod tests {
     use super::*;
 
-    fn creep() -> Named {
-        Named {
-            name: "wheel-creep".to_owned(),
-            equation: String::new(),
-            link: Link::Motion,
-            wheels: Vec::new(),
-            parameters: Vec::new(),
-            gain: 0.0,
-            evidence: Evidence::Test { method: "", p: 0.0002 },
-            conditional_on: Vec::new(),
-        }
-    }
-
     fn gap(link: Link, before: f64, after: f64) -> LinkGap {
         LinkGap { link, before, after, floor: Vec::new(), rms: Vec::new(), units: Vec::new(), signals: 1 }
     }
 
     #[test]
     fn without_a_camera_an_effect_must_serve_another_link() {
-        let idle = |links: &[LinkGap]| is_idle(&creep(), links, &Thresholds::default());
+        let idle =
+            |links: &[LinkGap]| is_idle(&Named::bare("wheel-creep", Link::Motion, &[]), links, &Thresholds::default());
         let [gyro, drive] = [Link::Gyroscope, Link::Drive];
         assert!(idle(&[gap(gyro, 0.8, 1.1), gap(drive, 0.5, 0.9)]));
         assert!(!idle(&[gap(gyro, 3.0, 0.9), gap(drive, 0.5, 0.9)]));

@@ -96,21 +96,11 @@ pub(super) fn json(a: &Analysis) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::Evidence;
     use links::effect::Link;
 
     #[test]
     fn a_wheel_alone_has_the_plain_name_too() {
-        let named = |name: &str, wheels: &[usize]| Named {
-            name: name.to_owned(),
-            equation: String::new(),
-            link: Link::Drive,
-            wheels: wheels.to_vec(),
-            parameters: Vec::new(),
-            gain: 0.0,
-            evidence: Evidence::Test { method: "", p: 1.0 },
-            conditional_on: Vec::new(),
-        };
+        let named = |name: &str, wheels: &[usize]| Named::bare(name, Link::Drive, wheels);
         assert_eq!(plain_name(&named("gear-backlash", &[2]), "play_2_rad").as_deref(), Some("play_rad"));
         assert_eq!(plain_name(&named("gear-backlash", &[1, 2]), "play_2_rad"), None);
         assert_eq!(plain_name(&named("wheel-radius", &[2]), "scale_2"), None);
