@@ -79,11 +79,10 @@ impl Move {
     }
 }
 
-/// Effects of a state that change its drive by more than loads, with their values, in words.
-fn besides_loads(state: &State, counts: impl Fn(&Active) -> bool) -> String {
+/// Effects of a state that change its drive by more than loads.
+fn besides_loads(state: &State) -> Vec<&Active> {
     let acts = |a: &&Active| DriveModel::is_changed_by(&state.robot, &*a.effect, &a.values);
-    let others = state.active.iter().filter(|a| !a.effect.is_load() && counts(a)).filter(acts);
-    others.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
+    state.active.iter().filter(|a| !a.effect.is_load()).filter(acts).collect()
 }
 
 /// Steps of Gauss-Newton at most.
@@ -134,11 +133,17 @@ impl Problem<'_> {
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
         let mut moves: Vec<Move> = Vec::new();
-        let alone = self.link() == Link::Drive && state.drive(None).torques_stand_alone();
-        let besides = besides_loads(state, |_| true);
-        let of_motion = if alone { besides_loads(state, |a| !a.effect.before_current()) } else { besides.clone() };
+        let is_drive = self.link() == Link::Drive;
+        let alone = is_drive && state.drive(None).torques_stand_alone();
+        let others = if is_drive { besides_loads(state) } else { Vec::new() };
+        let said = |counts: &dyn Fn(&Active) -> bool| -> String {
+            let those = others.iter().filter(|a| counts(a));
+            those.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
+        };
+        let besides = said(&|_| true);
+        let of_motion = said(&|a| !(alone && a.effect.before_current()));
         let key = |a: &Active, p: &Parameter, step: f64| {
-            let is_load = self.link() == Link::Drive && a.effect.is_load();
+            let is_load = is_drive && a.effect.is_load();
             // Nor do loads change what a bridge or a winding does: no line, but the same where its values are.
             let electrical = alone && a.effect.before_current();
             let at = if is_load { None } else { Some((&a.values.0, step)) };

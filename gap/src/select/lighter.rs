@@ -28,8 +28,13 @@ const HEAVIER: f64 = 2.0;
 /// of the blind bench) a tenth of the inertia was named with two laws more.
 const STRAIGHT_UP: f64 = 0.5;
 
+/// Value of the first parameter of what has one.
+fn value(a: &Active) -> Option<f64> {
+    a.form.free.first().map(|p| a.values.get(&p.name))
+}
+
 fn weighs_more(inertia: &Active) -> bool {
-    inertia.form.free.first().is_some_and(|p| inertia.values.get(&p.name) > STRAIGHT_UP)
+    value(inertia).is_some_and(|scale| scale > STRAIGHT_UP)
 }
 
 /// Whether an inertia that is so much heavier is named: without it what else was found from there is no better a guess than
@@ -112,8 +117,7 @@ fn begun(
         problem.fit(&mut state);
         let (left, _) = problem.linearise_nothing(&state).plain();
         let found = &state.active[from..];
-        let value = |a: &Active| a.values.get(&a.form.free[0].name);
-        let same_side = value(&found[0]) * value(&laws[0]) > 0.0;
+        let same_side = value(&found[0]).zip(value(&laws[0])).is_some_and(|(now, begun)| now * begun > 0.0);
         let sound = same_side && found.iter().all(|a| is_material(a, &a.parameters()) && !stopped(a));
         let closes = square - left >= thresholds.closes * square;
         (sound && closes && !problem.runs_away(&state, start, thresholds)).then(|| (left, found.to_vec()))
@@ -126,9 +130,10 @@ fn begun(
 /// What was found with far less inertia than the file's, which a straight line would lose again; nothing without.
 pub(super) fn kept(problem: &Problem, start: &State, known: &[Active]) -> Vec<Active> {
     let far = |a: &Active| {
-        let p = &a.form.free[0];
-        a.form.free.len() == 1 && a.values.get(&p.name) < HALF && p.bounds[0] < STRAIGHT - 1.0
+        a.form.free.len() == 1
+            && value(a).is_some_and(|scale| scale < HALF)
+            && a.form.free[0].bounds[0] < STRAIGHT - 1.0
     };
-    let found = known.iter().any(|a| !a.form.free.is_empty() && far(a) && problem.changes_inertia(start, a));
+    let found = known.iter().any(|a| far(a) && problem.changes_inertia(start, a));
     if found { known.to_vec() } else { Vec::new() }
 }

@@ -155,26 +155,23 @@ impl DriveModel {
     fn acting_duty<'a>(&self, s: &'a Segment, wheel: usize, axis: &Axis) -> Cow<'a, [f64]> {
         let logged = &s.duty[wheel];
         let ticks = s.t.len() - 1;
-        if self.duty_delay_s == 0.0 && self.duty_maps.is_empty() && self.reading_filter_s <= 0.0 {
-            return Cow::Borrowed(&logged[..ticks]);
-        }
         let dt = |k: usize| s.t[k + 1] - s.t[k];
-        let mut duty: Vec<f64> = if self.duty_delay_s == 0.0 {
-            logged[..ticks].to_vec()
+        let mut duty: Cow<[f64]> = if self.duty_delay_s == 0.0 {
+            Cow::Borrowed(&logged[..ticks])
         } else {
             (0..ticks).map(|k| delayed(logged, k, self.duty_delay_s / dt(k))).collect()
         };
         for map in &self.duty_maps {
-            duty.iter_mut().for_each(|u| *u = map(wheel, *u));
+            duty.to_mut().iter_mut().for_each(|u| *u = map(wheel, *u));
         }
         // Of wheels that are read through a low-pass all is late as they are: what drives them, too.
         if self.reading_filter_s > 0.0 && ticks > 0 {
             let mut passed = LowPass { at: axis.holds(s.speed[wheel][0], s.sign[wheel][0], s.supply[0]) };
-            for (k, u) in duty.iter_mut().enumerate() {
+            for (k, u) in duty.to_mut().iter_mut().enumerate() {
                 *u = passed.over_row(*u, dt(k) / self.reading_filter_s);
             }
         }
-        Cow::Owned(duty)
+        duty
     }
 
     /// Body twists by the wheels as they are: skews and radii that were found turn the Coriolis force, too.

@@ -458,11 +458,8 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         }
         // A motor on the left has no supply of its own.
         _ if has(&["voltage", "volts", "volt"]) => {
-            if has(&["left", "right"]) || has(&CORNERS) {
-                volts(series).map(|_| Kind::Duty)
-            } else {
-                volts(series)
-            }
+            let of_a_motor = has(&["left", "right"]) || has(&CORNERS);
+            volts(series).map(|kind| if of_a_motor { Kind::Duty } else { kind })
         }
         // What turns by its unit is a shaft, where it is no body.
         _ if units::in_name(&series.name).is_some_and(|unit| units::is_like(unit, "rad/s")) => {
