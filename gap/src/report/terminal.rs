@@ -95,9 +95,9 @@ pub(super) fn sentence(a: &Analysis) -> String {
             if e.wheels.is_empty() { e.name.clone() } else { format!("{} (wheel {})", e.name, words::list(&e.wheels)) }
         })
         .collect();
-    let (before, after) = overall(&a.links);
     match a.verdict {
         Verdict::Agrees if !a.remains.is_empty() => {
+            let (_, after) = overall(&a.links);
             format!("Model and data agree to {after:.1} noise floors: what is left has no name.")
         }
         Verdict::Agrees if !a.links.iter().any(|l| l.link.is_fitted()) => {
@@ -107,15 +107,17 @@ pub(super) fn sentence(a: &Analysis) -> String {
         Verdict::NotCompared => "Nothing could be compared: nothing in these logs has any weight.".to_owned(),
         Verdict::MissingEffect => {
             format!(
-                "Missing in the model: {}{}. The gap falls from {before:.2} to {after:.2} noise floors.",
+                "Missing in the model: {}{}. {}",
                 names.join(", "),
-                words::and_more(a)
+                words::and_more(a),
+                words::falls(&a.links, a.thresholds.falls)
             )
         }
         Verdict::Ambiguous => format!(
-            "Something is missing: {}, or what cannot be told from it here{}. The gap falls from {before:.2} to {after:.2} noise floors.",
+            "Something is missing: {}, or what cannot be told from it here{}. {}",
             names.join(", "),
-            words::and_more(a)
+            words::and_more(a),
+            words::falls(&a.links, a.thresholds.falls)
         ),
         Verdict::Unexplained => {
             let first = a.unexplained.first().map_or(String::new(), |u| format!(": {}", u.structure));

@@ -1,6 +1,6 @@
 //! The findings in sentences.
 
-use crate::analysis::{Analysis, Named, Verdict};
+use crate::analysis::{Analysis, LinkGap, Named, Verdict, overall};
 use crate::units;
 use links::effect::Link;
 
@@ -115,6 +115,20 @@ pub(super) fn and_more(a: &Analysis) -> String {
     })
 }
 
+/// How the gap falls, and on which replayed links it does not: an exact replay differs by thousands of its floors, and
+/// would hide what the names do elsewhere.
+pub(super) fn falls(links: &[LinkGap], share: f64) -> String {
+    let stays = |l: &&LinkGap| !l.link.is_fitted() && l.before > AGREES && l.after > share * l.before;
+    let (stay, fall): (Vec<&LinkGap>, Vec<&LinkGap>) = links.iter().partition(stays);
+    let fall: Vec<LinkGap> = fall.into_iter().cloned().collect();
+    let (before, after) = overall(if fall.is_empty() { links } else { &fall });
+    let mut out = format!("The gap falls from {before:.2} to {after:.2} noise floors.");
+    for l in stay {
+        out += &format!(" That of the {} link stays {:.1}.", l.link.name(), l.after);
+    }
+    out
+}
+
 /// A set that cannot be told apart: a name, and one other or two that together do the same.
 pub(super) fn tied(set: &[String]) -> String {
     match set {
@@ -146,4 +160,27 @@ fn join(names: &[&str]) -> String {
 /// Numbers of wheels, with commas.
 pub(super) fn list(wheels: &[usize]) -> String {
     wheels.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_replay_that_stays_wrong_does_not_hide_what_the_names_close() {
+        let link = |link: Link, [before, after]: [f64; 2]| LinkGap {
+            link,
+            before,
+            after,
+            floor: vec![1.0; 4],
+            rms: vec![[before, after]; 4],
+            units: vec![""; 4],
+            signals: 4,
+        };
+        let said = |controller: [f64; 2]| falls(&[link(Link::Controller, controller), link(Link::Drive, [9.0, 1.0])], 0.98);
+        let stays = said([5721.0, 5721.0]);
+        assert_eq!(stays, "The gap falls from 9.00 to 1.00 noise floors. That of the controller link stays 5721.0.");
+        assert_eq!(said([9.0, 1.0]), "The gap falls from 9.00 to 1.00 noise floors.");
+        assert_eq!(said([1.0, 1.0]), "The gap falls from 6.40 to 1.00 noise floors.");
+    }
 }
