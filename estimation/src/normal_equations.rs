@@ -73,6 +73,46 @@ impl Cluster {
         }
     }
 
+    /// The same clusters with the last `nuisances` columns fitted over all of them, whatever the others are, and gone: the
+    /// rest is what those columns cannot do (Frisch and Waugh 1933).
+    #[must_use]
+    pub fn beside(clusters: Vec<Self>, nuisances: usize) -> Vec<Self> {
+        let Some(first) = clusters.first() else { return clusters };
+        let all = first.jr.len();
+        let m = all - nuisances;
+        let mut jj = DMatrix::zeros(all, all);
+        let mut jr = DVector::zeros(all);
+        for c in &clusters {
+            c.jj.add_to(&mut jj);
+            jr += &c.jr;
+        }
+        let own = jj.view((m, m), (nuisances, nuisances)).into_owned();
+        let mut of_columns = DMatrix::zeros(nuisances, m);
+        for (j, mut slot) in of_columns.column_iter_mut().enumerate() {
+            slot.copy_from(&solve(&own, &jj.view((m, j), (nuisances, 1)).column(0).into_owned()));
+        }
+        let of_residual = solve(&own, &jr.rows(m, nuisances).into_owned());
+        let without = |c: Self| {
+            let full = c.jj.full();
+            let columns = full.view((0, 0), (m, m)).into_owned();
+            let cross = full.view((m, 0), (nuisances, m)).into_owned();
+            let square = full.view((m, m), (nuisances, nuisances)).into_owned();
+            let (score, nuisance_score) = (c.jr.rows(0, m).into_owned(), c.jr.rows(m, nuisances).into_owned());
+            let fitted = of_columns.transpose() * &cross;
+            Self {
+                rr: (c.rr - 2.0 * of_residual.dot(&nuisance_score) + of_residual.dot(&(&square * &of_residual)))
+                    .max(0.0),
+                jr: score - of_columns.transpose() * nuisance_score - cross.transpose() * &of_residual
+                    + of_columns.transpose() * (&square * &of_residual),
+                jj: Symmetric::of(
+                    &(columns - &fitted - fitted.transpose() + of_columns.transpose() * &square * &of_columns),
+                ),
+                ..c
+            }
+        };
+        clusters.into_iter().map(without).collect()
+    }
+
     /// Joins the residuals of a neighbour.
     pub fn add(&mut self, other: &Self) {
         self.n += other.n;
@@ -252,6 +292,30 @@ pub fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_fitted_beside_others_leave_what_a_fit_of_both_does() {
+        let n = 60;
+        let wave = |r: usize, by: usize| ((r * by + 3) % 17) as f64 - 8.0;
+        let column = DVector::from_fn(n, |r, _| wave(r, 5));
+        let nuisances = DMatrix::from_fn(n, 2, |r, c| wave(r, 7 + 4 * c) + 0.5 * column[r]);
+        let residual = DVector::from_fn(n, |r, _| 0.07 * column[r] - 0.1 * nuisances[(r, 0)] + 0.03 * wave(r, 13));
+        let all = DMatrix::from_fn(n, 3, |r, c| if c == 0 { column[r] } else { nuisances[(r, c - 1)] });
+        let part = |rows: std::ops::Range<usize>| {
+            let (from, count) = (rows.start, rows.len());
+            let jacobian = all.rows(from, count).into_owned();
+            Cluster::new(0, from as f64, count as f64, &residual.rows(from, count).into_owned(), &jacobian)
+        };
+        let clusters = || vec![part(0..25), part(25..n)];
+        let both = NormalEquations::new(clusters()).solve(&[0, 1, 2]);
+        let beside = Cluster::beside(clusters(), 2);
+        assert_eq!(beside[0].jr.len(), 1);
+        let alone = NormalEquations::new(beside.clone()).solve(&[0]);
+        assert!((alone[0] - both[0]).abs() < 1e-6, "{alone} {both}");
+        let left: f64 = beside.iter().map(|c| c.rr - 2.0 * alone[0] * c.jr[0] + alone[0].powi(2) * c.jj[(0, 0)]).sum();
+        let best = (&residual - &all * &both).norm_squared();
+        assert!((left - best).abs() < 1e-6 * best, "{left} {best}");
+    }
 
     #[test]
     fn the_loss_after_a_step_is_that_of_what_the_step_leaves() {

@@ -1,6 +1,7 @@
 //! The whole workflow on one data set.
 
 mod answer;
+mod answered;
 mod clocks;
 mod counts;
 mod cut;

@@ -39,7 +39,7 @@ const SAMPLED: usize = 1 << 13;
 /// repeats itself is not always seen at the same place.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// What the links read.
-const COLUMNS: Columns = Columns { counts: true, duty: true, supply: true, ..Columns::NONE };
+const COLUMNS: Columns = Columns { reference: true, counts: true, duty: true, supply: true, ..Columns::NONE };
 
 /// Clusters at most; beyond, neighbouring windows count as one.
 pub(crate) const MOST_CLUSTERS: usize = 400;

@@ -45,6 +45,8 @@ pub struct Segment {
     pub turning: f64,
     /// Duty, `[wheel][tick]`, from its tick to the next; empty if not logged.
     pub duty: Vec<Vec<f64>>,
+    /// Set point of each wheel's speed, rad/s, `[wheel][tick]`; empty if not logged.
+    pub reference: Vec<Vec<f64>>,
     /// Supply, V, at each tick.
     pub supply: Vec<f64>,
     /// Body twist by smoothed wheel speeds and nominal geometry, at each tick.
@@ -219,6 +221,9 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
             s.duty.iter_mut().for_each(|d| half_a_row_later(d));
         }
     }
+    if part.reference.len() == n && !s.duty.is_empty() {
+        s.reference = part.reference.iter().map(|r| held(r, 0.0)).collect();
+    }
     s.supply = match &part.supply_v {
         Some(v) => held(v, robot.supply_v),
         None => vec![robot.supply_v; t.len()],
@@ -291,6 +296,7 @@ impl Segment {
             speed: each(&self.speed),
             sign: each(&self.sign),
             duty: each(&self.duty),
+            reference: each(&self.reference),
             supply: ticks.iter().map(|k| self.supply[*k]).collect(),
             twist: ticks.iter().map(|k| self.twist[*k]).collect(),
             heading: ticks.iter().map(|k| self.heading[*k]).collect(),

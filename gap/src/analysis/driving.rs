@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use runs::robot::Support;
 
+use super::answered::beside_answers;
 use super::gaps;
 use super::measure::{Data, Drive};
 use super::misses::Misses;
@@ -62,6 +63,12 @@ impl<'a> Workflow<'a> {
         self.scatter(&link);
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
+        if self.is_answered(&link, &outcome.written)
+            && let Some(again) = self.drive_link()
+        {
+            link = again;
+            outcome = self.drive_studied(&mut link, &read_right);
+        }
         // What comes once a turn is a load, or is read so: where neither load has a name, not by a load.
         let once_a_turn = |name: &str| ONCE_A_TURN.contains(&name);
         let may_be_read = fits(READ_AMISS, &self.question.robot)
@@ -102,7 +109,8 @@ impl<'a> Workflow<'a> {
 
     /// The drive of what is looked at above its own floor; none without duties.
     fn drive_link(&mut self) -> Option<DriveLink<'a>> {
-        let Drive { link, correlation, .. } = self.searched().drive(&self.start, self.seen.as_ref())?;
+        let drive = self.searched().drive(&self.start, self.seen.as_ref())?;
+        let Drive { link, correlation, .. } = if self.answered { beside_answers(drive) } else { drive };
         self.thresholds.drive_correlation = correlation;
         Some(link)
     }
@@ -126,7 +134,8 @@ impl<'a> Workflow<'a> {
     /// The drive of all data with the noise of what was searched.
     fn whole_drive<'b>(&self, data: Data<'b>, searched: &DriveLink, found: &State) -> Option<DriveLink<'b>> {
         let seen = data.has_motion.then(|| data.motion.residuals(&self.start.motion(None)));
-        let mut link = data.drive(&self.start, seen.as_ref())?.link;
+        let drive = data.drive(&self.start, seen.as_ref())?;
+        let mut link = if self.answered { beside_answers(drive) } else { drive }.link;
         link.noise.clone_from(&searched.noise);
         link.mask_sticking(&found.drive(None), self.thresholds.sticks);
         Some(link)

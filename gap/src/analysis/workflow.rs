@@ -39,6 +39,8 @@ pub(super) struct Workflow<'a> {
     pub(super) findings: Findings,
     /// Residuals of the motion that was searched, with what is named there.
     pub(super) seen: Option<Vec<WindowResiduals>>,
+    /// Whether the drive is compared beside what its speed loops answered.
+    pub(super) answered: bool,
 }
 
 impl<'a> Workflow<'a> {
@@ -74,7 +76,7 @@ impl<'a> Workflow<'a> {
             &question.options.thresholds,
         ));
         let thresholds = question.options.thresholds.clone();
-        Self { question, data, sample, nominal, start, thresholds, findings, seen: None }
+        Self { question, data, sample, nominal, start, thresholds, findings, seen: None, answered: false }
     }
 
     /// The data that causes are looked for in.

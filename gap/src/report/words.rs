@@ -177,7 +177,8 @@ mod tests {
             units: vec![""; 4],
             signals: 4,
         };
-        let said = |controller: [f64; 2]| falls(&[link(Link::Controller, controller), link(Link::Drive, [9.0, 1.0])], 0.98);
+        let said =
+            |controller: [f64; 2]| falls(&[link(Link::Controller, controller), link(Link::Drive, [9.0, 1.0])], 0.98);
         let stays = said([5721.0, 5721.0]);
         assert_eq!(stays, "The gap falls from 9.00 to 1.00 noise floors. That of the controller link stays 5721.0.");
         assert_eq!(said([9.0, 1.0]), "The gap falls from 9.00 to 1.00 noise floors.");

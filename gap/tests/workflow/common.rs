@@ -71,12 +71,17 @@ pub(super) fn simulate(truth: &Robot, manoeuvres: &[Manoeuvre], seed: u64) -> Da
 
 /// What is said of a robot.toml and logs, written and read as those of a user.
 pub(super) fn of_files(robot: &str, runs: impl IntoIterator<Item = Run>) -> Analysis {
+    of_files_by(robot, runs, &Options::default())
+}
+
+/// The same by what somebody chose.
+pub(super) fn of_files_by(robot: &str, runs: impl IntoIterator<Item = Run>, options: &Options) -> Analysis {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("robot.toml"), robot).unwrap();
     for run in runs {
         run.save(folder.path().join(format!("{}.csv", run.name)), Existing::Refuse).unwrap();
     }
-    analyse(&DataSet::open(folder.path()).unwrap(), &Options::default()).unwrap()
+    analyse(&DataSet::open(folder.path()).unwrap(), options).unwrap()
 }
 
 /// Speed of an axis (rad/s) `step` seconds later, under a torque and a dry friction (Nm) that holds it where it stands.

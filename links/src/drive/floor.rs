@@ -125,14 +125,21 @@ impl Generic {
 /// count as one: what a generic regression leaves is noise.
 pub fn floor(link: &DriveLink, residuals: &DriveResiduals, drive_nm: f64) -> (Vec<f64>, f64) {
     let generic = Generic::new(link);
+    let beside = link.beside_answers(residuals);
     let mut noise = vec![drive_nm * LEAST; link.noise.len()];
     let (mut lagged, mut power) = (0.0, 0.0);
     for (i, slot) in noise.iter_mut().enumerate() {
-        let Some(left) = generic.leaves(link, residuals, i) else {
+        let Some(mut left) = generic.leaves(link, beside.as_ref().unwrap_or(residuals), i) else {
             // Too short for that: the scatter of neighbours.
             *slot = slot.max(neighbours(residuals, i));
             continue;
         };
+        if let Some(beside) = &beside {
+            // What a loop answered scatters what its set points show (the variance of two-stage least squares).
+            let answered = |b: &usize| residuals.torque[*b][i] - beside.torque[*b][i];
+            left.torque.iter_mut().zip(&left.test_functions).for_each(|(torque, b)| *torque += answered(b));
+            left.scatter = estimation::statistics::rms(left.torque.iter().copied()).max(left.scatter);
+        }
         *slot = slot.max(left.scatter);
         for (r, pair) in left.test_functions.windows(2).enumerate() {
             if pair[1] == pair[0] + 1 && link.place(pair[1]).0 == link.place(pair[0]).0 {

@@ -5,6 +5,7 @@
 //! about 120 ms and integrated twice by parts, so that nothing but counts enters. The result is an
 //! unexplained torque per wheel and test function, Nm at the wheel shaft.
 
+mod answers;
 mod columns;
 mod felt;
 mod floor;
@@ -27,6 +28,7 @@ use crate::values::Values;
 
 pub use crate::segment::smooth_sign;
 pub(crate) use crate::thresholds::TEST_FUNCTION_S;
+pub use answers::Answers;
 pub use columns::Side;
 pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
 pub use forces::Forces;

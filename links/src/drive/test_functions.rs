@@ -8,6 +8,7 @@ use estimation::parallel::{each, numbered};
 use nalgebra::{DMatrix, DVector, DVectorView, DVectorViewMut};
 use runs::robot::Support;
 
+use super::answers::Answers;
 use super::columns::{Column, Columns, Side};
 use super::forces::{Base, Forces};
 use super::laid::{Laid, Shape, TestFunction};
@@ -51,6 +52,8 @@ pub struct DriveLink<'a> {
     columns: Columns,
     /// What an inertial sensor tells where wheels slip.
     pub(super) felt: Option<BodyFelt>,
+    /// What stands beside every effect; see [`DriveLink::answer`].
+    answers: Option<Answers>,
 }
 
 /// An inertial sensor, and the noise of what it tells of a test function: to the right and forward, m/s².
@@ -123,6 +126,7 @@ impl<'a> DriveLink<'a> {
             laid: (0..pieces.kept()).map(|_| OnceLock::new()).collect(),
             columns: Columns::default(),
             felt: None,
+            answers: None,
         };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         if pieces.robot().support == Support::Blocks {
@@ -167,6 +171,16 @@ impl<'a> DriveLink<'a> {
             counted as f64 * given / self.noise[i].powi(2).max(f64::MIN_POSITIVE)
         };
         (0..self.noise.len()).map(of).sum()
+    }
+
+    /// From now on every model is compared beside what the speed loops answered.
+    pub fn answer(&mut self, answers: Answers) {
+        self.answers = Some(answers);
+    }
+
+    /// What is left beside the answers, if there are any.
+    pub(super) fn beside_answers(&self, left: &DriveResiduals) -> Option<DriveResiduals> {
+        self.answers.as_ref().map(|answers| answers.beside(self, left))
     }
 
     /// Leaves out test functions in which a wheel slips by what the motion link found: Newton's law in wheel
@@ -463,6 +477,7 @@ impl<'a> DriveLink<'a> {
     /// Linearises: residuals and derivatives along each side, per cluster.
     pub fn linearise(&self, model: &DriveModel, sides: &[Side]) -> Vec<Cluster> {
         let n = self.noise.len();
+        let beside = self.answers.as_ref().map_or(0, Answers::columns);
         let mut clusters = Vec::new();
         if !sides.is_empty() {
             self.columns.begin();
@@ -515,11 +530,15 @@ impl<'a> DriveLink<'a> {
                 let weights: Vec<f64> =
                     part.iter().flat_map(|b| b.weights.iter().zip(&self.noise).map(|(w, noise)| w / noise)).collect();
                 let residual = DVector::from_fn(rows, |r, _| base[first * n + r] * weights[r]);
-                let mut jacobian = DMatrix::zeros(rows, columns.len());
+                let mut jacobian = DMatrix::zeros(rows, columns.len() + beside);
                 for (slots, column) in jacobian.as_mut_slice().chunks_exact_mut(rows).zip(&columns) {
                     let Some(column) = column else { continue };
                     let weighted = column[own.clone()].iter().zip(&weights);
                     slots.iter_mut().zip(weighted).for_each(|(slot, (x, w))| *slot = x * w);
+                }
+                if let Some(answers) = &self.answers {
+                    let test_functions = range.start + first..range.start + first + part.len();
+                    answers.fill(&mut jacobian, columns.len(), test_functions, &weights);
                 }
                 let used: f64 = part.iter().flat_map(|b| &b.weights).sum();
                 clusters.push(Cluster::new(s.run, s.t[part[0].first], used, &residual, &jacobian));
@@ -527,7 +546,7 @@ impl<'a> DriveLink<'a> {
             }
             clusters.extend(self.felt_clusters(model, sides, s, &range, &laid.shapes));
         }
-        clusters
+        if beside > 0 { Cluster::beside(clusters, beside) } else { clusters }
     }
 }
 
