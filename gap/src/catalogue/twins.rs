@@ -9,13 +9,14 @@ const TWINS: &[(&str, &[&str], &[&str])] = &[
     ("camera-scale", &[], &["encoder-scale", "wheel-radius", "wheel-radius-common"]),
     ("carpet-grain", &[], &["coulomb-friction"]),
     ("coulomb-friction", &["heading-drag"], &[]),
+    ("current-limit", &["battery-sag", "motor-heating", "winding-resistance"], &[]),
     ("drive-curve", &[], &["battery-sag"]),
     ("encoder-lag", &["camera-latency"], &["wheel-creep"]),
     ("encoder-loss", &["encoder-scale", "wheel-radius"], &[]),
     ("encoder-scale", &["encoder-loss", "wheel-radius", "wheel-radius-common"], &["camera-scale"]),
     ("heading-drag", &[], &["coulomb-friction"]),
     ("marker-heading", &["wheel-angle", "wheel-skew"], &[]),
-    ("motor-heating", &["battery-sag", "robot-mass", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
+    ("motor-heating", &["battery-sag", "current-limit", "robot-mass", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
     ("robot-mass", &["motor-heating", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
     ("rotor-inertia", &[], &["motor-heating", "robot-mass", "winding-resistance"]),
     ("torque-constant", &["motor-heating", "robot-mass", "winding-resistance"], &[]),
@@ -24,7 +25,7 @@ const TWINS: &[(&str, &[&str], &[&str])] = &[
     ("wheel-radius", &["encoder-loss", "encoder-scale"], &[]),
     ("wheel-radius-common", &["encoder-scale", "wheel-radius"], &["camera-scale"]),
     ("wheel-skew", &["wheel-angle"], &[]),
-    ("winding-resistance", &["battery-sag", "motor-heating", "robot-mass", "torque-constant"], &["rotor-inertia"]),
+    ("winding-resistance", &["battery-sag", "current-limit", "motor-heating", "robot-mass", "torque-constant"], &["rotor-inertia"]),
 ];
 
 /// What cannot be told from an effect: by drives of many kinds, and besides by one without turns.

@@ -65,7 +65,7 @@ impl Design {
                         return Role::Out;
                     }
                     seen.push(key);
-                    if !p.material.is_finite() {
+                    if !p.material.is_finite() || !candidate.effect.may_be_little() {
                         return Role::Out;
                     }
                     if candidate.switched() {

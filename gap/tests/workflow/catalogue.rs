@@ -81,6 +81,7 @@ const CASES: &[Case] = &[
     case("torque-constant", &[("scale", -0.15)], ("scale", 0.25), &HARD, &[]),
     case("torque-constant", &[("scale_2", -0.25)], ("scale_2", 0.25), &HARD, &[]),
     case("battery-sag", &[("resistance_ohm", 0.25)], ("resistance_ohm", 0.4), &HARD, &[]),
+    case("current-limit", &[("limit_a", 0.7)], ("limit_a", 0.1), &HARD, &[]),
     case("motor-heating", &[("rise", 1.5), ("time_s", 8.0)], ("rise", 0.4), &HARD, &[]),
     case("motor-heating", &[("start_k", 60.0)], ("start_k", 0.3), &HARD, &["torque-constant", "winding-resistance"]),
     case("winding-resistance", &[("scale", 0.35)], ("scale", 0.1), &RICH, &[]),

@@ -107,6 +107,8 @@ pub struct DriveModel {
     pub duty_delay_s: f64,
     /// Time constant of the low-pass between the wheels' angles and those of the log, s.
     pub reading_filter_s: f64,
+    /// Current that each motor has at most, A; infinite where nothing limits it.
+    pub current_limit_a: f64,
     /// What the bridge makes of a duty.
     pub duty_maps: Vec<DutyMap>,
     /// What the load makes of the supply.
@@ -150,6 +152,7 @@ impl DriveModel {
             axes: vec![axis; n],
             duty_delay_s: 0.0,
             reading_filter_s: 0.0,
+            current_limit_a: f64::INFINITY,
             duty_maps: Vec::new(),
             supply_maps: Vec::new(),
             loads: Vec::new(),
@@ -177,8 +180,8 @@ impl DriveModel {
     /// Whether nothing but loads and offsets differs.
     fn same_but_for_loads(&self, base: &Self) -> bool {
         let numbers = |m: &Self| {
-            let late_s = [m.duty_delay_s, m.reading_filter_s];
-            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, late_s)
+            let log_side = [m.duty_delay_s, m.reading_filter_s, m.current_limit_a];
+            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, log_side)
         };
         numbers(self) == numbers(base)
             && self.wheels == base.wheels

@@ -17,6 +17,8 @@ pub(super) struct Axis {
     pub(super) gain: f64,
     /// Nm per rad/s.
     damping: f64,
+    /// Torque that the motor has at most, Nm; infinite where nothing limits its current.
+    most: f64,
     /// Friction of the motor, Nm.
     pub(super) coulomb: f64,
     /// Share of the transmitted torque that is lost.
@@ -43,6 +45,9 @@ const BY_WHEEL: usize = 5;
 
 /// Ticks that are laid out at a time: what is written stays at hand from the first signal to the last.
 const TOGETHER: usize = 64;
+
+/// RMS of the torque that raw increments scatter by, in the torque of a limited current, from which they are smoothed.
+const NOISY: f64 = 0.1;
 
 /// A signal of each wheel; the segment's own where a model leaves it as it is.
 type ByWheel<'a> = Vec<Cow<'a, [f64]>>;
@@ -122,12 +127,28 @@ impl<'a> Signals<'a> {
     /// Torques of the windings by duties and supply. Raw increments of the angles where the equation is linear: nothing is
     /// lost by smoothing.
     pub(super) fn wind(&mut self, s: &Segment, axes: &[Axis]) {
-        let of = |((duty, rate), axis): ((&Cow<[f64]>, &Vec<f64>), &Axis)| {
+        let of = |((duty, rate), axis): ((&Cow<[f64]>, &Vec<f64>), &Axis)| -> Vec<f64> {
             let (gain, damping) = (axis.gain, axis.damping);
             let driven = duty.iter().zip(&*self.supply).zip(rate);
             driven.map(|((duty, supply), rate)| gain * duty * supply - damping * rate).collect()
         };
-        self.winding = self.duty.iter().zip(&s.rows().rate).zip(axes).map(of).collect();
+        let rows = s.rows();
+        self.winding = self.duty.iter().zip(&rows.rate).zip(axes).map(of).collect();
+        for (i, axis) in axes.iter().enumerate().filter(|(_, axis)| axis.most.is_finite()) {
+            self.limit(i, axis, [&rows.rate[i], &rows.speed[i]]);
+        }
+    }
+
+    /// Takes off what a limit of the current does not let through, by the raw increments of the angles, or, where a limit would
+    /// cut off their noise, by the smoothed speeds.
+    fn limit(&mut self, wheel: usize, axis: &Axis, [rate, speed]: [&[f64]; 2]) {
+        let apart = rate.iter().zip(speed).map(|(a, b)| axis.damping * (a - b));
+        let noisy = estimation::statistics::rms(apart) > NOISY * axis.most;
+        let driven = self.duty[wheel].iter().zip(&*self.supply).zip(if noisy { speed } else { rate });
+        for (winding, ((duty, supply), speed)) in self.winding[wheel].iter_mut().zip(driven) {
+            let asked = axis.gain * duty * supply - axis.damping * speed;
+            *winding -= asked - asked.clamp(-axis.most, axis.most);
+        }
     }
 }
 
@@ -140,6 +161,7 @@ impl DriveModel {
             Axis {
                 gain,
                 damping: a.braking(g) * a.encoder_scale,
+                most: g * a.torque_constant * self.current_limit_a,
                 coulomb: g * a.friction,
                 loss: a.gear_loss,
                 passed: match self.support {
@@ -208,7 +230,8 @@ impl DriveModel {
         self.each_instant(s, signals, prepared, |_, now, _| {
             let mut mapped = |from: f64| {
                 for (i, (current, axis)) in currents.iter_mut().zip(&self.axes).enumerate() {
-                    *current = (now.duty[i] * from - axis.back_emf * g * now.speed[i]) / axis.resistance;
+                    let asked = (now.duty[i] * from - axis.back_emf * g * now.speed[i]) / axis.resistance;
+                    *current = asked.clamp(-self.current_limit_a, self.current_limit_a);
                 }
                 self.supply_maps.iter().fold(now.supply, |v, map| map(now, v, &currents))
             };

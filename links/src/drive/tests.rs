@@ -98,7 +98,7 @@ fn what_a_bridge_or_a_camera_changes_no_load_of_the_motion_does() {
             left(effects).iter().zip(besides).map(|(with, without)| with - without).collect()
         };
         let alone: Vec<Vec<f64>> = loads.iter().map(|(e, v)| changes(&nothing, &[(&**e, v.clone())])).collect();
-        for name in ["winding-resistance", "battery-sag", "dead-band"] {
+        for name in ["winding-resistance", "battery-sag", "dead-band", "current-limit"] {
             let bridge = crate::effects::find(name).unwrap();
             let values = moved(robot, |e| e.name() == name).remove(0).1;
             assert!(bridge.before_current() && DriveModel::is_changed_by(robot, &*bridge, &values), "{name}");

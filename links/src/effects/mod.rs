@@ -14,6 +14,7 @@ mod carpet_grain;
 mod centre_of_mass;
 mod coasting_bridge;
 mod coulomb_friction;
+mod current_limit;
 mod dead_band;
 mod drive_curve;
 mod encoder_eccentricity;
@@ -118,6 +119,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(winding_resistance::WindingResistance),
         Box::new(battery_sag::BatterySag),
         Box::new(motor_heating::MotorHeating),
+        Box::new(current_limit::CurrentLimit),
         Box::new(robot_mass::RobotMass),
         Box::new(yaw_inertia::YawInertia),
         Box::new(rotor_inertia::RotorInertia),
@@ -171,7 +173,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 39] = [
+    const NAMES: [(&str, &[&str]); 40] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -208,6 +210,7 @@ mod tests {
         ("dead-band", &["duty"]),
         ("gear-backlash", &["play_rad", "play_#_rad"]),
         ("battery-sag", &["resistance_ohm", "drop_v"]),
+        ("current-limit", &["limit_a"]),
         ("floor-tilt", &["x_rad", "y_rad"]),
         ("carpet-grain", &["force_n", "azimuth_rad"]),
         ("wheel-slip", &["friction_coefficient"]),

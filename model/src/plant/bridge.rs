@@ -48,10 +48,16 @@ impl Plant {
                 supply = ((supply + ohm * idle) / (1.0 + ohm * slope)).max(0.0);
             }
         }
-        let coasting = self.deviations.as_deref().map_or(0.0, |d| d.coasting);
-        for ((wheel, axis), u) in self.wheels.iter_mut().zip(&self.axes).zip(&acting) {
+        let deviations = self.deviations.as_deref();
+        let (coasting, limit_a) = deviations.map_or((0.0, 0.0), |d| (d.coasting, d.current_limit_a));
+        for (i, ((wheel, axis), u)) in self.wheels.iter_mut().zip(&self.axes).zip(&acting).enumerate() {
             let open = coasting * (1.0 - u.abs()) * axis.damping * wheel.speed;
             wheel.drive = axis.winding_torque(u * supply, 0.0) + open;
+            if limit_a > 0.0 {
+                let own = 1.0 + deviations.map_or(0.0, |d| d.wheel(i).torque_constant);
+                let (asked, most) = (wheel.drive - axis.damping * wheel.speed, limit_a * own / self.current_per_torque);
+                wheel.drive -= asked - asked.clamp(-most, most);
+            }
         }
         self.acting = acting;
     }

@@ -29,6 +29,8 @@ pub struct Deviations {
     pub curvature: f64,
     /// Share of the time between pulses in which the bridge is open, and nothing brakes.
     pub coasting: f64,
+    /// Current of each motor at most, A; 0 for no limit.
+    pub current_limit_a: f64,
     /// Age of the duty that acts, s.
     pub duty_delay_s: f64,
     /// Supply: what it lacks at no load (V), and its resistance (Ω).
@@ -128,6 +130,7 @@ impl Deviations {
             dead_band_passes: self.dead_band_passes,
             curvature: self.curvature,
             coasting: self.coasting,
+            current_limit_a: self.current_limit_a,
             duty_delay_s: self.duty_delay_s,
             battery: self.battery,
             heating: self.heating,

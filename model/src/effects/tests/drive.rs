@@ -107,6 +107,29 @@ fn bridge() {
 }
 
 #[test]
+fn no_motor_has_more_than_its_driver_lets_through() {
+    // 1.2 A of the 3.71 that the winding draws at a standstill, whichever way it is driven; 0.3 duties ask for less.
+    let moved = |name, p: &[(&str, f64)], duty: f64| {
+        let mut plant = lifted(name, p);
+        plant.step(&[duty, -duty, 0.0], 7.2, 1e-6);
+        speed(&plant, 0)
+    };
+    let (limited, plain) = ([("limit_a", 1.2)], |duty| moved("wheel-skew", &[], duty));
+    close(moved("current-limit", &limited, 1.0), plain(1.2 * 1.94 / 7.2), 1e-6);
+    close(moved("current-limit", &limited, -1.0), -plain(1.2 * 1.94 / 7.2), 1e-6);
+    close(moved("current-limit", &limited, 0.3), plain(0.3), 1e-9);
+    // A wheel that runs at full speed and is driven back is braked by no more.
+    let braked = |p: &[(&str, f64)]| {
+        let mut plant = lifted("current-limit", p);
+        run(&mut plant, [1.0, 1.0, 0.0], 4000);
+        let before = speed(&plant, 0);
+        plant.step(&[-1.0, -1.0, 0.0], 7.2, 1e-4);
+        before - speed(&plant, 0)
+    };
+    assert!(braked(&limited) < 0.4 * braked(&[("limit_a", 50.0)]), "{}", braked(&limited));
+}
+
+#[test]
 fn duties_come_late() {
     let mut late = applied("actuation-latency", &[("latency_s", 0.0055)]).plant().unwrap();
     let mut plain = applied("wheel-skew", &[]).plant().unwrap();

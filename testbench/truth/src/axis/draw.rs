@@ -46,6 +46,7 @@ fn machine(rng: &mut ChaCha8Rng) -> Axis {
         dead_band: 0.0,
         curvature: 0.0,
         coasting: 0.0,
+        limit_a: f64::INFINITY,
         latency_s: 0.0,
         source_ohm: 0.0,
     }

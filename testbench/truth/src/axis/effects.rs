@@ -38,7 +38,7 @@ fn signed(value: f64, rng: &mut ChaCha8Rng) -> f64 {
     if rng.random_bool(0.5) { value } else { -value }
 }
 
-const CATALOGUE: [Entry; 15] = [
+const CATALOGUE: [Entry; 16] = [
     entry("coulomb-friction", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, _| {
         let torque = value * axis.stall();
         axis.dry.iter_mut().for_each(|dry| *dry += torque);
@@ -87,6 +87,10 @@ const CATALOGUE: [Entry; 15] = [
         let share = value.min(1.0);
         axis.coasting = share;
         vec![("share", share)]
+    }),
+    entry("current-limit", [0.8, 0.6, 0.45, 0.3, 0.2], |axis, _, value, _| {
+        axis.limit_a = value * axis.supply_v / axis.resistance_ohm;
+        vec![("limit_a", axis.limit_a)]
     }),
     entry("actuation-latency", [0.05, 0.1, 0.15, 0.25, 0.4], |axis, _, value, _| {
         let latency = value * axis.time_constant().min(0.3);

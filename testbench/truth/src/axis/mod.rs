@@ -52,6 +52,8 @@ pub(crate) struct Axis {
     pub(crate) curvature: f64,
     /// Share of the time between pulses in which the bridge is open.
     pub(crate) coasting: f64,
+    /// Current of the motor at most, A.
+    pub(crate) limit_a: f64,
     /// From the row's time to the voltage, s.
     pub(crate) latency_s: f64,
     /// Of battery and cables, Ω.

@@ -37,7 +37,7 @@ impl Axis {
         let r = self.resistance_ohm;
         let supply =
             (self.supply_v + self.source_ohm * share * braking / r) / (1.0 + self.source_ohm * share * share / r);
-        ((share * supply - braking) / r, supply)
+        (((share * supply - braking) / r).clamp(-self.limit_a, self.limit_a), supply)
     }
 
     /// Angle and speed a step later, and the supply.
