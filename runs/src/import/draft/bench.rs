@@ -14,12 +14,33 @@ const DEGREES: f64 = 50.0;
 pub(super) fn guesses(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     let from_zero = from_zero(table);
     let (mut guesses, mut rest) = by_names(table, &from_zero, meant);
+    lone_speed(&mut guesses, &mut rest);
     driving_volts(&mut guesses);
     shares(&mut guesses, &mut rest, &from_zero);
     angles(&mut guesses, &mut rest, &from_zero);
     torques(&mut guesses, &mut rest, &from_zero);
     guesses.sort_by_key(|g| g.column);
     (guesses, rest)
+}
+
+/// Of a log in which nothing else moves, the one speed beside what drives is that of the motor.
+fn lone_speed<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
+    let drives = |g: &Guess| matches!(g.column, Column::Duty(_) | Column::Current(_) | Column::Supply);
+    if guesses.iter().any(|g| !drives(g)) || guesses.len() != 1 {
+        return;
+    }
+    let is_speed = |series: &&&Series| {
+        let has = said(series);
+        has(&["velocity", "speed", "vel", "omega"])
+            && !has(&WANTED)
+            && !has(&["error", "linear", "forward", "x", "y", "wind", "max", "min"])
+            && units::in_name(&series.name).is_none_or(|unit| units::is_like(unit, "rad/s"))
+    };
+    let mut speeds = rest.iter().filter(is_speed);
+    let (Some(series), None) = (speeds.next().copied(), speeds.next()) else { return };
+    rest.retain(|other| !std::ptr::eq(*other, series));
+    let unit = units::in_name(&series.name).filter(|unit| *unit != "rad/s").unwrap_or("");
+    guesses.push(Guess { series, column: Column::Speed(0), unit });
 }
 
 /// Volts without a duty or a current beside a wheel are what drives it, though they stand still throughout a step.
@@ -55,7 +76,8 @@ fn shares<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zer
         let watts = has(&["w", "watt", "watts", "electrical", "mechanical", "electric", "consumed", "average"]);
         (share && has(&["power", "throttle"]) && !watts).then_some(0)
     };
-    take(guesses, rest, from_zero, rank, |series, wheel| Guess { series, column: Column::Duty(wheel), unit: "" });
+    let wheel_of = |name: &str| numbered(name, from_zero);
+    take(guesses, rest, wheel_of, rank, |series, wheel| Guess { series, column: Column::Duty(wheel), unit: "" });
 }
 
 /// Of a log without wheels and poses the angles are what its motors turn: the first, and each that numbers its motor.
@@ -95,7 +117,7 @@ fn angles<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_zer
     take(
         guesses,
         rest,
-        from_zero,
+        |name| numbered(name, from_zero),
         |series| is_angle(series).then_some(0),
         |series, wheel| {
             let [low, high] = series.range();
@@ -118,10 +140,23 @@ fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_ze
         return;
     }
     let turning: Vec<bool> = (0..8).map(|i| guesses.iter().any(turns(i))).collect();
+    // A joint without a number has that of its position: `elbow/position`, `elbow/effort`.
+    let joint = |name: &str| name.rsplit_once(['/', '_', '.', ' ']).map(|(joint, _)| joint.to_owned());
+    let joints: Vec<(String, usize)> = guesses
+        .iter()
+        .filter_map(|g| match g.column {
+            Column::Counts(i) | Column::Speed(i) => Some((joint(&g.series.name)?, i)),
+            _ => None,
+        })
+        .collect();
+    let beside = |name: &str| {
+        let own = joint(name)?;
+        joints.iter().find(|(joint, _)| *joint == own).map(|(_, wheel)| *wheel)
+    };
     // Measured ones first, asked for ones last; parts and bounds of a torque are none.
     let rank = |series: &Series| {
         let has = said(series);
-        let wheel = numbered(&series.name, from_zero).unwrap_or(0);
+        let wheel = numbered(&series.name, from_zero).or_else(|| beside(&series.name)).unwrap_or(0);
         let is = has(&["torque", "tau", "effort"])
             && !has(&[
                 "fric", "friction", "ff", "gravity", "limit", "max", "min", "ext", "external", "error", "x", "y", "z",
@@ -132,25 +167,22 @@ fn torques<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>, from_ze
             () => 1,
         })
     };
-    take(guesses, rest, from_zero, rank, |series, wheel| Guess {
-        series,
-        column: Column::Current(wheel),
-        unit: TORQUE,
-    });
+    let wheel_of = |name: &str| numbered(name, from_zero).or_else(|| beside(name));
+    take(guesses, rest, wheel_of, rank, |series, wheel| Guess { series, column: Column::Current(wheel), unit: TORQUE });
 }
 
 /// Takes from the rest what has a rank, the lowest first, one series a motor; of several without a number the first.
 fn take<'a>(
     guesses: &mut Vec<Guess<'a>>,
     rest: &mut Vec<&'a Series>,
-    from_zero: &[String],
+    wheel_of: impl Fn(&str) -> Option<usize>,
     rank: impl Fn(&Series) -> Option<usize>,
     guess: impl Fn(&'a Series, usize) -> Guess<'a>,
 ) {
     let mut ranked: Vec<(usize, &'a Series)> = rest.iter().filter_map(|s| rank(s).map(|rank| (rank, *s))).collect();
     ranked.sort_by_key(|(rank, _)| *rank);
     for (_, series) in ranked {
-        let found = guess(series, numbered(&series.name, from_zero).unwrap_or(0));
+        let found = guess(series, wheel_of(&series.name).unwrap_or(0));
         if guesses.iter().all(|g| g.column != found.column) {
             rest.retain(|other| !std::ptr::eq(*other, series));
             guesses.push(found);

@@ -467,9 +467,13 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         }
         // A share that a motor was told; in no other unit is that known.
         _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
-        _ if has(&["mode", "state", "error", "status", "pid", "load", "temp"]) => None,
-        _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
         // Control engineers call the speed of a wheel w, and what they put into a motor u.
+        _ if wheel && has(&["w", "omega"]) => Some(Kind::Speed),
+        _ if wheel && has(&["u"]) => share.then_some(Kind::Duty),
+        _ if has(&["mode", "state", "error", "status", "pid", "load", "temp", "effort", "torque", "tau", "force"]) => {
+            None
+        }
+        _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),
         [word] if ["w", "omega"].iter().any(|name| numbers(word, name)) => Some(Kind::Speed),
         [word] if *word == "u" || numbers(word, "u") => share.then_some(Kind::Duty),
         _ => (wheel && whole && counted && axis.is_none()).then_some(Kind::Counts),
@@ -550,9 +554,10 @@ pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
     let [low, high] = series.range();
     let most = low.abs().max(high.abs());
     let from = super::quoted(&series.name);
+    let wheel = number(&words).map_or(1, |wheel| wheel + 1);
     match words[..] {
-        ["u"] if most > MOST_DUTY => {
-            format!("; what drives it? duty_1 = {{ from = {from}, scale = ... }}, 1 / the most that it can be")
+        _ if words.contains(&"u") && most > MOST_DUTY => {
+            format!("; what drives it? duty_{wheel} = {{ from = {from}, scale = ... }}, 1 / the most that it can be")
         }
         ["y"] if beside("u") => format!(
             "; what it measures? speed_1 = {{ from = {from}, unit = \"deg/s\" }}, or an angle: enc_1 = {{ from = {from}, unit = \
@@ -563,7 +568,6 @@ pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
             && units::in_name(&series.name).is_none()
             && words.iter().any(|w| ["command", "cmd", "output", "power", "throttle"].contains(w)) =>
         {
-            let wheel = number(&words).map_or(1, |wheel| wheel + 1);
             let full = full_duty(most);
             format!(
                 "; steps of a PWM? duty_{wheel} with scale = {:.6}, 1 / {full}; a set point? ref_{wheel}",

@@ -614,3 +614,52 @@ fn volts_of_a_side_are_of_a_motor() {
         assert!(map.contains(line), "{line}\n{map}");
     }
 }
+
+#[test]
+fn inputs_and_speeds_of_sides_are_no_encoders() {
+    let skid = drafted(
+        "t_cmd,u_right,u_left,t_odom,w_right,w_left",
+        ["0.5,0,0,0.55,0,0.1", "1.0,63,63,1.05,9.5,9.1", "1.5,-63,-63,1.56,-9.5,-9.2"],
+    );
+    for line in [
+        "speed_1 = \"w_right\"",
+        "speed_2 = \"w_left\"",
+        "\"u_left\", -63 to 63; what drives it? duty_2 = { from = \"u_left\", scale",
+    ] {
+        assert!(skid.contains(line), "{line}\n{skid}");
+    }
+    assert!(!skid.contains("enc_"), "{skid}");
+    let shares = drafted("t,u_right,u_left,ticks_right,ticks_left", ["0,0,0,1,2", "1,1,-1,5,6", "2,1,0,7,9"]);
+    assert!(shares.contains("duty_1 = \"u_right\"") && shares.contains("enc_2 = \"ticks_left\""), "{shares}");
+}
+
+/// Joints that have names, and no torque yet.
+#[test]
+fn torques_stand_beside_their_joints() {
+    let names = ["elbow/effort", "elbow/position", "wrist/effort", "wrist/position"].map(|n| format!("/arm_joint/{n}"));
+    let rows = ["0,0,0.1,0,0.3", "1,0,0.2,0,0.35", "2,0,0.4,0,0.5"];
+    let arm = drafted(&format!("t,{}", names.join(",")), rows);
+    for line in [
+        "enc_1 = { from = \"/arm_joint/elbow/position\"",
+        "enc_2 = { from = \"/arm_joint/wrist/position\"",
+        "current_1 = \"/arm_joint/elbow/effort\"",
+        "current_2 = \"/arm_joint/wrist/effort\"",
+    ] {
+        assert!(arm.contains(line), "{line}\n{arm}");
+    }
+}
+
+#[test]
+fn the_one_speed_beside_volts_is_the_motors() {
+    let motor = drafted("time,voltage,velocity", ["0,-3,-20.5", "0.01,3,20.5", "0.02,12,20.5"]);
+    assert!(motor.contains("speed_1 = \"velocity\"") && motor.contains("duty_1 = "), "{motor}");
+    let stepped = drafted("time,voltage [V],motor velocity [rpm]", ["0,12,0", "0.01,12,20.5", "0.02,12,90.5"]);
+    for line in ["speed_1 = { from = \"motor velocity [rpm]\", unit = \"rpm\" }", "duty_1 = "] {
+        assert!(stepped.contains(line), "{line}\n{stepped}");
+    }
+    // A body's is none, and of several nobody knows.
+    for body in ["velocity x", "linear velocity [m/s]", "velocity,speed_ref,speed"] {
+        let map = drafted(&format!("time,voltage,{body}"), ["0,-3,1.5,2,3", "1,3,2.5,3,4", "2,4,2.5,5,6"]);
+        assert!(!map.contains("\nspeed_1 = \"velocity\""), "{map}");
+    }
+}
