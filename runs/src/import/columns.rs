@@ -55,7 +55,8 @@ pub(super) struct Scaled {
     /// The most that the log's value means, in our unit: the log holds a controller's output, and the driver after it cuts
     /// that off.
     limit: Option<f64>,
-    /// Each value is what came since the row before it: the column is their sum.
+    /// Each value is what came since the row before it: of counts the column is their sum, of a pose each is seen from the pose
+    /// before it.
     #[serde(default)]
     increments: bool,
     /// The value is known but for multiples of this, such as 4096 of an encoder of one turn or 65536 of a number of 16
@@ -115,8 +116,9 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
         }
         let angle = ["rad", "deg", "rev"].contains(&name);
         let counted = matches!(column, Column::Counts(_));
-        if increments && !(counted && wraps.is_none()) {
-            let hint = "it is for an enc_ column, and without wraps";
+        let posed = matches!(column, Column::Odometry(_) | Column::Camera(_)) && rate.is_none();
+        if increments && !((counted || posed) && wraps.is_none()) {
+            let hint = "it is for enc_ columns and the poses of odom_ and cam_, and without wraps";
             return Err(fail("increments = true has no meaning here".to_owned(), hint.to_owned()));
         }
         if counted && units::is_like(name, "m") {

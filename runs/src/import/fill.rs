@@ -33,6 +33,11 @@ pub(super) struct Wanted<'a> {
 /// The values of a column whose multiples of a turn were lost: counts go on from the last, others are those next to 0.
 /// An encoder of one turn shows itself: angles within a turn that leap by more than half of it; and so does a full register.
 pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]> {
+    let counted = matches!(wanted.column, Column::Counts(_));
+    // Of a pose's steps [`chain`] makes a way, when all of them are known.
+    if wanted.increments && !counted {
+        return values.into();
+    }
     if wanted.increments {
         let mut sum = 0.0;
         let add = |value: &f64| {
@@ -41,7 +46,6 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         };
         return values.iter().map(add).collect();
     }
-    let counted = matches!(wanted.column, Column::Counts(_));
     let turn = wanted.turn.filter(|turn| {
         let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
         counted && high - low <= 1.001 * turn && values.windows(2).any(|w| (w[1] - w[0]).abs() > 0.5 * turn)
@@ -118,6 +122,27 @@ pub(super) fn integrate(t: &[f64], odometry: &mut [Vec<f64>; 3], sense: f64) {
         odometry[0][tick] = pose.x;
         odometry[1][tick] = pose.y;
         odometry[2][tick] = sense * pose.theta;
+    }
+}
+
+/// Poses of steps, each seen from the pose before it. What goes along its way drives arcs; with a sideways part a step leads
+/// straight to the next pose. `sense` is that of the headings in the frame of the steps.
+pub(super) fn chain<'a>(steps: impl Iterator<Item = [&'a mut f64; 3]>, arcs: bool, sense: f64) {
+    let mut pose = Pose::default();
+    for mut step in steps {
+        let [x, y, theta] = step.each_ref().map(|part| **part);
+        if [x, y, theta].iter().all(|part| part.is_finite()) {
+            pose = if arcs {
+                pose.advance(Twist::new(x, y, sense * theta), 1.0)
+            } else {
+                pose.compose(Pose::new(x, y, sense * theta))
+            };
+            for (part, value) in step.iter_mut().zip([pose.x, pose.y, sense * pose.theta]) {
+                **part = value;
+            }
+        } else {
+            step.into_iter().for_each(|part| *part = f64::NAN);
+        }
     }
 }
 
@@ -211,6 +236,7 @@ mod tests {
             of("speed_1 = { from = \"v\", unit = \"counts/s\", counts_per_rev = 1320 }").unwrap().speed[0].clone();
         assert!((speed[1] - 2.0 * PI).abs() < 1e-9 && (speed[2] - 4.0 * PI).abs() < 1e-9, "{speed:?}");
         for (column, message) in [
+            ("odom_x = { from = \"w\", increments = true }", "odom_y: no such column"),
             ("duty_1 = { from = \"w\", increments = true }", "increments = true has no meaning here"),
             ("enc_1 = { from = \"d\", increments = true, wraps = 4096 }", "increments = true has no meaning here"),
             ("speed_1 = { from = \"v\", unit = \"counts/s\" }", "counts_per_rev = 1440"),
@@ -241,5 +267,43 @@ mod tests {
         assert!(half.contains("odom_w: no such column in the map; map odom_vx and odom_w"), "{half}");
         let both = made("[columns]\nodom_vx = \"v\"\nodom_w = \"omega\"\nodom_x = \"v\"\n", &text).unwrap_err();
         assert!(both.contains("a pose, or its velocities"), "{both}");
+    }
+
+    #[test]
+    fn steps_of_poses_are_a_way() {
+        // A quarter turn to the left about a centre 1 m away, in steps, by what turned and what went along; and its chords.
+        let n = 500;
+        let turn = FRAC_PI_2 / f64::from(n);
+        let row = |i: i32| format!("{i},{turn},{turn},{},{}", turn.sin(), 1.0 - turn.cos());
+        let text = format!("t,ds,dth,dx,dy\n{}\n", (0..n).map(row).collect::<Vec<_>>().join("\n"));
+        let of = |frame: &str, columns: &[(&str, &str)]| {
+            let line =
+                |(column, from): &(&str, &str)| format!("{column} = {{ from = \"{from}\", increments = true }}\n");
+            let columns: String = columns.iter().map(line).collect();
+            made(&format!("[frame]\nx = \"forward\"\n{frame}[columns]\n{columns}"), &text)
+        };
+        let arcs = [("odom_x", "ds"), ("odom_theta", "dth")];
+        let chords = [("odom_x", "dx"), ("odom_y", "dy"), ("odom_theta", "dth")];
+        let ends = |run: &Run| run.odometry.as_ref().unwrap().clone().map(|c| c[c.len() - 1]);
+        for columns in [&arcs[..], &chords] {
+            let [x, y, theta] = ends(&of("", columns).unwrap());
+            assert!((x - 1.0).abs() < 1e-6 && (y - 1.0).abs() < 1e-6 && theta.abs() < 1e-9, "{x} {y} {theta}");
+        }
+        let [x, y, _] = ends(&of("headings = \"clockwise\"\n", &arcs).unwrap());
+        assert!((x - 1.0).abs() < 1e-6 && (y + 1.0).abs() < 1e-6, "{x} {y}");
+        // Of a camera, and in an image, where what turns to the left turns the other way than its y.
+        let seen = chords.map(|(column, from)| (column.replace("odom", "cam"), from));
+        let seen = seen.each_ref().map(|(column, from)| (column.as_str(), *from));
+        let pose = |frame: &str| of(frame, &seen).unwrap().camera.last().unwrap().pose;
+        let plain = pose("");
+        assert!((plain.x - 1.0).abs() < 1e-6 && (plain.y - 1.0).abs() < 1e-6 && plain.theta.abs() < 1e-9, "{plain:?}");
+        let image = pose("y = \"down\"\nheadings = \"clockwise\"\n");
+        assert!((image.x - 1.0).abs() < 1e-6 && (image.y + 1.0).abs() < 1e-6, "{image:?}");
+        // Steps without a heading lead nowhere, and a whole pose is no step.
+        let error = of("", &seen[..2]).unwrap_err();
+        assert!(error.contains("cam_theta: no such column"), "{error}");
+        let mixed = "[columns]\nodom_x = { from = \"dx\", increments = true }\nodom_y = \"dy\"\nodom_theta = \"dth\"\n";
+        let error = made(mixed, &text).unwrap_err();
+        assert!(error.contains("a pose is logged in increments as a whole, or not"), "{error}");
     }
 }

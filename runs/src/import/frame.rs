@@ -13,7 +13,7 @@ pub(super) struct Frame {
     #[serde(default)]
     pub(super) x: Axis,
     #[serde(default)]
-    y: Up,
+    pub(super) y: Up,
     #[serde(default)]
     pub(super) headings: Sense,
 }

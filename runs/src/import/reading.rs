@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::columns::{RATES, Source, wanted};
-use super::fill::{Wanted, counts, integrate, signs, unwrapped};
-use super::frame::{Axis, Frame, Sense};
+use super::fill::{Wanted, chain, counts, integrate, signs, unwrapped};
+use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
 use crate::columns::{Column, GROUPS, MOST_DUTY, missing_member};
@@ -98,10 +98,24 @@ impl Reading {
             let hint = "map odom_x, odom_y and odom_theta, or odom_vx, odom_vy and odom_w";
             return Err(InputError::new(path, "the odometry is a pose, or its velocities", hint).field("odom_w"));
         }
+        let stepped = [Column::Odometry, Column::Camera].map(|of| {
+            let mut parts =
+                wanted.iter().filter(|w| (0..3).any(|i| w.column == of(i))).map(|w| w.increments).peekable();
+            let first = parts.peek().copied().unwrap_or(false);
+            parts.all(|part| part == first).then_some(first)
+        });
+        let [Some(odometry_steps), Some(camera_steps)] = stepped else {
+            let hint = "say increments = true of x, y and heading, or of none of them";
+            return Err(InputError::new(path, "a pose is logged in increments as a whole, or not", hint));
+        };
         let sidewards = Column::Odometry(if self.frame.x == Axis::Forward { 1 } else { 0 });
-        let no_sideways = rates && !columns.contains(&sidewards);
+        let no_sideways = (rates || odometry_steps) && !columns.contains(&sidewards);
         if no_sideways {
             columns.push(sidewards);
+        }
+        if camera_steps && !columns.contains(&Column::Camera(2)) {
+            let hint = "steps are seen from the pose before them: map its heading's, too";
+            return Err(InputError::new(path, "no such column in the map", hint).field("cam_theta"));
         }
         if columns.is_empty() {
             let (name, its) = if self.pose_alone { ("cam_x", "truth.columns") } else { ("enc_1", "columns") };
@@ -201,11 +215,22 @@ impl Reading {
                 }
             }
         }
-        if rates && let Some(odometry) = &mut run.odometry {
+        let sense = if self.frame.headings == Sense::Clockwise { -1.0 } else { 1.0 };
+        if let Some(odometry) = &mut run.odometry {
             if no_sideways && let Column::Odometry(i) = sidewards {
                 odometry[i].fill(0.0);
             }
-            integrate(&run.t, odometry, if self.frame.headings == Sense::Clockwise { -1.0 } else { 1.0 });
+            if rates {
+                integrate(&run.t, odometry, sense);
+            } else if odometry_steps {
+                let [x, y, theta] = odometry;
+                let steps = x.iter_mut().zip(y).zip(theta).map(|((x, y), theta)| [x, y, theta]);
+                chain(steps, no_sideways, sense);
+            }
+        }
+        if camera_steps {
+            let down = if self.frame.y == Up::Down { -1.0 } else { 1.0 };
+            chain(camera.iter_mut().map(|pose| pose.each_mut()), false, sense * down);
         }
         self.frame.turn(&mut run, &mut camera);
         let whole = |(tick, p): (usize, &[f64; 3])| {

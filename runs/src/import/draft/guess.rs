@@ -546,6 +546,12 @@ fn time_unit_s(t: &[f64]) -> f64 {
     units::of_time(time_unit(t, 1.0)).unwrap_or(1.0)
 }
 
+/// Whether a series is by its name what came since the row before.
+pub(super) fn is_step(series: &Series) -> bool {
+    let lower = spaced(units::without(&series.name)).to_lowercase();
+    words(&lower).iter().any(|w| ["delta", "diff", "increment", "increments", "dticks", "dcounts", "dtick"].contains(w))
+}
+
 /// What a series may be that was not recognised, for its owner to decide, in a remark behind it.
 pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
     let lower = spaced(units::without(&series.name)).to_lowercase();

@@ -207,6 +207,9 @@ fn columns(guesses: &[Guess], none: &str) -> String {
             "" if rates(column) && Column::from_name(&series.name) == Column::Other => {
                 format!("{} # in rad/s at the wheel? Else {{ from = {0}, unit = \"rpm\" }}", quoted(&series.name))
             }
+            "" if matches!(column, Column::Counts(_)) && guess::is_step(series) => {
+                format!("{{ from = {}, increments = true }} # what came since the row before?", quoted(&series.name))
+            }
             "" => quoted(&series.name),
             bench::TORQUE => format!(
                 "{} # Nm at the output shaft: a current beside torque_constant = 1 and gear_ratio = 1",
