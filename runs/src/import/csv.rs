@@ -1,13 +1,13 @@
 //! Any text table with a column of time; empty fields and texts are no samples. PlotJuggler's exports have the time in
 //! `__time`. Lines that begin with a word, such as `ODOM 0.1 2.5`, are one table a word: `ODOM/column_2`. Numbers that follow
-//! their names, `t,340,PWM,60`, are a table with those names.
+//! their names, `t,340,PWM,60`, are a table with those names. Where a column says whose each row is, they are one a motor.
 
 use std::path::Path;
 
 use super::line::with_units;
 use super::rows::{self, Rows};
 use super::sheet::{Sheet, numbered};
-use super::{Clock, Table, dates, heading};
+use super::{Clock, Table, dates, heading, owner};
 use crate::error::InputError;
 
 /// Rows without a number below the names at most, and before the numbers: units, and short names.
@@ -55,6 +55,8 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         }
         rows
     };
+    // The column that says whose a row is, and the names of all.
+    let mut own: Option<(usize, Vec<String>)> = None;
     if !tagged {
         let texts = |record: &::csv::ByteRecord| -> Vec<String> {
             record.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
@@ -76,19 +78,50 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
             pending = false;
         }
         widths.names = names.len();
-        kinds.push((Vec::new(), begin("", names)));
+        own = match clock.of {
+            Some(wanted) => Some(names.iter().position(|name| name == wanted).ok_or_else(|| {
+                let hint = format!("it has {}", names.join(", "));
+                InputError::new(path, format!("has no column {wanted:?}"), hint).field("time.rows_of")
+            })?),
+            None => owner::find(&names, &text, separator).and_then(|(at, keys)| {
+                if !clock.rows {
+                    table.remarks.push(format!(
+                        "column {name:?} says whose each row is ({}): [time] rows_of = {name:?} in the map makes a table of \
+                         each, with series such as {:?}",
+                        keys.join(", "),
+                        format!("{}/{}", keys[0], names.iter().rfind(|other| **other != names[at]).unwrap_or(&names[at])),
+                        name = names[at],
+                    ));
+                }
+                clock.rows.then_some(at)
+            }),
+        }
+        .map(|at| (at, names.clone()));
+        match &own {
+            Some((at, _)) => table.of = Some(names[*at].clone()),
+            None => kinds.push((Vec::new(), begin("", names))),
+        }
     }
     while std::mem::take(&mut pending) || next(&mut record)? {
-        let tag = if tagged { record.get(0).unwrap_or_default() } else { b"" };
+        let key = own.as_ref().map(|(at, _)| owner::key(record.get(*at).unwrap_or_default()));
+        if key.as_ref().is_some_and(String::is_empty) {
+            continue;
+        }
+        let tag = match &key {
+            Some(key) => key.as_bytes(),
+            None if tagged => record.get(0).unwrap_or_default(),
+            None => b"",
+        };
         let at = kinds.iter().position(|(known, _)| known == tag).unwrap_or_else(|| {
-            let names = numbered(record.len());
+            let names = own.as_ref().map_or_else(|| numbered(record.len()), |(_, names)| names.clone());
             kinds.push((tag.to_owned(), begin(&format!("{}/", String::from_utf8_lossy(tag)), names)));
             kinds.len() - 1
         });
         let Some(rows) = &mut kinds[at].1 else { continue };
         let line = record.position().map_or(1, ::csv::Position::line) as usize;
         widths.see(&record);
-        let plain = |i: usize| record.get(i).and_then(|field| number(field, separator));
+        let of = own.as_ref().map(|(at, _)| *at);
+        let plain = |i: usize| record.get(i).filter(|_| Some(i) != of).and_then(|field| number(field, separator));
         let mut dated = None;
         if let Some((at, name)) = rows.time_column()
             && let Some(field) = record.get(at).filter(|f| !f.is_empty())
@@ -110,6 +143,9 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
     match timeless {
         Some(error) if kinds.iter().all(|(_, rows)| rows.is_none()) => return Err(error),
         _ => table.time = kinds.iter().flat_map(|(_, rows)| rows).find_map(Rows::time),
+    }
+    if let (Some((_, names)), Some((name, _))) = (&own, &mut table.time) {
+        *name = names.iter().find(|own| name.ends_with(&format!("/{own}"))).unwrap_or(name).clone();
     }
     kinds.into_iter().filter_map(|(_, rows)| rows).for_each(|rows| rows.finish(&mut table, "line"));
     table.remarks.extend(widths.remark());

@@ -18,6 +18,7 @@ mod legend;
 mod line;
 mod many;
 mod map;
+mod owner;
 mod reading;
 mod ros2;
 mod rotations;
@@ -61,6 +62,8 @@ pub struct Table {
     pub series: Vec<Series>,
     /// The column of time of a CSV and its unit, s.
     pub time: Option<(String, f64)>,
+    /// The column that says whose each row is, by which the rows were taken apart.
+    pub of: Option<String>,
     /// That it holds several recordings.
     pub restart: Option<Restart>,
     /// What the file calls them, in their order, where it does.
@@ -92,6 +95,8 @@ pub struct Clock<'a> {
     pub wraps: Option<f64>,
     /// Which recording of the file, from 1.
     pub recording: Option<usize>,
+    /// The column that says of which motor, sensor or robot each row is: they are a table each.
+    pub of: Option<&'a str>,
     /// Count rows where there is no such column.
     pub rows: bool,
 }

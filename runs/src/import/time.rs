@@ -19,6 +19,8 @@ pub(super) struct Time {
     wraps: Option<f64>,
     /// Rows a second, of a file without a column of time.
     rate_hz: Option<f64>,
+    /// The column that says whose each row is.
+    rows_of: Option<String>,
     /// Which recording of a file with several, from 1.
     pub(super) recording: Option<usize>,
     /// Keep the file's time instead of beginning at 0.
@@ -47,6 +49,7 @@ impl Time {
             rate_hz: self.rate_hz,
             wraps: self.wraps,
             recording: self.recording,
+            of: self.rows_of.as_deref(),
             rows: false,
         })
     }

@@ -88,6 +88,9 @@ fn log(table: &Table, guesses: &[Guess], own: &[(&str, &Series)], rest: &[&Serie
     }
     let (time, timed) = time(table, "time");
     out += &time;
+    if let Some(of) = &table.of {
+        let _ = writeln!(out, "rows_of = {} # says whose each row is", quoted(of));
+    }
     out.push_str(
         "\n[frame]\nx = \"forward\" # where x of the robot points: forward (ROS, the league) or right (ours)\n",
     );

@@ -1,6 +1,6 @@
 //! `current` as engineers of controllers write it: not amperes, but what is now, beside what was asked for.
 
-use super::super::{Series, Table};
+use super::super::{Series, Table, owner};
 use super::guess::{ANGLES, WANTED, spaced, words};
 
 /// The word that is either.
@@ -11,9 +11,16 @@ const QUANTITIES: [&str; 18] = [
     "counts", "encoder", "enc", "state",
 ];
 
-/// The name that says what a series is, where its own says it by such a word: `current_speed` is a speed, and of
-/// `CURRENT_M1` beside `DESIRED_M1` one is the speed of a motor and the other what it should be.
+/// The name that says what a series is, where its own does not: `M1/speed` of a table that was taken apart by its motors is
+/// one of them's.
 pub(super) fn meant(table: &Table, series: &Series) -> Option<String> {
+    let of_motors = || table.of.as_deref().is_some_and(owner::is_of_motors);
+    now_or_wanted(table, series).or_else(|| of_motors().then(|| format!("motor {}", series.name)))
+}
+
+/// The same where it says it by such a word: `current_speed` is a speed, and of
+/// `CURRENT_M1` beside `DESIRED_M1` one is the speed of a motor and the other what it should be.
+fn now_or_wanted(table: &Table, series: &Series) -> Option<String> {
     let lower = spaced(&series.name).to_lowercase();
     let own = words(&lower);
     let others = || table.series.iter().filter(|other| other.name != series.name);
