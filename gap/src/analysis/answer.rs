@@ -165,7 +165,9 @@ impl Workflow<'_> {
                 Link::Drive => Problem::Drive(&drive?.link),
                 _ => return None,
             };
-            let structure = differing::said(&problem, &state, self.data.catalogue, &runs, &self.thresholds)?;
+            let levels = || differing::Levels::of(self.data.pieces, runs.len());
+            let levels = (link.link == Link::Drive).then_some(&levels as &dyn Fn() -> differing::Levels);
+            let structure = differing::said(&problem, &state, self.data.catalogue, &runs, levels, &self.thresholds)?;
             Some(Leftover { link: link.link, structure })
         };
         let differ: Vec<Leftover> = links.iter().filter_map(of).collect();

@@ -10,6 +10,7 @@ use crate::thresholds::Thresholds;
 use crate::units;
 use estimation::normal_equations::solve;
 use links::effect::{Effect, Parameter};
+use links::pieces::Pieces;
 
 /// Most parameters of an effect that runs may differ in: of more each is known too badly from one run alone. On circles of three
 /// omni wheels one run gave a wheel's radius as 20 % larger, beside two others that were smaller.
@@ -18,6 +19,69 @@ const MOST: usize = 2;
 const TOLD: usize = 6;
 /// By how much more another effect must close to stand for one that comes earlier in the catalogue.
 const RICHER: f64 = 1.05;
+
+/// Ticks of a run that tell how fast it went, at most.
+const SEEN: usize = 4096;
+/// Share of the fastest from which a wheel turns, and the share of its moments at either end that are none of its level.
+const TURNS: f64 = 0.05;
+const ENDS: f64 = 0.1;
+/// By how much of the usual range of a run's speeds the levels of runs lie apart from which each has a level of its own: of
+/// eight steps of a fan, each a tenth of the supply higher, 0.75; of drives to and fro, 0.1.
+const OWN: f64 = 0.5;
+
+/// How fast the wheels turned in each run: where every run has a level of its own, or a direction, what bends with the speed
+/// is another size in each of them, though all are of one robot.
+pub(super) struct Levels(Vec<Vec<[f64; 2]>>);
+
+impl Levels {
+    pub(super) fn of(pieces: &Pieces, runs: usize) -> Self {
+        let mut speeds: Vec<Vec<Vec<f64>>> = vec![Vec::new(); runs];
+        let mut ticks = vec![0; runs];
+        pieces.iter().for_each(|s| ticks[s.run] += s.t.len());
+        for s in pieces.iter() {
+            let own = &mut speeds[s.run];
+            own.resize_with(s.speed.len(), Vec::new);
+            let every = ticks[s.run].div_ceil(SEEN).max(1);
+            own.iter_mut().zip(&s.speed).for_each(|(own, speed)| own.extend(speed.iter().step_by(every)));
+        }
+        let fastest = speeds.iter().flatten().flatten().fold(0.0_f64, |most, w| most.max(w.abs()));
+        let range = |mut wheel: Vec<f64>| {
+            wheel.retain(|w| w.abs() > TURNS * fastest);
+            wheel.sort_by(f64::total_cmp);
+            let at = |share: f64| wheel.get((share * wheel.len() as f64) as usize).copied().unwrap_or(0.0);
+            [at(ENDS), at(1.0 - ENDS)]
+        };
+        Self(speeds.into_iter().map(|run| run.into_iter().map(range).collect()).collect())
+    }
+
+    /// What is left of the differences of sizes, as a share of them, beside a law that bends with the level of the runs; all of
+    /// it where they have no level of their own.
+    fn beside_level(&self, of_runs: &[(usize, f64)]) -> f64 {
+        let ranges = |wheel: usize| of_runs.iter().filter_map(move |(run, _)| self.0.get(*run)?.get(wheel).copied());
+        let middles = |wheel: usize| ranges(wheel).map(|[low, high]| 0.5 * (low + high)).collect::<Vec<f64>>();
+        let wheels = self.0.first().map_or(0, Vec::len);
+        let Some(levels) = (0..wheels).map(middles).max_by(|a, b| spread(a).total_cmp(&spread(b))) else { return 1.0 };
+        let n = of_runs.len() as f64;
+        let widths = (0..wheels).flat_map(ranges).map(|[low, high]| high - low).sum::<f64>() / (n * wheels as f64);
+        if levels.len() < of_runs.len() || spread(&levels) < OWN * widths {
+            return 1.0;
+        }
+        let sizes = DVector::from_iterator(of_runs.len(), of_runs.iter().map(|(_, size)| *size));
+        // A straight line, and a bend where there are runs enough.
+        let powers = if of_runs.len() > 4 { 3 } else { 2 };
+        let scale = levels.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+        let law = DMatrix::from_fn(of_runs.len(), powers, |run, power| (levels[run] / scale).powi(power as i32));
+        let fit = solve(&(law.transpose() * &law), &(law.transpose() * &sizes));
+        let left = &sizes - law * fit;
+        spread(left.as_slice()) / spread(sizes.as_slice()).max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Greatest less least.
+fn spread(of: &[f64]) -> f64 {
+    let ends = of.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    ends[1] - ends[0]
+}
 
 /// How what is said begins.
 pub(crate) const BEGINS: &str = "the runs differ";
@@ -35,12 +99,13 @@ struct Sizes {
 }
 
 /// In which size of what the runs differ, if one for each run closes a good part of what one for all leaves of a link, what is
-/// named fitted beside both. `state` has what is named.
+/// named fitted beside both. `state` has what is named; `levels` are asked for where runs may have levels of their own.
 pub(super) fn said(
     problem: &Problem,
     state: &State,
     catalogue: &[Arc<dyn Effect>],
     runs: &[String],
+    levels: Option<&dyn Fn() -> Levels>,
     thresholds: &Thresholds,
 ) -> Option<String> {
     // One run differs from none.
@@ -80,6 +145,10 @@ pub(super) fn said(
         || best.own < thresholds.undecided * n
         || !best.parameter.is_material(high.1 - low.1)
     {
+        return None;
+    }
+    // What follows the level of the runs is the law, not another machine.
+    if levels.is_some_and(|levels| levels().beside_level(&best.of_runs) < thresholds.undecided) {
         return None;
     }
     let told = if best.of_runs.len() > TOLD { vec![low, high] } else { best.of_runs.clone() };
@@ -136,4 +205,28 @@ fn sizes(linear: &Linear, numbers: &[usize], columns: &[usize], active: &Active)
     let bounded = |x: f64| (now + x).clamp(parameter.bounds[0], parameter.bounds[1]);
     let of_runs = numbers.iter().enumerate().map(|(group, run)| (*run, bounded(of(group, worst)))).collect();
     Some(Sizes { name: active.effect.name().to_owned(), parameter, parameters: m, of_runs, common, own })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes of runs of which each has its range of speed, and the share that is left beside their level.
+    fn left(runs: &[([f64; 2], f64)]) -> f64 {
+        let levels = Levels(runs.iter().map(|(range, _)| vec![*range]).collect());
+        levels.beside_level(&runs.iter().enumerate().map(|(run, (_, size))| (run, *size)).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn what_follows_the_level_of_the_runs_is_no_difference_of_them() {
+        let step = |k: usize| [1.0 + 2.0 * k as f64, 3.0 + 5.0 * k as f64];
+        let bent = |k: usize| 1.0 + 0.5 * k as f64 + 0.1 * (k * k) as f64;
+        let of = |size: &dyn Fn(usize) -> f64| left(&(0..8).map(|k| (step(k % 4), size(k))).collect::<Vec<_>>());
+        assert!(of(&|k| bent(k % 4)) < 0.1);
+        // The same levels, once with another battery, beside the bend as well.
+        assert!(of(&|k| if k < 4 { 0.0 } else { 1.0 }) > 0.9 && of(&|k| bent(k % 4) + (2 * (k / 4)) as f64) > 0.3);
+        // One way and the other, once each, tell nothing; to and fro in each run they do.
+        assert!(left(&[([1.0, 3.0], 0.0), ([-3.0, -1.0], 1.0)]) < 1e-6);
+        assert!(left(&[([-3.0, 3.1], 0.0), ([-2.0, 2.0], 1.0), ([-3.0, 3.0], 1.1)]) == 1.0);
+    }
 }

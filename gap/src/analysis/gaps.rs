@@ -187,7 +187,8 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
     };
     let counted = pieces.iter().any(|s| !s.angle.is_empty());
     let most = pieces.iter().map(|s| turned(&s)).fold(0.0, f64::max);
-    if counted && most < STILL {
+    let used = drive.is_some_and(|drive| drive.weights.iter().flatten().any(|w| *w > 0.0));
+    if counted && most < STILL && !used {
         let why = format!(
             "Compared nothing, for no wheel turns by more than {most:.3} rad; drive a metre, and turn once on the spot."
         );
@@ -195,8 +196,7 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
         let all = [Link::Command, Link::Controller, Link::Drive, Link::Motion, Link::Gyroscope, Link::Accelerometer];
         return all.map(|link| (link, why.clone())).to_vec();
     }
-    if let Some(drive) = drive {
-        let used = drive.weights.iter().flatten().any(|w| *w > 0.0);
+    if drive.is_some() {
         if !used {
             let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
             out.push((

@@ -68,3 +68,38 @@ fn a_load_that_the_file_lacks_is_found() {
     let faults: Vec<String> = cases.into_par_iter().filter_map(fault).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// Steps of a fan, each with another voltage: the drag that grows with the square of the speed is another friction in each.
+fn fan(index: usize, seed: u64) -> Run {
+    let mut rng = ChaCha8Rng::seed_from_u64(7000 + 100 * seed + index as u64);
+    let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
+    let duty = 0.25 + 0.1 * index as f64;
+    let (mut duties, mut speeds, mut speed) = (Vec::new(), Vec::new(), 0.0_f64);
+    for row in 0..60 {
+        run.t.push(0.01 * f64::from(row));
+        duties.push(duty);
+        speeds.push(speed + rng.random_range(-0.3..0.3));
+        for _ in 0..20 {
+            let torque = GEAR * KT * (duty * VOLT - KT * GEAR * speed) / OHM - 2e-4 * speed * speed;
+            speed = with_dry_friction(speed, torque, 0.01, 40.0 * GEAR * GEAR * INERTIA, 0.01 / 20.0);
+        }
+    }
+    run.duty = vec![duties];
+    run.speed = vec![speeds];
+    run
+}
+
+#[test]
+fn runs_that_have_a_level_each_are_of_one_machine() {
+    let text = format!(
+        "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+         wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
+         friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+        40.0 * INERTIA
+    );
+    let said = |a: &Analysis| a.unexplained.iter().any(|u| u.structure.starts_with("the runs differ"));
+    for seed in [1, 2] {
+        let a = of_files(&text, (0..8).map(|i| fan(i, seed)));
+        assert!(!said(&a), "{}", a.terminal_summary());
+    }
+}
