@@ -196,17 +196,15 @@ pub(super) fn weightless(pieces: &Pieces, drive: Option<&DriveResiduals>) -> Vec
         let all = [Link::Command, Link::Controller, Link::Drive, Link::Motion, Link::Gyroscope, Link::Accelerometer];
         return all.map(|link| (link, why.clone())).to_vec();
     }
-    if drive.is_some() {
-        if !used {
-            let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
-            out.push((
-                Link::Drive,
-                format!(
-                    "Drive: compared nothing, for no axis turns steadily (the fastest moment is {fastest:.2} rad/s at the \
-                     wheel); drive each axis for seconds in both directions at several duties."
-                ),
-            ));
-        }
+    if drive.is_some() && !used {
+        let fastest = pieces.iter().flat_map(|s| s.speed.concat()).fold(0.0_f64, |a, b| a.max(b.abs()));
+        out.push((
+            Link::Drive,
+            format!(
+                "Drive: compared nothing, for no axis turns steadily (the fastest moment is {fastest:.2} rad/s at the \
+                 wheel); drive each axis for seconds in both directions at several duties."
+            ),
+        ));
     }
     out
 }

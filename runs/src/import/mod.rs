@@ -175,6 +175,12 @@ impl Table {
     /// As [`Table::read`].
     pub fn of_bytes(bytes: &[u8], path: &Path, format: Option<Format>, time: &Clock) -> Result<Self, InputError> {
         let format = format.unwrap_or_else(|| Format::of(path, bytes));
+        if time.of.is_some() && format != Format::Csv {
+            let hint = "its series have names of their own: racbot convert --list shows them";
+            return Err(
+                InputError::new(path, "is no table of text, whose rows may be of several", hint).field("time.rows_of")
+            );
+        }
         let no_text = if matches!(format, Format::Csv | Format::Json) { binary(bytes) } else { None };
         if let Some((what, hint)) = no_text {
             return Err(InputError::new(path, what, hint));

@@ -140,6 +140,13 @@ mod tests {
     }
 
     #[test]
+    fn other_files_than_tables_have_no_such_column() {
+        let clock = Clock { of: Some("motor"), ..Clock::default() };
+        let error = Table::of_bytes(b"[{\"t\": 0, \"x\": 1}]", Path::new("x.json"), None, &clock).unwrap_err();
+        assert!(error.to_string().contains("rows_of: is no table of text"), "{error}");
+    }
+
+    #[test]
     fn states_and_numbers_are_no_owners() {
         let rows = |of: &dyn Fn(u32) -> String| (0..40).map(|k| format!("{k},{},{k}.5\n", of(k))).collect::<String>();
         let state = |k: u32| if k < 20 { "RUN".to_owned() } else { "STOP".to_owned() };
