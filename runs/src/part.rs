@@ -43,16 +43,32 @@ impl Run {
     /// What a log of several axes says of one of them, as a log of an axis alone.
     #[must_use]
     pub fn axis(&self, axis: usize) -> Self {
-        let one = |group: &[Vec<f64>]| group.get(axis).cloned().into_iter().collect::<Vec<_>>();
+        let counted = self.count_gaps.get(axis).filter(|_| self.counts.len() > axis);
+        let groups = [&self.reference, &self.duty, &self.measured, &self.speed, &self.current];
+        // What is logged of each axis at times of its own leaves ticks that are the others' alone.
+        let told = |tick: &usize| {
+            counted.is_some_and(|gaps| gaps.binary_search(tick).is_err())
+                || groups.iter().any(|group| group.get(axis).is_some_and(|column| column[*tick].is_finite()))
+        };
+        let mut own: Vec<usize> = (0..self.len()).filter(told).collect();
+        if own.is_empty() {
+            own = (0..self.len()).collect();
+        }
+        let of = |column: &Vec<f64>| own.iter().map(|tick| column[*tick]).collect::<Vec<f64>>();
+        let one = |group: &[Vec<f64>]| group.get(axis).map(of).into_iter().collect::<Vec<_>>();
+        let gaps = |gaps: &Vec<usize>| -> Vec<usize> {
+            let own = own.iter().enumerate().filter(|(_, tick)| gaps.binary_search(tick).is_ok());
+            own.map(|(tick, _)| tick).collect()
+        };
         Self {
             name: self.name.clone(),
-            t: self.t.clone(),
+            t: of(&self.t),
             reference: one(&self.reference),
-            counts: self.counts.get(axis).cloned().into_iter().collect(),
-            count_gaps: self.count_gaps.get(axis).cloned().into_iter().collect(),
+            counts: self.counts.get(axis).map(|c| own.iter().map(|tick| c[*tick]).collect()).into_iter().collect(),
+            count_gaps: self.count_gaps.get(axis).map(gaps).into_iter().collect(),
             duty: one(&self.duty),
             measured: one(&self.measured),
-            supply_v: self.supply_v.clone(),
+            supply_v: self.supply_v.as_ref().map(of),
             speed: one(&self.speed),
             current: one(&self.current),
             source: self.source,

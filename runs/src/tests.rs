@@ -245,3 +245,19 @@ proptest! {
         }
     }
 }
+
+/// Two motors that were logged in turn: each keeps its own ticks alone.
+#[test]
+fn an_axis_has_the_ticks_at_which_something_is_logged_of_it() {
+    let text =
+        "t,enc_1,enc_2,duty_1,duty_2,supply_v\n0,1,,0.1,,12\n0.002,,7,,0.2,\n0.01,3,,0.3,,11.9\n0.012,,9,,0.4,\n";
+    let run = read(text).unwrap();
+    let [first, second] = [0, 1].map(|axis| run.axis(axis));
+    assert_eq!((first.t.clone(), first.counts.clone()), (vec![0.0, 0.01], vec![vec![1, 3]]));
+    assert_eq!((second.t, second.duty, second.counts), (vec![0.002, 0.012], vec![vec![0.2, 0.4]], vec![vec![7, 9]]));
+    assert_eq!((first.supply_v.unwrap(), first.count_gaps), (vec![12.0, 11.9], vec![Vec::new()]));
+    // A tick that has something of it stays, and its gap.
+    let text = "t,enc_1,enc_2,duty_1,duty_2\n0,1,5,0.1,0\n0.01,,6,0.1,0\n0.02,,7,,0\n";
+    let held = read(text).unwrap().axis(0);
+    assert_eq!((held.t, held.counts, held.count_gaps), (vec![0.0, 0.01], vec![vec![1, 1]], vec![vec![1]]));
+}
