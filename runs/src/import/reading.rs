@@ -230,7 +230,7 @@ impl Reading {
         }
         if camera_steps {
             let down = if self.frame.y == Up::Down { -1.0 } else { 1.0 };
-            chain(camera.iter_mut().map(|pose| pose.each_mut()), false, sense * down);
+            chain(camera.iter_mut().map(<[f64; 3]>::each_mut), false, sense * down);
         }
         self.frame.turn(&mut run, &mut camera);
         let whole = |(tick, p): (usize, &[f64; 3])| {
