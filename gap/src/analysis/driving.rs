@@ -79,6 +79,18 @@ impl<'a> Workflow<'a> {
             let or_read: Vec<_> = here.iter().filter(|e| loads || !once_a_turn(e.name())).cloned().collect();
             outcome = self.drive_studied(&mut link, &or_read);
         }
+        let against = self.spoken_against(&outcome);
+        if !against.is_empty()
+            && let Some(again) = self.drive_link()
+        {
+            here.retain(|e| !against.iter().any(|name| name == e.name()));
+            link = again;
+            outcome = self.drive_studied(&mut link, &here);
+            let names = against.join(", ");
+            self.findings
+                .remarks
+                .push(format!("Fitted on the drive link, and not named: {names}; the camera speaks against it."));
+        }
         if self.question.currents {
             let support = self.question.robot.support;
             if ratios::are_named_on_both_sides(&outcome.named, support) {
@@ -199,6 +211,25 @@ impl<'a> Workflow<'a> {
                 || grain()
         };
         self.data.catalogue.iter().filter(|e| !shown(e)).cloned().collect()
+    }
+
+    /// What was named for the drive, belongs to camera and wheels, and leaves more between them: that is not deduced from
+    /// duties.
+    fn spoken_against(&self, outcome: &Outcome) -> Vec<String> {
+        if !self.data.has_camera() {
+            return Vec::new();
+        }
+        let problem = Problem::Motion(self.searched().motion);
+        let square = |state: &State| study::rms(&problem, state).powi(2);
+        let with = square(&outcome.written);
+        let worse = |name: &str| {
+            let mut without = outcome.written.clone();
+            without.active.retain(|a| a.given || a.effect.name() != name);
+            with > (1.0 + self.thresholds.worse) * square(&without)
+        };
+        let seen = |a: &&Active| !a.given && a.effect.link() == Link::Motion;
+        let names = outcome.written.active.iter().filter(seen).map(|a| a.effect.name().to_owned());
+        names.filter(|name| worse(name)).collect()
     }
 
     /// Whether what the camera saw remains far from its noise with what is named for it.
