@@ -107,8 +107,10 @@ impl<'a> Workflow<'a> {
         if let Some(said) = ratios::of_wrong_counts(&mut outcome, &self.start.robot) {
             self.findings.remarks.push(said);
         }
-        if let Some(said) = ratios::of_counts(&outcome.named, &self.start.robot, self.data.has_camera()) {
+        self.findings.remarks.extend(ratios::of_one_encoder(&outcome.named, &self.start.robot));
+        if let Some((said, tie)) = ratios::of_counts(&outcome.named, &self.start.robot, self.data.has_camera()) {
             self.findings.remarks.push(said);
+            outcome.sets.push(tie);
             outcome.ambiguous = true;
         }
         self.findings.remarks.extend(logged_late(&outcome, self.question.robot.control_rate_hz));

@@ -57,8 +57,14 @@ impl<'a> Question<'a> {
             }
         }
         let currents = set.logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
-        // What a current does tells no counts from an inertia.
-        let driven = robot.support == Support::Blocks && !currents;
+        // Counts that neither a camera nor a sensor sees the drive alone tells; what a current does tells none from an
+        // inertia.
+        let senses = |log: &runs::Log| {
+            let layout = log.layout();
+            !log.camera().is_empty() || layout.gyro.is_some() || layout.acceleration.is_some()
+        };
+        let unseen = robot.support == Support::Blocks || !set.logs.iter().any(senses);
+        let driven = unseen && !currents;
         let catalogue = effects::catalogue_for(set.logs.len())
             .into_iter()
             .filter(|e| !(currents && e.before_current()))

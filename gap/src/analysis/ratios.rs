@@ -8,7 +8,7 @@ use super::found::Named;
 use super::study::Outcome;
 use crate::controller::ENCODER_SCALE;
 use crate::state::{Active, State};
-use links::effect::Sizes;
+use links::effect::{Link, Sizes};
 use links::effects;
 
 /// The one that all others are told relative to.
@@ -79,12 +79,28 @@ pub(super) fn of_wrong_counts(outcome: &mut Outcome, robot: &Robot) -> Option<St
     ))
 }
 
+/// The same of one wheel of several, whose fellows tell it by what they move together, in a sentence.
+pub(super) fn of_one_encoder(named: &[Named], robot: &Robot) -> Option<String> {
+    let told = named.iter().find(|n| n.name == ENCODER_SCALE && n.link == Link::Drive)?;
+    let [wheel] = told.wheels[..] else { return None };
+    let more = told.parameters.iter().find(|(p, ..)| *p == format!("scale_{wheel}"))?.1;
+    let is = match is_from_speeds(robot) {
+        true => format!("its speeds in the log are {:.3} times those of the wheel", 1.0 + more),
+        false => format!("{:.0} counts a turn of that motor", robot.encoder_counts_per_motor_rev * (1.0 + more)),
+    };
+    Some(format!(
+        "{ENCODER_SCALE} of wheel {wheel}, from what the drive does: {is}. Turn the wheel by hand and count; the file has one \
+         number for all wheels, so that the remedy is at that encoder or in its decoder."
+    ))
+}
+
 /// Counts of a turn in those of the file, where a decoder misses edges: one of two, or three of four.
 const DECODED: [f64; 2] = [0.5, 0.25];
 
 /// A wheel whose speeds are a part of the true ones shows its back-EMF as so much more braking, and its inertia as so much
-/// more: what a viscous friction that is just that may be instead, in a sentence. A camera would have `seen` the counts.
-pub(super) fn of_counts(named: &[Named], robot: &Robot, seen: bool) -> Option<String> {
+/// more: what a viscous friction that is just that may be instead, in a sentence, and the two names. A camera would have `seen` the
+/// counts.
+pub(super) fn of_counts(named: &[Named], robot: &Robot, seen: bool) -> Option<(String, Vec<String>)> {
     let viscous = named.iter().find(|n| n.name == FRICTIONS[1] && n.wheels.len() < 2)?;
     let [low, high] = viscous.parameters.iter().find(|(p, ..)| p.starts_with("coefficient"))?.2.ends()?;
     let motor = &robot.motor;
@@ -96,12 +112,13 @@ pub(super) fn of_counts(named: &[Named], robot: &Robot, seen: bool) -> Option<St
         [wheel] => (format!(" of wheel {wheel}"), format!("{counts:.0} counts a turn of that motor")),
         _ => (String::new(), format!("encoder_counts_per_motor_rev = {counts:.0}")),
     };
-    Some(format!(
+    let said = format!(
         "The viscous friction{of} is {:.0} times what the back-EMF brakes by itself: an encoder that gives {part} of the counts \
          of the file shows a motor so. Turn the shaft by hand and count: with {with} that is the cause, and what is named with \
          it as well.",
         1.0 / part - 1.0,
-    ))
+    );
+    Some((said, [FRICTIONS[1], ENCODER_SCALE].map(str::to_owned).to_vec()))
 }
 
 /// Ties a rotor that is named with the torque constant that does the same, or the other way round, where the factor
@@ -140,7 +157,6 @@ fn is_free(name: &str, outcome: &Outcome, start: &State, sizes: &Sizes, factor: 
 mod tests {
     use super::*;
     use crate::evidence::Interval;
-    use links::effect::Link;
 
     fn viscous(wheels: &[usize], parameter: &str, [low, high]: [f64; 2]) -> [Named; 1] {
         let known = (parameter.to_owned(), 0.5 * (low + high), Interval::Ci95([low, high]));
@@ -153,7 +169,7 @@ mod tests {
         let motor = &robot.motor;
         let brakes = robot.gear_ratio.powi(2) * motor.torque_constant * motor.back_emf() / motor.resistance_ohm;
         let about = |times: f64| [0.9 * times * brakes, 1.1 * times * brakes];
-        let said = |named: &[Named], seen: bool| of_counts(named, &robot, seen);
+        let said = |named: &[Named], seen: bool| of_counts(named, &robot, seen).map(|(said, _)| said);
         // Half of the counts: speeds twice as large, which brake once more; a quarter: three times more.
         let half = said(&viscous(&[2], "coefficient_2_nms", about(1.0)), false).unwrap();
         assert!(half.contains("of wheel 2") && half.contains("0.5 of the counts"), "{half}");

@@ -35,8 +35,11 @@ impl Effect for EncoderScale {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        let p = |i| Parameter::new(wheel_name("scale", i, ""), 0.01, [-0.6, 0.6], 0.004);
-        let mut forms = vec![Form::whole(vec![Parameter::new("scale", 0.01, [-0.6, 0.6], 0.004)])];
+        // A decoder may count one of four edges, or all where the file has one; a camera's own check says that much.
+        let bounds = if self.on == Link::Drive { [-0.8, 3.5] } else { [-0.6, 0.6] };
+        let scale = |name: String| Parameter::new(name, 0.01, bounds, 0.004);
+        let p = |i| scale(wheel_name("scale", i, ""));
+        let mut forms = vec![Form::whole(vec![scale("scale".to_owned())])];
         forms.extend(Form::alone(robot, p));
         forms.push(Form::each(robot, p));
         forms
