@@ -212,7 +212,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
         logged,
         spacing(logs),
     ] {
-        if coarse > step {
+        if coarse > step && are_multiples(logs, coarse, floor, differs) {
             offer(Law { duty_quantum: coarse, ..nominal }, "quantisation", vec![exact("duty_quantum", coarse)]);
         }
     }
@@ -276,6 +276,20 @@ fn gaps(robot: &Robot, logs: &[&Log]) -> Gaps {
         }
     }
     all
+}
+
+/// Whether the duties lie on multiples of a step, but for a share of them and the ends of their range. Where they do not, no
+/// rounding to it made them, however well it hides what else the loop did.
+fn are_multiples(logs: &[&Log], step: f64, floor: f64, differs: f64) -> bool {
+    let (mut all, mut off) = (0_usize, 0_usize);
+    for log in logs {
+        let part = log.part(0..log.len().min(FIRST), DUTIES);
+        for duty in part.duty.iter().flatten().filter(|d| d.abs() > floor && d.abs() < 1.0 - floor) {
+            all += 1;
+            off += usize::from((duty - (duty / step).round() * step).abs() > floor);
+        }
+    }
+    off as f64 <= differs * all as f64
 }
 
 /// Most duties that are looked at for their levels.
