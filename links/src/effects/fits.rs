@@ -25,13 +25,14 @@ const ONLY_BY_DEAD_RECKONING: [&str; 2] = ["odometry-curl", "odometry-drift"];
 
 /// What acts on the body, at the contact with the floor, or follows the way, none of which there is while the wheels are off
 /// the floor.
-const NOT_ON_BLOCKS: [&str; 12] = [
+const NOT_ON_BLOCKS: [&str; 13] = [
     "wheel-creep",
     "wheel-slip",
     "robot-mass",
     "yaw-inertia",
     "centre-of-mass",
     "floor-tilt",
+    "body-drag",
     "carpet-grain",
     "roller-friction",
     "heading-drag",

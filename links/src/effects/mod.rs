@@ -5,6 +5,7 @@
 mod actuation_latency;
 mod asymmetric_friction;
 mod battery_sag;
+mod body_drag;
 mod body_radius;
 pub mod camera_clock;
 pub mod camera_latency;
@@ -125,6 +126,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(rotor_inertia::RotorInertia),
         Box::new(centre_of_mass::CentreOfMass),
         Box::new(floor_tilt::FloorTilt),
+        Box::new(body_drag::BodyDrag),
         Box::new(carpet_grain::CarpetGrain),
         Box::new(heading_drag::HeadingDrag),
         Box::new(actuation_latency::ActuationLatency),
@@ -212,6 +214,7 @@ mod tests {
         ("battery-sag", &["resistance_ohm", "drop_v"]),
         ("current-limit", &["limit_a"]),
         ("floor-tilt", &["x_rad", "y_rad"]),
+        ("body-drag", &["force_n"]),
         ("carpet-grain", &["force_n", "azimuth_rad"]),
         ("wheel-slip", &["friction_coefficient"]),
     ];

@@ -75,6 +75,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
         "centre-of-mass" => d.centre_of_mass_m = [value("x_m"), value("y_m")],
         "floor-tilt" => d.tilt_rad = [value("x_rad"), value("y_rad")],
         "roller-friction" => d.roller_friction_n = value("force_n"),
+        "body-drag" => d.drag_n = value("force_n"),
         "carpet-grain" => d.grain = [value("force_n"), value("azimuth_rad")],
         "heading-drag" => {
             d.heading_drag.harmonic = effect.value("harmonic").unwrap_or(1.0);

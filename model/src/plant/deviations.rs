@@ -15,6 +15,8 @@ pub struct Deviations {
     pub tilt_rad: [f64; 2],
     /// Friction of each contact in the direction its rollers roll in, N.
     pub roller_friction_n: f64,
+    /// Drag on the body against the way it goes, N.
+    pub drag_n: f64,
     /// Drag along one direction of the field only: force (N) and direction (rad, world).
     pub grain: [f64; 2],
     /// Friction of all wheels that changes with the heading.

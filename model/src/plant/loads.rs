@@ -32,6 +32,11 @@ impl Plant {
         let outwards = self.mass * twist.omega * twist.omega;
         let [cx, cy] = d.centre_of_mass_m;
         let mut push = Vector3::new(c * f[0] + s * f[1] + outwards * cx, -s * f[0] + c * f[1] + outwards * cy, 0.0);
+        let speed = twist.speed();
+        if d.drag_n != 0.0 && speed > 0.0 {
+            let per_speed = d.drag_n * (speed / SLIDE_WIDTH).tanh() / speed;
+            push -= per_speed * Vector3::new(twist.vx, twist.vy, 0.0);
+        }
         if d.roller_friction_n != 0.0 {
             let speeds = Vector3::new(twist.vx, twist.vy, twist.omega);
             for wheel in self.geometry.wheels() {

@@ -52,6 +52,20 @@ fn the_carpet_drags_along_its_grain_only() {
 }
 
 #[test]
+fn what_drags_at_the_body_holds_it_back_whichever_way_it_goes() {
+    for way in [0.0_f64, 0.7, 2.0] {
+        let mut plant = thrown("body-drag", &[("force_n", 0.6)], Twist::new(way.cos(), way.sin(), 0.0));
+        run(&mut plant, [0.0; 3], 800);
+        close(plant.twist().vx, (1.0 - 0.8 * 0.6 / 2.4) * way.cos(), 1e-3);
+        close(plant.twist().vy, (1.0 - 0.8 * 0.6 / 2.4) * way.sin(), 1e-3);
+    }
+    // No turn on the spot.
+    let mut plant = thrown("body-drag", &[("force_n", 0.6)], Twist::new(0.0, 0.0, 5.0));
+    run(&mut plant, [0.0; 3], 500);
+    close(plant.twist().omega, 5.0, 1e-6);
+}
+
+#[test]
 fn rollers_rub_in_the_direction_they_roll_in() {
     // To the right wheel 1 rolls freely on its drive, its rollers stand; the other two slide at 60°
     // to their rollers' direction: 2·F·cos 30°.
