@@ -343,3 +343,27 @@ fn fit_gains(nominal: &Law, cost: impl Fn(&Law) -> f64) -> Law {
     }
     best.1
 }
+
+#[cfg(test)]
+mod tests {
+    use std::borrow::Cow;
+
+    use runs::Run;
+
+    use super::*;
+
+    #[test]
+    fn a_rounding_that_the_duties_do_not_show_is_none() {
+        let multiples = |logged: &dyn Fn(usize) -> f64, step: f64| {
+            let duty: Vec<f64> = (0..1000).map(logged).collect();
+            let t = (0..duty.len()).map(|k| 0.001 * k as f64).collect();
+            let log = Log::from(Cow::Owned(Run { t, duty: vec![duty], ..Run::default() }));
+            are_multiples(&[&log], step, 0.000_5 + SLACK, Thresholds::default().differs[1])
+        };
+        let thousandths = |k: usize| 0.001 * (k as f64 - 500.0);
+        assert!(multiples(&thousandths, 0.001) && !multiples(&thousandths, 0.002) && !multiples(&thousandths, 0.0625));
+        // As a logger of three digits has sixteenths; what saturates lies on no level.
+        let sixteenths = |k: usize| if k % 7 == 0 { 1.0 } else { (62.5 * (k % 16) as f64).round() / 1000.0 };
+        assert!(multiples(&sixteenths, 0.0625) && !multiples(&sixteenths, 0.1));
+    }
+}

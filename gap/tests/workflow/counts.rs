@@ -196,3 +196,25 @@ fn wrong_counts_show_by_the_drive_alone() {
     let a = analysed(&simulate(&truth, &[Manoeuvre::Blocks; 2], 3));
     assert!(!names(&a).contains(&"encoder-scale"), "{}", a.terminal_summary());
 }
+
+/// A decoder that misses edges of one wheel: without a camera that was friction of this wheel, and a centre of mass beside it.
+#[test]
+fn lost_edges_of_one_wheel_show_without_a_camera() {
+    for (seed, wheel, share) in [(81, 1, 0.5), (82, 2, 0.5), (83, 0, 0.25)] {
+        let mut set = simulate(&Robot::racbot(), &RICH, seed);
+        for run in &mut set.runs {
+            run.camera.clear();
+            run.has_camera = false;
+            run.reference.clear();
+            run.counts[wheel].iter_mut().for_each(|c| *c = (*c as f64 * share).floor() as i64);
+        }
+        let a = analysed(&set);
+        let text = a.terminal_summary();
+        assert_eq!(names(&a), ["encoder-scale"], "{text}");
+        assert_eq!(a.effects[0].wheels, [wheel + 1], "{text}");
+        let found = value(&a, &format!("scale_{}", wheel + 1));
+        assert!((found - (share - 1.0)).abs() < 0.03, "{found}: {text}");
+        assert!(said(&a, &format!("encoder-scale of wheel {}, from what the drive does", wheel + 1)), "{text}");
+        agrees_again(&set, &a);
+    }
+}
