@@ -207,7 +207,8 @@ impl<'a> Workflow<'a> {
             let drives = e.link() == Link::Drive || e.also() == Some(Link::Drive);
             // Nor from duties alone what a camera that is far from its noise does not have.
             let hidden = e.link() != Link::Drive && (self.seen.is_none() || self.motion_is_far());
-            let grain = || e.name() == "carpet-grain" && ways_lie_along_one_line(self.searched().pieces);
+            let of_ways = ["body-drag", "carpet-grain"].contains(&e.name());
+            let grain = || of_ways && ways_lie_along_one_line(self.searched().pieces);
             hidden
                 || drives && own.peek().is_some() && own.all(|l| l.limit < self.thresholds.seen * l.material)
                 || grain()

@@ -5,6 +5,7 @@
 #[rustfmt::skip]
 const TWINS: &[(&str, &[&str], &[&str])] = &[
     ("actuation-latency", &[], &["wheel-creep"]),
+    ("body-drag", &[], &["roller-friction"]),
     ("camera-latency", &["encoder-lag"], &["wheel-creep"]),
     ("camera-scale", &[], &["encoder-scale", "wheel-radius", "wheel-radius-common"]),
     ("carpet-grain", &[], &["coulomb-friction"]),
@@ -18,6 +19,7 @@ const TWINS: &[(&str, &[&str], &[&str])] = &[
     ("marker-heading", &["wheel-angle", "wheel-skew"], &[]),
     ("motor-heating", &["battery-sag", "current-limit", "robot-mass", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
     ("robot-mass", &["motor-heating", "torque-constant", "winding-resistance"], &["rotor-inertia"]),
+    ("roller-friction", &[], &["body-drag"]),
     ("rotor-inertia", &[], &["motor-heating", "robot-mass", "winding-resistance"]),
     ("torque-constant", &["motor-heating", "robot-mass", "winding-resistance"], &[]),
     ("wheel-angle", &["wheel-skew"], &[]),
