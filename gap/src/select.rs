@@ -228,6 +228,7 @@ pub fn single(
     // Estimated as it was found: a margin of what is not named would be as wide as the effect.
     let settled = settle(problem, &mut state, &all, &narrow);
     let found = finish(state, settled, start.active.len(), &narrow);
+    let found = swap(problem, found, start.active.len(), &all, &narrow).0;
     let found = sure::sure(problem, found, start.active.len(), &all, &narrow);
     let sound =
         found.state.active.last().is_some_and(Active::worth) && !problem.runs_away(&found.state, start, thresholds);
@@ -280,12 +281,16 @@ fn swapped(
     let open = thresholds.undecided * (square - n).max(0.0) / best.design.variance;
     let far = raw(best) > thresholds.far_left && problem.link() == Link::Drive;
     let tie = thresholds.tie(gain_of_own).max(if far { open } else { 0.0 });
-    let most = if far { 8 } else { 3 };
+    // What is switched on gains as a whole, and others by a straight line, which promises less of a law that bends: a
+    // motor of 130 % more resistance was a current limit.
+    let whole = own.switched() && problem.link() == Link::Drive;
+    let most = if far || whole { 8 } else { 3 };
     let mut tried: Vec<&str> = vec![own.effect.name()];
     for t in &trials {
         let candidate = &design.candidates[t.candidate];
         let name = candidate.effect.name();
-        if t.gain < thresholds.near(gain_of_own).min(gain_of_own - tie) || tried.len() > most {
+        let near = whole && t.gain > 0.0 || t.gain >= thresholds.near(gain_of_own).min(gain_of_own - tie);
+        if !near || tried.len() > most {
             break;
         }
         let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();

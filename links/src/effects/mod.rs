@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 40] = [
+    const NAMES: [(&str, &[&str]); 41] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
