@@ -363,7 +363,7 @@ mod tests {
         let thousandths = |k: usize| 0.001 * (k as f64 - 500.0);
         assert!(multiples(&thousandths, 0.001) && !multiples(&thousandths, 0.002) && !multiples(&thousandths, 0.0625));
         // As a logger of three digits has sixteenths; what saturates lies on no level.
-        let sixteenths = |k: usize| if k % 7 == 0 { 1.0 } else { (62.5 * (k % 16) as f64).round() / 1000.0 };
+        let sixteenths = |k: usize| if k.is_multiple_of(7) { 1.0 } else { (62.5 * (k % 16) as f64).round() / 1000.0 };
         assert!(multiples(&sixteenths, 0.0625) && !multiples(&sixteenths, 0.1));
     }
 }
