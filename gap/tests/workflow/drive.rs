@@ -58,7 +58,7 @@ fn resistance_is_named_and_no_mass_with_inertia() {
 }
 
 /// Frictions, and what takes torque away as friction does: near-twins of the truth below.
-const TAKE_TORQUE: [&str; 14] = [
+const TAKE_TORQUE: [&str; 15] = [
     "coulomb-friction",
     "viscous-friction",
     "stribeck-friction",
@@ -69,6 +69,7 @@ const TAKE_TORQUE: [&str; 14] = [
     "dead-band",
     "drive-curve",
     "battery-sag",
+    "current-limit",
     "motor-heating",
     "torque-constant",
     "winding-resistance",

@@ -20,8 +20,24 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     let residuals = link.residuals_in_own_torque(model)?;
     let damping = model.axes.iter().map(|a| a.braking(model.gear_ratio) * a.encoder_scale);
     let damping = DVector::from_iterator(model.axes.len(), damping);
+    let free = free_of_limit(link, model);
     // Test functions overlap by half: each stands for that much of the log.
-    Some(squares(link, &residuals, &mechanics.response, &damping, 0.5 * link.length()))
+    Some(squares(link, &residuals, &mechanics.response, (&damping, free.as_deref()), 0.5 * link.length()))
+}
+
+/// Share of each test function in which a limited current still follows speed, `[wheel][test function]`: a motor at its limit
+/// brakes nothing that runs away. `None` without a limit.
+fn free_of_limit(link: &DriveLink, model: &DriveModel) -> Option<Vec<Vec<f64>>> {
+    if model.current_limit_a.is_infinite() {
+        return None;
+    }
+    let g = model.gear_ratio;
+    Some(link.means(model.axes.len(), |s, k, out| {
+        for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
+            let asked = (s.duty[i][k] * s.supply[k] - a.back_emf * g * s.speed[i][k]) / a.resistance;
+            *slot = f64::from(u8::from(asked.abs() < model.current_limit_a));
+        }
+    }))
 }
 
 /// Sum of squares of what a model leaves in the torque of its own inertia, in units of the noise, one for each cluster.
@@ -52,11 +68,11 @@ fn squares(
     link: &DriveLink,
     residuals: &DriveResiduals,
     response: &DMatrix<f64>,
-    damping: &DVector<f64>,
+    (damping, free): (&DVector<f64>, Option<&[Vec<f64>]>),
     hop: f64,
 ) -> Vec<f64> {
     let n = damping.len();
-    let Some(step) = implicit(response, damping, hop) else { return Vec::new() };
+    let Some(mut step) = implicit(response, damping, hop) else { return Vec::new() };
     let mut out: Vec<f64> = Vec::new();
     let mut e = DVector::zeros(n);
     let mut before: Option<(usize, usize)> = None;
@@ -70,6 +86,10 @@ fn squares(
         if residuals.weights[b].contains(&0.0) {
             e.fill(0.0);
             continue;
+        }
+        if let Some(free) = free {
+            let left = DVector::from_fn(n, |i, _| damping[i] * free[i][b]);
+            step = implicit(response, &left, hop).unwrap_or(step);
         }
         let torque = DVector::from_column_slice(&residuals.torque[b]);
         e = &step * (e - response * torque * hop);

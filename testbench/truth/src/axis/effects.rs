@@ -88,10 +88,6 @@ const CATALOGUE: [Entry; 16] = [
         axis.coasting = share;
         vec![("share", share)]
     }),
-    entry("current-limit", [0.8, 0.6, 0.45, 0.3, 0.2], |axis, _, value, _| {
-        axis.limit_a = value * axis.supply_v / axis.resistance_ohm;
-        vec![("limit_a", axis.limit_a)]
-    }),
     entry("actuation-latency", [0.05, 0.1, 0.15, 0.25, 0.4], |axis, _, value, _| {
         let latency = value * axis.time_constant().min(0.3);
         axis.latency_s = latency;
@@ -141,6 +137,10 @@ const CATALOGUE: [Entry; 16] = [
             vec![("time_s", time)]
         })
     },
+    entry("current-limit", [0.8, 0.6, 0.45, 0.3, 0.2], |axis, _, value, _| {
+        axis.limit_a = value * axis.supply_v / axis.resistance_ohm;
+        vec![("limit_a", axis.limit_a)]
+    }),
 ];
 
 /// Effects that one machine is likely to have at once.
