@@ -53,7 +53,7 @@ fn the_carpet_drags_along_its_grain_only() {
 
 #[test]
 fn what_drags_at_the_body_holds_it_back_whichever_way_it_goes() {
-    for way in [0.0_f64, 0.7, 2.0] {
+    for way in [0.2_f64, 0.7, 2.0] {
         let mut plant = thrown("body-drag", &[("force_n", 0.6)], Twist::new(way.cos(), way.sin(), 0.0));
         run(&mut plant, [0.0; 3], 800);
         close(plant.twist().vx, (1.0 - 0.8 * 0.6 / 2.4) * way.cos(), 1e-3);
