@@ -323,6 +323,11 @@ impl Sizes {
         Self { drive_nm: if drive_nm > 0.0 { drive_nm } else { sizes.drive_nm }, ..sizes }.at_speed(speed)
     }
 
+    /// Force on the body beside which forces of the floor are large or small, N: its weight, or what its drive gives.
+    pub fn body_n(&self, robot: &Robot) -> f64 {
+        self.weight_n.max(2.2 * robot.wheel_count() as f64 * self.drive_nm / robot.wheel_radius_m)
+    }
+
     /// Torque at most that a weight or a spring gives at the output shaft of an axis, Nm.
     pub fn carried_nm(&self) -> f64 {
         thresholds::CARRIED * self.drive_nm.max(self.stall_nm).max(self.moved_nm)

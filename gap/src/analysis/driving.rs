@@ -20,6 +20,7 @@ use crate::thresholds::Thresholds;
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};
 use links::effects::fits;
+use links::motion::WindowResiduals;
 use links::pieces::Pieces;
 
 /// Whether a robot goes along one line of the floor, to and fro: across it nothing shows what the carpet does, and along it
@@ -64,40 +65,37 @@ impl<'a> Workflow<'a> {
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
         if self.is_answered(&link, &outcome.written)
-            && let Some(again) = self.drive_link()
+            && let Some(again) = self.drive_again(&read_right)
         {
-            link = again;
-            outcome = self.drive_studied(&mut link, &read_right);
+            (link, outcome) = again;
         }
         // What comes once a turn is a load, or is read so: where neither load has a name, not by a load.
         let once_a_turn = |name: &str| ONCE_A_TURN.contains(&name);
         let may_be_read = fits(READ_AMISS, &self.question.robot)
             && (outcome.named.is_empty() || outcome.named.iter().any(|n| once_a_turn(&n.name)));
-        if may_be_read && let Some(again) = self.drive_link() {
-            link = again;
+        if may_be_read {
             let loads = !outcome.named.is_empty();
             let or_read: Vec<_> = here.iter().filter(|e| loads || !once_a_turn(e.name())).cloned().collect();
-            outcome = self.drive_studied(&mut link, &or_read);
+            if let Some(again) = self.drive_again(&or_read) {
+                (link, outcome) = again;
+            }
         }
         let against = self.spoken_against(&outcome);
-        if !against.is_empty()
-            && let Some(again) = self.drive_link()
-        {
+        if !against.is_empty() {
             here.retain(|e| !against.iter().any(|name| name == e.name()));
-            link = again;
-            outcome = self.drive_studied(&mut link, &here);
-            let names = against.join(", ");
-            self.findings
-                .remarks
-                .push(format!("Fitted on the drive link, and not named: {names}; the camera speaks against it."));
+            if let Some(again) = self.drive_again(&here) {
+                (link, outcome) = again;
+                let names = against.join(", ");
+                let said = format!("Fitted on the drive link, and not named: {names}; the camera speaks against it.");
+                self.findings.remarks.push(said);
+            }
         }
         if self.question.currents {
             let support = self.question.robot.support;
             if ratios::are_named_on_both_sides(&outcome.named, support) {
                 here.retain(|e| e.name() != ratios::TORQUE_CONSTANT);
-                if let Some(again) = self.drive_link() {
-                    link = again;
-                    outcome = self.drive_studied(&mut link, &here);
+                if let Some(again) = self.drive_again(&here) {
+                    (link, outcome) = again;
                     self.findings.remarks.push(ratios::said(support));
                 }
             }
@@ -121,10 +119,16 @@ impl<'a> Workflow<'a> {
         options.reached(Stage::DriveStudied);
     }
 
+    /// The drive laid anew, and what is found on it of a catalogue.
+    fn drive_again(&mut self, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
+        let mut link = self.drive_link()?;
+        let outcome = self.drive_studied(&mut link, here);
+        Some((link, outcome))
+    }
+
     /// The drive of what is looked at above its own floor; none without duties.
     fn drive_link(&mut self) -> Option<DriveLink<'a>> {
-        let drive = self.searched().drive(&self.start, self.seen.as_ref())?;
-        let Drive { link, correlation, .. } = if self.answered { beside_answers(drive) } else { drive };
+        let Drive { link, correlation, .. } = self.laid(self.searched(), self.seen.as_ref())?;
         self.thresholds.drive_correlation = correlation;
         Some(link)
     }
@@ -145,11 +149,16 @@ impl<'a> Workflow<'a> {
         outcome
     }
 
+    /// The drive of some data, beside what its loops answered if they do.
+    fn laid<'b>(&self, data: Data<'b>, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'b>> {
+        let drive = data.drive(&self.start, seen)?;
+        Some(if self.answered { beside_answers(drive) } else { drive })
+    }
+
     /// The drive of all data with the noise of what was searched.
     fn whole_drive<'b>(&self, data: Data<'b>, searched: &DriveLink, found: &State) -> Option<DriveLink<'b>> {
         let seen = data.has_motion.then(|| data.motion.residuals(&self.start.motion(None)));
-        let drive = data.drive(&self.start, seen.as_ref())?;
-        let mut link = if self.answered { beside_answers(drive) } else { drive }.link;
+        let mut link = self.laid(data, seen.as_ref())?.link;
         link.noise.clone_from(&searched.noise);
         link.mask_sticking(&found.drive(None), self.thresholds.sticks);
         Some(link)

@@ -34,7 +34,7 @@ fn free_of_limit(link: &DriveLink, model: &DriveModel) -> Option<Vec<Vec<f64>>> 
     let g = model.gear_ratio;
     Some(link.means(model.axes.len(), |s, k, out| {
         for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
-            let asked = (s.duty[i][k] * s.supply[k] - a.back_emf * g * s.speed[i][k]) / a.resistance;
+            let asked = a.asks_a(s.duty[i][k] * s.supply[k], g, s.speed[i][k]);
             *slot = f64::from(u8::from(asked.abs() < model.current_limit_a));
         }
     }))

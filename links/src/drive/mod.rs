@@ -81,6 +81,12 @@ impl AxisModel {
     pub fn braking(&self, gear_ratio: f64) -> f64 {
         gear_ratio * self.torque_constant / self.resistance * self.back_emf * gear_ratio
     }
+
+    /// Current that volts at its terminals drive while its wheel turns at a speed (rad/s) behind such a gear, A, if nothing
+    /// limits it.
+    fn asks_a(&self, volts: f64, gear_ratio: f64, speed: f64) -> f64 {
+        (volts - self.back_emf * gear_ratio * speed) / self.resistance
+    }
 }
 
 /// Everything between duty and wheel motion; effects change it.

@@ -230,7 +230,7 @@ impl DriveModel {
         self.each_instant(s, signals, prepared, |_, now, _| {
             let mut mapped = |from: f64| {
                 for (i, (current, axis)) in currents.iter_mut().zip(&self.axes).enumerate() {
-                    let asked = (now.duty[i] * from - axis.back_emf * g * now.speed[i]) / axis.resistance;
+                    let asked = axis.asks_a(now.duty[i] * from, g, now.speed[i]);
                     *current = asked.clamp(-self.current_limit_a, self.current_limit_a);
                 }
                 self.supply_maps.iter().fold(now.supply, |v, map| map(now, v, &currents))

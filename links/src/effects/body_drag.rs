@@ -30,8 +30,7 @@ impl Effect for BodyDrag {
     }
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
-        // As of a carpet with a grain: of the weight or of what the drive gives.
-        let w = sizes.weight_n.max(2.2 * robot.wheel_count() as f64 * sizes.drive_nm / robot.wheel_radius_m);
+        let w = sizes.body_n(robot);
         vec![Form::whole(vec![Parameter::new("force_n", 0.005 * w, [-0.05 * w, w], 0.012 * w)])]
     }
 

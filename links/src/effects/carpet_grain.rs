@@ -30,7 +30,7 @@ impl Effect for CarpetGrain {
     }
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
-        let w = sizes.weight_n.max(2.2 * robot.wheel_count() as f64 * sizes.drive_nm / robot.wheel_radius_m);
+        let w = sizes.body_n(robot);
         (0..8)
             .map(|k| {
                 let azimuth = Parameter::new("azimuth_rad", 0.1, [-3.2, 3.2], f64::INFINITY)
