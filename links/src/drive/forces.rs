@@ -1,6 +1,7 @@
 //! Torques and forces at every tick.
 
 use std::borrow::Cow;
+use std::mem::take;
 
 use runs::frames::Twist;
 use runs::robot::Support;
@@ -60,28 +61,29 @@ impl<'a> Base<'a> {
         } else {
             Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
         };
-        let mut out = vec![vec![0.0; self.signals.ticks()]; n + 3];
+        let mut out: Vec<Option<Vec<f64>>> = vec![None; n + 3];
         let axes = self.model.constants();
+        let ticks = self.signals.ticks();
         self.model.each_instant(s, &self.signals, &prepared, |k, now, loads| {
             for term in more {
                 term(now, loads);
             }
             for (i, axis) in axes.iter().enumerate() {
-                let more = loads.carried[i];
+                let more = take(&mut loads.carried[i]);
                 if more != 0.0 {
                     let before = self.signals.carried[i].get(k).copied().unwrap_or(0.0);
                     let lost = |carried| axis.lost(now.winding[i], now.sign[i], carried);
                     loads.wheel[i] += more - now.sign[i] * (lost(before + more) - lost(before));
                 }
             }
-            let (wheels, body) = out.split_at_mut(n);
-            for (row, x) in wheels.iter_mut().zip(&loads.wheel).chain(body.iter_mut().zip(&loads.body)) {
-                if *x != 0.0 {
-                    row[k] = *x;
+            for (row, x) in out.iter_mut().zip(loads.wheel.iter_mut().chain(&mut loads.body)) {
+                let x = take(x);
+                if x != 0.0 {
+                    row.get_or_insert_with(|| vec![0.0; ticks])[k] = x;
                 }
             }
         });
-        Some(out.into_iter().map(|row| row.iter().any(|x| *x != 0.0).then_some(row)).collect())
+        Some(out)
     }
 
     /// What the offsets are that a model which only adds to this one adds, `[offset][wheel][tick]`.
@@ -208,11 +210,11 @@ impl DriveModel {
                 for term in &self.loads {
                     term(now, loads);
                 }
-                for (row, x) in out.iter_mut().zip(loads.wheel.iter().chain(&loads.body)) {
-                    row[k] = *x;
+                for (row, x) in out.iter_mut().zip(loads.wheel.iter_mut().chain(&mut loads.body)) {
+                    row[k] = take(x);
                 }
-                for (row, x) in carried.iter_mut().zip(&loads.carried) {
-                    row[k] = *x;
+                for (row, x) in carried.iter_mut().zip(&mut loads.carried) {
+                    row[k] = take(x);
                 }
             });
             signals.carried = carried;

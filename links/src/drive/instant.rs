@@ -78,12 +78,6 @@ impl Loads {
         Self { wheel: vec![0.0; wheels], carried: vec![0.0; wheels], body: [0.0; 3] }
     }
 
-    pub(super) fn clear(&mut self) {
-        self.wheel.fill(0.0);
-        self.carried.fill(0.0);
-        self.body = [0.0; 3];
-    }
-
     /// Adds a force in world axes, N, at the chassis centre of a body that faces so.
     pub fn push_world(&mut self, facing: [f64; 2], force: [f64; 2]) {
         let [right, forward] = in_body(facing, force);

@@ -95,20 +95,20 @@ impl<'a> Signals<'a> {
         out
     }
 
-    /// Lays the wheels' signals side by side, tick by tick, for [`DriveModel::each_instant`].
+    /// Lays the wheels' signals side by side, tick by tick, for [`DriveModel::each_instant`]; again only what is new since.
     pub(super) fn lay(&mut self) {
         let (n, ticks) = (self.duty.len(), self.ticks());
         let mut rows = std::mem::take(&mut self.rows);
-        rows.clear();
-        rows.resize(BY_WHEEL * n * ticks, 0.0);
         let mut columns: Vec<(usize, &[f64])> = Vec::with_capacity(BY_WHEEL * n);
-        for (kind, signals) in [&self.duty, &self.speed, &self.sign].into_iter().enumerate() {
-            columns.extend(signals.iter().enumerate().map(|(i, x)| (kind * n + i, &**x)));
+        if rows.is_empty() {
+            rows = vec![0.0; BY_WHEEL * n * ticks];
+            for (kind, signals) in [&self.duty, &self.speed, &self.sign].into_iter().enumerate() {
+                columns.extend(signals.iter().enumerate().map(|(i, x)| (kind * n + i, &**x)));
+            }
+            columns.extend(self.sideways.iter().enumerate().map(|(i, x)| (4 * n + i, x.as_slice())));
         }
         // Windings are not there yet where the supply is worked out.
-        for (kind, signals) in [(3, &self.winding), (4, &self.sideways)] {
-            columns.extend(signals.iter().enumerate().map(|(i, x)| (kind * n + i, x.as_slice())));
-        }
+        columns.extend(self.winding.iter().enumerate().map(|(i, x)| (3 * n + i, x.as_slice())));
         for (block, rows) in rows.chunks_mut(TOGETHER * BY_WHEEL * n).enumerate() {
             for (place, column) in &columns {
                 for (row, value) in rows.chunks_exact_mut(BY_WHEEL * n).zip(&column[block * TOGETHER..]) {
@@ -265,7 +265,8 @@ impl DriveModel {
         }
     }
 
-    /// Calls for every tick with what terms see of it, and loads of 0; the signals are laid out.
+    /// Calls for every tick with what terms see of it, and loads as the call before left them, of 0 at first; the signals are
+    /// laid out.
     pub(super) fn each_instant(
         &self,
         s: &Segment,
@@ -298,7 +299,6 @@ impl DriveModel {
                 prepared,
                 sliding_per_turning,
             };
-            loads.clear();
             of(k, &now, &mut loads);
         }
     }
