@@ -35,9 +35,8 @@ impl Effect for EncoderScale {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        // A decoder may count one of four edges, or all where the file has one; a camera's own check says that much.
-        let bounds = if self.on == Link::Drive { [-0.8, 3.5] } else { [-0.6, 0.6] };
-        let scale = |name: String| Parameter::new(name, 0.01, bounds, 0.004);
+        // A decoder may count one of four edges, or all where the file has one.
+        let scale = |name: String| Parameter::new(name, 0.01, [-0.8, 3.5], 0.004);
         let p = |i| scale(wheel_name("scale", i, ""));
         let mut forms = vec![Form::whole(vec![scale("scale".to_owned())])];
         forms.extend(Form::alone(robot, p));

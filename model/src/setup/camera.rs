@@ -16,7 +16,7 @@ use runs::robot::{Robot, Support};
 use super::orders::{moved, orders, words};
 use super::samples::{STRETCH_S, Sample, of_camera};
 use super::slips::Slips;
-use super::{Mistake, common_ratio, is_true, short};
+use super::{Mistake, common_ratio, counts, is_true, short};
 
 /// Fewest stretches with motion that tell anything.
 const FEWEST: usize = 20;
@@ -139,7 +139,18 @@ fn of_all(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
     {
         (seen, found) = (long, Some(fit));
     }
-    let slips = found.as_ref().filter(|fit| fit.left > FITS).and_then(|fit| Some((slips(&geometry, &seen)?, fit.left)));
+    let as_read: Vec<([f64; 2], f64)> = seen.iter().map(|s| body(s, Reading::default())).collect();
+    let fitted = |fit: &Fit| fit.left <= FITS && named(robot, fit, spin(&geometry, &seen, fit), before).is_empty();
+    if !runs::is_dead_reckoning(robot) && !found.as_ref().is_some_and(fitted) {
+        let counts = counts::of_single_wheels(robot, &geometry, &seen, &as_read);
+        if !counts.is_empty() {
+            return counts;
+        }
+    }
+    let slips = found
+        .as_ref()
+        .filter(|fit| fit.left > FITS)
+        .and_then(|fit| Some((Slips::of(&geometry, rim(&geometry), &seen, &as_read)?, fit.left)));
     if let Some((slips, left)) = slips {
         let (what, remedy) = slips.said(left);
         return vec![Mistake { nameable: true, ..Mistake::new("wheels-slip", "cam_x", what, remedy) }];
@@ -153,12 +164,6 @@ fn of_all(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
         }
     }
     mistakes
-}
-
-/// Where camera and counts agree as they are read, if they do in a good part of the stretches.
-fn slips(geometry: &Geometry, samples: &[Sample]) -> Option<Slips> {
-    let seen: Vec<([f64; 2], f64)> = samples.iter().map(|s| body(s, Reading::default())).collect();
-    Slips::of(geometry, rim(geometry), samples, &seen)
 }
 
 /// Distance of the outermost wheel from the centre, m.

@@ -6,6 +6,7 @@
 
 mod axes;
 mod camera;
+mod counts;
 mod drive;
 mod held;
 mod inertial;

@@ -154,6 +154,18 @@ pub(crate) const SPOILS: &[Spoil] = &[
         make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.counts[0]).for_each(|c| *c = -*c),
     },
     Spoil {
+        name: "encoder 1 of two at half its counts",
+        kinds: &["wheel-counts"],
+        shows: |set| camera(set) && set.robot.wheel_count() == 2,
+        make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.counts[0]).for_each(|c| *c /= 2),
+    },
+    Spoil {
+        name: "encoder 2 at four times its counts",
+        kinds: &["wheel-counts"],
+        shows: camera,
+        make: |_, runs| runs.iter_mut().flat_map(|run| &mut run.counts[1]).for_each(|c| *c *= 4),
+    },
+    Spoil {
         name: "encoders 1 and 2 swapped",
         kinds: &["encoder-order"],
         shows: camera,
