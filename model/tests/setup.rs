@@ -569,6 +569,42 @@ fn a_loop_that_does_not_keep_up_may_go_on() {
     assert!(found(robot, &[run]).iter().any(|m| m.kind == "reference-unit" && !m.nameable));
 }
 
+/// A weak loop of a cascade stays behind its set points, of a motor that dry friction holds besides: what it subtracts from
+/// them says that they are speeds, and that those in turns per minute are not.
+#[test]
+fn a_weak_loop_tells_the_unit_of_its_set_points() {
+    let text = "support = \"blocks\"\nwheel_radius_m = 1\ngear_ratio = 1\nencoder_counts_per_motor_rev = 2000\nsupply_v = 24\n\
+                control_rate_hz = 500\n[motor]\nresistance_ohm = 0.8\ntorque_constant = 0.05\nrotor_inertia = 8e-5\n\
+                friction_torque = 0.02\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
+    let robot = Robot::parse_partial(text, Path::new("robot.toml")).unwrap();
+    let (tick, volt, kt, ohm) = (0.002, 24.0, 0.05, 0.8);
+    let (mut run, mut angle, mut speed, mut last) = (Run::default(), 0.0_f64, 0.0_f64, 0_i64);
+    let (mut counts, mut asked, mut duties) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..10_000 {
+        let t = f64::from(k) * tick;
+        let count = (angle / std::f64::consts::TAU * 2000.0).floor() as i64;
+        let measured = (count - last) as f64 / 2000.0 * std::f64::consts::TAU / tick;
+        let reference = 60.0 * f64::signum((1.3 * t).sin());
+        let duty = (0.004 * (reference - measured)).clamp(-1.0, 1.0);
+        last = count;
+        run.t.push(t);
+        counts.push(count);
+        asked.push(reference);
+        duties.push((duty * 1e3).round() / 1e3);
+        for _ in 0..20 {
+            let torque = kt * (duty * volt - kt * speed) / ohm;
+            let dry = 0.09_f64.min((torque + 8e-5 * speed / 1e-4).abs()) * f64::signum(torque + 8e-5 * speed / 1e-4);
+            speed += 1e-4 * (torque - dry) / 8e-5;
+            angle += 1e-4 * speed;
+        }
+    }
+    (run.counts, run.reference, run.duty) = (vec![counts], vec![asked], vec![duties]);
+    let told = found(robot.clone(), std::slice::from_ref(&run));
+    assert!(told.iter().all(|m| m.nameable), "{:?}", told.iter().map(Mistake::sentence).collect::<Vec<_>>());
+    run.reference[0].iter_mut().for_each(|r| *r *= 60.0 / std::f64::consts::TAU);
+    assert!(found(robot, &[run]).iter().any(|m| m.kind == "reference-unit" && !m.nameable));
+}
+
 /// Two wheels that drive to and fro and hardly turn, in the camera's headings or its positions alone: turns the other way
 /// are told, and those that are right are not. Headings scatter by 5 mrad, positions by 2 mm.
 #[test]

@@ -6,7 +6,7 @@ use runs::{DutySource, Log, drive_lacks};
 
 use super::samples::{BOTH_WAYS, FEWEST, correlation};
 use super::signals::{Signals, signals};
-use super::{Mistake, axes, common_ratio, is_true, near, short, supply};
+use super::{Mistake, axes, common_ratio, is_true, loops, near, short, supply};
 
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
@@ -43,7 +43,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
             found.extend(axes::still(robot, &signals));
             let unasked = axes::unasked(robot, &signals, &found);
             found.extend(unasked);
-            found.extend(references(robot, &signals));
+            found.extend(references(robot, logs, &signals));
         }
     }
     found.extend(commands(robot, &signals));
@@ -154,7 +154,7 @@ fn are_its_motors(robot: &Robot, signals: &[Signals]) -> bool {
 }
 
 /// Set points in another unit, or speeds that are wrong beside them.
-fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
+fn references(robot: &Robot, logs: &[Log], signals: &[Signals]) -> Option<Mistake> {
     // Wheels follow their set points: the lag at which they do so best, log by log. One that asks for what no motor can
     // do says nothing, and does not drown the others; nor does a wheel that is still on its way.
     let limits = limits(robot, signals);
@@ -186,24 +186,31 @@ fn references(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
             Mistake { nameable: true, ..Mistake::new("reference-ratio", "ref_1", what, remedy.to_owned()) }
         });
     }
+    let what = format!("set points are {} times the speeds of the wheels", short(ratio));
+    let taken_for_speeds = ratio > 1.0 && loops::per_speed(robot, logs).is_some_and(is_true);
     let rpm = 60.0 / std::f64::consts::TAU;
-    if near(ratio, rpm) {
+    if near(ratio, rpm) && !taken_for_speeds {
         let what = format!("set points are {} times the speeds of the wheels: turns per minute", short(ratio));
         let remedy = "write rad/s at the wheel (divide by 9.5493), or name the unit to `racbot convert`".to_owned();
         return Some(Mistake::new("reference-unit", "ref_1", what, remedy));
     }
-    if let Some(mistake) = common_ratio(robot, ratio).filter(|m| m.kind != "wheel-diameter") {
+    if let Some(mistake) = common_ratio(robot, ratio).filter(|m| m.kind != "wheel-diameter" && !taken_for_speeds) {
         return Some(mistake);
     }
-    let what = format!("set points are {} times the speeds of the wheels", short(ratio));
-    // Where duties say that motors, gear and counts are the file's, a loop may as well not get that far.
-    if ratio > 1.0 && !near(ratio, robot.gear_ratio) && are_its_motors(robot, signals) {
+    // Where duties say that motors, gear and counts are the file's, or that the loop takes set points and speeds for one, it
+    // may as well not get that far.
+    let its_motors = || ratio > 1.0 && !near(ratio, robot.gear_ratio) && are_its_motors(robot, signals);
+    if taken_for_speeds || its_motors() {
         let what = format!("{what}, which is no unit that is known");
         let remedy = "a loop that does not keep up with them leaves as much; else write rad/s at the wheel".to_owned();
         return Some(Mistake { nameable: true, ..Mistake::new("reference-unit", "ref_1", what, remedy) });
     }
     let shaft = if near(ratio, robot.gear_ratio) { " (these look like speeds of the motor shaft)" } else { "" };
-    let remedy = format!("write rad/s at the wheel{shaft}, or check gear_ratio and encoder_counts_per_motor_rev");
+    let [counts, gear] = [robot.encoder_counts_per_motor_rev, robot.gear_ratio].map(|x| short(x / ratio));
+    let remedy = format!(
+        "write rad/s at the wheel{shaft}, or check gear_ratio and encoder_counts_per_motor_rev: with {gear} or {counts} in \
+         place of what stands there the wheels do what is asked of them"
+    );
     Some(Mistake::new("reference-unit", "ref_1", what, remedy))
 }
 

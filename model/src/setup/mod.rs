@@ -10,6 +10,7 @@ mod counts;
 mod drive;
 mod held;
 mod inertial;
+mod loops;
 mod motors;
 mod orders;
 mod samples;
