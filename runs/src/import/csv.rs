@@ -78,6 +78,11 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
             pending = false;
         }
         widths.names = names.len();
+        // Numbers beyond the names have none; a separator ends the lines of some writers.
+        if pending && !names.is_empty() {
+            let ended = usize::from(record.iter().next_back() == Some(b""));
+            names.extend(numbered(record.len() - ended).into_iter().skip(widths.names));
+        }
         own = match clock.of {
             Some(wanted) => Some(names.iter().position(|name| name == wanted).ok_or_else(|| {
                 let hint = format!("it has {}", names.join(", "));
@@ -299,6 +304,8 @@ mod tests {
         let shifted = remarks("t,spare,x,y\n0,1,2\n1,1,2\n2,1,3\n3,1\n");
         assert!(shifted.len() == 1 && shifted[0].starts_with("4 names stand above rows of 3 fields"), "{shifted:?}");
         assert_eq!(remarks("t x\n0 1 2\n1 1 2\n").len(), 1);
+        // What stands beyond the names is shown.
+        assert_eq!(table("t x\n0 1 2\n1 1 3\n").unwrap().find("column_3").unwrap().values, [2.0, 3.0]);
         for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
             assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
         }

@@ -29,6 +29,9 @@ impl<'a> Sheet<'a> {
             let Sheet { names, rows, separator, tagged } = Sheet::of(&bare);
             return Self { names, rows: Cow::Owned(rows.into_owned()), separator, tagged };
         }
+        if let Some(rows) = barred(bytes) {
+            return Self { names: None, rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
         if let Some((names, rows)) = super::labelled::table(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
@@ -113,6 +116,32 @@ fn unquoted(bytes: &[u8]) -> Option<Vec<u8>> {
     Some(bytes.split_inclusive(|b| *b == b'\n').flat_map(line).collect())
 }
 
+/// The lines with semicolons in place of the bars between their fields, `| t | x |` and `t | x |`; titles above and rules below
+/// the names are emptied. Names may have a bar too many, as between tables that were put side by side.
+fn barred<'a>(bytes: &'a [u8]) -> Option<Vec<u8>> {
+    let lines: Vec<&[u8]> = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).collect();
+    let first = lines.iter().position(|line| line.contains(&b'|'))?;
+    let drawn = |line: &[u8]| line.iter().all(|b| b"-=+:| ".contains(b));
+    let titles = lines[..first].iter().all(|line| line.is_empty() || drawn(line) || !line.contains(&b','));
+    if !titles || lines[first..].iter().any(|line| !drawn(line) && !line.contains(&b'|')) {
+        return None;
+    }
+    let inside = |line: &'a [u8]| line.strip_prefix(b"|").unwrap_or(line);
+    let inside = |line: &'a [u8]| inside(line).strip_suffix(b"|").unwrap_or(inside(line));
+    let fields =
+        |line: &'a [u8]| -> Vec<&'a [u8]> { inside(line).split(|b| *b == b'|').map(<[u8]>::trim_ascii).collect() };
+    let mut rows = lines[first..].iter().copied().filter(|line| !drawn(line)).map(fields);
+    let (names, row) = (rows.next()?, rows.next()?);
+    let filled = || names.iter().copied().filter(|name| !name.is_empty());
+    let names = if filled().count() == row.len() { filled().collect() } else { names };
+    let line = |(i, line): (usize, &&'a [u8])| match i {
+        i if i == first => names.join(&b';'),
+        i if i < first || drawn(line) => Vec::new(),
+        _ => fields(line).join(&b';'),
+    };
+    Some(lines.iter().enumerate().map(line).collect::<Vec<_>>().join(&b'\n'))
+}
+
 /// What a line says after the mark of a remark.
 fn remark(line: &[u8]) -> Option<&[u8]> {
     REMARKS.iter().find_map(|mark| line.strip_prefix(mark.as_bytes())).map(<[u8]>::trim_ascii)
@@ -184,6 +213,15 @@ mod tests {
             (names(&["time", "frame", "enc"]), "\n5,odom,1\n6,odom,2\n".into(), ',')
         );
         assert_eq!(sheet("# a,b,c\ntime,u,1\n0,5,6\n").0, None);
+        // Bars between the fields, a title above, a rule below, and a bar too many among the names.
+        for (text, rows) in [
+            ("Made by me\n t | x | \n0 | 1 |\n1 | 2 |\n", "\nt;x\n0;1\n1;2\n"),
+            ("| t | x |\n|---|---|\n| 0 | 1,5 |\n| 1 | |\n", "t;x\n\n0;1,5\n1;\n"),
+            ("t |\t| x\n0 | 1 |\n1 | 2 |\n", "t;x\n0;1\n1;2\n"),
+        ] {
+            assert_eq!(sheet(text), (None, rows.into(), ';'), "{text}");
+        }
+        assert_eq!(sheet("t,a|b\n0,1\n").2, ',');
         // Names apart otherwise than the numbers.
         let two = names(&["Time [s]", "forward velocity [m/s]"]);
         for head in [

@@ -332,6 +332,11 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     if any(&WANTED) && place && axis.is_none() {
         return None;
     }
+    // What a loop is off by was not measured, and a torque that was asked for is no speed.
+    let asked_torque = any(&WANTED) && any(&["torque", "tau", "effort", "force"]);
+    if axis.is_none() && (any(&["error", "err"]) || asked_torque) {
+        return None;
+    }
     // Flags and bounds of a current or a duty are none.
     if any(&["over", "limit", "max", "min", "fault", "flag"]) && any(&["current", "duty", "pwm"]) {
         return None;

@@ -412,6 +412,16 @@ fn angles_and_torques_of_joints_are_understood() {
         ["0,0,0.5,0.25,0,1", "1,0,0.5,0.5,1,2", "2,0,0.5,0.75,2,3"],
     );
     assert!(qube.contains("enc_1 = { from = \"theta\"") && !qube.contains("ref_1"), "{qube}");
+    // What its loops are off by is no second motor, and the torque that they ask for is what drives.
+    let cascade = drafted(
+        "Time,Position,Velocity,Position Error,Velocity Setpoint,Velocity Error,Target Torque,Target Pos",
+        ["0.0,-3.5,0,183.5,-78.5,78.5,-32,180", "0.1,-3.25,1.5,183.25,-78,79.5,-31.5,180", "0.2,-2,2,182,-77,79,5,180"],
+    );
+    for line in ["ref_1 = \"Velocity Setpoint\"", "enc_1 = { from = \"Position\"", "current_1 = \"Target Torque\" # Nm"]
+    {
+        assert!(cascade.contains(line), "{line}\n{cascade}");
+    }
+    assert!(!cascade.contains("enc_2 =") && !cascade.contains("ref_2 ="), "{cascade}");
     let speeds = drafted(
         "time_s,commanded_deg_s,angle_deg,feedback_deg_s",
         ["0.0,800,135.81,0.0", "0.1,800,139.56,757.13", "0.2,800,143.47,794.44"],
