@@ -67,13 +67,18 @@ impl Levels {
             return 1.0;
         }
         let sizes = DVector::from_iterator(of_runs.len(), of_runs.iter().map(|(_, size)| *size));
-        // A straight line, and a bend where there are runs enough.
+        // A straight line, and a bend where there are runs enough; or the direction alone, as of runs that go one way each,
+        // slow and fast: what brakes pulls them back either way.
         let powers = if of_runs.len() > 4 { 3 } else { 2 };
         let scale = levels.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-        let law = DMatrix::from_fn(of_runs.len(), powers, |run, power| (levels[run] / scale).powi(power as i32));
-        let fit = solve(&(law.transpose() * &law), &(law.transpose() * &sizes));
-        let left = &sizes - law * fit;
-        spread(left.as_slice()) / spread(sizes.as_slice()).max(f64::MIN_POSITIVE)
+        let left = |law: DMatrix<f64>| {
+            let fit = solve(&(law.transpose() * &law), &(law.transpose() * &sizes));
+            spread((&sizes - law * fit).as_slice()) / spread(sizes.as_slice()).max(f64::MIN_POSITIVE)
+        };
+        let by_speed =
+            left(DMatrix::from_fn(of_runs.len(), powers, |run, power| (levels[run] / scale).powi(power as i32)));
+        let way = |run: usize, power: usize| if power == 0 { 1.0 } else { levels[run].signum() };
+        by_speed.min(left(DMatrix::from_fn(of_runs.len(), 2, way)))
     }
 }
 
@@ -227,6 +232,11 @@ mod tests {
         assert!(of(&|k| if k < 4 { 0.0 } else { 1.0 }) > 0.9 && of(&|k| bent(k % 4) + (2 * (k / 4)) as f64) > 0.3);
         // One way and the other, once each, tell nothing; to and fro in each run they do.
         assert!(left(&[([1.0, 3.0], 0.0), ([-3.0, -1.0], 1.0)]) < 1e-6);
+        // Slow ramps and steps, both ways: what has one size each way goes with the way.
+        let ways = |fast: f64| {
+            left(&[([1.0, 29.0], 1.0), ([-29.0, -1.0], -1.0), ([20.0, 40.0], fast), ([-40.0, -20.0], -fast)])
+        };
+        assert!(ways(1.0) < 1e-6 && ways(1.1) < 0.2, "{}", ways(1.1));
         assert!(left(&[([-3.0, 3.1], 0.0), ([-2.0, 2.0], 1.0), ([-3.0, 3.0], 1.1)]) == 1.0);
     }
 }
