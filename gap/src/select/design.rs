@@ -25,6 +25,8 @@ pub struct Design {
     /// The same before named effects widened anything, and without their look-alikes.
     narrow: Vec<Role>,
     thresholds: Thresholds,
+    /// Squared torque that the motors gave, in noises; 0 where no drive is compared.
+    given: f64,
 }
 
 /// A candidate's fit on a design.
@@ -91,6 +93,10 @@ impl Design {
             narrow: held.clone(),
             held,
             thresholds: thresholds.clone(),
+            given: match problem {
+                Problem::Motion(_) => 0.0,
+                Problem::Drive(link) => link.tells(&state.drive(None)),
+            },
         };
         design.merge_twins();
         design.share_margins();
@@ -554,6 +560,12 @@ impl Design {
     pub fn material(&self, c: usize, values: &[f64]) -> bool {
         let free = self.candidates[c].form.free.iter();
         free.zip(values).enumerate().any(|(j, (p, v))| p.is_material(*v) && v.abs() >= self.margin(c, j))
+    }
+
+    /// Whether an effect that is there or is not takes enough of what the motors gave to be there.
+    pub(super) fn takes(&self, t: &Trial) -> bool {
+        self.candidates[t.candidate].effect.may_be_little()
+            || t.gain * self.variance >= self.thresholds.takes.powi(2) * self.given
     }
 
     /// What one direction of a missing law may add to the variances of the freed columns, where laws have so many of

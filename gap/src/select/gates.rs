@@ -20,6 +20,9 @@ impl<'a> Gates<'a> {
 
     pub(super) fn pass(&self, t: &Trial) -> bool {
         let (design, thresholds) = (self.design, self.thresholds);
+        if !design.takes(t) {
+            return false;
+        }
         let with = design.held_out(Some(t.candidate));
         let strong = t.gain > thresholds.strong;
         if self.closes(&self.without, &with, thresholds.held_out_t * if strong { 0.5 } else { 1.0 }) {
