@@ -97,8 +97,8 @@ thresholds! {
     /// Share of the held-out sum of squares that such an effect may add on the other runs.
     harms: f64 = 0.01,
     /// Share of the torque that motors gave, RMS, that an effect without a little of it in every robot must take: as much as
-    /// a torque constant worth a name. Play of a simulated mecanum robot looked like a current limit that
-    /// takes 0.035 of it, limits that `docs/measured/blind-axes.md` has as found take 0.05 to 0.20.
+    /// a torque constant worth a name. Play of a simulated mecanum robot looked like a current limit that takes 0.035 of it;
+    /// limits that are found in the blind series of axes take 0.05 to 0.20.
     takes: f64 = 0.05,
     /// Correlation of drive residuals: how many count as one.
     drive_correlation: f64 = 1.5,
