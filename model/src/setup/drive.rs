@@ -4,7 +4,7 @@ use estimation::statistics::median;
 use runs::robot::{Robot, Support};
 use runs::{DutySource, Log, drive_lacks};
 
-use super::samples::{BOTH_WAYS, FEWEST, correlation};
+use super::samples::{BOTH_WAYS, FEWEST, HELD, correlation};
 use super::signals::{Signals, signals};
 use super::{Mistake, axes, common_ratio, is_true, loops, near, short, supply};
 
@@ -25,8 +25,6 @@ const SIZE: f64 = 0.3;
 const LEVEL: f64 = 0.05;
 /// Spans by which commands may run ahead.
 const LAGS: usize = 6;
-/// Share of an axis's largest duty from which a firmware's limit holds it, where it cannot follow.
-const HELD: f64 = 0.99;
 /// Ratio of supplies up to which duties and speeds speak of the motors of the file, so that what these cannot follow is a
 /// limit: counts of half the lines would make it 0.5.
 const ITS_MOTORS: f64 = 1.5;
@@ -190,7 +188,7 @@ fn references(robot: &Robot, logs: &[Log], signals: &[Signals]) -> Option<Mistak
     let taken_for_speeds = ratio > 1.0 && loops::per_speed(robot, logs).is_some_and(is_true);
     let rpm = 60.0 / std::f64::consts::TAU;
     if near(ratio, rpm) && !taken_for_speeds {
-        let what = format!("set points are {} times the speeds of the wheels: turns per minute", short(ratio));
+        let what = format!("{what}: turns per minute");
         let remedy = "write rad/s at the wheel (divide by 9.5493), or name the unit to `racbot convert`".to_owned();
         return Some(Mistake::new("reference-unit", "ref_1", what, remedy));
     }

@@ -1,26 +1,24 @@
 //! What a speed loop takes its set points for: it subtracts from them the speeds that it measures.
 
-use nalgebra::{Matrix4, Vector4};
+use estimation::normal_equations::solve;
+use nalgebra::{DMatrix, DVector};
 use runs::robot::Robot;
 use runs::{Columns, Log};
 
-use super::samples::{FEWEST, MOST_TICKS};
+use super::samples::{FEWEST, HELD, MOST_TICKS};
 
 /// Share of the squared change of duty from row to row that set points and speeds make, from which a loop makes the duties
 /// of them: six simulated loops had 0.97 to 0.99 at the rate of the loop.
 const MADE: f64 = 0.9;
 
-/// Share of an axis's largest duty from which two rows in a row are held by a limit.
-const HELD: f64 = 0.99;
-
 /// Set points that a loop takes for one speed by the counts: what the duty answers a change of speed with per what it
 /// answers one of set point with. A set point in another unit is as many times the speed that it asks for, however far a
 /// weak loop stays behind it. `None` where the duties are not made so.
 pub(super) fn per_speed(robot: &Robot, logs: &[Log]) -> Option<f64> {
-    let (mut information, mut score, mut square, mut rows) = (Matrix4::zeros(), Vector4::zeros(), 0.0, 0_usize);
-    let mut add = |row: Vector4<f64>, change: f64| {
-        information += row * row.transpose();
-        score += row * change;
+    let (mut information, mut score, mut square, mut rows) = (DMatrix::zeros(4, 4), DVector::zeros(4), 0.0, 0_usize);
+    let mut add = |row: DVector<f64>, change: f64| {
+        information.ger(1.0, &row, &row, 1.0);
+        score.axpy(change, &row, 1.0);
         square += change * change;
         rows += 1;
     };
@@ -42,16 +40,13 @@ pub(super) fn per_speed(robot: &Robot, logs: &[Log]) -> Option<f64> {
                 if duty[b].abs().min(duty[c].abs()) < HELD * most {
                     let (last, now) = (speed(a, b), speed(b, c));
                     // The integral's part goes with set point and speed themselves.
-                    let row = Vector4::new(reference[c] - reference[b], last - now, reference[c], now);
-                    add(row, duty[c] - duty[b]);
+                    let row = [reference[c] - reference[b], last - now, reference[c], now];
+                    add(DVector::from_row_slice(&row), duty[c] - duty[b]);
                 }
             }
         }
     }
-    let unit = information.diagonal().map(|x: f64| x.sqrt().max(1e-300));
-    let inverse =
-        (information.component_div(&(unit * unit.transpose())) + Matrix4::identity() * 1e-12).try_inverse()?;
-    let answers = (inverse * score.component_div(&unit)).component_div(&unit);
+    let answers = solve(&information, &score);
     let made = answers.dot(&score) > MADE * square && rows >= FEWEST && answers[0] > 0.0 && answers[1] > 0.0;
     made.then(|| answers[1] / answers[0])
 }

@@ -7,6 +7,8 @@ use runs::{Columns, Log, is_from_speeds};
 
 /// Share of the time that an axis turns each way, from which a sign must show.
 pub(super) const BOTH_WAYS: f64 = 0.1;
+/// Share of an axis's largest duty from which a firmware's limit holds it, where it cannot follow.
+pub(super) const HELD: f64 = 0.99;
 /// Samples from which anything is said.
 pub(super) const FEWEST: usize = 50;
 /// Ticks of a log that are looked at.
