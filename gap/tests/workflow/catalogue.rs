@@ -1,6 +1,6 @@
 //! Every effect of the catalogue: simulated in, and found.
 
-use super::common::{RICH, cut, names, rolling, simulate, value, with};
+use super::common::{RICH, cut, cut_all, names, rolling, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use model::manoeuvre::Manoeuvre;
 use rayon::prelude::*;
@@ -136,7 +136,7 @@ fn every_effect_simulated_in_is_found() {
             let nominal = Robot { support, ..Robot::racbot() };
             let truth = with(&nominal, case.name, case.parameters);
             let mut set = simulate(&truth, case.drives, 40 + k as u64);
-            set.runs.iter_mut().for_each(|r| cut(r, 7.0));
+            cut_all(&mut set, 7.0);
             let a = analyse(&set, &Options::default()).unwrap();
             fault(case, &a).map(|f| format!("{}: {f}", case.name))
         })
@@ -222,7 +222,7 @@ fn of_many_runs_clocks_that_differ_are_found() {
     let robot = with(&Robot::racbot(), "wheel-skew", &[("skew_1_rad", 0.08)]);
     let drives = [RICH[0], RICH[1]].repeat(model::fit::clocks::FEW_RUNS / 2 + 1);
     let mut set = simulate(&robot, &drives, 93);
-    set.runs.iter_mut().for_each(|run| cut(run, 4.0));
+    cut_all(&mut set, 4.0);
     let one = analyse(&set, &Options::default()).unwrap();
     assert_eq!(names(&one), ["wheel-skew"], "{}", one.terminal_summary());
     assert!(!one.tried.iter().any(|name| name == "camera-clock"));
@@ -266,7 +266,7 @@ fn crossed_cables_and_crossed_set_points_are_kept_apart() {
     let both =
         [("axis_1", 3.0), ("axis_2", 2.0), ("axis_3", 1.0), ("cable_1", 1.0), ("cable_2", -2.0), ("cable_3", 3.0)];
     let mut set = simulate(&with(&Robot::racbot(), "wheel-order", &both), &RICH, 7);
-    set.runs.iter_mut().for_each(|r| cut(r, 5.0));
+    cut_all(&mut set, 5.0);
     let a = analyse(&set, &Options::default()).unwrap();
     assert_eq!(names(&a), ["wheel-order", "wheel-order"], "{}", a.terminal_summary());
     let mut links = [a.effects[0].link, a.effects[1].link].map(links::effect::Link::name);

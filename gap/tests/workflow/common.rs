@@ -62,6 +62,11 @@ pub(super) fn cut(run: &mut Run, seconds: f64) {
     run.camera.retain(|c| c.tick < n);
 }
 
+/// The first seconds of every run.
+pub(super) fn cut_all(set: &mut DataSet, seconds: f64) {
+    set.runs.iter_mut().for_each(|run| cut(run, seconds));
+}
+
 /// Logs of the true robot, described by the nominal one.
 pub(super) fn simulate(truth: &Robot, manoeuvres: &[Manoeuvre], seed: u64) -> DataSet {
     let runs = manoeuvres.iter().enumerate().map(|(k, m)| run(truth, *m, 100 * seed + k as u64)).collect();

@@ -1,6 +1,6 @@
 //! Counts a wheel turn stand in the file, in the controller and in the encoder: whose number is wrong.
 
-use super::common::{RICH, cut, names, simulate, value, with};
+use super::common::{RICH, cut_all, names, simulate, value, with};
 use gap::evidence::Evidence;
 use gap::{Analysis, Options, Verdict, analyse};
 use links::effect::Link;
@@ -23,7 +23,7 @@ fn rounded(robot: &Robot) -> Robot {
 /// Nine seconds of each drive: a replay tells counts from far less.
 fn driven(truth: &Robot, seed: u64) -> DataSet {
     let mut set = simulate(truth, &RICH, seed);
-    set.runs.iter_mut().for_each(|run| cut(run, 9.0));
+    cut_all(&mut set, 9.0);
     set
 }
 
@@ -140,7 +140,7 @@ fn counts_are_told_beside_what_else_moves_the_camera() {
 fn without_a_loop_by_counts_nothing_of_the_controllers_number_is_said() {
     let mut set = miscounted(driven(&Robot::racbot(), 110), 0.1);
     // What these logs say of the drive is no matter here.
-    set.runs.iter_mut().for_each(|run| cut(run, 5.0));
+    cut_all(&mut set, 5.0);
     let mut no_gains = set.clone();
     (no_gains.robot.pi.kp, no_gains.robot.pi.ki) = (0.0, 0.0);
     // The loop's own speeds, whatever they were made of.

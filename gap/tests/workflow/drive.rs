@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{RICH, cut, names, of_files, simulate, with, with_dry_friction};
+use super::common::{RICH, cut_all, names, of_files, simulate, with, with_dry_friction};
 use super::scale::servo;
 use estimation::statistics::rms;
 use gap::problem::Problem;
@@ -51,7 +51,7 @@ fn resistance_is_named_and_no_mass_with_inertia() {
     for (seed, scale) in [(1, 0.4), (2, -0.3), (3, 0.25)] {
         let truth = with(&Robot::racbot(), "winding-resistance", &[("scale", scale)]);
         let mut set = simulate(&truth, &RICH, seed);
-        set.runs.iter_mut().for_each(|run| cut(run, 9.0));
+        cut_all(&mut set, 9.0);
         let a = analyse(&set, &Options::default()).unwrap();
         assert_eq!(names(&a), ["winding-resistance"], "{seed}: {}", a.terminal_summary());
         let Interval::Ci95([low, high]) = a.effects[0].parameters[0].2 else { panic!("{:?}", a.effects[0]) };
@@ -136,7 +136,7 @@ fn unknown_friction_is_no_inertia() {
     let nominal = Robot { support: Support::Blocks, ..Robot::racbot() };
     let truth = with(&nominal, "coulomb-friction", &[("torque_nm", 0.03)]);
     let mut set = simulate(&truth, &[Manoeuvre::Blocks, Manoeuvre::Blocks], 8);
-    set.runs.iter_mut().for_each(|run| cut(run, 9.0));
+    cut_all(&mut set, 9.0);
     let a = gap::analyse(&set, &gap::Options::default()).unwrap();
     let found = names(&a);
     assert_eq!(found.first(), Some(&"coulomb-friction"), "{}", a.terminal_summary());

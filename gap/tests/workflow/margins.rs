@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{RICH, cut, names, simulate, with};
+use super::common::{RICH, cut_all, names, simulate, with};
 use estimation::prior::Role;
 use gap::problem::{Owner, Problem};
 use gap::select::{Design, candidates};
@@ -17,7 +17,7 @@ use runs::{DataSet, Logs};
 
 fn short(truth: &Robot, seed: u64) -> DataSet {
     let mut set = simulate(truth, &RICH, seed);
-    set.runs.iter_mut().for_each(|r| cut(r, 6.0));
+    cut_all(&mut set, 6.0);
     set
 }
 

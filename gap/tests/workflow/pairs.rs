@@ -1,6 +1,6 @@
 //! Two effects at once, and one that looks like two.
 
-use super::common::{RICH, cut, names, simulate, value, with};
+use super::common::{RICH, cut_all, names, simulate, value, with};
 use gap::{Analysis, Options, analyse};
 use model::manoeuvre::Manoeuvre;
 use runs::robot::Robot;
@@ -11,7 +11,7 @@ fn looked(effects: &[Hidden], drives: &[Manoeuvre], seed: u64) -> Analysis {
     let all = effects.iter().flat_map(|(name, parameters)| with(&Robot::racbot(), name, parameters).effects);
     let truth = Robot { effects: all.collect(), ..Robot::racbot() };
     let mut set = simulate(&truth, drives, seed);
-    set.runs.iter_mut().for_each(|r| cut(r, 9.0));
+    cut_all(&mut set, 9.0);
     analyse(&set, &Options::default()).unwrap()
 }
 

@@ -1,6 +1,6 @@
 //! Effects of the links that compute: what `robot.toml` states is what they are replayed with.
 
-use super::common::{cut, names, simulate, value, with};
+use super::common::{cut_all, names, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use links::effect::Link;
 use model::manoeuvre::Manoeuvre;
@@ -20,7 +20,7 @@ type Parameters = &'static [(&'static str, f64)];
 
 fn set(truth: &Robot) -> DataSet {
     let mut set = simulate(truth, &[Manoeuvre::Star, Manoeuvre::FullDuty], 60);
-    set.runs.iter_mut().for_each(|r| cut(r, 8.0));
+    cut_all(&mut set, 8.0);
     set
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::common::{RICH, cut, names, simulate, value, with};
+use super::common::{RICH, cut, cut_all, names, simulate, value, with};
 use gap::{Analysis, Options, Verdict, analyse};
 use runs::frames::Pose;
 use runs::geometry::Wheel;
@@ -176,7 +176,7 @@ fn a_torque_constant_is_not_called_friction() {
 
 fn short(truth: &Robot, seed: u64) -> DataSet {
     let mut set = simulate(truth, &RICH, seed);
-    set.runs.iter_mut().for_each(|r| cut(r, 6.0));
+    cut_all(&mut set, 6.0);
     set
 }
 
