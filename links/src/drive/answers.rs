@@ -55,7 +55,7 @@ impl Answers {
         let alone = link.pieces.robot().support == Support::Blocks;
         let wheel = |i: usize| -> Option<[Vec<f64>; WAYS]> {
             let own = if alone { each * i..each * (i + 1) } else { 0..told.len() };
-            let used: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0).collect();
+            let used: Vec<usize> = link.counted(i).collect();
             if used.len() < FEWEST_PER_COLUMN * (own.len() + 1) {
                 return None;
             }
@@ -102,7 +102,7 @@ impl Answers {
     pub(super) fn beside(&self, link: &DriveLink, left: &DriveResiduals) -> DriveResiduals {
         let mut out = left.clone();
         for (i, ways) in self.0.iter().enumerate() {
-            let used: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0).collect();
+            let used: Vec<usize> = link.counted(i).collect();
             let columns = DMatrix::from_fn(used.len(), WAYS, |row, way| ways[way][used[row]]);
             let torque = DVector::from_fn(used.len(), |row, _| left.torque[used[row]][i]);
             let done = &columns * solve(&(columns.transpose() * &columns), &(columns.transpose() * torque));

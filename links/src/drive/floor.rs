@@ -94,7 +94,7 @@ impl Generic {
     /// What it leaves of a wheel's torques; `None` where the logs are too short to say. Short logs have the likeliest
     /// columns only, with those of direction, speed and duty of every wheel at least.
     pub fn leaves(&self, link: &DriveLink, residuals: &DriveResiduals, wheel: usize) -> Option<Left> {
-        let test_functions: Vec<usize> = (0..link.len()).filter(|b| link.weights(*b)[wheel] > 0.0).collect();
+        let test_functions: Vec<usize> = link.counted(wheel).collect();
         let most = test_functions.len() / FEWEST_PER_COLUMN;
         let columns: Vec<&Vec<f64>> = self.shared.iter().chain(&self.own[wheel]).take(most).collect();
         if columns.len() < self.shared.len() {
@@ -169,8 +169,7 @@ pub fn accounted(link: &DriveLink, model: &DriveModel) -> Vec<f64> {
     let width = if lifted { 6 } else { 4 };
     let accelerated = link.done(model);
     let of = |i: usize| {
-        let used: Vec<usize> =
-            (0..link.len()).filter(|b| link.weights(*b)[i] > 0.0 && *b < accelerated.len()).collect();
+        let used: Vec<usize> = link.counted(i).filter(|b| *b < accelerated.len()).collect();
         let volts = DVector::from_iterator(used.len(), used.iter().map(|b| means[5 * i][*b]));
         let varies = volts.add_scalar(-volts.mean()).norm_squared();
         let motion = DMatrix::from_fn(used.len(), width, |row, column| match column {

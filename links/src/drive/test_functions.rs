@@ -147,9 +147,7 @@ impl<'a> DriveLink<'a> {
                 *slot = g * a.torque_constant * volts / a.resistance;
             }
         });
-        let counted = torques.iter().enumerate().flat_map(|(i, wheel)| {
-            wheel.iter().zip(&self.test_functions).filter(move |(_, b)| b.weights[i] > 0.0).map(|(torque, _)| *torque)
-        });
+        let counted = torques.iter().enumerate().flat_map(|(i, wheel)| self.counted(i).map(|b| wheel[b]));
         estimation::statistics::rms(counted)
     }
 
@@ -166,10 +164,7 @@ impl<'a> DriveLink<'a> {
     /// the noise, over all wheels.
     pub fn tells(&self, model: &DriveModel) -> f64 {
         let given = self.motors_gave(model).powi(2);
-        let of = |i: usize| {
-            let counted = self.test_functions.iter().filter(|b| b.weights[i] > 0.0).count();
-            counted as f64 * given / self.noise[i].powi(2).max(f64::MIN_POSITIVE)
-        };
+        let of = |i: usize| self.counted(i).count() as f64 * given / self.noise[i].powi(2).max(f64::MIN_POSITIVE);
         (0..self.noise.len()).map(of).sum()
     }
 
@@ -457,6 +452,11 @@ impl<'a> DriveLink<'a> {
             self.test_functions[range.clone()].iter().map(|b| of(&s, b.middle())).collect::<Vec<_>>()
         };
         each(&self.by_segment(), &part).into_iter().flatten().collect()
+    }
+
+    /// Indices of the test functions that count for a wheel.
+    pub(super) fn counted(&self, wheel: usize) -> impl Iterator<Item = usize> + '_ {
+        (0..self.len()).filter(move |b| self.test_functions[*b].weights[wheel] > 0.0)
     }
 
     /// Weights, `[test function][wheel]`.
