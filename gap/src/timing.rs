@@ -13,20 +13,21 @@ use links::motion::WindowResiduals;
 /// the least that matters, s.
 const SCATTER_TICKS: f64 = 0.6;
 const SCATTER_S: f64 = 0.001;
+/// Frames of a log from which a grid is laid through their stamps.
+const FEWEST_FRAMES: usize = 16;
 
 /// Checks the camera's stamps against a regular grid.
 pub(crate) fn analyse(robot: &Robot, logs: &[Log]) -> Option<ExactLink> {
     let (mut square, mut n, mut missing, mut frames) = (0.0, 0.0_f64, 0.0, 0.0_f64);
     let mut tick = 0.0_f64;
-    for log in logs.iter().filter(|log| log.camera().len() >= 16) {
+    for log in logs {
+        let Some(stamps) = on_grid(log, robot) else { continue };
         tick = tick.max(log.tick_s().unwrap_or(0.0));
-        let stamps: Vec<f64> = log.camera().iter().map(|f| f.t).collect();
-        let grid = grid(&stamps, robot.camera_rate_hz);
-        for (g, s) in grid.iter().zip(&stamps) {
-            square += (g - s).powi(2);
+        for [stamp, regular] in &stamps {
+            square += (regular - stamp).powi(2);
             n += 1.0;
         }
-        let span = (grid[grid.len() - 1] - grid[0]) * robot.camera_rate_hz;
+        let span = (stamps[stamps.len() - 1][1] - stamps[0][1]) * robot.camera_rate_hz;
         missing += (span.round() + 1.0 - stamps.len() as f64).max(0.0);
         frames += span.round() + 1.0;
     }
@@ -124,26 +125,20 @@ type Frame = (f64, [f64; 3], [f64; 3]);
 /// Share of what the robot moved between a frame's regular time and its stamp by which the poses are off, and its
 /// standard error: 1 where stamps scatter about capture times, 0 where frames are taken when their stamps say.
 fn off_by_stamps(robot: &Robot, logs: &[Log], noise: [f64; 3], seen: &[WindowResiduals]) -> Option<[f64; 2]> {
-    let late: Vec<Vec<(f64, f64)>> = logs
-        .iter()
-        .map(|log| {
-            let stamps: Vec<f64> = log.camera().iter().map(|f| f.t).collect();
-            let grid = if stamps.len() < 16 { stamps.clone() } else { grid(&stamps, robot.camera_rate_hz) };
-            stamps.iter().zip(grid).map(|(s, g)| (*s, s - g)).collect()
-        })
-        .collect();
+    let as_stamped = |log: &Log| log.camera().iter().map(|f| [f.t; 2]).collect();
+    let stamps: Vec<_> = logs.iter().map(|log| on_grid(log, robot).unwrap_or_else(|| as_stamped(log))).collect();
     let (mut moved, mut mixed, mut square, mut n) = (0.0, 0.0, 0.0, 0.0_f64);
     for window in seen.iter().filter(|w| w.t.len() >= 4) {
-        let frames = late.get(window.run)?;
+        let frames = stamps.get(window.run)?;
         let last = window.t.len() - 1;
         let mut rows: Vec<Frame> = Vec::new();
         for (i, t) in window.t.iter().enumerate() {
-            let at = frames.partition_point(|(stamp, _)| *stamp < *t);
-            let Some((_, late)) = frames.get(at).filter(|(stamp, _)| *stamp == *t) else { continue };
+            let at = frames.partition_point(|[stamp, _]| *stamp < *t);
+            let Some([stamp, regular]) = frames.get(at).filter(|[stamp, _]| *stamp == *t) else { continue };
             let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
             let (from, to) = (&window.predicted[a], &window.predicted[b]);
             let gained = [to.x - from.x, to.y - from.y, runs::frames::wrap_angle(to.theta - from.theta)];
-            let by = late / (window.t[b] - window.t[a]);
+            let by = (stamp - regular) / (window.t[b] - window.t[a]);
             rows.push((window.weights[i], [0, 1, 2].map(|j| -gained[j] * by / noise[j]), window.residuals[i]));
         }
         let whole: f64 = rows.iter().map(|r| r.0).sum();
@@ -179,6 +174,16 @@ fn is_stated(robot: &Robot, parameters: &[(String, f64, Interval)]) -> bool {
 /// Share of the frames that the next one overtakes where stamps scatter by so many periods, normally distributed.
 fn overtaken(periods: f64) -> f64 {
     0.5 * estimation::statistics::chi2_upper(0.5 / (periods * periods).max(1e-300), 1.0)
+}
+
+/// Stamp and regular time of each frame of a log, s; `None` of one with too few frames to tell a grid.
+fn on_grid(log: &Log, robot: &Robot) -> Option<Vec<[f64; 2]>> {
+    let stamps: Vec<f64> = log.camera().iter().map(|f| f.t).collect();
+    if stamps.len() < FEWEST_FRAMES {
+        return None;
+    }
+    let regular = grid(&stamps, robot.camera_rate_hz);
+    Some(stamps.into_iter().zip(regular).map(<[f64; 2]>::from).collect())
 }
 
 /// The regular grid that the stamps scatter about, one time a frame.
