@@ -105,7 +105,7 @@ pub fn select(
     let light = if known.is_empty() {
         lighter::lighter(problem, start, &all, thresholds)
     } else {
-        lighter::kept(problem, start, known)
+        lighter::kept(problem, start, known, thresholds)
     };
     let best = searched(problem, start, known, &all, thresholds);
     // What is left far above the noise is not a little of everything: another search in which next to nothing is

@@ -28,6 +28,12 @@ impl Figures for f64 {
     }
 }
 
+impl Figures for usize {
+    fn figures(self) -> Vec<f64> {
+        vec![self as f64]
+    }
+}
+
 impl<const N: usize> Figures for [f64; N] {
     fn figures(self) -> Vec<f64> {
         self.to_vec()
@@ -169,6 +175,18 @@ thresholds! {
     /// measured.
     least_together: f64 = 0.5,
 
+    // An inertia far from the file's: accelerations go with its inverse, and a straight line does not reach it.
+    /// Inertia, in the file's, that must be within an effect's bounds for the drive to be fitted from its lightest on, and
+    /// below which one that was found so is kept for the next look: half of it is less than any margin is. With ten times
+    /// the inertia in the file a weight beside the shaft was named, or nothing.
+    lighter: [f64; 2] = [0.1, 0.5],
+    /// Inertia, in the file's, from which a heavier one is fitted on an axis on blocks, and beyond which it must end. Single
+    /// steps of an axis with a third of its inertia in the file, and no friction, left 15 to 50 floors by laws that bend
+    /// speeds. A load of half as much again, beside a friction, comes out in a tie with a motor that warms, and on an axis
+    /// that lacked a friction alone (blind bench) a tenth of the inertia was named with two laws more.
+    // That axis has the seed 17359735160358586713.
+    heavier: [f64; 2] = [3.0, 1.5],
+
     // What speaks against a name.
     /// Standard deviations by which a free simulation must get worse to speak against an effect: as many as 2.3 % of
     /// noise.
@@ -182,6 +200,25 @@ thresholds! {
     falls: f64 = 0.98,
     /// Chance of runs that differ as much by what clusters scatter, below which the runs' own spread makes the interval.
     runs_differ: f64 = 0.05,
+
+    // Runs of one data set that are not of one robot as it was.
+    /// Most parameters of an effect that runs may differ in: of more each is known too badly from one run alone. On circles
+    /// of three omni wheels one run gave a wheel's radius as 20 % larger, beside two others that were smaller.
+    differ_parameters: usize = 2,
+    /// By how much more another effect must close to stand for one that comes earlier in the catalogue. Reasoned: less is
+    /// no reason to leave its order.
+    differ_more: f64 = 1.05,
+    /// Runs whose values are all told; of more the least and the greatest. Reasoned: a sentence holds no more.
+    differ_told: usize = 6,
+    /// Share of the fastest speed of all runs from which a wheel turns, and share of its moments at either end that are
+    /// none of its run's level. Reasoned: standing and changing speed say nothing of the level.
+    level: [f64; 2] = [0.05, 0.1],
+    /// Ticks of a run that tell its level, at most. Reasoned: the share at either end is known to 0.005 from so many.
+    level_ticks: usize = 4096,
+    /// By how much of the usual range of a run's speeds the levels of runs lie apart from which each has a level of its
+    /// own: of eight steps of a fan, each a tenth of the supply higher, 0.75; of drives to and fro, 0.1. Ten steps of one
+    /// motor were called machines with loads of 8 to 11 Nm, five times what it can hold.
+    levels_apart: f64 = 0.5,
 
     // Floors, and what is said of what is left.
     /// Share of the drive's torque that wheels lose as they roll, which no file of a robot gives and no name is due to:

@@ -42,6 +42,15 @@ pub const ROLLING: f64 = 3.75;
 /// 100 ms is the longest that a motor controller for robots has by itself. Reasoned, from their manuals.
 pub const FILTER_S: f64 = 0.11;
 
+/// Torque that the noise of raw increments of the angles makes, RMS, in the torque of the limited current, from which the
+/// limit is applied by smoothed speeds: it would cut off the noise on one side, and leave a mean that is off. Reasoned.
+pub const NOISY_AT_LIMIT: f64 = 0.1;
+
+/// Share of the variance of a wheel's duty, and of its speed, that set points must account for, or what its loop answers is
+/// not taken off: what set points make is then all that speaks for an effect, and too little of it estimates nothing (weak
+/// instruments). Reasoned.
+pub const ACCOUNTED_FOR: f64 = 0.3;
+
 /// Control periods between two rows of a log from which the duty is not taken as held in between.
 pub const ROWS_APART: f64 = 1.5;
 

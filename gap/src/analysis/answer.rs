@@ -165,7 +165,7 @@ impl Workflow<'_> {
                 Link::Drive => Problem::Drive(&drive?.link),
                 _ => return None,
             };
-            let levels = || differing::Levels::of(self.data.pieces, runs.len());
+            let levels = || differing::Levels::of(self.data.pieces, runs.len(), &self.thresholds);
             let levels = (link.link == Link::Drive).then_some(&levels as &dyn Fn() -> differing::Levels);
             let structure = differing::said(&problem, &state, self.data.catalogue, &runs, levels, &self.thresholds)?;
             Some(Leftover { link: link.link, structure })

@@ -12,58 +12,42 @@ use estimation::normal_equations::solve;
 use links::effect::{Effect, Parameter};
 use links::pieces::Pieces;
 
-/// Most parameters of an effect that runs may differ in: of more each is known too badly from one run alone. On circles of three
-/// omni wheels one run gave a wheel's radius as 20 % larger, beside two others that were smaller.
-const MOST: usize = 2;
-/// Runs whose values are all told; of more the least and the greatest.
-const TOLD: usize = 6;
-/// By how much more another effect must close to stand for one that comes earlier in the catalogue.
-const RICHER: f64 = 1.05;
-
-/// Ticks of a run that tell how fast it went, at most.
-const SEEN: usize = 4096;
-/// Share of the fastest from which a wheel turns, and the share of its moments at either end that are none of its level.
-const TURNS: f64 = 0.05;
-const ENDS: f64 = 0.1;
-/// By how much of the usual range of a run's speeds the levels of runs lie apart from which each has a level of its own: of
-/// eight steps of a fan, each a tenth of the supply higher, 0.75; of drives to and fro, 0.1.
-const OWN: f64 = 0.5;
-
 /// How fast the wheels turned in each run: where every run has a level of its own, or a direction, what bends with the speed
 /// is another size in each of them, though all are of one robot.
 pub(super) struct Levels(Vec<Vec<[f64; 2]>>);
 
 impl Levels {
-    pub(super) fn of(pieces: &Pieces, runs: usize) -> Self {
+    pub(super) fn of(pieces: &Pieces, runs: usize, thresholds: &Thresholds) -> Self {
+        let [turns, ends] = thresholds.level;
         let mut speeds: Vec<Vec<Vec<f64>>> = vec![Vec::new(); runs];
         let mut ticks = vec![0; runs];
         pieces.iter().for_each(|s| ticks[s.run] += s.t.len());
         for s in pieces.iter() {
             let own = &mut speeds[s.run];
             own.resize_with(s.speed.len(), Vec::new);
-            let every = ticks[s.run].div_ceil(SEEN).max(1);
+            let every = ticks[s.run].div_ceil(thresholds.level_ticks).max(1);
             own.iter_mut().zip(&s.speed).for_each(|(own, speed)| own.extend(speed.iter().step_by(every)));
         }
         let fastest = speeds.iter().flatten().flatten().fold(0.0_f64, |most, w| most.max(w.abs()));
         let range = |mut wheel: Vec<f64>| {
-            wheel.retain(|w| w.abs() > TURNS * fastest);
+            wheel.retain(|w| w.abs() > turns * fastest);
             wheel.sort_by(f64::total_cmp);
             let at = |share: f64| wheel.get((share * wheel.len() as f64) as usize).copied().unwrap_or(0.0);
-            [at(ENDS), at(1.0 - ENDS)]
+            [at(ends), at(1.0 - ends)]
         };
         Self(speeds.into_iter().map(|run| run.into_iter().map(range).collect()).collect())
     }
 
     /// What is left of the differences of sizes, as a share of them, beside a law that bends with the level of the runs; all of
     /// it where they have no level of their own.
-    fn beside_level(&self, of_runs: &[(usize, f64)]) -> f64 {
+    fn beside_level(&self, of_runs: &[(usize, f64)], thresholds: &Thresholds) -> f64 {
         let ranges = |wheel: usize| of_runs.iter().filter_map(move |(run, _)| self.0.get(*run)?.get(wheel).copied());
         let middles = |wheel: usize| ranges(wheel).map(|[low, high]| 0.5 * (low + high)).collect::<Vec<f64>>();
         let wheels = self.0.first().map_or(0, Vec::len);
         let Some(levels) = (0..wheels).map(middles).max_by(|a, b| spread(a).total_cmp(&spread(b))) else { return 1.0 };
         let n = of_runs.len() as f64;
         let widths = (0..wheels).flat_map(ranges).map(|[low, high]| high - low).sum::<f64>() / (n * wheels as f64);
-        if levels.len() < of_runs.len() || spread(&levels) < OWN * widths {
+        if levels.len() < of_runs.len() || spread(&levels) < thresholds.levels_apart * widths {
             return 1.0;
         }
         let sizes = DVector::from_iterator(of_runs.len(), of_runs.iter().map(|(_, size)| *size));
@@ -117,7 +101,7 @@ pub(super) fn said(
     if runs.len() < 2 {
         return None;
     }
-    let few = |a: &Active| (1..=MOST).contains(&a.form.free.len()) && a.form.fixed.is_empty();
+    let few = |a: &Active| (1..=thresholds.differ_parameters).contains(&a.form.free.len()) && a.form.fixed.is_empty();
     let grows = |a: &Active| few(a) && !a.effect.probe() && !a.switched();
     let mut candidates = problem.candidates(state, catalogue);
     candidates.retain(grows);
@@ -135,7 +119,7 @@ pub(super) fn said(
     let all = own.chain(others).filter_map(|(columns, a)| sizes(&linear, &numbers, &columns, a));
     // Each parameter of a richer form has a size in each run to pay for.
     let paid = |s: &Sizes| s.own + s.common - thresholds.costs[1] * (s.parameters * s.of_runs.len()) as f64;
-    let best = all.reduce(|best, next| if paid(&next) > RICHER * paid(&best) { next } else { best })?;
+    let best = all.reduce(|best, next| if paid(&next) > thresholds.differ_more * paid(&best) { next } else { best })?;
     let share = best.own / (square - best.common).max(f64::MIN_POSITIVE);
     let left = square - best.common - best.own;
     let variance = (left / n.max(1.0)).max(1.0) * thresholds.correlation(problem.link());
@@ -153,10 +137,10 @@ pub(super) fn said(
         return None;
     }
     // What follows the level of the runs is the law, not another machine.
-    if levels.is_some_and(|levels| levels().beside_level(&best.of_runs) < thresholds.undecided) {
+    if levels.is_some_and(|levels| levels().beside_level(&best.of_runs, thresholds) < thresholds.undecided) {
         return None;
     }
-    let told = if best.of_runs.len() > TOLD { vec![low, high] } else { best.of_runs.clone() };
+    let told = if best.of_runs.len() > thresholds.differ_told { vec![low, high] } else { best.of_runs.clone() };
     let value = |(run, x): &(usize, f64)| {
         let unknown = String::new();
         format!("{} in {}", units::value(&best.parameter.name, *x), runs.get(*run).unwrap_or(&unknown))
@@ -219,7 +203,8 @@ mod tests {
     /// Sizes of runs of which each has its range of speed, and the share that is left beside their level.
     fn left(runs: &[([f64; 2], f64)]) -> f64 {
         let levels = Levels(runs.iter().map(|(range, _)| vec![*range]).collect());
-        levels.beside_level(&runs.iter().enumerate().map(|(run, (_, size))| (run, *size)).collect::<Vec<_>>())
+        let sizes: Vec<_> = runs.iter().enumerate().map(|(run, (_, size))| (run, *size)).collect();
+        levels.beside_level(&sizes, &Thresholds::default())
     }
 
     #[test]

@@ -128,7 +128,7 @@ pub(super) fn study<'a>(
         let (again, more) = sound(problem, heavier, start, &all, thresholds);
         let named = &again.written.active[from..];
         let closes = again.rms.powi(2) < (1.0 - thresholds.explained) * judged.rms.powi(2);
-        if closes && select::is_heavier(problem, start, named) {
+        if closes && select::is_heavier(problem, start, named, thresholds) {
             (judged, refused) = (again, more);
         }
     }

@@ -16,31 +16,19 @@ use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use links::effect::{Effect, Link, Parameter};
 
-/// Inertia left of the file's, below which a straight line through it does not reach.
-const STRAIGHT: f64 = 0.1;
-/// Scale of the file's inertia from which what was found is kept so: half of it is less than any margin is.
-const HALF: f64 = -0.5;
-
-/// Scale of the file's inertia from which a heavier one is fitted: three times as much turns.
-const HEAVIER: f64 = 2.0;
-/// Scale beyond which it must end. Of half as much again and less it is no matter of straight lines: such a load beside a
-/// friction comes out in a tie with a motor that warms, and on an axis that lacked a friction alone (seed 17359735160358586713
-/// of the blind bench) a tenth of the inertia was named with two laws more.
-const STRAIGHT_UP: f64 = 0.5;
-
-/// Value of the first parameter of what has one.
+/// Value of the first parameter of what has one; of an inertia what it has more than the file's, in the file's.
 fn value(a: &Active) -> Option<f64> {
     a.form.free.first().map(|p| a.values.get(&p.name))
 }
 
-fn weighs_more(inertia: &Active) -> bool {
-    value(inertia).is_some_and(|scale| scale > STRAIGHT_UP)
+fn weighs_more(inertia: &Active, thresholds: &Thresholds) -> bool {
+    value(inertia).is_some_and(|scale| scale > thresholds.heavier[1] - 1.0)
 }
 
 /// Whether an inertia that is so much heavier is named: without it what else was found from there is no better a guess than
 /// what was found from the file's.
-pub(crate) fn is_heavier(problem: &Problem, start: &State, named: &[Active]) -> bool {
-    named.iter().any(|a| a.is_named() && weighs_more(a) && problem.changes_inertia(start, a))
+pub(crate) fn is_heavier(problem: &Problem, start: &State, named: &[Active], thresholds: &Thresholds) -> bool {
+    named.iter().any(|a| a.is_named() && weighs_more(a, thresholds) && problem.changes_inertia(start, a))
 }
 
 /// A drive explained from an inertia on that is heavier than the file's; nothing where that explains little.
@@ -51,8 +39,9 @@ pub(crate) fn heavier(
     thresholds: &Thresholds,
 ) -> Option<Selection> {
     let all = problem.candidates(start, catalogue);
-    let laws = begun(problem, start, &all, thresholds, |p| (p.bounds[1] > HEAVIER).then_some(HEAVIER));
-    let inertia = laws.first().filter(|a| weighs_more(a))?.clone();
+    let from = thresholds.heavier[0] - 1.0;
+    let laws = begun(problem, start, &all, thresholds, |p| (p.bounds[1] > from).then_some(from));
+    let inertia = laws.first().filter(|a| weighs_more(a, thresholds))?.clone();
     let found = plain(problem, start, &laws, &all, thresholds, false)?;
     let mut found = simpler(problem, start, found, &all, &problem.in_place(start, catalogue), thresholds);
     // What the wrong inertia opens is no measure of what two laws beside the right one may undo of each other.
@@ -77,7 +66,7 @@ pub(crate) fn heavier(
 /// so what it moves look heavy: a tenth of the inertia behind an unknown friction of a tenth of the stall torque leaves
 /// most of the gap without that friction.
 pub(super) fn lighter(problem: &Problem, start: &State, all: &[Active], thresholds: &Thresholds) -> Vec<Active> {
-    begun(problem, start, all, thresholds, |p| (p.bounds[0] < STRAIGHT - 1.0).then_some(p.bounds[0]))
+    begun(problem, start, all, thresholds, |p| (p.bounds[0] < thresholds.lighter[0] - 1.0).then_some(p.bounds[0]))
 }
 
 /// The same of an inertia that is fitted from a value of its own on, and ends on that side of the file's.
@@ -128,11 +117,10 @@ fn begun(
 }
 
 /// What was found with far less inertia than the file's, which a straight line would lose again; nothing without.
-pub(super) fn kept(problem: &Problem, start: &State, known: &[Active]) -> Vec<Active> {
+pub(super) fn kept(problem: &Problem, start: &State, known: &[Active], thresholds: &Thresholds) -> Vec<Active> {
+    let [reached, half] = thresholds.lighter.map(|inertia| inertia - 1.0);
     let far = |a: &Active| {
-        a.form.free.len() == 1
-            && value(a).is_some_and(|scale| scale < HALF)
-            && a.form.free[0].bounds[0] < STRAIGHT - 1.0
+        a.form.free.len() == 1 && value(a).is_some_and(|scale| scale < half) && a.form.free[0].bounds[0] < reached
     };
     let found = known.iter().any(|a| far(a) && problem.changes_inertia(start, a));
     if found { known.to_vec() } else { Vec::new() }

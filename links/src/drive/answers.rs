@@ -11,13 +11,12 @@ use nalgebra::{DMatrix, DVector};
 use runs::robot::Support;
 
 use super::{DriveLink, DriveResiduals, FEWEST_PER_COLUMN, smooth_sign};
+use crate::thresholds::ACCOUNTED_FOR;
 use estimation::normal_equations::solve;
 
 /// Ages of a set point that tell, in lengths of a test function; and those of which the direction does, too.
 const AGES: [f64; 5] = [0.0, 0.25, 0.5, 1.0, 2.0];
 const DIRECTIONS: usize = 3;
-/// Share of what duties and speeds vary that set points must account for.
-const ACCOUNTED: f64 = 0.3;
 
 /// What a wheel's loop answers in: the voltage of its motor, and its speed.
 const WAYS: usize = 2;
@@ -68,7 +67,7 @@ impl Answers {
                 let left = &value - &columns * solve(&information, &(columns.transpose() * &value));
                 let varies = value.add_scalar(-value.mean()).norm_squared();
                 let accounted = 1.0 - left.norm_squared() / varies;
-                if accounted.is_nan() || accounted < ACCOUNTED {
+                if accounted.is_nan() || accounted < ACCOUNTED_FOR {
                     return None;
                 }
                 let mut all = vec![0.0; link.len()];

@@ -10,6 +10,7 @@ use runs::robot::Support;
 use super::DriveModel;
 use super::instant::{Instant, Loads, in_body};
 use crate::segment::Segment;
+use crate::thresholds::NOISY_AT_LIMIT;
 
 /// What is the same at every tick of an axis, at its output shaft.
 pub(super) struct Axis {
@@ -45,9 +46,6 @@ const BY_WHEEL: usize = 5;
 
 /// Ticks that are laid out at a time: what is written stays at hand from the first signal to the last.
 const TOGETHER: usize = 64;
-
-/// RMS of the torque that raw increments scatter by, in the torque of a limited current, from which they are smoothed.
-const NOISY: f64 = 0.1;
 
 /// A signal of each wheel; the segment's own where a model leaves it as it is.
 type ByWheel<'a> = Vec<Cow<'a, [f64]>>;
@@ -143,7 +141,7 @@ impl<'a> Signals<'a> {
     /// cut off their noise, by the smoothed speeds.
     fn limit(&mut self, wheel: usize, axis: &Axis, [rate, speed]: [&[f64]; 2]) {
         let apart = rate.iter().zip(speed).map(|(a, b)| axis.damping * (a - b));
-        let noisy = estimation::statistics::rms(apart) > NOISY * axis.most;
+        let noisy = estimation::statistics::rms(apart) > NOISY_AT_LIMIT * axis.most;
         let driven = self.duty[wheel].iter().zip(&*self.supply).zip(if noisy { speed } else { rate });
         for (winding, ((duty, supply), speed)) in self.winding[wheel].iter_mut().zip(driven) {
             let asked = axis.gain * duty * supply - axis.damping * speed;

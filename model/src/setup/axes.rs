@@ -52,8 +52,8 @@ pub(super) fn still(robot: &Robot, signals: &[Signals]) -> Vec<Mistake> {
     (0..axes).filter_map(of).collect()
 }
 
-/// Cosine of speeds and set points below which an axis turns the other way than it is asked to: a loop follows its set points
-/// or lags behind them.
+/// Cosine of an axis's speeds and set points, -1 to 1, below which it turns the other way than it is asked to: a loop follows
+/// its set points or lags behind them, and a lag of a quarter of a period makes 0. Reasoned; as far as [`AGAINST`].
 const UNASKED: f64 = -0.8;
 
 /// Axes that turn the other way than their set points ask.
