@@ -33,9 +33,9 @@ pub enum AttributeError {
         tile: String,
         /// Multiplexer, mode or table that was to be set.
         attribute: String,
-        /// What was asked for.
+        /// Name of the choice that was asked for.
         value: String,
-        /// What there is.
+        /// Names of the attribute's choices, separated by commas.
         choices: String,
     },
     /// The bits stand for no choice.

@@ -13,7 +13,7 @@ use std::collections::HashSet;
 const SLICES: usize = 2_352;
 /// Tables and flip-flops.
 const TABLES: usize = 4_704;
-/// Block RAMs.
+/// Memories of 4,096 bits.
 const BLOCK_RAMS: usize = 14;
 /// Three-state buffers of the logic blocks.
 const TRI_STATES: usize = 2_352;

@@ -63,7 +63,7 @@ impl Symmetric {
         self.upper.iter_mut().for_each(|x| *x *= factor);
     }
 
-    /// A x.
+    /// Product with a vector of the same order.
     pub fn times(&self, x: &DVector<f64>) -> DVector<f64> {
         let mut sum = DVector::zeros(self.order);
         let (out, x) = (sum.as_mut_slice(), x.as_slice());
@@ -77,7 +77,7 @@ impl Symmetric {
         sum
     }
 
-    /// xᵀ A x.
+    /// Quadratic form xᵀ A x, of a vector of the same order.
     pub fn square(&self, x: &DVector<f64>) -> f64 {
         let mut upper = self.upper.iter();
         let column = |c: usize| {

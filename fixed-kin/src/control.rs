@@ -106,7 +106,7 @@ impl Configuration {
 /// An index captured since the last control tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct IndexCapture {
-    /// One was.
+    /// Whether there is one; else the other fields say nothing.
     pub event: bool,
     /// Counts are to begin at zero there.
     pub clear: bool,
@@ -119,7 +119,7 @@ pub struct IndexCapture {
 pub struct TickInputs {
     /// Encoder counters, latched at the tick.
     pub encoders: [EncoderSample; AXES],
-    /// Captured indices.
+    /// What each axis's index caught since the tick before.
     pub indices: [IndexCapture; AXES],
     /// Free-running clock counter at the tick, low 24 bits.
     pub now: u32,

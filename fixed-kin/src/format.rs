@@ -72,19 +72,19 @@ impl core::fmt::Display for OutOfRange {
 impl core::error::Error for OutOfRange {}
 
 impl Format {
-    /// Format of [`Speed`].
+    /// [`Speed`]: 30 bits, 2⁻³² counts a clock is one LSB.
     pub const SPEED: Self = Self::new("speed", WORD_BITS, 32);
-    /// Format of [`Duty`].
+    /// [`Duty`]: 30 bits, 2⁻²⁴ of full drive is one LSB.
     pub const DUTY: Self = Self::new("duty", WORD_BITS, 24);
-    /// Format of [`Coefficient`].
+    /// [`Coefficient`]: 18 bits, [−2, 2).
     pub const COEFFICIENT: Self = Self::of_operand("kinematics coefficient", Scale::COEFFICIENT);
-    /// Format of [`Displacement`].
+    /// [`Displacement`]: 30 bits, [−2²¹, 2²¹).
     pub const DISPLACEMENT: Self = Self::new("odometry coefficient", WORD_BITS, 8);
-    /// Format of [`FeedForwardGain`].
+    /// [`FeedForwardGain`]: 18 bits, [−2, 2).
     pub const FEED_FORWARD: Self = Self::new("feed-forward gain", 18, 16);
-    /// Format of [`ProportionalGain`].
+    /// [`ProportionalGain`]: 24 bits, [−128, 128).
     pub const PROPORTIONAL: Self = Self::of_operand("proportional gain", Scale::WIDE);
-    /// Format of [`IntegralGain`].
+    /// [`IntegralGain`]: 24 bits, [−2, 2).
     pub const INTEGRAL: Self = Self::of_operand("integral gain", Scale::FINE);
 
     /// A signed format of `bits` bits with `fraction` of them behind the binary point.

@@ -47,7 +47,7 @@ pub struct SetPointWords {
 /// A word that a recording lacks or that its register cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadWord {
-    /// Name of the word.
+    /// As [`RecordedWords::each`] calls it.
     pub name: &'static str,
     /// What it says, if it is there.
     pub value: Option<i64>,

@@ -7,7 +7,7 @@ use crate::units::short;
 /// Ticks that a replay compared, all wheels together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ticks {
-    /// All of them.
+    /// Those that were compared, right or wrong.
     pub all: u64,
     /// Those that differ by more than rounding.
     pub wrong: u64,

@@ -30,7 +30,7 @@ pub enum Owner {
     Whole(usize),
 }
 
-/// A linearisation.
+/// A link's residuals and their derivatives at one state.
 pub struct Linear {
     /// Condensed residuals and columns.
     pub equations: NormalEquations,
@@ -63,7 +63,7 @@ impl Linear {
 struct Move {
     /// From where; `None`: the state itself, predicted once for all.
     low: Option<State>,
-    /// To where.
+    /// State at the upper end.
     high: State,
     /// The step between them.
     step: f64,

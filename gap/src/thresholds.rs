@@ -55,7 +55,7 @@ macro_rules! thresholds {
         }
 
         impl Thresholds {
-            /// All of them.
+            /// Every threshold with its value here, in the order of the report's table.
             pub fn stated(&self) -> Vec<Stated> {
                 vec![$(Stated {
                     name: stringify!($name),

@@ -153,7 +153,7 @@ pub enum BoardError {
     /// Two bits on one pin.
     #[error("`{first}` and `{second}` are both on FPGA pin {pin}; move one of them")]
     PinTwice {
-        /// One of them.
+        /// Port that has the pin, with its number where it is a vector.
         first: String,
         /// Port that has the pin too.
         second: String,

@@ -264,7 +264,7 @@ pub struct Sizes {
     pub stall_nm: f64,
     /// No-load speed, rad/s at the wheel.
     pub no_load: f64,
-    /// Weight, N.
+    /// Weight of the whole robot, N.
     pub weight_n: f64,
     /// Largest distance of a contact point from the centre, m.
     pub rim_m: f64,

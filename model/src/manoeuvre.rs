@@ -72,7 +72,7 @@ impl Manoeuvre {
         }
     }
 
-    /// The manoeuvre of this name.
+    /// By its name on the command line; `None` where none has it.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|m| m.name() == name)
     }

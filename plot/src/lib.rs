@@ -125,7 +125,7 @@ pub enum Color {
     Black,
     /// Grey, for what is ideal or in the background.
     Grey,
-    /// Blue.
+    /// Blue, the first series that is given no colour.
     Blue,
     /// Vermilion, for what went wrong.
     Red,

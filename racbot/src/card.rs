@@ -33,7 +33,7 @@ pub(crate) enum Pace {
     Simulated,
 }
 
-/// A card that was opened.
+/// An open card, with the time and the camera that belong to it.
 pub(crate) struct OpenCard {
     /// Its name: the slot.
     pub(crate) name: String,
@@ -115,7 +115,7 @@ impl CardOptions {
         })
     }
 
-    /// Whether it is the built-in card.
+    /// Whether the simulated card of this program is asked for.
     #[cfg(feature = "simulation")]
     pub(crate) fn is_built_in(&self) -> bool {
         self.card.as_deref() == Some(VIRTUAL)

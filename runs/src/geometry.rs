@@ -188,7 +188,7 @@ impl Geometry {
         &self.wheels
     }
 
-    /// Wheel radius, m.
+    /// Radius of every wheel, m.
     pub fn wheel_radius_m(&self) -> f64 {
         self.wheel_radius_m
     }
@@ -229,7 +229,7 @@ impl Geometry {
     }
 }
 
-/// The wheels of [`Geometry::rac`].
+/// Three wheels at 90°, 210° and 330°, so far from the centre, each turned clockwise by its skew.
 pub fn rac_wheels(body_radius_m: f64, skew_rad: [f64; 3]) -> Vec<Wheel> {
     [90.0_f64, 210.0, 330.0]
         .iter()

@@ -24,7 +24,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Every column.
+    /// A log with nothing left out.
     pub const ALL: Self =
         Self { command: true, reference: true, counts: true, duty: true, measured: true, supply: true, sensors: true };
     /// The time alone.

@@ -34,7 +34,7 @@ pub struct Kick {
 pub struct Order {
     /// How to move; `None`: to stand.
     pub motion: Option<Motion>,
-    /// Whether to kick.
+    /// Kick to give; `None`: none.
     pub kick: Option<Kick>,
     /// Speed of the dribbler, rpm.
     pub dribbler_rpm: f64,

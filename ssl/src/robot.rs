@@ -124,13 +124,13 @@ impl SimulatedRobot {
         self.applied.camera
     }
 
-    /// Where it is.
+    /// True pose on the field.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.robot.pose()
     }
 
-    /// How it moves.
+    /// True velocity in the body's frame.
     #[must_use]
     pub fn twist(&self) -> Twist {
         self.robot.twist()

@@ -203,7 +203,7 @@ impl Group {
 pub struct Task {
     /// Where it is counted.
     pub group: Group,
-    /// Its own seed.
+    /// What its data are drawn from, with the kind and the conditions.
     pub seed: u64,
     /// What is hidden.
     pub kind: Kind,

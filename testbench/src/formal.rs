@@ -61,7 +61,7 @@ pub struct Mutant {
 pub struct Proven {
     /// Clocks of the induction.
     pub depth: u32,
-    /// Assertions proven.
+    /// Number of assertions that were proven.
     pub assertions: usize,
     /// Time for the proof.
     pub time: Duration,

@@ -24,7 +24,7 @@ const BOUNDARY_RUN: f32 = 0.03;
 pub(crate) struct Carpet {
     /// Typical red, green and blue, 0 to 255.
     pub(crate) colour: [f32; 3],
-    /// Where it is.
+    /// Of the picture's size; true where a pixel is carpet.
     pub(crate) mask: Raster<bool>,
     /// For every column the row where it begins, from above; the height where a column has none.
     pub(crate) boundary: Vec<f32>,

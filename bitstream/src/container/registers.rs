@@ -6,9 +6,9 @@ pub const CRC: u32 = 0;
 pub const FRAME_ADDRESS: u32 = 1;
 /// Register: frame data in.
 pub const FRAME_DATA: u32 = 2;
-/// Register: command.
+/// Register CMD: takes the commands below.
 pub const COMMAND: u32 = 4;
-/// Register: control.
+/// Register CTL: takes the bits that [`MASK`] lets through.
 pub const CONTROL: u32 = 5;
 /// Register: mask of the control register.
 pub const MASK: u32 = 6;
@@ -16,7 +16,7 @@ pub const MASK: u32 = 6;
 pub const OPTIONS: u32 = 9;
 /// Register: frame length, one less than a frame's words.
 pub const FRAME_LENGTH: u32 = 11;
-/// Registers there are.
+/// First address that is no register; a packet to it or beyond is refused.
 pub(super) const REGISTERS: u32 = 12;
 
 /// Command: write configuration.

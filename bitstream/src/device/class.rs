@@ -6,7 +6,7 @@ use std::collections::HashMap;
 /// A bit of a tile: rectangle, frame in it, bit in the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TileBit {
-    /// Which rectangle of the tile.
+    /// Index among the rectangles of the tile's class.
     pub rectangle: u8,
     /// Frame of that rectangle, from its first.
     pub frame: u8,
@@ -41,7 +41,7 @@ pub struct Attribute {
     /// Name: `SLICE[0]:CY0`, or of a switch `MUX.OMUX[0]`, `DRIVE.LH[0]`, `BUFFER.TO.FROM`, `SWITCH.TO.FROM`,
     /// `GATE.ONE.OTHER`.
     pub name: String,
-    /// Where its bits are.
+    /// Bits that store it, bit 0 of the number or of a choice's pattern first.
     pub bits: Vec<TileBit>,
     /// What they mean.
     pub coding: Coding,

@@ -44,14 +44,13 @@ pub(super) enum Side {
 pub(super) struct Line {
     /// Number in the table, from 1.
     pub(super) number: usize,
-    /// Words of the line.
+    /// What stands between its spaces.
     pub(super) words: Vec<&'static str>,
 }
 
 /// A kind of tile.
 #[derive(Clone, Debug)]
 pub(super) struct RawClass {
-    /// Name of the class.
     pub(super) name: &'static str,
     /// Cells of a tile.
     pub(super) cells: usize,

@@ -36,7 +36,7 @@ pub enum WireFamily {
 }
 
 impl WireFamily {
-    /// The family of a name.
+    /// By the wire's name up to its index in brackets.
     pub(super) fn of(name: &str) -> Self {
         let stem = name.split('[').next().unwrap_or(name);
         let starts = |prefix: &str| stem.starts_with(prefix);

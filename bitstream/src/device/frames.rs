@@ -61,13 +61,13 @@ impl FrameAddress {
 pub struct FrameColumn {
     /// Block, 0 or 1.
     pub block: u8,
-    /// Major address.
+    /// Major address, as FAR takes it.
     pub major: u8,
     /// Column of the grid; none for the centre.
     pub column: Option<u8>,
-    /// First frame.
+    /// Number of its first frame, 0..2314.
     pub first: u16,
-    /// How many.
+    /// Number of its frames, which differ by their minor address.
     pub frames: u16,
 }
 
@@ -137,7 +137,7 @@ impl Device {
         Some(FrameAddress::new(column.block.into(), column.major.into(), (frame - column.first).into()))
     }
 
-    /// The frame at an address.
+    /// Number of the frame at an address, 0..2314; `None` where the device has none.
     #[must_use]
     pub fn frame_at(&self, address: FrameAddress) -> Option<u16> {
         let column = self

@@ -159,7 +159,7 @@ impl Device {
         &self.classes
     }
 
-    /// All tiles.
+    /// Tiles with their numbers, from 0.
     pub fn tiles(&self) -> impl Iterator<Item = (TileId, &Tile)> {
         self.tiles.iter().enumerate().map(|(n, tile)| (TileId(n as u16), tile))
     }

@@ -42,7 +42,7 @@ impl ClockPad {
     }
 }
 
-/// A global clock buffer.
+/// Settings of a global clock buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct GlobalBuffer {
     /// Its output is 1 while it is not enabled; otherwise 0.

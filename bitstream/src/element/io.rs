@@ -73,7 +73,7 @@ pub struct Driver {
 }
 
 impl Driver {
-    /// The driver of a standard.
+    /// Strengths and bits of a standard, with its fast or its slow slew rate.
     #[must_use]
     pub fn of(standard: &Standard, fast: bool) -> Self {
         let slew = if fast { standard.fast } else { standard.slow };

@@ -27,7 +27,7 @@ macro_rules! choices {
         pub enum $name { $($(#[$item])* $variant,)* }
 
         impl $name {
-            /// All of them.
+            /// Every choice, in the order in which they are declared.
             pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
 
             /// Its name in the device's table.

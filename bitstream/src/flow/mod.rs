@@ -78,7 +78,7 @@ pub enum FlowError {
     /// The decoder finds faults in the flow's own bits: a fault of the flow.
     #[error("a fault of the flow: the bits decode with faults: {}", faults.join("; "))]
     Faulty {
-        /// All of them.
+        /// Messages of the decoder, one a fault.
         faults: Vec<String>,
     },
     /// The device is too small.

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 pub struct Net(pub u32);
 
 impl Net {
-    /// The net as an index.
+    /// Position in [`Netlist::nets`].
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -101,7 +101,7 @@ pub struct FlipFlop {
 pub struct MemoryPort {
     /// Width of a word: 1, 2, 4, 8 or 16 bits.
     pub width: usize,
-    /// Net that clocks the port.
+    /// Net that clocks the port, at its rising edge.
     pub clock: Net,
     /// Port enable.
     pub enable: Signal,

@@ -19,7 +19,7 @@ pub enum Part {
     Clock(u32),
 }
 
-/// A pin of a part.
+/// An end of a net, by the part it belongs to.
 #[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub struct Pin {
     /// Part of the packed design that it belongs to.

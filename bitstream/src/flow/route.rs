@@ -55,9 +55,9 @@ const URGENT: u16 = 200;
 /// A routed design.
 #[derive(Clone, Debug)]
 pub struct Routing {
-    /// A tree for every general net.
+    /// Wires of every general net, in the order of `Nets::general`.
     pub general: Vec<Tree>,
-    /// A tree for every clock.
+    /// Wires of every clock net, in the order of `Nets::clocks`.
     pub clocks: Vec<Tree>,
     /// Wire delay of every connection, in ps.
     pub delays: Vec<u32>,

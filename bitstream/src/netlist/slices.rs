@@ -223,7 +223,7 @@ impl Extractor<'_> {
     }
 }
 
-/// Whether a table depends on an input.
+/// Whether input 0 to 3 changes what a table of 16 bits gives.
 fn depends(table: u16, input: usize) -> bool {
     (0..16).any(|n| table >> n & 1 != table >> (n ^ 1 << input) & 1)
 }

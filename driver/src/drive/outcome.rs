@@ -21,7 +21,7 @@ pub enum Ending {
     Fault(Fault),
 }
 
-/// A drive that was driven.
+/// What came of a drive, from arming to switching off.
 #[derive(Debug)]
 pub struct Driven {
     /// Why it ended.

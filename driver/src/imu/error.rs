@@ -71,7 +71,7 @@ pub enum ImuError {
         /// Nearest axis to upwards.
         found: String,
     },
-    /// It turns.
+    /// Mean or scatter of the gyroscope is that of no robot at rest.
     #[error(
         "the robot turns while the gyroscope's bias is measured: {mean_deg_s:.1} °/s, scatter {scatter_deg_s:.1} °/s; keep it \
          still until it is armed"

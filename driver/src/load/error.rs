@@ -23,7 +23,7 @@ pub enum LoadError {
         /// What failed first.
         error: String,
     },
-    /// The FPGA did not clear.
+    /// DONE or INIT stayed high while PROGRAM was low.
     #[error(
         "the FPGA did not clear: {line} stays high while PROGRAM is low; PROGRAM does not reach it, or its power is bad"
     )]
@@ -37,7 +37,7 @@ pub enum LoadError {
         /// Time waited.
         waited: Duration,
     },
-    /// INIT fell.
+    /// INIT is low after the last byte.
     #[error(
         "the FPGA found a CRC error (INIT fell) although the file's own CRC is right; bytes were lost or changed on the bus"
     )]

@@ -88,7 +88,7 @@ pub enum FindError {
     OtherDevice {
         /// The slot asked for.
         slot: String,
-        /// What is there.
+        /// Identification numbers that are read there.
         found: Ids,
         /// What that may be.
         hint: &'static str,

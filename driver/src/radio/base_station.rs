@@ -26,7 +26,7 @@ pub struct BaseStation<L> {
     settings: Settings,
 }
 
-/// What was sent.
+/// Frames that went out in a drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sent {
     /// Frames that configure and arm.

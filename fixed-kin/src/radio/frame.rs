@@ -26,7 +26,7 @@ pub enum FrameError {
     Length {
         /// Writes that the frame says it has.
         writes: u8,
-        /// Bytes there are.
+        /// Length of what was received, bytes.
         bytes: usize,
     },
     /// The CRC does not fit the bytes before it.

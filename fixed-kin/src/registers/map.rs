@@ -682,13 +682,13 @@ pub const SNAPSHOT_COUNT: Register = array(
     Kind::Unsigned(32),
     "encoder counts, wrapping two's complement",
 );
-/// Snapshot: speeds.
+/// Measured speed of each axis at the tick.
 pub const SNAPSHOT_SPEED: Register =
     array("snapshot_speed", 0x820, AXES, Access::ReadOnly, SPEED, "measured speed in counts per clock");
-/// Snapshot: references.
+/// Speed set point of each axis in force at the tick.
 pub const SNAPSHOT_REFERENCE: Register =
     array("snapshot_reference", 0x830, AXES, Access::ReadOnly, SPEED, "speed set point in force in counts per clock");
-/// Snapshot: duties.
+/// Duty of each axis, as computed at the tick.
 pub const SNAPSHOT_DUTY: Register = array("snapshot_duty", 0x840, AXES, Access::ReadOnly, DUTY, "duty, 1 = full drive");
 /// x, y and heading by odometry at the tick.
 pub const SNAPSHOT_POSE: Register = array(

@@ -91,7 +91,7 @@ impl Replayed {
     }
 }
 
-/// Ticks of all wheels.
+/// Ticks that were compared and that differ, summed over wheels.
 pub(super) fn totals(wheels: &[Replayed]) -> evidence::Ticks {
     let [all, wrong] = wheels.iter().fold([0, 0], |[all, wrong], w| [all + w.ticks, wrong + w.wrong]);
     evidence::Ticks { all, wrong }

@@ -112,7 +112,7 @@ struct Wheel {
     scatter: f64,
 }
 
-/// All wheels.
+/// Torques left of the wheels that have enough test functions to say.
 struct Series {
     wheels: Vec<Wheel>,
     /// Distance of two test functions, s.

@@ -22,7 +22,7 @@ const BESIDE: f64 = 0.2;
 
 /// Whether a link can be compared word for word.
 pub(crate) enum Compared {
-    /// It was.
+    /// The words were compared; what came of it.
     Link(Box<ExactLink>),
     /// It is to be replayed in floating point; because of what, if that is news.
     InFloatingPoint(Option<String>),

@@ -26,15 +26,15 @@ pub struct Commit {
     pub stage_set_point: Signal<In, Bit>,
     /// A word of the configuration is staged.
     pub stage_configuration: Signal<In, Bit>,
-    /// The set points are committed.
+    /// Strobe: commits the set points if `checksum` and the number of staged words are right.
     pub commit_set_points: Signal<In, Bit>,
-    /// The configuration is committed.
+    /// Strobe: commits the configuration under the same condition.
     pub commit_configuration: Signal<In, Bit>,
     /// Word address of the write.
     pub address: Signal<In, Bits<14>>,
     /// The word that is staged.
     pub data: Signal<In, Bits<32>>,
-    /// The checksum, in a commit.
+    /// Checksum over the staged writes, read with a commit's strobe.
     pub checksum: Signal<In, Bits<32>>,
     /// A control tick starts.
     pub tick: Signal<In, Bit>,

@@ -15,7 +15,7 @@ use rust_hdl::prelude::*;
 /// See the module.
 #[derive(LogicBlock, Default)]
 pub struct SnapshotAddress {
-    /// Word of the snapshot.
+    /// Number of the word in the snapshot, 0 to 23.
     pub word: Signal<In, Bits<5>>,
     /// Bank that the word is in, 0 to 2.
     pub bank: Signal<In, Bits<2>>,

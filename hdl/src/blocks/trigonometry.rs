@@ -24,9 +24,9 @@ pub struct Trigonometry {
     pub load: Signal<In, Bit>,
     /// Heading, 2⁻³² turn.
     pub angle: Signal<In, Bits<32>>,
-    /// Sine, 18 bits signed.
+    /// Sine of the angle's table interval, 18 bits signed: an odd number of 2⁻¹⁷.
     pub sine: Signal<Out, Bits<18>>,
-    /// Cosine, 18 bits signed.
+    /// Cosine of the same, 18 bits signed: an odd number of 2⁻¹⁷.
     pub cosine: Signal<Out, Bits<18>>,
     /// Place in the table's interval, from its middle, 18 bits signed.
     pub fraction: Signal<Out, Bits<18>>,

@@ -38,7 +38,7 @@ pub struct Ports {
 /// Why the ports could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PortError {
-    /// No such module.
+    /// The Verilog text declares no module of the name.
     #[error("no module `{module}` in the Verilog text; it has: {found}. Name one of these")]
     NoModule {
         /// The module that was asked for.

@@ -93,11 +93,11 @@ impl AxisModel {
 pub struct DriveModel {
     /// Wheels as they really are.
     pub wheels: Vec<Wheel>,
-    /// Wheel radius, m.
+    /// Nominal radius of every wheel, m.
     pub wheel_radius_m: f64,
     /// Radius of each wheel relative to that.
     pub radius_scale: Vec<f64>,
-    /// Mass, kg.
+    /// Mass of the whole robot, kg.
     pub mass: f64,
     /// Yaw inertia about the chassis centre, kg m².
     pub yaw_inertia: f64,

@@ -31,7 +31,7 @@ pub type Observe = Box<dyn Fn(Pose) -> Pose + Send + Sync>;
 pub struct MotionModel {
     /// Wheels as they really are.
     pub wheels: Vec<Wheel>,
-    /// Wheel radius, m.
+    /// Nominal radius of every wheel, m.
     pub wheel_radius_m: f64,
     /// Distance rolled per angle by the encoder, relative to nominal, one a wheel.
     pub distance_scale: Vec<f64>,
@@ -65,7 +65,7 @@ pub struct MotionModel {
     pub speed_delay: f64,
     /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
     pub inertia: DMatrix<f64>,
-    /// Mass, kg.
+    /// Mass of the whole robot, kg.
     pub mass_kg: f64,
     /// Yaw inertia about the chassis centre, kg m².
     pub yaw_inertia_kg_m2: f64,

@@ -232,7 +232,7 @@ fn simpler(chosen: &[Part]) -> Vec<Vec<Part>> {
 /// What is held out at a time.
 #[derive(Clone, Copy, PartialEq)]
 enum Folds {
-    /// One block of [`FOLDS`].
+    /// The blocks of time whose numbers leave the same by [`FOLDS`].
     Blocks,
     /// One run, where there are several.
     Runs,

@@ -31,7 +31,7 @@ struct Table {
     /// Wheel speed per twist, and change of twist per torque at a wheel.
     rows: [Vector3<f64>; MOST_WHEELS],
     response: [Vector3<f64>; MOST_WHEELS],
-    /// η of every wheel.
+    /// η of every wheel: 1 less its gear's loss, or 1 more where its p is negative.
     shares: [f64; MOST_WHEELS],
     /// What of a turn of the platform's momentum the wheels let through.
     turning: Matrix3<f64>,

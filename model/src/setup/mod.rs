@@ -63,7 +63,7 @@ pub const TRUE_RATIO: f64 = 1.45;
 /// Relative width about a ratio by which a mistake is recognised.
 pub(crate) const NEAR: f64 = 0.22;
 
-/// Whether a ratio is that of a mistake.
+/// Whether a ratio is within [`NEAR`] of `of`, what a mistake makes of it.
 pub(crate) fn near(ratio: f64, of: f64) -> bool {
     (ratio / of - 1.0).abs() < NEAR
 }

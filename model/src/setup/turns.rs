@@ -66,7 +66,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     vec![Mistake { nameable: !dead, ..Mistake::new("turns-reversed", column, what, remedy.to_owned()) }]
 }
 
-/// The turns of a log.
+/// Turns between frames that are at least `stretch_s` s apart; none where nothing counts the wheels.
 fn of(robot: &Robot, geometry: &Geometry, log: &Log, stretch_s: f64) -> Vec<Turn> {
     let Some(wheels) = Wheels::of(robot, log) else { return Vec::new() };
     let ways_alone = log.layout().source.positions_only;

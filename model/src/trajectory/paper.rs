@@ -52,7 +52,7 @@ pub struct MotionSample {
     pub t: f64,
     /// Where the controller believes the robot to be.
     pub believed: Pose,
-    /// Where it is.
+    /// Where the robot really is.
     pub actual: Pose,
     /// Wheel speeds of the coming tick, rad/s.
     pub wheel_speeds: Vec<f64>,

@@ -57,7 +57,7 @@ struct Derive {
 pub struct Imported {
     /// What could be read, in the project's units and frames.
     pub run: Run,
-    /// What was joined to it.
+    /// How a second file's poses were joined; `None` without one.
     pub joined: Option<Joined>,
     /// What its owner would want to know of the files.
     pub remarks: Vec<String>,

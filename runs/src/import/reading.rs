@@ -49,7 +49,6 @@ impl Reading {
         self.format.as_deref().and_then(Format::from_name)
     }
 
-    /// Reads the file.
     pub(super) fn table(&self, file: &Path) -> Result<Table, InputError> {
         Table::read(file, self.format(), &self.time.clock()?)
     }

@@ -23,7 +23,7 @@ use crate::geometry::{Geometry, GeometryError, Wheel, rac_wheels};
 /// The fields carry the names of `robot.toml`; [`Robot::load`] explains what it does not accept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
-    /// Wheel radius, m.
+    /// Nominal radius of every wheel, m.
     pub wheel_radius_m: f64,
     /// Where the wheels are.
     pub layout: Layout,
@@ -91,7 +91,7 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// The wheels of this layout.
+    /// Place and directions of every wheel, in the order of the motors.
     pub fn wheels(&self) -> Vec<Wheel> {
         match self {
             Self::Rac { body_radius_m, skew_rad } => rac_wheels(*body_radius_m, *skew_rad),

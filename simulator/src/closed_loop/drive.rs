@@ -91,7 +91,7 @@ impl Drive {
     }
 }
 
-/// A drive that was driven.
+/// Log, truth and score of a simulated drive.
 #[derive(Debug)]
 pub struct Driven {
     /// The log, as a real robot would have written it.

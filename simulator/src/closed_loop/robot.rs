@@ -87,13 +87,13 @@ impl<F: Fpga> VirtualRobot<F> {
         self.0.borrow_mut().tick()
     }
 
-    /// Where the robot is.
+    /// True pose on the field.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.0.borrow().plant.pose()
     }
 
-    /// How it moves.
+    /// True velocity in the body's frame.
     #[must_use]
     pub fn twist(&self) -> Twist {
         self.0.borrow().plant.twist()

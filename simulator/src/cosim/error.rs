@@ -96,7 +96,7 @@ pub enum CosimError {
     Bus {
         /// Which operation of the list, from 0.
         index: usize,
-        /// What it was.
+        /// Its kind, with address and length.
         operation: String,
         /// What happened.
         reason: &'static str,

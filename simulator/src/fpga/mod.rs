@@ -81,7 +81,7 @@ fn share(pwm: Modulation, period: u16) -> f64 {
     if pwm.reverse { -share } else { share }
 }
 
-/// Which FPGA.
+/// What stands for the FPGA.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     /// The bit-true model.

@@ -25,7 +25,7 @@ pub(super) struct Lines {
     pub clock: u64,
     /// Lines A, a bit per axis.
     pub a: u32,
-    /// Lines B.
+    /// Lines B, a bit per axis.
     pub b: u32,
 }
 

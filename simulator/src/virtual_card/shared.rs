@@ -16,7 +16,7 @@ use std::time::Duration;
 pub struct SharedCard(Rc<RefCell<VirtualCard>>);
 
 impl SharedCard {
-    /// Shares a card.
+    /// Takes a card, which all clones of this then reach.
     #[must_use]
     pub fn new(card: VirtualCard) -> Self {
         Self(Rc::new(RefCell::new(card)))

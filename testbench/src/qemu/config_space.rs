@@ -23,7 +23,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// The windows of a Mesa 4I65.
+    /// The six of a Mesa 4I65, by number of the base address register.
     #[must_use]
     pub fn mesa_4i65() -> [Option<Self>; 6] {
         Bar::ALL.map(|bar| Some(Self { bytes: bar.size(), memory: bar.is_memory() }))

@@ -11,7 +11,7 @@ pub struct MissingTool {
     folder: PathBuf,
 }
 
-/// Where they are.
+/// QEMU, and what its guest is started with.
 #[derive(Clone, Debug)]
 pub struct Tools {
     root: PathBuf,

@@ -64,13 +64,13 @@ pub enum Disturbance {
 /// A push on the robot during a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Start, s.
+    /// Beginning, in time of the run, s.
     pub start_s: f64,
-    /// End, s.
+    /// First moment without it, s.
     pub end_s: f64,
     /// Force, world frame, N.
     pub force_n: [f64; 2],
-    /// Moment, Nm.
+    /// Moment about the vertical axis, counter-clockwise, Nm.
     pub moment_nm: f64,
 }
 

@@ -20,7 +20,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// All columns there are.
+    /// A log with nothing left out.
     pub const ALL: Self = Self { commands: true, duty: true, camera: true, supply: true, inertial: true };
 }
 

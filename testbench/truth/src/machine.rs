@@ -186,7 +186,7 @@ pub struct Machine {
     pub centre_of_mass_m: [f64; 2],
     /// Height of the centre of mass over the floor, m.
     pub centre_height_m: f64,
-    /// Every wheel.
+    /// Wheels, in the order of the log's columns.
     pub wheels: Vec<Wheel>,
     /// Friction and tilt of the floor.
     pub ground: Ground,

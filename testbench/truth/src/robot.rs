@@ -16,7 +16,7 @@ pub enum Layout {
 /// Nominal parameters in SI units; the fields are those of `robot.toml`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
-    /// Wheel radius, m.
+    /// Nominal radius of every wheel, m.
     pub wheel_radius_m: f64,
     /// Where the wheels are.
     pub layout: Layout,

@@ -27,7 +27,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// The map of a field.
+    /// Works out the nearest line of every cell, up to 1 m beyond the carpet's edge.
     #[must_use]
     pub fn new(field: Field) -> Self {
         let lines = field.lines();

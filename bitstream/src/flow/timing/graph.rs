@@ -97,7 +97,7 @@ impl Graph {
         graph
     }
 
-    /// Connections there are.
+    /// Number of connections: that of the wire delays which a report takes.
     #[must_use]
     pub fn connections(&self) -> usize {
         self.drivers.len()

@@ -60,7 +60,7 @@ impl DomainReport {
 /// Timing of a design.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Report {
-    /// Every domain.
+    /// One for each clock of the graph, in its order.
     pub domains: Vec<DomainReport>,
     /// Share of the period that a connection's worst path takes, in 1/256.
     pub criticality: Vec<u16>,

@@ -22,9 +22,9 @@ use crate::folder;
 /// Motor, gear and load; torques, speeds and angles at the output shaft unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Axis {
-    /// V.
+    /// Voltage of the supply, V.
     pub(crate) supply_v: f64,
-    /// Ω.
+    /// Resistance of the winding, Ω.
     pub(crate) resistance_ohm: f64,
     /// Nm/A and V s/rad at the motor.
     pub(crate) constant: f64,

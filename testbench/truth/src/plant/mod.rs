@@ -31,7 +31,7 @@ const LOAD_SMOOTHING: f64 = 0.05;
 pub struct Shake {
     /// Force on the chassis, body frame, N.
     pub force_n: [f64; 2],
-    /// Moment, Nm.
+    /// Moment about the vertical axis, counter-clockwise, Nm.
     pub moment_nm: f64,
     /// Torque at every wheel shaft, Nm.
     pub shaft_nm: Vec<f64>,
