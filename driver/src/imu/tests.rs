@@ -1,4 +1,5 @@
 use super::*;
+use fixed_kin::card::Card;
 use runs::robot::{Axis, ImuMount, SensorName};
 
 fn imu(axes: [Axis; 3]) -> Imu {
@@ -37,4 +38,31 @@ fn every_type_is_found_by_its_name_and_by_its_answer() {
         assert!(KINDS[..index].iter().all(|other| other.who_am_i != one.who_am_i));
     }
     assert_eq!(kind("mpu-6050"), None);
+}
+
+/// Time that passes only while somebody waits.
+struct Waits(Duration);
+
+impl Clock for Waits {
+    fn now(&mut self) -> Duration {
+        self.0
+    }
+
+    fn sleep_until(&mut self, at: Duration) {
+        self.0 = self.0.max(at);
+    }
+}
+
+/// The line's clock is the fastest of up to 9 MHz, and rests high, before anything is asked of the sensor.
+#[test]
+fn the_line_is_set_up_for_the_sensor() {
+    let mount = imu(Axis::XYZ).mount;
+    for (clock_hz, half) in [(16e6, 0), (33_333_333.0, 1), (100e6, 3)] {
+        let mut board = Board::new(Card::new(0));
+        let absent = board.start_imu(&mount, clock_hz, &mut Waits(Duration::ZERO));
+        assert!(matches!(absent, Err(ImuError::Absent { .. })), "{absent:?}");
+        let control = board.bus.read(map::IMU_CONTROL.offset);
+        let fields = [map::IMU_MODE_3, map::IMU_HALF, map::IMU_FIRST].map(|field| field.of(control));
+        assert_eq!(fields, [1, half, 0x1D], "{clock_hz} Hz");
+    }
 }

@@ -153,3 +153,6 @@ fn described(bitstream: &Bitstream) -> String {
         None => "the file".to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests;
