@@ -150,6 +150,16 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_fraction_is_counted_from_the_middle_of_its_interval() {
+        for interval in [0, 1, 77, 1_023_u32] {
+            let start = interval << 22;
+            assert_eq!(fraction(start), -131_072);
+            assert_eq!(fraction(start + (1 << 21)), 0);
+            assert_eq!(fraction(start + ((1 << 22) - 1)), 131_071);
+        }
+    }
+
     /// Wheels 1, 2, 3 of the robot: counts per metre and radian, from the paper's geometry.
     struct Robot {
         inverse: [[f64; 3]; 3],

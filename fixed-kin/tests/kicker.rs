@@ -43,3 +43,15 @@ fn a_ball_fires_only_what_waits_for_one() {
         assert_eq!(seen(&mut card, registers::KICKER_READY), u32::from(!waits), "{waits}");
     }
 }
+
+#[test]
+fn only_its_word_fires() {
+    for (word, fires) in [(registers::KICKER_FIRE_WORD, true), (registers::KICKER_FIRE_WORD ^ 1, false), (1, false)] {
+        let mut card = armed();
+        card.tick(&Pins::default());
+        card.write(registers::KICKER_FIRE.offset, word);
+        card.tick(&Pins::default());
+        let ready = registers::KICKER_READY.of(card.read(registers::KICKER_STATUS.offset));
+        assert_eq!(ready, u32::from(!fires), "{word:#x}");
+    }
+}

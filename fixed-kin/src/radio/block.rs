@@ -290,3 +290,56 @@ impl Radio {
         };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Frame;
+    use super::*;
+    use crate::registers as map;
+    use std::vec::Vec;
+
+    const BIT: u16 = 8;
+    const ROBOT: u8 = 3;
+
+    /// Plays levels of a bit's time each; the writes that came out.
+    fn play(radio: &mut Radio, levels: impl IntoIterator<Item = bool>) -> Vec<(u16, u32)> {
+        let mut writes = Vec::new();
+        for rx in levels.into_iter().flat_map(|level| [level; BIT as usize]) {
+            let offered = radio.outputs();
+            if offered.offer {
+                writes.push((offered.address * 4, offered.data));
+            }
+            radio.clock(&Inputs { rx, robot: ROBOT, taken: offered.offer, ..Inputs::default() });
+        }
+        writes
+    }
+
+    /// Bytes between two silences.
+    fn hear(radio: &mut Radio, bytes: &[u8]) -> Vec<(u16, u32)> {
+        let silence = [true; 40];
+        let levels =
+            bytes.iter().flat_map(|byte| (0..10).map(move |bit| (u32::from(*byte) << 1 | 1 << 9) >> bit & 1 == 1));
+        play(radio, silence.into_iter().chain(levels).chain(silence))
+    }
+
+    #[test]
+    fn a_frame_acts_whole_and_undamaged_or_not_at_all() {
+        let mut radio = Radio::new(BIT);
+        let frame = |sequence: u8| {
+            let mut frame = Frame::new(ROBOT, sequence).unwrap();
+            frame.kicker(5, 2_000).unwrap();
+            frame.bytes().to_vec()
+        };
+        assert_eq!(hear(&mut radio, &frame(1)), [(map::KICKER_PULSE.offset, 2_000), (map::KICKER_CONTROL.offset, 5)]);
+        let counted = |radio: &Radio| (radio.outputs().accepted, radio.outputs().dropped);
+        assert_eq!(counted(&radio), (1, 0));
+        let whole = frame(2);
+        for at in [3, 5, whole.len() - 1] {
+            let mut damaged = whole.clone();
+            damaged[at] ^= 0x10;
+            assert_eq!(hear(&mut radio, &damaged), [], "byte {at} is damaged");
+        }
+        assert_eq!(hear(&mut radio, &whole[..whole.len() - 1]), [], "a byte is missing");
+        assert_eq!(counted(&radio), (1, 4));
+    }
+}
