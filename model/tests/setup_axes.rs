@@ -64,7 +64,7 @@ fn loads_that_pull_are_no_reversed_drives() {
     let text = "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\nwheel_inertia_kg_m2 = 0\n\
                 [motor]\ntorque_constant = 1\nrotor_inertia = 0.02\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
     let robot = Robot::parse_partial(text, Path::new("robot.toml")).unwrap();
-    for (weight, spring) in [(0.5, 0.0), (0.0, 4.0)] {
+    for (weight, spring) in [(0.5, 0.0), (0.0, 4.0), (0.0, 0.2)] {
         let mut run = Run { name: "run_1".to_owned(), ..Run::default() };
         let (mut angle, mut speed, mut currents, mut counts) = (0.0_f64, 0.0_f64, Vec::new(), Vec::new());
         for k in 0..6000 {
