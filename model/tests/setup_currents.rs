@@ -1,4 +1,4 @@
-//! Currents the wrong way round are told.
+//! Currents the wrong way round, and such as nobody read, are told.
 
 use model::setup::{Mistake, mistakes};
 use rand::{RngExt, SeedableRng};
@@ -9,18 +9,22 @@ const ROBOT: &str = "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsuppo
     wheel_inertia_kg_m2 = 0\n[motor]\ntorque_constant = 0.0066\nrotor_inertia = 7e-6\nfriction_torque = 0\n[[wheel]]\nx_m = 0\n\
     y_m = 0\ndrive_deg = 0\n";
 
-/// A small brushless motor between rest and two speeds, in both ways; its currents are measured. `sign` is that of its log.
-fn told(sign: f64) -> Vec<String> {
+/// A small brushless motor between rest and two speeds, in both ways; its currents are measured. `sign` is that of its log; `idles`
+/// switches its drive off in place of braking, and leaves the last reading in the log.
+fn told(sign: f64, idles: bool) -> Vec<String> {
     let mut random = ChaCha8Rng::seed_from_u64(7);
-    let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
+    let (mut speed, mut angle, mut amps) = (0.0_f64, 0.0_f64, 0.0);
     let mut rows = "t,enc_1,current_1\n".to_owned();
     for k in 0..3000 {
         let wanted = [0.0, 900.0, 0.0, -900.0, -1700.0, 0.0, 1700.0][k / 35 % 7];
-        let asked = (0.2 * (wanted - speed)).clamp(-12.0, 12.0);
-        let amps = asked + 0.3 * random.random_range(-1.0..1.0);
+        let off = idles && wanted == 0.0;
+        let asked = if off { 0.0 } else { (0.2 * (wanted - speed)).clamp(-12.0, 12.0) };
+        if !off {
+            amps = asked + 0.3 * random.random_range(-1.0..1.0);
+        }
         rows += &format!("{},{},{}\n", 0.011 * k as f64, (angle / std::f64::consts::TAU * 65536.0) as i64, sign * amps);
         for _ in 0..20 {
-            let torque = 0.0066 * (0.2 * (wanted - speed)).clamp(-12.0, 12.0);
+            let torque = 0.0066 * if off { 0.0 } else { (0.2 * (wanted - speed)).clamp(-12.0, 12.0) };
             let against = 0.003 * (speed / 5.0).tanh() + 8e-6 * speed;
             speed += 0.011 / 20.0 * (torque - against) / 7e-6;
             angle += 0.011 / 20.0 * speed;
@@ -35,10 +39,16 @@ fn told(sign: f64) -> Vec<String> {
 /// Two thirds of its way go against such a current, and what it goes while it brakes does not.
 #[test]
 fn currents_the_wrong_way_round_are_told_of_a_motor_that_brakes_as_well() {
-    let said = told(-1.0);
+    let said = told(-1.0, false);
     assert!(
         said.len() == 1 && said[0].starts_with("current_1: the axis turns the other way than it drives"),
         "{said:?}"
     );
-    assert_eq!(told(1.0), Vec::<String>::new());
+    assert_eq!(told(1.0, false), Vec::<String>::new());
+}
+
+#[test]
+fn the_last_reading_of_a_drive_that_is_off_is_told() {
+    let said = told(1.0, true);
+    assert!(said.len() == 1 && said[0].starts_with("current_1: it stays at "), "{said:?}");
 }

@@ -1,10 +1,11 @@
-//! Speeds that no motor has: set points in the column of what was measured, as headers that were shifted by one give them.
+//! What no sensor reads: set points in the column of a measured speed, as headers that were shifted by one give them, and currents
+//! of a drive that is off, of which the last one stays in the log.
 
 use runs::robot::Robot;
-use runs::{Columns, Log, is_from_speeds};
+use runs::{Columns, DutySource, Log, is_from_speeds};
 
-use super::Mistake;
-use super::samples::MOST_TICKS;
+use super::samples::{HELD, MOST_TICKS};
+use super::{Mistake, short};
 
 /// Rows from which anything is said.
 const FEWEST: usize = 200;
@@ -23,7 +24,22 @@ struct Rows {
     turns: usize,
 }
 
+/// Rows in which a current stays the same to the last digit, from which none was read: of a sensor that else changes in so much
+/// of its rows that comes by chance in no log.
+const STALE: usize = 25;
+const READ: f64 = 0.75;
+/// Counts by which the axis turns meanwhile: one that rests may hold its load by a current that is asked for.
+const TURNED: i64 = 25;
+
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
+    let mut found = speeds(robot, logs);
+    if logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents) {
+        found.extend((0..robot.wheel_count()).filter_map(|axis| stale(logs, axis)));
+    }
+    found
+}
+
+fn speeds(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     if !is_from_speeds(robot) {
         return Vec::new();
     }
@@ -59,4 +75,42 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
         Some(Mistake::new("speed-asked-for", &column, what, remedy))
     };
     wheels.iter().enumerate().filter_map(told).collect()
+}
+
+/// A current that stays in the log while its axis turns on. None of a loop that reaches its limit, nor 0, nor what is asked for
+/// and seldom changes.
+fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
+    let (mut rows, mut changes, mut longest) = (0, 0, None::<(f64, f64, &str)>);
+    for log in logs {
+        let columns = Columns { duty: true, counts: true, sensors: true, ..Columns::NONE };
+        let run = log.part(0..log.len().min(MOST_TICKS), columns);
+        let (Some(current), Some(counts)) = (run.current.get(axis), run.counts.get(axis)) else { continue };
+        let most = current.iter().filter(|i| i.is_finite()).fold(0.0_f64, |most, i| most.max(i.abs()));
+        let mut from = 0;
+        for same in current.chunk_by(|a, b| a == b) {
+            let to = from + same.len() - 1;
+            let size = same[0].abs();
+            let turned = counts[to].wrapping_sub(counts[from]).abs();
+            if same.len() >= STALE && size > 0.0 {
+                let lasted = run.t[to] - run.t[from];
+                if size < HELD * most && turned >= TURNED && longest.is_none_or(|(most, ..)| lasted > most) {
+                    longest = Some((lasted, same[0], log.name.as_str()));
+                }
+            } else if size > 0.0 {
+                rows += same.len();
+                changes += 1;
+            }
+            from = to + 1;
+        }
+    }
+    let (lasted, value, name) = longest.filter(|_| changes as f64 >= READ * rows as f64 && rows >= FEWEST)?;
+    let column = format!("current_{}", axis + 1);
+    let what = format!(
+        "it stays at {} A for {} s of {name} while the axis turns, and else changes from row to row: the last reading of a drive \
+         that is off",
+        short(value),
+        short(lasted)
+    );
+    let remedy = "write 0 where the drive is off, or leave those rows out".to_owned();
+    Some(Mistake::new("current-held", &column, what, remedy))
 }
