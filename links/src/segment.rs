@@ -213,7 +213,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     }
     // Duties of motors that nobody described predict nothing.
     if part.duty.len() == n && runs::drive_lacks(robot).is_empty() {
-        s.duty = part.duty.iter().map(|d| held(d, 0.0)).collect();
+        s.duty = part.duty.iter().map(|d| if place.measured { straight(d, &t) } else { held(d, 0.0) }).collect();
         if place.measured || between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
         }
@@ -433,6 +433,19 @@ fn held(values: &[f64], first: f64) -> Vec<f64> {
             last
         })
         .collect()
+}
+
+/// Values with gaps filled by lines from sample to sample; before the first and behind the last by these.
+fn straight(values: &[f64], t: &[f64]) -> Vec<f64> {
+    let mut out = held(values, 0.0);
+    let samples: Vec<usize> = (0..values.len()).filter(|k| values[*k].is_finite()).collect();
+    for ends in samples.windows(2) {
+        let (a, b) = (ends[0], ends[1]);
+        for k in a + 1..b {
+            out[k] = values[a] + (values[b] - values[a]) * (t[k] - t[a]) / (t[b] - t[a]);
+        }
+    }
+    out
 }
 
 /// Derivatives at each tick from a Hann-weighted mean of the increments within so many seconds around it, one row for each

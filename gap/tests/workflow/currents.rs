@@ -32,6 +32,8 @@ struct Axis {
     seconds: f64,
     /// Whether the amplifier holds what a row tells it until the next; else a row says what the current was.
     held: bool,
+    /// Rows from one reading of the current to the next: what is between repeats it.
+    reads: usize,
 }
 
 /// A brushless motor alone.
@@ -47,6 +49,7 @@ const MOTOR: Axis = Axis {
     late: 1e-3,
     seconds: 40.0,
     held: false,
+    reads: 1,
 };
 
 fn run(axis: Axis, seed: u64) -> Run {
@@ -67,7 +70,9 @@ fn run(axis: Axis, seed: u64) -> Run {
             next += rng.random_range(axis.rows[0]..=axis.rows[1]);
             run.t.push(t + axis.late * rng.random_range(0.0..1.0));
             told = wave(t);
-            currents.push(told + 0.01 * axis.most * rng.random_range(-1.0..1.0));
+            let read = told + 0.01 * axis.most * rng.random_range(-1.0..1.0);
+            let last = currents.last().copied().filter(|_| currents.len() % axis.reads != 0);
+            currents.push(last.unwrap_or(read));
             counted.push((angle / TAU * axis.counts).floor() as i64);
         }
         let current = if axis.held { told } else { wave(t) };
@@ -154,6 +159,26 @@ fn friction_has_its_size_behind_measured_and_behind_held_currents() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// A drive that tells its current every tenth of a second, in a log of 77 rows a second.
+#[test]
+fn friction_has_its_size_behind_currents_that_are_read_now_and_then() {
+    let axis = Axis { fastest: 1.5, rows: [0.0128, 0.0132], late: 2e-4, reads: 8, ..MOTOR };
+    let faults: Vec<String> = (61..64_u64)
+        .into_par_iter()
+        .flat_map(|seed| {
+            let a = done(axis, [1.0, 0.0], seed);
+            let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
+            let mut faults: Vec<String> = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)]
+                .iter()
+                .filter_map(|(n, t)| fault(&a, n, *t))
+                .collect();
+            faults.extend(other.map(|n| format!("{n} is named")));
+            faults.into_iter().map(|f| format!("{seed}: {f}")).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// A file that says two and a half times the friction is told that it is too much, and by how much.
 #[test]
 fn friction_that_the_file_has_too_much_of_is_taken_back() {
@@ -197,6 +222,7 @@ fn a_heavy_axis_with_a_coarse_encoder_is_looked_at_for_longer() {
         late: 0.004,
         seconds: 120.0,
         held: false,
+        reads: 1,
     };
     let faults: Vec<String> = (31..34_u64)
         .into_par_iter()

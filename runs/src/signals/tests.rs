@@ -97,6 +97,22 @@ fn currents_become_duties_of_a_motor_without_back_emf() {
 }
 
 #[test]
+fn currents_that_repeat_their_readings_are_samples_now_and_then() {
+    let run = |every: usize| {
+        let current = vec![(0..800).map(|k| 3.0 * (k / every * every) as f64).collect()];
+        read(Run { t: times(800), current, ..Run::default() })
+    };
+    let held = run(8);
+    assert!((0..800).all(|k| held.duty[0][k].is_finite() == (k % 8 == 0)), "{:?}", &held.duty[0][..20]);
+    assert!(
+        held.notes[0].starts_with("current_1 repeat their readings: a new one comes every 8.0 ticks"),
+        "{:?}",
+        held.notes
+    );
+    assert!(run(1).duty[0].iter().all(|d| d.is_finite()));
+}
+
+#[test]
 fn held_poses_are_dropped_and_frozen_ones_left_to_the_links() {
     let camera = |every: usize, frozen: std::ops::Range<usize>| -> Vec<CameraSample> {
         let at = |k: usize| if frozen.contains(&k) { frozen.start } else { k / every * every };
