@@ -154,11 +154,11 @@ impl Form {
             .collect()
     }
 
-    /// All motors alike by one `scale`, and where there are several, each alone by a `scale` of its own.
-    pub fn all_or_one(robot: &Robot, parameter: impl Fn(String) -> Parameter) -> Vec<Self> {
-        let mut forms = vec![Self::whole(vec![parameter("scale".to_owned())])];
+    /// All motors alike by one `stem`, and where there are several, each alone by a `stem` of its own.
+    pub fn all_or_one(robot: &Robot, stem: &str, parameter: impl Fn(String) -> Parameter) -> Vec<Self> {
+        let mut forms = vec![Self::whole(vec![parameter(stem.to_owned())])];
         if robot.wheel_count() > 1 {
-            forms.extend(Self::alone(robot, |i| parameter(wheel_name("scale", i, ""))));
+            forms.extend(Self::alone(robot, |i| parameter(wheel_name(stem, i, ""))));
         }
         forms
     }

@@ -19,7 +19,7 @@ impl Effect for DeadBand {
     }
 
     fn equation(&self) -> &str {
-        "duty u becomes u - duty sign(u), or u whole (passes), and 0 for |u| below duty"
+        "duty u becomes u - duty sign(u), or u whole (passes), and 0 for |u| below duty, of every bridge or of one"
     }
 
     fn reference(&self) -> &str {
@@ -34,21 +34,26 @@ impl Effect for DeadBand {
         true
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        let duty = |bounds| Parameter::new("duty", 0.01, bounds, 0.03);
-        let whole = |at| Form::whole(vec![duty([0.005, 0.5]).from(at)]).fixing(PASSES, 1.0);
-        std::iter::once(Form::whole(vec![duty([-0.02, 0.5])])).chain([0.04, 0.08, 0.16].map(whole)).collect()
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        let duty = |name: &str, bounds| Parameter::new(name, 0.01, bounds, 0.03);
+        let whole = |at| Form::whole(vec![duty("duty", [0.005, 0.5]).from(at)]).fixing(PASSES, 1.0);
+        let swallowed = Form::all_or_one(robot, "duty", |name| duty(&name, [-0.02, 0.5]));
+        swallowed.into_iter().chain([0.04, 0.08, 0.16].map(whole)).collect()
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
-        let band = values.get("duty");
-        if values.get(PASSES) != 0.0 {
-            let edge = EDGE * band.abs().max(1e-6);
-            model.duty_maps.push(Box::new(move |_, u| 0.5 * u * (1.0 + ((u.abs() - band) / edge).tanh())));
-            return;
-        }
-        model.duty_maps.push(Box::new(move |_, u| {
-            if band >= 0.0 { u.signum() * (u.abs() - band).max(0.0) } else { u - band * (u / 0.02).tanh() }
+        let bands: Vec<f64> = (0..model.axes.len()).map(|i| values.wheel("duty", i, "")).collect();
+        let passes = values.get(PASSES) != 0.0;
+        model.duty_maps.push(Box::new(move |wheel, u| {
+            let band = bands.get(wheel).copied().unwrap_or(0.0);
+            if passes {
+                let edge = EDGE * band.abs().max(1e-6);
+                0.5 * u * (1.0 + ((u.abs() - band) / edge).tanh())
+            } else if band >= 0.0 {
+                u.signum() * (u.abs() - band).max(0.0)
+            } else {
+                u - band * (u / 0.02).tanh()
+            }
         }));
     }
 

@@ -209,7 +209,7 @@ mod tests {
         ("joint-spring", &["stiffness_#_nm_per_rad", "preload_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
         ("roller-friction", &["force_n"]),
-        ("dead-band", &["duty"]),
+        ("dead-band", &["duty", "duty_#"]),
         ("gear-backlash", &["play_rad", "play_#_rad"]),
         ("battery-sag", &["resistance_ohm", "drop_v"]),
         ("current-limit", &["limit_a"]),

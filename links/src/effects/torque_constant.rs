@@ -26,7 +26,7 @@ impl Effect for TorqueConstant {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        Form::all_or_one(robot, |name| Parameter::new(name, 0.02, [-0.6, 1.0], 0.05))
+        Form::all_or_one(robot, "scale", |name| Parameter::new(name, 0.02, [-0.6, 1.0], 0.05))
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

@@ -83,7 +83,10 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
             (d.heading_drag.cos_nm, d.heading_drag.sin_nm) = (value("cos_nm"), value("sin_nm"));
         }
         "stribeck-friction" => d.stribeck = [value("torque_nm"), effect.value("speed_rad_s").unwrap_or(3.0)],
-        "dead-band" => (d.dead_band, d.dead_band_passes) = (value("duty"), value("passes") != 0.0),
+        "dead-band" => {
+            d.dead_band = (0..applied.robot.wheel_count()).map(|i| of_wheel(effect, "duty", i, "")).collect();
+            d.dead_band_passes = value("passes") != 0.0;
+        }
         "drive-curve" => d.curvature = value("curvature"),
         "coasting-bridge" => d.coasting = value("share"),
         "current-limit" => d.current_limit_a = value("limit_a"),

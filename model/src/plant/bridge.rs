@@ -18,8 +18,9 @@ impl Plant {
         let mut supply = supply_v;
         if let Some(d) = self.deviations.as_deref() {
             delay(&mut self.delayed, &mut acting, d.duty_delay_s / dt);
-            for u in &mut acting {
-                let lost = if d.dead_band_passes && u.abs() > d.dead_band { 0.0 } else { d.dead_band };
+            for (i, u) in acting.iter_mut().enumerate() {
+                let band = d.dead_band.get(i).copied().unwrap_or(0.0);
+                let lost = if d.dead_band_passes && u.abs() > band { 0.0 } else { band };
                 *u = u.signum() * (u.abs() - lost).max(0.0);
                 *u *= 1.0 + d.curvature * (u.abs() - 1.0);
             }

@@ -23,8 +23,8 @@ pub struct Deviations {
     pub heading_drag: HeadingDrag,
     /// Friction at standstill beyond that in motion: torque (Nm) and the speed it falls with (rad/s).
     pub stribeck: [f64; 2],
-    /// Duty below which the bridge does nothing.
-    pub dead_band: f64,
+    /// Duty of each wheel below which its bridge does nothing; wheels beyond the end have none.
+    pub dead_band: Vec<f64>,
     /// Whether duties above that pass whole instead of less what is swallowed.
     pub dead_band_passes: bool,
     /// Duty u acts as u (1 + curvature (|u| − 1)).
@@ -128,7 +128,7 @@ impl Deviations {
     /// Whether all of this is between duty and winding or between shaft and counts: no force of it changes within a tick.
     pub(super) fn are_steady(&self) -> bool {
         let electrical = Self {
-            dead_band: self.dead_band,
+            dead_band: self.dead_band.clone(),
             dead_band_passes: self.dead_band_passes,
             curvature: self.curvature,
             coasting: self.coasting,
