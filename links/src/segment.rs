@@ -435,7 +435,7 @@ fn held(values: &[f64], first: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Values with gaps filled by lines from sample to sample; before the first and behind the last by these.
+/// Values with gaps filled by lines from sample to sample; before the first and after the last by these.
 fn straight(values: &[f64], t: &[f64]) -> Vec<f64> {
     let mut out = held(values, 0.0);
     let samples: Vec<usize> = (0..values.len()).filter(|k| values[*k].is_finite()).collect();
