@@ -56,7 +56,7 @@ pub(super) fn still(robot: &Robot, signals: &[Signals]) -> Vec<Mistake> {
 }
 
 /// Cosine of an axis's speeds and set points, -1 to 1, below which it turns the other way than it is asked to: a loop follows
-/// its set points or lags behind them, and a lag of a quarter of a period makes 0. Reasoned; as far as [`AGAINST`].
+/// its set points or lags behind them, and a lag of a quarter of a period makes 0. Reasoned.
 const UNASKED: f64 = -0.8;
 
 /// Axes that turn the other way than their set points ask.
