@@ -225,8 +225,8 @@ pub trait Effect: Send + Sync {
     fn stands_for_several(&self) -> bool {
         false
     }
-    /// Whether every robot may have a little of it without a name; else it is there or it is not.
-    fn may_be_little(&self) -> bool {
+    /// Whether every robot may have a little of a form without a name; else it is there or it is not.
+    fn may_be_little(&self, _form: &Form) -> bool {
         true
     }
     /// Whether it only probes for structure and is never named.

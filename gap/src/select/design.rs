@@ -67,14 +67,16 @@ impl Design {
                         return Role::Out;
                     }
                     seen.push(key);
-                    if !p.material.is_finite() || !candidate.effect.may_be_little() {
+                    if !p.material.is_finite() || !candidate.effect.may_be_little(&candidate.form) {
                         return Role::Out;
                     }
                     if candidate.switched() {
-                        // Of the forms of one effect only those nearest to its absence.
-                        let own: Vec<usize> = (0..candidates.len())
-                            .filter(|o| candidates[*o].effect.name() == candidate.effect.name())
-                            .collect();
+                        // Of the forms of one effect that have the same parameters only those nearest to its absence.
+                        let alike = |o: &Active| {
+                            let names = |a: &Active| a.form.free.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+                            o.effect.name() == candidate.effect.name() && names(o) == names(candidate)
+                        };
+                        let own: Vec<usize> = (0..candidates.len()).filter(|o| alike(&candidates[*o])).collect();
                         let near = match candidate.form.free.first().and_then(|p| p.below) {
                             Some(_) => own.last() == Some(c),
                             None => own.first() == Some(c) || own.get(own.len() / 2) == Some(c),
@@ -564,7 +566,8 @@ impl Design {
 
     /// Whether an effect that is there or is not takes enough of what the motors gave to be there.
     pub(super) fn takes(&self, t: &Trial) -> bool {
-        self.candidates[t.candidate].effect.may_be_little()
+        let candidate = &self.candidates[t.candidate];
+        candidate.effect.may_be_little(&candidate.form)
             || t.gain * self.variance >= self.thresholds.takes.powi(2) * self.given
     }
 

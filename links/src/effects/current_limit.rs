@@ -34,7 +34,7 @@ impl Effect for CurrentLimit {
         true
     }
 
-    fn may_be_little(&self) -> bool {
+    fn may_be_little(&self, _form: &Form) -> bool {
         false
     }
 

@@ -41,6 +41,11 @@ impl Effect for DeadBand {
         swallowed.into_iter().chain([0.04, 0.08, 0.16].map(whole)).collect()
     }
 
+    fn may_be_little(&self, form: &Form) -> bool {
+        // What all bridges of a kind have a little of, one has no more of without a cause.
+        form.free.iter().all(|p| p.name == "duty")
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let bands: Vec<f64> = (0..model.axes.len()).map(|i| values.wheel("duty", i, "")).collect();
         let passes = values.get(PASSES) != 0.0;
