@@ -85,6 +85,13 @@ impl Selection {
         })
     }
 
+    /// Whether it explains with fewer parameters than another one all but what is next to noise: there a law that is not
+    /// exact beside rest, as that of a friction, is no reason to fit more.
+    fn is_simpler_and_near(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        let parameters = |s: &Self| s.state.active.iter().map(|a| a.form.free.len()).sum::<usize>();
+        parameters(self) < parameters(other) && raw(self) < thresholds.far_left
+    }
+
     /// Difference of the objectives of two selections, under one variance; negative if this is
     /// the better one.
     fn against(&self, other: &Self) -> f64 {
@@ -121,7 +128,10 @@ pub fn select(
     // Beside a gap that wide nothing is a margin: what is missing with it is looked for with nothing adjusted.
     let begun = |laws: &[Active]| plain(problem, start, laws, &all, thresholds, false);
     let other = if light.is_empty() { None } else { begun(&light) };
-    let best = other.filter(|other| thresholds.as_well * raw(other) < raw(&best)).unwrap_or(best);
+    let better = |other: &Selection| {
+        thresholds.as_well * raw(other) < raw(&best) && !best.is_simpler_and_near(other, thresholds)
+    };
+    let best = other.filter(better).unwrap_or(best);
     let in_place = problem.in_place(start, catalogue);
     simpler::simpler(problem, start, best, &all, &in_place, thresholds)
 }

@@ -21,6 +21,7 @@ mod scale;
 mod single_steps;
 mod slipping;
 mod smoothed;
+mod thumb_motor;
 mod uneven;
 
 use common::{RICH, example, names, simulate, value, with};
