@@ -40,7 +40,8 @@ pub(super) fn simpler(
 }
 
 /// A law in place of two or more of those named, where with the others it leaves as little as they, or of one where it leaves
-/// noise and that far more; of as many that it stands for the one that leaves least.
+/// noise and that far more; of as many that it stands for the one that leaves least. In place of three it may leave more than
+/// they, next to noise: what one number makes of three sizes is no chance, and three fit a part of what no law is exact to.
 fn for_several(
     problem: &Problem,
     start: &State,
@@ -56,9 +57,10 @@ fn for_several(
     let subsets = |size: usize| (0..1_u32 << named.len()).filter(move |set| set.count_ones() as usize == size);
     // What is adjusted beside one law alone does not show among the names.
     let most = named.len().saturating_sub(2);
-    let stands_for = |left: &Left| match named.len() {
+    let stands_for = |left: &Left, size: usize| match named.len() - size {
         1 => now.far_above(left, thresholds) && left.is_noise(thresholds),
-        _ => left.is_as_little(&now, thresholds),
+        2 => left.is_as_little(&now, thresholds),
+        _ => !left.is_far(thresholds),
     };
     (0..=most).find_map(|size| {
         let tried: Vec<(&Active, u32)> =
@@ -67,7 +69,7 @@ fn for_several(
             let kept = (0..named.len()).filter(|i| set >> i & 1 == 1).map(|i| named[i]);
             let state = bare(problem, start, std::iter::once(*law).chain(kept));
             let left = Left::fitted(problem, &state);
-            let as_good = stands_for(&left) && is_sound(problem, start, &state, thresholds);
+            let as_good = stands_for(&left, size) && is_sound(problem, start, &state, thresholds);
             as_good.then_some((left.sum(), state))
         });
         fitted.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, state)| state)

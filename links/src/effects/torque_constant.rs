@@ -26,7 +26,8 @@ impl Effect for TorqueConstant {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        Form::all_or_one(robot, "scale", |name| Parameter::new(name, 0.02, [-0.6, 1.0], 0.05))
+        // A constant in other units, or of a motor like it, is some times too large: for 1 / 2 pi of it, and its interval.
+        Form::all_or_one(robot, "scale", |name| Parameter::new(name, 0.02, [-0.9, 1.0], 0.05))
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
