@@ -9,7 +9,6 @@ use estimation::normal_equations::{Cluster, NormalEquations};
 use links::drive::{DriveLink, DriveModel, Side};
 use links::effect::{Effect, Link, Parameter, Sizes};
 use links::motion::{MotionLink, MotionModel};
-use runs::robot::Support;
 
 /// A link of a data set that can be linearised about any state.
 pub enum Problem<'a> {
@@ -126,9 +125,8 @@ impl Problem<'_> {
     /// What may be named in place of several candidates.
     pub fn in_place(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         let mut all = crate::candidates::candidates(state, catalogue, self.link());
-        // All wheels of a robot on the floor as much faster are a heavier one with more friction by another name.
-        let (on_blocks, several) = (state.robot.support == Support::Blocks, state.robot.wheel_count() > 1);
-        let one = |a: &Active| if a.form.wheels.is_empty() { on_blocks } else { several && a.form.wheels.len() == 1 };
+        let several = state.robot.wheel_count() > 1;
+        let one = |a: &Active| a.form.wheels.is_empty() || several && a.form.wheels.len() == 1;
         all.retain(|a| a.effect.stands_for_several() && a.form.free.len() == 1 && one(a));
         all
     }

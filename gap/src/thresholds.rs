@@ -187,6 +187,12 @@ thresholds! {
     // That axis has the seed 17359735160358586713.
     heavier: [f64; 2] = [3.0, 1.5],
 
+    // Counts that a decoder takes of other edges than the file says: a quarter, half, twice or four times.
+    /// Relative distance from such a factor within which counts are off by it. Of robots that are heavier and rub more,
+    /// which do the same to their drives, one in sixteen comes as near by chance; the drives of simulated ones tell it to
+    /// 0.4 %.
+    decoded: f64 = 0.02,
+
     // What speaks against a name.
     /// Standard deviations by which a free simulation must get worse to speak against an effect: as many as 2.3 % of
     /// noise.

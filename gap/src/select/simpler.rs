@@ -12,6 +12,7 @@ use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use estimation::prior::{Penalised, Role};
 use links::effect::Link;
+use runs::robot::Support;
 
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;
@@ -50,30 +51,50 @@ fn for_several(
     thresholds: &Thresholds,
 ) -> Option<State> {
     let named = named(start, found);
-    if named.is_empty() || in_place.is_empty() {
+    if in_place.is_empty() {
         return None;
     }
     let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
     let subsets = |size: usize| (0..1_u32 << named.len()).filter(move |set| set.count_ones() as usize == size);
     // What is adjusted beside one law alone does not show among the names.
     let most = named.len().saturating_sub(2);
-    let stands_for = |left: &Left, size: usize| match named.len() - size {
-        1 => now.far_above(left, thresholds) && left.is_noise(thresholds),
-        2 => left.is_as_little(&now, thresholds),
-        _ => !left.is_far(thresholds),
+    let on_floor = start.robot.support == Support::Floor;
+    let may_leave = |left: &Left, law: &Active| {
+        (thresholds.law_sigmas * law.effect.law_uncertainty()).powi(2) * (now.sum() - left.sum())
+    };
+    let stands_for = |left: &Left, law: &Active, size: usize| {
+        let far_less = || now.far_above(left, thresholds);
+        // All wheels of a robot on the floor as much faster are a heavier one with more friction by another name, but where
+        // that is what a decoder does.
+        let decoded = || is_decoded(law, thresholds);
+        match named.len() - size {
+            0 | 1 => far_less() && (left.is_noise(thresholds) || decoded() && left.excess() <= may_leave(left, law)),
+            _ if on_floor && law.form.wheels.is_empty() && !decoded() => false,
+            2 => left.is_as_little(&now, thresholds),
+            _ => !left.is_far(thresholds),
+        }
     };
     (0..=most).find_map(|size| {
         let tried: Vec<(&Active, u32)> =
             in_place.iter().flat_map(|law| subsets(size).map(move |set| (law, set))).collect();
         let fitted = each(&tried, &|(law, set)| {
             let kept = (0..named.len()).filter(|i| set >> i & 1 == 1).map(|i| named[i]);
-            let state = bare(problem, start, std::iter::once(*law).chain(kept));
+            let mut state = bare(problem, start, std::iter::once(*law).chain(kept));
+            // To four times the counts it takes more steps than one fit has.
+            problem.fit(&mut state);
             let left = Left::fitted(problem, &state);
-            let as_good = stands_for(&left, size) && is_sound(problem, start, &state, thresholds);
+            let as_good = stands_for(&left, &state.active[start.active.len()], size)
+                && is_sound(problem, start, &state, thresholds);
             as_good.then_some((left.sum(), state))
         });
         fitted.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, state)| state)
     })
+}
+
+/// Whether a law of one parameter makes counts what a decoder makes of them that takes other edges than the file says.
+fn is_decoded(law: &Active, thresholds: &Thresholds) -> bool {
+    let factor = 1.0 + law.parameters().first().copied().unwrap_or_default();
+    model::setup::DECODED.into_iter().any(|of| (factor / of - 1.0).abs() < thresholds.decoded)
 }
 
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one

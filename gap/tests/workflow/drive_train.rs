@@ -28,7 +28,14 @@ enum Logged {
     Speeds,
 }
 
-fn run(name: &str, seed: u64, logged: Logged, seconds: f64, volts: impl Fn(f64) -> f64) -> Run {
+/// A robot with so much friction that the file does not know, Nm, and so many counts a turn of the wheel.
+#[derive(Clone, Copy)]
+struct Truth {
+    dry: f64,
+    counts: f64,
+}
+
+fn run(name: &str, seed: u64, logged: Logged, truth: Truth, seconds: f64, volts: impl Fn(f64) -> f64) -> Run {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut run = Run { name: name.to_owned(), ..Run::default() };
     let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
@@ -42,13 +49,14 @@ fn run(name: &str, seed: u64, logged: Logged, seconds: f64, volts: impl Fn(f64) 
         angles.push(angle);
         for _ in 0..20 {
             let torque = GEAR * KT * (volts(t) - KT * GEAR * speed) / OHM;
-            let next = with_dry_friction(speed, torque, DRY, inertia, 2.5e-4);
+            let next = with_dry_friction(speed, torque, truth.dry, inertia, 2.5e-4);
             angle += 1.25e-4 * (speed + next);
             speed = next;
         }
     }
     // Poles are not where they should be by up to three counts.
-    let counted = angles.iter().map(|a| (a * COUNTS / std::f64::consts::TAU + rng.random_range(-3.0..3.0)).floor());
+    let counted =
+        angles.iter().map(|a| (a * truth.counts / std::f64::consts::TAU + rng.random_range(-3.0..3.0)).floor());
     let counted: Vec<f64> = counted.collect();
     run.duty = vec![duties.clone(), duties];
     if logged == Logged::Counts {
@@ -62,7 +70,7 @@ fn run(name: &str, seed: u64, logged: Logged, seconds: f64, volts: impl Fn(f64) 
     run
 }
 
-fn characterised(seed: u64, logged: Logged) -> Analysis {
+fn characterised(seed: u64, logged: Logged, truth: Truth) -> Analysis {
     let text = format!(
         "encoder_counts_per_wheel_rev = {COUNTS}\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nwheel_radius_m = {RADIUS}\n\
          mass_kg = {MASS}\nyaw_inertia_kg_m2 = 3\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\n\
@@ -71,10 +79,10 @@ fn characterised(seed: u64, logged: Logged) -> Analysis {
     );
     let step = |t: f64| if t > 0.1 { 7.0 } else { 0.0 };
     let runs = [
-        run("slow-forward", 4 * seed, logged, 18.0, |t| 0.25 * t),
-        run("slow-backward", 4 * seed + 1, logged, 18.0, |t| -0.25 * t),
-        run("fast-forward", 4 * seed + 2, logged, 4.0, step),
-        run("fast-backward", 4 * seed + 3, logged, 4.0, |t| -step(t)),
+        run("slow-forward", 4 * seed, logged, truth, 18.0, |t| 0.25 * t),
+        run("slow-backward", 4 * seed + 1, logged, truth, 18.0, |t| -0.25 * t),
+        run("fast-forward", 4 * seed + 2, logged, truth, 4.0, step),
+        run("fast-backward", 4 * seed + 3, logged, truth, 4.0, |t| -step(t)),
     ];
     of_files(&text, runs)
 }
@@ -85,7 +93,7 @@ fn characterised(seed: u64, logged: Logged) -> Analysis {
 #[test]
 fn friction_of_a_heavy_robot_shows_through_a_coarse_encoder() {
     for (seed, logged) in [(1, Logged::Counts), (2, Logged::Counts), (1, Logged::Speeds)] {
-        let a = characterised(seed, logged);
+        let a = characterised(seed, logged, Truth { dry: DRY, counts: COUNTS });
         if a.verdict == Verdict::Unexplained {
             let mut said =
                 a.unexplained.iter().filter(|u| u.structure.contains("coulomb-friction closes a part of it"));
@@ -100,5 +108,18 @@ fn friction_of_a_heavy_robot_shows_through_a_coarse_encoder() {
         });
         let tied = a.alternatives.iter().any(|set| set.iter().any(|name| name == "coulomb-friction"));
         assert!(within || dry.is_none() && tied, "{seed}: {DRY} {:?}\n{}", names(&a), a.terminal_summary());
+    }
+}
+
+/// Without a camera all wheels of a robot that turn as much faster or slower are those of another motor in another robot; what a
+/// decoder makes of counts is likelier.
+#[test]
+fn twice_or_half_the_counts_of_all_wheels_are_a_decoder_s() {
+    for (seed, factor) in [(5, 2.0), (6, 0.5)] {
+        let a = characterised(seed, Logged::Counts, Truth { dry: 0.0, counts: factor * COUNTS });
+        let said = a.terminal_summary();
+        assert_eq!(names(&a), ["encoder-scale"], "{said}");
+        let Interval::Ci95([low, high]) = a.effects[0].parameters[0].2 else { panic!("{said}") };
+        assert!(low <= factor - 1.0 && factor - 1.0 <= high, "{said}");
     }
 }

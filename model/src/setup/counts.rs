@@ -8,7 +8,7 @@ use super::{Mistake, is_true, near, short};
 use runs::frames::Twist;
 
 /// Counts of a turn in those of the file: one edge of four, one channel of two, and the same the other way round.
-const FACTORS: [f64; 4] = [0.25, 0.5, 2.0, 4.0];
+pub const DECODED: [f64; 4] = [0.25, 0.5, 2.0, 4.0];
 /// Share of the squared turn of every wheel, by the camera, that follows its own counts: a file of another robot, wheels that
 /// slip or are swapped, and a camera read wrongly leave more than a tenth at one wheel at least, for each wheel's turn by
 /// the camera is then made of several wheels' counts.
@@ -35,7 +35,7 @@ pub(super) fn of_single_wheels(
     let factors: Vec<f64> = sums.iter().map(|[xx, xy, _]| xx / xy).collect();
     let right = factors.iter().filter(|f| is_true(**f)).count();
     let odd: Vec<(usize, f64)> = (0..wheels)
-        .filter_map(|i| FACTORS.into_iter().find(|of| near(factors[i], *of)).map(|_| (i, factors[i])))
+        .filter_map(|i| DECODED.into_iter().find(|of| near(factors[i], *of)).map(|_| (i, factors[i])))
         .collect();
     if !follow || odd.is_empty() || odd.len() > right || odd.len() + right < wheels {
         return Vec::new();

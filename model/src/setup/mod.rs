@@ -23,6 +23,7 @@ mod turns;
 use runs::robot::Robot;
 use runs::{Logs, is_dead_reckoning, is_from_speeds};
 
+pub use counts::DECODED;
 pub use orders::orders;
 
 /// Something set up wrongly, with what shows it and what mends it.
