@@ -43,6 +43,7 @@ pub(super) fn simpler(
 /// A law in place of two or more of those named, where with the others it leaves as little as they, or of one where it leaves
 /// noise and that far more; of as many that it stands for the one that leaves least. In place of three it may leave more than
 /// they, next to noise: what one number makes of three sizes is no chance, and three fit a part of what no law is exact to.
+/// And what a decoder makes of counts in place of one law or none far from the noise, where it leaves no more than its law may.
 fn for_several(
     problem: &Problem,
     start: &State,
@@ -55,6 +56,9 @@ fn for_several(
         return None;
     }
     let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
+    if named.is_empty() && !now.is_far(thresholds) {
+        return None;
+    }
     let subsets = |size: usize| (0..1_u32 << named.len()).filter(move |set| set.count_ones() as usize == size);
     // What is adjusted beside one law alone does not show among the names.
     let most = named.len().saturating_sub(2);
@@ -63,13 +67,16 @@ fn for_several(
         (thresholds.law_sigmas * law.effect.law_uncertainty()).powi(2) * (now.sum() - left.sum())
     };
     let stands_for = |left: &Left, law: &Active, size: usize| {
-        let far_less = || now.far_above(left, thresholds);
-        // All wheels of a robot on the floor as much faster are a heavier one with more friction by another name, but where
-        // that is what a decoder does.
-        let decoded = || is_decoded(law, thresholds);
+        let decoded = is_decoded(law, thresholds);
+        // Else all wheels of a robot on the floor as much faster are a heavier one with more friction by another name.
+        if on_floor && law.form.wheels.is_empty() && !decoded {
+            return false;
+        }
         match named.len() - size {
-            0 | 1 => far_less() && (left.is_noise(thresholds) || decoded() && left.excess() <= may_leave(left, law)),
-            _ if on_floor && law.form.wheels.is_empty() && !decoded() => false,
+            0 | 1 => {
+                now.far_above(left, thresholds)
+                    && (left.is_noise(thresholds) || decoded && left.excess() <= may_leave(left, law))
+            }
             2 => left.is_as_little(&now, thresholds),
             _ => !left.is_far(thresholds),
         }
