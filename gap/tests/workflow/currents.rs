@@ -137,25 +137,23 @@ fn friction_behind_measured_currents_is_no_play_and_no_bridge() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// What is wrong with the frictions named for an axis whose file knows none.
+fn friction_faults(axis: Axis, seed: u64) -> Vec<String> {
+    let a = done(axis, [1.0, 0.0], seed);
+    let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
+    let truths = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)];
+    let sizes = truths.iter().filter_map(|(name, truth)| fault(&a, name, *truth));
+    let all = sizes.chain(other.map(|name| format!("{name} is named")));
+    all.map(|what| format!("{seed}, held {}: {what}", axis.held)).collect()
+}
+
 /// Friction has its size whether the currents were measured or are what the amplifier was told and holds.
 #[test]
 fn friction_has_its_size_behind_measured_and_behind_held_currents() {
     let axis = Axis { fastest: 8.0, rows: [0.0198, 0.0202], late: 2e-4, ..MOTOR };
-    let faults: Vec<String> = (41..44_u64)
-        .flat_map(|seed| [(seed, false), (seed, true)])
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .flat_map(|(seed, held)| {
-            let a = done(Axis { held, ..axis }, [1.0, 0.0], seed);
-            let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
-            let mut faults: Vec<String> = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)]
-                .iter()
-                .filter_map(|(n, t)| fault(&a, n, *t))
-                .collect();
-            faults.extend(other.map(|n| format!("{n} is named")));
-            faults.into_iter().map(|f| format!("{seed} held {held}: {f}")).collect::<Vec<_>>()
-        })
-        .collect();
+    let cases: Vec<(u64, bool)> = (41..44).flat_map(|seed| [(seed, false), (seed, true)]).collect();
+    let faults: Vec<String> =
+        cases.into_par_iter().flat_map(|(seed, held)| friction_faults(Axis { held, ..axis }, seed)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -163,19 +161,7 @@ fn friction_has_its_size_behind_measured_and_behind_held_currents() {
 #[test]
 fn friction_has_its_size_behind_currents_that_are_read_now_and_then() {
     let axis = Axis { fastest: 1.5, rows: [0.0128, 0.0132], late: 2e-4, reads: 8, ..MOTOR };
-    let faults: Vec<String> = (61..64_u64)
-        .into_par_iter()
-        .flat_map(|seed| {
-            let a = done(axis, [1.0, 0.0], seed);
-            let other = names(&a).iter().find(|n| !["coulomb-friction", "viscous-friction"].contains(n)).copied();
-            let mut faults: Vec<String> = [("coulomb-friction", axis.dry), ("viscous-friction", axis.viscous)]
-                .iter()
-                .filter_map(|(n, t)| fault(&a, n, *t))
-                .collect();
-            faults.extend(other.map(|n| format!("{n} is named")));
-            faults.into_iter().map(|f| format!("{seed}: {f}")).collect::<Vec<_>>()
-        })
-        .collect();
+    let faults: Vec<String> = (61..64_u64).into_par_iter().flat_map(|seed| friction_faults(axis, seed)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
