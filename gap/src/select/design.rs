@@ -73,8 +73,9 @@ impl Design {
                     if candidate.switched() {
                         // Of the forms of one effect that have the same parameters only those nearest to its absence.
                         let alike = |o: &Active| {
-                            let names = |a: &Active| a.form.free.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
-                            o.effect.name() == candidate.effect.name() && names(o) == names(candidate)
+                            let names = o.form.free.iter().map(|p| &p.name);
+                            o.effect.name() == candidate.effect.name()
+                                && names.eq(candidate.form.free.iter().map(|p| &p.name))
                         };
                         let own: Vec<usize> = (0..candidates.len()).filter(|o| alike(&candidates[*o])).collect();
                         let near = match candidate.form.free.first().and_then(|p| p.below) {
