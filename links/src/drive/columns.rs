@@ -1,4 +1,5 @@
-//! Derivatives of the drive that stay what they are while nothing but loads is added to a model: worked out once.
+//! What the drive's models leave unexplained, and derivatives that stay what they are while nothing but loads is added to a
+//! model: each is worked out once.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -22,10 +23,10 @@ pub struct Side {
     pub key: Option<String>,
 }
 
-/// The derivative along a side, one number a test function and wheel.
+/// The derivative along a side, or what a model leaves unexplained; one number a test function and wheel.
 pub(super) type Column = Arc<Vec<f64>>;
 
-/// Derivatives by the first test function of their segment and their key.
+/// Columns by the first test function of their segment and their key.
 #[derive(Default)]
 pub(super) struct Columns(Mutex<Kept>);
 
@@ -61,9 +62,9 @@ impl Columns {
         }
     }
 
-    /// A derivative that is known already.
-    pub(super) fn find(&self, first: usize, side: &Side) -> Option<Column> {
-        let key = (first, side.key.clone()?);
+    /// A column that is known already.
+    pub(super) fn find(&self, first: usize, key: &str) -> Option<Column> {
+        let key = (first, key.to_owned());
         let mut kept = self.kept();
         let round = kept.round;
         let (column, asked) = kept.columns.get_mut(&key)?;
@@ -71,9 +72,18 @@ impl Columns {
         Some(column.clone())
     }
 
-    /// Keeps a derivative if it may be needed again and there is room.
-    pub(super) fn keep(&self, first: usize, side: &Side, column: &Column) {
-        let Some(key) = side.key.clone() else { return };
+    /// A column that is known already, or made now and kept.
+    pub(super) fn once(&self, first: usize, key: String, make: impl FnOnce() -> Option<Vec<f64>>) -> Option<Column> {
+        if let Some(known) = self.find(first, &key) {
+            return Some(known);
+        }
+        let made = Arc::new(make()?);
+        self.keep(first, key, &made);
+        Some(made)
+    }
+
+    /// Keeps a column if there is room.
+    pub(super) fn keep(&self, first: usize, key: String, column: &Column) {
         let mut kept = self.kept();
         if kept.numbers + column.len() > ROOM {
             kept.forget();
@@ -85,8 +95,7 @@ impl Columns {
     }
 }
 
-/// Linearisations after which a derivative that none of them asked for goes: fits between two of them ask for a few
-/// only.
+/// Linearisations after which a column that none of them asked for goes: fits between two of them ask for a few only.
 const LATELY: u64 = 24;
 
 #[cfg(test)]
@@ -95,28 +104,20 @@ mod tests {
 
     #[test]
     fn what_is_not_asked_for_makes_room() {
-        let robot = runs::robot::Robot::racbot();
-        let side = |key: &str| Side {
-            low: None,
-            high: DriveModel::new(&robot),
-            step: 1.0,
-            inertia_alone: false,
-            key: Some(key.to_owned()),
-        };
         let columns = Columns::default();
         let half: Column = Arc::new(vec![0.0; ROOM / 2]);
         columns.begin();
-        columns.keep(0, &side("old"), &half);
-        columns.keep(0, &side("used"), &half);
+        columns.keep(0, "old".to_owned(), &half);
+        columns.keep(0, "used".to_owned(), &half);
         for _ in 0..=LATELY {
             columns.begin();
-            assert!(columns.find(0, &side("used")).is_some());
+            assert!(columns.find(0, "used").is_some());
         }
-        columns.keep(0, &side("new"), &half);
-        let known = |key: &str| columns.find(0, &side(key)).is_some();
+        columns.keep(0, "new".to_owned(), &half);
+        let known = |key: &str| columns.find(0, key).is_some();
         assert!(known("new") && known("used") && !known("old"));
         // All of it is in use: nothing goes, and nothing more is kept.
-        columns.keep(0, &side("more"), &half);
+        columns.keep(0, "more".to_owned(), &half);
         assert!(known("new") && known("used") && !known("more"));
     }
 }

@@ -42,18 +42,11 @@ impl<'a> Base<'a> {
     }
 
     /// What a model that only adds loads to this one adds to its torques and forces; nothing where that is 0 throughout.
-    /// `None` for a model that changes more.
-    pub(super) fn loads_of(&self, other: &DriveModel) -> Option<Vec<Option<Vec<f64>>>> {
+    pub(super) fn loads_of(&self, other: &DriveModel) -> Vec<Option<Vec<f64>>> {
         let (s, n) = (self.segment, self.model.wheels.len());
-        if !other.only_loads_more(self.model) {
-            return None;
-        }
         let more = &other.loads[self.model.loads.len()..];
-        if more.is_empty() {
-            return Some(vec![None; n + 3]);
-        }
-        if !self.signals.all {
-            return None;
+        if more.is_empty() || self.signals.ticks() == 0 {
+            return vec![None; n + 3];
         }
         let new = &other.prepare[self.prepared.len()..];
         let prepared = if new.is_empty() {
@@ -83,7 +76,7 @@ impl<'a> Base<'a> {
                 }
             }
         });
-        Some(out)
+        out
     }
 
     /// What the offsets are that a model which only adds to this one adds, `[offset][wheel][tick]`.

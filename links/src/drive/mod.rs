@@ -183,13 +183,20 @@ impl DriveModel {
         adds || !with.same_but_for_loads(&nominal)
     }
 
+    /// What models of one robot differ by: their effects and what those made of its numbers.
+    fn identity(&self) -> String {
+        format!("{:?} {:?} {:?} {:?} {:?}", self.effects, self.numbers(), self.wheels, self.radius_scale, self.axes)
+    }
+
+    fn numbers(&self) -> [f64; 11] {
+        let ([cx, cy], [sx, sy]) = (self.centre_of_mass, self.slope_rad);
+        let [delay, filter, limit] = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a];
+        [self.mass, self.yaw_inertia, cx, cy, sx, sy, self.wheel_radius_m, self.gear_ratio, delay, filter, limit]
+    }
+
     /// Whether nothing but loads and offsets differs.
     fn same_but_for_loads(&self, base: &Self) -> bool {
-        let numbers = |m: &Self| {
-            let log_side = [m.duty_delay_s, m.reading_filter_s, m.current_limit_a];
-            (m.wheel_radius_m, m.mass, m.yaw_inertia, m.centre_of_mass, m.slope_rad, m.gear_ratio, log_side)
-        };
-        numbers(self) == numbers(base)
+        self.numbers() == base.numbers()
             && self.wheels == base.wheels
             && self.radius_scale == base.radius_scale
             && self.axes == base.axes

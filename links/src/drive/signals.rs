@@ -53,8 +53,6 @@ type ByWheel<'a> = Vec<Cow<'a, [f64]>>;
 /// Signals of a model at the ticks of a segment but the last; means from each to the next.
 #[derive(Default)]
 pub(super) struct Signals<'a> {
-    /// Whether all are here, or only those that torques without further loads come from.
-    pub(super) all: bool,
     /// Duty that acts, −1 to 1, `[wheel][tick]`, as the others of the wheels.
     pub(super) duty: ByWheel<'a>,
     /// Speed, rad/s.
@@ -80,7 +78,7 @@ impl<'a> Signals<'a> {
     pub(super) fn of(model: &DriveModel, s: &'a Segment, axes: &[Axis], all: bool, twist: bool) -> Self {
         let n = model.wheels.len();
         let rows = s.rows();
-        let mut out = Self { all, supply: Cow::Borrowed(&s.supply[..s.t.len() - 1]), ..Self::default() };
+        let mut out = Self { supply: Cow::Borrowed(&s.supply[..s.t.len() - 1]), ..Self::default() };
         out.duty = (0..n).map(|i| model.acting_duty(s, i, &axes[i])).collect();
         out.sign = rows.sign.iter().map(|sign| Cow::Borrowed(sign.as_slice())).collect();
         if all || twist {

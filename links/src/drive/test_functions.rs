@@ -326,9 +326,9 @@ impl<'a> DriveLink<'a> {
     }
 
     /// What a model that only adds loads and offsets to another explains more than that, Nm, one a wheel of each test
-    /// function; `None` for one that changes more.
+    /// function.
     fn added_part(&self, model: &DriveModel, base: &Base, range: &Range<usize>, shapes: &[Shape]) -> Option<Vec<f64>> {
-        let loads = base.loads_of(model)?;
+        let loads = base.loads_of(model);
         let offsets = base.offsets_of(model);
         let (mechanics, n) = (model.mechanics()?, model.wheels.len());
         let given = &self.inertia * mechanics.encoders_per_torque(model);
@@ -486,41 +486,41 @@ impl<'a> DriveLink<'a> {
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.test_functions[range.start].segment);
             let laid = self.laid(s, &range);
-            let left = |model: &DriveModel, forces: &Forces| {
-                self.unexplained_part(model, s, &range, &laid, (forces, Some(&self.inertia)))
+            let find = |side: &Side| self.columns.find(range.start, side.key.as_deref()?);
+            let known: Vec<Option<Column>> = sides.iter().map(find).collect();
+            let adds = |side: &Side| [&side.high].into_iter().chain(&side.low).all(|m| m.only_loads_more(model));
+            let more = sides.iter().zip(&known).any(|(side, known)| known.is_none() && adds(side));
+            let start = OnceLock::new();
+            let start = || start.get_or_init(|| Base::new(model, s, more));
+            let left = |of: &DriveModel, started: bool| {
+                self.columns.once(range.start, of.identity(), || {
+                    let forces = if started { Cow::Borrowed(&start().forces) } else { Cow::Owned(of.forces(s)) };
+                    self.unexplained_part(of, s, &range, &laid, (&forces, Some(&self.inertia)))
+                })
             };
-            let known: Vec<Option<Column>> = sides.iter().map(|side| self.columns.find(range.start, side)).collect();
-            let start = Base::new(model, s, known.iter().any(Option::is_none));
-            let Some(base) = left(model, &start.forces) else { return Vec::new() };
+            let Some(base) = left(model, true) else { return Vec::new() };
             let columns: Vec<Option<Column>> = numbered(sides.len(), &|i| {
                 let side = &sides[i];
                 if known[i].is_some() {
                     return known[i].clone();
                 }
-                let added = |model: &DriveModel| self.added_part(model, &start, &range, &laid.shapes);
-                let only_more = side.low.as_ref().map_or(Some(None), |low| added(low).map(Some)).zip(added(&side.high));
                 let slope = |low: &[f64], high: &[f64]| -> Vec<f64> {
                     low.iter().zip(high).map(|(low, high)| (high - low) / side.step).collect()
                 };
-                let column = if let Some((low, high)) = only_more {
-                    let none = || vec![0.0; high.len()];
-                    slope(&low.unwrap_or_else(none), &high)
+                let column = Arc::new(if adds(side) {
+                    let added = |model: &DriveModel| self.added_part(model, start(), &range, &laid.shapes);
+                    let high = added(&side.high)?;
+                    let low = side.low.as_ref().map_or_else(|| Some(vec![0.0; high.len()]), added)?;
+                    slope(&low, &high)
                 } else {
-                    let forces = |changed: &DriveModel| {
-                        let same = side.inertia_alone && changed.torques_stand_alone();
-                        if same { Cow::Borrowed(&start.forces) } else { Cow::Owned(changed.forces(s)) }
-                    };
-                    let low = match &side.low {
-                        Some(low) => Some(left(low, &forces(low))?),
-                        None => None,
-                    };
-                    let high = left(&side.high, &forces(&side.high))?;
-                    let low = low.as_ref().unwrap_or(&base);
+                    let left = |m: &DriveModel| left(m, side.inertia_alone && m.torques_stand_alone());
+                    let low = side.low.as_ref().map_or_else(|| Some(base.clone()), left)?;
                     // What a model explains more is left less.
-                    slope(&high, low)
-                };
-                let column = Arc::new(column);
-                self.columns.keep(range.start, side, &column);
+                    slope(&left(&side.high)?, &low)
+                });
+                if let Some(key) = &side.key {
+                    self.columns.keep(range.start, key.clone(), &column);
+                }
                 Some(column)
             });
             let mut first = 0;
