@@ -684,3 +684,31 @@ fn a_wheel_that_slips_half_the_time_is_told_as_one() {
         assert_eq!(said, ["robot-file"], "{wheel}");
     }
 }
+
+/// Wheels that spin through most of a drive have a best factor, but no factor makes what the camera saw: no reason to stop.
+#[test]
+fn wheels_that_slip_most_of_the_time_are_no_other_file() {
+    let robot = Robot::racbot();
+    let drives = [Manoeuvre::Star, Manoeuvre::Chirp, Manoeuvre::Square];
+    for (spins, slips) in [([1.25, 3.0], true), ([1.8, 1.8], false)] {
+        let runs = drives.into_iter().map(|m| {
+            let mut run = simulate(m, &Applied::of(&robot), &robot, Pose::default(), 34).unwrap();
+            for counts in &mut run.counts {
+                let (mut at, mut last) = (counts[0] as f64, counts[0]);
+                for (count, t) in counts.iter_mut().zip(&run.t) {
+                    at += spins[(t * 2.0) as usize % 2] * (*count - last) as f64;
+                    last = *count;
+                    *count = at.round() as i64;
+                }
+            }
+            run.duty.clear();
+            run.reference.clear();
+            run.command = None;
+            run
+        });
+        let told = found(robot.clone(), &runs.collect::<Vec<_>>());
+        let said: Vec<String> = told.iter().map(Mistake::sentence).collect();
+        assert!(told.len() == 1 && told[0].nameable == slips, "{said:?}");
+        assert_eq!(said[0].contains("or wheels slip"), slips, "{said:?}");
+    }
+}

@@ -30,6 +30,9 @@ const LONG_S: f64 = 1.0;
 const EQUAL: (f64, f64) = (1.6, 0.04);
 /// Share of the motion that is left at most where the log is read as it was meant.
 const FITS: f64 = 0.35;
+/// Share of the motion from which it does not follow from the counts by a factor: of a wrong size of a robot's file 0.002 to 0.01
+/// is left, of one whose wheels slipped through most starts 0.32, which had a factor of 1.56.
+const BY_FACTOR: f64 = 0.1;
 /// Share of the squared way of the wheels below which a robot did not turn, or did nothing else: what a camera's noise or
 /// a marker beside the centre then make of the rest says nothing.
 const LITTLE: f64 = 0.02;
@@ -446,7 +449,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
         let common = (fit.scale / spin).ln().abs() < 0.25;
         match common_ratio(robot, fit.scale).filter(|_| common) {
             Some(_) if told(&distances) => {}
-            Some(mistake) => found.push(mistake),
+            Some(mistake) => found.push(or_slip(robot, fit, mistake)),
             None if is_true(fit.scale) => {
                 let what = format!("the robot turns {} times as far as the counts say, but drives as far", short(spin));
                 found.push(new(
@@ -456,7 +459,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
                     "check the distances of the wheels from the centre (a diameter?)",
                 ));
             }
-            None if common => found.push(of_all_distances(robot, fit)),
+            None if common => found.push(or_slip(robot, fit, of_all_distances(robot, fit))),
             None => {
                 let what = format!(
                     "the camera sees {} times the distance and {} times the turn that the counts say: the robot.toml of \
@@ -474,6 +477,16 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
         }
     }
     found
+}
+
+/// A common factor of all distances, of which no factor makes what the camera saw where wheels slip.
+fn or_slip(robot: &Robot, fit: &Fit, mut mistake: Mistake) -> Mistake {
+    if fit.left > BY_FACTOR && !runs::is_dead_reckoning(robot) {
+        let left = 100.0 * fit.left;
+        mistake.what += &format!(", or wheels slip: no factor makes {left:.0} % of what the camera saw of the counts");
+        mistake.nameable = true;
+    }
+    mistake
 }
 
 /// What to look at where dead reckoning is off as a whole.
