@@ -30,6 +30,10 @@ fn told(sign: f64, idles: bool) -> Vec<String> {
             angle += 0.011 / 20.0 * speed;
         }
     }
+    said_of(&rows)
+}
+
+fn said_of(rows: &str) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("robot.toml"), ROBOT).unwrap();
     std::fs::write(folder.path().join("run_1.csv"), rows).unwrap();
@@ -51,4 +55,26 @@ fn currents_the_wrong_way_round_are_told_of_a_motor_that_brakes_as_well() {
 fn the_last_reading_of_a_drive_that_is_off_is_told() {
     let said = told(1.0, true);
     assert!(said.len() == 1 && said[0].starts_with("current_1: it stays at "), "{said:?}");
+}
+
+/// A loop that was asked for constant currents between sweeps: what gains speed is not off.
+#[test]
+fn a_current_that_drives_is_no_last_reading() {
+    let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
+    let mut rows = "t,enc_1,current_1\n".to_owned();
+    for k in 0..3000_u32 {
+        let t = 0.011 * f64::from(k);
+        let amps = match k / 40 % 6 {
+            0 => 1.2,
+            1 => -1.2,
+            _ => 2.0 * (7.0 * t).sin(),
+        };
+        rows += &format!("{t},{},{amps}\n", (angle / std::f64::consts::TAU * 65536.0) as i64);
+        for _ in 0..20 {
+            let against = 0.003 * (speed / 5.0).tanh() + 8e-6 * speed;
+            speed += 0.011 / 20.0 * (0.0066 * amps - against) / 7e-6;
+            angle += 0.011 / 20.0 * speed;
+        }
+    }
+    assert_eq!(said_of(&rows), Vec::<String>::new());
 }

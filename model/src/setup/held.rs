@@ -78,7 +78,7 @@ fn speeds(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
 }
 
 /// A current that stays in the log while its axis turns on. None of a loop that reaches its limit, nor 0, nor what is asked for
-/// and seldom changes.
+/// and seldom changes, or drives: an axis that is off gains no speed.
 fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
     let (mut rows, mut changes, mut longest) = (0, 0, None::<(f64, f64, &str)>);
     for log in logs {
@@ -93,6 +93,9 @@ fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
             let turned = counts[to].wrapping_sub(counts[from]).abs();
             if same.len() >= STALE && size > 0.0 {
                 let lasted = run.t[to] - run.t[from];
+                if is_driven(&counts[from..=to], same[0]) {
+                    return None;
+                }
                 if size < HELD * most && turned >= TURNED && longest.is_none_or(|(most, ..)| lasted > most) {
                     longest = Some((lasted, same[0], log.name.as_str()));
                 }
@@ -113,4 +116,12 @@ fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
     );
     let remedy = "write 0 where the drive is off, or leave those rows out".to_owned();
     Some(Mistake::new("current-held", &column, what, remedy))
+}
+
+/// Whether an axis turns farther in the last third of these rows than in the first, and the way that its current drives it.
+fn is_driven(counts: &[i64], current: f64) -> bool {
+    let third = counts.len() / 3;
+    let turned = |rows: &[i64]| rows[rows.len() - 1].wrapping_sub(rows[0]);
+    let [first, last] = [turned(&counts[..=third]), turned(&counts[counts.len() - 1 - third..])];
+    last as f64 * current > 0.0 && last.abs() > first.abs() + TURNED
 }
