@@ -75,9 +75,12 @@ fn spread(of: &[f64]) -> f64 {
 /// How what is said begins.
 pub(crate) const BEGINS: &str = "the runs differ";
 
+/// Steps from what a straight line gives as the size in a run.
+const STEPS: usize = 4;
+
 /// An effect with a size for each run.
 struct Sizes {
-    name: String,
+    active: Active,
     parameter: Parameter,
     parameters: usize,
     /// Size in each run.
@@ -143,12 +146,13 @@ pub(super) fn said(
     let told = if best.of_runs.len() > thresholds.differ_told { vec![low, high] } else { best.of_runs.clone() };
     let value = |(run, x): &(usize, f64)| {
         let unknown = String::new();
-        format!("{} in {}", units::value(&best.parameter.name, *x), runs.get(*run).unwrap_or(&unknown))
+        let x = in_run(problem, state, &best, *run).unwrap_or(*x);
+        format!("{} in {}", units::value(&best.parameter.name, x), runs.get(*run).unwrap_or(&unknown))
     };
     let structure = format!(
         "{BEGINS}: {} ({}) of about {} closes {:.0} % of what one size for all of them leaves; another battery, load, floor or \
          camera in some of them? Runs that belong together want a data set of their own",
-        best.name,
+        best.active.effect.name(),
         units::label(&best.parameter.name),
         told.iter().map(value).collect::<Vec<_>>().join(", "),
         100.0 * share.min(1.0),
@@ -193,7 +197,40 @@ fn sizes(linear: &Linear, numbers: &[usize], columns: &[usize], active: &Active)
     let now = active.values.get(&parameter.name);
     let bounded = |x: f64| (now + x).clamp(parameter.bounds[0], parameter.bounds[1]);
     let of_runs = numbers.iter().enumerate().map(|(group, run)| (*run, bounded(of(group, worst)))).collect();
-    Some(Sizes { name: active.effect.name().to_owned(), parameter, parameters: m, of_runs, common, own })
+    Some(Sizes { active: active.clone(), parameter, parameters: m, of_runs, common, own })
+}
+
+/// The size in one run, all else as it is: a payload, say, divides what a straight line takes for a factor.
+fn in_run(problem: &Problem, state: &State, sizes: &Sizes, run: usize) -> Option<f64> {
+    let mut state = state.clone();
+    let own = |a: &Active| a.effect.name() == sizes.active.effect.name() && a.form.wheels == sizes.active.form.wheels;
+    let named = state.fitted_on(problem.link()).into_iter().find(|i| own(&state.active[*i]));
+    let index = named.unwrap_or_else(|| {
+        state.active.push(sizes.active.clone());
+        state.active.len() - 1
+    });
+    let mut least: Option<(f64, f64)> = None;
+    for _ in 0..=STEPS {
+        let linear = problem.linearise(&state, &[]);
+        let columns = linear.of_active(index);
+        let (mut jj, mut jr) = (DMatrix::zeros(columns.len(), columns.len()), DVector::zeros(columns.len()));
+        let mut left = 0.0;
+        for c in linear.equations.clusters.iter().filter(|c| c.run == run) {
+            jj += DMatrix::from_fn(columns.len(), columns.len(), |p, q| c.jj[(columns[p], columns[q])]);
+            jr += DVector::from_fn(columns.len(), |p, _| c.jr[columns[p]]);
+            left += c.rr;
+        }
+        if least.is_some_and(|(least, _)| left >= least) {
+            break;
+        }
+        let active = &mut state.active[index];
+        least = Some((left, active.values.get(&sizes.parameter.name)));
+        for (p, x) in active.form.free.iter().zip(solve(&jj, &jr).iter()) {
+            let next = (active.values.get(&p.name) + x).clamp(p.bounds[0], p.bounds[1]);
+            active.values.set(&p.name, next);
+        }
+    }
+    least.map(|(_, size)| size)
 }
 
 #[cfg(test)]

@@ -60,6 +60,18 @@ fn another_battery_or_load_in_one_session_is_told_as_such() {
     }
 }
 
+/// Its payload divides what the motors give: a straight line from the file gives two thirds of it.
+#[test]
+fn a_payload_in_one_session_has_its_size() {
+    let robot = Robot::racbot();
+    let laden = with(&robot, "robot-mass", &[("scale", 0.5)]);
+    let a = of(&sessions(&robot, &laden, [StopAndGo, FullDuty, Chirp], 92));
+    let told = said(&a);
+    assert!(told.len() == 1 && told[0].contains("robot-mass (scale)"), "{}", a.terminal_summary());
+    let size = told[0].split(" % in run_6").next().unwrap().rsplit('+').next().unwrap().parse::<f64>().unwrap();
+    assert!((size - 50.0).abs() < 5.0, "{told:?}");
+}
+
 #[test]
 fn runs_of_one_robot_do_not_differ() {
     let robot = Robot::racbot();
