@@ -1,4 +1,4 @@
-//! One law of the drive, or two, in place of what is named, where they fit better by themselves.
+//! One law, or two of the drive, in place of what is named, where they fit better by themselves.
 //!
 //! Beside margins for everything that is not named a bridge that is not linear, with friction of Stribeck, passes for dry
 //! and viscous friction. What tells them apart is what each leaves on runs that it was not fitted to, nothing adjusted.
@@ -17,7 +17,9 @@ use runs::robot::Support;
 /// Pairs that are fitted, of those that promise most by a straight line.
 const FITTED: usize = 16;
 
-/// What is named, or in its place two laws of the drive or one that do better by themselves.
+type ByItself = fn(&Problem, &State, &Selection, &[Active], &Thresholds) -> Option<State>;
+
+/// What is named, or in its place two laws of the drive, or one of either link, that do better by themselves.
 pub(super) fn simpler(
     problem: &Problem,
     start: &State,
@@ -27,10 +29,9 @@ pub(super) fn simpler(
     thresholds: &Thresholds,
 ) -> Selection {
     let mut found = found;
-    for by_itself in [of_two, of_one] {
-        if problem.link() == Link::Drive
-            && let Some(state) = by_itself(problem, start, &found, all, thresholds)
-        {
+    let tried: &[ByItself] = if problem.link() == Link::Drive { &[of_two, of_one] } else { &[of_one] };
+    for by_itself in tried {
+        if let Some(state) = by_itself(problem, start, &found, all, thresholds) {
             found = finish_bare(problem, state, start.active.len(), all, thresholds);
         }
     }
@@ -122,7 +123,12 @@ fn of_one(
         return None;
     }
     let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
-    let sized = |a: &Active| a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1;
+    let parameters: usize = named.iter().map(|a| a.form.free.len()).sum();
+    // Between wheels and camera a cause may have a size for each wheel.
+    let sized = |a: &Active| match problem.link() {
+        Link::Motion => a.form.free.len() < parameters && a.form.free.iter().all(|p| p.material.is_finite()),
+        _ => a.form.free.iter().filter(|p| p.material.is_finite()).count() == 1,
+    };
     let mut laws = laws(problem, start, all, sized);
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     let one_of_them = |law: &Active| named.iter().any(|n| rank(n) == rank(law));
@@ -208,13 +214,13 @@ fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option
     better.into_iter().find(|(_, left)| as_good(left)).map(|(state, _)| state)
 }
 
-/// Laws of a kind that change no inertia, in the order of the catalogue: what moves less is no explanation of what drives
+/// Laws of a kind that change no inertia of a drive, in the order of the catalogue: what moves less is no explanation of what drives
 /// it. Of each effect one law.
 fn laws(problem: &Problem, start: &State, all: &[Active], kind: impl Fn(&Active) -> bool) -> Vec<Active> {
     let mut laws: Vec<Active> = Vec::new();
     for a in all.iter().filter(|a| !a.effect.probe() && !a.effect.nuisance() && kind(a)) {
         let known = start.active.iter().chain(&laws).any(|o| o.effect.name() == a.effect.name());
-        if !known && !problem.changes_inertia(start, a) {
+        if !known && (problem.link() == Link::Motion || !problem.changes_inertia(start, a)) {
             laws.push(a.clone());
         }
     }
