@@ -115,6 +115,7 @@ impl<'a> Workflow<'a> {
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);
         self.filtered(&mut outcome);
+        self.nameless(&outcome);
         self.findings.take(outcome, Link::Drive, from);
         options.reached(Stage::DriveStudied);
     }
@@ -152,7 +153,7 @@ impl<'a> Workflow<'a> {
     /// The drive of some data, beside what its loops answered if they do.
     fn laid<'b>(&self, data: Data<'b>, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'b>> {
         let drive = data.drive(&self.start, seen)?;
-        Some(if self.answered { beside_answers(drive) } else { drive })
+        Some(if self.answered.is_some() { beside_answers(drive) } else { drive })
     }
 
     /// The drive of all data with the noise of what was searched.

@@ -39,8 +39,8 @@ pub(super) struct Workflow<'a> {
     pub(super) findings: Findings,
     /// Residuals of the motion that was searched, with what is named there.
     pub(super) seen: Option<Vec<WindowResiduals>>,
-    /// Whether the drive is compared beside what its speed loops answered.
-    pub(super) answered: bool,
+    /// Torque that its speed loops answered, in that of the drive, where this is compared beside it.
+    pub(super) answered: Option<f64>,
 }
 
 impl<'a> Workflow<'a> {
@@ -76,7 +76,7 @@ impl<'a> Workflow<'a> {
             &question.options.thresholds,
         ));
         let thresholds = question.options.thresholds.clone();
-        Self { question, data, sample, nominal, start, thresholds, findings, seen: None, answered: false }
+        Self { question, data, sample, nominal, start, thresholds, findings, seen: None, answered: None }
     }
 
     /// The data that causes are looked for in.

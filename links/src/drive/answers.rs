@@ -110,15 +110,39 @@ impl Answers {
         out
     }
 
-    /// Share of what is left on the drive that they do.
-    pub fn share(&self, link: &DriveLink, left: &DriveResiduals) -> f64 {
-        let square = |left: &DriveResiduals| -> f64 {
-            let of = |b: usize| {
-                let each = left.torque[b].iter().zip(link.weights(b)).zip(&link.noise);
-                each.map(|((torque, weight), noise)| weight * (torque / noise).powi(2)).sum::<f64>()
-            };
-            (0..link.len()).map(of).sum()
+    /// How much of what is left on the drive they do.
+    pub fn left(&self, link: &DriveLink, left: &DriveResiduals) -> LeftToAnswer {
+        let sums = |left: &DriveResiduals| {
+            let [mut square, mut torque, mut weights] = [0.0; 3];
+            for b in 0..link.len() {
+                for ((own, weight), noise) in left.torque[b].iter().zip(link.weights(b)).zip(&link.noise) {
+                    square += weight * (own / noise).powi(2);
+                    torque += weight * own * own;
+                    weights += weight;
+                }
+            }
+            [square, torque / f64::max(weights, f64::MIN_POSITIVE)]
         };
-        1.0 - square(&self.beside(link, left)) / square(left).max(f64::MIN_POSITIVE)
+        let ([whole, torque], [beside, torque_beside]) = (sums(left), sums(&self.beside(link, left)));
+        LeftToAnswer { whole, beside, answered_nm2: torque - torque_beside }
+    }
+}
+
+/// What is left on a drive, in squared noise, and beside what loops do of it.
+pub struct LeftToAnswer {
+    whole: f64,
+    pub beside: f64,
+    answered_nm2: f64,
+}
+
+impl LeftToAnswer {
+    /// Share of it that the loops do.
+    pub fn share(&self) -> f64 {
+        1.0 - self.beside / self.whole.max(f64::MIN_POSITIVE)
+    }
+
+    /// Torque that they do, RMS, Nm.
+    pub fn answered_nm(&self) -> f64 {
+        self.answered_nm2.max(0.0).sqrt()
     }
 }
