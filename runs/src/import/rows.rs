@@ -344,6 +344,14 @@ mod tests {
         let run = made(map, text).unwrap();
         assert_eq!((run.t.clone(), run.camera.len()), (vec![0.0, 0.05, 0.15, 0.2], 2));
         assert!((run.odometry.as_ref().unwrap()[0][2] - 0.02).abs() < 1e-4);
+        // A word that no other row has is the row's own name: one table, as with names above it.
+        let own = |head: &str, column: &str| {
+            let rows = (0..70).map(|i| format!("frame{i:04}.jpg {i} {} 3\n", 2 * i)).collect::<String>();
+            let map = format!("[time]\nrate_hz = 60\n[columns]\nenc_1 = {column:?}\n");
+            made(&map, &(head.to_owned() + &rows)).unwrap().counts[0].clone()
+        };
+        assert_eq!(own("", "column_3")[69], 138);
+        assert_eq!(own("# image x y theta\n", "y").len(), 70);
         // One word before numbers is a header: columns of a table that are called 0, 1, 2.
         let header = Table::of_bytes(b"time,0,1\n0.0,5,6\n", Path::new("x.csv"), None, &Clock::default()).unwrap();
         assert_eq!(header.find("1").unwrap().values, [6.0]);

@@ -5,6 +5,9 @@ use std::borrow::Cow;
 use super::line::{REMARKS, fields, is_number, with_units};
 use crate::read::separator;
 
+/// Rows after the first that are looked at to find out whether each begins with a word of its own.
+const LOOKED_AT: usize = 64;
+
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
     /// Names of the columns if the first record does not hold them.
@@ -53,7 +56,8 @@ impl<'a> Sheet<'a> {
                 }
             }
         }
-        let second = lines.find(|line| remark(line).is_none());
+        let mut lines = lines.filter(|line| remark(line).is_none()).take(LOOKED_AT);
+        let second = lines.next();
         let mut separator = separator(first);
         let blanks = !first.contains(&separator) && first.iter().any(u8::is_ascii_whitespace);
         if blanks {
@@ -89,14 +93,26 @@ impl<'a> Sheet<'a> {
         // Of one such line its word is the name of the column of time, and numbers name the others. Words may stand among
         // the numbers: `IMU;2022:06:01 13:42:57.76;Orientation;0.2;0.1`.
         let tagged = second.is_some_and(|second| {
-            [fields, super::line::fields(second, blanks, separator)].iter().all(|fields| {
+            [&fields, &super::line::fields(second, blanks, separator)].iter().all(|fields| {
                 let [word, rest @ ..] = &fields[..] else { return false };
                 let is_time = |field: &String| super::dates::seconds(field).is_some();
                 let numbers = rest.iter().filter(|n| is_number(n, separator) || is_time(n)).count();
                 !is_number(word, separator) && !is_time(word) && rest.len() > 1 && 2 * numbers > rest.len()
             })
         });
-        Self { names: names.filter(|_| !first.is_empty()), rows, separator, tagged }
+        // A word that no other row has is the row's own name, such as that of a picture.
+        let mut own = vec![&fields[0]];
+        let words = second.into_iter().chain(lines).map(|line| super::line::fields(line, blanks, separator));
+        let rest: Vec<Vec<String>> = if tagged { words.collect() } else { Vec::new() };
+        let labelled = rest.len() > 1
+            && rest.iter().all(|row| {
+                let is_new = row.len() == fields.len() && !own.contains(&&row[0]);
+                own.push(&row[0]);
+                is_new
+            });
+        let above = before.last().map(named).filter(fit);
+        let names = if labelled { above.or_else(|| Some(numbered(fields.len()))) } else { names };
+        Self { names: names.filter(|_| !first.is_empty()), rows, separator, tagged: tagged && !labelled }
     }
 }
 
