@@ -712,3 +712,25 @@ fn wheels_that_slip_most_of_the_time_are_no_other_file() {
         assert_eq!(said[0].contains("or wheels slip"), slips, "{said:?}");
     }
 }
+
+/// A diameter for a radius is the same in every log; wheels that slip on a soft floor are not.
+#[test]
+fn wheels_that_slip_in_every_log_by_another_part_are_no_diameter() {
+    let robot = Robot::racbot();
+    let drives = [Manoeuvre::Star, Manoeuvre::Chirp, Manoeuvre::Square];
+    let said = |parts: [f64; 3]| {
+        let runs = drives.into_iter().zip(parts).map(|(m, part)| {
+            let mut run = simulate(m, &Applied::of(&robot), &robot, Pose::default(), 34).unwrap();
+            run.counts.iter_mut().flatten().for_each(|n| *n = (*n as f64 * part).round() as i64);
+            run.duty.clear();
+            run.reference.clear();
+            run.command = None;
+            run
+        });
+        let told = found(robot.clone(), &runs.collect::<Vec<_>>());
+        told.iter().map(|m| format!("{} {} {}", m.kind, m.nameable, m.sentence())).collect::<Vec<_>>().join("\n")
+    };
+    let slips = said([1.6, 2.2, 3.4]);
+    assert!(slips.starts_with("wheels-slip false") && slips.contains("turn 1.6") && !slips.contains('\n'), "{slips}");
+    assert!(said([2.0, 2.0, 2.0]).starts_with("wheel-diameter"), "{}", said([2.0, 2.0, 2.0]));
+}

@@ -29,8 +29,8 @@ type Turn = (f64, [f64; 3]);
 
 pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
     let ways_alone = logs.iter().any(|log| log.layout().source.positions_only);
-    // Ways that bend the other way than headings by the wheels follow nothing.
-    let said = ["encoder-order", "heading-clockwise", "heading-degrees", "camera-y-down"];
+    // Ways that bend the other way than headings by the wheels follow nothing; nor do turns of wheels that slip.
+    let said = ["encoder-order", "heading-clockwise", "heading-degrees", "camera-y-down", "wheels-slip"];
     let told = |m: &Mistake| said.contains(&m.kind) || m.kind == "robot-file" && !ways_alone;
     if before.iter().any(told) || robot.support != Support::Floor {
         return Vec::new();
