@@ -42,9 +42,13 @@ impl Firmware {
         })
     }
 
-    /// That of `found`, where it is not that of `nominal`; `None` too where no wheels drive the robot over a floor.
+    /// That of `found`, where it is not that of `nominal`; `None` too where no wheels drive the robot over a floor, or where
+    /// the file does not have their radius, as beside a robot's own odometry.
     #[must_use]
     pub fn corrected(nominal: &Robot, found: &Robot) -> Option<Self> {
+        if !found.lacks(&["wheel_radius_m"]).is_empty() {
+            return None;
+        }
         let [before, after] = [nominal, found].map(|robot| Self::of(robot).ok());
         after.filter(|after| before.as_ref() != Some(after))
     }
@@ -112,6 +116,19 @@ mod tests {
             let back: f64 = found.direct[axis].iter().zip(&speeds).map(|(m, w)| m * w).sum();
             assert!((back - v).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn wheels_of_unknown_radius_have_none_to_type_in() {
+        let of = |radius: &str, effect: &str| {
+            let wheel = |x: f64| format!("[[wheel]]\nx_m = {x}\ny_m = 0\ndrive_deg = 90\nroller_deg = 0\n");
+            Robot::parse_partial(&(radius.to_owned() + &wheel(0.28) + &wheel(-0.28) + effect), Path::new("robot.toml"))
+                .unwrap()
+        };
+        let scaled = "[[effect]]\nname = \"wheel-radius-common\"\n[effect.parameters]\nscale = -0.05\n";
+        assert_eq!(Firmware::corrected(&of("", ""), &of("", scaled)), None);
+        let [plain, found] = ["", scaled].map(|effect| of("wheel_radius_m = 0.1651\n", effect));
+        assert!(Firmware::corrected(&plain, &found).is_some());
     }
 
     #[test]
