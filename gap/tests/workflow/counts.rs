@@ -108,6 +108,7 @@ fn a_radius_stays_tied_with_counts_that_are_wrong_twice_and_the_replay_is_told()
         let a = analysed(&set);
         assert_eq!(names(&a), ["wheel-radius-common"], "{}", a.terminal_summary());
         assert!(said(&a, "The controller reckons with the file's counts a turn: 0 of"), "{:?}", a.remarks);
+        assert_eq!(said(&a, "Wheels that slip alike"), size < -0.05, "{:?}", a.remarks);
     }
     // Nobody's number is the encoder's: the same motion, and the same duties.
     let set = driven(&with(&Robot::racbot(), "encoder-scale", &[("scale", 0.1)]), 96);
