@@ -8,6 +8,11 @@ use crate::read::separator;
 /// Rows after the first that are looked at to find out whether each begins with a word of its own.
 const LOOKED_AT: usize = 64;
 
+/// Most rows of a table that has one for each series, and how many times as many samples each must have at least: a log has
+/// hundreds, and few columns.
+const SERIES: usize = 32;
+const LONGER: usize = 10;
+
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
     /// Names of the columns if the first record does not hold them.
@@ -36,6 +41,9 @@ impl<'a> Sheet<'a> {
             return Self { names: None, rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
         if let Some((names, rows)) = super::labelled::table(bytes) {
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
+        if let Some((names, rows)) = lying(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
         if let Some((names, above)) = super::titles::table(bytes) {
@@ -114,6 +122,31 @@ impl<'a> Sheet<'a> {
         let names = if labelled { above.or_else(|| Some(numbered(fields.len()))) } else { names };
         Self { names: names.filter(|_| !first.is_empty()), rows, separator, tagged: tagged && !labelled }
     }
+}
+
+/// A table that has a row for each series, as of `numpy.savetxt("x.csv", [t, x, y])`, set upright; a row may begin with the
+/// name of its series.
+fn lying(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
+    let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
+    let first = lines.next()?;
+    let lines: Vec<&[u8]> = std::iter::once(first).chain(lines.take(SERIES)).collect();
+    let separator = separator(first);
+    let blanks = !first.contains(&separator);
+    let rows: Vec<Vec<String>> = lines.iter().map(|line| super::line::fields(line, blanks, separator)).collect();
+    let width = rows[0].len();
+    let named = rows.iter().all(|row| !is_number(&row[0], separator));
+    let numbers = |row: &Vec<String>| row[usize::from(named)..].iter().all(|field| is_number(field, separator));
+    if !(2..=SERIES).contains(&rows.len()) || width < LONGER * rows.len().max(SERIES / 2) {
+        return None;
+    }
+    if !rows.iter().all(|row| row.len() == width && numbers(row)) {
+        return None;
+    }
+    let name = |(i, row): (usize, &Vec<String>)| if named { row[0].clone() } else { format!("row_{}", i + 1) };
+    let names = rows.iter().enumerate().map(name).collect();
+    let sample = |k: usize| rows.iter().map(|row| row[k].as_str()).collect::<Vec<_>>().join(";");
+    let upright = (usize::from(named)..width).map(|k| sample(k) + "\n").collect::<String>();
+    Some((names, upright.into_bytes()))
 }
 
 /// The lines without their quotes, where each is in quotes as a whole: a table that was written as one column of texts.
@@ -238,6 +271,15 @@ mod tests {
             assert_eq!(sheet(text), (None, rows.into(), ';'), "{text}");
         }
         assert_eq!(sheet("t,a|b\n0,1\n").2, ',');
+        // A row for each series.
+        let row = |name: &str, step: f64| {
+            let samples = (0..200).map(|k| (step * f64::from(k)).to_string()).collect::<Vec<_>>();
+            format!("{name}{}\n", samples.join(","))
+        };
+        let lying = sheet(&(row("", 0.5) + &row("", -2.0)));
+        assert_eq!((lying.0, lying.2), (names(&["row_1", "row_2"]), ';'));
+        assert!(lying.1.starts_with("0;-0\n0.5;-2\n") && lying.1.lines().count() == 200, "{}", lying.1);
+        assert_eq!(sheet(&(row("t,", 0.5) + &row("x,", -2.0))).0, names(&["t", "x"]));
         // Names apart otherwise than the numbers.
         let two = names(&["Time [s]", "forward velocity [m/s]"]);
         for head in [
