@@ -131,6 +131,7 @@ impl Answers {
 /// What is left on a drive, in squared noise, and beside what loops do of it.
 pub struct LeftToAnswer {
     whole: f64,
+    /// What no answer does of it.
     pub beside: f64,
     answered_nm2: f64,
 }
