@@ -223,9 +223,10 @@ pub fn single(
     let all = problem.candidates(start, catalogue);
     let narrow = thresholds.narrow();
     let design = Design::new(problem, start, &all, &narrow);
-    let best = next(problem.link(), &design, &narrow, &[])?;
+    let led_out = design.trials(&narrow).into_iter().filter(|t| !is_sure(t, &narrow)).map(|t| t.candidate);
+    let mut refused: Vec<usize> = led_out.collect();
+    let best = next(problem.link(), &design, &narrow, &refused)?;
     // A little of something else may explain as much; then what is large enough to have a name stands for both.
-    let mut refused = Vec::new();
     let mut material = Some(best.clone());
     while let Some(t) = material.as_ref().filter(|t| !t.material) {
         refused.push(t.candidate);
@@ -389,7 +390,13 @@ fn forward(problem: &Problem, mut design: Design, from: usize, all: &[Active], t
             let mut larger = state.clone();
             replace(&mut larger, active);
             let settled = settle(problem, &mut larger, all, thresholds);
-            if !improves(&settled, &design, from, thresholds) || problem.runs_away(&larger, &state, thresholds) {
+            let gained = improvement(&settled, &design, from, thresholds);
+            // A rough guess that the fit confirms, within its bounds, where nothing has a name yet.
+            let confirmed = state.active.len() == from
+                && gained > LED_OUT * thresholds.strong
+                && !larger.active.last().is_some_and(stopped);
+            let improves = gained > 0.0 && (confirmed || is_sure(&next, thresholds));
+            if !improves || problem.runs_away(&larger, &state, thresholds) {
                 refused.push(next.candidate);
                 continue;
             }
@@ -421,14 +428,14 @@ pub(crate) fn stopped(active: &Active) -> bool {
     })
 }
 
-/// Whether a straight line's promise is kept by the fit.
-fn improves(larger: &Design, smaller: &Design, from: usize, thresholds: &Thresholds) -> bool {
+/// By how much a fit lowers the objective.
+fn improvement(larger: &Design, smaller: &Design, from: usize, thresholds: &Thresholds) -> f64 {
     let variance = larger.variance.min(smaller.variance);
     let objective = |design: &Design| {
         let fit = design.standing();
         design.linear.equations.loss_after(&fit.step) / variance + fit.penalty + cost(&design.state, from, thresholds)
     };
-    objective(larger) < objective(smaller)
+    objective(smaller) - objective(larger)
 }
 
 /// Cost of the effects of a state from `from` on.
@@ -556,9 +563,15 @@ fn next(link: Link, design: &Design, thresholds: &Thresholds, refused: &[usize])
         !t.material && free.iter().any(|p| p.material.is_infinite())
     };
     let tried = design.trials(thresholds).into_iter().filter(|t| !refused.contains(&t.candidate)).take(8);
-    // Where the straight line leads out of bounds its gain is a rough guess.
-    let sure = |t: &Trial| !t.beyond || t.gain > 2.0 * thresholds.strong;
-    tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && sure(t) && gates.pass(t))
+    tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && gates.pass(t))
+}
+
+/// Gain from which it counts where a straight line leads out of bounds, in that of strong evidence: there it is a rough guess.
+const LED_OUT: f64 = 2.0;
+
+/// Whether the gain that a straight line promises needs no fit to be believed.
+fn is_sure(trial: &Trial, thresholds: &Thresholds) -> bool {
+    !trial.beyond || trial.gain > LED_OUT * thresholds.strong
 }
 
 /// Drops effects whose removal costs little, and replaces forms by simpler ones.

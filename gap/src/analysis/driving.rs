@@ -285,17 +285,21 @@ impl<'a> Workflow<'a> {
         let (robot, catalogue, pieces) = (&self.question.robot, self.data.catalogue, self.searched().pieces);
         // Wheels that slide chatter from roller to roller.
         let slides = self.start.active.iter().any(|a| a.effect.name() == "wheel-slip");
-        let rattling = patterns::rattling(pieces, robot, &self.start.drive(None), catalogue, &self.thresholds)
+        let [before, mut after] = [&self.start, &outcome.written].map(|s| study::rms(&Problem::Drive(link), s));
+        // What takes a drive that was far off to next to its noise is no answer to a rotor that shakes.
+        let explained = before >= self.thresholds.far && after < self.thresholds.worth_saying;
+        let model = if explained { &outcome.written } else { &self.start }.drive(None);
+        let rattling = patterns::rattling(pieces, robot, &model, catalogue, &self.thresholds)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
-        if rattling.is_some() && !outcome.named.is_empty() {
+        if rattling.is_some() && !outcome.named.is_empty() && !explained {
             let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
             self.findings.remarks.push(format!(
                 "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
                 names.join(", ")
             ));
             outcome.forget(&self.start);
+            after = before;
         }
-        let [before, after] = [&self.start, &outcome.written].map(|s| study::rms(&Problem::Drive(link), s));
         let misses = Misses::new(self.seen.as_ref(), self.thresholds.missed[0]);
         let rolls = |run: usize, t: f64| !misses.are_near(run, t);
         let model = outcome.selection.state.drive(None);
@@ -315,8 +319,9 @@ impl<'a> Workflow<'a> {
                 Err(structure) => self.findings.leave(Link::Drive, [structure]),
             }
         }
-        if rattling.is_some() && !self.data.has_motion && robot.support == Support::Floor {
-            // Sliding wheels shake, too; a camera would have seen that.
+        let may_slide = robot.support == Support::Floor && (!self.data.has_motion || misses.are_some());
+        if rattling.is_some() && may_slide {
+            // Sliding wheels shake, too; a camera sees that.
             self.findings.alternatives.push(vec!["gear-backlash".to_owned(), "wheel-slip".to_owned()]);
         }
         self.findings.named.extend(rattling);

@@ -15,6 +15,11 @@ impl Misses {
         Self(windows.into_iter().flatten().filter(is_far).filter_map(place).collect())
     }
 
+    /// Whether there are any.
+    pub(super) fn are_some(&self) -> bool {
+        !self.0.is_empty()
+    }
+
     /// Whether one of them is near a time; they follow each other in the order of runs and times.
     pub(super) fn are_near(&self, run: usize, t: f64) -> bool {
         let from = self.0.partition_point(|w| w.0 < run || w.0 == run && w.2 <= t);

@@ -10,8 +10,7 @@ use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use crate::thresholds::Thresholds;
-use links::drive::DriveModel;
-use links::effect::Sizes;
+use links::drive::{AxisModel, DriveModel};
 use links::segment::Segment;
 
 /// Counts by which second differences of a steady wheel may differ from 0, twice.
@@ -46,7 +45,8 @@ pub(crate) fn rattle(
         .map(|i| mechanics.response.row(i).iter().map(|x| x.abs()).sum::<f64>())
         .fold(0.0, f64::max);
     let [beyond, share, often] = thresholds.rattles;
-    let most = beyond * Sizes::of(robot).stall_nm * response;
+    let stall = |a: &AxisModel| model.gear_ratio * a.torque_constant * robot.supply_v / a.resistance;
+    let most = beyond * model.axes.iter().map(stall).fold(0.0, f64::max) * response;
     let n = robot.wheel_count();
     let (mut all, mut ticks) = (vec![Vec::new(); n], 0);
     for s in segments.filter(|s| s.angle.len() == n && s.t.len() > 4 * NEAR) {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{RICH, cut_all, names, of_files, simulate, with, with_dry_friction};
+use super::common::{RICH, cut_all, names, of_files, simulate, value, with, with_dry_friction};
 use super::scale::servo;
 use estimation::statistics::rms;
 use gap::problem::Problem;
@@ -229,5 +229,18 @@ fn a_coarse_encoder_is_not_called_another_drive() {
         (run.duty, run.counts, run.count_gaps) = (vec![duties], vec![counts], vec![Vec::new()]);
         let a = of_files(text, [run]);
         assert!(names(&a).is_empty() && a.verdict != gap::Verdict::Unexplained, "{seed}: {}", a.terminal_summary());
+    }
+}
+
+/// The motor of another winding: a straight line from the file leads far out of bounds, and its loop makes wheels and rotors
+/// chatter.
+#[test]
+fn a_motor_far_stronger_than_the_file_s_has_its_size() {
+    let scale = -0.63;
+    for seed in [31, 32] {
+        let stronger = with(&Robot::racbot(), "winding-resistance", &[("scale", scale)]);
+        let a = analyse(&simulate(&stronger, &RICH, seed), &Options::default()).unwrap();
+        assert!(names(&a).contains(&"winding-resistance"), "{}", a.terminal_summary());
+        assert!((value(&a, "scale") - scale).abs() < 0.03, "{}", a.terminal_summary());
     }
 }

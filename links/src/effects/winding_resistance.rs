@@ -31,7 +31,7 @@ impl Effect for WindingResistance {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         // Material is what weakens a stalled motor as much as a material torque constant.
-        Form::all_or_one(robot, "scale", |name| Parameter::new(name, 0.02, [-0.6, 3.0], 0.05))
+        Form::all_or_one(robot, "scale", |name| Parameter::new(name, 0.02, [-0.9, 3.0], 0.05))
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
