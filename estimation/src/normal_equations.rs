@@ -190,6 +190,14 @@ impl NormalEquations {
         Self { clusters: self.clusters.clone(), folds, totals: OnceLock::new() }
     }
 
+    /// The clusters of one run alone, as they are weighted here.
+    #[must_use]
+    pub fn of_run(&self, run: usize) -> Self {
+        let own = self.clusters.iter().zip(&self.folds).filter(|(c, _)| c.run == run);
+        let (clusters, folds) = own.map(|(c, fold)| (c.clone(), *fold)).unzip();
+        Self { clusters, folds, totals: OnceLock::new() }
+    }
+
     /// Sums over all clusters, worked out once.
     pub fn totals(&self) -> Arc<Totals> {
         let sum = || {

@@ -212,20 +212,14 @@ fn in_run(problem: &Problem, state: &State, sizes: &Sizes, run: usize) -> Option
     let mut least: Option<(f64, f64)> = None;
     for _ in 0..=STEPS {
         let linear = problem.linearise(&state, &[]);
-        let columns = linear.of_active(index);
-        let (mut jj, mut jr) = (DMatrix::zeros(columns.len(), columns.len()), DVector::zeros(columns.len()));
-        let mut left = 0.0;
-        for c in linear.equations.clusters.iter().filter(|c| c.run == run) {
-            jj += DMatrix::from_fn(columns.len(), columns.len(), |p, q| c.jj[(columns[p], columns[q])]);
-            jr += DVector::from_fn(columns.len(), |p, _| c.jr[columns[p]]);
-            left += c.rr;
-        }
+        let equations = linear.equations.of_run(run);
+        let left: f64 = equations.clusters.iter().map(|c| c.rr).sum();
         if least.is_some_and(|(least, _)| left >= least) {
             break;
         }
         let active = &mut state.active[index];
         least = Some((left, active.values.get(&sizes.parameter.name)));
-        for (p, x) in active.form.free.iter().zip(solve(&jj, &jr).iter()) {
+        for (p, x) in active.form.free.iter().zip(equations.solve(&linear.of_active(index)).iter()) {
             let next = (active.values.get(&p.name) + x).clamp(p.bounds[0], p.bounds[1]);
             active.values.set(&p.name, next);
         }

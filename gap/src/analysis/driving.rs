@@ -287,11 +287,11 @@ impl<'a> Workflow<'a> {
         let slides = self.start.active.iter().any(|a| a.effect.name() == "wheel-slip");
         let [before, mut after] = [&self.start, &outcome.written].map(|s| study::rms(&Problem::Drive(link), s));
         // What takes a drive that was far off to next to its noise is no answer to a rotor that shakes.
-        let explained = before >= self.thresholds.far && after < self.thresholds.worth_saying;
-        let model = if explained { &outcome.written } else { &self.start }.drive(None);
-        let rattling = patterns::rattling(pieces, robot, &model, catalogue, &self.thresholds)
+        let is_explained = before >= self.thresholds.far && after < self.thresholds.worth_saying;
+        let shaken = if is_explained { &outcome.written } else { &self.start }.drive(None);
+        let rattling = patterns::rattling(pieces, robot, &shaken, catalogue, &self.thresholds)
             .filter(|r| !slides && robot.effect(&r.name).is_none());
-        if rattling.is_some() && !outcome.named.is_empty() && !explained {
+        if rattling.is_some() && !outcome.named.is_empty() && !is_explained {
             let names: Vec<&str> = outcome.named.iter().map(|n| n.name.as_str()).collect();
             self.findings.remarks.push(format!(
                 "While rotors rattle in their play, friction and inertia are not judged; fitted, and not named: {}.",
