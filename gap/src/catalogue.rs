@@ -82,9 +82,11 @@ pub fn descriptions() -> Vec<Description> {
 fn describe(effect: &dyn Effect, robot: &Robot) -> Description {
     let mut parameters: Vec<Range> = Vec::new();
     // Wheels have the same bounds; one of each name stands for all.
-    let plain = |name: &str| name.chars().map(|c| if c.is_ascii_digit() { 'i' } else { c }).collect::<String>();
+    let is_number = |part: &str| part.parse::<usize>().is_ok();
+    let plain =
+        |name: &str| name.split('_').map(|part| if is_number(part) { "i" } else { part }).collect::<Vec<_>>().join("_");
     for p in effect.forms(robot).iter().flat_map(|form| &form.free) {
-        let numbered = p.name.split('_').any(|part| part.parse::<usize>().is_ok());
+        let numbered = p.name.split('_').any(is_number);
         let name = if numbered { plain(&p.name) } else { p.name.clone() };
         if parameters.iter().all(|known| known.name != name) {
             let material = Some(p.below.unwrap_or(p.material)).filter(|m| m.is_finite() && *m > 0.0);

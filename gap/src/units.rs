@@ -17,6 +17,7 @@ fn unit(name: &str) -> (f64, &'static str) {
         _ if name.ends_with("_rad_per_m") => (1e3, " mrad/m"),
         _ if name.ends_with("_rad_s") => (1.0, " rad/s"),
         _ if name.ends_with("_rad") => (180.0 / std::f64::consts::PI, "°"),
+        _ if name.ends_with("_nms2") => (1e6, " µNm s²"),
         _ if name.ends_with("_nms") => (1e6, " µNm s"),
         _ if name.ends_with("_nm") => (1e3, " mNm"),
         _ if name.ends_with("_per_kg") => (1e3, " mm/s/N"),
@@ -33,12 +34,13 @@ fn unit(name: &str) -> (f64, &'static str) {
 
 /// The SI unit that a parameter's name ends in; empty for a ratio.
 pub(crate) fn si(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 17] = [
+    const UNITS: [(&str, &str); 18] = [
         ("_nm_per_rad", "N m/rad"),
         ("_rad_per_m", "rad/m"),
         ("_rad_s", "rad/s"),
         ("_rad_m", "rad m"),
         ("_rad", "rad"),
+        ("_nms2", "N m s²"),
         ("_nms", "N m s"),
         ("_nm", "N m"),
         ("_s_per_kg", "s/kg"),
@@ -57,8 +59,21 @@ pub(crate) fn si(name: &str) -> &'static str {
 
 /// The name without its unit, such as `skew 1`.
 pub(crate) fn label(name: &str) -> String {
-    let units =
-        ["_nm_per_rad", "_rad_s", "_rad", "_nms", "_nm", "_s_per_kg", "_n", "_ohm", "_v", "_per_m2", "_m", "_s"];
+    let units = [
+        "_nm_per_rad",
+        "_rad_s",
+        "_rad",
+        "_nms2",
+        "_nms",
+        "_nm",
+        "_s_per_kg",
+        "_n",
+        "_ohm",
+        "_v",
+        "_per_m2",
+        "_m",
+        "_s",
+    ];
     let stem = units.iter().find_map(|u| name.strip_suffix(u)).unwrap_or(name);
     stem.replace('_', " ")
 }

@@ -41,6 +41,8 @@ struct Bench {
     pushed_nm: f64,
     /// Torque of a weight beside the shaft, Nm.
     weight_nm: f64,
+    /// Torque of a fan at 1 rad/s, Nm s²/rad².
+    fan_nms2: f64,
     /// Speeds of differences, through a filter that takes this share of the new one, in place of counts.
     filtered: Option<f64>,
 }
@@ -55,6 +57,7 @@ const PLAIN: Bench = Bench {
     late: false,
     pushed_nm: 0.0,
     weight_nm: 0.0,
+    fan_nms2: 0.0,
     filtered: None,
 };
 
@@ -75,8 +78,8 @@ impl Bench {
             if row % 110 == 0 {
                 asked = if row < 2200 { rng.random_range(-0.6..0.6) * VOLT / KT } else { 0.0 };
             }
-            set += (asked - set).clamp(-8.0, 8.0);
             let count = (angle * self.counts / std::f64::consts::TAU).floor() as i64;
+            set += (asked - set).clamp(-8.0, 8.0);
             let measured = (count - last) as f64 / ROW_S * std::f64::consts::TAU / COUNTS;
             last = count;
             seen += self.filtered.unwrap_or(1.0) * (measured - seen);
@@ -100,7 +103,7 @@ impl Bench {
             let at = f64::from(row) * ROW_S;
             let pushed = 0.5 * self.pushed_nm * waves.iter().map(|[rate, from]| (rate * at + from).sin()).sum::<f64>();
             for _ in 0..STEPS {
-                let load = self.weight_nm * angle.sin();
+                let load = self.weight_nm * angle.sin() - self.fan_nms2 * speed * speed.abs();
                 let torque = KT * (VOLT * duty - KT * speed) / self.ohm + pushed + load;
                 speed = with_dry_friction(speed, torque, self.dry_nm, INERTIA, ROW_S / f64::from(STEPS));
                 angle += speed * ROW_S / f64::from(STEPS);
@@ -258,4 +261,16 @@ fn pushes_beyond_noise_are_no_agreement() {
     let a = Bench { pushed_nm: 0.15 * KT * VOLT / OHM, ..PLAIN }.told(15);
     assert_eq!((a.verdict, names(&a)), (Verdict::Unexplained, Vec::new()), "{}", a.terminal_summary());
     assert!(a.unexplained.iter().any(|u| u.structure.contains("which the speed loops answer")), "{:?}", a.unexplained);
+}
+
+/// Viscous friction and a bridge that coasts bend speeds as a fan does, but not as well.
+#[test]
+fn a_fan_is_no_friction_beside_a_bridge() {
+    let fastest = VOLT / KT;
+    let stall = KT * VOLT / OHM;
+    let fan_nms2 = 0.3 * stall / (fastest * fastest);
+    let a = Bench { fan_nms2, ..PLAIN }.told(16);
+    assert_eq!(names(&a), ["quadratic-drag"], "{}", a.terminal_summary());
+    let found = value(&a, "coefficient_1_nms2");
+    assert!((found / fan_nms2 - 1.0).abs() < 0.1, "{found} instead of {fan_nms2}");
 }

@@ -54,6 +54,7 @@ const CASES: &[Case] = &[
     case("lens-distortion", &[("k1_per_m2", 0.04)], ("k1_per_m2", 0.2), &RICH, &[]),
     case("coulomb-friction", &[("torque_nm", 0.012)], ("torque_nm", 0.2), &RICH, &[]),
     case("viscous-friction", &[("coefficient_2_nms", 4e-4)], ("coefficient_2_nms", 0.25), &RICH, &[]),
+    case("quadratic-drag", &[("coefficient_2_nms2", 4e-5)], ("coefficient_2_nms2", 0.25), &LIFTED, &[]),
     case("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)], ("torque_nm", 0.4), &SLOW, &[]),
     case("asymmetric-friction", &[("torque_2_nm", 0.015), ("sense", 1.0)], ("torque_2_nm", 0.25), &RICH, &[]),
     case("gravity-load", &[("sin_2_nm", 0.02), ("cos_2_nm", 0.01)], ("sin_2_nm", 0.2), &LIFTED, &[]),

@@ -41,6 +41,7 @@ mod motor_heating;
 mod odometry_curl;
 mod odometry_drift;
 mod probes;
+mod quadratic_drag;
 mod robot_mass;
 mod roller_friction;
 mod roller_ripple;
@@ -104,6 +105,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(imu_mount::ImuMount),
         Box::new(coulomb_friction::CoulombFriction),
         Box::new(viscous_friction::ViscousFriction),
+        Box::new(quadratic_drag::QuadraticDrag),
         Box::new(stribeck_friction::StribeckFriction),
         Box::new(asymmetric_friction::AsymmetricFriction),
         Box::new(gravity_load::GravityLoad),
@@ -175,7 +177,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 41] = [
+    const NAMES: [(&str, &[&str]); 42] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -208,6 +210,7 @@ mod tests {
         ("encoder-eccentricity", &["sin_#_rad", "cos_#_rad"]),
         ("joint-spring", &["stiffness_#_nm_per_rad", "preload_#_nm"]),
         ("viscous-friction", &["coefficient_nms", "coefficient_#_nms"]),
+        ("quadratic-drag", &["coefficient_#_nms2"]),
         ("roller-friction", &["force_n"]),
         ("dead-band", &["duty", "duty_#"]),
         ("gear-backlash", &["play_rad", "play_#_rad"]),
@@ -226,7 +229,8 @@ mod tests {
             let effect = find(name).unwrap_or_else(|| panic!("{name} is not in the catalogue"));
             for form in effect.forms(&robot) {
                 for p in &form.free {
-                    let plain: String = p.name.chars().map(|c| if c.is_ascii_digit() { '#' } else { c }).collect();
+                    let part = |part| if str::parse::<usize>(part).is_ok() { "#" } else { part };
+                    let plain = p.name.split('_').map(part).collect::<Vec<_>>().join("_");
                     assert!(allowed.contains(&plain.as_str()), "{name}: {}", p.name);
                 }
             }

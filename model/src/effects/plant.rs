@@ -110,6 +110,7 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
         "encoder-scale" => (each("scale", ""), |w, x| w.encoder = x),
         "coulomb-friction" => (each("torque", "nm"), |w, x| w.dry_nm = x),
         "viscous-friction" => (each("coefficient", "nms"), |w, x| w.viscous_nms = x),
+        "quadratic-drag" => (each("coefficient", "nms2"), |w, x| w.quadratic_nms2 = x),
         "gravity-load" => {
             let wheels = applied.deviations.wheels_mut(n);
             wheels.iter_mut().zip(each("sin", "nm")).for_each(|(w, x)| w.gravity_nm[0] = x);

@@ -66,6 +66,8 @@ pub struct WheelDeviation {
     pub one_way_nm: [f64; 2],
     /// Viscous friction at the wheel shaft, Nm s/rad.
     pub viscous_nms: f64,
+    /// Drag by the square of the speed at the wheel shaft, Nm s²/rad².
+    pub quadratic_nms2: f64,
     /// Torque at the wheel shaft with sine and cosine of the wheel's angle, Nm.
     pub gravity_nm: [f64; 2],
     /// What its encoder reads ahead with sine and cosine of `order` times the wheel's angle, rad, and that order.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{GRAVITY, Plant};
+use super::{GRAVITY, Plant, WheelDeviation};
 use runs::robot::Support;
 
 /// Speed over which the drag of rollers and carpet turns round, m/s.
@@ -14,7 +14,8 @@ impl Plant {
         let Some(d) = self.deviations.as_deref() else { return };
         let heading = self.walk.pose().theta;
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
-            wheel.load = d.at_angle(i, wheel.angle) - d.wheel(i).viscous_nms * wheel.speed;
+            let WheelDeviation { viscous_nms, quadratic_nms2, .. } = d.wheel(i);
+            wheel.load = d.at_angle(i, wheel.angle) - (viscous_nms + quadratic_nms2 * wheel.speed.abs()) * wheel.speed;
             wheel.dry = d.friction(i, wheel.speed, wheel.drive, heading);
         }
         if self.support == Support::Blocks {

@@ -40,6 +40,7 @@ fn machine(rng: &mut ChaCha8Rng) -> Axis {
         dry: [dry; 2],
         stribeck: [0.0, 1.0],
         viscous: 0.0,
+        quadratic: 0.0,
         gravity: [0.0; 2],
         hanging: 0.0,
         cogging: [0.0; 2],

@@ -38,7 +38,7 @@ fn signed(value: f64, rng: &mut ChaCha8Rng) -> f64 {
     if rng.random_bool(0.5) { value } else { -value }
 }
 
-const CATALOGUE: [Entry; 16] = [
+const CATALOGUE: [Entry; 17] = [
     entry("coulomb-friction", [0.03, 0.05, 0.08, 0.12, 0.2], |axis, _, value, _| {
         let torque = value * axis.stall();
         axis.dry.iter_mut().for_each(|dry| *dry += torque);
@@ -141,6 +141,13 @@ const CATALOGUE: [Entry; 16] = [
         axis.limit_a = value * axis.supply_v / axis.resistance_ohm;
         vec![("limit_a", axis.limit_a)]
     }),
+    Entry {
+        floor: false,
+        ..entry("quadratic-drag", [0.05, 0.08, 0.15, 0.25, 0.5], |axis, _, value, _| {
+            axis.quadratic = value * axis.stall() / axis.no_load().powi(2);
+            vec![("coefficient_1_nms2", axis.quadratic)]
+        })
+    },
 ];
 
 /// Effects that one machine is likely to have at once.

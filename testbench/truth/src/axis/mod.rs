@@ -40,6 +40,8 @@ pub(crate) struct Axis {
     pub(crate) stribeck: [f64; 2],
     /// Nm s.
     pub(crate) viscous: f64,
+    /// Nm s²/rad².
+    pub(crate) quadratic: f64,
     /// Torque at angle θ: `g[0] sin θ + g[1] cos θ`, Nm.
     pub(crate) gravity: [f64; 2],
     /// Torque of a weight on a rope or a spindle, the same at every angle, Nm.

@@ -45,7 +45,8 @@ impl Axis {
         let (current, supply) = self.current(share, speed);
         let gravity = self.gravity[0] * angle.sin() + self.gravity[1] * angle.cos();
         let cogging = self.cogging[0] * (self.cogging[1] * self.gear * angle).sin();
-        let pull = self.gear * self.constant * current + gravity + self.hanging + cogging - self.viscous * speed;
+        let pull = self.gear * self.constant * current + gravity + self.hanging + cogging
+            - (self.viscous + self.quadratic * speed.abs()) * speed;
         let sense = if speed == 0.0 { pull } else { speed };
         let rest = self.stribeck[0] * (-(speed / self.stribeck[1]).powi(2)).exp();
         let dry = self.dry[usize::from(sense < 0.0)] + rest;
