@@ -2,6 +2,7 @@
 
 mod answer;
 mod answered;
+mod braked;
 mod clocks;
 mod counts;
 mod cut;

@@ -338,6 +338,12 @@ thresholds! {
     /// 0.84 before, 0.004 after.
     answered: f64 = 0.5,
 
+    // Laws that only braking tells apart.
+    /// Share of the rows of turning wheels whose duties work against the motion up to which a dead band is a dry friction as
+    /// well: more such rows tell them apart, by twice the band each. Position loops against much friction, simulated: 0 of
+    /// 49 719; with what the log leaves unknown of small speeds, less than one in a hundred is none. Reasoned.
+    braked: f64 = 0.01,
+
     // Logs that say nothing of a drive.
     /// Share of the torque that the motors reach in the logs beyond which scatter is no noise of a drive.
     no_noise: f64 = 0.15,

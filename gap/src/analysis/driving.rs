@@ -69,6 +69,9 @@ impl<'a> Workflow<'a> {
         {
             (link, outcome) = again;
         }
+        if let Some(again) = self.unbraked(&outcome, &read_right) {
+            (link, outcome) = again;
+        }
         // What comes once a turn is a load, or is read so: where neither load has a name, not by a load.
         let once_a_turn = |name: &str| ONCE_A_TURN.contains(&name);
         let may_be_read = fits(READ_AMISS, &self.question.robot)
@@ -121,7 +124,7 @@ impl<'a> Workflow<'a> {
     }
 
     /// The drive laid anew, and what is found on it of a catalogue.
-    fn drive_again(&mut self, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
+    pub(super) fn drive_again(&mut self, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
         let mut link = self.drive_link()?;
         let outcome = self.drive_studied(&mut link, here);
         Some((link, outcome))

@@ -32,6 +32,8 @@ struct Bench {
     most: f64,
     /// Gains of the loop; none for duties that are set.
     gains: Option<[f64; 2]>,
+    /// Gain of a position loop that makes the set points, 1/s.
+    position: Option<f64>,
     /// Inertia of the file, in that of the motor, and dry friction, Nm.
     told: f64,
     dry_nm: f64,
@@ -52,6 +54,7 @@ const PLAIN: Bench = Bench {
     counts: COUNTS,
     most: 1.0,
     gains: Some([KP, KI]),
+    position: None,
     told: 1.0,
     dry_nm: DRY_NM,
     late: false,
@@ -79,7 +82,14 @@ impl Bench {
                 asked = if row < 2200 { rng.random_range(-0.6..0.6) * VOLT / KT } else { 0.0 };
             }
             let count = (angle * self.counts / std::f64::consts::TAU).floor() as i64;
-            set += (asked - set).clamp(-8.0, 8.0);
+            set = match self.position {
+                // Speeds that are asked for in turn stand for angles: a fifth of a second of each.
+                Some(gain) => {
+                    let to = 0.2 * asked;
+                    (1e4 * gain * (to - count as f64 * std::f64::consts::TAU / COUNTS)).round() / 1e4
+                }
+                None => set + (asked - set).clamp(-8.0, 8.0),
+            };
             let measured = (count - last) as f64 / ROW_S * std::f64::consts::TAU / COUNTS;
             last = count;
             seen += self.filtered.unwrap_or(1.0) * (measured - seen);
@@ -273,4 +283,20 @@ fn a_fan_is_no_friction_beside_a_bridge() {
     assert_eq!(names(&a), ["quadratic-drag"], "{}", a.terminal_summary());
     let found = value(&a, "coefficient_1_nms2");
     assert!((found / fan_nms2 - 1.0).abs() < 0.1, "{found} instead of {fan_nms2}");
+}
+
+/// A loop that lets friction stop its axis never brakes: through it, a bridge that swallows small duties does the same.
+#[test]
+fn duties_that_never_brake_show_friction_or_a_dead_band() {
+    let stall = KT * VOLT / OHM;
+    let more = 0.08 * stall;
+    for (seed, gain, pushed) in [(17, 12.0, 0.01), (18, 6.0, 0.015), (20, 12.0, 0.02)] {
+        let bench = Bench { position: Some(gain), dry_nm: DRY_NM + more, pushed_nm: pushed * stall, ..PLAIN };
+        let a = bench.told(seed);
+        let text = a.terminal_summary();
+        assert_eq!((a.verdict, names(&a)), (Verdict::Ambiguous, vec!["coulomb-friction"]), "{text}");
+        assert!(a.alternatives.iter().any(|set| set == &["coulomb-friction", "dead-band"]), "{text}");
+        let ends = a.effects[0].parameters[0].2.ends().unwrap();
+        assert!(ends[0] <= more && more <= ends[1], "{more}: {text}");
+    }
 }
