@@ -37,6 +37,12 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, usize)> {
     let named = (0..first).rev().find(|i| is_names(&lines[*i]))?;
     let mut names = lines[named].clone();
     names.resize(width, String::new());
+    // An oscilloscope of a drive writes the unit of its time among the signals, below generic names.
+    if let Some(above) = named.checked_sub(1).map(|i| &lines[i]).filter(|above| above.len() == width) {
+        for (name, generic) in names.iter_mut().zip(above).filter(|(name, _)| !name.is_empty() && is_unit(name)) {
+            *name = with_units(vec![generic.clone()], std::slice::from_ref(name)).remove(0);
+        }
+    }
     for units in &lines[named + 1..first] {
         names = with_units(names, units);
     }
@@ -79,5 +85,13 @@ mod tests {
         let table = read(text, None);
         assert_eq!(table.find("Rigid Body/car/Position/X").unwrap().values, [1.0, 1.5]);
         assert_eq!(table.find("Rigid Body/car/Rotation/Z").unwrap().t, [0.0, 0.01]);
+    }
+    #[test]
+    fn a_unit_among_the_names_belongs_to_the_generic_name_above_it() {
+        let text = "Axis1\nNumber of sampling data,3\nSampling time interval(ms),0.5\nTime,Analog 1,Analog 2,Digital 1\n\
+                    ms,Servo motor speed,Torque,INP\n0.0,0,-1.0,2.5\n0.5,-14,-7.6,2.5\n1.0,-30,-9.1,0\n";
+        let table = read(text, None);
+        assert_eq!(table.find("Servo motor speed").unwrap().t, [0.0, 5e-4, 1e-3]);
+        assert_eq!(table.find("Torque").unwrap().values, [-1.0, -7.6, -9.1]);
     }
 }
