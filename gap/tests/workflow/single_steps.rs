@@ -103,3 +103,36 @@ fn runs_that_have_a_level_each_are_of_one_machine() {
         assert!(!said(&a), "{}", a.terminal_summary());
     }
 }
+
+/// Steps one way of a motor whose bridge gives a twentieth of its supply more than its duty.
+fn helped(index: usize) -> Run {
+    let mut rng = ChaCha8Rng::seed_from_u64(900 + index as u64);
+    let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
+    let duty = 0.25 + 0.1 * index as f64;
+    let (mut duties, mut speeds, mut speed) = (Vec::new(), Vec::new(), 0.0_f64);
+    for row in 0..120 {
+        run.t.push(0.01 * f64::from(row));
+        duties.push(duty);
+        speeds.push(speed + rng.random_range(-0.3..0.3));
+        for _ in 0..20 {
+            let torque = GEAR * KT * ((duty + 0.05) * VOLT - KT * GEAR * speed) / OHM;
+            speed = with_dry_friction(speed, torque, 0.01, 40.0 * GEAR * GEAR * INERTIA, 0.01 / 20.0);
+        }
+    }
+    run.duty = vec![duties];
+    run.speed = vec![speeds];
+    run
+}
+
+/// It was a dry friction of -140 mNm beside a file without any.
+#[test]
+fn what_helps_is_no_friction_below_none() {
+    let text = format!(
+        "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+         wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
+         friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+        40.0 * INERTIA
+    );
+    let a = of_files(&text, (0..8).map(helped));
+    assert_eq!(names(&a), ["hanging-load"], "{}", a.terminal_summary());
+}

@@ -31,9 +31,10 @@ impl Effect for CoulombFriction {
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
         let drive = sizes.drive_nm;
-        // Less than the file's at most by all of it; and no motor turns a wheel against more than its stall torque.
+        // Less than the file's at most by all of it, and by less than matters for what noise does; and no motor turns a wheel
+        // against more than its stall torque. A twentieth of the supply that a bridge gave more was a friction below none.
         let nominal = robot.gear_ratio * robot.motor.friction_torque;
-        let bounds = [-nominal.max(0.1 * drive), drive.max(sizes.stall_nm)];
+        let bounds = [-nominal - 0.02 * drive, drive.max(sizes.stall_nm)];
         let p = |i| Parameter::new(wheel_name("torque", i, "nm"), 0.01 * drive, bounds, 0.04 * drive);
         let mut forms = vec![Form::whole(vec![Parameter::new("torque_nm", 0.01 * drive, bounds, 0.03 * drive)])];
         forms.extend(Form::alone(robot, p));
