@@ -109,7 +109,13 @@ impl<'a> Workflow<'a> {
             self.findings.remarks.push(said);
         }
         self.findings.remarks.extend(ratios::of_one_encoder(&outcome.named, &self.start.robot));
-        if let Some((said, tie)) = ratios::of_counts(&outcome.named, &self.start.robot, self.data.has_camera()) {
+        let robot = &self.start.robot;
+        let [turns, _] = self.thresholds.level;
+        let of_counts = ratios::of_counts(&outcome.named, robot, self.data.has_camera());
+        // Behind currents no bridge does anything.
+        let of_one_way = ratios::of_one_way(&outcome.named, self.data.pieces, turns);
+        let of_one_way = of_one_way.filter(|_| !self.question.currents);
+        for (said, tie) in of_counts.into_iter().chain(of_one_way) {
             self.findings.remarks.push(said);
             outcome.sets.push(tie);
             outcome.ambiguous = true;

@@ -10,12 +10,15 @@ use crate::controller::ENCODER_SCALE;
 use crate::state::{Active, State};
 use links::effect::{Link, Sizes};
 use links::effects;
+use links::pieces::Pieces;
 
 /// The one that all others are told relative to.
 pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
 const ROTOR_INERTIA: &str = "rotor-inertia";
 /// Frictions that the factor may change without a name, as long as what a file has of them is small.
 const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
+const HANGING_LOAD: &str = "hanging-load";
+const DEAD_BAND: &str = "dead-band";
 
 fn inertias(support: Support) -> &'static [&'static str] {
     match support {
@@ -119,6 +122,21 @@ pub(super) fn of_counts(named: &[Named], robot: &Robot, seen: bool) -> Option<(S
         1.0 / part - 1.0,
     );
     Some((said, [FRICTIONS[1], ENCODER_SCALE].map(str::to_owned).to_vec()))
+}
+
+/// A weight that helps an axis on, where no log turns it the other way: what does the same there, in a sentence, and the two
+/// names. From `turns` of the fastest speed on it turns.
+pub(super) fn of_one_way(named: &[Named], pieces: &Pieces, turns: f64) -> Option<(String, Vec<String>)> {
+    let weight = named.iter().find(|n| n.name == HANGING_LOAD)?;
+    let [wheel] = weight.wheels[..] else { return None };
+    let helps = weight.parameters.first()?.1.signum();
+    let speeds = pieces.iter().flat_map(|s| s.speed[wheel - 1].to_vec());
+    let [against, with] = speeds.fold([0.0_f64; 2], |[low, high], w| [low.min(helps * w), high.max(helps * w)]);
+    let said = format!(
+        "{HANGING_LOAD} helps the axis on, which no log turns the other way: a bridge that gives more than its duties say, as a \
+         {DEAD_BAND} below 0, does the same there. Drive it both ways."
+    );
+    (-against <= turns * with).then(|| (said, [HANGING_LOAD, DEAD_BAND].map(str::to_owned).to_vec()))
 }
 
 /// Ties a rotor that is named with the torque constant that does the same, or the other way round, where the factor

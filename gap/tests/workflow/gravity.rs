@@ -206,6 +206,7 @@ fn a_weight_on_a_rope_is_named_with_its_size_and_then_agrees() {
                     Some(format!("{low} to {high}"))
                 }
                 _ if again.verdict != Verdict::Agrees => Some(format!("then {}", again.terminal_summary())),
+                _ if a.remarks.iter().any(|r| r.contains("Drive it both ways")) => Some("one way".to_owned()),
                 _ => None,
             };
             wrong.map(|wrong| format!("{torque} {dry} {about:?}: {wrong}\n{}", a.terminal_summary()))
