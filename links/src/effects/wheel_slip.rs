@@ -3,7 +3,7 @@
 use model::plant::GRAVITY;
 use nalgebra::DMatrix;
 use runs::frames::Twist;
-use runs::geometry::Geometry;
+use runs::geometry::{Geometry, Wheel};
 use runs::robot::Robot;
 
 use crate::effect::{Effect, Form, Link, Parameter, Values};
@@ -40,15 +40,21 @@ impl Effect for WheelSlip {
         Link::Motion
     }
 
-    fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        let at = |mu| Parameter::new("friction_coefficient", 0.05, [0.02, 1.5], 0.0).from(mu).material_below(0.45);
+    fn forms(&self, robot: &Robot) -> Vec<Form> {
+        // What matters is the torque at which a wheel slips.
+        let passes = robot.layout.wheels().iter().map(|w| w.roller_rad.cos()).fold(1.0, f64::min);
+        let below = 0.45 / passes;
+        let at = |mu| Parameter::new("friction_coefficient", 0.05, [0.02, 1.5], 0.0).from(mu).material_below(below);
         [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 0.9].into_iter().map(|mu| Form::whole(vec![at(mu)])).collect()
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         let Some(mu) = values.find("friction_coefficient") else { return };
         let n = model.wheels.len();
-        let share = mu * model.mass_kg / n as f64 * model.wheel_radius_m;
+        // A roller passes on what pushes along its own axis alone: its wheel's torque has that force's part across the axle.
+        let lever = |w: &Wheel| model.wheel_radius_m * w.roller_rad.cos();
+        let share: Vec<f64> = model.wheels.iter().map(|w| mu * model.mass_kg / n as f64 * lever(w)).collect();
+        let grip_at_rest: Vec<f64> = share.iter().map(|share| share * GRAVITY).collect();
         let rim2 = model.wheels.iter().map(|w| w.x_m.powi(2) + w.y_m.powi(2)).sum::<f64>() / n as f64;
         // Weight leans on the wheels behind an acceleration: grip per acceleration to the right and forward.
         let lean: Vec<[f64; 2]> =
@@ -58,6 +64,7 @@ impl Effect for WheelSlip {
         else {
             return;
         };
+        let least = grip_at_rest.iter().copied().fold(f64::INFINITY, f64::min);
         let rows = |m: &DMatrix<f64>| -> Vec<Vec<f64>> { m.row_iter().map(|r| r.iter().copied().collect()).collect() };
         let (inertia, response) = (rows(&inertia), rows(&response));
         let leaning = Leaning { geometry: geometry.clone(), share, lean };
@@ -66,7 +73,7 @@ impl Effect for WheelSlip {
             let mut free = vec![0.0; n];
             let mut lost = vec![0.0; n];
             let mut impulse = vec![0.0; n];
-            let mut grip = vec![share * GRAVITY; n];
+            let mut grip = grip_at_rest.clone();
             let mut pushed = [0.0; 2];
             for k in 1..segment.t.len() {
                 let dt = segment.t[k] - segment.t[k - 1];
@@ -101,7 +108,7 @@ impl Effect for WheelSlip {
                         change = change.max((next - impulse[i]).abs());
                         impulse[i] = next;
                     }
-                    if change < 1e-3 * share * GRAVITY * dt {
+                    if change < 1e-3 * least * dt {
                         break;
                     }
                 }
@@ -156,8 +163,8 @@ impl Platform {
 /// How accelerations shift the weight from wheel to wheel.
 struct Leaning {
     geometry: Geometry,
-    /// Torque that friction holds per acceleration of the weight, one wheel's share, kg m.
-    share: f64,
+    /// Torque that friction holds per acceleration of the weight, each wheel's share, kg m.
+    share: Vec<f64>,
     /// Grip per acceleration to the right and forward, one a wheel.
     lean: Vec<[f64; 2]>,
 }
@@ -171,8 +178,8 @@ impl Leaning {
         let part = (dt / LOAD_S).min(1.0);
         pushed[0] += part * (moved.vx / dt - pushed[0]);
         pushed[1] += part * (moved.vy / dt - pushed[1]);
-        for (g, l) in grip.iter_mut().zip(&self.lean) {
-            *g = self.share * (GRAVITY - l[0] * pushed[0] - l[1] * pushed[1]).max(0.0);
+        for ((g, l), share) in grip.iter_mut().zip(&self.lean).zip(&self.share) {
+            *g = share * (GRAVITY - l[0] * pushed[0] - l[1] * pushed[1]).max(0.0);
         }
     }
 }
