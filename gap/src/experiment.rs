@@ -272,7 +272,7 @@ fn on_link<T>(
         }
         Link::Drive => {
             let mut drive = DriveLink::new(pieces, &state.drive(None))?;
-            drive.mask_slip(&state.motion(None));
+            state.mask_slip(&mut drive);
             drive.noise = findings.noise.1.to_vec();
             Some(ask(&Problem::Drive(&drive)))
         }

@@ -4,9 +4,13 @@ use std::sync::Arc;
 
 use runs::robot::Robot;
 
-use links::drive::DriveModel;
+use links::drive::{DriveLink, DriveModel};
 use links::effect::{Effect, Form, Link, Values};
 use links::motion::MotionModel;
+use links::thresholds;
+
+/// Wheels that slip by a law.
+const SLIP: &str = "wheel-slip";
 
 /// An effect with values.
 #[derive(Clone)]
@@ -84,6 +88,17 @@ impl State {
             model.angles_are_of(a.effect.name(), &a.values);
         }
         model
+    }
+
+    /// Leaves of a drive what its wheels did while they rolled.
+    pub fn mask_slip(&self, drive: &mut DriveLink) {
+        drive.mask_slip(&self.motion(None), thresholds::ROLLING);
+        let law = |a: &&Active| a.effect.name() == SLIP;
+        let active: Vec<Active> = self.active.iter().filter(law).cloned().collect();
+        if !active.is_empty() {
+            let slip = Self { active, ..self.clone() };
+            drive.mask_slip(&slip.motion(None), thresholds::HELD);
+        }
     }
 
     /// The drive link of this state.

@@ -114,7 +114,7 @@ impl<'a> Data<'a> {
     pub(super) fn drive(&self, state: &State, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'a>> {
         let mut link = DriveLink::new(self.pieces, &state.drive(None))?;
         let motion = state.motion(None);
-        link.mask_slip(&motion);
+        state.mask_slip(&mut link);
         if state.active.iter().any(|a| a.effect.name() == "wheel-slip") {
             // Where the law of slip did not catch what slipped, Newton's law has no body to push.
             let misses = Misses::new(seen, self.thresholds.missed[1]);

@@ -178,9 +178,9 @@ impl<'a> DriveLink<'a> {
         self.answers.as_ref().map(|answers| answers.beside(self, left))
     }
 
-    /// Leaves out test functions in which a wheel slips by what the motion link found: Newton's law in wheel
-    /// coordinates needs wheels that roll.
-    pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel) {
+    /// Leaves out test functions in which a wheel slips by what the motion link found, at more than so many times the speed
+    /// with which it turns when it turns: Newton's law in wheel coordinates needs wheels that roll.
+    pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel, rolling: f64) {
         if motion.angles.is_empty() {
             return;
         }
@@ -193,7 +193,7 @@ impl<'a> DriveLink<'a> {
                     // What a filter holds back did not slip.
                     let off = |k: usize| changed[i][k] - s.angle[i][k] - motion.reading_filter_s * s.speed[i][k];
                     (off(end) - off(test_function.first)).abs()
-                        > thresholds::ROLLING * s.turning * 0.5 * (s.t[end] - s.t[test_function.first])
+                        > rolling * s.turning * 0.5 * (s.t[end] - s.t[test_function.first])
                 });
                 if slips {
                     test_function.slips = true;
