@@ -12,6 +12,7 @@ mod simpler;
 mod spanning;
 mod sure;
 mod undecided;
+mod undone;
 
 use std::sync::{Arc, OnceLock};
 
@@ -38,6 +39,7 @@ pub(crate) use lighter::{heavier, is_heavier};
 pub(crate) use plain::{held_out, plain};
 pub use sure::estimates;
 pub(crate) use undecided::undecided;
+pub(crate) use undone::not_undone;
 
 /// Largest number of effects named on one link.
 const MOST: usize = 5;

@@ -396,6 +396,12 @@ fn admitted(
             Some((index, (Refusal::Dwarfed, why)))
         });
         let Some((index, why)) = worst else { return (selection, refused) };
+        if why.0 == Refusal::Cancelled
+            && let Some(other) = select::not_undone(problem, &selection, index, start, all, thresholds)
+        {
+            selection = other;
+            continue;
+        }
         let name = selection.state.active[index].effect.name().to_owned();
         refused.push(not_named(problem, &name, &why));
         selection = select::without(problem, &selection, from, |a| a.effect.name() != name, all, thresholds);

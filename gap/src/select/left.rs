@@ -60,9 +60,14 @@ impl Left {
         0.5 * more.max(0.0).sqrt() > thresholds.told && other.excess().max(0.0) < thresholds.undecided * self.excess()
     }
 
-    /// Whether it is no more than what another law leaves, but for what makes a tie, and no more than noise.
-    pub(super) fn is_as_little(&self, other: &Self, thresholds: &Thresholds) -> bool {
+    /// Whether it is no more than what another law leaves, but for what makes a tie.
+    pub(super) fn is_hardly_more(&self, other: &Self, thresholds: &Thresholds) -> bool {
         let noise = thresholds.ties[0] * thresholds.drive_correlation;
-        !self.is_far(thresholds) && self.excess() < (1.0 + thresholds.undecided) * other.excess().max(0.0) + noise
+        self.excess() < (1.0 + thresholds.undecided) * other.excess().max(0.0) + noise
+    }
+
+    /// The same, and no more than noise.
+    pub(super) fn is_as_little(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        !self.is_far(thresholds) && self.is_hardly_more(other, thresholds)
     }
 }

@@ -198,7 +198,7 @@ pub(super) fn bare<'a>(problem: &Problem, start: &State, named: impl IntoIterato
 }
 
 /// Whether laws that were fitted alone may have a name: each material, within its bounds, and cancelled by no other.
-fn is_sound(problem: &Problem, start: &State, state: &State, thresholds: &Thresholds) -> bool {
+pub(super) fn is_sound(problem: &Problem, start: &State, state: &State, thresholds: &Thresholds) -> bool {
     let from = start.active.len();
     let whole = |a: &Active| is_material(a, &a.parameters()) && !stopped(a);
     state.active[from..].iter().all(whole)
@@ -207,7 +207,7 @@ fn is_sound(problem: &Problem, start: &State, state: &State, thresholds: &Thresh
 }
 
 /// The first of those between which the data do not decide: no more than noise is left, or hardly more than the least.
-fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option<State> {
+pub(super) fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option<State> {
     let least = better.iter().map(|(_, left)| left.excess()).fold(f64::INFINITY, f64::min);
     let as_good =
         |left: &Left| !left.is_far(thresholds) || left.excess() <= (1.0 + thresholds.undecided) * least.max(0.0);
@@ -216,7 +216,7 @@ fn first_of_least(better: Vec<(State, Left)>, thresholds: &Thresholds) -> Option
 
 /// Laws of a kind that change no inertia of a drive, in the order of the catalogue: what moves less is no explanation of what drives
 /// it. Of each effect one law.
-fn laws(problem: &Problem, start: &State, all: &[Active], kind: impl Fn(&Active) -> bool) -> Vec<Active> {
+pub(super) fn laws(problem: &Problem, start: &State, all: &[Active], kind: impl Fn(&Active) -> bool) -> Vec<Active> {
     let mut laws: Vec<Active> = Vec::new();
     for a in all.iter().filter(|a| !a.effect.probe() && !a.effect.nuisance() && kind(a)) {
         let known = start.active.iter().chain(&laws).any(|o| o.effect.name() == a.effect.name());

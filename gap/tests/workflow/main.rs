@@ -12,6 +12,7 @@ mod experiment;
 mod filtered;
 mod flywheel;
 mod gravity;
+mod heavy;
 mod margins;
 mod odometry;
 mod pairs;
