@@ -108,6 +108,13 @@ impl<'a> Workflow<'a> {
         if let Some(said) = ratios::of_wrong_counts(&mut outcome, &self.start.robot) {
             self.findings.remarks.push(said);
         }
+        if let Some((said, tie)) = ratios::of_a_load(&outcome.named, &self.start.robot) {
+            self.findings.remarks.push(said);
+            if !outcome.sets.iter().any(|set| tie[..2].iter().all(|name| set.contains(name))) {
+                outcome.sets.push(tie);
+            }
+        }
+        self.findings.remarks.extend(ratios::of_a_caster(&outcome.named, &self.start.robot));
         self.findings.remarks.extend(ratios::of_one_encoder(&outcome.named, &self.start.robot));
         let robot = &self.start.robot;
         let [turns, _] = self.thresholds.level;

@@ -14,6 +14,7 @@ use links::pieces::Pieces;
 
 /// The one that all others are told relative to.
 pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
+const WINDING: &str = "winding-resistance";
 const ROTOR_INERTIA: &str = "rotor-inertia";
 /// Frictions that the factor may change without a name, as long as what a file has of them is small.
 const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
@@ -97,6 +98,42 @@ pub(super) fn of_one_encoder(named: &[Named], robot: &Robot) -> Option<String> {
     ))
 }
 
+/// Windings of more resistance give that much less torque at any speed: so moves a robot with a load that its file lacks, which
+/// rubs as much more as it weighs. What has to be put on the scales, in a sentence, and the names.
+pub(super) fn of_a_load(named: &[Named], robot: &Robot) -> Option<(String, Vec<String>)> {
+    let winding = named.iter().find(|n| n.name == WINDING && n.link == Link::Drive)?;
+    let more = scale(named, WINDING).filter(|more| *more > 0.0 && winding.wheels.len() != 1)?;
+    let names = inertias(Support::Floor);
+    if robot.support != Support::Floor || named.iter().any(|n| names.contains(&n.name.as_str())) {
+        return None;
+    }
+    let inverse = robot.geometry().ok()?.inverse().clone();
+    let [across, along] = [0, 1].map(|axis| inverse.column(axis).norm_squared());
+    let turns = robot.wheel_inertia_kg_m2 + robot.gear_ratio.powi(2) * robot.motor.rotor_inertia;
+    let load = more * (robot.mass_kg + turns * across.max(along));
+    let said = format!(
+        "A load of {load:.2} kg that the file lacks, and that rubs as much more as it weighs, does what {WINDING} does: weigh the \
+         robot."
+    );
+    Some((said, [WINDING].iter().chain(names).map(|name| (*name).to_owned()).collect()))
+}
+
+/// What a caster does that drags: on a differential drive, where it is about as far behind the axle as a wheel is beside the
+/// middle, the friction of both wheels by another name, in a sentence.
+pub(super) fn of_a_caster(named: &[Named], robot: &Robot) -> Option<String> {
+    let friction = named.iter().find(|n| n.name == FRICTIONS[0] && n.wheels.len() != 1 && n.link == Link::Drive)?;
+    let torque = friction.parameters.iter().find(|(p, ..)| p == "torque_nm")?.1;
+    let two = robot.support == Support::Floor && robot.geometry().ok()?.is_differential();
+    (two && torque > 0.0).then(|| {
+        let force = torque * robot.wheel_count() as f64 / robot.wheel_radius_m;
+        format!(
+            "A caster that drags with {force:.2} N about as far from the axle as a wheel is from the middle does what \
+             {} of the wheels does here: lift it, or pull the robot with its wheels off the floor.",
+            FRICTIONS[0]
+        )
+    })
+}
+
 /// Counts of a turn in those of the file, where a decoder misses edges: one of two, or three of four.
 const DECODED: [f64; 2] = [0.5, 0.25];
 
@@ -173,6 +210,9 @@ fn is_free(name: &str, outcome: &Outcome, start: &State, sizes: &Sizes, factor: 
 
 #[cfg(test)]
 mod tests {
+    use runs::geometry::Wheel;
+    use runs::robot::Layout;
+
     use super::*;
     use crate::evidence::Interval;
 
@@ -199,5 +239,30 @@ mod tests {
         assert_eq!(said(&viscous(&[2], "coefficient_2_nms", about(1.0)), true), None);
         assert_eq!(said(&viscous(&[], "coefficient_nms", about(1.8)), false), None);
         assert_eq!(said(&viscous(&[1, 2], "coefficient_1_nms", about(1.0)), false), None);
+    }
+
+    #[test]
+    fn what_may_be_a_load_or_a_caster_is_said() {
+        let wheel = |x_m: f64| Wheel { x_m, y_m: 0.0, drive_rad: std::f64::consts::FRAC_PI_2, roller_rad: 0.0 };
+        let mut two = Robot { layout: Layout::Wheels(vec![wheel(0.2), wheel(-0.2)]), ..Robot::racbot() };
+        two.wheel_radius_m = 0.05;
+        (two.wheel_inertia_kg_m2, two.motor.rotor_inertia, two.mass_kg) = (0.005, 0.0, 10.0);
+        let named = |name: &str, parameter: &str, value: f64, wheels: &[usize]| {
+            let known = (parameter.to_owned(), value, Interval::Exact);
+            [Named { parameters: vec![known], ..Named::bare(name, Link::Drive, wheels) }]
+        };
+        // Ten kilograms and two wheels that turn as two more each: a quarter of that.
+        let (said, tie) = of_a_load(&named(WINDING, "scale", 0.25, &[]), &two).unwrap();
+        assert!(said.contains("3.50 kg") && tie == [WINDING, "robot-mass", "yaw-inertia"], "{said} {tie:?}");
+        // A load takes nothing off, and not off one wheel; on blocks there is none.
+        assert!(of_a_load(&named(WINDING, "scale", -0.25, &[]), &two).is_none());
+        assert!(of_a_load(&named(WINDING, "scale_1", 0.25, &[1]), &two).is_none());
+        let lifted = Robot { support: Support::Blocks, ..two.clone() };
+        assert!(of_a_load(&named(WINDING, "scale", 0.25, &[]), &lifted).is_none());
+
+        let dry = named(FRICTIONS[0], "torque_nm", 0.1, &[]);
+        assert!(of_a_caster(&dry, &two).unwrap().contains("4.00 N"));
+        assert!(of_a_caster(&dry, &Robot::racbot()).is_none() && of_a_caster(&dry, &lifted).is_none());
+        assert!(of_a_caster(&named(FRICTIONS[0], "torque_1_nm", 0.1, &[1]), &two).is_none());
     }
 }
