@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
+use super::ratios::{DEAD_BAND, FRICTIONS};
 use super::study::Outcome;
 use super::workflow::Workflow;
 use links::drive::DriveLink;
 use links::effect::Effect;
 use links::pieces::Pieces;
-
-const BAND: &str = "dead-band";
-const FRICTION: &str = "coulomb-friction";
 
 impl<'a> Workflow<'a> {
     /// The dry friction that a dead band may be as well where no duty brakes, tied with it: of the two it is the likelier.
@@ -17,15 +15,15 @@ impl<'a> Workflow<'a> {
     pub(super) fn unbraked(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
         let named = |outcome: &Outcome, name: &str| outcome.named.iter().any(|n| n.name == name);
         let braked = braked(self.searched().pieces);
-        if !named(outcome, BAND) || named(outcome, FRICTION) || braked > self.thresholds.braked {
+        if !named(outcome, DEAD_BAND) || named(outcome, FRICTION) || braked > self.thresholds.braked {
             return None;
         }
-        let others: Vec<_> = here.iter().filter(|e| e.name() != BAND).cloned().collect();
+        let others: Vec<_> = here.iter().filter(|e| e.name() != DEAD_BAND).cloned().collect();
         let (link, mut again) = self.drive_again(&others)?;
         if !named(&again, FRICTION) {
             return None;
         }
-        again.sets.push([FRICTION, BAND].map(str::to_owned).to_vec());
+        again.sets.push([FRICTION, DEAD_BAND].map(str::to_owned).to_vec());
         again.ambiguous = true;
         self.findings.remarks.push(format!(
             "Duties hardly ever work against what turns ({:.1} % of the rows): a bridge that swallows small duties does what dry \
@@ -35,6 +33,9 @@ impl<'a> Workflow<'a> {
         Some((link, again))
     }
 }
+
+/// The friction that a dead band looks like.
+const FRICTION: &str = FRICTIONS[0];
 
 /// Share of the rows in which a wheel surely turned whose duties worked against that.
 fn braked(pieces: &Pieces) -> f64 {

@@ -17,9 +17,9 @@ pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
 const WINDING: &str = "winding-resistance";
 const ROTOR_INERTIA: &str = "rotor-inertia";
 /// Frictions that the factor may change without a name, as long as what a file has of them is small.
-const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
+pub(super) const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
 const HANGING_LOAD: &str = "hanging-load";
-const DEAD_BAND: &str = "dead-band";
+pub(super) const DEAD_BAND: &str = "dead-band";
 
 fn inertias(support: Support) -> &'static [&'static str] {
     match support {
