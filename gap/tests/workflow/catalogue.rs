@@ -54,7 +54,7 @@ const CASES: &[Case] = &[
     case("lens-distortion", &[("k1_per_m2", 0.04)], ("k1_per_m2", 0.2), &RICH, &[]),
     case("coulomb-friction", &[("torque_nm", 0.012)], ("torque_nm", 0.2), &RICH, &[]),
     case("viscous-friction", &[("coefficient_2_nms", 4e-4)], ("coefficient_2_nms", 0.25), &RICH, &[]),
-    case("quadratic-drag", &[("coefficient_2_nms2", 4e-5)], ("coefficient_2_nms2", 0.25), &LIFTED, &[]),
+    case("quadratic-drag", &[("coefficient_2_nms2", 1e-5)], ("coefficient_2_nms2", 0.25), &LIFTED, &[]),
     case("stribeck-friction", &[("torque_nm", 0.02), ("speed_rad_s", 3.0)], ("torque_nm", 0.4), &SLOW, &[]),
     case("asymmetric-friction", &[("torque_2_nm", 0.015), ("sense", 1.0)], ("torque_2_nm", 0.25), &RICH, &[]),
     case("gravity-load", &[("sin_2_nm", 0.02), ("cos_2_nm", 0.01)], ("sin_2_nm", 0.2), &LIFTED, &[]),
@@ -138,7 +138,7 @@ fn every_effect_simulated_in_is_found() {
             let nominal = Robot { support, ..Robot::racbot() };
             let truth = with(&nominal, case.name, case.parameters);
             let mut set = simulate(&truth, case.drives, 40 + k as u64);
-            cut_all(&mut set, 7.0);
+            cut_all(&mut set, if lifted { 7.0 } else { 5.0 });
             let a = analyse(&set, &Options::default()).unwrap();
             fault(case, &a).map(|f| format!("{}: {f}", case.name))
         })
@@ -171,8 +171,10 @@ fn late_duties_are_found_to_a_twentieth_of_a_tick() {
     for (k, late) in [6.0, 12.25].map(|ticks| ticks * tick).into_iter().enumerate() {
         let truth = with(&Robot::racbot(), "actuation-latency", &[("latency_s", late)]);
         let mut set = simulate(&truth, &RICH, 95 + k as u64);
+        cut_all(&mut set, 7.0);
         let creeping = analyse(&set, &Options::default()).unwrap();
         set.runs = RICH.iter().enumerate().map(|(run, m)| rolling(&truth, *m, (10 * k + run) as u64)).collect();
+        cut_all(&mut set, 7.0);
         let rigid = analyse(&set, &Options::default()).unwrap();
         for a in [&creeping, &rigid] {
             assert_eq!(names(a), ["actuation-latency"], "{}", a.terminal_summary());
@@ -224,7 +226,7 @@ fn of_many_runs_clocks_that_differ_are_found() {
     let robot = with(&Robot::racbot(), "wheel-skew", &[("skew_1_rad", 0.08)]);
     let drives = [RICH[0], RICH[1]].repeat(model::fit::clocks::FEW_RUNS / 2 + 1);
     let mut set = simulate(&robot, &drives, 93);
-    cut_all(&mut set, 4.0);
+    cut_all(&mut set, 3.0);
     let one = analyse(&set, &Options::default()).unwrap();
     assert_eq!(names(&one), ["wheel-skew"], "{}", one.terminal_summary());
     assert!(!one.tried.iter().any(|name| name == "camera-clock"));

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use runs::Run;
 use runs::robot::Robot;
 
-use super::common::{names, of_files, simulate, with};
+use super::common::{cut_all, names, of_files, simulate, with};
 
 const VOLT: f64 = 12.0;
 const OHM: f64 = 3.8;
@@ -156,7 +156,8 @@ fn driven(seed: u64, name: &str, parameter: &str, seconds: f64) -> Analysis {
     let robot = Robot::racbot();
     let truth = with(&robot, name, &[(parameter, seconds)]);
     let drives = [Manoeuvre::Square, Manoeuvre::StopAndGo, Manoeuvre::Star, Manoeuvre::Chirp];
-    let set = simulate(&truth, &drives, seed);
+    let mut set = simulate(&truth, &drives, seed);
+    cut_all(&mut set, 7.0);
     let per_count = 1.0 / robot.counts_per_wheel_rad();
     let runs = set.runs.into_iter().map(|mut run| {
         let speed = |i: usize| {
