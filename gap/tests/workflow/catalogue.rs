@@ -135,7 +135,9 @@ fn every_effect_simulated_in_is_found() {
         .filter_map(|(k, case)| {
             let lifted = case.drives[0] == Manoeuvre::Blocks;
             let support = if lifted { Support::Blocks } else { Support::Floor };
-            let nominal = Robot { support, ..Robot::racbot() };
+            // A wheel with nothing on it chatters within a tick, and what squares its speed sees more than is smoothed.
+            let wheel_inertia_kg_m2 = if case.name == "quadratic-drag" { 1e-4 } else { 0.0 };
+            let nominal = Robot { support, wheel_inertia_kg_m2, ..Robot::racbot() };
             let truth = with(&nominal, case.name, case.parameters);
             let mut set = simulate(&truth, case.drives, 40 + k as u64);
             cut_all(&mut set, if lifted { 7.0 } else { 5.0 });

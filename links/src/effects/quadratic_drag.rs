@@ -5,7 +5,8 @@ use runs::robot::Robot;
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 
-/// A load that grows with the square of the speed, against it either way.
+/// A load that grows with the square of the speed, against it either way. Where a motor chatters within rows, the smoothed
+/// speed has less of a square than the true one, and the law fits badly.
 pub(super) struct QuadraticDrag;
 
 impl Effect for QuadraticDrag {
