@@ -32,6 +32,14 @@ fn unit(name: &str) -> (f64, &'static str) {
     }
 }
 
+/// The same for a value: without a prefix of the unit where it would have five digits before its point.
+fn unit_of(name: &str, x: f64) -> (f64, String) {
+    let (factor, unit) = unit(name);
+    let plain =
+        unit.strip_prefix(" m").or(unit.strip_prefix(" µ")).filter(|_| factor > 1.0 && (factor * x).abs() >= 1e4);
+    plain.map_or((factor, unit.to_owned()), |plain| (1.0, format!(" {plain}")))
+}
+
 /// The SI unit that a parameter's name ends in; empty for a ratio.
 pub(crate) fn si(name: &str) -> &'static str {
     const UNITS: [(&str, &str); 18] = [
@@ -80,14 +88,14 @@ pub(crate) fn label(name: &str) -> String {
 
 /// A value with its unit, such as `3.98°` or `+2.1 %`.
 pub(crate) fn value(name: &str, x: f64) -> String {
-    let (factor, unit) = unit(name);
+    let (factor, unit) = unit_of(name, x);
     let sign = if unit == " %" && x > 0.0 { "+" } else { "" };
     format!("{sign}{}{unit}", short(factor * x))
 }
 
 /// A value with its interval, such as `3.98° (3.79 to 4.16)`; the interval only if it has a width.
 pub(crate) fn interval(name: &str, x: f64, ends: Option<[f64; 2]>) -> String {
-    let (factor, _) = unit(name);
+    let (factor, _) = unit_of(name, x);
     let Some([low, high]) = ends.filter(|[low, high]| low < high) else { return value(name, x) };
     format!("{} ({} to {})", value(name, x), short(factor * low), short(factor * high))
 }
@@ -104,6 +112,9 @@ mod tests {
             ("scale", -0.15, "-15.0 %"),
             ("torque_3_nm", 0.0208, "20.8 mNm"),
             ("latency_s", 0.0704, "70.4 ms"),
+            ("torque_nm", -25.93, "-25.9 Nm"),
+            ("coefficient_nms", 1519.0, "1519 Nm s"),
+            ("coefficient_1_nms2", 4.3e-6, "4.30 µNm s²"),
             ("stiffness_1_nm_per_rad", 0.05, "50.0 mNm/rad"),
             ("x_m", 0.0101, "10.1 mm"),
             ("x_rad", 0.02, "1.15°"),
