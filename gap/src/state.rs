@@ -93,6 +93,10 @@ impl State {
     /// Leaves of a drive what its wheels did while they rolled.
     pub fn mask_slip(&self, drive: &mut DriveLink) {
         drive.mask_slip(&self.motion(None), thresholds::ROLLING);
+        // What an inertial sensor tells in place of wheels that slip is for those that surely do.
+        if drive.pieces.iter().next().is_some_and(|s| s.felt.is_some()) {
+            return;
+        }
         let law = |a: &&Active| a.effect.name() == SLIP;
         let active: Vec<Active> = self.active.iter().filter(law).cloned().collect();
         if !active.is_empty() {
