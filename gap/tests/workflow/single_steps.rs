@@ -69,72 +69,64 @@ fn a_load_that_the_file_lacks_is_found() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Steps of a fan, each with another voltage: the drag that grows with the square of the speed is another friction in each.
-fn fan(index: usize, seed: u64) -> Run {
-    let mut rng = ChaCha8Rng::seed_from_u64(7000 + 100 * seed + index as u64);
-    let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
-    let duty = 0.25 + 0.1 * index as f64;
-    let (mut duties, mut speeds, mut speed) = (Vec::new(), Vec::new(), 0.0_f64);
-    for row in 0..60 {
-        run.t.push(0.01 * f64::from(row));
-        duties.push(duty);
-        speeds.push(speed + rng.random_range(-0.3..0.3));
-        for _ in 0..20 {
-            let torque = GEAR * KT * (duty * VOLT - KT * GEAR * speed) / OHM - 2e-4 * speed * speed;
-            speed = with_dry_friction(speed, torque, 0.01, 40.0 * GEAR * GEAR * INERTIA, 0.01 / 20.0);
-        }
-    }
-    run.duty = vec![duties];
-    run.speed = vec![speeds];
-    run
+/// One way, a step a run, each with another voltage.
+#[derive(Clone, Copy)]
+struct OneWay {
+    seed: u64,
+    rows: u32,
+    /// What the bridge gives more than its duty.
+    more: f64,
+    /// Drag by the square of the speed, Nm s²/rad².
+    drag_nms2: f64,
 }
 
+impl OneWay {
+    fn run(self, index: usize) -> Run {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed + index as u64);
+        let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
+        let duty = 0.25 + 0.1 * index as f64;
+        let (mut duties, mut speeds, mut speed) = (Vec::new(), Vec::new(), 0.0_f64);
+        for row in 0..self.rows {
+            run.t.push(0.01 * f64::from(row));
+            duties.push(duty);
+            speeds.push(speed + rng.random_range(-0.3..0.3));
+            for _ in 0..20 {
+                let torque = GEAR * KT * ((duty + self.more) * VOLT - KT * GEAR * speed) / OHM;
+                let left = torque - self.drag_nms2 * speed * speed;
+                speed = with_dry_friction(speed, left, 0.01, 40.0 * GEAR * GEAR * INERTIA, 0.01 / 20.0);
+            }
+        }
+        run.duty = vec![duties];
+        run.speed = vec![speeds];
+        run
+    }
+
+    fn told(self) -> Analysis {
+        let text = format!(
+            "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+             wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
+             friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+            40.0 * INERTIA
+        );
+        of_files(&text, (0..8).map(|index| self.run(index)))
+    }
+}
+
+/// A fan: the drag that grows with the square of the speed is another friction in each step.
 #[test]
 fn runs_that_have_a_level_each_are_of_one_machine() {
-    let text = format!(
-        "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
-         wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
-         friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
-        40.0 * INERTIA
-    );
     let said = |a: &Analysis| a.unexplained.iter().any(|u| u.structure.starts_with("the runs differ"));
     for seed in [1, 2] {
-        let a = of_files(&text, (0..8).map(|i| fan(i, seed)));
+        let a = OneWay { seed: 7000 + 100 * seed, rows: 60, more: 0.0, drag_nms2: 2e-4 }.told();
         assert!(!said(&a), "{}", a.terminal_summary());
     }
-}
-
-/// Steps one way of a motor whose bridge gives a twentieth of its supply more than its duty.
-fn helped(index: usize) -> Run {
-    let mut rng = ChaCha8Rng::seed_from_u64(900 + index as u64);
-    let mut run = Run { name: format!("step-{}", index + 1), ..Run::default() };
-    let duty = 0.25 + 0.1 * index as f64;
-    let (mut duties, mut speeds, mut speed) = (Vec::new(), Vec::new(), 0.0_f64);
-    for row in 0..120 {
-        run.t.push(0.01 * f64::from(row));
-        duties.push(duty);
-        speeds.push(speed + rng.random_range(-0.3..0.3));
-        for _ in 0..20 {
-            let torque = GEAR * KT * ((duty + 0.05) * VOLT - KT * GEAR * speed) / OHM;
-            speed = with_dry_friction(speed, torque, 0.01, 40.0 * GEAR * GEAR * INERTIA, 0.01 / 20.0);
-        }
-    }
-    run.duty = vec![duties];
-    run.speed = vec![speeds];
-    run
 }
 
 /// A geared motor that ran one way in ten steps had a weight of 25 mNm, for it was faster at small voltages than at large; and
 /// this one a dry friction of -140 mNm beside a file without any.
 #[test]
 fn a_weight_that_helps_one_way_alone_may_be_the_bridge() {
-    let text = format!(
-        "encoder_counts_per_motor_rev = 4096\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
-         wheel_radius_m = 1\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\nrotor_inertia = {}\n\
-         friction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
-        40.0 * INERTIA
-    );
-    let a = of_files(&text, (0..8).map(helped));
+    let a = OneWay { seed: 900, rows: 120, more: 0.05, drag_nms2: 0.0 }.told();
     assert_eq!(names(&a), ["hanging-load"], "{}", a.terminal_summary());
     let tie = ["hanging-load", "dead-band"].map(str::to_owned).to_vec();
     assert!(a.alternatives.contains(&tie) && a.verdict == Verdict::Ambiguous, "{}", a.terminal_summary());
