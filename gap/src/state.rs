@@ -10,7 +10,7 @@ use links::motion::MotionModel;
 use links::thresholds;
 
 /// Wheels that slip by a law.
-const SLIP: &str = "wheel-slip";
+pub(crate) const SLIP: &str = "wheel-slip";
 
 /// An effect with values.
 #[derive(Clone)]

@@ -14,8 +14,11 @@ impl<'a> Workflow<'a> {
     /// Nothing where the band is not named, where duties brake, or where that is no friction.
     pub(super) fn unbraked(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
         let named = |outcome: &Outcome, name: &str| outcome.named.iter().any(|n| n.name == name);
+        if !named(outcome, DEAD_BAND) || named(outcome, FRICTION) {
+            return None;
+        }
         let braked = braked(self.searched().pieces);
-        if !named(outcome, DEAD_BAND) || named(outcome, FRICTION) || braked > self.thresholds.braked {
+        if braked > self.thresholds.braked {
             return None;
         }
         let others: Vec<_> = here.iter().filter(|e| e.name() != DEAD_BAND).cloned().collect();

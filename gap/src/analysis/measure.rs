@@ -16,7 +16,7 @@ use super::question::Question;
 use super::robot_file::{completed, given};
 use super::study::rms;
 use crate::problem::Problem;
-use crate::state::{Active, State};
+use crate::state::{Active, SLIP, State};
 use crate::thresholds::Thresholds;
 use links::drive::{DriveLink, DriveResiduals};
 use links::effect::{Effect, Link};
@@ -115,7 +115,7 @@ impl<'a> Data<'a> {
         let mut link = DriveLink::new(self.pieces, &state.drive(None))?;
         let motion = state.motion(None);
         state.mask_slip(&mut link);
-        if state.active.iter().any(|a| a.effect.name() == "wheel-slip") {
+        if state.active.iter().any(|a| a.effect.name() == SLIP) {
             // Where the law of slip did not catch what slipped, Newton's law has no body to push.
             let misses = Misses::new(seen, self.thresholds.missed[1]);
             link.mask_times(|run, t| misses.are_near(run, t));

@@ -41,8 +41,8 @@ const NOT_ON_BLOCKS: [&str; 13] = [
     "probe-position-drag",
 ];
 
-/// What hangs on an axis alone; the weight of a robot hangs on none of its wheels, and none of them turns a fan. Once a turn a wheel on the floor has
-/// ripples of its own.
+/// What hangs on an axis alone; the weight of a robot hangs on none of its wheels, and none of them turns a fan. Once a
+/// turn a wheel on the floor has ripples of its own.
 const ONLY_ON_BLOCKS: [&str; 5] =
     ["encoder-eccentricity", "gravity-load", "hanging-load", "joint-spring", "quadratic-drag"];
 
