@@ -7,7 +7,7 @@ use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use estimation::normal_equations::{Cluster, NormalEquations};
 use links::drive::{DriveLink, DriveModel, Side};
-use links::effect::{Effect, Link, Parameter, Sizes};
+use links::effect::{Effect, Link, Sizes};
 use links::motion::{MotionLink, MotionModel};
 
 /// A link of a data set that can be linearised about any state.
@@ -66,23 +66,13 @@ struct Move {
     high: State,
     /// The step between them.
     step: f64,
-    /// Whether it changes inertias alone.
-    inertia_alone: bool,
-    /// What the derivative depends on, if it is the same whatever loads are added.
-    key: Option<String>,
 }
 
 impl Move {
     /// To an effect as a whole, from the state or to it.
     fn whole(high: State, step: f64) -> Self {
-        Self { low: None, high, step, inertia_alone: false, key: None }
+        Self { low: None, high, step }
     }
-}
-
-/// Effects of a state that change its drive by more than loads.
-fn besides_loads(state: &State) -> Vec<&Active> {
-    let acts = |a: &&Active| DriveModel::is_changed_by(&state.robot, &*a.effect, &a.values);
-    state.active.iter().filter(|a| !a.effect.is_load()).filter(acts).collect()
 }
 
 /// Steps of Gauss-Newton at most.
@@ -135,32 +125,13 @@ impl Problem<'_> {
     pub fn linearise(&self, state: &State, candidates: &[Active]) -> Linear {
         let mut owners = Vec::new();
         let mut moves: Vec<Move> = Vec::new();
-        let is_drive = self.link() == Link::Drive;
-        let alone = is_drive && state.drive(None).torques_stand_alone();
-        let others = if is_drive { besides_loads(state) } else { Vec::new() };
-        let said = |counts: &dyn Fn(&Active) -> bool| -> String {
-            let those = others.iter().filter(|a| counts(a));
-            those.map(|a| format!("{} {:?};", a.effect.name(), a.values.0)).collect()
-        };
-        let besides = said(&|_| true);
-        let of_motion = said(&|a| !(alone && a.effect.before_current()));
-        let key = |a: &Active, p: &Parameter, step: f64| {
-            let is_load = is_drive && a.effect.is_load();
-            // Nor do loads change what a bridge or a winding does: no line, but the same where its values are.
-            let electrical = alone && a.effect.before_current();
-            let at = if is_load { None } else { Some((&a.values.0, step)) };
-            let besides = if is_load && !a.effect.looks_at_motors() { &of_motion } else { &besides };
-            (is_load || electrical)
-                .then(|| format!("{besides}{} {:?} {at:?} {}", a.effect.name(), a.form.fixed, p.name))
-        };
         for index in state.fitted_on(self.link()) {
             let a = &state.active[index];
             for (j, p) in a.form.free.iter().enumerate() {
                 let h = 0.05 * p.scale;
                 owners.push(Owner::Active(index, j));
                 let [low, high] = [-h, h].map(|by| state.with(index, a.moved(j, by)));
-                let (inertia_alone, key) = (a.effect.is_inertia(), key(a, p, h));
-                moves.push(Move { low: Some(low), high, step: 2.0 * h, inertia_alone, key });
+                moves.push(Move { low: Some(low), high, step: 2.0 * h });
             }
         }
         for index in state.fitted_on(self.link()).into_iter().filter(|i| state.active[*i].switched()) {
@@ -201,8 +172,7 @@ impl Problem<'_> {
                 let both = p.bounds[0] < 0.0 && !(self.link() == Link::Drive && candidate.effect.is_load());
                 let low = both.then(|| side(-h));
                 let step = if low.is_some() { 2.0 * h } else { h };
-                let (inertia_alone, key) = (candidate.effect.is_inertia(), key(candidate, p, h));
-                moves.push(Move { low, high: side(h), step, inertia_alone, key });
+                moves.push(Move { low, high: side(h), step });
             }
         }
         let columns = moves.len();
@@ -213,13 +183,8 @@ impl Problem<'_> {
                 link.linearise(&state.motion(None), &sides)
             }
             Self::Drive(link) => {
-                let side = |m: Move| Side {
-                    low: m.low.map(|low| low.drive(None)),
-                    high: m.high.drive(None),
-                    step: m.step,
-                    inertia_alone: m.inertia_alone,
-                    key: m.key,
-                };
+                let side =
+                    |m: Move| Side { low: m.low.map(|low| low.drive(None)), high: m.high.drive(None), step: m.step };
                 let sides: Vec<Side> = moves.into_iter().map(side).collect();
                 link.linearise(&state.drive(None), &sides)
             }

@@ -109,8 +109,7 @@ impl State {
     pub fn drive(&self, extra: Option<&Active>) -> DriveModel {
         let mut model = DriveModel::new(&self.robot);
         for a in self.active.iter().chain(extra) {
-            a.effect.drive(&a.values, &mut model);
-            model.effects.push((a.effect.name().to_owned(), a.values.clone()));
+            model.add(&*a.effect, &a.values, &a.form);
         }
         model
     }

@@ -204,16 +204,13 @@ pub trait Effect: Send + Sync {
     fn motion(&self, _values: &Values, _model: &mut MotionModel) {}
     /// Acts on the drive link.
     fn drive(&self, _values: &Values, _model: &mut DriveModel) {}
-    /// Whether it adds loads to the drive in proportion to its parameters, and does nothing else there.
+    /// Whether it adds loads to the drive in proportion to the parameters of its forms, and does nothing else there but by
+    /// what the encoders are ahead.
     fn is_load(&self) -> bool {
         false
     }
     /// Whether a load that it adds depends on what the motors are.
     fn looks_at_motors(&self) -> bool {
-        false
-    }
-    /// Whether it changes inertias alone, which no torque and no force depends on while wheels drive a robot.
-    fn is_inertia(&self) -> bool {
         false
     }
     /// Whether it acts before the current of a motor and changes that alone: where currents are logged, nothing is left of

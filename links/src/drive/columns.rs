@@ -1,12 +1,11 @@
-//! What the drive's models leave unexplained, and derivatives that stay what they are while nothing but loads is added to a
-//! model: each is worked out once.
+//! Means over test functions that stay what they are for many models: each is worked out once.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::DriveModel;
 
-/// Numbers that are kept at most, 128 MB: the loads of an hour at 1 kHz. Beyond, nothing more is kept.
+/// Numbers that are kept at most, 128 MB. Beyond, nothing more is kept.
 const ROOM: usize = 1 << 24;
 
 /// A direction in which the drive is differentiated.
@@ -17,16 +16,15 @@ pub struct Side {
     pub high: DriveModel,
     /// Step between them.
     pub step: f64,
-    /// Whether it changes inertias alone.
-    pub inertia_alone: bool,
-    /// What the derivative depends on, where it is the same for every model with other loads.
-    pub key: Option<String>,
 }
 
-/// The derivative along a side, or what a model leaves unexplained; one number a test function and wheel.
-pub(super) type Column = Arc<Vec<f64>>;
+/// Rows of torques and forces that are not 0 throughout, one number a test function.
+pub(super) type Rows = Vec<(usize, Vec<f64>)>;
 
-/// Columns by the first test function of their segment and their key.
+/// What rows depend on.
+pub(super) type Key = (u64, Option<u64>);
+
+/// Rows by the first test function of their segment and their key.
 #[derive(Default)]
 pub(super) struct Columns(Mutex<Kept>);
 
@@ -36,7 +34,11 @@ struct Kept {
     /// Linearisations so far.
     round: u64,
     /// With the last round in which they were asked for.
-    columns: HashMap<(usize, String), (Column, u64)>,
+    columns: HashMap<(usize, Key), (Arc<Rows>, u64)>,
+}
+
+fn numbers(rows: &Rows) -> usize {
+    rows.iter().map(|(_, row)| row.len()).sum()
 }
 
 impl Kept {
@@ -44,7 +46,7 @@ impl Kept {
     fn forget(&mut self) {
         let round = self.round;
         self.columns.retain(|_, (_, asked)| *asked + LATELY >= round);
-        self.numbers = self.columns.values().map(|(column, _)| column.len()).sum();
+        self.numbers = self.columns.values().map(|(rows, _)| numbers(rows)).sum();
     }
 }
 
@@ -62,40 +64,38 @@ impl Columns {
         }
     }
 
-    /// A column that is known already.
-    pub(super) fn find(&self, first: usize, key: &str) -> Option<Column> {
-        let key = (first, key.to_owned());
+    /// Rows that are known already, or made now and kept.
+    pub(super) fn once(&self, first: usize, key: Key, make: impl FnOnce() -> Rows) -> Arc<Rows> {
+        if let Some(known) = self.find(first, key) {
+            return known;
+        }
+        let made = Arc::new(make());
+        self.keep(first, key, &made);
+        made
+    }
+
+    fn find(&self, first: usize, key: Key) -> Option<Arc<Rows>> {
         let mut kept = self.kept();
         let round = kept.round;
-        let (column, asked) = kept.columns.get_mut(&key)?;
+        let (rows, asked) = kept.columns.get_mut(&(first, key))?;
         *asked = round;
-        Some(column.clone())
+        Some(rows.clone())
     }
 
-    /// A column that is known already, or made now and kept.
-    pub(super) fn once(&self, first: usize, key: String, make: impl FnOnce() -> Option<Vec<f64>>) -> Option<Column> {
-        if let Some(known) = self.find(first, &key) {
-            return Some(known);
-        }
-        let made = Arc::new(make()?);
-        self.keep(first, key, &made);
-        Some(made)
-    }
-
-    /// Keeps a column if there is room.
-    pub(super) fn keep(&self, first: usize, key: String, column: &Column) {
+    /// Keeps rows if there is room.
+    fn keep(&self, first: usize, key: Key, rows: &Arc<Rows>) {
         let mut kept = self.kept();
-        if kept.numbers + column.len() > ROOM {
+        if kept.numbers + numbers(rows) > ROOM {
             kept.forget();
         }
-        let Kept { numbers, round, columns } = &mut *kept;
-        if *numbers + column.len() <= ROOM && columns.insert((first, key), (column.clone(), *round)).is_none() {
-            *numbers += column.len();
+        let Kept { numbers: all, round, columns } = &mut *kept;
+        if *all + numbers(rows) <= ROOM && columns.insert((first, key), (rows.clone(), *round)).is_none() {
+            *all += numbers(rows);
         }
     }
 }
 
-/// Linearisations after which a column that none of them asked for goes: fits between two of them ask for a few only.
+/// Linearisations after which rows that none of them asked for go: fits between two of them ask for a few only.
 const LATELY: u64 = 24;
 
 #[cfg(test)]
@@ -105,19 +105,20 @@ mod tests {
     #[test]
     fn what_is_not_asked_for_makes_room() {
         let columns = Columns::default();
-        let half: Column = Arc::new(vec![0.0; ROOM / 2]);
+        let half = Arc::new(vec![(0, vec![0.0; ROOM / 2])]);
+        let [old, used, new, more] = [0, 1, 2, 3].map(|key| (key, None));
         columns.begin();
-        columns.keep(0, "old".to_owned(), &half);
-        columns.keep(0, "used".to_owned(), &half);
+        columns.keep(0, old, &half);
+        columns.keep(0, used, &half);
         for _ in 0..=LATELY {
             columns.begin();
-            assert!(columns.find(0, "used").is_some());
+            assert!(columns.find(0, used).is_some());
         }
-        columns.keep(0, "new".to_owned(), &half);
-        let known = |key: &str| columns.find(0, key).is_some();
-        assert!(known("new") && known("used") && !known("old"));
+        columns.keep(0, new, &half);
+        let known = |key| columns.find(0, key).is_some();
+        assert!(known(new) && known(used) && !known(old));
         // All of it is in use: nothing goes, and nothing more is kept.
-        columns.keep(0, "more".to_owned(), &half);
-        assert!(known("new") && known("used") && !known("more"));
+        columns.keep(0, more, &half);
+        assert!(known(new) && known(used) && !known(more));
     }
 }

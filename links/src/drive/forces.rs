@@ -1,27 +1,26 @@
 //! Torques and forces at every tick.
 
-use std::borrow::Cow;
 use std::mem::take;
+use std::sync::OnceLock;
 
 use runs::frames::Twist;
 use runs::robot::Support;
 
 use super::instant::{Instant, Loads};
 use super::signals::Signals;
-use super::{Ahead, DriveModel};
+use super::{DriveModel, LoadTerm};
 use crate::segment::Segment;
 
 /// Torques of the wheels and forces on the body at the ticks of a segment but the last, `[wheels + 3][tick]`.
 pub type Forces = Vec<Vec<f64>>;
 
-/// Torques and forces of a model at every tick of a segment, with all that further loads look at.
+/// Torques and forces of a model at every tick of a segment without its proportional loads, and what those look at; each is
+/// worked out when it is asked for.
 pub(super) struct Base<'a> {
     model: &'a DriveModel,
     segment: &'a Segment,
-    /// As of [`DriveModel::forces`].
-    pub(super) forces: Forces,
-    signals: Signals<'a>,
-    prepared: Vec<Vec<Vec<f64>>>,
+    forces: OnceLock<Forces>,
+    signals: OnceLock<Signals<'a>>,
 }
 
 /// In which axes the body's motion is told.
@@ -34,40 +33,36 @@ enum Axes {
 }
 
 impl<'a> Base<'a> {
-    /// Of a model at a segment; what loads look at is worked out if loads are to be added.
-    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment, more: bool) -> Self {
-        let prepared = model.prepared(segment);
-        let (forces, signals) = model.evaluate(segment, &prepared, more, Axes::Body);
-        Self { model, segment, forces, signals, prepared }
+    /// Of a model at a segment.
+    pub(super) fn new(model: &'a DriveModel, segment: &'a Segment) -> Self {
+        Self { model, segment, forces: OnceLock::new(), signals: OnceLock::new() }
     }
 
-    /// What a model that only adds loads to this one adds to its torques and forces; nothing where that is 0 throughout.
-    pub(super) fn loads_of(&self, other: &DriveModel) -> Vec<Option<Vec<f64>>> {
+    /// As of [`DriveModel::forces`].
+    pub(super) fn forces(&self) -> &Forces {
+        self.forces
+            .get_or_init(|| self.model.evaluate(self.segment, Axes::Body, &self.model.loads.iter().collect::<Vec<_>>()))
+    }
+
+    /// What a load of a model whose torques stand alone adds to its torques and forces; nothing where that is 0 throughout.
+    pub(super) fn of_load(&self, load: &[LoadTerm]) -> Vec<Option<Vec<f64>>> {
         let (s, n) = (self.segment, self.model.wheels.len());
-        let more = &other.loads[self.model.loads.len()..];
-        if more.is_empty() || self.signals.ticks() == 0 {
-            return vec![None; n + 3];
-        }
-        let new = &other.prepare[self.prepared.len()..];
-        let prepared = if new.is_empty() {
-            Cow::Borrowed(&self.prepared)
-        } else {
-            Cow::Owned(self.prepared.iter().cloned().chain(new.iter().map(|p| p(other, s))).collect())
-        };
         let mut out: Vec<Option<Vec<f64>>> = vec![None; n + 3];
-        let axes = self.model.constants();
-        let ticks = self.signals.ticks();
-        self.model.each_instant(s, &self.signals, &prepared, |k, now, loads| {
-            for term in more {
+        if !self.model.is_measured_by(s) {
+            return out;
+        }
+        let signals = self.signals.get_or_init(|| {
+            let mut signals = self.model.signals(s, &self.model.prepared(s), true, true);
+            signals.lay();
+            signals
+        });
+        let ticks = signals.ticks();
+        self.model.each_instant(s, signals, &[], |k, now, loads| {
+            for term in load {
                 term(now, loads);
             }
-            for (i, axis) in axes.iter().enumerate() {
-                let more = take(&mut loads.carried[i]);
-                if more != 0.0 {
-                    let before = self.signals.carried[i].get(k).copied().unwrap_or(0.0);
-                    let lost = |carried| axis.lost(now.winding[i], now.sign[i], carried);
-                    loads.wheel[i] += more - now.sign[i] * (lost(before + more) - lost(before));
-                }
+            for (wheel, carried) in loads.wheel.iter_mut().zip(&mut loads.carried) {
+                *wheel += take(carried);
             }
             for (row, x) in out.iter_mut().zip(loads.wheel.iter_mut().chain(&mut loads.body)) {
                 let x = take(x);
@@ -77,11 +72,6 @@ impl<'a> Base<'a> {
             }
         });
         out
-    }
-
-    /// What the offsets are that a model which only adds to this one adds, `[offset][wheel][tick]`.
-    pub(super) fn offsets_of(&self, other: &DriveModel) -> Vec<(Ahead, Vec<Vec<f64>>)> {
-        other.offsets[self.model.offsets.len()..].iter().map(|(what, o)| (*what, o(other, self.segment))).collect()
     }
 }
 
@@ -122,7 +112,7 @@ impl DriveModel {
                 sliding_per_turning: self.sliding_per_turning(),
             };
             let mut loads = Loads::none(n);
-            self.loads.iter().for_each(|term| term(&now, &mut loads));
+            self.all_loads().into_iter().for_each(|term| term(&now, &mut loads));
             loads.wheel
         };
         let (forwards, backwards) = (turning(1.0), turning(-1.0));
@@ -151,56 +141,65 @@ impl DriveModel {
         self.prepare.iter().map(|p| p(self, s)).collect()
     }
 
-    /// Wheel torques and body forces at the ticks of a segment. Inertias have no part in them on the floor, as
-    /// [`crate::effect::Effect::is_inertia`] says; nor may terms have.
+    /// Wheel torques and body forces at the ticks of a segment. Inertias have no part in them on the floor; nor may terms have.
     pub fn forces(&self, s: &Segment) -> Forces {
-        self.evaluate(s, &self.prepared(s), false, Axes::Body).0
+        self.evaluate(s, Axes::Body, &self.all_loads())
     }
 
     /// The same without gravity and what turning axes add: what an accelerometer feels.
     pub(super) fn felt_forces(&self, s: &Segment) -> Forces {
-        self.evaluate(s, &self.prepared(s), false, Axes::Inertial).0
+        self.evaluate(s, Axes::Inertial, &self.all_loads())
     }
 
-    /// Torques and forces, and the signals that they come from: all of them if further loads ask for `more`.
-    fn evaluate<'a>(
-        &self,
-        s: &'a Segment,
-        prepared: &[Vec<Vec<f64>>],
-        more: bool,
-        axes_of: Axes,
-    ) -> (Forces, Signals<'a>) {
+    /// Its loads with the proportional ones.
+    fn all_loads(&self) -> Vec<&LoadTerm> {
+        self.loads.iter().chain(self.proportional.iter().flat_map(|p| &p.own)).collect()
+    }
+
+    /// Whether a segment has all that moves its wheels.
+    fn is_measured_by(&self, s: &Segment) -> bool {
         let n = self.wheels.len();
-        let ticks = s.t.len().saturating_sub(1);
-        if s.duty.len() != n || s.angle.len() != n || ticks == 0 {
-            return (vec![vec![0.0; ticks]; n + 3], Signals::default());
-        }
+        s.duty.len() == n && s.angle.len() == n && s.t.len() > 1
+    }
+
+    /// The signals that torques and forces come from, laid out if the supply is worked out; twists and what they make only
+    /// where they are looked at.
+    fn signals<'a>(&self, s: &'a Segment, prepared: &[Vec<Vec<f64>>], all: bool, turns: bool) -> Signals<'a> {
         let axes = self.constants();
         // Only terms and maps look at more than duties and counts.
-        let all = more || !self.loads.is_empty() || !self.supply_maps.is_empty();
-        let turns = axes_of == Axes::Body && self.support == Support::Floor;
-        let mut signals = Signals::of(self, s, &axes, all, turns);
+        let mut signals = Signals::of(self, s, &axes, all || !self.supply_maps.is_empty(), turns);
         if !self.supply_maps.is_empty() {
             signals.lay();
             signals.supply = self.mapped_supply(s, &signals, prepared).into();
         }
         signals.wind(s, &axes);
-        if more || !self.loads.is_empty() {
-            signals.lay();
-        }
+        signals
+    }
+
+    /// Torques and forces with these loads.
+    fn evaluate(&self, s: &Segment, axes_of: Axes, load: &[&LoadTerm]) -> Forces {
+        let n = self.wheels.len();
+        let ticks = s.t.len().saturating_sub(1);
         let mut out = vec![vec![0.0; ticks]; n + 3];
+        if !self.is_measured_by(s) {
+            return out;
+        }
+        let axes = self.constants();
+        let prepared = self.prepared(s);
+        let turns = axes_of == Axes::Body && self.support == Support::Floor;
+        let mut signals = self.signals(s, &prepared, !load.is_empty(), turns);
         if turns {
             self.inertial(s, &signals, &mut out[n..]);
         }
-        if self.loads.is_empty() {
-            signals.carried = vec![Vec::new(); n];
-        } else {
-            let mut carried = vec![vec![0.0; ticks]; n];
-            self.each_instant(s, &signals, prepared, |k, now, loads| {
+        let mut carried = vec![Vec::new(); n];
+        if !load.is_empty() {
+            signals.lay();
+            carried = vec![vec![0.0; ticks]; n];
+            self.each_instant(s, &signals, &prepared, |k, now, loads| {
                 for (slot, row) in loads.body.iter_mut().zip(&out[n..]) {
                     *slot = row[k];
                 }
-                for term in &self.loads {
+                for term in load {
                     term(now, loads);
                 }
                 for (row, x) in out.iter_mut().zip(loads.wheel.iter_mut().chain(&mut loads.body)) {
@@ -210,19 +209,18 @@ impl DriveModel {
                     row[k] = take(x);
                 }
             });
-            signals.carried = carried;
         }
         for (i, axis) in axes.iter().enumerate() {
             let given = out[i].iter_mut().zip(&signals.winding[i]).zip(&*signals.sign[i]);
             let of_motor =
                 |winding, sign, carried| winding + carried - sign * (axis.coulomb + axis.lost(winding, sign, carried));
-            if signals.carried[i].is_empty() {
+            if carried[i].is_empty() {
                 given.for_each(|((out, winding), sign)| *out += of_motor(*winding, *sign, 0.0));
             } else {
-                let carried = given.zip(&signals.carried[i]);
-                carried.for_each(|(((out, winding), sign), carried)| *out += of_motor(*winding, *sign, *carried));
+                let given = given.zip(&carried[i]);
+                given.for_each(|(((out, winding), sign), carried)| *out += of_motor(*winding, *sign, *carried));
             }
         }
-        (out, signals)
+        out
     }
 }

@@ -13,16 +13,19 @@ mod forces;
 mod free_run;
 mod instant;
 mod laid;
+mod means;
 mod signals;
 mod test_functions;
 #[cfg(test)]
 mod tests;
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use nalgebra::{DMatrix, Matrix3};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::{Robot, Support};
 
-use crate::effect::Effect;
+use crate::effect::{Effect, Form};
 use crate::segment::Segment;
 use crate::values::Values;
 
@@ -121,14 +124,28 @@ pub struct DriveModel {
     pub supply_maps: Vec<SupplyMap>,
     /// Torques and forces beside those of the nominal model.
     pub loads: Vec<LoadTerm>,
+    /// Further ones in proportion to a number.
+    proportional: Vec<Proportional>,
     /// Per-tick values for terms with memory.
     pub prepare: Vec<Prepare>,
     /// Encoder angle minus wheel angle, `[wheel][tick]`, rad at the wheel, and what is ahead.
     pub offsets: Vec<(Ahead, Prepare)>,
     /// What carries the robot.
     pub support: Support,
-    /// The effects that made it, in this order.
-    pub effects: Vec<(String, Values)>,
+    /// The effects that act on torques and forces by more than its numbers and the proportional loads.
+    bending: Vec<(String, Values)>,
+}
+
+/// Loads in proportion to a parameter of an effect.
+struct Proportional {
+    /// Of which effect, with what is fixed of it, and parameter.
+    of: String,
+    value: f64,
+    /// At the value 1, and at that value.
+    unit: Vec<LoadTerm>,
+    own: Vec<LoadTerm>,
+    /// Whether they depend on what the motors are.
+    looks_at_motors: bool,
 }
 
 impl DriveModel {
@@ -162,47 +179,72 @@ impl DriveModel {
             duty_maps: Vec::new(),
             supply_maps: Vec::new(),
             loads: Vec::new(),
+            proportional: Vec::new(),
             prepare: Vec::new(),
             offsets: Vec::new(),
             support: robot.support,
-            effects: Vec::new(),
+            bending: Vec::new(),
         }
     }
 
-    /// Whether it is `base` with further effects that change nothing but loads and offsets.
-    fn only_loads_more(&self, base: &Self) -> bool {
-        self.effects.starts_with(&base.effects) && self.same_but_for_loads(base)
+    /// Adds an effect in one of its forms.
+    pub fn add(&mut self, effect: &dyn Effect, values: &Values, form: &Form) {
+        let terms = |m: &Self| [m.loads.len(), m.duty_maps.len(), m.supply_maps.len(), m.prepare.len()];
+        let before = terms(self);
+        effect.drive(values, self);
+        if effect.is_load() && !form.free.is_empty() {
+            self.loads.truncate(before[0]);
+            let offsets = self.offsets.len();
+            let mut alone = values.clone();
+            form.free.iter().for_each(|p| alone.set(&p.name, 0.0));
+            for p in form.free.iter().filter(|p| values.get(&p.name) != 0.0) {
+                let value = values.get(&p.name);
+                let [unit, own] = [1.0, value].map(|x| {
+                    let mut values = alone.clone();
+                    values.set(&p.name, x);
+                    effect.drive(&values, self);
+                    self.offsets.truncate(offsets);
+                    self.loads.split_off(before[0])
+                });
+                let of = format!("{} {:?} {}", effect.name(), form.fixed, p.name);
+                let looks_at_motors = effect.looks_at_motors();
+                self.proportional.push(Proportional { of, value, unit, own, looks_at_motors });
+            }
+        } else if terms(self) != before {
+            self.bending.push((effect.name().to_owned(), values.clone()));
+        }
     }
 
-    /// Whether an effect with these values changes anything of a robot's model.
-    pub fn is_changed_by(robot: &Robot, effect: &dyn Effect, values: &Values) -> bool {
-        let nominal = Self::new(robot);
-        let mut with = Self::new(robot);
-        effect.drive(values, &mut with);
-        let adds = !with.loads.is_empty() || !with.offsets.is_empty() || !with.prepare.is_empty();
-        adds || !with.same_but_for_loads(&nominal)
-    }
-
-    /// What models of one robot differ by: their effects and what those made of its numbers.
-    fn identity(&self) -> String {
-        format!("{:?} {:?} {:?} {:?} {:?}", self.effects, self.numbers(), self.wheels, self.radius_scale, self.axes)
-    }
-
-    fn numbers(&self) -> [f64; 11] {
-        let ([cx, cy], [sx, sy]) = (self.centre_of_mass, self.slope_rad);
+    /// What the torques and forces of models of one robot differ by, without their proportional loads: where they stand alone,
+    /// no inertia is among it.
+    fn torques_identity(&self) -> u64 {
+        let alone = self.torques_stand_alone();
+        let inertias = |a: &AxisModel| [a.rotor_inertia, a.load_inertia].map(|x| if alone { 0.0 } else { x });
+        let axis = |a: &AxisModel| {
+            let motor = [a.resistance, a.torque_constant, a.back_emf, a.friction, a.gear_loss];
+            (motor.map(f64::to_bits), inertias(a).map(f64::to_bits))
+        };
         let [delay, filter, limit] = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a];
-        [self.mass, self.yaw_inertia, cx, cy, sx, sy, self.wheel_radius_m, self.gear_ratio, delay, filter, limit]
+        let mut hasher = DefaultHasher::new();
+        self.axes.iter().map(axis).for_each(|axis| axis.hash(&mut hasher));
+        [delay, filter, limit].map(f64::to_bits).hash(&mut hasher);
+        for (name, values) in &self.bending {
+            name.hash(&mut hasher);
+            values.0.iter().for_each(|(name, value)| (name, value.to_bits()).hash(&mut hasher));
+        }
+        self.motion_identity().hash(&mut hasher);
+        hasher.finish()
     }
 
-    /// Whether nothing but loads and offsets differs.
-    fn same_but_for_loads(&self, base: &Self) -> bool {
-        self.numbers() == base.numbers()
-            && self.wheels == base.wheels
-            && self.radius_scale == base.radius_scale
-            && self.axes == base.axes
-            && self.support == base.support
-            && self.duty_maps.len() == base.duty_maps.len()
-            && self.supply_maps.len() == base.supply_maps.len()
+    /// What proportional loads that do not look at motors differ by.
+    fn motion_identity(&self) -> u64 {
+        let ([cx, cy], [sx, sy]) = (self.centre_of_mass, self.slope_rad);
+        let numbers = [self.mass, cx, cy, sx, sy, self.wheel_radius_m, self.gear_ratio];
+        let wheels = self.wheels.iter().flat_map(|w| [w.x_m, w.y_m, w.drive_rad, w.roller_rad]);
+        let scales = self.radius_scale.iter().copied().chain(self.axes.iter().map(|a| a.encoder_scale));
+        let mut hasher = DefaultHasher::new();
+        numbers.into_iter().chain(wheels).chain(scales).for_each(|x| x.to_bits().hash(&mut hasher));
+        hasher.finish()
     }
 
     /// Whether no torque depends on an inertia, or a motor's on a load: on blocks a gear that loses passes on what does not turn

@@ -63,8 +63,6 @@ pub(super) struct Signals<'a> {
     pub(super) winding: Vec<Vec<f64>>,
     /// Speed of the contact in the direction in which its rollers roll, m/s.
     pub(super) sideways: Vec<Vec<f64>>,
-    /// Torque of the loads that a gear carries, Nm; empty where there are none.
-    pub(super) carried: Vec<Vec<f64>>,
     /// To the right, forward, counter-clockwise: m/s, m/s, rad/s.
     pub(super) twist: [Vec<f64>; 3],
     /// V.

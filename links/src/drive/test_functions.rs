@@ -9,9 +9,9 @@ use nalgebra::{DMatrix, DVector, DVectorView, DVectorViewMut};
 use runs::robot::Support;
 
 use super::answers::Answers;
-use super::columns::{Column, Columns, Side};
-use super::forces::{Base, Forces};
+use super::columns::{Columns, Side};
 use super::laid::{Laid, Shape, TestFunction};
+use super::means::Place;
 use super::{Ahead, DriveModel, Mechanics};
 use crate::effect::Sizes;
 use crate::inertial::Sensor;
@@ -19,7 +19,6 @@ use crate::pieces::{Pieces, by_segment};
 use crate::segment::Segment;
 use crate::thresholds;
 use estimation::normal_equations::Cluster;
-use estimation::sums::dot;
 
 /// Length of a test function in ticks at least.
 const FEWEST_TICKS: f64 = 12.0;
@@ -49,7 +48,7 @@ pub struct DriveLink<'a> {
     pub sizes: Sizes,
     pub(super) test_functions: Vec<TestFunction>,
     pub(super) laid: Vec<OnceLock<Arc<Laid>>>,
-    columns: Columns,
+    pub(super) columns: Columns,
     /// What an inertial sensor tells where wheels slip.
     pub(super) felt: Option<BodyFelt>,
     /// What stands beside every effect; see [`DriveLink::answer`].
@@ -292,63 +291,6 @@ impl<'a> DriveLink<'a> {
         }
     }
 
-    /// Unexplained accelerations of some test functions of one segment by the torques and forces of a model at its
-    /// ticks, in the torque of an inertia, Nm, one a wheel of each test function.
-    ///
-    /// The equation of motion is solved for the acceleration, which carries the noise; the torques that motors give are
-    /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
-    /// none of them lighter or heavier. [`super::in_own_torque`] has what that unit cannot tell.
-    fn unexplained_part(
-        &self,
-        model: &DriveModel,
-        s: &Segment,
-        range: &Range<usize>,
-        Laid { shapes, measured }: &Laid,
-        (forces, inertia): (&Forces, Option<&DMatrix<f64>>),
-    ) -> Option<Vec<f64>> {
-        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
-        let inertia = inertia.unwrap_or(&mechanics.inertia);
-        let offsets: Vec<(Ahead, Vec<Vec<f64>>)> = model.offsets.iter().map(|(what, o)| (*what, o(model, s))).collect();
-        let given = inertia * mechanics.encoders_per_torque(model);
-        let mut torques = vec![0.0; n * range.len()];
-        let mut mean = vec![0.0; n + 3];
-        for (((b, shape), measured), torque) in
-            self.test_functions[range.clone()].iter().zip(shapes).zip(measured).zip(torques.chunks_exact_mut(n))
-        {
-            mean.iter_mut().zip(forces).for_each(|(mean, row)| *mean = dot(&shape.force, &row[b.first..]));
-            add_product(torque, inertia, 1.0, measured.as_slice());
-            add_product(torque, &given, -1.0, &mean);
-            for offset in &offsets {
-                add_product(torque, inertia, -1.0, b.offset(shape, offset, &mechanics, model).as_slice());
-            }
-        }
-        Some(torques)
-    }
-
-    /// What a model that only adds loads and offsets to another explains more than that, Nm, one a wheel of each test
-    /// function.
-    fn added_part(&self, model: &DriveModel, base: &Base, range: &Range<usize>, shapes: &[Shape]) -> Option<Vec<f64>> {
-        let loads = base.loads_of(model);
-        let offsets = base.offsets_of(model);
-        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
-        let given = &self.inertia * mechanics.encoders_per_torque(model);
-        let mut torques = vec![0.0; n * range.len()];
-        for ((b, shape), torque) in
-            self.test_functions[range.clone()].iter().zip(shapes).zip(torques.chunks_exact_mut(n))
-        {
-            for (row, per_torque) in loads.iter().zip(given.column_iter()) {
-                let Some(row) = row else { continue };
-                let mean = dot(&shape.force, &row[b.first..]);
-                torque.iter_mut().zip(per_torque.iter()).for_each(|(slot, x)| *slot += x * mean);
-            }
-            for offset in &offsets {
-                add_product(torque, &self.inertia, 1.0, b.offset(shape, offset, &mechanics, model).as_slice());
-            }
-        }
-        debug_assert!(loads.len() == n + 3);
-        Some(torques)
-    }
-
     /// Torques that the measured accelerations take of a model, Nm, one a test function.
     pub fn done(&self, model: &DriveModel) -> Vec<DVector<f64>> {
         let Some(Mechanics { inertia, .. }) = model.mechanics() else { return Vec::new() };
@@ -410,7 +352,7 @@ impl<'a> DriveLink<'a> {
         let part = |range: &Range<usize>| -> Option<Vec<Vec<f64>>> {
             let s = self.pieces.get(self.test_functions[range.start].segment);
             let laid = self.laid(&s, range);
-            let left = self.unexplained_part(model, &s, range, &laid, (&model.forces(&s), inertia))?;
+            let left = Place::new(self, &s, range, &laid, model).left(model, inertia)?;
             Some(left.chunks_exact(self.noise.len()).map(<[f64]>::to_vec).collect())
         };
         let torque: Option<Vec<_>> = each(&self.by_segment(), &part).into_iter().collect();
@@ -486,42 +428,17 @@ impl<'a> DriveLink<'a> {
         for range in self.by_segment() {
             let s = &*self.pieces.get(self.test_functions[range.start].segment);
             let laid = self.laid(s, &range);
-            let find = |side: &Side| self.columns.find(range.start, side.key.as_deref()?);
-            let known: Vec<Option<Column>> = sides.iter().map(find).collect();
-            let adds = |side: &Side| [&side.high].into_iter().chain(&side.low).all(|m| m.only_loads_more(model));
-            let more = sides.iter().zip(&known).any(|(side, known)| known.is_none() && adds(side));
-            let start = OnceLock::new();
-            let start = || start.get_or_init(|| Base::new(model, s, more));
-            let left = |of: &DriveModel, started: bool| {
-                self.columns.once(range.start, of.identity(), || {
-                    let forces = if started { Cow::Borrowed(&start().forces) } else { Cow::Owned(of.forces(s)) };
-                    self.unexplained_part(of, s, &range, &laid, (&forces, Some(&self.inertia)))
-                })
-            };
-            let Some(base) = left(model, true) else { return Vec::new() };
-            let columns: Vec<Option<Column>> = numbered(sides.len(), &|i| {
+            let place = Place::new(self, s, &range, &laid, model);
+            let left = |model: &DriveModel| place.left(model, Some(&self.inertia));
+            let Some(base) = left(model) else { return Vec::new() };
+            let columns: Vec<Option<Vec<f64>>> = numbered(sides.len(), &|i| {
                 let side = &sides[i];
-                if known[i].is_some() {
-                    return known[i].clone();
-                }
-                let slope = |low: &[f64], high: &[f64]| -> Vec<f64> {
-                    low.iter().zip(high).map(|(low, high)| (high - low) / side.step).collect()
+                let low = match &side.low {
+                    Some(low) => Cow::Owned(left(low)?),
+                    None => Cow::Borrowed(&base),
                 };
-                let column = Arc::new(if adds(side) {
-                    let added = |model: &DriveModel| self.added_part(model, start(), &range, &laid.shapes);
-                    let high = added(&side.high)?;
-                    let low = side.low.as_ref().map_or_else(|| Some(vec![0.0; high.len()]), added)?;
-                    slope(&low, &high)
-                } else {
-                    let left = |m: &DriveModel| left(m, side.inertia_alone && m.torques_stand_alone());
-                    let low = side.low.as_ref().map_or_else(|| Some(base.clone()), left)?;
-                    // What a model explains more is left less.
-                    slope(&left(&side.high)?, &low)
-                });
-                if let Some(key) = &side.key {
-                    self.columns.keep(range.start, key.clone(), &column);
-                }
-                Some(column)
+                // What a model explains more is left less.
+                Some(low.iter().zip(left(&side.high)?).map(|(low, high)| (low - high) / side.step).collect())
             });
             let mut first = 0;
             for part in self.test_functions[range.clone()].chunk_by(|a, b| a.cluster == b.cluster) {
@@ -551,7 +468,7 @@ impl<'a> DriveLink<'a> {
 }
 
 /// Adds a matrix times a vector, times a factor.
-fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, factor: f64, x: &[f64]) {
+pub(super) fn add_product(sum: &mut [f64], matrix: &DMatrix<f64>, factor: f64, x: &[f64]) {
     let (rows, columns) = matrix.shape();
     DVectorViewMut::from_slice(sum, rows).gemv(factor, matrix, &DVectorView::from_slice(x, columns), 1.0);
 }
@@ -604,7 +521,7 @@ impl TestFunction {
     }
 
     /// Acceleration of encoders against their wheels. The rotor, on which the encoder sits, moves in the play by itself.
-    fn offset(
+    pub(super) fn offset(
         &self,
         shape: &Shape,
         (what, offset): &(Ahead, Vec<Vec<f64>>),

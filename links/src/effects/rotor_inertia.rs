@@ -36,10 +36,6 @@ impl Effect for RotorInertia {
         vec![Form::whole(vec![Parameter::new("scale", (0.2 * material).max(0.02), [least, 200.0], material)])]
     }
 
-    fn is_inertia(&self) -> bool {
-        true
-    }
-
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let scale = 1.0 + values.get("scale");
         let on_blocks = model.support == Support::Blocks;

@@ -29,10 +29,6 @@ impl Effect for YawInertia {
         vec![Form::whole(vec![Parameter::new("scale", 0.05, [-0.8, 3.0], 0.15)])]
     }
 
-    fn is_inertia(&self) -> bool {
-        true
-    }
-
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         model.yaw_inertia *= 1.0 + values.get("scale");
     }

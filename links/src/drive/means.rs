@@ -1,0 +1,131 @@
+//! Mean torques and forces over test functions. What they are without an inertia and without the loads in proportion to a
+//! number is the same for many models, and so is what each of those loads gives at the value 1: both are worked out once.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::Range;
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+
+use super::columns::{Key, Rows};
+use super::forces::Base;
+use super::laid::Laid;
+use super::test_functions::{DriveLink, add_product};
+use super::{DriveModel, Proportional};
+use crate::segment::Segment;
+use estimation::sums::dot;
+
+/// Test functions of one segment, at which models are looked at.
+pub(super) struct Place<'a> {
+    pub(super) link: &'a DriveLink<'a>,
+    pub(super) segment: &'a Segment,
+    pub(super) range: &'a Range<usize>,
+    pub(super) laid: &'a Laid,
+    /// A model whose torques many others have, too.
+    pub(super) shared: Option<(u64, Base<'a>)>,
+}
+
+impl<'a> Place<'a> {
+    pub(super) fn new(
+        link: &'a DriveLink<'a>,
+        segment: &'a Segment,
+        range: &'a Range<usize>,
+        laid: &'a Laid,
+        shared: &'a DriveModel,
+    ) -> Self {
+        let shared = shared.torques_stand_alone().then(|| (shared.torques_identity(), Base::new(shared, segment)));
+        Self { link, segment, range, laid, shared }
+    }
+
+    /// Unexplained accelerations by a model's torques and forces, in the torque of an inertia, its own if none is given, Nm,
+    /// one a wheel of each test function.
+    ///
+    /// The equation of motion is solved for the acceleration, which carries the noise; the torques that motors give are
+    /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
+    /// none of them lighter or heavier. [`super::in_own_torque`] has what that unit cannot tell.
+    pub(super) fn left(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<Vec<f64>> {
+        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
+        let inertia = inertia.unwrap_or(&mechanics.inertia);
+        let offsets: Vec<_> = model.offsets.iter().map(|(what, o)| (*what, o(model, self.segment))).collect();
+        let given = inertia * mechanics.encoders_per_torque(model);
+        let mut torques = vec![0.0; n * self.range.len()];
+        for (measured, torque) in self.laid.measured.iter().zip(torques.chunks_exact_mut(n)) {
+            add_product(torque, inertia, 1.0, measured.as_slice());
+        }
+        for (row, means) in self.means(model) {
+            let per_torque = given.column(row);
+            for (mean, torque) in means.iter().zip(torques.chunks_exact_mut(n)) {
+                torque.iter_mut().zip(per_torque.iter()).for_each(|(slot, x)| *slot -= x * mean);
+            }
+        }
+        if !offsets.is_empty() {
+            let own = self.link.test_functions[self.range.clone()].iter().zip(&self.laid.shapes);
+            for ((b, shape), torque) in own.zip(torques.chunks_exact_mut(n)) {
+                for offset in &offsets {
+                    // What the encoders are ahead of their wheels is no acceleration of these.
+                    add_product(torque, inertia, -1.0, b.offset(shape, offset, &mechanics, model).as_slice());
+                }
+            }
+        }
+        Some(torques)
+    }
+
+    /// Means of a model's torques and forces, by their rows.
+    fn means(&self, model: &DriveModel) -> Vec<(usize, Vec<f64>)> {
+        let rows = model.wheels.len() + 3;
+        let torques = model.torques_identity();
+        if !model.torques_stand_alone() {
+            let mut whole = DefaultHasher::new();
+            torques.hash(&mut whole);
+            model.proportional.iter().for_each(|p| (&p.of, p.value.to_bits()).hash(&mut whole));
+            let all = || self.over_test_functions(model.forces(self.segment).into_iter().map(Some));
+            return self.once((torques, Some(whole.finish())), all).as_ref().clone();
+        }
+        let own = Base::new(model, self.segment);
+        let shared = self.shared.as_ref().filter(|(shared, _)| *shared == torques).map(|(_, base)| base);
+        let torque = self.once((torques, None), || {
+            let forces = shared.map_or_else(|| own.forces(), Base::forces);
+            self.over_test_functions(forces.iter().map(|row| Some(row.as_slice())))
+        });
+        let mut sum: Vec<Option<Vec<f64>>> = vec![None; rows];
+        for (row, means) in &*torque {
+            sum[*row] = Some(means.clone());
+        }
+        let motion = model.motion_identity();
+        for load in &model.proportional {
+            let unit = self.once(load.key(if load.looks_at_motors { torques } else { motion }), || {
+                let rows = shared.map_or_else(|| own.of_load(&load.unit), |base| base.of_load(&load.unit));
+                self.over_test_functions(rows.into_iter())
+            });
+            for (row, means) in &*unit {
+                let sum = sum[*row].get_or_insert_with(|| vec![0.0; means.len()]);
+                sum.iter_mut().zip(means).for_each(|(sum, mean)| *sum += load.value * mean);
+            }
+        }
+        sum.into_iter().enumerate().filter_map(|(row, means)| Some((row, means?))).collect()
+    }
+
+    fn once(&self, key: Key, make: impl FnOnce() -> Rows) -> Arc<Rows> {
+        self.link.columns.once(self.range.start, key, make)
+    }
+
+    /// Means over every test function of what is there at the ticks, by rows; of none that is 0 throughout.
+    fn over_test_functions<R: AsRef<[f64]>>(&self, rows: impl Iterator<Item = Option<R>>) -> Rows {
+        let own = || self.link.test_functions[self.range.clone()].iter().zip(&self.laid.shapes);
+        let mean = |row: &[f64]| own().map(|(b, shape)| dot(&shape.force, &row[b.first..])).collect();
+        let there = rows.enumerate().filter_map(|(i, row)| Some((i, row?)));
+        there
+            .filter(|(_, row)| row.as_ref().iter().any(|x| *x != 0.0))
+            .map(|(i, row)| (i, mean(row.as_ref())))
+            .collect()
+    }
+}
+
+impl Proportional {
+    /// Under which a unit of it is kept, beside the motion and the motors that it looks at.
+    fn key(&self, looks_at: u64) -> Key {
+        let mut hasher = DefaultHasher::new();
+        self.of.hash(&mut hasher);
+        (looks_at, Some(hasher.finish()))
+    }
+}
