@@ -192,21 +192,28 @@ impl DriveModel {
         let terms = |m: &Self| [m.loads.len(), m.duty_maps.len(), m.supply_maps.len(), m.prepare.len()];
         let before = terms(self);
         effect.drive(values, self);
-        if effect.is_load() && !form.free.is_empty() {
+        if effect.is_load() {
             self.loads.truncate(before[0]);
             let offsets = self.offsets.len();
             let mut alone = values.clone();
             form.free.iter().for_each(|p| alone.set(&p.name, 0.0));
-            for p in form.free.iter().filter(|p| values.get(&p.name) != 0.0) {
-                let value = values.get(&p.name);
+            // What is not fitted is in proportion to 1 alone.
+            let parts: Vec<(&str, f64)> = match form.free.as_slice() {
+                [] => vec![("", 1.0)],
+                free => free.iter().map(|p| (p.name.as_str(), values.get(&p.name))).collect(),
+            };
+            for (name, value) in parts.into_iter().filter(|(_, value)| *value != 0.0) {
                 let [unit, own] = [1.0, value].map(|x| {
                     let mut values = alone.clone();
-                    values.set(&p.name, x);
+                    if !name.is_empty() {
+                        values.set(name, x);
+                    }
                     effect.drive(&values, self);
                     self.offsets.truncate(offsets);
                     self.loads.split_off(before[0])
                 });
-                let of = format!("{} {:?} {}", effect.name(), form.fixed, p.name);
+                let of =
+                    format!("{} {:?} {name}", effect.name(), if name.is_empty() { &values.0 } else { &form.fixed });
                 let looks_at_motors = effect.looks_at_motors();
                 self.proportional.push(Proportional { of, value, unit, own, looks_at_motors });
             }

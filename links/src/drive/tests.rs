@@ -17,7 +17,10 @@ use crate::values::Values;
 /// A model with effects at values, none of which is known to be in proportion to anything.
 fn with(robot: &Robot, effects: &[(&dyn Effect, Values)]) -> DriveModel {
     let mut model = DriveModel::new(robot);
-    effects.iter().for_each(|(effect, values)| model.add(*effect, values, &Form::default()));
+    for (effect, values) in effects {
+        effect.drive(values, &mut model);
+        model.bending.push((effect.name().to_owned(), values.clone()));
+    }
     model
 }
 
@@ -56,7 +59,8 @@ fn inertias_alone_leave_torques_as_they_are() {
         let nominal = DriveModel::new(robot);
         let base = nominal.forces(&segment);
         for (effect, values) in moved(robot, |e| ["rotor-inertia", "yaw-inertia"].contains(&e.name())) {
-            let model = with(robot, &[(&*effect, values)]);
+            let mut model = DriveModel::new(robot);
+            model.add(&*effect, &values, &Form::default());
             assert!(model.torques_stand_alone());
             assert!(model.forces(&segment) == base, "{}", effect.name());
             assert!(model.torques_identity() == nominal.torques_identity(), "{}", effect.name());
@@ -75,7 +79,7 @@ fn what_is_worked_out_once_is_what_each_model_gives() {
 fn what_is_worked_out_once_of(robot: &Robot) {
     on_a_drive_of(robot, |robot, pieces| {
         let nominal = DriveModel::new(robot);
-        let link = DriveLink::new(pieces, &nominal).unwrap();
+        let [link, fresh] = [(); 2].map(|()| DriveLink::new(pieces, &nominal).unwrap());
         // What was kept of one model serves the next: every effect beside others of every kind.
         let named = |name: &str, n: usize| {
             let effect: Arc<dyn Effect> = Arc::from(crate::effects::find(name).unwrap());
@@ -98,15 +102,20 @@ fn what_is_worked_out_once_of(robot: &Robot) {
                     form.free.iter().for_each(|p| values.set(&p.name, p.start.unwrap_or(0.0) + p.scale));
                     let own = (effect.clone(), values, form);
                     let all = || others.iter().chain([&own]);
-                    let [mut parted, mut whole] = [(); 2].map(|()| DriveModel::new(robot));
+                    let [mut parted, mut given] = [(); 2].map(|()| DriveModel::new(robot));
                     all().for_each(|(effect, values, form)| parted.add(&**effect, values, form));
-                    all().for_each(|(effect, values, _)| whole.add(&**effect, values, &Form::default()));
-                    let [parted, fresh] = [(&link, parted), (&DriveLink::new(pieces, &nominal).unwrap(), whole)]
-                        .map(|(link, model)| link.residuals(&model).map(|left| left.torque.concat()));
-                    let (Some(parted), Some(fresh)) = (parted, fresh) else { continue };
-                    let apart = parted.iter().zip(&fresh).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-                    let largest = fresh.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
-                    assert!(apart <= 1e-9 * largest, "{} {:?}: {apart} of {largest} Nm", own.0.name(), own.1);
+                    all().for_each(|(effect, values, _)| given.add(&**effect, values, &Form::default()));
+                    let effects: Vec<_> = all().map(|(effect, values, _)| (&**effect, values.clone())).collect();
+                    let left = |link: &DriveLink, model: &DriveModel| -> Option<Vec<f64>> {
+                        Some(link.residuals(model)?.torque.concat())
+                    };
+                    let Some(whole) = left(&fresh, &with(robot, &effects)) else { continue };
+                    let largest = whole.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
+                    for model in [parted, given] {
+                        let left = left(&link, &model).unwrap();
+                        let apart = left.iter().zip(&whole).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                        assert!(apart <= 1e-9 * largest, "{} {:?}: {apart} of {largest} Nm", own.0.name(), own.1);
+                    }
                     looked += 1;
                 }
             }
