@@ -292,6 +292,11 @@ fn a_lost_sign_shows_where_there_are_only_two_levels() {
     // A winch lifts with much and lowers with little; one that only lifts is held by nothing else.
     assert_eq!(kinds(&bench(|k| (if k.is_multiple_of(2) { 0.5 } else { 0.1 }, 80.0 * sign(k)))), [""; 0]);
     assert_eq!(kinds(&bench(|_| (0.5, 120.0))), [""; 0]);
+    // Up with much, back with little, and at rest in between: what pulled it back would not have let it rest. A brake that
+    // opens for the drive would, but then it runs back the faster the less it is driven.
+    let rests = |back: f64| move |k: usize| [(0.5, 120.0), (0.0, 0.0), (back, -60.0), (0.0, 0.0)][k % 4];
+    assert_eq!(kinds(&bench(rests(0.2))), ["drive-unsigned"]);
+    assert_eq!(kinds(&bench(rests(0.05))), [""; 0]);
 }
 
 /// A small motor whose bridge coasts takes a duty of 0.15 before it turns and then little more: no word of its battery.

@@ -25,6 +25,10 @@ const SIZE: f64 = 0.3;
 const LEVEL: f64 = 0.05;
 /// Spans by which commands may run ahead.
 const LAGS: usize = 6;
+/// Time for which an axis must have stood undriven so that it starts from rest, s: it stops within some tenths.
+const REST_S: f64 = 0.5;
+/// Starts each way from which they tell.
+const STARTS: usize = 2;
 /// Ratio of supplies up to which duties and speeds speak of the motors of the file, so that what these cannot follow is a
 /// limit: counts of half the lines would make it 0.5.
 const ITS_MOTORS: f64 = 1.5;
@@ -81,8 +85,33 @@ fn both_ways_at_a_level(rows: &[[f64; 3]]) -> bool {
         && (0.5..=2.0).contains(&(forwards / back))
 }
 
+/// Whether an axis that stood undriven turns back under what drives it as readily as forwards. A load that pulls it back
+/// against the drive would have pulled it sooner while nothing drove it.
+fn both_ways_from_rest(signals: &[Signals], axis: usize) -> bool {
+    let mut starts: [Vec<f64>; 2] = Default::default();
+    for s in signals.iter().filter(|s| axis < s.duty.len().min(s.speed.len())) {
+        let most = |of: &[f64]| LEVEL * of.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let (idle, still) = (most(&s.duty[axis]), most(&s.speed[axis]));
+        let (mut rested, mut driven) = (0.0, [0.0; 2]);
+        for (duty, speed) in s.duty[axis].iter().zip(&s.speed[axis]) {
+            if *duty > idle {
+                driven = [driven[0] + duty, driven[1] + speed];
+                continue;
+            }
+            if driven[0] > 0.0 && rested >= REST_S {
+                starts[usize::from(driven[1] < 0.0)].push(driven[1].abs() / driven[0]);
+            }
+            rested = if driven[0] == 0.0 && speed.abs() <= still { rested + s.span_s } else { 0.0 };
+            driven = [0.0; 2];
+        }
+    }
+    let [forwards, back] = &mut starts;
+    forwards.len().min(back.len()) >= STARTS && (0.5..=2.0).contains(&(median(forwards) / median(back)))
+}
+
 /// What drives an axis without its sign: never negative though the axis turns both ways. On an axis alone a load that pulls
-/// one way holds it positive as well; there it must be as large backwards as forwards, too, or drive both ways at one level.
+/// one way holds it positive as well; there it must be as large backwards as forwards, too, or drive both ways at one level
+/// or from rest.
 fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
     let axes = signals.iter().map(|s| s.duty.len().min(s.speed.len())).max()?;
     let lost = |i: &usize| {
@@ -93,8 +122,10 @@ fn unsigned(robot: &Robot, signals: &[Signals], stem: &str) -> Option<Mistake> {
         let size = correlation(pairs.iter().map(|(duty, speed)| (*duty, speed.abs())));
         let sense = correlation(pairs.iter().copied());
         let positive = pairs.iter().all(|(duty, _)| *duty >= 0.0);
-        let no_load =
-            robot.support == Support::Floor || size > SIZE && size > 2.0 * sense.abs() || both_ways_at_a_level(&rows);
+        let no_load = robot.support == Support::Floor
+            || size > SIZE && size > 2.0 * sense.abs()
+            || both_ways_at_a_level(&rows)
+            || both_ways_from_rest(signals, *i);
         pairs.len() >= FEWEST && both && positive && no_load && pairs.iter().any(|(duty, _)| *duty > 0.0)
     };
     let wheel = (0..axes).find(lost)?;
