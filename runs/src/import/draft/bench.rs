@@ -36,6 +36,12 @@ fn lone_speed<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
             && !has(&["error", "linear", "forward", "x", "y", "wind", "max", "min"])
             && units::in_name(&series.name).is_none_or(|unit| units::is_like(unit, "rad/s"))
     };
+    // What turns beside what goes along x is a body.
+    let goes =
+        |series: &&Series| said(series)(&["velocity", "speed", "vel"]) && said(series)(&["x", "linear", "forward"]);
+    if rest.iter().any(goes) {
+        return;
+    }
     let mut speeds = rest.iter().filter(is_speed);
     let (Some(series), None) = (speeds.next().copied(), speeds.next()) else { return };
     rest.retain(|other| !std::ptr::eq(*other, series));

@@ -73,8 +73,8 @@ const HEADINGS: [&str; 7] = ["heading", "theta", "yaw", "phi", "psi", "rz", "th"
 /// Velocities of a body, along x, along y (with b: in the body's frame) and of its turn.
 const BODY_SPEEDS: [&str; 8] = ["vx", "vbx", "vy", "vby", "w", "wb", "wz", "omega"];
 
-/// Words that number wheels, in the order in which `racbot init` numbers them.
-const CORNERS: [&str; 4] = ["fl", "fr", "rl", "rr"];
+/// Words that number wheels, in the order in which `racbot init` numbers them, twice.
+const CORNERS: [&str; 8] = ["fl", "fr", "rl", "rr", "fl", "fr", "bl", "br"];
 
 /// Words of what was asked for.
 pub(super) const WANTED: [&str; 9] =
@@ -160,6 +160,7 @@ fn recognised<'a>(
         }
     }
     heading_of_odometry(&mut guesses);
+    heading_of_places(&mut guesses, &mut rest);
     drop_broken_groups(&mut guesses, &mut rest);
     guesses.sort_by_key(|g| g.column);
     (guesses, rest)
@@ -171,6 +172,16 @@ fn heading_of_odometry(guesses: &mut [Guess]) {
     let place = |of: fn(usize) -> Column| has(of(0)) && has(of(1));
     if place(Column::Odometry) && !has(Column::Odometry(2)) && !has(Column::Camera(0)) && !has(Column::Camera(1)) {
         guesses.iter_mut().filter(|g| g.column == Column::Camera(2)).for_each(|g| g.column = Column::Odometry(2));
+    }
+}
+
+/// The one angle beside places of a camera that has no heading is that.
+fn heading_of_places<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
+    let has = |i: usize| guesses.iter().any(|g| g.column == Column::Camera(i));
+    let Some(i) = rest.iter().position(|s| s.name.eq_ignore_ascii_case("angle")) else { return };
+    if has(0) && has(1) && !has(2) {
+        let (series, column) = (rest.remove(i), Column::Camera(2));
+        guesses.push(Guess { series, column, unit: unit(column, series) });
     }
 }
 
@@ -454,7 +465,9 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     let has = |some: &[&str]| words.iter().any(|w| some.contains(w));
     let wheel = has(&CORNERS) || has(&["left", "right", "motor", "wheel", "joint"]);
     match words {
-        [_] if axis.is_some() => Some(Kind::Camera),
+        [_] | [_, "position" | "pos"] | ["position" | "pos", _] if axis.is_some() => Some(Kind::Camera),
+        // A share that reaches all of it drives; a speed or a way does not end there.
+        [_] if has(&CORNERS) && share && !whole && low.abs().max(high.abs()) > 0.99 => Some(Kind::Duty),
         // A body has a velocity, too, but turns no revolutions a minute.
         _ if words.contains(&"rpm") => Some(Kind::Speed),
         _ if words.contains(&"velocity") || words.contains(&"speed") => {
@@ -510,7 +523,7 @@ fn number(words: &[&str]) -> Option<usize> {
         (right, left, false, false) if right != left => return Some(usize::from(left)),
         _ => {}
     }
-    let corner = |word: &&str| CORNERS.iter().position(|corner| corner == word);
+    let corner = |word: &&str| CORNERS.iter().position(|corner| corner == word).map(|i| i % 4);
     let digits = |word: &&str| {
         let ordinal = word.starts_with(|c: char| c.is_ascii_digit())
             && ["st", "nd", "rd", "th"].iter().any(|end| word.ends_with(end));

@@ -673,3 +673,15 @@ fn the_one_speed_beside_volts_is_the_motors() {
         assert!(!map.contains("\nspeed_1 = \"velocity\""), "{map}");
     }
 }
+
+/// A robot of the FIRST Tech Challenge: what its motors are told, its pose and the velocities of its body.
+#[test]
+fn corners_that_reach_all_of_a_share_are_duties_beside_a_body() {
+    let names = "time,battery_voltage,fl,fr,bl,br,x_position,y_position,angle,x_velocity,y_velocity,angular_velocity";
+    let rows = ["0.05,12.7,0,-0,0,0,-0.27,-0.05,-0.01,0.2,0.1,0.02", "0.1,9.4,0.9,-1,0.9,1,0.7,0.01,1.1,1.3,-0.2,-5.3"];
+    let map = drafted(names, [rows[0], rows[1], "0.16,9.3,1,-0.9,1,0.9,2.4,0.02,1.2,1.2,0.1,-5.6"]);
+    let lines = ["duty_1 = \"fl\"", "duty_2 = \"fr\"", "duty_3 = \"bl\"", "duty_4 = \"br\"", "cam_x = \"x_position\""];
+    for line in lines.into_iter().chain(["cam_y = \"y_position\"", "cam_theta = \"angle\"", "# \"angular_velocity\""]) {
+        assert!(map.contains(line), "{line}: {map}");
+    }
+}
