@@ -299,6 +299,29 @@ fn a_lost_sign_shows_where_there_are_only_two_levels() {
     assert_eq!(kinds(&bench(rests(0.05))), [""; 0]);
 }
 
+/// Speeds that stand beside counts are not used; but one of the two is wrong where they differ.
+#[test]
+fn speeds_in_another_unit_than_the_counts_are_told() {
+    let with = |factor: f64| {
+        let speed = |k: usize| if k % 3 == 2 { 0.0 } else { 20.0 + 5.0 * k as f64 };
+        let mut set = bench(|k| (0.0, speed(k)));
+        set.runs[0].duty.clear();
+        let per_rad = set.robot.counts_per_wheel_rad();
+        let run = &mut set.runs[0];
+        // As a firmware counts them, every fifth of a second.
+        let counted = |k: usize| (run.counts[0][k] - run.counts[0][k.saturating_sub(200)]) as f64 / 0.2 / per_rad;
+        run.speed = vec![(0..run.t.len()).map(|k| factor * counted(k / 200 * 200)).collect()];
+        let mistakes = found(set.robot, &set.runs);
+        mistakes.iter().filter(|m| m.kind == "speed-counts").map(Mistake::sentence).collect::<String>()
+    };
+    assert_eq!(with(1.0), "");
+    assert_eq!(with(1.2), "");
+    for (factor, says) in [(9.55, "turns per minute"), (57.3, "degrees per second"), (-1.0, "the other sense")] {
+        assert!(with(factor).contains(says), "{}", with(factor));
+    }
+    assert!(with(2.55).starts_with("speed_1: it is 2.55 times the speed by the counts; "), "{}", with(2.55));
+}
+
 /// A small motor whose bridge coasts takes a duty of 0.15 before it turns and then little more: no word of its battery.
 #[test]
 fn duties_that_hardly_follow_the_speed_say_nothing_of_a_supply() {

@@ -16,6 +16,7 @@ mod orders;
 mod samples;
 mod signals;
 mod slips;
+mod speeds;
 mod supply;
 mod time;
 mod turns;
@@ -98,6 +99,9 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
         found.retain(|m| m.kind != "drive-reversed");
     }
     found.extend(inertial::mistakes(&robot, &set.logs, &found));
+    if found.is_empty() {
+        found.extend(speeds::mistakes(&robot, &set.logs));
+    }
     if found.is_empty() {
         // Speeds that are wrong would be too fast for any motor.
         found.extend(motors::mistakes(&robot, &set.logs));
