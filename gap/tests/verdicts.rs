@@ -29,6 +29,20 @@ fn a_robot_that_never_moved_is_not_compared() {
     assert_eq!(a.to_json()["verdict"], "not-compared");
 }
 
+/// What the motors were told and where the robot went, without what its wheels did.
+#[test]
+fn duties_without_counts_say_what_to_log() {
+    let mut set = example();
+    for run in &mut set.runs {
+        run.reference.clear();
+        run.measured.clear();
+        (run.counts, run.count_gaps) = (Vec::new(), Vec::new());
+    }
+    let a = done(&set);
+    assert_eq!(a.verdict, Verdict::NotCompared, "{}", a.terminal_summary());
+    assert!(a.remarks.iter().any(|r| r.starts_with("No encoder counts or wheel speeds beside")), "{:?}", a.remarks);
+}
+
 /// Steps on a lifted motor with 48 counts a turn, a row a millisecond, its rotor's inertia so many times the file's and without the
 /// file's friction.
 fn steps(voltages: &[f64], rows: usize, inertia: f64) -> DataSet {

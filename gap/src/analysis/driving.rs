@@ -56,7 +56,13 @@ impl<'a> Workflow<'a> {
         let options = self.question.options;
         let mut here = self.not_seen();
         let Some(mut link) = self.drive_link() else {
-            let none = "No duties in the logs (or none that belong to the wheels): the drive link is not compared.";
+            let logs = &self.question.set.logs;
+            let told = logs.iter().any(|log| log.layout().duty.len() == self.question.robot.wheel_count());
+            let none = if told && logs.iter().all(|log| log.layout().counts.is_empty()) {
+                "No encoder counts or wheel speeds beside the duties: the drive link is not compared; log them."
+            } else {
+                "No duties in the logs (or none that belong to the wheels): the drive link is not compared."
+            };
             self.findings.remarks.push(none.to_owned());
             options.reached(Stage::DriveStudied);
             return;
