@@ -123,3 +123,23 @@ fn a_set_point_in_the_column_of_the_speed_is_told() {
     let said = told(&asked, &shifted);
     assert!(said.len() == 1 && said[0].starts_with("speed_1: it changes in 5 of 1200 rows and duty_1 in "), "{said:?}");
 }
+
+/// One log of a robot that somebody held up: the whole set was that of another robot.
+#[test]
+fn a_log_of_a_robot_that_was_lifted_is_told_by_its_name() {
+    let mut set = DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew")).unwrap();
+    assert_eq!(told(&set), Vec::<String>::new());
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let name = set.runs[1].name.clone();
+    let first = set.runs[1].camera[0].pose;
+    for sample in &mut set.runs[1].camera {
+        let mut off = |most: f64| rng.random_range(-most..most);
+        let (x, y, theta) = (first.x + off(0.003), first.y + off(0.003), first.theta + off(0.01));
+        (sample.pose.x, sample.pose.y, sample.pose.theta) = (x, y, theta);
+    }
+    let said = told(&set);
+    assert!(said.len() == 1 && said[0].starts_with(&format!("cam_x: in {name} (1 of ")), "{said:?}");
+    // A set of such logs alone says so by itself.
+    set.runs = vec![set.runs[1].clone()];
+    assert!(!told(&set).iter().any(|s| s.contains("sees the robot stand")), "{:?}", told(&set));
+}

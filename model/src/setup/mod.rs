@@ -17,6 +17,7 @@ mod samples;
 mod signals;
 mod slips;
 mod speeds;
+mod stands;
 mod supply;
 mod time;
 mod turns;
@@ -84,6 +85,10 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
         return found;
     }
     let found = held::mistakes(&robot, &set.logs);
+    if !found.is_empty() {
+        return found;
+    }
+    let found = stands::mistakes(&robot, &set.logs);
     if !found.is_empty() {
         return found;
     }
