@@ -54,10 +54,13 @@ impl Left {
     /// Whether it is far more than what another law leaves, which is hardly more than noise.
     ///
     /// Of two laws that differ by d at every residual, one of which leaves noise alone, the other leaves d² more, give or
-    /// take twice |d| noise: half the root of what it leaves more is its distance in standard deviations.
+    /// take twice |d| noise: half the root of what it leaves more is its distance in standard deviations. A floor that was
+    /// found without a law holds what that law does: beside what leaves a small part of that floor it is no noise.
     pub(super) fn far_above(&self, other: &Self, thresholds: &Thresholds) -> bool {
         let more = (self.sum() - other.sum()) / thresholds.drive_correlation;
-        0.5 * more.max(0.0).sqrt() > thresholds.told && other.excess().max(0.0) < thresholds.undecided * self.excess()
+        let part = |left: f64, of: f64| left.max(0.0) < thresholds.undecided * of;
+        let is_part = part(other.excess(), self.excess()) || part(other.sum(), self.sum());
+        0.5 * more.max(0.0).sqrt() > thresholds.told && is_part
     }
 
     /// Whether it is no more than what another law leaves, but for what makes a tie.

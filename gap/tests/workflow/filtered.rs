@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use runs::Run;
 use runs::robot::Robot;
 
-use super::common::{cut_all, names, of_files, simulate, with};
+use super::common::{cut_all, names, of_files, simulate, with, with_dry_friction};
 
 const VOLT: f64 = 12.0;
 const OHM: f64 = 3.8;
@@ -189,4 +189,62 @@ fn a_low_pass_on_the_speeds_of_a_robot_is_no_late_counts() {
         })
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A delay of two time constants, beside which 20 ms between rows hide how a motor starts: three times its inertia left less
+/// than a straight line through no delay promised.
+#[test]
+fn a_delay_longer_than_the_motor_takes_is_no_inertia() {
+    let faults = [1, 2, 3].into_par_iter().filter_map(|seed| {
+        let a = delayed_winch(seed);
+        let right = names(&a) == ["actuation-latency"] && holds(&a, "actuation-latency", WINCH_LATE_S);
+        (!right).then(|| format!("{seed}: {:?} {}", a.effects, a.terminal_summary()))
+    });
+    let faults: Vec<String> = faults.collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Delay of a geared motor's duties, s.
+const WINCH_LATE_S: f64 = 0.035;
+
+/// That motor under sines that get faster, and steps, in rows of 20 ms.
+fn delayed_winch(seed: u64) -> Analysis {
+    let [volt, ohm, kt, gear, rotor, load, dry] = [24.0, 0.9, 0.055, 60.0, 3e-5, 0.12, 0.9];
+    let counts = 48.0 * gear / std::f64::consts::TAU;
+    let text = format!(
+        "encoder_counts_per_motor_rev = 48\ngear_ratio = {gear}\nsupply_v = {volt}\nsupport = \"blocks\"\n\
+         wheel_radius_m = 1\ncontrol_rate_hz = 50\nwheel_inertia_kg_m2 = {load}\n[motor]\nresistance_ohm = {ohm}\n\
+         torque_constant = {kt}\nrotor_inertia = {rotor}\nfriction_torque = {}\n[[wheel]]\nx_m = 0\ny_m = 0\n\
+         drive_deg = 0\n",
+        dry / gear
+    );
+    let inertia = load + gear * gear * rotor;
+    let run = |n: u64| {
+        let mut rng = ChaCha8Rng::seed_from_u64(10 * seed + n);
+        let mut run = Run { name: format!("{n}"), ..Run::default() };
+        let (mut angle, mut speed, mut level) = (0.0_f64, 0.0_f64, 0.0);
+        let (mut duties, mut seen) = (vec![0.0_f64], Vec::new());
+        for row in 0..1500_u32 {
+            let at = f64::from(row % 300) / 50.0;
+            if row % 30 == 0 {
+                level = rng.random_range(-0.8..0.8);
+            }
+            let asked = if at < 2.0 { 0.65 * (std::f64::consts::TAU * (0.4 + 0.8 * at) * at).sin() } else { level };
+            run.t.push(0.02 * f64::from(row));
+            seen.push((angle * counts).floor() as i64);
+            duties.push(asked);
+            for step in 0..200 {
+                // The row in which a duty acts begins 35 ms after its own.
+                let late = usize::from(step < 150) + 1;
+                let duty = duties[(row as usize + 1).saturating_sub(late)];
+                let torque = gear * kt * (volt * duty - kt * gear * speed) / ohm + 0.2 * rng.random_range(-1.0..1.0);
+                speed = with_dry_friction(speed, torque, dry, inertia, 1e-4);
+                angle += 1e-4 * speed;
+            }
+        }
+        duties.remove(0);
+        (run.duty, run.counts) = (vec![duties], vec![seen]);
+        run
+    };
+    of_files(&text, (0..3).map(run))
 }
