@@ -12,8 +12,8 @@ use super::gaps;
 use super::measure::Data;
 use super::order::{TWO_SIDED, order_named};
 use super::question::Question;
-use super::study::{Outcome, chosen, study};
-use crate::controller::with_other_counts;
+use super::study::{self, Outcome, chosen, study};
+use crate::controller::{ENCODER_SCALE, with_other_counts};
 use crate::exact::{ExactLink, Finding};
 use crate::options::Stage;
 use crate::problem::Problem;
@@ -125,6 +125,11 @@ impl<'a> Workflow<'a> {
                 outcome = self.motion_studied(&here);
                 self.findings.remarks.push(IN_STEP.to_owned());
             }
+            if self.drive_has_other_counts(&outcome) {
+                let here: Vec<_> = self.data.catalogue.iter().filter(|e| e.name() != RADIUS).cloned().collect();
+                outcome = self.motion_studied(&here);
+                self.findings.remarks.push(OTHER_COUNTS.to_owned());
+            }
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);
@@ -155,6 +160,36 @@ impl<'a> Workflow<'a> {
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
         self.is_more(self.drive_scatter(&outcome.written), self.drive_scatter(&without))
+    }
+
+    /// Whether wheels seem to have another radius, the camera does not tell that from other counts, and the drive does: it is
+    /// far from its noise with the radius, and leaves a small part of that with the counts. It would want a second name for the
+    /// same wheels: a motor that brakes more.
+    fn drive_has_other_counts(&self, outcome: &Outcome) -> bool {
+        let tied = |set: &Vec<String>| [RADIUS, ENCODER_SCALE].iter().all(|name| set.iter().any(|n| n == name));
+        // What slips has neither.
+        if outcome.held_out > self.thresholds.far || !outcome.sets.iter().any(tied) {
+            return false;
+        }
+        let own = |a: &Active| !a.given && a.effect.name() == RADIUS;
+        let Some(at) = outcome.written.active.iter().position(own) else { return false };
+        let radius = &outcome.written.active[at];
+        let Some(effect) = self.data.catalogue.iter().find(|e| e.name() == ENCODER_SCALE) else { return false };
+        let forms = effect.forms(&self.question.robot);
+        let Some(form) = forms.into_iter().find(|form| form.wheels == radius.form.wheels) else { return false };
+        let mut counts = Active::new(effect.clone(), form);
+        for p in &radius.form.free {
+            // Of less counts a turn the camera sees a larger wheel.
+            counts.values.set(&p.name, 1.0 / (1.0 + radius.values.get(&p.name)) - 1.0);
+        }
+        let mut other = outcome.written.clone();
+        other.active[at] = counts;
+        // Above the floor that the counts leave: what the drive lacks with the radius is a part of its own.
+        let Some(drive) = self.searched().drive(&other, None) else { return false };
+        let left = |state: &State| study::rms(&Problem::Drive(&drive.link), state).powi(2);
+        let [radius, counts] = [&outcome.written, &other].map(left);
+        let is_far = radius >= self.thresholds.from_noise.powi(2);
+        is_far && counts - 1.0 < self.thresholds.undecided * (radius - 1.0)
     }
 
     /// Squared scatter of the drive beside a state: by what any law of a wheel's own speed and duty leaves, for what else
@@ -249,6 +284,9 @@ impl<'a> Workflow<'a> {
 /// Counts that are older than their rows, and what is said where the drive does not have them so.
 const LATE_COUNTS: &str = "encoder-lag";
 const LATE_FRAMES: &str = "camera-latency";
+const RADIUS: &str = "wheel-radius";
+const OTHER_COUNTS: &str = "Against the camera other counts are another radius: the drive follows its duties with the counts, and not with \
+     the radius.";
 const IN_STEP: &str = "The drive has counts and duties in step: against the camera the whole log is late, or its frames are \
      stamped early.";
 

@@ -231,3 +231,15 @@ fn lost_edges_of_one_wheel_show_without_a_camera() {
         agrees_again(&set, &a);
     }
 }
+
+/// Of one wheel a camera sees a larger radius, and the drive a motor that brakes more: one cause in place of two.
+#[test]
+fn counts_that_one_encoder_loses_are_no_radius_where_the_drive_has_them() {
+    for (seed, scale) in [(97, -0.06), (98, 0.08)] {
+        let a = analysed(&driven(&with(&Robot::racbot(), "encoder-scale", &[("scale_2", scale)]), seed));
+        let text = a.terminal_summary();
+        assert!((value(&a, "scale_2") - scale).abs() < 0.01 && names(&a) == ["encoder-scale"], "{text}");
+        let a = analysed(&driven(&with(&Robot::racbot(), "wheel-radius", &[("scale_2", scale)]), seed));
+        assert_eq!(names(&a), ["wheel-radius"], "{}", a.terminal_summary());
+    }
+}
