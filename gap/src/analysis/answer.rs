@@ -2,7 +2,7 @@
 
 use super::differing;
 use super::driven::Driven;
-use super::found::{Analysis, Leftover, LinkGap, Verdict};
+use super::found::{Analysis, Leftover, LinkGap, Named, Verdict};
 use super::gaps::{self, Remains};
 use super::measure::{Measured, MeasuredDrive};
 use super::robot_file::completed;
@@ -174,10 +174,16 @@ impl Workflow<'_> {
         self.findings.unexplained.splice(0..0, differ);
     }
 
-    /// Named effects on links that stay unexplained.
+    /// Named effects on links that stay unexplained; of the drive, too, where what the camera saw does not follow from the
+    /// wheels: what slips moves no body as Newton has it, and a wheel that hardly carries any looked like a motor of a third
+    /// of its resistance.
     fn nearest(&self) -> Vec<String> {
         let open = |link: Link| self.findings.unexplained.iter().any(|u| u.link == link);
-        self.findings.named.iter().filter(|n| open(n.link)).map(|n| n.name.clone()).collect()
+        let driven = self.findings.named.iter().any(|n| n.link == Link::Drive);
+        let astray = |m: &model::setup::Mistake| ["wheels-slip", "robot-file"].contains(&m.kind);
+        let slips = driven && open(Link::Motion) && model::setup::mistakes(self.question.set).iter().any(astray);
+        let near = |n: &&Named| open(n.link) || slips && n.link == Link::Drive;
+        self.findings.named.iter().filter(near).map(|n| n.name.clone()).collect()
     }
 
     /// What it comes to, where some names are merely the nearest and so many links had weight.
