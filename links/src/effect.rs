@@ -213,6 +213,10 @@ pub trait Effect: Send + Sync {
     fn looks_at_motors(&self) -> bool {
         false
     }
+    /// Whether a gear carries the load that it adds, and on blocks loses its share of it.
+    fn is_carried(&self) -> bool {
+        false
+    }
     /// Whether it acts before the current of a motor and changes that alone: where currents are logged, nothing is left of
     /// it.
     fn before_current(&self) -> bool {

@@ -54,13 +54,20 @@ impl Left {
     /// Whether it is far more than what another law leaves, which is hardly more than noise.
     ///
     /// Of two laws that differ by d at every residual, one of which leaves noise alone, the other leaves d² more, give or
-    /// take twice |d| noise: half the root of what it leaves more is its distance in standard deviations. A floor that was
-    /// found without a law holds what that law does: beside what leaves a small part of that floor it is no noise.
+    /// take twice |d| noise: half the root of what it leaves more is its distance in standard deviations.
     pub(super) fn far_above(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        self.apart(other, thresholds) && other.excess().max(0.0) < thresholds.undecided * self.excess()
+    }
+
+    /// The same of two that leave no more than the floor: one that was found without a law holds what that law does, and beside
+    /// what leaves a small part of it is no noise.
+    pub(super) fn far_above_in_floor(&self, other: &Self, thresholds: &Thresholds) -> bool {
+        self.apart(other, thresholds) && self.excess() <= 0.0 && other.sum() < thresholds.undecided * self.sum()
+    }
+
+    fn apart(&self, other: &Self, thresholds: &Thresholds) -> bool {
         let more = (self.sum() - other.sum()) / thresholds.drive_correlation;
-        let part = |left: f64, of: f64| left.max(0.0) < thresholds.undecided * of;
-        let is_part = part(other.excess(), self.excess()) || part(other.sum(), self.sum());
-        0.5 * more.max(0.0).sqrt() > thresholds.told && is_part
+        0.5 * more.max(0.0).sqrt() > thresholds.told
     }
 
     /// Whether it is no more than what another law leaves, but for what makes a tie.

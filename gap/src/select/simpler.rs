@@ -107,7 +107,7 @@ fn is_decoded(law: &Active, thresholds: &Thresholds) -> bool {
 
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one
 /// of them, or one that comes earlier in the catalogue. And one of several where it leaves as little as they. In place of an
-/// inertia any: a delay of some time constants is no straight line, and an inertia three times the file's left less of it
+/// axis's inertia any: a delay of some time constants is no straight line, and an inertia three times the file's left less of it
 /// than what a delay promised.
 ///
 /// Another may leave less by how exact the laws are: through an encoder of few counts a dead band leaves less than the dry
@@ -135,7 +135,8 @@ fn of_one(
     let rank = |a: &Active| all.iter().position(|c| c.effect.name() == a.effect.name());
     let one_of_them = |law: &Active| named.iter().any(|n| rank(n) == rank(law));
     let several = named.len() > 1;
-    let any = several || named.iter().any(|n| problem.changes_inertia(start, n));
+    let axis = start.robot.support == Support::Blocks;
+    let any = several || axis && named.iter().any(|n| problem.changes_inertia(start, n));
     laws.retain(|law| any || one_of_them(law) || named.iter().all(|n| rank(law) < rank(n)));
     laws.sort_by_key(|law| law.form.free.len());
     let better = each(&laws, &|law| {
@@ -143,7 +144,8 @@ fn of_one(
         state.active.push(law.clone());
         problem.fit(&mut state);
         let left = Left::fitted(problem, &state);
-        let far_better = || now.far_above(&left, thresholds) && left.is_noise(thresholds);
+        let in_floor = || axis && now.far_above_in_floor(&left, thresholds);
+        let far_better = || now.far_above(&left, thresholds) && left.is_noise(thresholds) || in_floor();
         // What a step by step search does not reach from another law: a low-pass of 50 ms looked like twice the inertia
         // and 20 ms.
         let better = several && left.is_as_little(&now, thresholds) || far_better();

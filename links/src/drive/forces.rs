@@ -14,7 +14,7 @@ use crate::segment::Segment;
 /// Torques of the wheels and forces on the body at the ticks of a segment but the last, `[wheels + 3][tick]`.
 pub type Forces = Vec<Vec<f64>>;
 
-/// Torques and forces of a model at every tick of a segment without its proportional loads, and what those look at; each is
+/// Torques and forces of a model at every tick of a segment without its loads that add up, and what those look at; each is
 /// worked out when it is asked for.
 pub(super) struct Base<'a> {
     model: &'a DriveModel,
@@ -40,11 +40,14 @@ impl<'a> Base<'a> {
 
     /// As of [`DriveModel::forces`].
     pub(super) fn forces(&self) -> &Forces {
-        self.forces
-            .get_or_init(|| self.model.evaluate(self.segment, Axes::Body, &self.model.loads.iter().collect::<Vec<_>>()))
+        self.forces.get_or_init(|| {
+            let inside = self.model.proportional.iter().filter(|load| !self.model.adds_up(load));
+            let loads: Vec<&LoadTerm> = self.model.loads.iter().chain(inside.flat_map(|load| &load.own)).collect();
+            self.model.evaluate(self.segment, Axes::Body, &loads)
+        })
     }
 
-    /// What a load of a model whose torques stand alone adds to its torques and forces; nothing where that is 0 throughout.
+    /// What a load that adds up adds to torques and forces; nothing where that is 0 throughout.
     pub(super) fn of_load(&self, load: &[LoadTerm]) -> Vec<Option<Vec<f64>>> {
         let (s, n) = (self.segment, self.model.wheels.len());
         let mut out: Vec<Option<Vec<f64>>> = vec![None; n + 3];

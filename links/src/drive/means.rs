@@ -1,5 +1,5 @@
-//! Mean torques and forces over test functions. What they are without an inertia and without the loads in proportion to a
-//! number is the same for many models, and so is what each of those loads gives at the value 1: both are worked out once.
+//! Mean torques and forces over test functions. What they are without the loads in proportion to a number, whatever the
+//! inertias, is the same for many models, and so is what each of those loads gives at the value 1: both are worked out once.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
@@ -17,12 +17,12 @@ use estimation::sums::dot;
 
 /// Test functions of one segment, at which models are looked at.
 pub(super) struct Place<'a> {
-    pub(super) link: &'a DriveLink<'a>,
-    pub(super) segment: &'a Segment,
-    pub(super) range: &'a Range<usize>,
-    pub(super) laid: &'a Laid,
+    link: &'a DriveLink<'a>,
+    segment: &'a Segment,
+    range: &'a Range<usize>,
+    laid: &'a Laid,
     /// A model whose torques many others have, too.
-    pub(super) shared: Option<(u64, Base<'a>)>,
+    shared: (u64, Base<'a>),
 }
 
 impl<'a> Place<'a> {
@@ -33,7 +33,7 @@ impl<'a> Place<'a> {
         laid: &'a Laid,
         shared: &'a DriveModel,
     ) -> Self {
-        let shared = shared.torques_stand_alone().then(|| (shared.torques_identity(), Base::new(shared, segment)));
+        let shared = (shared.torques_identity(), Base::new(shared, segment));
         Self { link, segment, range, laid, shared }
     }
 
@@ -74,15 +74,8 @@ impl<'a> Place<'a> {
     fn means(&self, model: &DriveModel) -> Vec<(usize, Vec<f64>)> {
         let rows = model.wheels.len() + 3;
         let torques = model.torques_identity();
-        if !model.torques_stand_alone() {
-            let mut whole = DefaultHasher::new();
-            torques.hash(&mut whole);
-            model.proportional.iter().for_each(|p| (&p.of, p.value.to_bits()).hash(&mut whole));
-            let all = || self.over_test_functions(model.forces(self.segment).into_iter().map(Some));
-            return self.once((torques, Some(whole.finish())), all).as_ref().clone();
-        }
         let own = Base::new(model, self.segment);
-        let shared = self.shared.as_ref().filter(|(shared, _)| *shared == torques).map(|(_, base)| base);
+        let shared = Some(&self.shared.1).filter(|_| self.shared.0 == torques);
         let torque = self.once((torques, None), || {
             let forces = shared.map_or_else(|| own.forces(), Base::forces);
             self.over_test_functions(forces.iter().map(|row| Some(row.as_slice())))
@@ -92,7 +85,7 @@ impl<'a> Place<'a> {
             sum[*row] = Some(means.clone());
         }
         let motion = model.motion_identity();
-        for load in &model.proportional {
+        for load in model.proportional.iter().filter(|load| model.adds_up(load)) {
             let unit = self.once(load.key(if load.looks_at_motors { torques } else { motion }), || {
                 let rows = shared.map_or_else(|| own.of_load(&load.unit), |base| base.of_load(&load.unit));
                 self.over_test_functions(rows.into_iter())

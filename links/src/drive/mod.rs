@@ -146,6 +146,8 @@ struct Proportional {
     own: Vec<LoadTerm>,
     /// Whether they depend on what the motors are.
     looks_at_motors: bool,
+    /// Whether a gear carries them.
+    is_carried: bool,
 }
 
 impl DriveModel {
@@ -214,27 +216,36 @@ impl DriveModel {
                 });
                 let of =
                     format!("{} {:?} {name}", effect.name(), if name.is_empty() { &values.0 } else { &form.fixed });
-                let looks_at_motors = effect.looks_at_motors();
-                self.proportional.push(Proportional { of, value, unit, own, looks_at_motors });
+                let (looks_at_motors, is_carried) = (effect.looks_at_motors(), effect.is_carried());
+                self.proportional.push(Proportional { of, value, unit, own, looks_at_motors, is_carried });
             }
         } else if terms(self) != before {
             self.bending.push((effect.name().to_owned(), values.clone()));
         }
     }
 
-    /// What the torques and forces of models of one robot differ by, without their proportional loads: where they stand alone,
-    /// no inertia is among it.
+    /// Whether a load adds to torques what it would add alone: a gear that loses does not lose the same of one that it carries.
+    fn adds_up(&self, load: &Proportional) -> bool {
+        !load.is_carried || self.torques_stand_alone()
+    }
+
+    /// What the torques and forces of models of one robot differ by, without the loads that add up: no inertia is among it, but
+    /// the share of a rotor's torque that a gear that loses passes on.
     fn torques_identity(&self) -> u64 {
-        let alone = self.torques_stand_alone();
-        let inertias = |a: &AxisModel| [a.rotor_inertia, a.load_inertia].map(|x| if alone { 0.0 } else { x });
-        let axis = |a: &AxisModel| {
-            let motor = [a.resistance, a.torque_constant, a.back_emf, a.friction, a.gear_loss];
-            (motor.map(f64::to_bits), inertias(a).map(f64::to_bits))
-        };
+        // What one factor scales alike is alike but for the last digits.
+        const DIGITS: f64 = 1e12;
+        let axis =
+            |a: &AxisModel| [a.resistance, a.torque_constant, a.back_emf, a.friction, a.gear_loss].map(f64::to_bits);
         let [delay, filter, limit] = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a];
         let mut hasher = DefaultHasher::new();
         self.axes.iter().map(axis).for_each(|axis| axis.hash(&mut hasher));
         [delay, filter, limit].map(f64::to_bits).hash(&mut hasher);
+        if !self.torques_stand_alone() {
+            self.constants().iter().for_each(|axis| ((DIGITS * axis.passed).round() as i64).hash(&mut hasher));
+        }
+        for load in self.proportional.iter().filter(|load| !self.adds_up(load)) {
+            (&load.of, load.value.to_bits()).hash(&mut hasher);
+        }
         for (name, values) in &self.bending {
             name.hash(&mut hasher);
             values.0.iter().for_each(|(name, value)| (name, value.to_bits()).hash(&mut hasher));

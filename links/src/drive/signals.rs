@@ -25,7 +25,7 @@ pub(super) struct Axis {
     /// Share of the transmitted torque that is lost.
     loss: f64,
     /// Share of the winding's torque that passes through the gear: off the floor, what turns the rotor does not.
-    passed: f64,
+    pub(super) passed: f64,
 }
 
 impl Axis {

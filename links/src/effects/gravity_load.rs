@@ -41,6 +41,10 @@ impl Effect for GravityLoad {
         true
     }
 
+    fn is_carried(&self) -> bool {
+        true
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let torque = values.with_angle(model.wheels.len(), "nm");
         model.loads.push(Box::new(move |now, loads| {

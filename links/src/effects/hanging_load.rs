@@ -39,6 +39,10 @@ impl Effect for HangingLoad {
         true
     }
 
+    fn is_carried(&self) -> bool {
+        true
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let torque: Vec<f64> = (0..model.wheels.len()).map(|i| values.wheel("torque", i, "nm")).collect();
         model.loads.push(Box::new(move |_, loads| {

@@ -52,6 +52,10 @@ impl Effect for JointSpring {
         true
     }
 
+    fn is_carried(&self) -> bool {
+        true
+    }
+
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let of = |i| [values.wheel("stiffness", i, "nm_per_rad"), values.wheel("preload", i, "nm")];
         let springs: Vec<[f64; 2]> = (0..model.wheels.len()).map(of).collect();
