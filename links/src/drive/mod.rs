@@ -13,6 +13,7 @@ mod forces;
 mod free_run;
 mod instant;
 mod laid;
+mod linearise;
 mod means;
 mod signals;
 mod test_functions;
