@@ -10,7 +10,7 @@ use rust_hdl::prelude::*;
 pub struct Literal<const N: usize, const V: u64>(Constant<Bits<N>>);
 
 impl<const N: usize, const V: u64> Literal<N, V> {
-    /// The value.
+    /// `V`, for logic that reads it.
     #[must_use]
     pub fn val(&self) -> Bits<N> {
         self.0.val()
@@ -49,7 +49,7 @@ impl<const N: usize> Setting<N> {
         Self(Constant::new(value.to_bits()))
     }
 
-    /// The value.
+    /// What it was made with, for logic that reads it.
     #[must_use]
     pub fn val(&self) -> Bits<N> {
         self.0.val()

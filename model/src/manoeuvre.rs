@@ -40,7 +40,7 @@ const REST_S: f64 = 0.15;
 const GOLDEN: f64 = 2.399_963;
 
 impl Manoeuvre {
-    /// All of them.
+    /// In the order in which the command line lists them.
     pub const ALL: [Self; 8] =
         [Self::Spin, Self::Star, Self::Square, Self::Chirp, Self::StopAndGo, Self::Creep, Self::FullDuty, Self::Blocks];
 

@@ -131,7 +131,7 @@ pub enum Color {
     Red,
     /// Bluish green, for what went right.
     Green,
-    /// Orange.
+    /// Orange, the fourth of those that are given to series without one.
     Orange,
     /// Reddish purple.
     Purple,

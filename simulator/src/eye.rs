@@ -40,7 +40,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// All of them.
+    /// For tests that go through every fault.
     pub const ALL: [Self; 5] = [Self::Frozen, Self::Black, Self::OverExposed, Self::Size, Self::Calibration];
 }
 

@@ -187,7 +187,7 @@ pub struct TeleportRobot {
 pub struct RobotId {
     #[prost(uint32, optional, tag = "1")]
     pub id: Option<u32>,
-    /// [`TeamColor`].
+    /// A [`TeamColor`]; as protocol buffers have it, any number may come.
     #[prost(enumeration = "TeamColor", optional, tag = "2")]
     pub team: Option<i32>,
 }

@@ -51,7 +51,7 @@ pub enum FrameError {
         "frame {first} ({address:#010x}) and {others} others are not written; partial bitstreams configure no whole device"
     )]
     Missing {
-        /// The first of them.
+        /// The one with the lowest index of all frames of the device.
         first: u16,
         /// As in the packet to FAR.
         address: u32,

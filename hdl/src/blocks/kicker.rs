@@ -62,7 +62,7 @@ pub struct Kicker {
     pub full: Signal<In, Bit>,
     /// Level: charge by time alone, `full` is ignored.
     pub by_time: Signal<In, Bit>,
-    /// Charger on.
+    /// Switches the charger of the kicker's capacitor on.
     pub charge: Signal<Out, Bit>,
     /// Drives the kick transistor.
     pub trigger: Signal<Out, Bit>,

@@ -68,7 +68,7 @@ pub struct Sequencer {
     pub bus_read_data: Signal<Out, Bits<32>>,
     /// Memory address that the bus writes, banks included.
     pub bus_write_address: Signal<In, Bits<8>>,
-    /// The bus writes.
+    /// High for the one clock in which the bus writes to that address.
     pub bus_write: Signal<In, Bit>,
     /// What it writes.
     pub bus_write_data: Signal<In, Bits<32>>,

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A module as rust-hdl wrote it.
 #[derive(Debug)]
 pub(super) struct Module<'a> {
-    /// Its name, with `$`.
+    /// As rust-hdl writes it, with `$` between the parts of its path.
     pub(super) name: &'a str,
     /// Port declarations, each without its semicolon.
     ports: Vec<Vec<Token<'a>>>,

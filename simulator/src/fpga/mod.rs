@@ -96,7 +96,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// From the fastest to the one nearest to the card.
     pub const ALL: [Self; 4] = [Self::BitTrue, Self::RustHdl, Self::Verilog, Self::Bitstream];
 
     /// A new FPGA of this kind, just configured.

@@ -79,7 +79,7 @@ pub enum ImuFault {
 }
 
 impl ImuFault {
-    /// All of them.
+    /// For tests and tables that go through every fault.
     pub const ALL: [Self; 10] = [
         Self::Absent,
         Self::ShortedLow,

@@ -23,7 +23,7 @@ pub enum Ablation {
 }
 
 impl Ablation {
-    /// All of them.
+    /// For tables that go through every ablation.
     pub const ALL: [Self; 3] = [Self::ShuffledCamera, Self::SwappedLabels, Self::AbsentTruth];
 
     /// Spoils a finished log; `wheels` are the two (indices from 0) whose labels are exchanged.
