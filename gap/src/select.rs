@@ -395,7 +395,7 @@ fn forward(problem: &Problem, mut design: Design, from: usize, all: &[Active], t
             let gained = improvement(&settled, &design, from, thresholds);
             // A rough guess that the fit confirms, within its bounds, where nothing has a name yet.
             let confirmed = state.active.len() == from
-                && gained > LED_OUT * thresholds.strong
+                && gained > thresholds.led_out * thresholds.strong
                 && !larger.active.last().is_some_and(stopped);
             let improves = gained > 0.0 && (confirmed || is_sure(&next, thresholds));
             if !improves || problem.runs_away(&larger, &state, thresholds) {
@@ -568,12 +568,9 @@ fn next(link: Link, design: &Design, thresholds: &Thresholds, refused: &[usize])
     tried.take_while(|t| t.gain >= thresholds.gain).find(|t| !loose(t) && gates.pass(t))
 }
 
-/// Gain from which it counts where a straight line leads out of bounds, in that of strong evidence: there it is a rough guess.
-const LED_OUT: f64 = 2.0;
-
 /// Whether the gain that a straight line promises needs no fit to be believed.
 fn is_sure(trial: &Trial, thresholds: &Thresholds) -> bool {
-    !trial.beyond || trial.gain > LED_OUT * thresholds.strong
+    !trial.beyond || trial.gain > thresholds.led_out * thresholds.strong
 }
 
 /// Drops effects whose removal costs little, and replaces forms by simpler ones.

@@ -17,8 +17,9 @@ impl<'a> Workflow<'a> {
         if !named(outcome, DEAD_BAND) || named(outcome, FRICTION) {
             return None;
         }
-        let braked = braked(self.searched().pieces);
-        if braked > self.thresholds.braked {
+        let [most, surely] = self.thresholds.braked;
+        let share = braked(self.searched().pieces, surely);
+        if share > most {
             return None;
         }
         let others: Vec<_> = here.iter().filter(|e| e.name() != DEAD_BAND).cloned().collect();
@@ -31,7 +32,7 @@ impl<'a> Workflow<'a> {
         self.findings.remarks.push(format!(
             "Duties hardly ever work against what turns ({:.1} % of the rows): a bridge that swallows small duties does what dry \
              friction does. Brake by the motor, and they differ.",
-            100.0 * braked
+            100.0 * share
         ));
         Some((link, again))
     }
@@ -40,12 +41,12 @@ impl<'a> Workflow<'a> {
 /// The friction that a dead band looks like.
 const FRICTION: &str = FRICTIONS[0];
 
-/// Share of the rows in which a wheel surely turned whose duties worked against that.
-fn braked(pieces: &Pieces) -> f64 {
+/// Share of the rows in which a wheel surely turned, by that speed, whose duties worked against that.
+fn braked(pieces: &Pieces, surely: f64) -> f64 {
     let (mut turned, mut against) = (0_u64, 0_u64);
     for s in pieces.iter() {
         for (duty, speed) in s.duty.iter().zip(&s.speed) {
-            for k in s.own.clone().filter(|k| speed[*k].abs() > SURELY * s.turning) {
+            for k in s.own.clone().filter(|k| speed[*k].abs() > surely * s.turning) {
                 turned += 1;
                 against += u64::from(duty[k] * speed[k] < 0.0);
             }
@@ -53,6 +54,3 @@ fn braked(pieces: &Pieces) -> f64 {
     }
     against as f64 / turned.max(1) as f64
 }
-
-/// Speed from which a wheel surely turns one way, in what is known of a direction.
-const SURELY: f64 = 3.0;

@@ -17,9 +17,6 @@ use links::effect::{Form, Link, Values};
 
 const SCALE: &str = "scale";
 const RADIUS: &str = "wheel-radius-common";
-/// By how much wheels that wear or are pressed flat are smaller than their file at most. One robot of three omni wheels
-/// went 14 % less far than its wheels turned on a table, where its camera may be off by as much, and 18 and 31 % on two floors.
-const WORN: f64 = 0.05;
 
 /// Whose number of counts is wrong.
 pub(super) enum Wrong {
@@ -127,10 +124,10 @@ pub(super) fn shared([ours, theirs]: [Ticks; 2]) -> String {
 
 /// What else makes all wheels drive less far than they turn, where that is more than wheels wear: a part of every way that
 /// they slip has no law in the catalogue, and no logs of one floor tell it from a radius.
-pub(super) fn slipped(named: &[Named]) -> Option<String> {
+pub(super) fn slipped(named: &[Named], thresholds: &Thresholds) -> Option<String> {
     let radius = named.iter().find(|n| n.name == RADIUS && n.link == Link::Motion)?;
     let (_, scale, _) = radius.parameters.iter().find(|(name, ..)| name == SCALE)?;
-    (*scale < -WORN).then(|| {
+    (*scale < -thresholds.worn).then(|| {
         format!(
             "Wheels that slip alike in every direction, as on a soft floor, do what {RADIUS} of {:.1} % does: before you write \
              it into a file, drive on a hard floor or measure a wheel.",

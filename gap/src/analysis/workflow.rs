@@ -111,7 +111,7 @@ impl<'a> Workflow<'a> {
         let scale = counts::for_radius(&self.findings.named, &self.findings.alternatives);
         let replayed = scale.and_then(|s| with_other_counts(&self.question.robot, self.data.logs, s, &self.thresholds));
         self.findings.remarks.extend(replayed.map(counts::shared));
-        self.findings.remarks.extend(counts::slipped(&self.findings.named));
+        self.findings.remarks.extend(counts::slipped(&self.findings.named, &self.thresholds));
     }
 
     /// Encoders to camera and inertial sensor.
