@@ -207,12 +207,15 @@ pub(super) fn study<'a>(
     }
 }
 
-/// A parameter as it is told: no interval of a share reaches beyond nothing and all, and none of a factor below nothing.
+/// A parameter as it is told: no interval of a share reaches beyond nothing and all, and none of a factor, or of what is never
+/// negative, below nothing.
 fn told((p, (name, value, interval)): (&Parameter, &(String, f64, Interval))) -> (String, f64, Interval) {
     let may_be = if p.name.starts_with("share") || p.bounds == [0.0, 1.0] {
         [0.0, 1.0]
     } else if p.name.starts_with("scale") {
         [-1.0, f64::INFINITY] // of 1 + scale
+    } else if p.bounds[0] >= 0.0 {
+        [0.0, f64::INFINITY]
     } else {
         [f64::NEG_INFINITY, f64::INFINITY]
     };
@@ -556,6 +559,10 @@ mod tests {
         // A motor with less than no torque constant is none.
         let known = ("scale".to_owned(), -0.58, Interval::Ci95([-1.09, -0.07]));
         assert_eq!(told((&scale, &known)).2, Interval::Ci95([-1.0, -0.07]));
+        // Nor does a current have less than no limit.
+        let limit = Parameter::new("limit_a", 0.1, [0.05, 20.0], 0.3);
+        let known = ("limit_a".to_owned(), 0.19, Interval::Ci95([-0.11, 0.48]));
+        assert_eq!(told((&limit, &known)).2, Interval::Ci95([0.0, 0.48]));
         let bridge = Parameter::new("share", 0.02, [0.0, 1.3], 0.12);
         let known = ("share".to_owned(), 1.01, Interval::Ci95([0.9, 1.1]));
         assert_eq!(told((&bridge, &known)).2, Interval::Ci95([0.9, 1.01]));
