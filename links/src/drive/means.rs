@@ -11,7 +11,7 @@ use super::columns::{Key, Rows};
 use super::forces::Base;
 use super::laid::Laid;
 use super::test_functions::{DriveLink, add_product};
-use super::{DriveModel, Proportional};
+use super::{DriveModel, Unit};
 use crate::segment::Segment;
 use estimation::sums::dot;
 
@@ -86,13 +86,16 @@ impl<'a> Place<'a> {
         }
         let motion = model.motion_identity();
         for load in model.proportional.iter().filter(|load| model.adds_up(load)) {
-            let unit = self.once(load.key(if load.looks_at_motors { torques } else { motion }), || {
-                let rows = shared.map_or_else(|| own.of_load(&load.unit), |base| base.of_load(&load.unit));
-                self.over_test_functions(rows.into_iter())
-            });
-            for (row, means) in &*unit {
-                let sum = sum[*row].get_or_insert_with(|| vec![0.0; means.len()]);
-                sum.iter_mut().zip(means).for_each(|(sum, mean)| *sum += load.value * mean);
+            let looks_at = if load.looks_at_motors { torques } else { motion };
+            for unit in &load.units {
+                let rows = self.once(unit.key(looks_at), || {
+                    let rows = shared.map_or_else(|| own.of_load(&unit.loads), |base| base.of_load(&unit.loads));
+                    self.over_test_functions(rows.into_iter())
+                });
+                for (row, means) in &*rows {
+                    let sum = sum[*row].get_or_insert_with(|| vec![0.0; means.len()]);
+                    sum.iter_mut().zip(means).for_each(|(sum, mean)| *sum += unit.value * mean);
+                }
             }
         }
         sum.into_iter().enumerate().filter_map(|(row, means)| Some((row, means?))).collect()
@@ -114,8 +117,8 @@ impl<'a> Place<'a> {
     }
 }
 
-impl Proportional {
-    /// Under which a unit of it is kept, beside the motion and the motors that it looks at.
+impl Unit {
+    /// Under which it is kept, beside the motion and the motors that it looks at.
     fn key(&self, looks_at: u64) -> Key {
         let mut hasher = DefaultHasher::new();
         self.of.hash(&mut hasher);

@@ -137,18 +137,24 @@ pub struct DriveModel {
     bending: Vec<(String, Values)>,
 }
 
-/// Loads in proportion to a parameter of an effect.
+/// Loads of an effect in proportion to its parameters.
 struct Proportional {
-    /// Of which effect, with what is fixed of it, and parameter.
-    of: String,
-    value: f64,
-    /// At the value 1, and at that value.
-    unit: Vec<LoadTerm>,
+    /// As the effect has them.
     own: Vec<LoadTerm>,
+    units: Vec<Unit>,
     /// Whether they depend on what the motors are.
     looks_at_motors: bool,
     /// Whether a gear carries them.
     is_carried: bool,
+}
+
+/// Loads in proportion to one number.
+struct Unit {
+    /// Of which effect, with what is fixed of it, and parameter.
+    of: String,
+    value: f64,
+    /// At the value 1.
+    loads: Vec<LoadTerm>,
 }
 
 impl DriveModel {
@@ -196,30 +202,27 @@ impl DriveModel {
         let before = terms(self);
         effect.drive(values, self);
         if effect.is_load() {
-            self.loads.truncate(before[0]);
+            let own = self.loads.split_off(before[0]);
             let offsets = self.offsets.len();
-            let mut alone = values.clone();
-            form.free.iter().for_each(|p| alone.set(&p.name, 0.0));
-            // What is not fitted is in proportion to 1 alone.
-            let parts: Vec<(&str, f64)> = match form.free.as_slice() {
-                [] => vec![("", 1.0)],
-                free => free.iter().map(|p| (p.name.as_str(), values.get(&p.name))).collect(),
+            let mut unit = |values: &Values| {
+                effect.drive(values, self);
+                self.offsets.truncate(offsets);
+                self.loads.split_off(before[0])
             };
-            for (name, value) in parts.into_iter().filter(|(_, value)| *value != 0.0) {
-                let [unit, own] = [1.0, value].map(|x| {
-                    let mut values = alone.clone();
-                    if !name.is_empty() {
-                        values.set(name, x);
-                    }
-                    effect.drive(&values, self);
-                    self.offsets.truncate(offsets);
-                    self.loads.split_off(before[0])
-                });
-                let of =
-                    format!("{} {:?} {name}", effect.name(), if name.is_empty() { &values.0 } else { &form.fixed });
-                let (looks_at_motors, is_carried) = (effect.looks_at_motors(), effect.is_carried());
-                self.proportional.push(Proportional { of, value, unit, own, looks_at_motors, is_carried });
-            }
+            let units = if form.free.is_empty() {
+                // What is not fitted is in proportion to 1 alone.
+                vec![Unit { of: format!("{} {:?}", effect.name(), values.0), value: 1.0, loads: unit(values) }]
+            } else {
+                let free = form.free.iter().map(|p| (&p.name, values.get(&p.name))).filter(|(_, value)| *value != 0.0);
+                free.map(|(name, value)| {
+                    let mut at = Values(form.fixed.clone());
+                    at.set(name, 1.0);
+                    Unit { of: format!("{} {:?} {name}", effect.name(), form.fixed), value, loads: unit(&at) }
+                })
+                .collect()
+            };
+            let (looks_at_motors, is_carried) = (effect.looks_at_motors(), effect.is_carried());
+            self.proportional.push(Proportional { own, units, looks_at_motors, is_carried });
         } else if terms(self) != before {
             self.bending.push((effect.name().to_owned(), values.clone()));
         }
@@ -244,9 +247,8 @@ impl DriveModel {
         if !self.torques_stand_alone() {
             self.constants().iter().for_each(|axis| ((DIGITS * axis.passed).round() as i64).hash(&mut hasher));
         }
-        for load in self.proportional.iter().filter(|load| !self.adds_up(load)) {
-            (&load.of, load.value.to_bits()).hash(&mut hasher);
-        }
+        let inside = self.proportional.iter().filter(|load| !self.adds_up(load));
+        inside.flat_map(|load| &load.units).for_each(|unit| (&unit.of, unit.value.to_bits()).hash(&mut hasher));
         for (name, values) in &self.bending {
             name.hash(&mut hasher);
             values.0.iter().for_each(|(name, value)| (name, value.to_bits()).hash(&mut hasher));

@@ -24,12 +24,8 @@ fn with(robot: &Robot, effects: &[(&dyn Effect, Values)]) -> DriveModel {
     model
 }
 
-fn on_a_drive(of: impl Fn(&Robot, &Pieces)) {
-    on_a_drive_of(&Robot::racbot(), of);
-}
-
-/// The logs are of a robot on the floor, whatever this one stands on.
-fn on_a_drive_of(robot: &Robot, of: impl Fn(&Robot, &Pieces)) {
+/// A robot with the logs of one on the floor, whatever it stands on.
+fn on_a_drive(robot: &Robot, of: impl Fn(&Robot, &Pieces)) {
     let driven = Robot::racbot();
     let run = simulate(Manoeuvre::StopAndGo, &Applied::of(&driven), &driven, Pose::default(), 1).unwrap();
     let logs = [Log::from(Cow::Owned(run))];
@@ -54,11 +50,13 @@ fn moved(robot: &Robot, which: impl Fn(&dyn Effect) -> bool) -> Vec<(Arc<dyn Eff
 
 #[test]
 fn inertias_alone_leave_torques_as_they_are() {
-    on_a_drive(|robot, pieces| {
+    on_a_drive(&Robot::racbot(), |robot, pieces| {
         let segment = pieces.get(0);
         let nominal = DriveModel::new(robot);
         let base = nominal.forces(&segment);
-        for (effect, values) in moved(robot, |e| ["rotor-inertia", "yaw-inertia"].contains(&e.name())) {
+        let moved = moved(robot, |e| ["rotor-inertia", "yaw-inertia"].contains(&e.name()));
+        assert!(moved.len() >= 2);
+        for (effect, values) in moved {
             let mut model = DriveModel::new(robot);
             model.add(&*effect, &values, &Form::default());
             assert!(model.torques_stand_alone());
@@ -66,6 +64,28 @@ fn inertias_alone_leave_torques_as_they_are() {
             assert!(model.torques_identity() == nominal.torques_identity(), "{}", effect.name());
         }
     });
+}
+
+#[test]
+fn what_a_load_or_a_camera_changes_leaves_the_torques_that_are_kept() {
+    let robot = Robot::racbot();
+    let nominal = DriveModel::new(&robot);
+    let changed = |which: &dyn Fn(&dyn Effect) -> bool| -> Vec<(String, [bool; 2])> {
+        let of = |(effect, values): (Arc<dyn Effect>, Values)| {
+            let mut model = DriveModel::new(&robot);
+            model.add(&*effect, &values, &Form::default());
+            let torques = model.torques_identity() != nominal.torques_identity();
+            (effect.name().to_owned(), [torques, model.motion_identity() != nominal.motion_identity()])
+        };
+        moved(&robot, which).into_iter().map(of).collect()
+    };
+    let loads = changed(&|e| e.is_load());
+    assert!(loads.len() > 30 && loads.iter().all(|(_, changed)| *changed == [false; 2]), "{loads:?}");
+    let cameras = changed(&|e| ["camera-latency", "marker-offset", "lens-distortion"].contains(&e.name()));
+    assert!(cameras.len() >= 3 && cameras.iter().all(|(_, changed)| *changed == [false; 2]), "{cameras:?}");
+    // Nor does a bridge change what loads look at.
+    let bridges = changed(&|e| ["winding-resistance", "battery-sag", "dead-band", "current-limit"].contains(&e.name()));
+    assert!(bridges.len() >= 4 && bridges.iter().all(|(_, changed)| *changed == [true, false]), "{bridges:?}");
 }
 
 #[test]
@@ -77,7 +97,7 @@ fn what_is_worked_out_once_is_what_each_model_gives() {
 }
 
 fn what_is_worked_out_once_of(robot: &Robot) {
-    on_a_drive_of(robot, |robot, pieces| {
+    on_a_drive(robot, |robot, pieces| {
         let nominal = DriveModel::new(robot);
         let [link, fresh] = [(); 2].map(|()| DriveLink::new(pieces, &nominal).unwrap());
         // What was kept of one model serves the next: every effect beside others of every kind.
