@@ -9,9 +9,18 @@ use nalgebra::{DMatrix, DVector};
 
 use super::DriveModel;
 use super::answers::Answers;
-use super::columns::Side;
 use super::means::Place;
 use super::test_functions::{DriveLink, DriveResiduals};
+
+/// A direction in which the drive is differentiated.
+pub struct Side {
+    /// Model at the low end; `None` for the model itself.
+    pub low: Option<DriveModel>,
+    /// Model at the high end.
+    pub high: DriveModel,
+    /// Step between them.
+    pub step: f64,
+}
 
 impl DriveLink<'_> {
     /// Unexplained torques under a model, Nm: what the inertia of the link's own robot takes for the accelerations that
@@ -47,7 +56,7 @@ impl DriveLink<'_> {
         let beside = self.answers.as_ref().map_or(0, Answers::columns);
         let mut clusters = Vec::new();
         if !sides.is_empty() {
-            self.columns.begin();
+            self.kept.begin();
         }
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in self.by_segment() {

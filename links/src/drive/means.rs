@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
-use super::columns::{Key, Rows};
 use super::forces::Base;
+use super::kept::{Key, Rows};
 use super::laid::Laid;
 use super::test_functions::{DriveLink, add_product};
 use super::{DriveModel, Unit};
@@ -102,7 +102,7 @@ impl<'a> Place<'a> {
     }
 
     fn once(&self, key: Key, make: impl FnOnce() -> Rows) -> Arc<Rows> {
-        self.link.columns.once(self.range.start, key, make)
+        self.link.kept.once(self.range.start, key, make)
     }
 
     /// Means over every test function of what is there at the ticks, by rows; of none that is 0 throughout.

@@ -6,12 +6,12 @@
 //! unexplained torque per wheel and test function, Nm at the wheel shaft.
 
 mod answers;
-mod columns;
 mod felt;
 mod floor;
 mod forces;
 mod free_run;
 mod instant;
+mod kept;
 mod laid;
 mod linearise;
 mod means;
@@ -33,11 +33,11 @@ use crate::values::Values;
 pub use crate::segment::smooth_sign;
 pub(crate) use crate::thresholds::TEST_FUNCTION_S;
 pub use answers::Answers;
-pub use columns::Side;
 pub use floor::{FEWEST_PER_COLUMN, Generic, Left, accounted, floor, of_a_count};
 pub use forces::Forces;
 pub use free_run::{further, in_own_torque, runaway};
 pub use instant::{Instant, Loads};
+pub use linearise::Side;
 pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.

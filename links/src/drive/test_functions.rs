@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, DVectorView, DVectorViewMut};
 use runs::robot::Support;
 
 use super::answers::Answers;
-use super::columns::Columns;
+use super::kept::KeptRows;
 use super::laid::{Laid, Shape, TestFunction};
 use super::{Ahead, DriveModel, Mechanics};
 use crate::effect::Sizes;
@@ -45,7 +45,7 @@ pub struct DriveLink<'a> {
     pub sizes: Sizes,
     pub(super) test_functions: Vec<TestFunction>,
     pub(super) laid: Vec<OnceLock<Arc<Laid>>>,
-    pub(super) columns: Columns,
+    pub(super) kept: KeptRows,
     /// What an inertial sensor tells where wheels slip.
     pub(super) felt: Option<BodyFelt>,
     /// What stands beside every effect; see [`DriveLink::answer`].
@@ -120,7 +120,7 @@ impl<'a> DriveLink<'a> {
             sizes,
             test_functions,
             laid: (0..pieces.kept()).map(|_| OnceLock::new()).collect(),
-            columns: Columns::default(),
+            kept: KeptRows::default(),
             felt: None,
             answers: None,
         };

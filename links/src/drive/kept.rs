@@ -3,20 +3,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::DriveModel;
-
 /// Numbers that are kept at most, 128 MB. Beyond, nothing more is kept.
 const ROOM: usize = 1 << 24;
-
-/// A direction in which the drive is differentiated.
-pub struct Side {
-    /// Model at the low end; `None` for the model itself.
-    pub low: Option<DriveModel>,
-    /// Model at the high end.
-    pub high: DriveModel,
-    /// Step between them.
-    pub step: f64,
-}
 
 /// Rows of torques and forces that are not 0 throughout, one number a test function.
 pub(super) type Rows = Vec<(usize, Vec<f64>)>;
@@ -26,7 +14,7 @@ pub(super) type Key = (u64, Option<u64>);
 
 /// Rows by the first test function of their segment and their key.
 #[derive(Default)]
-pub(super) struct Columns(Mutex<Kept>);
+pub(super) struct KeptRows(Mutex<Kept>);
 
 #[derive(Default)]
 struct Kept {
@@ -34,7 +22,7 @@ struct Kept {
     /// Linearisations so far.
     round: u64,
     /// With the last round in which they were asked for.
-    columns: HashMap<(usize, Key), (Arc<Rows>, u64)>,
+    rows: HashMap<(usize, Key), (Arc<Rows>, u64)>,
 }
 
 fn numbers(rows: &Rows) -> usize {
@@ -45,12 +33,12 @@ impl Kept {
     /// Forgets what no linearisation asked for lately.
     fn forget(&mut self) {
         let round = self.round;
-        self.columns.retain(|_, (_, asked)| *asked + LATELY >= round);
-        self.numbers = self.columns.values().map(|(rows, _)| numbers(rows)).sum();
+        self.rows.retain(|_, (_, asked)| *asked + LATELY >= round);
+        self.numbers = self.rows.values().map(|(rows, _)| numbers(rows)).sum();
     }
 }
 
-impl Columns {
+impl KeptRows {
     fn kept(&self) -> MutexGuard<'_, Kept> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -77,7 +65,7 @@ impl Columns {
     fn find(&self, first: usize, key: Key) -> Option<Arc<Rows>> {
         let mut kept = self.kept();
         let round = kept.round;
-        let (rows, asked) = kept.columns.get_mut(&(first, key))?;
+        let (rows, asked) = kept.rows.get_mut(&(first, key))?;
         *asked = round;
         Some(rows.clone())
     }
@@ -88,8 +76,8 @@ impl Columns {
         if kept.numbers + numbers(rows) > ROOM {
             kept.forget();
         }
-        let Kept { numbers: all, round, columns } = &mut *kept;
-        if *all + numbers(rows) <= ROOM && columns.insert((first, key), (rows.clone(), *round)).is_none() {
+        let Kept { numbers: all, round, rows: known } = &mut *kept;
+        if *all + numbers(rows) <= ROOM && known.insert((first, key), (rows.clone(), *round)).is_none() {
             *all += numbers(rows);
         }
     }
@@ -104,21 +92,21 @@ mod tests {
 
     #[test]
     fn what_is_not_asked_for_makes_room() {
-        let columns = Columns::default();
+        let kept = KeptRows::default();
         let half = Arc::new(vec![(0, vec![0.0; ROOM / 2])]);
         let [old, used, new, more] = [0, 1, 2, 3].map(|key| (key, None));
-        columns.begin();
-        columns.keep(0, old, &half);
-        columns.keep(0, used, &half);
+        kept.begin();
+        kept.keep(0, old, &half);
+        kept.keep(0, used, &half);
         for _ in 0..=LATELY {
-            columns.begin();
-            assert!(columns.find(0, used).is_some());
+            kept.begin();
+            assert!(kept.find(0, used).is_some());
         }
-        columns.keep(0, new, &half);
-        let known = |key| columns.find(0, key).is_some();
+        kept.keep(0, new, &half);
+        let known = |key| kept.find(0, key).is_some();
         assert!(known(new) && known(used) && !known(old));
         // All of it is in use: nothing goes, and nothing more is kept.
-        columns.keep(0, more, &half);
+        kept.keep(0, more, &half);
         assert!(known(new) && known(used) && !known(more));
     }
 }
