@@ -19,7 +19,11 @@ const ALIKE: f64 = 0.3;
 /// Speeds that are some times what the counts say: one of the two is not what the columns and `robot.toml` say.
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Option<Mistake> {
     let columns = Columns { counts: true, measured: true, sensors: true, ..Columns::NONE };
-    let counted = logs.iter().filter(|log| log.layout().source.counts == CountSource::Encoders);
+    let both = |log: &&Log| {
+        let layout = log.layout();
+        layout.source.counts == CountSource::Encoders && !(layout.speed.is_empty() && layout.measured.is_empty())
+    };
+    let counted = logs.iter().filter(both);
     let runs: Vec<Run> = counted.map(|log| log.part(0..log.len().min(MOST_TICKS), columns)).collect();
     let of_column = |stem: &'static str, speeds: fn(&Run) -> &Vec<Vec<f64>>| {
         (0..robot.wheel_count()).find_map(|wheel| {
