@@ -87,6 +87,8 @@ pub struct Rows {
     /// Mean of the smoothed speeds, rad/s, and of the directions at both ends.
     pub(crate) speed: Vec<Vec<f64>>,
     pub(crate) sign: Vec<Vec<f64>>,
+    /// Sine and cosine of [`Segment::shaft_angle`], made where they are looked at: only axes on blocks have loads by their angle.
+    turned: OnceLock<Vec<Vec<[f64; 2]>>>,
 }
 
 impl Rows {
@@ -98,6 +100,7 @@ impl Rows {
             rate: s.angle.iter().map(rate).collect(),
             speed: s.speed.iter().map(mean).collect(),
             sign: s.sign.iter().map(mean).collect(),
+            turned: OnceLock::new(),
         }
     }
 }
@@ -270,6 +273,13 @@ impl Segment {
         let Some(angle) = self.angle.get(wheel) else { return 0.0 };
         let at = |k: usize| angle[k.min(angle.len() - 1)];
         self.zero.get(wheel).unwrap_or(&0.0) + 0.5 * (at(tick) + at(tick + 1))
+    }
+
+    /// Its sine and cosine.
+    pub fn shaft_sin_cos(&self, wheel: usize, tick: usize) -> [f64; 2] {
+        let of = |wheel| (0..self.t.len()).map(|k| self.shaft_angle(wheel, k).sin_cos().into()).collect();
+        let turned = self.rows().turned.get_or_init(|| (0..self.wheels()).map(of).collect());
+        turned.get(wheel).map_or([0.0, 1.0], |ticks| ticks[tick])
     }
 
     /// The tick whose interval to the next contains `t`, within the segment.

@@ -70,7 +70,7 @@ impl Generic {
                 let (laws, turning) = own[alone * i..][..alone].split_at_mut(ALONE);
                 laws.copy_from_slice(&[speed * speed.abs(), duty.abs() * sign, duty.powi(3), sign.abs()]);
                 if !turning.is_empty() {
-                    let (sin, cos) = s.shaft_angle(i, k).sin_cos();
+                    let [sin, cos] = s.shaft_sin_cos(i, k);
                     let square = speed * speed;
                     turning.copy_from_slice(&[sin, cos, speed * sin, speed * cos, square * sin, square * cos]);
                 }
@@ -161,7 +161,7 @@ pub fn accounted(link: &DriveLink, model: &DriveModel) -> Vec<f64> {
     let means = link.means(5 * n, |s, k, out| {
         for i in 0..n {
             let speed = s.speed[i][k];
-            let (sin, cos) = if lifted { s.shaft_angle(i, k).sin_cos() } else { (0.0, 0.0) };
+            let [sin, cos] = if lifted { s.shaft_sin_cos(i, k) } else { [0.0; 2] };
             let volts = s.duty[i][k] * s.supply[k];
             out[5 * i..5 * i + 5].copy_from_slice(&[volts, speed, smooth_sign(speed, s.turning), sin, cos]);
         }

@@ -69,8 +69,12 @@ impl Effect for EncoderEccentricity {
         let order = values.find(ORDER).unwrap_or(1.0);
         let ahead = values.with_angle(model.wheels.len(), "rad");
         let more = move |s: &Segment, i: usize, k: usize| {
+            let [of_sin, of_cos] = ahead[i];
+            if of_sin == 0.0 && of_cos == 0.0 {
+                return 0.0;
+            }
             let (sin, cos) = (order * (s.zero[i] + s.angle[i][k])).sin_cos();
-            ahead[i][0] * sin + ahead[i][1] * cos
+            of_sin * sin + of_cos * cos
         };
         let read = more.clone();
         let read = move |model: &DriveModel, s: &Segment| {

@@ -50,7 +50,7 @@ impl Effect for GravityLoad {
         model.loads.push(Box::new(move |now, loads| {
             for (i, [a, b]) in torque.iter().enumerate() {
                 if *a != 0.0 || *b != 0.0 {
-                    let (s, c) = now.segment.shaft_angle(i, now.tick).sin_cos();
+                    let [s, c] = now.segment.shaft_sin_cos(i, now.tick);
                     loads.carried[i] += a * s + b * c;
                 }
             }
