@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use runs::robot::{Robot, Support};
+use runs::robot::Robot;
 
 use super::found::Named;
 use crate::evidence::{Evidence, Interval};
@@ -19,11 +19,6 @@ fn equation(name: &str, catalogue: &[Arc<dyn Effect>]) -> String {
 /// robots of the blind bench 3.2 to 5.1 % were missing.
 const CREEPS: f64 = 0.06;
 
-/// Whether the wheels of a machine have rollers: it stands on the floor, and can move sideways only on them.
-fn has_rollers(robot: &Robot) -> bool {
-    robot.support == Support::Floor && robot.wheel_count() > 2
-}
-
 /// A ripple in the words that fit the machine: the effect's name where there are rollers, else what it may be.
 pub(super) fn ripple_named(
     ripple: &crate::leftover::Ripple,
@@ -32,7 +27,7 @@ pub(super) fn ripple_named(
 ) -> Result<Named, String> {
     let n = ripple.wheels.len().max(1) as f64;
     let amplitude = (ripple.wheels.iter().map(|w| w.1 * w.1).sum::<f64>() / n).sqrt();
-    if !has_rollers(robot) {
+    if !crate::leftover::has_rollers(robot) {
         let wheels: Vec<String> = ripple.wheels.iter().map(|w| (w.0 + 1).to_string()).collect();
         return Err(format!(
             "a ripple, {} per wheel turn, amplitude {:.1} % of the speed, on axis {} (p = {}): this machine has no rollers; \

@@ -17,6 +17,7 @@ use crate::thresholds::Thresholds;
 use links::drive::{DriveLink, DriveModel, Generic, Left};
 use links::effect::Sizes;
 use links::pieces::Pieces;
+use runs::robot::{Robot, Support};
 
 pub(crate) use camera::{frozen, torn};
 pub(crate) use orders::Ripple;
@@ -88,10 +89,16 @@ pub(crate) fn drive(
         !seen.into_iter().all(|t| rolls(s.run, t))
             || (ticks.start / near..=ticks.end / near).any(|part| slips.contains(&(segment, part)))
     };
-    let (ripple, structures) = orders::orders(&link, model, &slips, sizes.drive_nm, thresholds);
+    let rollers = has_rollers(pieces.robot());
+    let (ripple, structures) = orders::orders(&link, model, rollers, &slips, sizes.drive_nm, thresholds);
     out.ripple = ripple;
     out.structures.extend(structures);
     out
+}
+
+/// Whether the wheels of a machine have rollers: it stands on the floor, and can move sideways only on them.
+pub(crate) fn has_rollers(robot: &Robot) -> bool {
+    robot.support == Support::Floor && robot.wheel_count() > 2
 }
 
 /// One wheel's torque left, at the times of its test functions.

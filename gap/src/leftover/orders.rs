@@ -22,8 +22,9 @@ const BLOCK_S: f64 = 0.25;
 const RANGE_HZ: [f64; 2] = [3.0, 120.0];
 /// Slowest wheel, rad/s.
 const SLOWEST: f64 = 1.0;
-/// Highest order looked at: rollers of a wheel.
-const HIGHEST: usize = 40;
+/// Highest order looked at: rollers of a wheel; without them, cogs of a motor whose stator has 36 teeth and whose rotor 42
+/// poles, which drives its load without a gear.
+const HIGHEST: [usize; 2] = [40, 252];
 /// No omni wheel has fewer rollers.
 const FEWEST_ROLLERS: f64 = 6.0;
 /// Ticks beyond which blocks are skipped.
@@ -65,16 +66,18 @@ struct Line {
     reach: f64,
 }
 
-/// Looks through all orders of all wheels; `slips` says of ticks of a segment whether a wheel slips there.
+/// Looks through all orders of all wheels, with rollers or without; `slips` says of ticks of a segment whether a wheel slips
+/// there.
 pub(super) fn orders(
     link: &DriveLink,
     model: &DriveModel,
+    rollers: bool,
     slips: &dyn Fn(usize, std::ops::Range<usize>) -> bool,
     drive_nm: f64,
     thresholds: &Thresholds,
 ) -> (Option<Ripple>, Vec<Structure>) {
     let n = link.noise.len();
-    let mut candidates: Vec<f64> = (2..=HIGHEST).map(|k| k as f64).collect();
+    let mut candidates: Vec<f64> = (2..=HIGHEST[usize::from(!rollers)]).map(|k| k as f64).collect();
     // Whatever turns with the motor.
     candidates.extend((1..=6).map(|k| f64::from(k) * model.gear_ratio).filter(|o| (o - o.round()).abs() > 0.05));
     // Long logs are looked at here and there: a line is everywhere.
@@ -117,23 +120,23 @@ pub(super) fn orders(
         };
         let [radius, torque] = lines[best];
         let order = candidates[best];
-        let whole = (order - order.round()).abs() < 1e-9;
-        if whole
-            && order >= FEWEST_ROLLERS
-            && radius.strength >= torque.strength
-            && radius.p * tests < thresholds.false_alarm
-        {
+        let may_roll = (order - order.round()).abs() < 1e-9 && order >= FEWEST_ROLLERS;
+        // Rollers push as they are handed over, and other wheels do not.
+        let material = if rollers { thresholds.ripple[1] } else { thresholds.line[0] };
+        if may_roll && radius.strength >= torque.strength && radius.p * tests < thresholds.false_alarm {
             if radius.amplitude >= thresholds.ripple[0] && radius.reach >= bob {
                 ripples.push((wheel, order as usize, radius));
             }
-        } else if !(whole && order >= FEWEST_ROLLERS)
+        } else if !(may_roll && rollers)
             && torque.p * tests < thresholds.false_alarm
-            && torque.amplitude >= thresholds.ripple[1] * drive_nm
+            && torque.amplitude >= material * drive_nm
         {
+            let what = if rollers { "" } else { ": cogs of the motor, its brushes or teeth of the gear do so" };
             structures.push(Structure {
                 text: format!(
-                    "the torque of wheel {} repeats {order:.2} times a turn, amplitude {:.1} mNm",
+                    "the torque of wheel {} repeats {} times a turn, amplitude {:.1} mNm{what}",
                     wheel + 1,
+                    (1e2 * order).round() / 1e2,
                     1e3 * torque.amplitude
                 ),
                 share: 1.0,
@@ -174,7 +177,8 @@ fn demodulate(
         let speeds = &s.speed[wheel][ticks.clone()];
         let mean = speeds.iter().sum::<f64>() / length as f64;
         let steady = speeds.iter().all(|w| w * mean > 0.0 && w.abs() > 0.5 * mean.abs());
-        let heard = |order: f64| (RANGE_HZ[0]..highest).contains(&(order * mean.abs() / TAU));
+        let frequency = |order: f64| order * mean.abs() / TAU;
+        let heard = |order: f64| (RANGE_HZ[0]..highest).contains(&frequency(order));
         if !steady || mean.abs() <= SLOWEST || !orders.iter().any(|o| heard(*o)) {
             return Vec::new();
         }
@@ -191,7 +195,7 @@ fn demodulate(
         let mut whole = (1.0, once.clone());
         let mut blocks = Vec::new();
         for (place, order) in orders.iter().enumerate() {
-            let at = if *order == whole.0 + 1.0 {
+            let at = if *order == whole.0 + 1.0 && frequency(*order) < highest {
                 whole.0 = *order;
                 whole.1.iter_mut().zip(&once).for_each(|((sin, cos), (s, c))| {
                     (*sin, *cos) = (*sin * c + *cos * s, *cos * c - *sin * s);

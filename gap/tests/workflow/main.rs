@@ -2,6 +2,7 @@
 
 mod benches;
 mod catalogue;
+mod cogging;
 mod common;
 mod counts;
 mod currents;
