@@ -88,7 +88,7 @@ def parameters(truth, answer):
                     true = h["parameters"].get(name)
                     if name == "azimuth_rad" and true is not None:  # a grain has no front
                         true += math.pi * round((found["value"] - true) / math.pi)
-                    if true is not None:
+                    if true is not None and "ci95" in found:  # a direction has none
                         rows.append([h["name"], name, true, found["value"], found["ci95"]])
     return rows
 
