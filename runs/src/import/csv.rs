@@ -299,6 +299,15 @@ mod tests {
     }
 
     #[test]
+    fn names_after_the_mark_of_a_remark_may_stand_above_times_of_day() {
+        let text = "#time;posL;velL\n0:00:00.010;5725.0;96.0\n0:00:00.110;6955.0;156.0\n0:00:01.210;8000.0;160.0\n";
+        let table = table(text).unwrap();
+        let place = table.find("posL").unwrap();
+        assert_eq!(place.values, [5725.0, 6955.0, 8000.0]);
+        assert!((place.t[2] - place.t[0] - 1.2).abs() < 1e-9, "{:?}", place.t);
+    }
+
+    #[test]
     fn more_names_than_numbers_are_said() {
         let remarks = |text: &str| table(text).unwrap().remarks;
         let shifted = remarks("t,spare,x,y\n0,1,2\n1,1,2\n2,1,3\n3,1\n");

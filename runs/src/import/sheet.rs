@@ -83,7 +83,8 @@ impl<'a> Sheet<'a> {
         let names = if texts {
             // Names after the mark of a remark, as of `rostopic echo -p`, above rows of numbers and texts; or none, where a
             // row has a word or a hexadecimal among its numbers.
-            let row = !fields[0].is_empty() && is_number(&fields[0], separator);
+            let timed = super::dates::seconds(&fields[0]).is_some();
+            let row = timed || !fields[0].is_empty() && is_number(&fields[0], separator);
             let numbers = fields.iter().filter(|field| !field.is_empty() && is_number(field, separator)).count();
             let named = said().filter(|names| row && names.iter().all(|name| !is_number(name, separator)));
             named
