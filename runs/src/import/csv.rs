@@ -7,7 +7,7 @@ use std::path::Path;
 use super::line::with_units;
 use super::rows::{self, Rows};
 use super::sheet::{Sheet, numbered};
-use super::{Clock, Table, dates, heading, owner};
+use super::{Clock, Table, dates, heading, owner, titles};
 use crate::error::InputError;
 
 /// Rows without a number below the names at most, and before the numbers: units, and short names.
@@ -30,6 +30,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
 
 fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
+    let own = || titles::frames_per_s(bytes).filter(|_| clock.column.is_none());
+    let clock = &Clock { rate_hz: clock.rate_hz.or_else(own), ..*clock };
     let mut csv = ::csv::ReaderBuilder::new()
         .delimiter(separator)
         .flexible(true)

@@ -62,6 +62,17 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, usize)> {
     Some((names, first))
 }
 
+/// Frames a second, which motion capture that numbers its frames writes alone below the kind of its export: `Objects`, `100`.
+pub(super) fn frames_per_s(bytes: &[u8]) -> Option<f64> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = |line| std::str::from_utf8(line).ok().map(|line: &str| line.trim().trim_end_matches([',', ';']));
+    let mut lines = bytes.split(|b| *b == b'\n');
+    let [kind, rate] = [text(lines.next()?)?, text(lines.next()?)?];
+    let worded = kind.starts_with(char::is_alphabetic) && !kind.contains([',', ';']);
+    let rate = rate.parse().ok().filter(|rate: &f64| worded && rate.is_finite() && *rate > 0.0)?;
+    table(bytes).is_some_and(|(names, _)| names[0] == "Frame").then_some(rate)
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -79,6 +90,11 @@ mod tests {
         let table = read(text, Some(100.0));
         let x = table.find("Global Angle car:car/TX [mm]").unwrap();
         assert_eq!((x.values.clone(), x.t.clone()), (vec![10.0, 11.0, 12.0], vec![0.0, 0.01, 0.03]));
+        // Its rate stands above, unless the map says another.
+        let own = read(&format!("\u{feff}{text}"), None);
+        assert_eq!(own.find("Global Angle car:car/TX [mm]").unwrap().t, x.t);
+        let other = read(text, Some(50.0));
+        assert_eq!(other.find("Global Angle car:car/TX [mm]").unwrap().t, [0.0, 0.02, 0.06]);
         let text = "Format Version,1.23,Take Name,a,Capture Frame Rate,120.0,Length Units,Meters,Rotation Type,XYZ\n\n\
                     ,,Rigid Body,Rigid Body,Rigid Body,Rigid Body\n,,car,car,car,car\n,,Rotation,Position,Position,Position\n\
                     Frame,Time (Seconds),Z,X,Y,Z\n0,0.0,0.5,1,2,0\n1,0.01,0.6,1.5,2,0\n";
