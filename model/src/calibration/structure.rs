@@ -35,6 +35,9 @@ const LARGE: f64 = 0.25;
 const MOVES: usize = 16;
 /// In units of [`KinematicParameter::scale`], a parameter beyond this is no robot's: 45°, 45 %, 90 mm, 0.2 s.
 const ABSURD: f64 = 45.0;
+/// Places of a marker in distances of the wheels from the centre, where that is more: a tall robot with two wheels 0.2 m apart had
+/// its own 0.126 m before the axle, and many have their axle at one end.
+const BEYOND_WHEELS: f64 = 4.0;
 
 /// What may differ between a robot and its file, as far as wheels and camera tell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,6 +146,13 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
     let mut values = DVector::zeros(all.len());
     let mut blocks = 0;
     let mut stages = [false, true].into_iter().peekable();
+    let wheels_at = robot.layout.wheels().iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max);
+    let most = |parameter: KinematicParameter| match parameter {
+        KinematicParameter::MarkerX | KinematicParameter::MarkerY => {
+            ABSURD.max(BEYOND_WHEELS * wheels_at / parameter.scale())
+        }
+        _ => ABSURD,
+    };
     for _ in 0..MOVES {
         let at: Vec<f64> = values.iter().zip(&all).map(|(v, p)| v * p.scale()).collect();
         let equations = match window_equations(&model, runs, &at, options) {
@@ -179,7 +189,7 @@ pub(super) fn choose(robot: &Robot, runs: &[Run], options: &FitOptions) -> Resul
         }
         let Some(next) = next else { break };
         let moved = &values + held.solve(&indices(&next), &held.total);
-        if moved.amax() > ABSURD {
+        if moved.iter().zip(&all).any(|(moved, parameter)| moved.abs() > most(*parameter)) {
             break;
         }
         (chosen, values) = (next, moved);

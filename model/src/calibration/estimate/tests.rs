@@ -226,6 +226,18 @@ fn what_no_robot_does_is_refused() {
     assert!(degrees(&e).iter().all(|s| s.abs() < 45.0));
 }
 
+/// A marker farther out than the wheels of a tall robot, which has its axle at one end.
+#[test]
+fn a_marker_beyond_the_wheels_is_found() {
+    let mut run = log([0.0; 3], 9);
+    for Pose { x, y, theta } in run.camera.iter_mut().map(|sample| &mut sample.pose) {
+        (*x, *y) = (*x + 0.13 * theta.cos(), *y + 0.13 * theta.sin());
+    }
+    let e = estimate_skew(&Robot::racbot(), &[run]).unwrap();
+    let [x, y] = e.sizes.marker_m.expect("a place of the marker");
+    assert!((x.value - 0.13).abs() < 0.002 && y.value.abs() < 0.002, "{x:?} {y:?} {:?}", e.residual);
+}
+
 #[test]
 fn the_estimate_applied_is_the_robot_that_drove() {
     let truth = [4.0, -3.0, 2.0];
