@@ -226,6 +226,38 @@ fn what_no_robot_does_is_refused() {
     assert!(degrees(&e).iter().all(|s| s.abs() < 45.0));
 }
 
+/// Motion capture scatters by hundredths of a millimetre, and wheels never roll as exactly: they are told nevertheless.
+#[test]
+fn a_camera_finer_than_wheels_roll_tells_skews() {
+    let actual = skewed([4.0, -3.0, 2.0]);
+    let camera = CameraModel { noise: [2e-5, 2e-5, 5e-5], ..CameraModel::of(&actual) };
+    let mut robot = VirtualRobot::new(&actual, Contact::Rolling, camera, Pose::default(), 7).unwrap();
+    calibration_drive(&mut robot, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
+    let mut run = robot.into_log();
+    for (wheel, counts) in run.counts.iter_mut().enumerate() {
+        let rolled: Vec<i64> = counts.windows(2).map(|c| c[1] - c[0]).collect();
+        let mut sum = counts[0] as f64;
+        for (k, step) in rolled.into_iter().enumerate() {
+            let slips =
+                0.05 * (run.t[k] * (9.0 + wheel as f64)).sin() + 0.05 * (run.t[k] * (2.3 + 0.4 * wheel as f64)).sin();
+            sum += step as f64 * (1.0 + slips);
+            counts[k + 1] = sum.round() as i64;
+        }
+    }
+    let e = estimate_skew(&Robot::racbot(), &[run]).unwrap();
+    assert!(
+        !e.is_none() && e.remarks.iter().any(|r| r.contains("finer than wheels roll")),
+        "{:?} {:?}",
+        e.remarks,
+        e.residual
+    );
+    let got = degrees(&e);
+    for (i, j, half) in &e.differences {
+        let off = (got[*i] - got[*j]) - ([4.0, -3.0, 2.0][*i] - [4.0, -3.0, 2.0][*j]);
+        assert!(off.abs() < half.to_degrees() + 0.5, "{got:?} {half}");
+    }
+}
+
 /// A marker farther out than the wheels of a tall robot, which has its axle at one end.
 #[test]
 fn a_marker_beyond_the_wheels_is_found() {
