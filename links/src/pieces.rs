@@ -262,33 +262,33 @@ impl<'a> Pieces<'a> {
         self.logs.iter().any(|log| !log.layout().duty.is_empty())
     }
 
-    /// Stretches of a log without gaps, with their first and last times.
+    /// Stretches of a log without gaps, with their first and last times, each from the first tick to the last at which every
+    /// wheel has counted: a camera with a clock of its own sees the robot before and after, where no count says how far it went.
     fn stretches(log: &Log, tick: f64) -> Vec<(Range<usize>, [f64; 2])> {
         let mut out = Vec::new();
-        let mut open: Option<(usize, f64)> = None;
+        // First and last tick with counts.
+        let mut open: Option<[(usize, f64); 2]> = None;
         let mut last = f64::NAN;
-        let mut close = |open: (usize, f64), end: usize, last: f64| {
-            if end - open.0 >= FEWEST {
-                out.push((open.0..end, [open.1, last]));
+        let mut close = |[(start, from), (end, to)]: [(usize, f64); 2]| {
+            if end + 1 - start >= FEWEST {
+                out.push((start..end + 1, [from, to]));
             }
         };
         for first in (0..log.len()).step_by(PIECE) {
-            let part = log.part(first..(first + PIECE).min(log.len()), Columns::NONE);
+            let columns = Columns { counts: true, ..Columns::NONE };
+            let part = log.part(first..(first + PIECE).min(log.len()), columns);
             for (k, t) in part.t.iter().enumerate() {
-                match open {
-                    Some(at) if t - last > GAP_TICKS * tick => {
-                        close(at, first + k, last);
-                        open = Some((first + k, *t));
-                    }
-                    None => open = Some((first + k, *t)),
-                    _ => {}
+                if t - last > GAP_TICKS * tick {
+                    open.take().into_iter().for_each(&mut close);
                 }
                 last = *t;
+                if part.count_gaps.iter().all(|gaps| gaps.binary_search(&k).is_err()) {
+                    let here = (first + k, *t);
+                    open = Some([open.map_or(here, |[start, _]| start), here]);
+                }
             }
         }
-        if let Some(at) = open {
-            close(at, log.len(), last);
-        }
+        open.into_iter().for_each(close);
         out
     }
 
@@ -447,5 +447,23 @@ mod tests {
             }
         }
         assert_eq!((next, frames), (whole.t.len(), whole.frames.len()));
+    }
+
+    #[test]
+    fn a_stretch_goes_from_count_to_count() {
+        // Rows are missing, and beside the gap the camera has rows of its own in which no wheel counts.
+        const GAP: usize = 3000;
+        let robot = Robot::racbot();
+        let mut run = simulate(Manoeuvre::Star, &Applied::of(&robot), &robot, Pose::default(), 1).unwrap();
+        run.t[GAP..].iter_mut().for_each(|t| *t += 2.0);
+        for (counts, gaps) in run.counts.iter_mut().zip(&mut run.count_gaps) {
+            gaps.extend(GAP - 5..GAP + 3);
+            let last = counts[GAP - 6];
+            counts[GAP - 5..GAP + 3].fill(last);
+        }
+        let logs = [Log::from(Cow::Owned(run))];
+        let pieces = segments(&robot, &robot.geometry().unwrap(), &logs, PIECE);
+        let stretches: Vec<_> = pieces.all.iter().map(|p| p.stretch.clone()).collect();
+        assert_eq!(stretches, [0..GAP - 5, GAP + 3..logs[0].len()]);
     }
 }
