@@ -7,7 +7,7 @@ use model::effects::Applied;
 use model::manoeuvre::{Manoeuvre, simulate};
 use runs::Log;
 use runs::frames::Pose;
-use runs::robot::{Robot, Support};
+use runs::robot::{EffectParameter, Robot, Support};
 
 use super::{DriveLink, DriveModel};
 use crate::effect::{Effect, Form};
@@ -142,4 +142,34 @@ fn what_is_worked_out_once_of(robot: &Robot) {
         }
         assert!(looked > 400, "{looked}");
     });
+}
+
+#[test]
+fn counts_that_an_encoder_loses_are_no_torque_of_its_motor() {
+    let [lossy, exact] = [0.1, 0.0].map(|loss| {
+        let robot = Robot::racbot();
+        let lost = [("loss_1", loss), ("threshold_rad_s", 4.0)];
+        let parameters = lost.map(|(n, value)| (n.to_owned(), EffectParameter { value, ..EffectParameter::default() }));
+        let loses = runs::robot::Effect {
+            name: "encoder-loss".to_owned(),
+            parameters: parameters.into_iter().collect(),
+            ..runs::robot::Effect::default()
+        };
+        let truth = Robot { effects: vec![loses], ..robot.clone() };
+        let run = simulate(Manoeuvre::Chirp, &Applied::of(&truth), &robot, Pose::default(), 1).unwrap();
+        let logs = [Log::from(Cow::Owned(run))];
+        let pieces = segments(&robot, &robot.geometry().unwrap(), &logs, PIECE);
+        let nominal = DriveModel::new(&robot);
+        let effect: Arc<dyn Effect> = Arc::from(crate::effects::find("encoder-loss").unwrap());
+        let mut knows = DriveModel::new(&robot);
+        let values = Values(lost.iter().map(|(n, v)| ((*n).to_owned(), *v)).collect());
+        knows.add(&*effect, &values, &Form::default());
+        let link = DriveLink::new(&pieces, &nominal).unwrap();
+        [&nominal, &knows].map(|model| {
+            let torques = link.residuals(model).unwrap().torque.concat();
+            (torques.iter().map(|t| t * t).sum::<f64>() / torques.len() as f64).sqrt()
+        })
+    });
+    // Beside what the speed of the threshold leaves open.
+    assert!(lossy[0] > 10.0 * exact[0] && lossy[1] < 0.5 * lossy[0], "{lossy:?} {exact:?}");
 }
