@@ -360,7 +360,7 @@ impl DriveModel {
 }
 
 /// The twist, of those that the wheels allow, that fits wheel speeds best; 3 × N.
-fn twist_per_wheel_speed(rows: &DMatrix<f64>, geometry: &Geometry) -> Option<DMatrix<f64>> {
+pub(crate) fn twist_per_wheel_speed(rows: &DMatrix<f64>, geometry: &Geometry) -> Option<DMatrix<f64>> {
     let allowed = geometry.allowed_twists();
     let within = rows * &allowed;
     Some(allowed * (within.transpose() * &within).try_inverse()? * within.transpose())

@@ -6,6 +6,7 @@ use runs::frames::Twist;
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::Robot;
 
+use crate::drive::twist_per_wheel_speed;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
@@ -148,7 +149,8 @@ impl Platform {
         if body.iter().any(|m| m.is_nan() || *m <= 0.0) {
             return None;
         }
-        let twist = (rows.transpose() * &rows).try_inverse()? * rows.transpose();
+        // Nothing turns the wheels of a differential drive by a sideways motion but roundings.
+        let twist = twist_per_wheel_speed(&rows, geometry)?;
         let n = rows.nrows();
         let sum = |of: &dyn Fn(usize, usize, usize) -> f64| {
             DMatrix::from_fn(n, n, |i, j| (0..3).map(|a| of(a, i, j)).sum::<f64>())
@@ -199,6 +201,19 @@ mod tests {
         // What impulses of the inertia give is the change of speed they were asked for.
         let both = &platform.response * &platform.inertia;
         assert!((&both - DMatrix::identity(n, n)).abs().max() < 1e-12, "{both}");
+    }
+
+    #[test]
+    fn two_wheels_on_an_axle_share_what_moves_them() {
+        let mut robot = Robot::racbot();
+        let wheel = |x_m: f64| runs::geometry::Wheel { x_m, y_m: 0.0, drive_rad: 90_f64.to_radians(), roller_rad: 0.0 };
+        robot.layout = Layout::Wheels(vec![wheel(0.045), wheel(-0.045)]);
+        let Platform { inertia, response } = Platform::new(&robot.geometry().unwrap(), 2.0, 0.01).unwrap();
+        // Ahead each moves a half of the mass.
+        let half = 0.5 * 2.0 * robot.wheel_radius_m.powi(2);
+        assert!((inertia.row(0).sum() / half - 1.0).abs() < 1e-9, "{inertia} {half}");
+        let both = &response * &inertia;
+        assert!((&both - DMatrix::identity(2, 2)).abs().max() < 1e-9, "{both}");
     }
 
     #[test]
