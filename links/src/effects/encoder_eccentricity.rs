@@ -39,12 +39,16 @@ impl Effect for EncoderEccentricity {
     }
 
     fn forms_in(&self, robot: &Robot, sizes: &Sizes) -> Vec<Form> {
-        let inertia = DriveModel::new(robot).felt_inertia();
+        let model = DriveModel::new(robot);
+        let inertia = model.felt_inertia();
         let gear = robot.gear_ratio;
         let orders = [1.0, gear].into_iter().take(if (gear - 1.0).abs() < 0.01 { 1 } else { 2 });
         let form = |(order, i): (f64, usize)| {
-            // What it seems to take of torque at the speed of the log, beside what the motors gave.
-            let unit = sizes.drive_nm / (inertia * (order * sizes.speed).powi(2));
+            // What it seems to take of torque at the speed of the log, to accelerate and by how the motor brakes, beside what the
+            // motors gave.
+            let turns = order * sizes.speed;
+            let braking = model.axes[i].braking(robot.gear_ratio);
+            let unit = sizes.drive_nm / (inertia * turns * turns).hypot(braking * turns);
             let most = MOST / order;
             let p = |stem| {
                 let material = (0.03 * unit).min(0.5 * most);
@@ -92,5 +96,21 @@ impl Effect for EncoderEccentricity {
 
     fn measurement(&self) -> Option<(&str, f64)> {
         Some(("turn the shaft by hand beside a protractor of the same counts", 10.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motor_that_brakes_tells_a_smaller_eccentricity() {
+        let mut robot = Robot { support: runs::robot::Support::Blocks, gear_ratio: 80.0, ..Robot::racbot() };
+        robot.motor.rotor_inertia = 1e-9;
+        let sizes = Sizes::of(&robot);
+        let sizes = sizes.at_speed(0.3 * sizes.no_load);
+        let form = &EncoderEccentricity.forms_in(&robot, &sizes)[0];
+        let taken = DriveModel::new(&robot).axes[0].braking(80.0) * sizes.speed * form.free[0].material;
+        assert!(taken < 0.031 * sizes.drive_nm, "{taken} of {} Nm", sizes.drive_nm);
     }
 }
