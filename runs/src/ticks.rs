@@ -61,14 +61,15 @@ impl<'a> Ticks<'a> {
         if self.since(row) != 1 || self.is_reset(wheel, row) {
             return None;
         }
-        let gaps = self.run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
-        let sampled = |row: usize| gaps.is_empty() || gaps.binary_search(&row).is_err();
-        (sampled(row) && sampled(row - 1)).then(|| self.step(wheel, row))
+        self.step(wheel, row)
     }
 
-    fn step(&self, wheel: usize, row: usize) -> i64 {
+    /// Counts from the row before to this one, where both have them: a camera may have rows of its own.
+    fn step(&self, wheel: usize, row: usize) -> Option<i64> {
         let counts = &self.run.counts[wheel];
-        counts[row].wrapping_sub(counts[row - 1])
+        let gaps = self.run.count_gaps.get(wheel).map_or(&[][..], Vec::as_slice);
+        let sampled = |row: usize| gaps.is_empty() || gaps.binary_search(&row).is_err();
+        (sampled(row) && sampled(row - 1)).then(|| counts[row].wrapping_sub(counts[row - 1]))
     }
 
     /// Whether a counter jumps to near zero, further than a wheel's speed can change.
@@ -77,10 +78,11 @@ impl<'a> Ticks<'a> {
         if row == 0 || counts[row].unsigned_abs() as f64 > self.jerk || self.since(row) != 1 {
             return false;
         }
-        let step = self.step(wheel, row) as f64;
+        let Some(step) = self.step(wheel, row) else { return false };
         let beside = [(row > 1).then(|| row - 1), (row + 1 < counts.len()).then_some(row + 1)];
-        let mut beside = beside.into_iter().flatten().map(|r| self.step(wheel, r) as f64);
-        step.abs() > self.jerk && beside.all(|b| (step - b).abs() > self.jerk)
+        let mut beside = beside.into_iter().flatten().filter_map(|r| self.step(wheel, r)).peekable();
+        let far = |counts: i64| counts.unsigned_abs() as f64 > self.jerk;
+        far(step) && beside.peek().is_some() && beside.all(|b| far(step.wrapping_sub(b)))
     }
 
     /// What the whole run lacks.
@@ -158,8 +160,12 @@ mod tests {
             [None, Some(30), Some(30), None, Some(30), Some(30)]
         );
         assert_eq!(ticks.gaps().words().unwrap(), "1 counters began anew");
-        // Through zero at full speed is motion.
-        let through = run(&t, &[600, 400, 200, 0, -200, -400]);
+        // Through zero at full speed is motion, also where the camera has a row of its own, in which the last count stands.
+        let mut through = run(&t, &[600, 400, 200, 0, -200, -400]);
         assert_eq!(Ticks::new(&robot, &through).moved(0, 3), Some(-200));
+        through.counts[0][2] = 400;
+        through.count_gaps[0].push(2);
+        let ticks = Ticks::new(&robot, &through);
+        assert_eq!((ticks.gaps().resets, ticks.moved(0, 3), ticks.moved(0, 4)), (0, None, Some(-200)));
     }
 }
