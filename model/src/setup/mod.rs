@@ -122,7 +122,15 @@ pub(crate) fn common_ratio(robot: &Robot, ratio: f64) -> Option<Mistake> {
     let diameter = (0.5, {
         let what =
             format!("all distances by the counts are {:.2} times too long: it looks like a diameter", 1.0 / ratio);
-        let remedy = format!("write wheel_radius_m = {}", short(robot.wheel_radius_m / 2.0));
+        let radius = format!("write wheel_radius_m = {}", short(robot.wheel_radius_m / 2.0));
+        let counts = short(2.0 * robot.encoder_counts_per_motor_rev);
+        let remedy = if is_from_speeds(robot) {
+            radius
+        } else {
+            format!(
+                "{radius}; if it is the radius, a turn has twice the counts: encoder_counts_per_motor_rev = {counts}"
+            )
+        };
         Mistake::new("wheel-diameter", "wheel_radius_m", what, remedy)
     });
     let mut kinds = vec![diameter];
