@@ -101,6 +101,6 @@ fn rust_hdl_equals_the_bit_true_model_through_its_pins() {
 
 #[test]
 fn compiled_verilog_equals_the_bit_true_model_through_its_pins() {
-    compare(Kind::Verilog, 1_000.0, 500);
-    compare(Kind::Verilog, 8_000.0, 5_000);
+    compare(Kind::Verilog, 1_000.0, 150);
+    compare(Kind::Verilog, 8_000.0, 1_500);
 }
