@@ -288,7 +288,7 @@ thresholds! {
     line: [f64; 3] = [0.03, 0.1, 0.15],
     /// Amplitude of a rolling radius that varies with the wheel's angle, and of a torque that does, as a share of the
     /// drive's: handed from roller to roller every omni wheel bobs by some hundredths of a millimetre and is pushed by a
-    /// few mNm, which look like a radius that varies by up to 0.0035.
+    /// few mNm, which look like a radius that varies by up to 0.0035. Without rollers a torque has the size of a `line`.
     ripple: [f64; 2] = [0.006, 0.07],
     /// Share of the weight on a wheel, at its rim, by which rollers push as they are handed over, whatever the speed: three
     /// wheels, and four, of which one always hangs. 0.01 to 0.04 and up to 0.1 in a rigid-body engine.
