@@ -78,6 +78,7 @@ const CASES: &[Case] = &[
     case("roller-friction", &[("force_n", 0.5)], ("force_n", 0.25), &RICH, &[]),
     case("dead-band", &[("duty", 0.12)], ("duty", 0.25), &SLOW, &[]),
     case("dead-band", &[("duty_2", 0.12)], ("duty_2", 0.25), &SLOW, &[]),
+    case("bridge-drop", &[("drop_v", 1.2)], ("drop_v", 0.25), &HARD, &[]),
     case("drive-curve", &[("curvature", 0.4)], ("curvature", 0.25), &HARD, &[]),
     case("coasting-bridge", &[("share", 0.6)], ("share", 0.25), &HARD, &[]),
     case("torque-constant", &[("scale", -0.15)], ("scale", 0.25), &HARD, &[]),

@@ -89,7 +89,7 @@ impl DriveModel {
     }
 
     /// Largest torque with which each wheel may stick, Nm, at the start of a segment: of friction, and of a bridge that does
-    /// nothing at small duties, which near rest does the same.
+    /// nothing at small duties or takes some volts off, which near rest does the same.
     pub(super) fn standing_friction(&self, s: &Segment) -> Vec<f64> {
         let n = self.wheels.len();
         let prepared = self.prepared(s);
@@ -121,7 +121,7 @@ impl DriveModel {
         let (forwards, backwards) = (turning(1.0), turning(-1.0));
         let loads = forwards.iter().zip(&backwards).map(|(a, b)| 0.5 * (b - a).max(0.0));
         let constants = self.constants();
-        let idle = (0..n).map(|i| constants[i].gain * s.supply[0] * self.idle_duty(i));
+        let idle = (0..n).map(|i| constants[i].gain * (s.supply[0] * self.idle_duty(i) + self.bridge_drop_v));
         let friction = loads.zip(&self.axes).map(|(load, axis)| load + self.gear_ratio * axis.friction);
         friction.zip(idle).map(|(friction, idle)| friction + idle).collect()
     }

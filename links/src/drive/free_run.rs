@@ -20,22 +20,23 @@ pub fn runaway(link: &DriveLink, model: &DriveModel) -> Option<Vec<f64>> {
     let residuals = link.residuals_in_own_torque(model)?;
     let damping = model.axes.iter().map(|a| a.braking(model.gear_ratio) * a.encoder_scale);
     let damping = DVector::from_iterator(model.axes.len(), damping);
-    let free = free_of_limit(link, model);
+    let free = followed(link, model);
     // Test functions overlap by half: each stands for that much of the log.
     Some(squares(link, &residuals, &mechanics.response, (&damping, free.as_deref()), 0.5 * link.length()))
 }
 
-/// Share of each test function in which a limited current still follows speed, `[wheel][test function]`: a motor at its limit
-/// brakes nothing that runs away. `None` without a limit.
-fn free_of_limit(link: &DriveLink, model: &DriveModel) -> Option<Vec<Vec<f64>>> {
-    if model.current_limit_a.is_infinite() {
+/// Share of each test function in which the current follows speed, `[wheel][test function]`: a motor at its limit, or below
+/// what its bridge drops, brakes nothing that runs away. `None` where it always does.
+fn followed(link: &DriveLink, model: &DriveModel) -> Option<Vec<Vec<f64>>> {
+    if model.current_limit_a.is_infinite() && model.bridge_drop_v == 0.0 {
         return None;
     }
     let g = model.gear_ratio;
     Some(link.means(model.axes.len(), |s, k, out| {
         for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
             let asked = a.asks_a(s.duty[i][k] * s.supply[k], g, s.speed[i][k]);
-            *slot = f64::from(u8::from(asked.abs() < model.current_limit_a));
+            let dropped = model.bridge_drop_v / a.resistance;
+            *slot = f64::from(u8::from(asked.abs() >= dropped && asked.abs() - dropped < model.current_limit_a));
         }
     }))
 }

@@ -119,6 +119,8 @@ pub struct DriveModel {
     pub reading_filter_s: f64,
     /// Current that each motor has at most, A; infinite where nothing limits it.
     pub current_limit_a: f64,
+    /// Voltage that each bridge takes off against its current, V.
+    pub bridge_drop_v: f64,
     /// What the bridge makes of a duty.
     pub duty_maps: Vec<DutyMap>,
     /// What the load makes of the supply.
@@ -185,6 +187,7 @@ impl DriveModel {
             duty_delay_s: 0.0,
             reading_filter_s: 0.0,
             current_limit_a: f64::INFINITY,
+            bridge_drop_v: 0.0,
             duty_maps: Vec::new(),
             supply_maps: Vec::new(),
             loads: Vec::new(),
@@ -240,10 +243,10 @@ impl DriveModel {
         const DIGITS: f64 = 1e12;
         let axis =
             |a: &AxisModel| [a.resistance, a.torque_constant, a.back_emf, a.friction, a.gear_loss].map(f64::to_bits);
-        let [delay, filter, limit] = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a];
+        let electrical = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a, self.bridge_drop_v];
         let mut hasher = DefaultHasher::new();
         self.axes.iter().map(axis).for_each(|axis| axis.hash(&mut hasher));
-        [delay, filter, limit].map(f64::to_bits).hash(&mut hasher);
+        electrical.map(f64::to_bits).hash(&mut hasher);
         if !self.torques_stand_alone() {
             self.constants().iter().for_each(|axis| ((DIGITS * axis.passed).round() as i64).hash(&mut hasher));
         }

@@ -20,6 +20,8 @@ pub(super) struct Axis {
     damping: f64,
     /// Torque that the motor has at most, Nm; infinite where nothing limits its current.
     most: f64,
+    /// Torque that the bridge takes off, Nm.
+    dropped: f64,
     /// Friction of the motor, Nm.
     pub(super) coulomb: f64,
     /// Share of the transmitted torque that is lost.
@@ -128,20 +130,22 @@ impl<'a> Signals<'a> {
         };
         let rows = s.rows();
         self.winding = self.duty.iter().zip(&rows.rate).zip(axes).map(of).collect();
-        for (i, axis) in axes.iter().enumerate().filter(|(_, axis)| axis.most.is_finite()) {
+        for (i, axis) in axes.iter().enumerate().filter(|(_, axis)| axis.most.is_finite() || axis.dropped > 0.0) {
             self.limit(i, axis, [&rows.rate[i], &rows.speed[i]]);
         }
     }
 
-    /// Takes off what a limit of the current does not let through, by the raw increments of the angles, or, where a limit would
-    /// cut off their noise, by the smoothed speeds.
+    /// Takes off what a bridge drops and what a limit of the current does not let through, by the raw increments of the angles,
+    /// or, where that would cut off their noise, by the smoothed speeds.
     fn limit(&mut self, wheel: usize, axis: &Axis, [rate, speed]: [&[f64]; 2]) {
         let apart = rate.iter().zip(speed).map(|(a, b)| axis.damping * (a - b));
-        let noisy = estimation::statistics::rms(apart) > NOISY_AT_LIMIT * axis.most;
+        let edge = if axis.dropped > 0.0 { axis.dropped.min(axis.most) } else { axis.most };
+        let noisy = estimation::statistics::rms(apart) > NOISY_AT_LIMIT * edge;
         let driven = self.duty[wheel].iter().zip(&*self.supply).zip(if noisy { speed } else { rate });
         for (winding, ((duty, supply), speed)) in self.winding[wheel].iter_mut().zip(driven) {
             let asked = axis.gain * duty * supply - axis.damping * speed;
-            *winding -= asked - asked.clamp(-axis.most, axis.most);
+            let passed = asked - asked.clamp(-axis.dropped, axis.dropped);
+            *winding -= asked - passed.clamp(-axis.most, axis.most);
         }
     }
 }
@@ -156,6 +160,7 @@ impl DriveModel {
                 gain,
                 damping: a.braking(g) * a.encoder_scale,
                 most: g * a.torque_constant * self.current_limit_a,
+                dropped: gain * self.bridge_drop_v,
                 coulomb: g * a.friction,
                 loss: a.gear_loss,
                 passed: match self.support {
@@ -225,7 +230,9 @@ impl DriveModel {
             let mut mapped = |from: f64| {
                 for (i, (current, axis)) in currents.iter_mut().zip(&self.axes).enumerate() {
                     let asked = axis.asks_a(now.duty[i] * from, g, now.speed[i]);
-                    *current = asked.clamp(-self.current_limit_a, self.current_limit_a);
+                    let dropped = self.bridge_drop_v / axis.resistance;
+                    let passed = asked - asked.clamp(-dropped, dropped);
+                    *current = passed.clamp(-self.current_limit_a, self.current_limit_a);
                 }
                 self.supply_maps.iter().fold(now.supply, |v, map| map(now, v, &currents))
             };

@@ -7,6 +7,7 @@ mod asymmetric_friction;
 mod battery_sag;
 mod body_drag;
 mod body_radius;
+mod bridge_drop;
 pub mod camera_clock;
 pub mod camera_latency;
 mod camera_scale;
@@ -116,6 +117,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(gear_backlash::GearBacklash),
         Box::new(roller_friction::RollerFriction),
         Box::new(dead_band::DeadBand),
+        Box::new(bridge_drop::BridgeDrop),
         Box::new(drive_curve::DriveCurve),
         Box::new(coasting_bridge::CoastingBridge),
         Box::new(torque_constant::TorqueConstant),
@@ -177,7 +179,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 42] = [
+    const NAMES: [(&str, &[&str]); 43] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -213,6 +215,7 @@ mod tests {
         ("quadratic-drag", &["coefficient_#_nms2"]),
         ("roller-friction", &["force_n"]),
         ("dead-band", &["duty", "duty_#"]),
+        ("bridge-drop", &["drop_v"]),
         ("gear-backlash", &["play_rad", "play_#_rad"]),
         ("battery-sag", &["resistance_ohm", "drop_v"]),
         ("current-limit", &["limit_a"]),

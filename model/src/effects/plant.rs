@@ -90,6 +90,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
         "drive-curve" => d.curvature = value("curvature"),
         "coasting-bridge" => d.coasting = value("share"),
         "current-limit" => d.current_limit_a = value("limit_a"),
+        "bridge-drop" => d.bridge_drop_v = value("drop_v"),
         "actuation-latency" => d.duty_delay_s = value("latency_s"),
         "battery-sag" => d.battery = [value("drop_v"), value("resistance_ohm")],
         "motor-heating" => d.heating = [value("rise"), effect.value("time_s").unwrap_or(30.0)],

@@ -50,10 +50,15 @@ impl Plant {
             }
         }
         let deviations = self.deviations.as_deref();
-        let (coasting, limit_a) = deviations.map_or((0.0, 0.0), |d| (d.coasting, d.current_limit_a));
+        let [coasting, drop_v, limit_a] =
+            deviations.map_or([0.0; 3], |d| [d.coasting, d.bridge_drop_v, d.current_limit_a]);
         for (i, ((wheel, axis), u)) in self.wheels.iter_mut().zip(&self.axes).zip(&acting).enumerate() {
             let open = coasting * (1.0 - u.abs()) * axis.damping * wheel.speed;
             wheel.drive = axis.winding_torque(u * supply, 0.0) + open;
+            if drop_v > 0.0 {
+                let dropped = axis.winding_torque(drop_v, 0.0);
+                wheel.drive -= (wheel.drive - axis.damping * wheel.speed).clamp(-dropped, dropped);
+            }
             if limit_a > 0.0 {
                 let own = 1.0 + deviations.map_or(0.0, |d| d.wheel(i).torque_constant);
                 let (asked, most) = (wheel.drive - axis.damping * wheel.speed, limit_a * own / self.current_per_torque);

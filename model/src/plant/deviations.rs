@@ -33,6 +33,8 @@ pub struct Deviations {
     pub coasting: f64,
     /// Current of each motor at most, A; 0 for no limit.
     pub current_limit_a: f64,
+    /// Voltage that each bridge takes off against its current, V.
+    pub bridge_drop_v: f64,
     /// Age of the duty that acts, s.
     pub duty_delay_s: f64,
     /// Supply: what it lacks at no load (V), and its resistance (Ω).
@@ -135,6 +137,7 @@ impl Deviations {
             curvature: self.curvature,
             coasting: self.coasting,
             current_limit_a: self.current_limit_a,
+            bridge_drop_v: self.bridge_drop_v,
             duty_delay_s: self.duty_delay_s,
             battery: self.battery,
             heating: self.heating,

@@ -130,6 +130,29 @@ fn no_motor_has_more_than_its_driver_lets_through() {
 }
 
 #[test]
+fn a_bridge_takes_its_drop_off_whichever_way_the_current_goes() {
+    let moved = |name, p: &[(&str, f64)], duty: f64| {
+        let mut plant = lifted(name, p);
+        plant.step(&[duty, -duty, 0.0], 7.2, 1e-6);
+        speed(&plant, 0)
+    };
+    let (dropped, plain) = ([("drop_v", 1.8)], |duty| moved("wheel-skew", &[], duty));
+    close(moved("bridge-drop", &dropped, 0.75), plain(0.5), 1e-6);
+    close(moved("bridge-drop", &dropped, -0.75), -plain(0.5), 1e-6);
+    assert_eq!(moved("bridge-drop", &dropped, 0.25), 0.0);
+    // A wheel that runs and is braked loses that of the braking, too.
+    let braked = |p: &[(&str, f64)]| {
+        let mut plant = lifted("bridge-drop", p);
+        plant.step(&[0.0; 3], 7.2, 1e-6);
+        run(&mut plant, [0.9, 0.9, 0.0], 4000);
+        let before = speed(&plant, 0);
+        plant.step(&[-0.25, -0.25, 0.0], 7.2, 1e-4);
+        (before - speed(&plant, 0)) / (before + 0.25 * 7.2 / (0.00692 * 3.71))
+    };
+    assert!(braked(&dropped) < 0.9 * braked(&[]), "{} of {}", braked(&dropped), braked(&[]));
+}
+
+#[test]
 fn duties_come_late() {
     let mut late = applied("actuation-latency", &[("latency_s", 0.0055)]).plant().unwrap();
     let mut plain = applied("wheel-skew", &[]).plant().unwrap();
