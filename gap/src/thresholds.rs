@@ -347,9 +347,10 @@ thresholds! {
 
     // Laws that only braking tells apart.
     /// Share of the rows of turning wheels whose duties work against the motion up to which a dead band is a dry friction as
-    /// well: more such rows tell them apart, by twice the band each. Position loops against much friction, simulated: 0 of
-    /// 49 719; with what the log leaves unknown of small speeds, less than one in a hundred is none. And the speed from which
-    /// a wheel surely turns one way, in what is known of a direction. Reasoned.
+    /// well, and of the test functions in which their motors do, up to which volts that a bridge takes off are one: more such
+    /// rows tell them apart, by twice the band each. Position loops against much friction, simulated: 0 of 49 719; with what
+    /// the log leaves unknown of small speeds, less than one in a hundred is none. And the speed from which a wheel surely
+    /// turns one way, in what is known of a direction. Reasoned.
     braked: [f64; 2] = [0.01, 3.0],
 
     // Logs that say nothing of a drive.

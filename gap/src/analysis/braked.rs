@@ -1,4 +1,5 @@
-//! A bridge that swallows small duties and a dry friction do the same as long as no duty works against what turns.
+//! A bridge that swallows small duties, one that takes volts off, and a dry friction do the same as long as nothing works
+//! against what turns.
 
 use std::sync::Arc;
 
@@ -8,38 +9,56 @@ use super::workflow::Workflow;
 use links::drive::DriveLink;
 use links::effect::Effect;
 use links::pieces::Pieces;
+use runs::robot::Robot;
 
 impl<'a> Workflow<'a> {
-    /// The dry friction that a dead band may be as well where no duty brakes, tied with it: of the two it is the likelier.
-    /// Nothing where the band is not named, where duties brake, or where that is no friction.
-    pub(super) fn unbraked(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
+    /// The dry friction that a bridge may be as well where its motor does not brake, tied with it: of the two it is the
+    /// likelier. Nothing where no such bridge is named, where motors brake, or where that is no friction: then what drops
+    /// volts, which differs in nothing but braking, is tied with it as it is.
+    pub(super) fn unbraked(
+        &mut self,
+        link: &DriveLink,
+        outcome: &mut Outcome,
+        here: &[Arc<dyn Effect>],
+    ) -> Option<(DriveLink<'a>, Outcome)> {
         let named = |outcome: &Outcome, name: &str| outcome.named.iter().any(|n| n.name == name);
-        if !named(outcome, DEAD_BAND) || named(outcome, FRICTION) {
-            return None;
-        }
+        let bridge = BRIDGES.into_iter().find(|name| named(outcome, name)).filter(|_| !named(outcome, FRICTION))?;
         let [most, surely] = self.thresholds.braked;
-        let share = braked(self.searched().pieces, surely);
+        let share = if bridge == BRIDGE_DROP {
+            braked_by_motor(link, &self.question.robot, surely)
+        } else {
+            braked(self.searched().pieces, surely)
+        };
         if share > most {
             return None;
         }
-        let others: Vec<_> = here.iter().filter(|e| e.name() != DEAD_BAND).cloned().collect();
-        let (link, mut again) = self.drive_again(&others)?;
-        if !named(&again, FRICTION) {
-            return None;
-        }
-        again.sets.push([FRICTION, DEAD_BAND].map(str::to_owned).to_vec());
-        again.ambiguous = true;
+        let others: Vec<_> = here.iter().filter(|e| !BRIDGES.contains(&e.name())).cloned().collect();
+        let mut again = self.drive_again(&others).filter(|(_, again)| named(again, FRICTION));
+        let tied = match &mut again {
+            Some((_, friction)) => friction,
+            None if bridge == BRIDGE_DROP => outcome,
+            None => return None,
+        };
+        tied.sets.push([FRICTION, bridge].map(str::to_owned).to_vec());
+        tied.ambiguous = true;
+        let [works, does] = if bridge == BRIDGE_DROP {
+            ["Motors hardly ever work", "takes volts off"]
+        } else {
+            ["Duties hardly ever work", "swallows small duties"]
+        };
         self.findings.remarks.push(format!(
-            "Duties hardly ever work against what turns ({:.1} % of the rows): a bridge that swallows small duties does what dry \
-             friction does. Brake by the motor, and they differ.",
+            "{works} against what turns ({:.1} % of the time): a bridge that {does} does what dry friction does. Brake by the \
+             motor, and they differ.",
             100.0 * share
         ));
-        Some((link, again))
+        again
     }
 }
 
-/// The friction that a dead band looks like.
+/// The friction that such bridges look like.
 const FRICTION: &str = FRICTIONS[0];
+const BRIDGE_DROP: &str = "bridge-drop";
+const BRIDGES: [&str; 2] = [DEAD_BAND, BRIDGE_DROP];
 
 /// Share of the rows in which a wheel surely turned, by that speed, whose duties worked against that.
 fn braked(pieces: &Pieces, surely: f64) -> f64 {
@@ -49,6 +68,29 @@ fn braked(pieces: &Pieces, surely: f64) -> f64 {
             for k in s.own.clone().filter(|k| speed[*k].abs() > surely * s.turning) {
                 turned += 1;
                 against += u64::from(duty[k] * speed[k] < 0.0);
+            }
+        }
+    }
+    against as f64 / turned.max(1) as f64
+}
+
+/// Share of the test functions in which a wheel surely turned whose motor worked against that: it brakes as soon as the wheel
+/// turns faster than the duty would have it, which single rows of a coarse encoder do not tell.
+fn braked_by_motor(link: &DriveLink, robot: &Robot, surely: f64) -> f64 {
+    let n = link.noise.len();
+    let per_volt = robot.no_load_wheel_speed(robot.supply_v) / robot.supply_v;
+    let turning = link.at_middles(|s, _| s.turning);
+    let means = link.means(2 * n, |s, k, out| {
+        for (i, slot) in out.chunks_exact_mut(2).enumerate() {
+            slot.copy_from_slice(&[s.speed[i][k], per_volt * s.duty[i][k] * s.supply[k]]);
+        }
+    });
+    let (mut turned, mut against) = (0_u64, 0_u64);
+    for wheel in means.chunks_exact(2) {
+        for ((speed, driven), turning) in wheel[0].iter().zip(&wheel[1]).zip(&turning) {
+            if speed.abs() > surely * turning {
+                turned += 1;
+                against += u64::from(speed.abs() > driven * speed.signum());
             }
         }
     }

@@ -75,7 +75,7 @@ impl<'a> Workflow<'a> {
         {
             (link, outcome) = again;
         }
-        if let Some(again) = self.unbraked(&outcome, &read_right) {
+        if let Some(again) = self.unbraked(&link, &mut outcome, &read_right) {
             (link, outcome) = again;
         }
         // What comes once a turn is a load, or is read so: where neither load has a name, not by a load.

@@ -45,6 +45,8 @@ struct Bench {
     weight_nm: f64,
     /// Torque of a fan at 1 rad/s, Nm s²/rad².
     fan_nms2: f64,
+    /// Voltage that the bridge takes off against the current, V.
+    drop_v: f64,
     /// Speeds of differences, through a filter that takes this share of the new one, in place of counts.
     filtered: Option<f64>,
 }
@@ -61,6 +63,7 @@ const PLAIN: Bench = Bench {
     pushed_nm: 0.0,
     weight_nm: 0.0,
     fan_nms2: 0.0,
+    drop_v: 0.0,
     filtered: None,
 };
 
@@ -114,7 +117,8 @@ impl Bench {
             let pushed = 0.5 * self.pushed_nm * waves.iter().map(|[rate, from]| (rate * at + from).sin()).sum::<f64>();
             for _ in 0..STEPS {
                 let load = self.weight_nm * angle.sin() - self.fan_nms2 * speed * speed.abs();
-                let torque = KT * (VOLT * duty - KT * speed) / self.ohm + pushed + load;
+                let volts = VOLT * duty - KT * speed;
+                let torque = KT * (volts - volts.clamp(-self.drop_v, self.drop_v)) / self.ohm + pushed + load;
                 speed = with_dry_friction(speed, torque, self.dry_nm, INERTIA, ROW_S / f64::from(STEPS));
                 angle += speed * ROW_S / f64::from(STEPS);
             }
@@ -298,5 +302,16 @@ fn duties_that_never_brake_show_friction_or_a_dead_band() {
         assert!(a.alternatives.iter().any(|set| set == &["coulomb-friction", "dead-band"]), "{text}");
         let ends = a.effects[0].parameters[0].2.ends().unwrap();
         assert!(ends[0] <= more && more <= ends[1], "{more}: {text}");
+    }
+}
+
+/// A bridge of transistors that saturate takes volts off while it brakes, too: no dead band of duties, and no friction.
+#[test]
+fn volts_that_a_bridge_drops_are_named() {
+    for (seed, drop_v) in [(21, 1.0), (22, 2.0)] {
+        let a = Bench { drop_v, ..PLAIN }.told(seed);
+        assert_eq!(names(&a), ["bridge-drop"], "{}", a.terminal_summary());
+        let found = value(&a, "drop_v");
+        assert!((found / drop_v - 1.0).abs() < 0.1, "{found} instead of {drop_v}");
     }
 }

@@ -60,7 +60,7 @@ fn resistance_is_named_and_no_mass_with_inertia() {
 }
 
 /// Frictions, and what takes torque away as friction does: near-twins of the truth below.
-const TAKE_TORQUE: [&str; 15] = [
+const TAKE_TORQUE: [&str; 16] = [
     "coulomb-friction",
     "viscous-friction",
     "stribeck-friction",
@@ -69,6 +69,7 @@ const TAKE_TORQUE: [&str; 15] = [
     "heading-drag",
     "roller-friction",
     "dead-band",
+    "bridge-drop",
     "drive-curve",
     "battery-sag",
     "current-limit",
