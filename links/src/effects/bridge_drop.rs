@@ -14,7 +14,7 @@ impl Effect for BridgeDrop {
     }
 
     fn equation(&self) -> &str {
-        "duty times supply less back-EMF is drop_v volts less by size at every winding, and 0 where it is less than that"
+        "the voltage u V - e that drives a winding loses drop_v of its size; below that no current flows"
     }
 
     fn reference(&self) -> &str {
