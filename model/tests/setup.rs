@@ -597,30 +597,6 @@ fn a_loop_that_does_not_keep_up_may_go_on() {
     assert!(found(robot, &[run]).iter().any(|m| m.kind == "reference-unit" && !m.nameable));
 }
 
-/// A servo between two angles gains speed and loses it alike, so that its way says nothing of its drive: its accelerations do.
-#[test]
-fn a_positioned_axis_shows_that_its_drive_is_reversed() {
-    let text = "support = \"blocks\"\nwheel_radius_m = 1\ngear_ratio = 1\nencoder_counts_per_motor_rev = 40000\nsupply_v = 24\n\
-                control_rate_hz = 500\n[motor]\nresistance_ohm = 1\ntorque_constant = 0.02\nrotor_inertia = 2e-3\n[[wheel]]\n\
-                x_m = 0\ny_m = 0\ndrive_deg = 0\n";
-    let robot = Robot::parse_partial(text, Path::new("robot.toml")).unwrap();
-    let (mut run, mut angle, mut speed) = (Run::default(), 0.0_f64, 0.0_f64);
-    let (mut counts, mut duties) = (Vec::new(), Vec::new());
-    for k in 0..12_000 {
-        let target = if k / 800 % 2 == 0 { 2.0 } else { -2.0 };
-        let duty = (0.35 * (target - angle) - 0.1 * speed).clamp(-1.0, 1.0);
-        run.t.push(0.002 * f64::from(k));
-        counts.push((angle / std::f64::consts::TAU * 40_000.0).round() as i64);
-        duties.push(duty);
-        speed += 0.002 * (0.02 * (24.0 * duty - 0.02 * speed) - 0.01 * (speed / 0.2).tanh()) / 2e-3;
-        angle += 0.002 * speed;
-    }
-    (run.counts, run.duty) = (vec![counts], vec![duties]);
-    assert!(found(robot.clone(), std::slice::from_ref(&run)).iter().all(|m| m.kind != "drive-reversed"));
-    run.duty[0].iter_mut().for_each(|d| *d = -*d);
-    assert!(found(robot, &[run]).iter().any(|m| m.kind == "drive-reversed"));
-}
-
 /// A weak loop of a cascade stays behind its set points, of a motor that dry friction holds besides: what it subtracts from
 /// them says that they are speeds, and that those in turns per minute are not.
 #[test]

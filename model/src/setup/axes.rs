@@ -19,10 +19,6 @@ const ASKED: f64 = std::f64::consts::TAU;
 /// -0.69 to -1.00. A weight that is let down slowly goes against its motor there, too, but lifted it does not.
 const AGAINST: f64 = -0.4;
 const GAINING: f64 = -0.5;
-/// Balance of the accelerations along and against a drive, -1 to 1, from which what it gains counts by itself: an axis that is
-/// positioned gains and loses speed alike, and its ways balance whatever the signs. A servo of 14 moves had -0.61 and -0.66 with
-/// its torque logged the other way round (ways 0.06 and -0.22); right drives of three recordings had 0.21 to 0.98.
-const PUSHED: f64 = -0.4;
 /// Share of an axis's way that it must be driven each way for that.
 const EACH_WAY: f64 = 0.1;
 /// Moments each way from which anything is said.
@@ -90,8 +86,8 @@ pub(super) fn unasked(robot: &Robot, signals: &[Signals], before: &[Mistake]) ->
 }
 
 /// Of both ways in which an axis is driven: the way with the drive less that against it, all of the way, moments; the first two
-/// of the moments in which it does not lose speed; and of its accelerations.
-type Ways = [[f64; 7]; 2];
+/// of the moments in which it does not lose speed.
+type Ways = [[f64; 5]; 2];
 
 /// Axes that turn backwards where they are driven forwards, and forwards where backwards, in all logs or in some.
 pub(super) fn against(robot: &Robot, signals: &[Signals], stem: &str) -> Vec<Mistake> {
@@ -99,7 +95,7 @@ pub(super) fn against(robot: &Robot, signals: &[Signals], stem: &str) -> Vec<Mis
     let counted = if is_from_speeds(robot) { "speed" } else { "enc" };
     let mistake = |i: usize| {
         let ways: Vec<Ways> = signals.iter().map(|s| ways(s, i)).collect();
-        let all = ways.iter().fold([[0.0; 7]; 2], |sum, ways| {
+        let all = ways.iter().fold([[0.0; 5]; 2], |sum, ways| {
             std::array::from_fn(|way| std::array::from_fn(|k| sum[way][k] + ways[way][k]))
         });
         // Some were wired another way, or logged by another program.
@@ -121,14 +117,13 @@ pub(super) fn against(robot: &Robot, signals: &[Signals], stem: &str) -> Vec<Mis
 }
 
 fn ways(s: &Signals, axis: usize) -> Ways {
-    let mut ways = [[0.0; 7]; 2];
+    let mut ways = [[0.0; 5]; 2];
     let Some(duty) = s.duty.get(axis) else { return ways };
     let rows = duty.iter().zip(&s.speed[axis]).zip(&s.acceleration[axis]);
     for ((duty, speed), acceleration) in rows.filter(|((d, w), _)| d.is_finite() && **d != 0.0 && **w != 0.0) {
         let with = speed * duty.signum();
         let gains = f64::from(u8::from(speed * acceleration >= 0.0));
-        let pushed = acceleration * duty.signum();
-        let moment = [with, with.abs(), 1.0, gains * with, gains * with.abs(), pushed, pushed.abs()];
+        let moment = [with, with.abs(), 1.0, gains * with, gains * with.abs()];
         ways[usize::from(*duty < 0.0)].iter_mut().zip(moment).for_each(|(sum, x)| *sum += x);
     }
     ways
@@ -136,9 +131,8 @@ fn ways(s: &Signals, axis: usize) -> Ways {
 
 fn is_against(ways: &Ways) -> bool {
     let way = ways[0][1] + ways[1][1];
-    ways.iter().all(|[with, all, n, gaining, gained, pushed, changed]| {
+    ways.iter().all(|[with, all, n, gaining, gained]| {
         let told = *n >= FEWEST as f64 && *all >= EACH_WAY * way;
-        let turned = *with <= AGAINST * all || *pushed <= PUSHED * changed;
-        told && turned && *gaining <= GAINING * gained
+        told && *with <= AGAINST * all && *gaining <= GAINING * gained
     })
 }
