@@ -2,9 +2,11 @@
 
 use super::racbot;
 use assert_cmd::cargo::cargo_bin;
+use fixed_kin::AXES;
 use fixed_kin::card::{Card, Pins};
 use fixed_kin::radio::{CRC_BYTES, HEADER_BYTES, WRITE_BYTES};
 use fixed_kin::registers::ACTIVE_SET_POINTS;
+use fixed_kin::speed::EncoderSample;
 use rustix::process::{Pid, Signal, kill_process};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::tcgetattr;
@@ -15,9 +17,11 @@ use tempfile::tempdir;
 
 const ROBOT: u8 = 11;
 
-/// A robot that takes frames one by one, each 10 ms after the one before.
+/// A robot that takes frames one by one, each 10 ms after the one before. Its wheels turn, so that no stall ends
+/// a drive, however many frames are under way when it is stopped.
 struct Robot {
     card: Card,
+    wheels: EncoderSample,
     armed: usize,
     velocities: Vec<i32>,
 }
@@ -26,13 +30,14 @@ impl Robot {
     fn new() -> Self {
         let mut card = Card::slave(0, ROBOT);
         card.tick(&Pins::default());
-        Self { card, armed: 0, velocities: Vec::new() }
+        Self { card, wheels: EncoderSample::default(), armed: 0, velocities: Vec::new() }
     }
 
     fn take(&mut self, frame: &[u8]) {
         self.card.receive(frame).unwrap();
         for _ in 0..10 {
-            self.card.tick(&Pins::default());
+            self.wheels.count = self.wheels.count.wrapping_add(1);
+            self.card.tick(&Pins { encoders: [self.wheels; AXES], ..Pins::default() });
         }
         self.armed += usize::from(self.card.armed());
         self.velocities.push(self.card.read(ACTIVE_SET_POINTS.at(1)) as i32);
