@@ -9,27 +9,50 @@ pub(crate) fn short(x: f64) -> String {
     format!("{x:.digits$}")
 }
 
-/// What a parameter measures, by the end of its name: factor and unit for people.
+/// A unit that a parameter's name ends in.
+struct Unit {
+    end: &'static str,
+    /// As in formulas and tables.
+    si: &'static str,
+    /// Factor and unit for people.
+    shown: (f64, &'static str),
+}
+
+/// Longer ends first, of those that end alike.
+const UNITS: [Unit; 17] = {
+    const fn unit(end: &'static str, si: &'static str, factor: f64, shown: &'static str) -> Unit {
+        Unit { end, si, shown: (factor, shown) }
+    }
+    [
+        unit("_nm_per_rad", "N m/rad", 1e3, " mNm/rad"),
+        unit("_rad_per_m", "rad/m", 1e3, " mrad/m"),
+        unit("_rad_s", "rad/s", 1.0, " rad/s"),
+        unit("_rad", "rad", 180.0 / std::f64::consts::PI, "°"),
+        unit("_nms2", "N m s²", 1e6, " µNm s²"),
+        unit("_nms", "N m s", 1e6, " µNm s"),
+        unit("_nm", "N m", 1e3, " mNm"),
+        unit("_s_per_kg", "s/kg", 1e3, " mm/s/N"),
+        unit("_kg", "kg", 1.0, " kg"),
+        unit("_n", "N", 1.0, " N"),
+        unit("_ohm", "Ω", 1.0, " Ω"),
+        unit("_v", "V", 1.0, " V"),
+        unit("_a", "A", 1.0, " A"),
+        unit("_per_m2", "1/m²", 1.0, " /m²"),
+        unit("_m", "m", 1e3, " mm"),
+        unit("_s", "s", 1e3, " ms"),
+        unit("_ticks", "ticks", 1.0, " ticks"),
+    ]
+};
+
+fn ending(name: &str) -> Option<&'static Unit> {
+    UNITS.iter().find(|unit| name.ends_with(unit.end))
+}
+
+/// Factor and unit for people of what a parameter measures.
 fn unit(name: &str) -> (f64, &'static str) {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
-    match stem {
-        _ if name.ends_with("_nm_per_rad") => (1e3, " mNm/rad"),
-        _ if name.ends_with("_rad_per_m") => (1e3, " mrad/m"),
-        _ if name.ends_with("_rad_s") => (1.0, " rad/s"),
-        _ if name.ends_with("_rad") => (180.0 / std::f64::consts::PI, "°"),
-        _ if name.ends_with("_nms2") => (1e6, " µNm s²"),
-        _ if name.ends_with("_nms") => (1e6, " µNm s"),
-        _ if name.ends_with("_nm") => (1e3, " mNm"),
-        _ if name.ends_with("_per_kg") => (1e3, " mm/s/N"),
-        _ if name.ends_with("_n") => (1.0, " N"),
-        _ if name.ends_with("_ohm") => (1.0, " Ω"),
-        _ if name.ends_with("_v") => (1.0, " V"),
-        _ if name.ends_with("_per_m2") => (1.0, " /m²"),
-        _ if name.ends_with("_m") => (1e3, " mm"),
-        _ if name.ends_with("_s") => (1e3, " ms"),
-        _ if stem.ends_with("scale") || ["loss", "rise", "cos", "sin", "dropped"].contains(&stem) => (100.0, " %"),
-        _ => (1.0, ""),
-    }
+    let share = || stem.ends_with("scale") || ["loss", "rise", "cos", "sin", "dropped"].contains(&stem);
+    ending(name).map_or_else(|| if share() { (100.0, " %") } else { (1.0, "") }, |unit| unit.shown)
 }
 
 /// The same for a value: without a prefix of the unit where it would have five digits before its point.
@@ -42,48 +65,12 @@ fn unit_of(name: &str, x: f64) -> (f64, String) {
 
 /// The SI unit that a parameter's name ends in; empty for a ratio.
 pub(crate) fn si(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 18] = [
-        ("_nm_per_rad", "N m/rad"),
-        ("_rad_per_m", "rad/m"),
-        ("_rad_s", "rad/s"),
-        ("_rad_m", "rad m"),
-        ("_rad", "rad"),
-        ("_nms2", "N m s²"),
-        ("_nms", "N m s"),
-        ("_nm", "N m"),
-        ("_s_per_kg", "s/kg"),
-        ("_per_m2", "1/m²"),
-        ("_n", "N"),
-        ("_ohm", "Ω"),
-        ("_v", "V"),
-        ("_a", "A"),
-        ("_m", "m"),
-        ("_s", "s"),
-        ("_kg", "kg"),
-        ("_ticks", "ticks"),
-    ];
-    UNITS.iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
+    ending(name).map_or("", |unit| unit.si)
 }
 
 /// The name without its unit, such as `skew 1`.
 pub(crate) fn label(name: &str) -> String {
-    let units = [
-        "_nm_per_rad",
-        "_rad_s",
-        "_rad",
-        "_nms2",
-        "_nms",
-        "_nm",
-        "_s_per_kg",
-        "_n",
-        "_ohm",
-        "_v",
-        "_per_m2",
-        "_m",
-        "_s",
-    ];
-    let stem = units.iter().find_map(|u| name.strip_suffix(u)).unwrap_or(name);
-    stem.replace('_', " ")
+    ending(name).and_then(|unit| name.strip_suffix(unit.end)).unwrap_or(name).replace('_', " ")
 }
 
 /// A value with its unit, such as `3.98°` or `+2.1 %`.
@@ -121,6 +108,8 @@ mod tests {
             ("threshold_rad_s", 14.0, "14.0 rad/s"),
             ("friction_coefficient", 0.2, "0.200"),
             ("creep_s_per_kg", 0.004, "4.00 mm/s/N"),
+            ("limit_a", 3.71, "3.71 A"),
+            ("shift_ticks", 2.0, "2.00 ticks"),
         ];
         for (name, x, shown) in table {
             assert_eq!(value(name, x), shown, "{name}");
