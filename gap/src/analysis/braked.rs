@@ -60,18 +60,34 @@ const FRICTION: &str = FRICTIONS[0];
 const BRIDGE_DROP: &str = "bridge-drop";
 const BRIDGES: [&str; 2] = [DEAD_BAND, BRIDGE_DROP];
 
+/// Instants in which a wheel surely turned, and those of them in which something worked against that.
+#[derive(Default)]
+struct Turned {
+    all: u64,
+    braked: u64,
+}
+
+impl Turned {
+    fn count(&mut self, braked: bool) {
+        self.all += 1;
+        self.braked += u64::from(braked);
+    }
+
+    fn share(&self) -> f64 {
+        self.braked as f64 / self.all.max(1) as f64
+    }
+}
+
 /// Share of the rows in which a wheel surely turned, by that speed, whose duties worked against that.
 fn braked(pieces: &Pieces, surely: f64) -> f64 {
-    let (mut turned, mut against) = (0_u64, 0_u64);
+    let mut turned = Turned::default();
     for s in pieces.iter() {
         for (duty, speed) in s.duty.iter().zip(&s.speed) {
-            for k in s.own.clone().filter(|k| speed[*k].abs() > surely * s.turning) {
-                turned += 1;
-                against += u64::from(duty[k] * speed[k] < 0.0);
-            }
+            let rows = s.own.clone().filter(|k| speed[*k].abs() > surely * s.turning);
+            rows.for_each(|k| turned.count(duty[k] * speed[k] < 0.0));
         }
     }
-    against as f64 / turned.max(1) as f64
+    turned.share()
 }
 
 /// Share of the test functions in which a wheel surely turned whose motor worked against that: it brakes as soon as the wheel
@@ -85,14 +101,11 @@ fn braked_by_motor(link: &DriveLink, robot: &Robot, surely: f64) -> f64 {
             slot.copy_from_slice(&[s.speed[i][k], per_volt * s.duty[i][k] * s.supply[k]]);
         }
     });
-    let (mut turned, mut against) = (0_u64, 0_u64);
+    let mut turned = Turned::default();
     for wheel in means.chunks_exact(2) {
-        for ((speed, driven), turning) in wheel[0].iter().zip(&wheel[1]).zip(&turning) {
-            if speed.abs() > surely * turning {
-                turned += 1;
-                against += u64::from(speed.abs() > driven * speed.signum());
-            }
-        }
+        let instants = wheel[0].iter().zip(&wheel[1]).zip(&turning);
+        let surely = instants.filter(|((speed, _), turning)| speed.abs() > surely * **turning);
+        surely.for_each(|((speed, driven), _)| turned.count(speed.abs() > driven * speed.signum()));
     }
-    against as f64 / turned.max(1) as f64
+    turned.share()
 }
