@@ -144,10 +144,14 @@ impl<'a> Signals<'a> {
         let driven = self.duty[wheel].iter().zip(&*self.supply).zip(if noisy { speed } else { rate });
         for (winding, ((duty, supply), speed)) in self.winding[wheel].iter_mut().zip(driven) {
             let asked = axis.gain * duty * supply - axis.damping * speed;
-            let passed = asked - asked.clamp(-axis.dropped, axis.dropped);
-            *winding -= asked - passed.clamp(-axis.most, axis.most);
+            *winding -= asked - passed(asked, axis.dropped, axis.most);
         }
     }
+}
+
+/// What a bridge that drops and a limit pass of a current or a torque that is asked for.
+fn passed(asked: f64, dropped: f64, most: f64) -> f64 {
+    (asked - asked.clamp(-dropped, dropped)).clamp(-most, most)
 }
 
 impl DriveModel {
@@ -231,8 +235,7 @@ impl DriveModel {
                 for (i, (current, axis)) in currents.iter_mut().zip(&self.axes).enumerate() {
                     let asked = axis.asks_a(now.duty[i] * from, g, now.speed[i]);
                     let dropped = self.bridge_drop_v / axis.resistance;
-                    let passed = asked - asked.clamp(-dropped, dropped);
-                    *current = passed.clamp(-self.current_limit_a, self.current_limit_a);
+                    *current = passed(asked, dropped, self.current_limit_a);
                 }
                 self.supply_maps.iter().fold(now.supply, |v, map| map(now, v, &currents))
             };
