@@ -42,7 +42,7 @@ pub struct Format {
     pub name: &'static str,
     /// Significant bits, sign included.
     pub bits: u32,
-    /// Bits behind the binary point.
+    /// Bits after the binary point.
     pub fraction: u32,
 }
 
@@ -87,7 +87,7 @@ impl Format {
     /// [`IntegralGain`]: 24 bits, [−2, 2).
     pub const INTEGRAL: Self = Self::of_operand("integral gain", Scale::FINE);
 
-    /// A signed format of `bits` bits with `fraction` of them behind the binary point.
+    /// A signed format of `bits` bits with `fraction` of them after the binary point.
     #[must_use]
     pub const fn new(name: &'static str, bits: u32, fraction: u32) -> Self {
         Self { name, bits, fraction }

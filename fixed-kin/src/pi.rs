@@ -56,7 +56,7 @@ impl PiState {
         Duty::from_bits(clip(sum))
     }
 
-    /// The state behind a tick that gave this duty; nothing where the duty is at a limit.
+    /// The state after a tick that gave this duty; nothing where the duty is at a limit.
     #[must_use]
     pub fn after(gains: &PiGains, reference: Speed, speed: Speed, duty: Duty) -> Option<Self> {
         // Held or not, a duty between the limits is the proportional part plus what is kept.

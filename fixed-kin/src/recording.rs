@@ -3,7 +3,7 @@
 //! A recording holds what went into a speed loop and what came out of it, as words in other units, and
 //! the configuration by the names below. It does not hold the integrator, and a host that wakes up late
 //! misses ticks that the card computed all the same. One duty that is not at a limit tells the integrator
-//! to the last bit ([`PiState::after`]), so [`LoopReplay`] goes on exactly behind every gap.
+//! to the last bit ([`PiState::after`]), so [`LoopReplay`] goes on exactly after every gap.
 
 #![allow(
     clippy::cast_possible_truncation,

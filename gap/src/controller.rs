@@ -165,7 +165,7 @@ fn analyse_law(robot: &Robot, logs: &[&Log], thresholds: &Thresholds) -> ExactLi
         finding: None,
         unexplained: false,
         replay: gaps(robot, logs).words().map(|gaps| Replay {
-            remark: format!("Controller: {gaps}; behind each the integrators are estimated anew from the duties."),
+            remark: format!("Controller: {gaps}; after each the integrators are estimated anew from the duties."),
             ..Replay::default()
         }),
     };

@@ -34,7 +34,7 @@ pub enum Evidence {
     Replay {
         /// With the nominal model.
         nominal: Ticks,
-        /// With the effect, which may leave other ticks to compare: a delay has nothing to go by behind a gap.
+        /// With the effect, which may leave other ticks to compare: a delay has nothing to go by after a gap.
         with: Ticks,
     },
     /// A pattern that was recognised.

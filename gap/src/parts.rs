@@ -1,4 +1,4 @@
-//! A log walked through part by part, each with some ticks before and behind it.
+//! A log walked through part by part, each with some ticks before and after it.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -7,13 +7,13 @@ use runs::{Columns, Log, Run};
 
 /// Own ticks of a part.
 const PART: usize = 1 << 16;
-/// Ticks before them: longer than any delay that is looked for; and behind them.
+/// Ticks before them: longer than any delay that is looked for; and after them.
 const BEFORE: usize = 1 << 12;
-const BEHIND: usize = 2;
+const AFTER: usize = 2;
 
 /// Some ticks of a log.
 pub(crate) struct Part {
-    /// The ticks, and those before and behind them.
+    /// The ticks, and those before and after them.
     pub(crate) run: Run,
     /// Which of them are looked at.
     pub(crate) own: Range<usize>,
@@ -23,7 +23,7 @@ pub(crate) struct Part {
 pub(crate) fn parts<'a>(log: &'a Log<'a>, columns: Columns) -> impl Iterator<Item = Part> + 'a {
     (0..log.len()).step_by(PART).map(move |first| {
         let end = (first + PART).min(log.len());
-        let seen = first.saturating_sub(BEFORE)..(end + BEHIND).min(log.len());
+        let seen = first.saturating_sub(BEFORE)..(end + AFTER).min(log.len());
         Part { own: first - seen.start..end - seen.start, run: log.part(seen, columns) }
     })
 }

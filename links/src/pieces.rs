@@ -22,9 +22,9 @@ const FEWEST: usize = 8;
 /// Ticks of a piece of a long stretch; one that is a quarter longer is not cut.
 pub const PIECE: usize = 1 << 16;
 /// Ticks that a piece sees before its own: the oldest duty that acts, the smoothing of signals, a wheel that slides;
-/// and behind: a window of camera frames, a test function.
+/// and after: a window of camera frames, a test function.
 const BEFORE: usize = 1 << 12;
-const BEHIND: usize = 1 << 12;
+const AFTER: usize = 1 << 12;
 /// Segments, in pieces' lengths, that are kept once they are derived, some 17 MB each with three wheels, their rows and their
 /// test functions: 17 minutes at 1 kHz. Of the others only the last ones.
 const KEPT: usize = 16;
@@ -299,7 +299,7 @@ impl<'a> Pieces<'a> {
         let mut pieces: Vec<Piece> = (0..number)
             .map(|k| {
                 let own = stretch.start + k * length..(stretch.start + (k + 1) * length).min(stretch.end);
-                let rows = own.start.saturating_sub(BEFORE).max(stretch.start)..(own.end + BEHIND).min(stretch.end);
+                let rows = own.start.saturating_sub(BEFORE).max(stretch.start)..(own.end + AFTER).min(stretch.end);
                 Piece {
                     run,
                     rows,

@@ -65,7 +65,7 @@ pub struct Segment {
     pub felt: Option<Felt>,
     /// Whether a camera fixes heading and position.
     pub has_world: bool,
-    /// The ticks that are looked at; those before and behind belong to its neighbours in the log and are here for what
+    /// The ticks that are looked at; those before and after belong to its neighbours in the log and are here for what
     /// reaches over.
     pub own: std::ops::Range<usize>,
     /// Times from which and before which its own ticks, windows and test functions begin, s; infinite at the ends of a

@@ -4,7 +4,7 @@
 use measured::Table;
 use simulator::blackout::{Blackout, Outcome, REACHED, Senses};
 
-/// Starts, by their seeds; another number as argument, and another first seed behind it, prints instead of writing the table.
+/// Starts, by their seeds; another number as argument, and another first seed after it, prints instead of writing the table.
 const STARTS: u64 = 200;
 
 fn outcomes(senses: Senses, starts: std::ops::Range<u64>) -> Vec<Outcome> {

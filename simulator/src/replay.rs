@@ -7,7 +7,7 @@
 //!
 //! Row k of a log holds the duty that was computed at tick k from the count and set point of the
 //! same row; before the first row integrators and counts are zero, unless the first duties say otherwise.
-//! Behind rows that the log lacks, the duties tell where the integrators were ([`stretches`]).
+//! After rows that the log lacks, the duties tell where the integrators were ([`stretches`]).
 
 mod compare;
 pub mod picture;
@@ -49,7 +49,7 @@ pub struct Replayed {
     pub ticks: usize,
     /// What the log lacks.
     pub gaps: Gaps,
-    /// Rows behind gaps that only tell the integrators.
+    /// Rows after gaps that only tell the integrators.
     pub telling: usize,
     /// Rows at which all outputs were off although the loops say otherwise.
     pub off: usize,
@@ -216,7 +216,7 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// Goes on behind rows that stand at these counts, with these words in the integrators.
+    /// Goes on after rows that stand at these counts, with these words in the integrators.
     fn resume(&mut self, counts: &[i64; AXES], integrals: &[i32; AXES]) {
         for ((wheel, count), word) in self.wheels.iter_mut().zip(counts).zip(integrals) {
             (wheel.count, wheel.integral) = (*count, Duty::from_bits(*word).into());

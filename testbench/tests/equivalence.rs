@@ -136,7 +136,7 @@ fn plain_counters_turned_sums_and_late_answers_are_their_text() {
     }
     let used = |cell: &str| netlist.cells.get(cell).copied().unwrap_or(0);
     assert_eq!(used("XORCY"), 2 * WIDTH + 2 * (WIDTH - 1), "{:?}", netlist.cells);
-    // A table a bit of each sum and of the comparison, and the one behind it; what has one input is a wire to the flow.
+    // A table a bit of each sum and of the comparison, and the one after it; what has one input is a wire to the flow.
     assert_eq!(used("LUT2") + used("LUT3") + used("LUT4"), 3 * WIDTH + 1, "{:?}", netlist.cells);
     assert_eq!(used("VCC") + used("GND"), 0, "what was not to be known is still there: {:?}", netlist.cells);
 }

@@ -120,7 +120,7 @@ fn prose(text: &str) -> String {
         .collect()
 }
 
-/// Numbers with a unit behind them, as written, but on one line.
+/// Numbers with a unit after them, as written, but on one line.
 fn figures(text: &str) -> Vec<String> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let trim = |word: &str| -> String {

@@ -107,7 +107,7 @@ fn accesses(good: &Bitstream) -> u64 {
     card.accesses()
 }
 
-/// Every class of position: all accesses before and behind the bytes, and many between.
+/// Every class of position: all accesses before and after the bytes, and many between.
 fn cases(accesses: u64) -> Vec<Case> {
     let more: u64 = std::env::var("RACBOT_CAMPAIGN").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
@@ -119,7 +119,7 @@ fn cases(accesses: u64) -> Vec<Case> {
         cases.extend((0..2 * more).map(|_| Case::Word(access, random.random_range(0..32))));
     }
     let bit = COMMITTED_BITSTREAM.len();
-    // Packets stand at the beginning, before the last 40 words, and behind the first two sections.
+    // Packets stand at the beginning, before the last 40 words, and after the first two sections.
     let packets: Vec<u64> = (0..100).step_by(3).chain((157_440..157_480).step_by(3)).chain(166_800..166_980).collect();
     for &byte in &packets {
         cases.extend([0, 1, random.random_range(2..=255)].map(|how| Case::Byte(byte, how)));

@@ -96,7 +96,7 @@ fn both_speed_modes_are_replayed_to_the_last_bit_behind_missed_ticks() {
         assert_eq!((words, different), (3 * rows, 0), "{summary}");
         assert_eq!(analysis.verdict, Verdict::Agrees, "{summary}");
 
-        // Through the FPGA itself, whose integrators are told by the duties behind every gap.
+        // Through the FPGA itself, whose integrators are told by the duties after every gap.
         let through = replay(BitTrue::new(), &set.robot, &set.runs[0], Part::default(), |_| {}).unwrap();
         if mode == SpeedMode::Difference {
             assert!(through.gaps.pauses > 20 && through.gaps.missing == missing, "{:?}", through.gaps);

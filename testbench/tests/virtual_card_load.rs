@@ -319,7 +319,7 @@ fn damaged_files_are_refused_with_place_and_cause() {
     says(&with(start + 4, &[0; 4]), "no sync word");
     says(&with(start + 23, &[16]), "frame length register is set to 16");
     let crc = fault(&with(start + 90_000, &[bit[start + 90_000] ^ 1]));
-    // The CRC word behind the three big sections of frames.
+    // The CRC word after the three big sections of frames.
     let word = start + 4 * (41_745 - 4 - 2 - 2 - 2 - 19 - 2 - 1);
     assert!(matches!(crc, Fault::Crc { offset, .. } if offset == word), "{crc} {word:#x}");
     says(b"Xilinx ASCII Bitstream\n", "rawbits");

@@ -41,7 +41,7 @@ mod tests {
     use crate::container::registers::{COMMAND, CONTROL, FRAME_DATA};
 
     /// The end of the bitstreams that Xilinx's tools make for this device: last frame, start, control,
-    /// and the CRC word 38FE that stands behind them in every file looked at.
+    /// and the CRC word 38FE that stands after them in every file looked at.
     #[test]
     fn the_tail_of_real_bitstreams() {
         let mut crc = Crc::default();

@@ -58,7 +58,7 @@ pub enum Fault {
         /// What it holds.
         meaning: &'static str,
     },
-    /// Bytes behind the last field.
+    /// Bytes after the last field.
     #[error("{count} bytes follow the bitstream, from byte {offset:#x}; is this two files in one?")]
     Trailing {
         /// How many.
@@ -117,7 +117,7 @@ pub enum Fault {
         computed: u16,
     },
     /// No CRC over the configuration.
-    #[error("the bitstream has no CRC word behind its frames; build it with the CRC on")]
+    #[error("the bitstream has no CRC word after its frames; build it with the CRC on")]
     NoCrc,
     /// Not the whole device.
     #[error("the bitstream configures {words} words, {PART} has {}; partial and compressed bitstreams cannot be loaded", FRAMES * FRAME_WORDS)]

@@ -13,7 +13,7 @@ use std::process::{Command, Stdio};
 const BEFORE: &str = "+strash;&get,-n;&fraig,-x;&put;scorr;dc2;strash;";
 const ROUND: &str = "strash;dch,-f;if;mfs2;";
 const ROUNDS: usize = 6;
-const BEHIND: &str = "lutpack,-S,1;lutpack,-S,3,-z;mfs2,-a,-e;lutpack";
+const AFTER: &str = "lutpack,-S,1;lutpack,-S,3,-z;mfs2,-a,-e;lutpack";
 
 /// Most bits of a comparison and of a sum that are left to tables. A comparison in tables takes a table a bit less one, but runs
 /// through all of them.
@@ -62,7 +62,7 @@ pub fn commands(top: &str) -> String {
     );
     // Written and read again, cells come to abc in another order: in the one case compared that left 20 tables fewer.
     let again = "write_rtlil cells.il; design -reset; read_rtlil cells.il";
-    let mapping = [BEFORE, &ROUND.repeat(ROUNDS), BEHIND].concat();
+    let mapping = [BEFORE, &ROUND.repeat(ROUNDS), AFTER].concat();
     let added = format!("techmap -map sums.v -D TABLES={ADDED_IN_TABLES}");
     format!(
         "{synth} -run begin:coarse; {compared}; {counted}; {turned}; {ordered}; alumacc; share; opt; memory -nomap; opt_clean; {added}; \

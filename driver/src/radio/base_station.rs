@@ -38,7 +38,7 @@ pub struct Sent {
 }
 
 impl<L: Line> BaseStation<L> {
-    /// A station whose first frame has the number behind `sequence`.
+    /// A station whose first frame has the number after `sequence`.
     pub fn new(line: L, robot: u8, sequence: u8, scale: Scale, settings: Settings) -> Self {
         Self { line, robot, sequence, scale, settings }
     }

@@ -19,7 +19,7 @@ pub(super) fn time_of(bytes: usize) -> Duration {
 
 /// Takes frames.
 pub trait Line {
-    /// Sends a frame, and the silence behind it without which it does not act; `at` is its time.
+    /// Sends a frame, and the silence after it without which it does not act; `at` is its time.
     ///
     /// # Errors
     /// What the system says.

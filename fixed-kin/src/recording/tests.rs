@@ -57,7 +57,7 @@ fn different(replay: &mut LoopReplay, log: &[(Speed, Speed, Duty)]) -> Vec<usize
 }
 
 proptest! {
-    /// Whatever the integrator was before the log or behind a gap, or moved to in between.
+    /// Whatever the integrator was before the log or after a gap, or moved to in between.
     #[test]
     fn replay_finds_the_integrator_and_wrong_words(
         inputs in prop::collection::vec((-3_000_000..3_000_000_i32, -3_000_000..3_000_000_i32), 40..200),

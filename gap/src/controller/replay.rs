@@ -1,6 +1,6 @@
 //! The speed loop along a log, its integrator known between bounds.
 //!
-//! Where a log begins, and behind ticks that it lacks, nobody knows the integrator. Every duty that follows
+//! Where a log begins, and after ticks that it lacks, nobody knows the integrator. Every duty that follows
 //! narrows it down to what its rounding leaves, and then the law is as exact as if it had been known.
 
 use runs::robot::Robot;
@@ -55,7 +55,7 @@ impl Integral {
         [proportional + self.low, proportional + self.high]
     }
 
-    /// What a logged duty says of the integrator behind its tick.
+    /// What a logged duty says of the integrator after its tick.
     fn narrow(&mut self, proportional: f64, duty: f64, half: f64, most: f64) {
         let low = if duty - half <= -most { self.low } else { self.low.max(duty - half - proportional) };
         let high = if duty + half >= most { self.high } else { self.high.min(duty + half - proportional) };

@@ -145,7 +145,7 @@ impl Tally {
             remark += &format!("; {speeds} speed words from the counts, {wrong_speeds} differ");
         }
         if let Some(gaps) = self.gaps.words() {
-            remark += &format!("; {gaps}, behind each the integrators are told by the duties");
+            remark += &format!("; {gaps}, after each the integrators are told by the duties");
         }
         if let (ticks, Some(first)) = self.off {
             remark += &format!("; outputs off on {ticks} ticks, first at {first:.4} s");

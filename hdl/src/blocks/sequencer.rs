@@ -423,7 +423,7 @@ impl Logic for Sequencer {
         // The last instruction leads to the first, where the program waits for the next tick.
         if self.branch.val() | self.done.val() {
             self.pc_next.next = self.instruction.q.val().get_bits::<9>(0);
-            // What was read behind it is killed.
+            // What was read after it is killed.
             self.valid.d.next = false;
             self.jumps.d.next = false;
             self.jumps_by_zero.d.next = false;

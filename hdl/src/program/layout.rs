@@ -35,7 +35,7 @@ impl Cell {
         Self { address: address as u8, per_axis: true }
     }
 
-    /// Fixed word `index` behind this one.
+    /// Fixed word `index` after this one.
     pub(super) const fn word(self, index: usize) -> Self {
         Self::scalar(self.address as usize + index)
     }

@@ -135,7 +135,7 @@ fn point([x, y, v, omega]: [f64; 4], stop: bool, path: &Path) -> Result<SetPoint
         }
     }
     if v <= 0.0 {
-        let hint = "give the speed on the way there; to stand still, write stop behind the point";
+        let hint = "give the speed on the way there; to stand still, write stop after the point";
         return Err(InputError::new(path, format!("speed {v} is not positive"), hint).field("v"));
     }
     Ok(SetPoint { x, y, v, omega, stop, heading: None })

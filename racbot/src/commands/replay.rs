@@ -124,7 +124,7 @@ impl Options {
 
 /// What is to be said of a run that is not whole.
 fn remark(replayed: &Replayed) -> Option<String> {
-    let gaps = replayed.gaps.words().map(|gaps| format!("{gaps}; behind each the duties tell the integrators"));
+    let gaps = replayed.gaps.words().map(|gaps| format!("{gaps}; after each the duties tell the integrators"));
     let telling = (replayed.telling > 0).then(|| format!("{} rows only tell them", replayed.telling));
     let off = (replayed.off > 0).then(|| format!("outputs off on {} rows", replayed.off));
     let parts: Vec<String> = gaps.into_iter().chain(telling).chain(off).collect();

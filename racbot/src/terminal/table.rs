@@ -60,7 +60,7 @@ pub(crate) fn wrapped(sentence: &str, indent: usize) -> String {
     out
 }
 
-/// A sentence behind its label, the lines below it under its first word.
+/// A sentence after its label, the lines below it under its first word.
 pub(crate) fn entry(label: &str, sentence: &str) -> String {
     // Padding that is no white space to `wrapped`, and is taken off again.
     let padded = format!("{label:-<8} {sentence}");

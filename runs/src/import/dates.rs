@@ -3,7 +3,7 @@
 /// Days before each month of a year that is none of 366 days.
 const DAYS: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 
-/// Seconds since 1970, or since midnight where there is no date; `None` for what is neither. A zone behind it is the same
+/// Seconds since 1970, or since midnight where there is no date; `None` for what is neither. A zone after it is the same
 /// for all rows, and says nothing of how far they are apart.
 pub(super) fn seconds(text: &str) -> Option<f64> {
     let text = text.trim().trim_matches('"');

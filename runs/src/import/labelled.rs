@@ -1,7 +1,7 @@
 //! Lines in which every number follows its name, as sketches of an Arduino print them: `t,340,PWM,60,speed,1.5`,
-//! `t:340 PWM:60 speed:1.5`, `t = 340; PWM = 60`. They become a table with those names. Behind a colon several may follow:
+//! `t:340 PWM:60 speed:1.5`, `t = 340; PWM = 60`. They become a table with those names. After a colon several may follow:
 //! `t: 340 ticks: 290 512` has `ticks_1` and `ticks_2`. Names may have several words, `left motor speed 23 right motor speed
-//! 25`, and units may stand behind the numbers, `speed: 23 rpm duty: 40 %`.
+//! 25`, and units may stand after the numbers, `speed: 23 rpm duty: 40 %`.
 
 use super::units;
 
@@ -76,7 +76,7 @@ fn pairs(line: &str) -> Option<Vec<(String, &str)>> {
             [] if name.is_empty() => continue,
             [] => return None,
             [number] => pairs.push((name_of, *number)),
-            // Without a mark a word may well have columns of their own behind it.
+            // Without a mark a word may well have columns of their own after it.
             _ if !marks(line, &name_of) => return None,
             _ => pairs.extend(numbers.iter().enumerate().map(|(i, number)| (format!("{name_of}_{}", i + 1), *number))),
         }

@@ -37,7 +37,7 @@ pub(super) fn headings(table: &mut Table) {
     }
 }
 
-/// Radians in the unit that stands behind a name.
+/// Radians in the unit that stands after a name.
 fn scale(unit: &str) -> f64 {
     units::in_name(&format!("R{unit}"))
         .filter(|unit| units::is_like(unit, "rad"))

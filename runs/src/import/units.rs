@@ -49,11 +49,11 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
     let inside = |open, close| name.split_once(open).and_then(|(_, rest)| rest.split_once(close)).map(|(unit, _)| unit);
     // What is written for a stroke: `speed_rad_s`, `rate_deg_per_s`.
     let lower = name.to_ascii_lowercase();
-    let behind = [("rad_s", "rad/s"), ("rad_per_s", "rad/s"), ("deg_s", "deg/s"), ("deg_per_s", "deg/s")];
+    let after = [("rad_s", "rad/s"), ("rad_per_s", "rad/s"), ("deg_s", "deg/s"), ("deg_per_s", "deg/s")];
     let is_last = |ending: &str| {
         lower.strip_suffix(ending).is_some_and(|rest| rest.is_empty() || rest.ends_with(['_', ' ', '/', '.', '-']))
     };
-    if let Some((_, unit)) = behind.into_iter().find(|(ending, _)| is_last(ending)) {
+    if let Some((_, unit)) = after.into_iter().find(|(ending, _)| is_last(ending)) {
         return Some(unit);
     }
     let last = || name.rsplit(['_', ' ', '/', '.', '-']).next().filter(|word| word.len() < name.len());
@@ -85,7 +85,7 @@ pub(super) fn in_name(name: &str) -> Option<&'static str> {
     UNITS.iter().find(same).map(|(unit, _)| *unit).filter(sure)
 }
 
-/// A name without the unit that stands in brackets behind it, or without brackets in which none stands.
+/// A name without the unit that stands in brackets after it, or without brackets in which none stands.
 pub(super) fn without(name: &str) -> &str {
     let ends = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
         let (bare, rest) = name.split_once(open)?;

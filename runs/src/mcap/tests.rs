@@ -187,7 +187,7 @@ fn errors_say_where_what_and_what_to_do() {
 fn lengths_beyond_the_file_are_refused() {
     let good = bytes_of(&example(), 400, true);
     for length in [u64::MAX, u64::MAX / 2, good.len() as u64] {
-        // The first record: its length stands behind the magic and the kind of record.
+        // The first record: its length stands after the magic and the kind of record.
         let mut bytes = good.clone();
         bytes[9..17].copy_from_slice(&length.to_le_bytes());
         assert!(read_bytes(&bytes).is_err_and(|shown| shown.starts_with("run.mcap: byte 8: ")));

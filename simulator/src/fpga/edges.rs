@@ -2,7 +2,7 @@
 //!
 //! A position in counts has the edge up to count k where it crosses k from below, the edge down from
 //! k where it crosses k from above; the counter shows the floor. Edge times are whole clocks after
-//! the control tick: clock 0 is the first rising edge behind it.
+//! the control tick: clock 0 is the first rising edge after it.
 
 use fixed_kin::encoder::edge_delay;
 use fixed_kin::speed::{EncoderSample, TIME_BITS};

@@ -48,7 +48,7 @@ impl<'a, F: Fpga> Player<'a, F> {
         Ok(Self { board, scale, run, base: [0; AXES], positions, references, last })
     }
 
-    /// Goes on behind rows that stand at these counts, with these words in the integrators.
+    /// Goes on after rows that stand at these counts, with these words in the integrators.
     pub(super) fn resume(&mut self, counts: &[i64; AXES], integrals: &[i32; AXES]) -> Result<(), LoopError> {
         for ((base, count), position) in self.base.iter_mut().zip(counts).zip(self.positions) {
             *base = count - (position - BETWEEN_LINES) as i64;

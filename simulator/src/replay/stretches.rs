@@ -1,7 +1,7 @@
 //! Parts of a log without a gap, and the integrators with which they begin.
 //!
 //! A host that wakes up late misses ticks that the card computed all the same, and a log may begin in motion. The
-//! duties behind such a gap tell the integrators: one word to the last bit, some rounded ones between bounds.
+//! duties after such a gap tell the integrators: one word to the last bit, some rounded ones between bounds.
 
 use std::ops::Range;
 
@@ -76,7 +76,7 @@ impl<'a> Teller<'a> {
         }
         breaks.push(rows);
         for end in breaks.into_iter().filter(|end| *end > begin).collect::<Vec<_>>() {
-            while let Some(stretch) = self.behind(begin..end) {
+            while let Some(stretch) = self.after_gap(begin..end) {
                 begin = stretch.rows.end;
                 stretches.push(stretch);
             }
@@ -92,8 +92,8 @@ impl<'a> Teller<'a> {
         first.iter().enumerate().any(|(wheel, duty)| (duty - logged(wheel)).abs() > IN_MOTION + self.quantum)
     }
 
-    /// The part of rows behind a gap that can be replayed.
-    fn behind(&self, rows: Range<usize>) -> Option<Stretch> {
+    /// The part of rows after a gap that can be replayed.
+    fn after_gap(&self, rows: Range<usize>) -> Option<Stretch> {
         // Of the first row nobody knows the speed.
         let mut best: Option<(usize, Told)> = None;
         for row in rows.start + 1..rows.end {
@@ -115,7 +115,7 @@ impl<'a> Teller<'a> {
         (!rows.is_empty()).then_some(Stretch { rows, counts, integrals: told.integrals })
     }
 
-    /// The integrators behind a row, from the duties of that one and of what follows.
+    /// The integrators after a row, from the duties of that one and of what follows.
     fn integrals(&self, row: usize, end: usize) -> Option<Told> {
         let mut told = Told { integrals: [0; AXES], width: 0.0 };
         if self.run.duty.is_empty() {

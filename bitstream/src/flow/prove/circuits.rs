@@ -175,7 +175,7 @@ impl<'a> Gate<'a> {
         })
     }
 
-    /// The clock buffer's input behind a clock, as a net.
+    /// The clock buffer's input after a clock, as a net.
     pub(super) fn clock(&self, signal: netlist::Signal) -> Option<Net> {
         let netlist::Signal::Net(id) = signal else { return None };
         match self.cells.get(&id) {

@@ -1,6 +1,6 @@
 //! Sums that become differences by turning bits over, `s ? ~(~a + b) : a + b`: a sum or, as `~(~a + b)` is `a − b`, a difference.
 //!
-//! As it is written it takes a table a bit before the chain and one behind it. The device's chain adds or takes off by one bit that
+//! As it is written it takes a table a bit before the chain and one after it. The device's chain adds or takes off by one bit that
 //! turns the second operand over and goes into the carry, and both are free.
 
 use std::fmt::Write;

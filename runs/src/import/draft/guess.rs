@@ -65,7 +65,7 @@ pub(super) fn supply_words() -> impl Iterator<Item = &'static str> {
     WORDS.iter().filter(|(kind, _)| *kind == Kind::Supply).flat_map(|(_, names)| names.iter().copied())
 }
 
-/// What names of axes are written with in one word, before or behind: `ox`, `xgt`, `thodom`.
+/// What names of axes are written with in one word, before or after: `ox`, `xgt`, `thodom`.
 const AFFIXES: [&str; 11] = ["o", "odo", "odom", "dr", "gt", "true", "cam", "mocap", "vicon", "opti", "gps"];
 /// Headings, the longer names first.
 const HEADINGS: [&str; 7] = ["heading", "theta", "yaw", "phi", "psi", "rz", "th"];
@@ -321,8 +321,8 @@ pub(super) fn words(name: &str) -> Vec<&str> {
 fn glued(word: &str) -> Option<(&str, &str)> {
     let axes = || ["x", "y"].into_iter().chain(HEADINGS);
     let ahead = || axes().find_map(|axis| Some((word.strip_suffix(axis)?, &word[word.len() - axis.len()..])));
-    let behind = || axes().find_map(|axis| Some((word.strip_prefix(axis)?, &word[..axis.len()])));
-    [ahead(), behind()].into_iter().flatten().find(|(whose, _)| AFFIXES.contains(whose))
+    let after = || axes().find_map(|axis| Some((word.strip_prefix(axis)?, &word[..axis.len()])));
+    [ahead(), after()].into_iter().flatten().find(|(whose, _)| AFFIXES.contains(whose))
 }
 
 fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(Column, &'static str)> {
@@ -498,7 +498,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     }
 }
 
-/// Whether a word is a name with a number behind it: `w1`.
+/// Whether a word is a name with a number after it: `w1`.
 fn numbers(word: &str, name: &str) -> bool {
     word.strip_prefix(name).is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit()))
 }
@@ -570,7 +570,7 @@ pub(super) fn is_step(series: &Series) -> bool {
     words(&lower).iter().any(|w| ["delta", "diff", "increment", "increments", "dticks", "dcounts", "dtick"].contains(w))
 }
 
-/// What a series may be that was not recognised, for its owner to decide, in a remark behind it.
+/// What a series may be that was not recognised, for its owner to decide, in a remark after it.
 pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
     let lower = spaced(units::without(&series.name)).to_lowercase();
     let words = words(&lower);
