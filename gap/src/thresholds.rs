@@ -108,6 +108,10 @@ thresholds! {
     /// a torque constant worth a name. Play of a simulated mecanum robot looked like a current limit that takes 0.035 of it;
     /// limits that are found in the blind series of axes take 0.05 to 0.20.
     takes: f64 = 0.05,
+    /// Squared floors of its link that an effect which is switched on must close as written: it fits single moments, of which
+    /// chance has many. Of data sets of other simulators limits of currents and slip that were not there closed up to 0.03, and
+    /// what was there 0.13 and more.
+    switched_closes: f64 = 0.06,
     /// Correlation of drive residuals: how many count as one.
     drive_correlation: f64 = 1.5,
 

@@ -61,6 +61,8 @@ pub(super) struct Measured<'a> {
     pub(super) felt: Vec<Fit>,
     /// Share of the link's squared gap that goes with each effect of the file, by name.
     pub(super) gains: Vec<(String, f64)>,
+    /// What is switched on, and closes next to nothing.
+    pub(super) idle: Vec<String>,
     /// RMS of motion and drive in floors after each effect of the file, in its order.
     pub(super) steps: Vec<(String, Vec<(Link, f64)>)>,
     pub(super) driven: Driven,
@@ -150,6 +152,7 @@ impl<'a> Data<'a> {
             drive: None,
             felt: Vec::new(),
             gains: Vec::new(),
+            idle: Vec::new(),
             steps: Vec::new(),
             driven: Driven::default(),
         };
@@ -207,15 +210,26 @@ impl<'a> Data<'a> {
             let last = || out.links.iter().map(|l| (l.link, l.after)).collect();
             out.steps.push((name.clone(), if whole { last() } else { on_links(&sofar) }));
             let alone = on_links(&without(&name));
-            let gain = out.links.iter().filter_map(|l| {
+            let closed = out.links.iter().filter_map(|l| {
                 let without = alone.iter().find(|x| x.0 == l.link)?.1;
-                Some((without.powi(2) - l.after.powi(2)) / l.before.max(without).powi(2))
+                Some((without.powi(2) - l.after.powi(2), l.before.max(without).powi(2)))
             });
-            out.gains.push((name, gain.fold(0.0, f64::max).clamp(0.0, 1.0)));
+            let [share, floors] =
+                closed.fold([0.0_f64; 2], |[share, floors], (closed, of)| [share.max(closed / of), floors.max(closed)]);
+            out.gains.push((name.clone(), share.clamp(0.0, 1.0)));
+            if is_switched_on_for_nothing(&*a.effect, &after.robot, floors, self.thresholds) {
+                out.idle.push(name);
+            }
         }
         out.drive = drive.zip(plotted).map(|(Drive { link, .. }, plots)| MeasuredDrive { link, plots });
         out
     }
+}
+
+/// Whether an effect that is switched on closes next to nothing: so many squared floors of a link.
+fn is_switched_on_for_nothing(effect: &dyn Effect, robot: &Robot, floors: f64, thresholds: &Thresholds) -> bool {
+    let forms = effect.forms(robot);
+    floors < thresholds.switched_closes && forms.iter().flat_map(|form| &form.free).any(|p| p.start.is_some())
 }
 
 /// What a state leaves on the drive, in floors, and its residuals: in the torque of the link's inertia or in that of its
@@ -236,5 +250,22 @@ fn left_on_drive(link: &DriveLink, state: &State) -> (f64, Option<DriveResiduals
             if share < 1.0 { (left * share.sqrt(), Some(own)) } else { (left, Some(residuals)) }
         }
         (residuals, _) => (left, residuals),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a mecanum robot whose gears have play a grip of 0.5 closed 0.004 squared floors between wheels and camera, and was named.
+    #[test]
+    fn what_is_switched_on_closes_something() {
+        let robot = Robot::racbot();
+        let idle = |name: &str, floors: f64| {
+            let effect = links::effects::find(name).unwrap();
+            is_switched_on_for_nothing(&*effect, &robot, floors, &Thresholds::default())
+        };
+        assert!(idle("wheel-slip", 0.004) && idle("current-limit", 0.0));
+        assert!(!idle("wheel-slip", 0.2) && !idle("robot-mass", 0.004));
     }
 }

@@ -47,7 +47,7 @@ impl<'a> Workflow<'a> {
                 .findings
                 .named
                 .iter()
-                .filter(|n| is_idle(n, &measured.links, &self.thresholds))
+                .filter(|n| is_idle(n, &measured.links, &self.thresholds) || measured.idle.contains(&n.name))
                 .map(|n| n.name.clone())
                 .collect();
             if gone.is_empty() {
