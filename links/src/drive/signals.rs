@@ -184,7 +184,7 @@ impl DriveModel {
         let mut duty: Cow<[f64]> = if self.duty_delay_s == 0.0 {
             Cow::Borrowed(&logged[..ticks])
         } else {
-            (0..ticks).map(|k| delayed(logged, k, self.duty_delay_s / dt(k))).collect()
+            delayed(&s.t, &logged[..ticks], self.duty_delay_s).into()
         };
         for map in &self.duty_maps {
             duty.to_mut().iter_mut().for_each(|u| *u = map(wheel, *u));
@@ -328,11 +328,53 @@ impl LowPass {
     }
 }
 
-/// A held signal `ticks` ago, 0 before its start.
-fn delayed(values: &[f64], k: usize, ticks: f64) -> f64 {
-    let at = |m: i64| if m < 0 { 0.0 } else { values[(m as usize).min(values.len() - 1)] };
-    let whole = ticks.floor();
-    let share = ticks - whole;
-    let m = k as i64 - whole as i64;
-    (1.0 - share) * at(m) + share * at(m - 1)
+/// Means over the rows from `t` on of a signal held from row to row, so many seconds ago; 0 before its start. Rows of a
+/// camera between those of the wheels make them uneven.
+fn delayed(t: &[f64], held: &[f64], seconds: f64) -> Vec<f64> {
+    let (mut row, mut passed) = (0, 0.0);
+    // Of the signal from its start to a time, the times in order.
+    let mut area = |at: f64| {
+        if at <= t[0] {
+            return 0.0;
+        }
+        while row + 1 < held.len() && t[row + 1] <= at {
+            passed += held[row] * (t[row + 1] - t[row]);
+            row += 1;
+        }
+        passed + held[row] * (at - t[row])
+    };
+    let mut before = t.first().map_or(0.0, |t| area(t - seconds));
+    let rows = t.windows(2).map(|t| {
+        let now = area(t[1] - seconds);
+        let mean = (now - before) / (t[1] - t[0]);
+        before = now;
+        mean
+    });
+    rows.take(held.len()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a camera 2 ms after every row of the wheels, which the duty is held over.
+    #[test]
+    fn a_delay_is_a_time_where_rows_are_uneven() {
+        let duties = [0.1, 0.4, -0.2, 0.3, 0.7, 0.5];
+        let even: Vec<f64> = (0..=6).map(|k| 0.016 * f64::from(k)).collect();
+        let mut uneven: Vec<f64> = even[..6].iter().flat_map(|t| [*t, t + 0.002]).collect();
+        uneven.push(even[6]);
+        let twice: Vec<f64> = duties.iter().flat_map(|u| [*u; 2]).collect();
+        for seconds in [-0.004, 0.0, 0.005, 0.033] {
+            let wanted = delayed(&even, &duties, seconds);
+            let rows = delayed(&uneven, &twice, seconds);
+            for (k, wanted) in wanted.iter().enumerate() {
+                let mean = (0.002 * rows[2 * k] + 0.014 * rows[2 * k + 1]) / 0.016;
+                assert!((mean - wanted).abs() < 1e-12, "{seconds} s, row {k}: {mean} {wanted}");
+            }
+        }
+        // Of even rows a part of one row and of the next.
+        let late = delayed(&even, &duties, 0.024);
+        assert!(late[0] == 0.0 && (late[2] - 0.5 * (0.1 + 0.4)).abs() < 1e-12, "{late:?}");
+    }
 }
