@@ -95,6 +95,7 @@ const CASES: &[Case] = &[
     case("centre-of-mass", &[("x_m", 0.015), ("y_m", -0.01)], ("x_m", 0.25), &RICH, &[]),
     case("floor-tilt", &[("x_rad", 0.02), ("y_rad", -0.015)], ("x_rad", 0.2), &RICH, &[]),
     case("body-drag", &[("force_n", 0.8)], ("force_n", 0.25), &RICH, &[]),
+    case("turning-resistance", &[("torque_nm", 0.05)], ("torque_nm", 0.25), &RICH, &[]),
     case("carpet-grain", &[("force_n", 0.8), ("azimuth_rad", 0.7)], ("force_n", 0.25), &RICH, &[]),
     case("heading-drag", &[("cos_nm", 0.012), ("mean_nm", 0.012), ("harmonic", 1.0)], ("cos_nm", 0.3), &RICH, &[]),
     case("actuation-latency", &[("latency_s", 0.008)], ("latency_s", 0.25), &RICH, &[]),

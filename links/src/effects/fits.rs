@@ -25,7 +25,7 @@ const ONLY_BY_DEAD_RECKONING: [&str; 2] = ["odometry-curl", "odometry-drift"];
 
 /// What acts on the body, at the contact with the floor, or follows the way, none of which there is while the wheels are off
 /// the floor.
-const NOT_ON_BLOCKS: [&str; 13] = [
+const NOT_ON_BLOCKS: [&str; 14] = [
     "wheel-creep",
     "wheel-slip",
     "robot-mass",
@@ -33,6 +33,7 @@ const NOT_ON_BLOCKS: [&str; 13] = [
     "centre-of-mass",
     "floor-tilt",
     "body-drag",
+    "turning-resistance",
     "carpet-grain",
     "roller-friction",
     "heading-drag",

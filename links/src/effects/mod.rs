@@ -51,6 +51,7 @@ mod sideways_creep;
 mod speed_filter;
 mod stribeck_friction;
 mod torque_constant;
+mod turning_resistance;
 mod viscous_friction;
 mod wheel_angle;
 mod wheel_creep;
@@ -131,6 +132,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(centre_of_mass::CentreOfMass),
         Box::new(floor_tilt::FloorTilt),
         Box::new(body_drag::BodyDrag),
+        Box::new(turning_resistance::TurningResistance),
         Box::new(carpet_grain::CarpetGrain),
         Box::new(heading_drag::HeadingDrag),
         Box::new(actuation_latency::ActuationLatency),
@@ -179,7 +181,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 43] = [
+    const NAMES: [(&str, &[&str]); 44] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -221,6 +223,7 @@ mod tests {
         ("current-limit", &["limit_a"]),
         ("floor-tilt", &["x_rad", "y_rad"]),
         ("body-drag", &["force_n"]),
+        ("turning-resistance", &["torque_nm"]),
         ("carpet-grain", &["force_n", "azimuth_rad"]),
         ("wheel-slip", &["friction_coefficient"]),
     ];

@@ -76,6 +76,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
         "floor-tilt" => d.tilt_rad = [value("x_rad"), value("y_rad")],
         "roller-friction" => d.roller_friction_n = value("force_n"),
         "body-drag" => d.drag_n = value("force_n"),
+        "turning-resistance" => d.turning_nm = value("torque_nm"),
         "carpet-grain" => d.grain = [value("force_n"), value("azimuth_rad")],
         "heading-drag" => {
             d.heading_drag.harmonic = effect.value("harmonic").unwrap_or(1.0);

@@ -17,6 +17,8 @@ pub struct Deviations {
     pub roller_friction_n: f64,
     /// Drag on the body against the way it goes, N.
     pub drag_n: f64,
+    /// Torque on the body against its turn, Nm.
+    pub turning_nm: f64,
     /// Drag along one direction of the field only: force (N) and direction (rad, world).
     pub grain: [f64; 2],
     /// Friction of all wheels that changes with the heading.

@@ -38,6 +38,10 @@ impl Plant {
             let per_speed = d.drag_n * (speed / SLIDE_WIDTH).tanh() / speed;
             push -= per_speed * Vector3::new(twist.vx, twist.vy, 0.0);
         }
+        if d.turning_nm != 0.0 {
+            let rim = self.geometry.wheels().iter().map(|w| w.x_m.hypot(w.y_m)).fold(0.0, f64::max);
+            push[2] -= d.turning_nm * (twist.omega * rim / SLIDE_WIDTH).tanh();
+        }
         if d.roller_friction_n != 0.0 {
             let speeds = Vector3::new(twist.vx, twist.vy, twist.omega);
             for wheel in self.geometry.wheels() {

@@ -66,6 +66,19 @@ fn what_drags_at_the_body_holds_it_back_whichever_way_it_goes() {
 }
 
 #[test]
+fn what_resists_a_turn_slows_no_way() {
+    for turn in [1.0, -1.0] {
+        let mut plant = thrown("turning-resistance", &[("torque_nm", 0.02)], Twist::new(0.0, 0.0, 5.0 * turn));
+        run(&mut plant, [0.0; 3], 500);
+        let slowed = turn * plant.twist().omega;
+        assert!(slowed > 0.0 && slowed < 4.9, "{slowed}");
+    }
+    let mut plant = thrown("turning-resistance", &[("torque_nm", 0.02)], Twist::new(1.0, 0.5, 0.0));
+    run(&mut plant, [0.0; 3], 500);
+    close(plant.twist().vx, 1.0, 1e-6);
+}
+
+#[test]
 fn rollers_rub_in_the_direction_they_roll_in() {
     // To the right wheel 1 rolls freely on its drive, its rollers stand; the other two slide at 60°
     // to their rollers' direction: 2·F·cos 30°.
