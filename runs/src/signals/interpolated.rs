@@ -1,5 +1,6 @@
-//! Cameras whose poses a logger has interpolated to its rows: between two frames they lie on a line, and say nothing new.
-//! Where frames come about as often as rows, only the gaps between them show, bridged by lines.
+//! Cameras whose poses a logger has interpolated to its rows, or a file of poses to times of its own: between two frames they
+//! lie on a line, and say nothing new. Where frames come about as often as rows, only the gaps between them show, bridged by
+//! lines.
 
 use super::camera::FEWEST;
 use crate::frames::wrap_angle;
@@ -24,6 +25,11 @@ const STEPS: [f64; 6] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 const WRITTEN: f64 = 0.95;
 /// What times written in microseconds leave of a line at usual speeds, m or rad.
 const BY_TIMES: f64 = 2e-6;
+/// Rounding, m or rad, up to which poses at times of their own that lie on a line were interpolated: a frame of a camera
+/// scatters by 0.05 mm and more. Of coarser ones at 5 a second those of a robot that drives straight lie on a line.
+const FINE: f64 = 2e-5;
+/// Steps of the usual length between poses at times of their own, from which one is missing.
+const GAP: f64 = 1.5;
 
 /// What was interpolated.
 #[derive(Clone, Copy, PartialEq)]
@@ -46,7 +52,7 @@ impl Interpolated {
     /// By the first part of a log.
     pub(super) fn of(run: &Run) -> Self {
         let rounding = rounding(&run.camera);
-        let bends: Vec<Option<Bend>> = (0..run.camera.len()).map(|k| Bend::at(run, k, &rounding)).collect();
+        let bends = bends(run, &rounding);
         let moving: Vec<&Bend> = bends.iter().flatten().filter(|b| b.moves).collect();
         let on_a_line = moving.iter().filter(|b| b.size <= 1.0).count();
         let mut sizes: Vec<f64> = moving.iter().map(|b| b.size).filter(|size| *size > 1.0).collect();
@@ -68,7 +74,7 @@ impl Interpolated {
     /// Keeps the rows next to frames, one for each; or drops those that bridge gaps.
     pub(super) fn apply(&mut self, run: &mut Run) {
         let Some((between, rounding)) = self.found else { return };
-        let bends: Vec<Option<Bend>> = (0..run.camera.len()).map(|k| Bend::at(run, k, &rounding)).collect();
+        let bends = bends(run, &rounding);
         let keep = match between {
             Between::Frames => next_to_frames(&bends),
             Between::Gaps => beside_bridges(&bends),
@@ -87,11 +93,20 @@ impl Interpolated {
         let rate = run.camera.len() as f64 / run.duration_s().max(f64::MIN_POSITIVE);
         Some(match between {
             Between::Frames => format!(
-                "the camera's poses are interpolated to the rows: rows between two frames are no sample ({rate:.0} frames a second)"
+                "the camera's poses are interpolated: rows between two frames are no sample ({rate:.*} frames a second)",
+                usize::from(rate < 10.0)
             ),
             Between::Gaps => "gaps of the camera are bridged by lines: rows on them are no sample".to_owned(),
         })
     }
+}
+
+/// Of every pose.
+fn bends(run: &Run, rounding: &[f64; 3]) -> Vec<Option<Bend>> {
+    let mut steps: Vec<f64> = run.camera.windows(2).map(|w| run.t[w[1].tick] - run.t[w[0].tick]).collect();
+    steps.sort_by(f64::total_cmp);
+    let longest = GAP * steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+    (0..run.camera.len()).map(|k| Bend::at(run, k, rounding, longest)).collect()
 }
 
 fn next_to_frames(bends: &[Option<Bend>]) -> Vec<bool> {
@@ -114,14 +129,17 @@ struct Bend {
 }
 
 impl Bend {
-    /// `None` where a neighbouring row has no pose.
-    fn at(run: &Run, k: usize, rounding: &[f64; 3]) -> Option<Self> {
+    /// `None` where a neighbouring row has no pose, and of poses at times of their own where one is missing, more than
+    /// `longest` before the next.
+    fn at(run: &Run, k: usize, rounding: &[f64; 3], longest: f64) -> Option<Self> {
         let [a, b, c] = [k.checked_sub(1)?, k, k + 1].map(|k| run.camera.get(k));
         let (a, b, c) = (a?, b?, c?);
-        if a.tick + 1 != b.tick || b.tick + 1 != c.tick {
+        let [ta, tb, tc] = [a, b, c].map(|s| run.t[s.tick]);
+        let in_rows = a.tick + 1 == b.tick && b.tick + 1 == c.tick;
+        let fine = rounding.iter().all(|r| *r <= FINE);
+        if !(in_rows || fine && tb - ta < longest && tc - tb < longest) {
             return None;
         }
-        let [ta, tb, tc] = [a, b, c].map(|s| run.t[s.tick]);
         let share = (tb - ta) / (tc - ta);
         let way = |a: &CameraSample, b: &CameraSample| {
             [b.pose.x - a.pose.x, b.pose.y - a.pose.y, wrap_angle(b.pose.theta - a.pose.theta)]
@@ -143,6 +161,10 @@ fn rounding(camera: &[CameraSample]) -> [f64; 3] {
     channel.map(|of| {
         // Differences: headings may have been counted on when they were written.
         let steps: Vec<f64> = camera.windows(2).map(|w| of(&w[1]) - of(&w[0])).filter(|d| d.is_finite()).collect();
+        // Positions alone have no headings.
+        if steps.is_empty() {
+            return BY_TIMES;
+        }
         let is_whole = |d: f64, step: f64| (d / step - (d / step).round()).abs() < 1e-3;
         let whole =
             |step: f64| steps.iter().filter(|d| is_whole(**d, step)).count() as f64 >= WRITTEN * steps.len() as f64;

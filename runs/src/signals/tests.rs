@@ -211,3 +211,44 @@ fn interpolated_poses_are_samples_where_frames_were() {
     assert!((2550..=2560).contains(&kept.camera.len()), "{}", kept.camera.len());
     assert!(kept.notes.iter().any(|n| n.contains("bridged by lines")), "{:?}", kept.notes);
 }
+
+/// A map's poses, some every two seconds, put on lines at 5 a second in a file of their own: each is a row of its own.
+#[test]
+fn poses_interpolated_at_times_of_their_own_are_samples_where_frames_were() {
+    let pose = |t: f64| Pose::new(3.0 * (0.11 * t).sin(), 2.0 * (0.07 * t).cos(), 0.4 * (0.2 * t).sin());
+    let between = |t: f64, every: f64| {
+        let frame = (t / every).floor();
+        let (share, [a, b]) = (t / every - frame, [frame, frame + 1.0].map(|frame| pose(frame * every)));
+        let at = |a: f64, b: f64| a + share * (b - a);
+        Pose::new(at(a.x, b.x), at(a.y, b.y), at(a.theta, b.theta))
+    };
+    // Rows of wheels at 10 a second, and one of a pose after every second one.
+    let run = |of: &dyn Fn(f64) -> Pose| {
+        let t: Vec<f64> = (0..3000).map(|k| 0.2 * f64::from(k / 3) + [0.0, 0.02, 0.1][k as usize % 3]).collect();
+        let camera = (0..1000).map(|k| CameraSample { tick: 3 * k + 1, pose: of(t[3 * k + 1]) }).collect();
+        let mut run = Run { t, camera, has_camera: true, ..Run::default() };
+        let mut interpolated = interpolated::Interpolated::of(&run);
+        interpolated.apply(&mut run);
+        (run.camera.len(), interpolated.note(&run))
+    };
+    let (kept, note) = run(&|t| between(t, 2.07));
+    assert!((85..=105).contains(&kept), "{kept} of 97 frames");
+    assert!(note.is_some_and(|note| note.contains("(0.5 frames a second)")));
+    let positions = run(&|t| Pose::new(between(t, 2.07).x, between(t, 2.07).y, f64::NAN));
+    assert_eq!(positions.0, kept);
+    // As the camera gave them, finely or in millimetres, all stay.
+    for step in [1e-7, 1e-3] {
+        let written = |t: f64| {
+            let p = pose(t);
+            let [x, y, theta] = [p.x, p.y, p.theta].map(|v| (v / step).round() * step);
+            Pose::new(x, y, theta)
+        };
+        assert_eq!(run(&written), (1000, None), "{step}");
+    }
+    // A robot that drives straight from corner to corner, in millimetres.
+    let square = |t: f64| {
+        let p = between(t, 8.0);
+        Pose::new((p.x / 1e-3).round() * 1e-3, (p.y / 1e-3).round() * 1e-3, (p.theta / 1e-3).round() * 1e-3)
+    };
+    assert_eq!(run(&square), (1000, None));
+}
