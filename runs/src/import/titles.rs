@@ -27,14 +27,16 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, usize)> {
     if REMARKS.iter().any(|mark| top[0].starts_with(mark)) {
         return None;
     }
-    if 2 * filled(top) >= width && !mixed(top) {
-        return None; // a table as any other
-    }
     let is_unit = |field: &String| field.is_empty() || units::in_name(&format!("x [{field}]")).is_some();
     let is_names = |line: &Vec<String>| {
         filled(line) > 1 && !line.iter().all(is_unit) && line.iter().all(|f| f.is_empty() || !is_number(f, separator))
     };
     let named = (0..first).rev().find(|i| is_names(&lines[*i]))?;
+    // Names of every column below a line of another width, or a table as any other.
+    let below = top.len() != width && lines[named].len() == width;
+    if 2 * filled(top) >= width && !mixed(top) && !below {
+        return None;
+    }
     let mut names = lines[named].clone();
     names.resize(width, String::new());
     // An oscilloscope of a drive writes the unit of its time among the signals, below generic names.
@@ -44,6 +46,10 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, usize)> {
         }
     }
     for units in &lines[named + 1..first] {
+        // A recorder of a drive gives its time no name, but a unit.
+        if names[0].is_empty() && units.first().is_some_and(|unit| units::is_like(unit, "s")) {
+            names[0] = "time".to_owned();
+        }
         names = with_units(names, units);
     }
     // A title goes for the columns below it, up to the next.
@@ -109,5 +115,16 @@ mod tests {
         let table = read(text, None);
         assert_eq!(table.find("Servo motor speed").unwrap().t, [0.0, 5e-4, 1e-3]);
         assert_eq!(table.find("Torque").unwrap().values, [-1.0, -7.6, -9.1]);
+    }
+
+    #[test]
+    fn a_recorder_of_a_drive_has_settings_above_its_names_and_a_time_without_one() {
+        let text = "\u{feff}Date:;2020-07-08 21:09:37\r\nIndex:;0x30D3;0x30D2;0x0000\r\nMax. samples:;500\r\nSampling period:;6.4\r\n\
+                    Scale:;0;True;5.0;197.5\r\n;Velocity actual value averaged;Torque actual value averaged\r\nms;rpm;%\r\n\
+                    0.0;-199;-31.9\r\n6.4;-201;-30.2\r\n12.8;-201;-29.9\r\n";
+        let table = read(text, None);
+        let speed = table.find("Velocity actual value averaged [rpm]").unwrap();
+        assert_eq!((speed.t.clone(), speed.values.clone()), (vec![0.0, 0.0064, 0.0128], vec![-199.0, -201.0, -201.0]));
+        assert_eq!(table.find("Torque actual value averaged [%]").unwrap().values, [-31.9, -30.2, -29.9]);
     }
 }

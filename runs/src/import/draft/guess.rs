@@ -471,7 +471,8 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         // A body has a velocity, too, but turns no revolutions a minute.
         _ if words.contains(&"rpm") => Some(Kind::Speed),
         _ if words.contains(&"velocity") || words.contains(&"speed") => {
-            let turns = units::in_name(&series.name).is_some_and(|unit| ["rad/s", "rev/s", "counts/s"].contains(&unit));
+            let of_shafts = ["rad/s", "rev/s", "rpm", "counts/s"];
+            let turns = units::in_name(&series.name).is_some_and(|unit| of_shafts.contains(&unit));
             (wheel || turns && axis.is_none()).then_some(Kind::Speed)
         }
         // A motor on the left has no supply of its own.

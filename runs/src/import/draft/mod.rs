@@ -214,6 +214,11 @@ fn columns(guesses: &[Guess], none: &str) -> String {
                 format!("{{ from = {}, increments = true }} # what came since the row before?", quoted(&series.name))
             }
             "" => quoted(&series.name),
+            bench::TORQUE if let Some(share) = rated(series) => format!(
+                "{{ from = {}, scale = {share} }} # write {share} times the rated torque, Nm, at the output shaft: a current \
+                 beside torque_constant = 1 and gear_ratio = 1",
+                quoted(&series.name)
+            ),
             bench::TORQUE => format!(
                 "{} # Nm at the output shaft: a current beside torque_constant = 1 and gear_ratio = 1",
                 quoted(&series.name)
@@ -319,6 +324,11 @@ fn increasing(table: &Table) -> Option<&Series> {
     let rises = |s: &Series| share(s) >= RISES && s.values.windows(2).all(|w| w[1] >= w[0]);
     let whole = || table.series.iter().filter(|s| s.values.len() == longest);
     whole().find(|s| share(s) >= 95).or_else(|| whole().find(|s| rises(s)))
+}
+
+/// What the unit of a drive's torque is of its rated one, where it is a share.
+fn rated(series: &Series) -> Option<f64> {
+    units::in_name(&series.name).filter(|unit| units::is_like(unit, "1")).and_then(units::factor)
 }
 
 #[cfg(test)]

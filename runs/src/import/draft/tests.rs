@@ -667,6 +667,15 @@ fn the_one_speed_beside_volts_is_the_motors() {
     for line in ["speed_1 = { from = \"motor velocity [rpm]\", unit = \"rpm\" }", "duty_1 = "] {
         assert!(stepped.contains(line), "{line}\n{stepped}");
     }
+    let drive = drafted(
+        "time [ms],Velocity actual value averaged [rpm],Torque actual value averaged [%]",
+        ["0,-199,-31.9", "6.4,-201,-30.2", "12.8,-150,-12.5"],
+    );
+    for line in
+        ["speed_1 = { from = \"Velocity actual value averaged [rpm]\"", "%]\", scale = 0.01 } # write 0.01 times"]
+    {
+        assert!(drive.contains(line), "{line}\n{drive}");
+    }
     // A body's is none, and of several nobody knows.
     for body in ["velocity x", "linear velocity [m/s]", "velocity,speed_ref,speed"] {
         let map = drafted(&format!("time,voltage,{body}"), ["0,-3,1.5,2,3", "1,3,2.5,3,4", "2,4,2.5,5,6"]);
