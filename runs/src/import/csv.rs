@@ -16,6 +16,10 @@ const HEADER_ROWS: usize = 2;
 /// Rows of one time, of all, from which times that were written as a time of day are too coarse to tell rows apart.
 const COARSE: f64 = 0.5;
 
+/// Share of a file's rows that have more fields than its names and its first row, from which these are columns. Reasoned: a row
+/// that is torn, or runs into the next one, is one of many.
+const WIDER: f64 = 0.05;
+
 pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let error = match read_by(bytes, path, clock) {
         Err(error) if clock.rows && clock.column.is_none() => error,
@@ -83,7 +87,16 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         // Numbers beyond the names have none; a separator ends the lines of some writers.
         if pending && !names.is_empty() {
             let ended = usize::from(record.iter().next_back() == Some(b""));
-            names.extend(numbered(record.len() - ended).into_iter().skip(widths.names));
+            let first = record.len() - ended;
+            let later = wider(&text, separator, first.max(widths.names));
+            names.extend(numbered(later.map_or(first, |(fields, _)| fields)).into_iter().skip(widths.names));
+            table.remarks.extend(later.map(|(fields, line)| {
+                format!(
+                    "from line {line} on rows have {fields} fields, and {} names stand above them: the others are {}, ...",
+                    widths.names,
+                    names[widths.names],
+                )
+            }));
         }
         own = match clock.of {
             Some(wanted) => Some(names.iter().position(|name| name == wanted).ok_or_else(|| {
@@ -231,6 +244,21 @@ impl Widths {
     }
 }
 
+/// How many fields many rows of a file have, if these are more, and the line of the first such row: it was written on when its
+/// program logged more.
+fn wider(text: &[u8], separator: u8, names: usize) -> Option<(usize, usize)> {
+    let lines = || text.split(|b| *b == b'\n').map(<[u8]>::trim_ascii);
+    let fields = |line: &[u8]| {
+        let line = line.strip_suffix(&[separator]).unwrap_or(line);
+        1 + line.iter().filter(|b| **b == separator).count()
+    };
+    let wide: Vec<usize> = lines().map(fields).filter(|fields| *fields > names).collect();
+    let most = wide.iter().copied().max_by_key(|fields| wide.iter().filter(|other| *other == fields).count())?;
+    let often = wide.iter().filter(|fields| **fields == most).count() as f64 >= WIDER * lines().count() as f64;
+    let at = lines().position(|line| fields(line) == most)?;
+    often.then_some((most, at + 1))
+}
+
 fn number(field: &[u8], separator: u8) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?;
     if separator == b',' {
@@ -317,6 +345,14 @@ mod tests {
         assert_eq!(remarks("t x\n0 1 2\n1 1 2\n").len(), 1);
         // What stands beyond the names is shown.
         assert_eq!(table("t x\n0 1 2\n1 1 3\n").unwrap().find("column_3").unwrap().values, [2.0, 3.0]);
+        // A program that logged more from some day on, into the same file; one torn row is none.
+        let rows = |k: usize| (0..k).map(|k| format!("{k},0.1,5\n")).collect::<String>();
+        let wide = (40..49).map(|k| format!("{k},0.1,5,24.1,2\n")).collect::<String>();
+        let later = table(&format!("t,duty,rpm\n{}{wide}", rows(40))).unwrap();
+        let torn = table(&format!("t,duty,rpm\n{}40,1,5,2\n", rows(40))).unwrap();
+        assert_eq!(later.find("column_4").unwrap().values, [24.1; 9]);
+        assert!(later.remarks[0].starts_with("from line 42 on rows have 5 fields, and 3 names"), "{:?}", later.remarks);
+        assert!(torn.find("column_4").is_none() && torn.remarks.is_empty(), "{:?}", torn.remarks);
         for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
             assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
         }
