@@ -2,6 +2,7 @@
 //! `__time`. Lines that begin with a word, such as `ODOM 0.1 2.5`, are one table a word: `ODOM/column_2`. Numbers that follow
 //! their names, `t,340,PWM,60`, are a table with those names. Where a column says whose each row is, they are one a motor.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::line::with_units;
@@ -252,9 +253,13 @@ fn wider(text: &[u8], separator: u8, names: usize) -> Option<(usize, usize)> {
         let line = line.strip_suffix(&[separator]).unwrap_or(line);
         1 + line.iter().filter(|b| **b == separator).count()
     };
-    let wide: Vec<usize> = lines().map(fields).filter(|fields| *fields > names).collect();
-    let most = wide.iter().copied().max_by_key(|fields| wide.iter().filter(|other| *other == fields).count())?;
-    let often = wide.iter().filter(|fields| **fields == most).count() as f64 >= WIDER * lines().count() as f64;
+    let mut wide: BTreeMap<usize, usize> = BTreeMap::new();
+    // Separators in quotes are a text's.
+    for fields in lines().filter(|line| !line.contains(&b'"')).map(fields).filter(|fields| *fields > names) {
+        *wide.entry(fields).or_default() += 1;
+    }
+    let (most, rows) = wide.into_iter().max_by_key(|(_, rows)| *rows)?;
+    let often = rows as f64 >= WIDER * lines().count() as f64;
     let at = lines().position(|line| fields(line) == most)?;
     often.then_some((most, at + 1))
 }
@@ -352,6 +357,8 @@ mod tests {
         let torn = table(&format!("t,duty,rpm\n{}40,1,5,2\n", rows(40))).unwrap();
         assert_eq!(later.find("column_4").unwrap().values, [24.1; 9]);
         assert!(later.remarks[0].starts_with("from line 42 on rows have 5 fields, and 3 names"), "{:?}", later.remarks);
+        let quoted = "40,\"a,b\",5\n".repeat(9);
+        assert!(table(&format!("t,duty,rpm\n{}{quoted}", rows(40))).unwrap().find("column_4").is_none());
         assert!(torn.find("column_4").is_none() && torn.remarks.is_empty(), "{:?}", torn.remarks);
         for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
             assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
