@@ -1,6 +1,5 @@
 //! Selection: which effects must be named for a link, and which are there but immaterial.
 
-mod alone;
 mod alternatives;
 mod design;
 mod dwarfed;
@@ -33,7 +32,6 @@ use left::Left;
 pub use crate::candidates::candidates;
 use crate::candidates::does_all;
 pub use crate::state::is_material;
-pub(crate) use alone::alone;
 pub use alternatives::{Alternatives, alternatives, figures, sign_flip};
 pub use design::{Design, Trial};
 pub(crate) use dwarfed::dwarfed;

@@ -135,11 +135,6 @@ thresholds! {
     /// skew by their second order only; 0.13 rad of it passed for skews (blind bench).
     hides: f64 = 0.9,
 
-    /// Share of the squared gap that one law of the drive may leave by itself to be named where nothing else may. Reasoned, as
-    /// hardly any law is exact to more: a load that rubs as much more as it weighs left 0.022 by the resistance that it is tied
-    /// with, and 0.06 without its friction.
-    alone: f64 = 0.05,
-
     // Where noise is not what limits the prediction.
     /// Noise floors left after a selection from which it is made again with nothing adjusted.
     open: f64 = 1.5,

@@ -132,14 +132,6 @@ pub(super) fn study<'a>(
             (judged, refused) = (again, more);
         }
     }
-    if judged.estimates.is_empty()
-        && let Some(law) = select::alone(problem, start, &all, thresholds)
-    {
-        let (again, more) = sound(problem, law, start, &all, thresholds);
-        if !again.estimates.is_empty() {
-            (judged, refused) = (again, more);
-        }
-    }
     // What laws of what is named may leave is nothing to explain by small effects.
     let design = &judged.selection.design;
     let laws = design.left_by_laws() / design.linear.equations.plain().1.max(1.0);

@@ -171,7 +171,8 @@ fn of_two(
     }
     let now = Left::of(problem, &bare(problem, start, named.iter().copied()));
     let is_far = now.is_far(thresholds);
-    let laws = laws(problem, start, all, is_plain);
+    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
+    let laws = laws(problem, start, all, plain);
     let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
     let mut pairs = promising(problem, start, &laws);
     pairs.sort_unstable();
@@ -187,11 +188,6 @@ fn of_two(
         })
         .collect();
     first_of_least(better, thresholds)
-}
-
-/// Whether a law has one parameter, whose size matters, and is not switched on.
-pub(super) fn is_plain(law: &Active) -> bool {
-    law.form.free.len() == 1 && law.form.free[0].material.is_finite() && !law.switched()
 }
 
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
