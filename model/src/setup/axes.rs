@@ -70,13 +70,7 @@ pub(super) fn unasked(robot: &Robot, signals: &[Signals], before: &[Mistake]) ->
     let of = |i: usize| {
         let rows =
             signals.iter().filter(|s| i < s.reference.len()).flat_map(|s| s.speed[i].iter().zip(&s.reference[i]));
-        let (mut both, mut turned, mut asked) = (0.0, 0.0, 0.0);
-        for (speed, reference) in rows.filter(|(w, r)| w.is_finite() && r.is_finite()) {
-            both += speed * reference;
-            turned += speed * speed;
-            asked += reference * reference;
-        }
-        (asked > 0.0 && turned > 0.0 && both < UNASKED * (turned * asked).sqrt()).then(|| {
+        (cosine(rows.map(|(speed, reference)| (*speed, *reference))) < UNASKED).then(|| {
             let what = "the axis turns the other way than its set points ask".to_owned();
             let remedy = format!(
                 "change the sign of {counted}_{n} (scale = -1 in the map), or that of ref_{n} and what drives it",
@@ -137,16 +131,19 @@ fn ways(s: &Signals, axis: usize) -> Ways {
 /// Whether duties have the sign of what is missing to the set points.
 fn is_dragged(s: &Signals, axis: usize) -> bool {
     let (Some(duty), Some(reference)) = (s.duty.get(axis), s.reference.get(axis)) else { return false };
-    let (mut both, mut duties, mut errors) = (0.0, 0.0, 0.0);
-    for ((duty, reference), speed) in duty.iter().zip(reference).zip(&s.speed[axis]) {
-        let error = reference - speed;
-        if duty.is_finite() && error.is_finite() {
-            both += duty * error;
-            duties += duty * duty;
-            errors += error * error;
-        }
+    let rows = duty.iter().zip(reference).zip(&s.speed[axis]);
+    cosine(rows.map(|((duty, reference), speed)| (*duty, reference - speed))) > BRAKED
+}
+
+/// Of the rows in which both are there; not a number where one of them is never anything but 0.
+fn cosine(rows: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut both, mut one, mut other) = (0.0, 0.0, 0.0);
+    for (a, b) in rows.filter(|(a, b)| a.is_finite() && b.is_finite()) {
+        both += a * b;
+        one += a * a;
+        other += b * b;
     }
-    both > BRAKED * (duties * errors).sqrt()
+    both / (one * other).sqrt()
 }
 
 fn is_against(ways: &Ways) -> bool {
