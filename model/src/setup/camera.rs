@@ -409,10 +409,18 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             "write radians (times 0.0174533), or name the unit to `racbot convert`",
         ));
     }
+    // Those of the forward axis that were turned to the x axis as if they grew the other way are half a turn off as well.
+    let half_a_turn = PI - fit.turn.abs() < TRUE_TURN && fit.reading.clockwise && !fit.reading.down;
     match (fit.reading.clockwise, fit.reading.down) {
         (true, false) => {
             let what = "headings grow clockwise".to_owned();
-            found.push(new("heading-clockwise", "cam_theta", what, "write them counter-clockwise: change their sign"));
+            let remedy = if half_a_turn {
+                "write them counter-clockwise: in a map of `racbot convert` [frame] or [truth.frame] headings = \"clockwise\"; \
+                 else change their sign and add half a turn"
+            } else {
+                "write them counter-clockwise: change their sign"
+            };
+            found.push(new("heading-clockwise", "cam_theta", what, remedy));
         }
         (down_too, true) => {
             let what = if down_too {
@@ -441,7 +449,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, remedy) });
         }
     }
-    if fit.turn.abs() > TRUE_TURN {
+    if fit.turn.abs() > TRUE_TURN && !half_a_turn {
         let what = format!(
             "the camera's heading is {:.0} degrees from that of the body's x axis, which points to the right",
             -fit.turn.to_degrees()
@@ -460,6 +468,15 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
     // Where distances by the counts are wrong, too, turns tell how far.
     let own = if is_true(spin) { 1.0 } else { spin.clamp(0.05, 20.0) };
     let unit = [(1000.0, "millimetres"), (100.0, "centimetres")];
+    // A unit taken for the next one, where the turns are right.
+    let taken =
+        [(10.0, "centimetres that were taken for millimetres"), (0.1, "millimetres that were taken for centimetres")];
+    if let Some((by, which)) = taken.into_iter().find(|(by, _)| is_true(fit.scale * by) && is_true(spin)) {
+        let what = format!("the camera's distances are {} times those of the counts: {which}", short(fit.scale));
+        let remedy = format!("write metres (multiply cam_x and cam_y by {by}), or name their unit to `racbot convert`");
+        found.push(Mistake::new("camera-unit", "cam_x", what, remedy));
+        return found;
+    }
     let twice = unit.iter().find(|(u, _)| is_true(fit.scale * u / own));
     if let Some((unit, name)) = twice.filter(|_| is_true(spin)) {
         let what = format!(

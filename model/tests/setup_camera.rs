@@ -1,0 +1,38 @@
+//! How a camera's poses were written is told by one cause where one made it.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use model::setup::{Mistake, mistakes};
+use runs::frames::Pose;
+use runs::{DataSet, Logs};
+
+/// What is said of a set of two wheels whose camera wrote other poses.
+fn told(write: impl Fn(Pose) -> Pose) -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/real/differential-squares");
+    let mut set = DataSet::open(&folder).unwrap();
+    set.runs.iter_mut().flat_map(|run| &mut run.camera).for_each(|sample| sample.pose = write(sample.pose));
+    mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect()
+}
+
+/// Headings of the forward axis, clockwise, that a map turns to the x axis as if they were counter-clockwise.
+#[test]
+fn clockwise_headings_that_were_turned_are_one_mistake() {
+    let said = told(|p| Pose::new(p.x, p.y, -(p.theta + 0.5 * PI) - 0.5 * PI));
+    assert!(said.len() == 1 && said[0].contains("headings grow clockwise"), "{said:?}");
+    assert!(said[0].contains("add half a turn"), "{said:?}");
+    let said = told(|p| Pose::new(p.x, p.y, -p.theta));
+    assert!(said.len() == 1 && said[0].ends_with("change their sign"), "{said:?}");
+    let said = told(|p| Pose::new(p.x, p.y, p.theta + PI));
+    assert!(said.len() == 1 && said[0].contains("180 degrees from that of the body's x axis"), "{said:?}");
+}
+
+#[test]
+fn units_that_were_taken_for_the_next_are_told() {
+    for (scale, which) in
+        [(0.1, "centimetres that were taken for millimetres"), (10.0, "millimetres that were taken for")]
+    {
+        let said = told(|p| Pose::new(scale * p.x, scale * p.y, p.theta));
+        assert!(said.len() == 1 && said[0].contains(which), "{said:?}");
+    }
+}
