@@ -62,8 +62,31 @@ impl Levels {
         let by_speed =
             left(DMatrix::from_fn(of_runs.len(), powers, |run, power| (levels[run] / scale).powi(power as i32)));
         let way = |run: usize, power: usize| if power == 0 { 1.0 } else { levels[run].signum() };
-        by_speed.min(left(DMatrix::from_fn(of_runs.len(), 2, way)))
+        by_speed.min(left(DMatrix::from_fn(of_runs.len(), 2, way))).min(beside_neighbours(&levels, sizes.as_slice()))
     }
+}
+
+/// Fewest runs that are compared with those next to them in level. Reasoned: batteries and loads in the order of levels by
+/// chance are one in some hundred of so many.
+const NEIGHBOURS: usize = 6;
+
+/// What is left of sizes beside the straight line between the runs of the next lower and the next higher level the same way,
+/// as a share of them: near rest a law of speed bends further than a parabola, and smoothly, while batteries and loads keep no
+/// order. All of it where there are few.
+fn beside_neighbours(levels: &[f64], sizes: &[f64]) -> f64 {
+    let mut order: Vec<usize> = (0..levels.len()).collect();
+    order.sort_by(|a, b| levels[*a].total_cmp(&levels[*b]));
+    let beside = |three: &[usize]| {
+        let [low, own, high] = [three[0], three[1], three[2]];
+        let width = levels[high] - levels[low];
+        let share = if width > 0.0 { (levels[own] - levels[low]) / width } else { 0.5 };
+        (levels[low] * levels[high] > 0.0).then(|| sizes[own] - sizes[low] - share * (sizes[high] - sizes[low]))
+    };
+    let left: Vec<f64> = order.windows(3).filter_map(beside).collect();
+    if left.len() < NEIGHBOURS {
+        return 1.0;
+    }
+    spread(&left) / spread(sizes).max(f64::MIN_POSITIVE)
 }
 
 /// Greatest less least.
@@ -254,5 +277,20 @@ mod tests {
         };
         assert!(ways(1.0) < 1e-6 && ways(1.1) < 0.2, "{}", ways(1.1));
         assert!(left(&[([-3.0, 3.1], 0.0), ([-2.0, 2.0], 1.0), ([-3.0, 3.0], 1.1)]) == 1.0);
+    }
+
+    /// A friction that the model lacks makes a motor's constant look smaller by one over the speed, either way.
+    #[test]
+    fn what_bends_near_rest_follows_the_level_as_well() {
+        let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0];
+        let runs = |size: &dyn Fn(usize, f64) -> f64| {
+            let one_way = |way: f64| steps.into_iter().map(move |s| ([way * s - 0.1, way * s + 0.1], way * s));
+            let all = one_way(1.0).chain(one_way(-1.0)).enumerate();
+            left(&all.map(|(k, (range, level))| (range, size(k, level))).collect::<Vec<_>>())
+        };
+        let bent = runs(&|_, level| -1.0 / level.abs());
+        assert!(bent < 0.2, "{bent}");
+        let two_batteries = runs(&|k, level| f64::from(u8::from(k % 3 == 1)) - 1.0 / level.abs());
+        assert!(two_batteries > 0.4, "{two_batteries}");
     }
 }
