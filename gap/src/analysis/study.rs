@@ -194,6 +194,7 @@ pub(super) fn study<'a>(
         });
     }
     let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
+    still_refused(&mut refused, &named);
     Outcome {
         held_out: (square / n.max(1.0)).sqrt(),
         limits: crate::limits::limits(problem, &selection.design, from, thresholds),
@@ -367,6 +368,11 @@ fn not_named(problem: &Problem, name: &str, (refusal, why): &Fault) -> Refused {
         why: format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()),
         of_no_size: *refusal == Refusal::HoldsZero,
     }
+}
+
+/// What was refused in one search and has its name by another, is named.
+fn still_refused(refused: &mut Vec<Refused>, named: &[Named]) {
+    refused.retain(|r| !named.iter().any(|n| n.name == r.name));
 }
 
 /// Takes out of a selection what may not be named, one effect after the other, and says why.
@@ -546,6 +552,14 @@ pub(super) fn material_wheels(active: &Active) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_has_a_name_in_the_end_is_not_said_to_have_none() {
+        let refused = |name: &str| Refused { name: name.to_owned(), why: String::new(), of_no_size: true };
+        let mut all = vec![refused("camera-latency"), refused("wheel-radius")];
+        still_refused(&mut all, &[Named::bare("camera-latency", Link::Motion, &[])]);
+        assert_eq!(all.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(), ["wheel-radius"]);
+    }
 
     #[test]
     fn a_share_is_told_between_nothing_and_all() {
