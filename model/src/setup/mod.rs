@@ -96,7 +96,7 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     found.extend(camera::mistakes(&robot, &set.logs, &found));
     let reversed = turns::mistakes(&robot, &set.logs, &found);
     if !reversed.is_empty() {
-        found.retain(|m| m.kind != "robot-file");
+        found.retain(|m| !turns::OF_HEADINGS.contains(&m.kind));
         found.extend(reversed);
     }
     if found.iter().any(|m| m.kind == "encoder-order") {

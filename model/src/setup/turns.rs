@@ -24,14 +24,18 @@ const BACKWARDS: [f64; 2] = [-2.0, -0.5];
 /// Way between frames, in distances of the outermost wheel from the centre, from which it has a direction.
 const DIRECTION: f64 = 0.5;
 
+/// What is said of a robot whose turns go the other way where its headings are those of its wheels.
+pub(super) const OF_HEADINGS: [&str; 2] = ["robot-file", "wheels-slip"];
+
 /// What turned between two frames: by the camera, and by the counts with the ways ahead and sideways.
 type Turn = (f64, [f64; 3]);
 
 pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
     let ways_alone = logs.iter().any(|log| log.layout().source.positions_only);
-    // Ways that bend the other way than headings by the wheels follow nothing; nor do turns of wheels that slip.
-    let said = ["encoder-order", "heading-clockwise", "heading-degrees", "camera-y-down", "wheels-slip"];
-    let told = |m: &Mistake| said.contains(&m.kind) || m.kind == "robot-file" && !ways_alone;
+    // Turns of wheels that slip follow nothing; nor do ways that bend the other way than headings by the wheels, which then
+    // agree where the robot drives straight alone.
+    let said = ["encoder-order", "heading-clockwise", "heading-degrees", "camera-y-down"];
+    let told = |m: &Mistake| said.contains(&m.kind) || OF_HEADINGS.contains(&m.kind) && !ways_alone;
     if before.iter().any(told) || robot.support != Support::Floor {
         return Vec::new();
     }
