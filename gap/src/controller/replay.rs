@@ -33,24 +33,17 @@ impl Integral {
             self.low = (low + more).clamp(-limit, limit);
             self.high = (high + more).clamp(-limit, limit);
         } else {
-            let held = |x: f64| {
-                let unlimited = proportional + (x + more);
-                unlimited.abs() > law.held_from && error * unlimited > 0.0
-            };
-            // Held from a bound on outwards, the one on the error's side.
-            let (inner, outer) = if error > 0.0 { (low, high) } else { (high, low) };
-            let (inner, outer) = match (held(inner), held(outer)) {
-                (false, false) => (inner + more, outer + more),
-                (true, true) => (inner, outer),
-                _ => {
-                    let bound = error.signum() * law.held_from - proportional;
-                    let ends = [inner + more, bound - more, bound, outer];
-                    let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
-                    let most = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                    if error > 0.0 { (least, most) } else { (most, least) }
-                }
-            };
-            (self.low, self.high) = if error > 0.0 { (inner, outer) } else { (outer, inner) };
+            // Along the error; held from a bound on outwards, by the integrator before its part of this tick or after:
+            // loops do either.
+            let sign = if error > 0.0 { 1.0 } else { -1.0 };
+            let [inner, outer] = if error > 0.0 { [low, high] } else { [-high, -low] };
+            let (bound, part) = (law.held_from - sign * proportional, sign * more);
+            let gone = (inner <= bound).then(|| [inner + part, outer.min(bound) + part]);
+            let held = (outer > bound - part).then(|| [inner.max(bound - part), outer]);
+            let ends = || gone.iter().chain(&held);
+            let inner = ends().map(|e| e[0]).fold(f64::INFINITY, f64::min);
+            let outer = ends().map(|e| e[1]).fold(f64::NEG_INFINITY, f64::max);
+            (self.low, self.high) = if error > 0.0 { (inner, outer) } else { (-outer, -inner) };
         }
         [proportional + self.low, proportional + self.high]
     }
@@ -235,6 +228,38 @@ mod tests {
             let [low, high] = bounds.step(&law, error, 1000.0);
             assert!(bounds.low <= truth + 1e-9 && truth <= bounds.high + 1e-9, "{k}: {truth} in {bounds:?}");
             assert!(low <= high);
+        }
+    }
+    /// Duties of a loop that looks at its integrator before the part of a tick, or after, as in a stiff loop on steps.
+    fn saturating(before: bool, error: impl Fn(usize) -> f64, law: &Law, rate: f64) -> Vec<f64> {
+        let mut integral = 0.0;
+        let step = |k| {
+            let (e, part) = (error(k), law.ki * error(k) / rate);
+            let looked = law.kp * e + integral + if before { 0.0 } else { part };
+            integral += if looked.abs() > 1.0 && e * looked > 0.0 { 0.0 } else { part };
+            (law.kp * e + integral).clamp(-1.0, 1.0)
+        };
+        (0..4_000).map(step).collect()
+    }
+
+    #[test]
+    fn loops_that_look_before_they_add_or_after_both_replay() {
+        let law = Law { kp: 0.03, ki: 0.25, ..Law::PLAIN };
+        // The integrator leads into saturation again and again.
+        let error = |k: usize| 24.0 * (k as f64 * 0.21).sin() + 6.0 * (k as f64 * 0.037).sin();
+        for before in [false, true] {
+            let duty = saturating(before, error, &law, 50.0);
+            let most = duty.iter().filter(|u| u.abs() == 1.0).count();
+            assert!((100..1_000).contains(&most), "{most}");
+            let mut integral = Integral { low: 0.0, high: 0.0 };
+            let mut wide = 0;
+            for (k, duty) in duty.iter().enumerate() {
+                let [low, high] = integral.step(&law, error(k), 50.0).map(|u| u.clamp(-1.0, 1.0));
+                assert!(low - SLACK <= *duty && *duty <= high + SLACK, "{before} {k}: {duty} in {low} to {high}");
+                integral.narrow(law.kp * error(k), *duty, SLACK, 1.0);
+                wide += usize::from(integral.high - integral.low > 4.0 * SLACK && duty.abs() + SLACK < 1.0);
+            }
+            assert_eq!(wide, 0, "what comes after saturation tells the integrator");
         }
     }
 }
