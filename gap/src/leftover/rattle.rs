@@ -10,6 +10,7 @@ use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use crate::thresholds::Thresholds;
+use estimation::statistics::median;
 use links::drive::{AxisModel, DriveModel};
 use links::segment::Segment;
 
@@ -27,6 +28,30 @@ const NEAR: usize = 15;
 const MIDDLE: f64 = 0.9;
 /// Length of the mean that is the robot's motion, s.
 const SMOOTHING_S: f64 = 0.03;
+
+/// An encoder beside the robot's motion.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// rad at the wheel.
+    angle: f32,
+    /// Of the wheel, rad/s, without its sign.
+    speed: f32,
+}
+
+/// Whether places are as much larger as the wheel is faster: counts that were read at other times than their rows, or
+/// again in the next row, are off by what the wheel turned meanwhile. Play is as wide at any speed.
+fn grows_with_speed(places: &mut [Place]) -> bool {
+    places.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    let (slow, fast) = places.split_at(places.len() / 2);
+    let usual = |half: &[Place], of: &dyn Fn(&Place) -> f32| {
+        let mut all: Vec<f64> = half.iter().map(|p| f64::from(of(p))).collect();
+        median(&mut all)
+    };
+    let grows = |of: &dyn Fn(&Place) -> f32| usual(fast, of) / usual(slow, of).max(f64::MIN_POSITIVE);
+    // In the middle, in ratios, between no growth and the speed's.
+    let (size, speed) = (grows(&|p| p.angle.abs()), grows(&|p| p.speed));
+    !slow.is_empty() && size * size > speed && size > 1.0
+}
 
 /// What rotors shake by: wheel (from 0), rad at the motor shaft.
 pub(crate) fn rattle(
@@ -52,16 +77,16 @@ pub(crate) fn rattle(
     for s in segments.filter(|s| s.angle.len() == n && s.t.len() > 4 * NEAR) {
         ticks += s.t.len();
         for (wheel, places) in all.iter_mut().enumerate() {
-            places.extend(between_flanks(&s, wheel, count, most, share).into_iter().map(|x| x as f32));
+            places.extend(between_flanks(&s, wheel, count, most, share));
         }
     }
     let mut found = Vec::new();
     for (wheel, places) in all.iter_mut().enumerate() {
-        if (places.len() as f64) < often * ticks as f64 || places.is_empty() {
+        if (places.len() as f64) < often * ticks as f64 || places.is_empty() || grows_with_speed(places) {
             continue;
         }
-        places.sort_by(f32::total_cmp);
-        let at = |share: f64| f64::from(places[((places.len() - 1) as f64 * share) as usize]);
+        places.sort_by(|a, b| a.angle.total_cmp(&b.angle));
+        let at = |share: f64| f64::from(places[((places.len() - 1) as f64 * share) as usize].angle);
         let play = (at(0.5 + 0.5 * MIDDLE) - at(0.5 - 0.5 * MIDDLE)) * model.gear_ratio;
         if play >= thresholds.shakes {
             found.push((wheel, play));
@@ -80,8 +105,8 @@ fn step_of(angle: &[f64]) -> f64 {
     if same as f64 >= STEPS * steps.len() as f64 { least } else { 0.0 }
 }
 
-/// Where the encoder is beside the robot's motion, rad at the wheel, while it rattles.
-fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64, share: f64) -> Vec<f64> {
+/// Where the encoder is beside the robot's motion while it rattles.
+fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64, share: f64) -> Vec<Place> {
     let angle = &s.angle[wheel];
     let count = count.max(step_of(angle));
     let n = angle.len();
@@ -116,7 +141,8 @@ fn between_flanks(s: &Segment, wheel: usize, count: f64, most: f64, share: f64) 
             }
             (near as f64 > share * 2.0 * edge as f64).then(|| {
                 let mean: f64 = window.iter().zip(&angle[k - half..]).map(|(w, a)| w * a).sum::<f64>() / total;
-                angle[k] - mean
+                let speed = (angle[k + half] - angle[k - half]) / (s.t[k + half] - s.t[k - half]);
+                Place { angle: (angle[k] - mean) as f32, speed: speed.abs() as f32 }
             })
         })
         .collect()
@@ -159,6 +185,21 @@ mod tests {
         }
         let turning = Segment { angle: vec![angle; robot.wheel_count()], t, ..Segment::default() };
         assert!(rattle(turning, &robot, &model).is_empty());
+    }
+
+    #[test]
+    fn counts_read_at_other_times_than_their_rows_are_no_play() {
+        let robot = Robot::racbot();
+        let model = DriveModel::new(&robot);
+        let scale = robot.counts_per_wheel_rad();
+        let random =
+            |k: usize| f64::from((k as u32).wrapping_mul(2_654_435_769).wrapping_mul(1 + k as u32) >> 8) / 16_777_216.0;
+        // Up to a tick early or late, at 20 rad/s² from rest; the same as of the mean speed is a rotor that rattles.
+        let turned = |k: usize| 20.0 * 1e-3 * k as f64 * 1e-3;
+        let late = segment(&robot, |k| scale * turned(k) * (2.0 * random(k) - 1.0));
+        assert!(rattle(late, &robot, &model).is_empty());
+        let rattling = segment(&robot, |k| scale * turned(1000) * (2.0 * random(k) - 1.0));
+        assert_eq!(rattle(rattling, &robot, &model).len(), robot.wheel_count());
     }
 
     /// A shaft that swings through less than a count a tick, of whose encoder the file has ten times as many counts.
