@@ -22,6 +22,8 @@ struct Event {
     first: i64,
     last: i64,
     torque: f64,
+    /// Whether the log lacks rows at its largest moment.
+    lacks_rows: bool,
 }
 
 /// Share of an event's impulse that stays, and its torque beside what the acceleration took, at the wheel that felt most of
@@ -52,13 +54,14 @@ pub(super) fn bursts(
     drive_nm: f64,
     thresholds: &Thresholds,
 ) -> Option<Structure> {
-    // Norm over the wheels and largest torque of every moment.
-    let mut moments: BTreeMap<(usize, i64), (f64, f64)> = BTreeMap::new();
+    // Norm over the wheels and largest torque of every moment, and whether it lacks rows.
+    let mut moments: BTreeMap<(usize, i64), (f64, f64, bool)> = BTreeMap::new();
     for w in &series.wheels {
         for (b, x) in w.torque.iter().enumerate() {
-            let slot = moments.entry((w.segment[b], (w.t[b] / series.hop).round() as i64)).or_insert((0.0, 0.0));
+            let slot = moments.entry((w.segment[b], (w.t[b] / series.hop).round() as i64)).or_insert((0.0, 0.0, false));
             slot.0 += (x / w.scatter.max(f64::MIN_POSITIVE)).powi(2);
             slot.1 = slot.1.max(x.abs());
+            slot.2 |= w.lacks_rows[b];
         }
     }
     if moments.len() < 40 {
@@ -72,23 +75,28 @@ pub(super) fn bursts(
     let limit = out.max(rare * usual);
     let mut events: Vec<Event> = Vec::new();
     let total: f64 = moments.values().map(|m| m.0).sum();
-    for (at, (square, torque)) in &moments {
+    for (at, (square, torque, lacks_rows)) in &moments {
         if (square / n).sqrt() < limit || *torque < material * drive_nm {
             continue;
         }
         match events.last_mut() {
             Some(e) if e.segment == at.0 && at.1 - e.last < NEAR => {
                 e.last = at.1;
-                e.torque = e.torque.max(*torque);
+                if *torque > e.torque {
+                    (e.torque, e.lacks_rows) = (*torque, *lacks_rows);
+                }
             }
-            _ => events.push(Event { segment: at.0, first: at.1, last: at.1, torque: *torque }),
+            _ => {
+                events.push(Event { segment: at.0, first: at.1, last: at.1, torque: *torque, lacks_rows: *lacks_rows })
+            }
         }
     }
     let run_of = |segment: usize| {
         series.wheels.iter().find_map(|w| w.segment.iter().position(|s| *s == segment).map(|b| w.run[b])).unwrap_or(0)
     };
     let is_push = |e: &Event| pushed(series, e).iter().zip(thresholds.pushed).all(|(share, least)| *share > least);
-    events.retain(|e| is_push(e) && rolls(run_of(e.segment), e.first as f64 * series.hop));
+    // What the motors did in a row that is missing nobody knows.
+    events.retain(|e| !e.lacks_rows && is_push(e) && rolls(run_of(e.segment), e.first as f64 * series.hop));
     let power: f64 = events
         .iter()
         .map(|e| moments.range((e.segment, e.first - 1)..=(e.segment, e.last + 1)).map(|m| m.1.0).sum::<f64>())
@@ -156,4 +164,43 @@ pub(super) fn stretches(series: &Series, drive_nm: f64, thresholds: &Thresholds)
         ),
         share: 1.0,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+
+    use super::super::Wheel;
+    use super::*;
+
+    /// Ten seconds of noise with three pushes, of 20 deviations, and rows missing at so many of them.
+    fn pushes(missing: usize) -> Option<Structure> {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(14);
+        let at = [100, 200, 300];
+        let push = |k: &usize| if at.contains(k) { 20e-3 } else { 0.0 };
+        let mut uniform = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
+        let n = 400;
+        let w = Wheel {
+            run: vec![0; n],
+            segment: vec![0; n],
+            t: (0..n).map(|k| 0.025 * k as f64).collect(),
+            torque: (0..n).map(|k| 1e-3 * uniform() + push(&k)).collect(),
+            sign: vec![1.0; n],
+            done: (0..n).map(|k| 1e-3 * uniform() + push(&k)).collect(),
+            lacks_rows: (0..n).map(|k| at[..missing].contains(&k)).collect(),
+            scatter: 1e-3,
+        };
+        let series = Series { wheels: vec![w], hop: 0.025, inertia: 1e-4, count_rad: 1e-4 };
+        bursts(&series, &|_, _| true, 20e-3, &Thresholds::default())
+    }
+
+    #[test]
+    fn what_happens_where_rows_are_missing_is_no_push() {
+        assert!(pushes(0).is_some_and(|s| s.text.starts_with("3 ")));
+        assert!(pushes(1).is_some_and(|s| s.text.starts_with("2 ")));
+        assert!(pushes(2).is_none());
+        let t: Vec<f64> = (0..100).filter(|k| *k != 40).map(|k| 0.01 * f64::from(k)).collect();
+        let lacks = |k| super::super::lacks_rows(&t, k, 0.05);
+        assert!(lacks(37) && lacks(42) && !lacks(20) && !lacks(60));
+    }
 }

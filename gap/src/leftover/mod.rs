@@ -115,8 +115,21 @@ struct Wheel {
     sign: Vec<f64>,
     /// Torque that the measured acceleration takes, Nm: what the drive did at all.
     done: Vec<f64>,
+    /// Whether rows are missing within each.
+    lacks_rows: Vec<bool>,
     /// Robust standard deviation, Nm.
     scatter: f64,
+}
+
+/// Rows, in those around, from which on a step of time lacks one.
+const MISSING: f64 = 1.5;
+
+/// Whether rows are missing within `half` s of tick `k`.
+fn lacks_rows(t: &[f64], k: usize, half: f64) -> bool {
+    let (first, last) = (t.partition_point(|x| *x < t[k] - half), t.partition_point(|x| *x <= t[k] + half));
+    let steps: Vec<f64> = t[first.saturating_sub(1)..(last + 1).min(t.len())].windows(2).map(|t| t[1] - t[0]).collect();
+    let usual = estimation::statistics::median(&mut steps.clone());
+    steps.iter().any(|step| *step > MISSING * usual)
 }
 
 /// Torques left of the wheels that have enough test functions to say.
@@ -133,7 +146,10 @@ struct Series {
 impl Series {
     fn new(link: &DriveLink, model: &DriveModel, at: &[(usize, usize)], lefts: &[Option<Left>]) -> Self {
         let done = link.done(model);
-        let places = link.at_middles(|s, k| (s.run, s.t[k], s.sign.iter().map(|sign| sign[k]).collect::<Vec<_>>()));
+        let places = link.at_middles(|s, k| {
+            let signs = s.sign.iter().map(|sign| sign[k]).collect::<Vec<_>>();
+            (s.run, s.t[k], signs, lacks_rows(&s.t, k, 0.5 * link.length()))
+        });
         let wheels = lefts
             .iter()
             .enumerate()
@@ -145,6 +161,7 @@ impl Series {
                     segment: left.test_functions.iter().map(|b| at[*b].0).collect(),
                     t: left.test_functions.iter().map(|b| places[*b].1).collect(),
                     sign: left.test_functions.iter().map(|b| places[*b].2[i]).collect(),
+                    lacks_rows: left.test_functions.iter().map(|b| places[*b].3).collect(),
                     done: left.test_functions.iter().map(|b| done[*b][i]).collect(),
                     scatter: 1.4826 * estimation::statistics::median(&mut sizes),
                     torque: left.torque.clone(),

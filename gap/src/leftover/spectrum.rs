@@ -144,6 +144,7 @@ mod tests {
             torque: Vec::new(),
             sign: Vec::new(),
             done: Vec::new(),
+            lacks_rows: vec![false; 3 * 280],
             scatter: 1e-3,
         };
         for run in 0..3 {
