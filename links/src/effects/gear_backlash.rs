@@ -17,7 +17,7 @@ impl Effect for GearBacklash {
     }
 
     fn equation(&self) -> &str {
-        "the wheel follows the motor shaft with play of play_rad"
+        "the wheel follows the motor shaft with play of play_rad, turned at that shaft"
     }
 
     fn reference(&self) -> &str {
@@ -86,7 +86,7 @@ impl Effect for GearBacklash {
     }
 
     fn measurement(&self) -> Option<(&str, f64)> {
-        Some(("turn the wheel by hand against the held motor", 3.0))
+        Some(("turn the wheel by hand against the held motor, times the gear ratio", 3.0))
     }
 }
 
