@@ -148,9 +148,8 @@ impl<'a> Library<'a> {
         let rest = rest.map(|a| Active { given: true, ..a.clone() }).collect();
         let state = State { robot: findings.robot.clone(), active: rest };
         let mut candidates = select::candidates(&state, findings.catalogue, link);
-        let index = candidates.iter().position(|c| {
-            c.effect.name() == own.effect.name() && c.form.wheels == own.form.wheels && c.form.fixed == own.form.fixed
-        })?;
+        let is_own = |c: &Active| c.effect.name() == own.effect.name() && c.form.is(&own.form);
+        let index = candidates.iter().position(is_own)?;
         if own.switched() {
             // Switched on as found; all others start from 0.
             candidates[index].values = own.values.clone();

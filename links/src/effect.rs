@@ -134,6 +134,12 @@ impl Form {
         Self { free, ..Self::default() }
     }
 
+    /// Whether it has the same parameters, of the same wheels.
+    pub fn is(&self, other: &Self) -> bool {
+        let names = |form: &Self| form.free.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+        self.wheels == other.wheels && self.fixed == other.fixed && names(self) == names(other)
+    }
+
     /// The same with a constant.
     #[must_use]
     pub fn fixing(mut self, name: &str, value: f64) -> Self {

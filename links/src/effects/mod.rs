@@ -244,6 +244,16 @@ mod tests {
         assert_eq!(find("wheel-creep").unwrap().forms(&robot)[0].free[0].name, "creep_s_per_kg");
     }
 
+    /// A supply that sags, and one that is low as well.
+    #[test]
+    fn forms_of_an_effect_are_told_apart_by_their_parameters() {
+        let forms = battery_sag::BatterySag.forms(&Robot::racbot());
+        assert_eq!(forms.len(), 2);
+        for (i, form) in forms.iter().enumerate() {
+            assert_eq!(forms.iter().position(|f| f.is(form)), Some(i));
+        }
+    }
+
     #[test]
     fn names_are_unique_and_bounds_hold_every_start() {
         let robot = Robot::racbot();
