@@ -19,7 +19,7 @@ struct Unit {
 }
 
 /// Longer ends first, of those that end alike.
-const UNITS: [Unit; 17] = {
+const UNITS: [Unit; 18] = {
     const fn unit(end: &'static str, si: &'static str, factor: f64, shown: &'static str) -> Unit {
         Unit { end, si, shown: (factor, shown) }
     }
@@ -31,6 +31,7 @@ const UNITS: [Unit; 17] = {
         unit("_nms2", "N m s²", 1e6, " µNm s²"),
         unit("_nms", "N m s", 1e6, " µNm s"),
         unit("_nm", "N m", 1e3, " mNm"),
+        unit("_v_per_s", "V/s", 60.0, " V/min"),
         unit("_s_per_kg", "s/kg", 1e3, " mm/s/N"),
         unit("_kg", "kg", 1.0, " kg"),
         unit("_n", "N", 1.0, " N"),

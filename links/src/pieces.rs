@@ -97,6 +97,7 @@ struct Piece {
     own: Range<usize>,
     stretch: Range<usize>,
     stretch_s: [f64; 2],
+    begins_s: f64,
     counts: Vec<i64>,
     pose: Pose,
     before: usize,
@@ -119,8 +120,10 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
     for (run, log) in logs.iter().enumerate() {
         let tick = log.tick_s();
         pieces.stamps.push(tick.map_or_else(Vec::new, |t| regular_stamps(log.camera(), robot.camera_rate_hz, t)));
-        for (stretch, stretch_s) in tick.map_or_else(Vec::new, |t| Pieces::stretches(log, t)) {
-            let cut = pieces.cut(run, &stretch, stretch_s, piece.max(1));
+        let stretches = tick.map_or_else(Vec::new, |t| Pieces::stretches(log, t));
+        let begins_s = stretches.first().map_or(0.0, |(_, [from, _])| *from);
+        for (stretch, stretch_s) in stretches {
+            let cut = pieces.cut(run, &stretch, (stretch_s, begins_s), piece.max(1));
             pieces.all.extend(cut);
         }
     }
@@ -292,8 +295,14 @@ impl<'a> Pieces<'a> {
         out
     }
 
-    /// Cuts a stretch into pieces.
-    fn cut(&self, run: usize, stretch: &Range<usize>, stretch_s: [f64; 2], piece: usize) -> Vec<Piece> {
+    /// Cuts a stretch of a run that begins so into pieces.
+    fn cut(
+        &self,
+        run: usize,
+        stretch: &Range<usize>,
+        (stretch_s, begins_s): ([f64; 2], f64),
+        piece: usize,
+    ) -> Vec<Piece> {
         let number = if stretch.len() <= piece * 5 / 4 { 1 } else { stretch.len().div_ceil(piece) };
         let length = stretch.len().div_ceil(number);
         let mut pieces: Vec<Piece> = (0..number)
@@ -306,6 +315,7 @@ impl<'a> Pieces<'a> {
                     own,
                     stretch: stretch.clone(),
                     stretch_s,
+                    begins_s,
                     counts: Vec::new(),
                     pose: Pose::default(),
                     before: 0,
@@ -384,6 +394,7 @@ impl<'a> Pieces<'a> {
             run: p.run,
             own: p.own.start - p.rows.start..p.own.end - p.rows.start,
             stretch: p.stretch_s,
+            begins_s: p.begins_s,
             cut: [p.own.start > p.stretch.start, p.own.end < p.stretch.end],
             counts: &p.counts,
             pose: p.pose,

@@ -47,8 +47,12 @@ pub struct Segment {
     pub duty: Vec<Vec<f64>>,
     /// Set point of each wheel's speed, rad/s, `[wheel][tick]`; empty if not logged.
     pub reference: Vec<Vec<f64>>,
-    /// Supply, V, at each tick.
+    /// Supply, V, at each tick, and whether it was logged.
     pub supply: Vec<f64>,
+    /// See `supply`.
+    pub supply_logged: bool,
+    /// When the run's first stretch begins, s.
+    pub begins_s: f64,
     /// Body twist by smoothed wheel speeds and nominal geometry, at each tick.
     pub twist: Vec<Twist>,
     /// Heading (world, or from the start of the segment without a camera) at each tick, rad.
@@ -111,6 +115,8 @@ pub(crate) struct Place<'a> {
     pub(crate) run: usize,
     /// Its ticks, counted from the first one of the segment.
     pub(crate) own: std::ops::Range<usize>,
+    /// When its run begins, s.
+    pub(crate) begins_s: f64,
     /// First and last time of the stretch without gaps, s.
     pub(crate) stretch: [f64; 2],
     /// Whether it is cut from the stretch at its start and its end.
@@ -191,6 +197,8 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     let mut s = Segment {
         run: place.run,
         stretch: place.stretch,
+        begins_s: place.begins_s,
+        supply_logged: part.supply_v.is_some(),
         span: [
             if place.cut[0] { t[place.own.start] } else { f64::NEG_INFINITY },
             if place.cut[1] { t[place.own.end] } else { f64::INFINITY },

@@ -169,7 +169,23 @@ impl<'a> Workflow<'a> {
         let far = self.thresholds.far * least;
         let mut outcome = study(&problem, &whole, &self.start, selection, here, &self.thresholds, far);
         outcome.held_out /= least;
+        if study::rms(&problem, &self.start) < self.thresholds.far_left * least {
+            return outcome;
+        }
+        if let Some(again) = self.without_refused(&outcome, here) {
+            (*link, outcome) = again;
+        }
         outcome
+    }
+
+    /// What else is found where all that was fitted may not be named, and stood in the way of the rest; `None` where nothing is.
+    fn without_refused(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
+        let is_refused = |e: &Arc<dyn Effect>| outcome.refused.iter().any(|refused| refused.name == e.name());
+        let others: Vec<_> = here.iter().filter(|e| !is_refused(e)).cloned().collect();
+        if !outcome.named.is_empty() || others.len() == here.len() {
+            return None;
+        }
+        self.drive_again(&others).filter(|(_, again)| !again.named.is_empty())
     }
 
     /// The drive of some data, beside what its loops answered if they do.

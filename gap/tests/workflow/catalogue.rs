@@ -84,6 +84,8 @@ const CASES: &[Case] = &[
     case("torque-constant", &[("scale", -0.15)], ("scale", 0.25), &HARD, &[]),
     case("torque-constant", &[("scale_2", -0.25)], ("scale_2", 0.25), &HARD, &[]),
     case("battery-sag", &[("resistance_ohm", 0.25)], ("resistance_ohm", 0.4), &HARD, &[]),
+    case("supply-voltage", &[("scale", -0.12)], ("scale", 0.25), &HARD, &["torque-constant", "winding-resistance"]),
+    case("supply-voltage", &[("fall_v_per_s", 0.45)], ("fall_v_per_s", 0.4), &HARD, &[]),
     case("current-limit", &[("limit_a", 0.7)], ("limit_a", 0.1), &HARD, &[]),
     case("motor-heating", &[("rise", 1.5), ("time_s", 8.0)], ("rise", 0.4), &HARD, &[]),
     case("motor-heating", &[("start_k", 60.0)], ("start_k", 0.3), &HARD, &["torque-constant", "winding-resistance"]),
@@ -145,6 +147,9 @@ fn every_effect_simulated_in_is_found() {
             let truth = with(&nominal, case.name, case.parameters);
             let mut set = simulate(&truth, case.drives, 40 + k as u64);
             cut_all(&mut set, if lifted { 7.0 } else { 5.0 });
+            if case.name == "supply-voltage" {
+                set.runs.iter_mut().for_each(|run| run.supply_v = None);
+            }
             let a = analyse(&set, &Options::default()).unwrap();
             fault(case, &a).map(|f| format!("{}: {f}", case.name))
         })

@@ -60,7 +60,7 @@ fn resistance_is_named_and_no_mass_with_inertia() {
 }
 
 /// Frictions, and what takes torque away as friction does: near-twins of the truth below.
-const TAKE_TORQUE: [&str; 16] = [
+const TAKE_TORQUE: [&str; 17] = [
     "coulomb-friction",
     "viscous-friction",
     "stribeck-friction",
@@ -72,6 +72,7 @@ const TAKE_TORQUE: [&str; 16] = [
     "bridge-drop",
     "drive-curve",
     "battery-sag",
+    "supply-voltage",
     "current-limit",
     "motor-heating",
     "torque-constant",

@@ -101,7 +101,7 @@ impl DriveModel {
                 tick: 0,
                 time_s: 0.0,
                 duty: &still,
-                supply: s.supply[0],
+                supply: self.supply_at(s, 0),
                 speed: &still,
                 sign: &vec![sense; n],
                 winding: &still,
@@ -121,7 +121,7 @@ impl DriveModel {
         let (forwards, backwards) = (turning(1.0), turning(-1.0));
         let loads = forwards.iter().zip(&backwards).map(|(a, b)| 0.5 * (b - a).max(0.0));
         let constants = self.constants();
-        let idle = (0..n).map(|i| constants[i].gain * (s.supply[0] * self.idle_duty(i) + self.bridge_drop_v));
+        let idle = (0..n).map(|i| constants[i].gain * (self.supply_at(s, 0) * self.idle_duty(i) + self.bridge_drop_v));
         let friction = loads.zip(&self.axes).map(|(load, axis)| load + self.gear_ratio * axis.friction);
         friction.zip(idle).map(|(friction, idle)| friction + idle).collect()
     }

@@ -34,7 +34,7 @@ fn followed(link: &DriveLink, model: &DriveModel) -> Option<Vec<Vec<f64>>> {
     let g = model.gear_ratio;
     Some(link.means(model.axes.len(), |s, k, out| {
         for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
-            let asked = a.asks_a(s.duty[i][k] * s.supply[k], g, s.speed[i][k]);
+            let asked = a.asks_a(s.duty[i][k] * model.supply_at(s, k), g, s.speed[i][k]);
             let dropped = model.bridge_drop_v / a.resistance;
             *slot = f64::from(u8::from(asked.abs() >= dropped && asked.abs() - dropped < model.current_limit_a));
         }

@@ -121,6 +121,10 @@ pub struct DriveModel {
     pub current_limit_a: f64,
     /// Voltage that each bridge takes off against its current, V.
     pub bridge_drop_v: f64,
+    /// Supply where none is logged, relative to the file's, and by how much it falls, V/s.
+    pub supply_scale: f64,
+    /// See `supply_scale`.
+    pub supply_fall_v_per_s: f64,
     /// What the bridge makes of a duty.
     pub duty_maps: Vec<DutyMap>,
     /// What the load makes of the supply.
@@ -188,6 +192,8 @@ impl DriveModel {
             reading_filter_s: 0.0,
             current_limit_a: f64::INFINITY,
             bridge_drop_v: 0.0,
+            supply_scale: 1.0,
+            supply_fall_v_per_s: 0.0,
             duty_maps: Vec::new(),
             supply_maps: Vec::new(),
             loads: Vec::new(),
@@ -243,7 +249,14 @@ impl DriveModel {
         const DIGITS: f64 = 1e12;
         let axis =
             |a: &AxisModel| [a.resistance, a.torque_constant, a.back_emf, a.friction, a.gear_loss].map(f64::to_bits);
-        let electrical = [self.duty_delay_s, self.reading_filter_s, self.current_limit_a, self.bridge_drop_v];
+        let electrical = [
+            self.duty_delay_s,
+            self.reading_filter_s,
+            self.current_limit_a,
+            self.bridge_drop_v,
+            self.supply_scale,
+            self.supply_fall_v_per_s,
+        ];
         let mut hasher = DefaultHasher::new();
         self.axes.iter().map(axis).for_each(|axis| axis.hash(&mut hasher));
         electrical.map(f64::to_bits).hash(&mut hasher);

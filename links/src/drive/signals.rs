@@ -78,7 +78,7 @@ impl<'a> Signals<'a> {
     pub(super) fn of(model: &DriveModel, s: &'a Segment, axes: &[Axis], all: bool, twist: bool) -> Self {
         let n = model.wheels.len();
         let rows = s.rows();
-        let mut out = Self { supply: Cow::Borrowed(&s.supply[..s.t.len() - 1]), ..Self::default() };
+        let mut out = Self { supply: model.supplies(s), ..Self::default() };
         out.duty = (0..n).map(|i| model.acting_duty(s, i, &axes[i])).collect();
         out.sign = rows.sign.iter().map(|sign| Cow::Borrowed(sign.as_slice())).collect();
         if all || twist {
@@ -176,6 +176,24 @@ impl DriveModel {
         self.axes.iter().map(of).collect()
     }
 
+    /// Supply at a tick, V: as logged, or what the model has in its place.
+    pub(super) fn supply_at(&self, s: &Segment, tick: usize) -> f64 {
+        if s.supply_logged {
+            return s.supply[tick];
+        }
+        let fallen = self.supply_fall_v_per_s * (s.t[tick] - s.begins_s);
+        (self.supply_scale * s.supply[tick] - fallen).max(0.0)
+    }
+
+    /// The same at every tick of a segment but the last.
+    fn supplies<'a>(&self, s: &'a Segment) -> Cow<'a, [f64]> {
+        let ticks = s.t.len() - 1;
+        if s.supply_logged || (self.supply_scale == 1.0 && self.supply_fall_v_per_s == 0.0) {
+            return Cow::Borrowed(&s.supply[..ticks]);
+        }
+        (0..ticks).map(|k| self.supply_at(s, k)).collect()
+    }
+
     /// Duty of a wheel that acts at the ticks of a segment.
     fn acting_duty<'a>(&self, s: &'a Segment, wheel: usize, axis: &Axis) -> Cow<'a, [f64]> {
         let logged = &s.duty[wheel];
@@ -191,7 +209,7 @@ impl DriveModel {
         }
         // Of wheels that are read through a low-pass all is late as they are: what drives them, too.
         if self.reading_filter_s > 0.0 && ticks > 0 {
-            let mut passed = LowPass { at: axis.holds(s.speed[wheel][0], s.sign[wheel][0], s.supply[0]) };
+            let mut passed = LowPass { at: axis.holds(s.speed[wheel][0], s.sign[wheel][0], self.supply_at(s, 0)) };
             for (k, u) in duty.to_mut().iter_mut().enumerate() {
                 *u = passed.over_row(*u, dt(k) / self.reading_filter_s);
             }

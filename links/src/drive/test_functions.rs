@@ -139,7 +139,7 @@ impl<'a> DriveLink<'a> {
         let g = model.gear_ratio;
         let torques = self.means(self.noise.len(), |s, k, out| {
             for (i, (slot, a)) in out.iter_mut().zip(&model.axes).enumerate() {
-                let volts = s.duty[i][k] * s.supply[k] - a.back_emf * g * s.speed[i][k];
+                let volts = s.duty[i][k] * model.supply_at(s, k) - a.back_emf * g * s.speed[i][k];
                 *slot = g * a.torque_constant * volts / a.resistance;
             }
         });

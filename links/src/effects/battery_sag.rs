@@ -14,7 +14,7 @@ impl Effect for BatterySag {
     }
 
     fn equation(&self) -> &str {
-        "supply V - drop_v - resistance_ohm times the sum of the motors' currents"
+        "supply V - drop_v - resistance_ohm times what the motors draw, the sum of duty times current"
     }
 
     fn reference(&self) -> &str {

@@ -50,6 +50,7 @@ mod rotor_inertia;
 mod sideways_creep;
 mod speed_filter;
 mod stribeck_friction;
+mod supply_voltage;
 mod torque_constant;
 mod turning_resistance;
 mod viscous_friction;
@@ -124,6 +125,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(torque_constant::TorqueConstant),
         Box::new(winding_resistance::WindingResistance),
         Box::new(battery_sag::BatterySag),
+        Box::new(supply_voltage::SupplyVoltage),
         Box::new(motor_heating::MotorHeating),
         Box::new(current_limit::CurrentLimit),
         Box::new(robot_mass::RobotMass),
@@ -181,7 +183,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 44] = [
+    const NAMES: [(&str, &[&str]); 45] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -220,6 +222,7 @@ mod tests {
         ("bridge-drop", &["drop_v"]),
         ("gear-backlash", &["play_rad", "play_#_rad"]),
         ("battery-sag", &["resistance_ohm", "drop_v"]),
+        ("supply-voltage", &["scale", "fall_v_per_s"]),
         ("current-limit", &["limit_a"]),
         ("floor-tilt", &["x_rad", "y_rad"]),
         ("body-drag", &["force_n"]),

@@ -21,6 +21,11 @@ fn on_robot(effect: &Effect, applied: &mut Applied) -> bool {
     let value = |name: &str| effect.value(name).unwrap_or(0.0);
     let scale = 1.0 + value("scale");
     match effect.name.as_str() {
+        "supply-voltage" => {
+            robot.supply_v *= scale;
+            // What falls under way is the bridge's.
+            return value("fall_v_per_s") == 0.0;
+        }
         "torque-constant" => {
             let back_emf = robot.motor.back_emf() * scale;
             robot.motor.torque_constant *= scale;
@@ -94,6 +99,7 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
         "bridge-drop" => d.bridge_drop_v = value("drop_v"),
         "actuation-latency" => d.duty_delay_s = value("latency_s"),
         "battery-sag" => d.battery = [value("drop_v"), value("resistance_ohm")],
+        "supply-voltage" => d.supply_fall_v_per_s = value("fall_v_per_s"),
         "motor-heating" => d.heating = [value("rise"), effect.value("time_s").unwrap_or(30.0)],
         "speed-filter" => d.encoder_filter_s = value("time_s"),
         "encoder-lag" => d.encoder_delay_s = value("latency_s"),

@@ -35,7 +35,8 @@ impl Plant {
                 }
             }
             let [drop, ohm] = d.battery;
-            supply -= drop;
+            self.fallen_v += d.supply_fall_v_per_s * dt;
+            supply = (supply - drop - self.fallen_v).max(0.0);
             if ohm != 0.0 {
                 // The bridges draw Σ u·i with i = (u·V − e)/R; V = supply − ohm·Σ u·i is linear in V.
                 let (mut slope, mut idle) = (0.0, 0.0);

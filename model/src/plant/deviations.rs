@@ -41,6 +41,8 @@ pub struct Deviations {
     pub duty_delay_s: f64,
     /// Supply: what it lacks at no load (V), and its resistance (Ω).
     pub battery: [f64; 2],
+    /// By how much the supply falls, V/s.
+    pub supply_fall_v_per_s: f64,
     /// Winding resistance: relative rise at full duty for long, and time constant (s).
     pub heating: [f64; 2],
     /// Ripples of the wheel radius in one turn of the wheel.
@@ -142,6 +144,7 @@ impl Deviations {
             bridge_drop_v: self.bridge_drop_v,
             duty_delay_s: self.duty_delay_s,
             battery: self.battery,
+            supply_fall_v_per_s: self.supply_fall_v_per_s,
             heating: self.heating,
             loss_threshold: self.loss_threshold,
             encoder_delay_s: self.encoder_delay_s,

@@ -73,6 +73,8 @@ pub struct Plant {
     /// No force of the deviations changes within a tick.
     steady: bool,
     delayed: bridge::Delayed,
+    /// By how much the supply has fallen since the start, V.
+    fallen_v: f64,
     encoders: Vec<encoder::Encoder>,
     /// Force on the body beside that of the wheels: N, N, Nm.
     push: Vector3<f64>,
@@ -144,6 +146,7 @@ impl Plant {
             deviations: None,
             steady: true,
             delayed: bridge::Delayed::new(),
+            fallen_v: 0.0,
             encoders: vec![encoder::Encoder::default(); n],
             push: Vector3::zeros(),
             twist: Twist::default(),

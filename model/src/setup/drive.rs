@@ -167,12 +167,13 @@ fn positions(signals: &[Signals]) -> Option<Mistake> {
     Some(Mistake::new("reference-position", "ref_1", what.to_owned(), remedy.to_owned()))
 }
 
-/// Duty of each axis from which its firmware holds it back; none where the logs have none, or where they speak of other
-/// motors than the file, so that the speeds may be wrong.
+/// Duty of each axis from which its firmware holds it back; all there is where they do not speak of the motors of the file, so
+/// that the speeds may be wrong.
 fn limits(robot: &Robot, signals: &[Signals]) -> Vec<f64> {
     let axes = signals.iter().map(|s| s.duty.len()).min().unwrap_or(0);
     let largest = |i: usize| signals.iter().flat_map(|s| &s.duty[i]).fold(0.0, |most: f64, duty| most.max(duty.abs()));
-    if are_its_motors(robot, signals) { (0..axes).map(|i| HELD * largest(i)).collect() } else { Vec::new() }
+    let own = are_its_motors(robot, signals);
+    (0..axes).map(|i| if own { HELD * largest(i) } else { supply::WITHIN }).collect()
 }
 
 /// Whether duties and speeds speak of the motors of the file.

@@ -19,7 +19,7 @@ const SUPPLY: f64 = 1.75;
 const BY_DUTIES: [f64; 2] = [0.45, 2.2];
 
 /// Largest duty that no limit holds.
-const WITHIN: f64 = 0.97;
+pub(super) const WITHIN: f64 = 0.97;
 /// Of what stands in a row of the regression, how much is the axis's own: duty, speed, direction.
 const OWN: usize = 3;
 /// Share of the squares from which a combination of accelerations is none: three ways to move make those of four wheels.

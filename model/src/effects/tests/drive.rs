@@ -182,6 +182,25 @@ fn the_battery_gives_way_under_the_sum_of_the_currents() {
 }
 
 #[test]
+fn a_battery_empties_under_way() {
+    let supplied = |scale: f64, fall: f64, s: f64| {
+        let mut applied = applied("supply-voltage", &[("scale", scale), ("fall_v_per_s", fall)]);
+        applied.robot.support = Support::Blocks;
+        applied.robot.motor.friction_torque = 0.0;
+        let axis = Axis::of(&applied.robot);
+        let (mut plant, dt) = (applied.plant().unwrap(), applied.robot.tick_s());
+        for _ in 0..(s / dt).round() as usize {
+            plant.step(&[0.5; 3], applied.robot.supply_v, dt);
+        }
+        speed(&plant, 0) * axis.damping / (0.5 * axis.torque_per_volt)
+    };
+    close(supplied(-0.1, 0.0, 3.0), 0.9 * 7.2, 1e-3);
+    close(supplied(0.0, 0.4, 3.0), 7.2 - 0.4 * 3.0, 0.05);
+    // Beyond empty nothing drives it backwards.
+    close(supplied(0.0, 4.0, 5.0), 0.0, 0.05);
+}
+
+#[test]
 fn warm_windings_resist() {
     let mut applied = applied("motor-heating", &[("rise", 0.5), ("time_s", 0.2)]);
     applied.robot.support = Support::Blocks;
