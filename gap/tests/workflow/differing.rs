@@ -52,7 +52,7 @@ fn another_battery_or_load_in_one_session_is_told_as_such() {
     let robot = Robot::racbot();
     let empty = Robot { supply_v: 0.85 * robot.supply_v, ..robot.clone() };
     let laden = with(&robot, "robot-mass", &[("scale", 0.35)]);
-    for (seed, later, name) in [(84, empty, "torque-constant"), (86, laden, "robot-mass")] {
+    for (seed, later, name) in [(84, empty, "supply-voltage (scale)"), (86, laden, "robot-mass")] {
         let a = of(&sessions(&robot, &later, [StopAndGo, FullDuty, Chirp], seed));
         let told = said(&a);
         assert!(told.len() == 1 && told[0].contains(name), "{}", a.terminal_summary());
