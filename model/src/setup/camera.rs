@@ -49,7 +49,7 @@ const ARM: f64 = 2.0;
 /// Acceleration of a rim that no floor passes on to a robot, m/s²: a coefficient of friction of 1.
 const GRAVITY: f64 = 9.81;
 /// Moments at which rims must gain more than that. A count that was lost makes one, of up to 25 m/s² in the example set; on
-/// the full-duty manoeuvre of the library, at whose starts wheels slip, the third has 10.3 of 11.4 m/s².
+/// the full-duty manoeuvre of the library, whose starts no floor would hold, the third has 10.3 of 11.4 m/s².
 const STARTS: usize = 3;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;

@@ -17,6 +17,10 @@ pub(super) const MOST_TICKS: usize = 200_000;
 const MOST: usize = 1500;
 /// Usual length of a stretch, s: long against the camera's noise, short against a turn. A log of few frames has longer ones.
 pub(super) const STRETCH_S: f64 = 0.15;
+/// Turn in a stretch at most, rad: from half a turn on a heading does not say which way it was.
+const TURN: f64 = 0.8 * std::f64::consts::PI;
+/// Share of the stretches in which the robot may turn further.
+const FASTER_YET: f64 = 0.01;
 /// Lags at which camera and wheels are compared, s: clocks set by hand differ by a fifth of a second.
 const LAGS_S: (f64, f64) = (0.3, 0.02);
 
@@ -82,6 +86,19 @@ impl Wheels {
         self.angle.iter().map(most).collect()
     }
 
+    /// How far the robot turned at most in so many seconds but for a hundredth of them, rad by robot.toml; 0 where its wheels
+    /// drive no robot.
+    fn turns_in(&self, robot: &Robot, every_s: f64) -> f64 {
+        let Ok(geometry) = robot.geometry() else { return 0.0 };
+        let [Some(first), Some(last)] = [self.t.first(), self.t.last()] else { return 0.0 };
+        let steps = ((last - first) / every_s).floor().min(MOST_TICKS as f64) as usize;
+        let at = |k: usize| first + k as f64 * every_s;
+        let turned = (0..steps).filter_map(|k| self.turned(at(k), at(k + 1)));
+        let mut turns: Vec<f64> = turned.map(|turned| geometry.twist(&turned).omega.abs()).collect();
+        turns.sort_by(f64::total_cmp);
+        turns.get((turns.len() as f64 * (1.0 - FASTER_YET)) as usize).copied().unwrap_or(0.0)
+    }
+
     /// How far each wheel turned in a stretch of time.
     pub(super) fn turned(&self, from: f64, to: f64) -> Option<Vec<f64>> {
         self.covers(from, to).then(|| self.at(to).iter().zip(self.at(from)).map(|(b, a)| b - a).collect())
@@ -100,10 +117,11 @@ pub(super) struct Sample {
     pub(super) acceleration: f64,
 }
 
-/// Stretches of a log, so many seconds long, between camera frames, at the lag of the camera at which the wheels tell its speed best.
+/// Stretches of a log, so many seconds long, or as long as the robot takes for less than half a turn, between camera frames, at the lag of the camera at which the wheels tell its speed best.
 pub(super) fn of_camera(robot: &Robot, log: &Log, stretch_s: f64) -> Vec<Sample> {
     let Some(wheels) = Wheels::of(robot, log) else { return Vec::new() };
     let frames = log.camera();
+    let stretch_s = stretch_s * (TURN / wheels.turns_in(robot, stretch_s).max(TURN));
     let mut pairs = Vec::new();
     let mut j = 0;
     for i in 0..frames.len() {
