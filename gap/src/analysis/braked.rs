@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::ratios::{DEAD_BAND, FRICTIONS};
 use super::study::Outcome;
 use super::workflow::Workflow;
+use crate::state::State;
 use links::drive::DriveLink;
 use links::effect::Effect;
 use links::pieces::Pieces;
@@ -25,7 +26,7 @@ impl<'a> Workflow<'a> {
         let bridge = BRIDGES.into_iter().find(|name| named(outcome, name)).filter(|_| !named(outcome, FRICTION))?;
         let [most, surely] = self.thresholds.braked;
         let share = if bridge == BRIDGE_DROP {
-            braked_by_motor(link, &self.question.robot, surely)
+            braked_by_motor(link, &self.start, surely)
         } else {
             braked(self.searched().pieces, surely)
         };
@@ -92,20 +93,54 @@ fn braked(pieces: &Pieces, surely: f64) -> f64 {
 
 /// Share of the test functions in which a wheel surely turned whose motor worked against that: it brakes as soon as the wheel
 /// turns faster than the duty would have it, which single rows of a coarse encoder do not tell.
-fn braked_by_motor(link: &DriveLink, robot: &Robot, surely: f64) -> f64 {
+fn braked_by_motor(link: &DriveLink, start: &State, surely: f64) -> f64 {
     let n = link.noise.len();
-    let per_volt = robot.no_load_wheel_speed(robot.supply_v) / robot.supply_v;
     let turning = link.at_middles(|s, _| s.turning);
     let means = link.means(2 * n, |s, k, out| {
         for (i, slot) in out.chunks_exact_mut(2).enumerate() {
-            slot.copy_from_slice(&[s.speed[i][k], per_volt * s.duty[i][k] * s.supply[k]]);
+            slot.copy_from_slice(&[s.speed[i][k], s.duty[i][k] * s.supply[k]]);
         }
     });
+    let done = link.done(&start.drive(None));
     let mut turned = Turned::default();
-    for wheel in means.chunks_exact(2) {
-        let instants = wheel[0].iter().zip(&wheel[1]).zip(&turning);
-        let surely = instants.filter(|((speed, _), turning)| speed.abs() > surely * **turning);
-        surely.for_each(|((speed, driven), _)| turned.count(speed.abs() > driven * speed.signum()));
+    for (i, wheel) in means.chunks_exact(2).enumerate() {
+        let instants = wheel[0].iter().zip(&wheel[1]).zip(&turning).zip(&done);
+        let surely = instants.filter(|(((speed, _), turning), _)| speed.abs() > surely * **turning);
+        // Along the motion: speed, volts, and what its acceleration takes.
+        let along: Vec<[f64; 3]> = surely
+            .map(|(((speed, volts), _), done)| [speed.abs(), volts * speed.signum(), done[i] * speed.signum()])
+            .collect();
+        let per_volt = speed_per_volt(&along, &start.robot);
+        along.iter().for_each(|[speed, volts, _]| turned.count(*speed > per_volt * volts));
     }
     turned.share()
+}
+
+/// Speed per volt at no load: the file's, or that of a motor which turned faster while it was driven hard and did not slow
+/// down, rad/s per V.
+fn speed_per_volt(along: &[[f64; 3]], robot: &Robot) -> f64 {
+    let of_file = robot.no_load_wheel_speed(robot.supply_v) / robot.supply_v;
+    let most = along.iter().map(|[_, volts, _]| *volts).fold(0.0, f64::max);
+    let hard = along.iter().filter(|[_, volts, done]| *volts > DRIVEN_HARD * most && *done >= 0.0);
+    hard.map(|[speed, volts, _]| speed / volts).fold(of_file, f64::max)
+}
+
+/// Share of the largest voltage from which a motor is driven hard: near none any speed is one of no load.
+const DRIVEN_HARD: f64 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motor_that_is_faster_than_its_file_brakes_no_more_for_it() {
+        let robot = Robot::racbot();
+        let of_file = robot.no_load_wheel_speed(1.0);
+        // Up to speed at a third more than the file's, hardly driven and coasting at any.
+        let of_motor = 1.3 * of_file;
+        let mut along: Vec<[f64; 3]> = (1..=6).map(|v| [of_motor * f64::from(v), f64::from(v), 0.0]).collect();
+        along.extend([[9.0 * of_file, 0.5, 0.0], [9.0 * of_file, 5.0, -1e-3]]);
+        assert!((speed_per_volt(&along, &robot) / of_motor - 1.0).abs() < 1e-12);
+        assert_eq!(speed_per_volt(&[[0.5 * of_file, 1.0, 1e-3]], &robot), of_file);
+    }
 }

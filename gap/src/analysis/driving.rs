@@ -133,6 +133,12 @@ impl<'a> Workflow<'a> {
             outcome.sets.push(tie);
             outcome.ambiguous = true;
         }
+        if let Some((said, tie)) = ratios::of_warmth(&outcome.named) {
+            self.findings.remarks.push(said);
+            if !outcome.sets.contains(&tie) {
+                outcome.sets.push(tie);
+            }
+        }
         self.findings.remarks.extend(logged_late(&outcome, self.question.robot.control_rate_hz));
         let from = self.start.active.len();
         self.patterns(&link, &mut outcome);

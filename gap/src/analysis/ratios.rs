@@ -1,6 +1,7 @@
 //! Behind measured currents only ratios show: the torque constant, all inertia and all friction times one factor change
 //! nothing.
 
+use model::motor::{COPPER_PER_K, MAGNET_PER_K};
 use runs::is_from_speeds;
 use runs::robot::{Robot, Support};
 
@@ -15,6 +16,7 @@ use links::pieces::Pieces;
 /// The one that all others are told relative to.
 pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
 const WINDING: &str = "winding-resistance";
+const HEATING: &str = "motor-heating";
 const ROTOR_INERTIA: &str = "rotor-inertia";
 /// Frictions that the factor may change without a name, as long as what a file has of them is small.
 pub(super) const FRICTIONS: [&str; 2] = ["coulomb-friction", "viscous-friction"];
@@ -132,6 +134,19 @@ pub(super) fn of_a_caster(named: &[Named], robot: &Robot) -> Option<String> {
             FRICTIONS[0]
         )
     })
+}
+
+/// What a motor that is warm all the time may be as well, in a sentence, and the names: warmth is so much more resistance with so
+/// much less of the constants, and another motor has both.
+pub(super) fn of_warmth(named: &[Named]) -> Option<(String, Vec<String>)> {
+    let warm = named.iter().find(|n| n.name == HEATING)?;
+    let kelvin = warm.parameters.iter().find(|(p, ..)| p == "start_k")?.1;
+    let [resistance, constant] = [COPPER_PER_K, MAGNET_PER_K].map(|per_k| 100.0 * per_k * kelvin);
+    let said = format!(
+        "A motor {kelvin:.0} K warmer than its data sheet from the start is one of {resistance:.0} % more resistance and a constant \
+         {constant:.0} % smaller: measure the resistance of the winding cold."
+    );
+    Some((said, [HEATING, WINDING, TORQUE_CONSTANT].map(str::to_owned).to_vec()))
 }
 
 /// Counts of a turn in those of the file, where a decoder misses edges: one of two, or three of four.
@@ -259,6 +274,12 @@ mod tests {
         assert!(of_a_load(&named(WINDING, "scale_1", 0.25, &[1]), &two).is_none());
         let lifted = Robot { support: Support::Blocks, ..two.clone() };
         assert!(of_a_load(&named(WINDING, "scale", 0.25, &[]), &lifted).is_none());
+
+        let (said, tie) = of_warmth(&named(HEATING, "start_k", 100.0, &[])).unwrap();
+        assert!(
+            said.contains(" 39 % more") && said.contains(" 11 % smaller") && tie[1..] == [WINDING, TORQUE_CONSTANT]
+        );
+        assert!(of_warmth(&named(HEATING, "rise", 1.0, &[])).is_none());
 
         let dry = named(FRICTIONS[0], "torque_nm", 0.1, &[]);
         assert!(of_a_caster(&dry, &two).unwrap().contains("4.00 N"));
