@@ -33,6 +33,10 @@ fn an_encoder_that_stands_still_is_told() {
     }
     let said = told(&set);
     assert!(said.iter().any(|s| s.starts_with("enc_2: it stands still: set points ask for ")), "{said:?}");
+    let mut dead = set.clone();
+    dead.runs.iter_mut().for_each(|run| run.counts[1].fill(0));
+    let not_one = told(&dead);
+    assert!(not_one.iter().any(|s| s.contains("enc_2: it stands still") && s.contains("it counts 0")), "{not_one:?}");
     assert!(!said.iter().any(|s| s.starts_with("enc_1: it stands") || s.starts_with("enc_3: it stands")), "{said:?}");
 }
 

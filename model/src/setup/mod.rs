@@ -185,6 +185,9 @@ fn of_counts(robot: &Robot, ratio: f64) -> Vec<(f64, Mistake)> {
 
 /// Four digits.
 pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
     let digits = (3 - x.abs().log10().floor() as i32).max(0) as usize;
     let text = format!("{x:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
