@@ -1,6 +1,8 @@
 //! The PI speed loop of every axis, in floating point.
 
-use runs::robot::Robot;
+use runs::robot::{Robot, Support};
+
+use crate::motor::Axis;
 
 /// The law, as `robot.toml` states it: e = ref − w (rad/s at the wheel); t = I + ki·e/rate;
 /// I stays if |kp·e + t| > 1 and e·(kp·e + t) > 0, else I = t; duty = clip(kp·e + I, −1, 1).
@@ -16,6 +18,30 @@ pub struct PiLaw {
     pub duty_quantum: f64,
     /// Limit of an integrator that is not held in saturation; `None` for the law as stated.
     pub integral_limit: Option<f64>,
+}
+
+/// Times as fast as by itself that a proposed loop brings a wheel to its speed: 42 of the paper's robot.
+const FASTER: f64 = 20.0;
+/// Share of what is left of an error that it takes off in a tick at most: a loop rings from 1 on, and bare wheels are light.
+const PER_TICK: f64 = 0.3;
+
+/// Gains kp (duty per rad/s at the wheel) and ki (duty per rad) that suit the motors, the mass and the ticks of a robot whose
+/// file has none: the zero of the loop is the pole of the wheel with its share of the robot. `None` where the file lacks what
+/// they come from.
+pub fn proposed_gains(robot: &Robot) -> Option<[f64; 2]> {
+    if !runs::drive_lacks(robot).is_empty() || !robot.lacks(&["control_rate_hz"]).is_empty() {
+        return None;
+    }
+    let axis = Axis::of(robot);
+    let carried = match robot.support {
+        Support::Floor => robot.mass_kg * robot.wheel_radius_m.powi(2) / robot.wheel_count() as f64,
+        Support::Blocks => 0.0,
+    };
+    let own_s = (axis.inertia() + carried) / axis.damping;
+    let faster = FASTER.min(PER_TICK * own_s * robot.control_rate_hz);
+    let kp = faster / robot.no_load_wheel_speed(robot.supply_v);
+    let gains = [kp, kp / own_s];
+    gains.iter().all(|gain| gain.is_finite() && *gain > 0.0).then_some(gains)
 }
 
 impl PiLaw {
@@ -108,6 +134,39 @@ mod tests {
             }
         }
         assert!(compared > 70_000, "{compared}");
+    }
+
+    /// A small-size robot, one wheel of a mecanum robot at 50 Hz, and the paper's robot, on the floor and off it.
+    #[test]
+    fn proposed_gains_bring_wheels_to_their_speeds() {
+        let paper = Robot { gear_efficiency: 1.0, ..Robot::racbot() };
+        let mut heavy =
+            Robot { mass_kg: 15.0, wheel_radius_m: 0.076, gear_ratio: 27.0, supply_v: 12.0, ..paper.clone() };
+        heavy.control_rate_hz = 50.0;
+        heavy.motor.torque_constant = 0.018;
+        heavy.motor.resistance_ohm = 0.6;
+        for (robot, support) in [(&paper, Support::Floor), (&heavy, Support::Floor), (&paper, Support::Blocks)] {
+            let robot = Robot { support, ..robot.clone() };
+            let [kp, ki] = proposed_gains(&robot).unwrap();
+            let law = PiLaw { kp, ki, rate_hz: robot.control_rate_hz, duty_quantum: 0.0, integral_limit: None };
+            let axis = Axis::of(&robot);
+            let carried = robot.mass_kg * robot.wheel_radius_m.powi(2) / robot.wheel_count() as f64;
+            let own_s = (axis.inertia() + if support == Support::Floor { carried } else { 0.0 }) / axis.damping;
+            let (mut integral, mut speed) = (0.0, 0.0_f64);
+            let most = robot.no_load_wheel_speed(robot.supply_v);
+            let (asked, kept) = (0.4 * most, (-robot.tick_s() / own_s).exp());
+            let mut fastest = 0.0_f64;
+            for _ in 0..(10.0 * own_s * robot.control_rate_hz) as usize {
+                speed = kept * speed + (1.0 - kept) * most * law.step(&mut integral, asked, speed);
+                fastest = fastest.max(speed);
+            }
+            assert!(
+                (speed / asked - 1.0).abs() < 0.01 && fastest < 1.1 * asked,
+                "{support:?} {speed} {fastest} {asked}"
+            );
+        }
+        let unknown = Robot { missing: vec!["supply_v".to_owned()], ..paper };
+        assert_eq!(proposed_gains(&unknown), None);
     }
 
     #[test]

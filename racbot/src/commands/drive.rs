@@ -124,7 +124,7 @@ impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         // Every file first: nothing may move for one that is wrong.
         let set_points = SetPoint::read_file(&self.setpoints)?;
-        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        let robot = super::driven::robot(self.robot.as_deref())?;
         if !(self.limit_s > 0.0 && self.limit_s <= 3_600.0) {
             return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
         }

@@ -11,6 +11,7 @@ mod convert;
 #[cfg(feature = "simulation")]
 mod demo;
 mod drive;
+mod driven;
 #[cfg(feature = "simulation")]
 mod fpga_options;
 #[cfg(feature = "simulation")]

@@ -7,7 +7,6 @@ use driver::realtime::{Clock, MonotonicClock, stop_on_signals};
 use driver::{Scale, Settings};
 use runs::Run;
 use runs::frames::Twist;
-use runs::robot::Robot;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -83,7 +82,7 @@ impl Options {
         if !(1e6..=1e8).contains(&self.clock_hz) {
             return Err(Failure::usage(format!("--clock-hz: {} is not between 1e6 and 1e8", self.clock_hz)));
         }
-        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        let robot = super::driven::robot(self.robot.as_deref())?;
         let velocity = self.velocity(seconds)?;
         let about = |error: &dyn std::fmt::Display| match &self.robot {
             Some(file) => Failure::about(file, error),

@@ -265,7 +265,7 @@ impl Options {
 }
 
 fn load(which: Option<&Which>) -> Result<Robot, Failure> {
-    Ok(which.map_or_else(|| Ok(Robot::racbot()), |which| Robot::load(&which.file))?)
+    Ok(super::driven::robot(which.map(|which| which.file.as_path()))?)
 }
 
 fn heard(traffic: &Traffic) -> String {

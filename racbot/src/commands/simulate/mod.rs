@@ -4,7 +4,7 @@ mod manoeuvre;
 mod smart;
 
 use super::fpga_options::{FpgaChoice, SpeedChoice};
-use super::options::{Hidden, load_robot};
+use super::options::Hidden;
 use super::start::Start;
 use crate::terminal::progress::Progress;
 use crate::terminal::{Answer, Failure, Table, Target, wrapped};
@@ -157,7 +157,7 @@ impl Options {
             let smart = smart::Smart { seed: self.seed, fault: self.camera_fault, out: &out, target: self.target };
             return smart.drive();
         }
-        let believed = load_robot(self.robot.as_deref())?;
+        let believed = super::driven::robot(self.robot.as_deref())?;
         let actual = self.hidden.robot(&believed)?;
         let out = self.target.place(self.out.as_deref(), OUT);
         if let Some(manoeuvre::Name(manoeuvre)) = self.manoeuvre {
