@@ -11,6 +11,7 @@ use crate::GapError;
 use crate::evidence::Evidence;
 use crate::options::Stage;
 use crate::thresholds::Thresholds;
+use crate::units::short;
 use links::effect::Link;
 
 /// A robot with what was named, its file, and the figures of that file.
@@ -43,19 +44,22 @@ impl<'a> Workflow<'a> {
         }
         let (robot, text, measured) = loop {
             let (robot, text, measured) = self.measured()?;
-            let gone: Vec<String> = self
-                .findings
-                .named
-                .iter()
-                .filter(|n| is_idle(n, &measured.links, &self.thresholds) || measured.idle.contains(&n.name))
-                .map(|n| n.name.clone())
-                .collect();
+            let why = |n: &Named| {
+                if is_idle(n, &measured.links, &self.thresholds) || measured.idle.contains(&n.name) {
+                    Some("as written it does not lower the gap".to_owned())
+                } else {
+                    let p = by_chance(n, &measured.links, &self.thresholds)?;
+                    Some(format!("one of so many does as much by chance (p = {})", short(p)))
+                }
+            };
+            let gone: Vec<(String, String)> =
+                self.findings.named.iter().filter_map(|n| Some((n.name.clone(), why(n)?))).collect();
             if gone.is_empty() {
                 break (robot, text, measured);
             }
-            let idle =
-                gone.iter().map(|n| format!("Fitted, and not named: {n}; as written it does not lower the gap."));
-            self.findings.remarks.extend(idle);
+            let said = gone.iter().map(|(name, why)| format!("Fitted, and not named: {name}; {why}."));
+            self.findings.remarks.extend(said);
+            let gone: Vec<String> = gone.into_iter().map(|(name, _)| name).collect();
             self.findings.forget(&gone);
         };
         self.question.options.reached(Stage::Measured);
@@ -101,6 +105,13 @@ fn is_idle(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> bool {
         && shown.all(|l| l.after >= falls * l.before)
 }
 
+/// The p of an effect on a link that agrees without it, where one of as many that are tried has that by chance.
+fn by_chance(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> Option<f64> {
+    let Evidence::Test { p, .. } = n.evidence else { return None };
+    let agrees = links.iter().any(|l| l.link == n.link && l.before < 1.0);
+    (agrees && p > thresholds.surely).then_some(p)
+}
+
 /// What to say of logs whose times cannot be seconds.
 fn odd_clock(robot: &Robot, logs: &[Log], thresholds: &Thresholds) -> Option<String> {
     let periods = logs.iter().filter_map(|log| Some((&log.name, log.tick_s()? * robot.control_rate_hz)));
@@ -118,6 +129,20 @@ mod tests {
 
     fn gap(link: Link, before: f64, after: f64) -> LinkGap {
         LinkGap { link, before, after, floor: Vec::new(), rms: Vec::new(), units: Vec::new(), signals: 1 }
+    }
+
+    #[test]
+    fn where_a_link_agrees_evidence_is_strong() {
+        let drag = |p: f64| Named {
+            evidence: Evidence::Test { method: "signs of whole clusters flipped", p },
+            ..Named::bare("body-drag", Link::Drive, &[])
+        };
+        let chance = |p: f64, before: f64| {
+            let links = [gap(Link::Motion, 0.5, 0.5), gap(Link::Drive, before, 0.1)];
+            by_chance(&drag(p), &links, &Thresholds::default())
+        };
+        assert_eq!(chance(0.003, 0.4), Some(0.003));
+        assert!(chance(0.0002, 0.4).is_none() && chance(0.008, 16.0).is_none());
     }
 
     #[test]
