@@ -87,7 +87,7 @@ pub(super) fn bursts(
                 }
             }
             _ => {
-                events.push(Event { segment: at.0, first: at.1, last: at.1, torque: *torque, lacks_rows: *lacks_rows })
+                events.push(Event { segment: at.0, first: at.1, last: at.1, torque: *torque, lacks_rows: *lacks_rows });
             }
         }
     }
