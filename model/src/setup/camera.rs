@@ -235,17 +235,20 @@ fn best(robot: &Robot, geometry: &Geometry, moving: &[Sample]) -> Option<Fit> {
             }
         }
     }
-    if fits.iter().any(|f| f.turns && f.seen_to_turn && f.left_turn < TURNED) {
+    let turns_tell = fits.iter().any(|f| f.turns && f.seen_to_turn && f.left_turn < TURNED);
+    if turns_tell {
         for f in fits.iter_mut().filter(|f| !f.turns) {
             f.left = 0.5 * (f.left + f.left_turn);
         }
     }
-    let least = |of: fn(&Fit) -> f64| fits.iter().map(of).fold(f64::INFINITY, f64::min);
-    let (best, best_way) = (least(|f| f.left), least(|f| f.left_way));
+    // Turns that follow no reading are noise, which says nothing against one by which the robot turned.
+    let told = |f: &Fit| if turns_tell || !f.goes { f.left } else { f.left.min(f.left_way) };
+    let least = |of: &dyn Fn(&Fit) -> f64| fits.iter().map(of).fold(f64::INFINITY, f64::min);
+    let (best, best_way) = (least(&told), least(&|f| f.left_way));
     // Noisy turns do not excuse a way that another reading leaves nothing of.
     let as_good = |left: f64, best: f64| left <= EQUAL.0 * best + EQUAL.1;
-    let equal = |f: &Fit| as_good(f.left, best) && as_good(f.left_way, best_way);
-    fits.into_iter().filter(equal).min_by(|a, b| (a.wrong + a.left).total_cmp(&(b.wrong + b.left)))
+    let equal = |f: &Fit| as_good(told(f), best) && as_good(f.left_way, best_way);
+    fits.into_iter().filter(equal).min_by(|a, b| (a.wrong + told(a)).total_cmp(&(b.wrong + told(b))))
 }
 
 /// The acceleration of a rim that logs have several times, rad/s²: the least of the [`STARTS`] greatest that are farther apart
