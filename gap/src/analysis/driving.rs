@@ -184,14 +184,17 @@ impl<'a> Workflow<'a> {
         outcome
     }
 
-    /// What else is found where all that was fitted may not be named, and stood in the way of the rest; `None` where nothing is.
+    /// What else is found where all that was fitted may not be named, and stood in the way of the rest: it leaves nothing worth a
+    /// sentence. `None` where nothing is; what was refused may be the cause, and something near it no name.
     fn without_refused(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
         let is_refused = |e: &Arc<dyn Effect>| outcome.refused.iter().any(|refused| refused.name == e.name());
         let others: Vec<_> = here.iter().filter(|e| !is_refused(e)).cloned().collect();
         if !outcome.named.is_empty() || others.len() == here.len() {
             return None;
         }
-        self.drive_again(&others).filter(|(_, again)| !again.named.is_empty())
+        let again = self.drive_again(&others)?;
+        let explains = !again.1.named.is_empty() && again.1.held_out < self.thresholds.worth_saying;
+        explains.then_some(again)
     }
 
     /// The drive of some data, beside what its loops answered if they do.
