@@ -117,7 +117,8 @@ pub(super) struct Sample {
     pub(super) acceleration: f64,
 }
 
-/// Stretches of a log, so many seconds long, or as long as the robot takes for less than half a turn, between camera frames, at the lag of the camera at which the wheels tell its speed best.
+/// Stretches of a log between camera frames, so many seconds long, or as long as the robot takes for less than half a turn, at
+/// the lag of the camera at which the wheels tell its speed best.
 pub(super) fn of_camera(robot: &Robot, log: &Log, stretch_s: f64) -> Vec<Sample> {
     let Some(wheels) = Wheels::of(robot, log) else { return Vec::new() };
     let frames = log.camera();

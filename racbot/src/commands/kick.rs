@@ -7,7 +7,6 @@ use driver::drive::{Kick, Plan};
 use driver::pci::Use;
 use driver::realtime::stop_on_signals;
 use driver::{Board, Settings};
-use runs::robot::Robot;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -35,7 +34,7 @@ impl Options {
         if !(0.0..=16.0).contains(&self.charge_s) {
             return Err(Failure::usage(format!("--charge-s: {} is not between 0 and 16 seconds", self.charge_s)));
         }
-        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        let robot = super::driven::any_robot(self.robot.as_deref())?;
         let ReadyCard { name, registers, clock_hz, mut clock, .. } =
             self.card.ready(Use::Drive, &robot, self.card.pace())?;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));

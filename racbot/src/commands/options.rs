@@ -86,11 +86,6 @@ fn skewed(robot: &Robot, skew: &Degrees) -> Result<Robot, Failure> {
     Ok(skewed)
 }
 
-/// A robot's file, or the built-in robot.
-pub(crate) fn load_robot(file: Option<&Path>) -> Result<Robot, InputError> {
-    file.map_or_else(|| Ok(Robot::racbot()), Robot::load)
-}
-
 /// Refuses a robot's file with an effect, or a parameter of one, that nothing reads; `own` are the user's effects, `None`
 /// where any may be one.
 pub(crate) fn known_effects(file: &Path, robot: &Robot, own: Option<&[Arc<dyn Effect>]>) -> Result<(), InputError> {

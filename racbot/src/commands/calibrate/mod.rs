@@ -7,7 +7,9 @@ mod result;
 
 use super::check::Despite;
 #[cfg(feature = "simulation")]
-use super::options::{Hidden, load_robot};
+use super::driven::any_robot;
+#[cfg(feature = "simulation")]
+use super::options::Hidden;
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::{Args, ValueEnum};
 use model::calibration::estimate_skew;
@@ -137,7 +139,7 @@ impl Options {
         if !self.hidden.is_given() {
             return Err(Failure::usage("say what the virtual robot really is: --skew-deg 4,-3,2 or --hidden FILE"));
         }
-        let nominal = load_robot(self.robot.as_deref())?;
+        let nominal = any_robot(self.robot.as_deref())?;
         let actual = self.hidden.robot(&nominal)?;
         paper::run(&nominal, &actual, self.seed)
     }

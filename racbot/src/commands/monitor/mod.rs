@@ -9,7 +9,6 @@ use clap::Args;
 use driver::pci::Use;
 use driver::realtime::stop_on_signals;
 use driver::{Board, Observation, Scale, fault_names};
-use runs::robot::Robot;
 use screen::Screen;
 use serde_json::{Value, json};
 use std::io::IsTerminal;
@@ -39,7 +38,7 @@ pub(crate) struct Options {
 
 impl Options {
     pub(crate) fn run(&self, json: bool) -> Result<Answer, Failure> {
-        let robot = self.robot.as_ref().map_or_else(|| Ok(Robot::racbot()), Robot::load)?;
+        let robot = super::driven::any_robot(self.robot.as_deref())?;
         let ReadyCard { name, registers, clock_hz, .. } = self.card.ready(Use::Look, &robot, Pace::Real)?;
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = Scale::new(&robot, clock_hz).map_err(|error| about(&error))?;
