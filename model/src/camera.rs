@@ -16,6 +16,10 @@ pub struct CameraModel {
     pub rate_hz: f64,
     /// From exposure to delivery, s.
     pub latency_s: f64,
+    /// Time constant of a low-pass of first order on what is seen, s; the noise is that after it.
+    pub filter_s: f64,
+    /// Whether that low-pass steps once a frame, as a program's does.
+    pub filters_frames: bool,
     /// Standard deviations of x, y (m) and heading (rad).
     pub noise: [f64; 3],
     /// Share of frames that never arrive.
@@ -38,6 +42,8 @@ impl CameraModel {
         Self {
             rate_hz: robot.camera_rate_hz,
             latency_s: robot.camera_latency_s,
+            filter_s: 0.0,
+            filters_frames: false,
             noise: robot.camera_noise.unwrap_or([0.0015, 0.0015, 0.5_f64.to_radians()]),
             drop_share: 0.0,
             outlier_share: 0.0,
@@ -65,24 +71,31 @@ pub struct Camera {
     start: Option<f64>,
     /// Times and poses back to the oldest that may still be needed.
     past: VecDeque<(f64, Pose)>,
+    /// Time and pose of the last frame, filtered.
+    shown: Option<(f64, Pose)>,
 }
 
 impl Camera {
     /// A camera whose every run with the same seed and poses gives the same frames.
     pub fn new(model: CameraModel, seed: u64) -> Self {
-        Self { model, rng: ChaCha8Rng::seed_from_u64(seed), frames: 0, start: None, past: VecDeque::new() }
+        Self { model, rng: ChaCha8Rng::seed_from_u64(seed), frames: 0, start: None, past: VecDeque::new(), shown: None }
     }
 
     /// The robot is at `pose` at time `t` (s, increasing): what arrives from the camera at this
     /// tick, if anything. Before the first tick the robot counts as standing still.
     pub fn observe(&mut self, t: f64, pose: Pose) -> Option<Pose> {
-        self.past.push_back((t, pose));
+        let passed = if self.model.filters_frames { pose } else { self.filtered(self.past.back(), t, pose) };
+        self.past.push_back((t, passed));
         let start = *self.start.get_or_insert(t);
         if self.model.rate_hz <= 0.0 || t < start + self.frames as f64 / self.model.rate_hz - 1e-9 {
             return None;
         }
         self.frames += 1;
-        let past = self.pose_at(t - self.model.latency_s);
+        let mut past = self.pose_at(t - self.model.latency_s);
+        if self.model.filters_frames {
+            past = self.filtered(self.shown.as_ref(), t, past);
+            self.shown = Some((t, past));
+        }
         let seen = self.model.image(past);
         // The same draws for every frame, so that dropping one does not change the others.
         let mut gauss = || -> f64 { StandardNormal.sample(&mut self.rng) };
@@ -97,6 +110,14 @@ impl Camera {
         let (nx, ny) = if is_outlier { (wrong[0], wrong[1]) } else { (noise[0], noise[1]) };
         let dtheta = if is_outlier { turn * std::f64::consts::TAU } else { st * noise[2] };
         Some(Pose::new(seen.x + sx * nx, seen.y + sy * ny, wrap_angle(seen.theta + dtheta)))
+    }
+
+    /// What a low-pass makes of a pose some time after what it made of the one before.
+    fn filtered(&self, last: Option<&(f64, Pose)>, t: f64, pose: Pose) -> Pose {
+        let Some((then, last)) = last.filter(|_| self.model.filter_s > 0.0) else { return pose };
+        let kept = (-(t - then) / self.model.filter_s).exp();
+        let turn = wrap_angle(last.theta - pose.theta);
+        Pose::new(pose.x + kept * (last.x - pose.x), pose.y + kept * (last.y - pose.y), pose.theta + kept * turn)
     }
 
     fn pose_at(&mut self, t: f64) -> Pose {
@@ -145,6 +166,19 @@ mod tests {
             assert!((wrap_angle(seen.theta - 3.0 * (t - 0.0705))).abs() < 1e-9);
             assert!(seen.theta.abs() <= std::f64::consts::PI);
         }
+    }
+
+    #[test]
+    fn a_filter_lags_by_its_time_constant() {
+        let frames = watch(CameraModel { filter_s: 0.08, ..clean() }, 1, 4.0);
+        let (t, _, seen) = frames[200];
+        // Half a tick is the step of the filter.
+        assert!((seen.x - (t - 0.08)).abs() < 6e-4 && (seen.y + 2.0 * (t - 0.08)).abs() < 1.2e-3, "{t}: {seen:?}");
+        assert!(wrap_angle(seen.theta - 3.0 * (t - 0.08)).abs() < 2e-3, "{t}: {seen:?}");
+        // Once a frame of 60 a second: x is as late as the recursion has it.
+        let frames = watch(CameraModel { filter_s: 0.08, filters_frames: true, ..clean() }, 1, 4.0);
+        let (late, kept) = (frames[200].0 - frames[200].2.x, (-1.0 / 60.0 / 0.08_f64).exp());
+        assert!((late - kept / (1.0 - kept) / 60.0).abs() < 1e-3, "{late}");
     }
 
     #[test]

@@ -48,6 +48,8 @@ const CASES: &[Case] = &[
     case("wheel-slip", &[("friction_coefficient", 0.2)], ("friction_coefficient", 0.2), &HARD, &[]),
     case("roller-ripple", &[("cos_1", 0.08), ("sin_2", 0.08), ("order", 1.0)], ("cos_1", 0.3), &SLOW, &[]),
     case("camera-latency", &[("latency_s", 0.03)], ("latency_s", 0.1), &RICH, &[]),
+    case("camera-filter", &[("time_s", 0.06)], ("time_s", 0.15), &RICH, &[]),
+    case("camera-filter", &[("time_s", 0.06), ("at_frames", 1.0)], ("time_s", 0.15), &RICH, &[]),
     case("camera-scale", &[("scale", 0.02)], ("scale", 0.15), &RICH, &[]),
     case("marker-heading", &[("angle_rad", 0.05)], ("angle_rad", 0.15), &RICH, &["wheel-skew"]),
     case("marker-offset", &[("x_m", 0.01), ("y_m", -0.006)], ("x_m", 0.15), &RICH, &[]),

@@ -9,6 +9,7 @@ mod body_drag;
 mod body_radius;
 mod bridge_drop;
 pub mod camera_clock;
+mod camera_filter;
 pub mod camera_latency;
 mod camera_scale;
 mod camera_timing;
@@ -96,6 +97,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(odometry_drift::OdometryDrift),
         Box::new(roller_ripple::RollerRipple),
         Box::new(camera_latency::CameraLatency),
+        Box::new(camera_filter::CameraFilter),
         Box::new(camera_scale::CameraScale),
         Box::new(camera_timing::CameraTiming),
         Box::new(camera_clock::CameraClock { runs }),
@@ -183,7 +185,7 @@ mod tests {
     use super::*;
 
     /// The contract: names of parameters, `#` for a wheel's number.
-    const NAMES: [(&str, &[&str]); 45] = [
+    const NAMES: [(&str, &[&str]); 46] = [
         ("wheel-skew", &["skew_#_rad"]),
         ("wheel-radius", &["scale_#"]),
         ("wheel-radius-common", &["scale"]),
@@ -205,6 +207,7 @@ mod tests {
         ("imu-latency", &["latency_s"]),
         ("imu-mount", &["x_rad", "y_rad", "z_rad", "x_m", "y_m"]),
         ("camera-latency", &["latency_s"]),
+        ("camera-filter", &["time_s"]),
         ("actuation-latency", &["latency_s"]),
         ("speed-filter", &["time_s"]),
         ("marker-heading", &["angle_rad"]),

@@ -5,6 +5,7 @@
 //! a nuisance that is projected out (multiple shooting with free nodes). Parameters act on the
 //! prediction only.
 
+mod lag;
 mod track;
 mod windows;
 
@@ -19,6 +20,7 @@ use crate::inertial::Sensor;
 use crate::segment::Segment;
 use crate::values::Values;
 
+pub use lag::CameraFilter;
 pub(crate) use track::Path;
 pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
@@ -51,6 +53,8 @@ pub struct MotionModel {
     pub encoder_lag_s: f64,
     /// Time constant of the low-pass between the wheels' angles and those of the log, s; among `angles`, too.
     pub reading_filter_s: f64,
+    /// A low-pass between the robot's pose and the camera's.
+    pub camera_filter: CameraFilter,
     /// Drift of the camera's origin, m/s.
     pub drift: [f64; 2],
     /// Seconds by which the camera's clock runs ahead per second of a run.
@@ -101,6 +105,7 @@ impl MotionModel {
             slope_rad: [0.0; 2],
             encoder_lag_s: 0.0,
             reading_filter_s: 0.0,
+            camera_filter: CameraFilter::default(),
             drift: [0.0; 2],
             clock_drift: 0.0,
             clock_offset_s: Vec::new(),

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use runs::frames::{Pose, SMALL_RAD, Twist, Walk, displacement, small_chord};
 
-use super::{AngleChange, MotionModel};
+use super::{AngleChange, CameraFilter, MotionModel, lag};
 use crate::segment::{Frame, Segment};
 
 /// Turns of the wheels of a segment under one model, and where they take the body.
@@ -87,15 +87,30 @@ impl<'a> Path<'a> {
         &self.angles
     }
 
-    /// Latency, drift, offset in this run and delay by speed of the camera's clock.
-    fn clock(&self) -> [f64; 4] {
-        clock(self.model, self.segment)
+    /// When what a frame of a stamp shows was so, by the camera's clock.
+    fn exposure(&self) -> impl Fn(f64) -> f64 {
+        let segment = self.segment;
+        let Clock { latency, drift, offset, delay, .. } = clock(self.model, segment);
+        move |stamp| {
+            let exposed = stamp - (latency + offset + drift * (stamp - segment.stretch[0]));
+            if delay == 0.0 { exposed } else { exposed - delay * segment.twist[segment.tick_at(exposed)].speed() }
+        }
+    }
+
+    /// Whether the camera shows poses that were filtered.
+    fn is_filtered(&self) -> bool {
+        self.model.camera_filter.time_s > 0.0
     }
 
     /// Chassis poses at the frames of one window, relative to that at the window's first frame, added to `out`.
     /// The marker and the camera are not in it yet.
     pub(super) fn track(&self, frames: &[Frame], out: &mut Vec<Walk>) {
         let mut keep = |p: Walk| out.push(p);
+        if self.is_filtered() {
+            let n = self.columns.len();
+            let moved = |k: usize| moved(&self.columns, &self.turned[k * n..(k + 1) * n]);
+            return lag::walk(self.segment, &moved, &self.exposure(), self.model.camera_filter, frames, &mut keep);
+        }
         // Loops of a known length over the wheels.
         match self.columns.len() {
             2 => self.walk(&self.moved_by::<2>(), frames, &mut keep),
@@ -128,7 +143,7 @@ impl<'a> Path<'a> {
         let mut out: Vec<Vec<Walk>> = paths.iter().map(|_| Vec::with_capacity(room)).collect();
         for (paths, out) in paths.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let first = &paths[0];
-            if !(2..=4).contains(&first.columns.len()) {
+            if first.is_filtered() || !(2..=4).contains(&first.columns.len()) {
                 paths.iter().zip(out).for_each(|(path, out)| *out = path.alone(windows));
                 continue;
             }
@@ -179,17 +194,13 @@ impl<'a> Path<'a> {
         let Some(first) = frames.first() else { return };
         let segment = self.segment;
         let last_tick = segment.t.len() - 1;
-        let [latency, drift, offset, delay] = self.clock();
-        let age = |stamp: f64| latency + offset + drift * (stamp - segment.stretch[0]);
-        let early = if delay == 0.0 { 0.0 } else { 0.1 };
-        let origin = segment.tick_at(first.t - age(first.t) - early);
+        let exposure = self.exposure();
+        let early = if self.model.speed_delay == 0.0 { 0.0 } else { 0.1 };
+        let origin = segment.tick_at(exposure(first.t) - early);
         let (mut tick, mut walk) = (origin, P::origin());
         let mut back = P::origin();
         for (i, frame) in frames.iter().enumerate() {
-            let mut exposed = frame.t - age(frame.t);
-            if delay != 0.0 {
-                exposed -= delay * segment.twist[segment.tick_at(exposed)].speed();
-            }
+            let exposed = exposure(frame.t);
             if exposed < segment.t[tick] {
                 // Delays may differ from frame to frame: start over.
                 (tick, walk) = (origin, P::origin());
@@ -224,9 +235,29 @@ pub(super) enum Differs {
     Alone,
 }
 
-/// See [`Path::clock`].
-fn clock(m: &MotionModel, segment: &Segment) -> [f64; 4] {
-    [m.latency_s, m.clock_drift, m.clock_offset_s.get(segment.run).copied().unwrap_or(0.0), m.speed_delay]
+/// What a model says of when the camera saw what it shows in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Clock {
+    /// Age of every frame, s.
+    latency: f64,
+    /// Seconds ahead per second.
+    drift: f64,
+    /// Age of the frames of this run beside that, s.
+    offset: f64,
+    /// Age per speed of the robot, s²/m.
+    delay: f64,
+    /// A low-pass.
+    filter: CameraFilter,
+}
+
+fn clock(m: &MotionModel, segment: &Segment) -> Clock {
+    Clock {
+        latency: m.latency_s,
+        drift: m.clock_drift,
+        offset: m.clock_offset_s.get(segment.run).copied().unwrap_or(0.0),
+        delay: m.speed_delay,
+        filter: m.camera_filter,
+    }
 }
 
 /// Models whose tracks are walked side by side.
