@@ -16,6 +16,8 @@ use crate::error::{InputError, nearest};
 pub(super) enum Source {
     Name(String),
     Scaled(Scaled),
+    /// The same in every row.
+    Constant(f64),
 }
 
 /// As text or table, with the fault of the table, which an untagged enum would not say.
@@ -26,11 +28,19 @@ impl<'de> Deserialize<'de> for Source {
             type Value = Source;
 
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                f.write_str("the name of a series, or { from = \"its name\", unit = \"mm\" }")
+                f.write_str("the name of a series, { from = \"its name\", unit = \"mm\" }, or of a supply its volts")
             }
 
             fn visit_str<E>(self, name: &str) -> Result<Source, E> {
                 Ok(Source::Name(name.to_owned()))
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Source, E> {
+                Ok(Source::Constant(value))
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Source, E> {
+                Ok(Source::Constant(value as f64))
             }
 
             fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Source, A::Error> {
@@ -69,7 +79,15 @@ pub(super) struct Scaled {
 /// Velocities of the body that its odometry was made of: integrated, they are the odometry.
 pub(super) const RATES: [&str; 3] = ["odom_vx", "odom_vy", "odom_w"];
 
-/// The columns that a map names.
+/// The supply that a map gives in place of a column, V.
+pub(super) fn supply(columns: &BTreeMap<String, Source>) -> Option<f64> {
+    match columns.get(&Column::Supply.name())? {
+        Source::Constant(volts) => Some(*volts),
+        _ => None,
+    }
+}
+
+/// The columns that a map makes of series.
 pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_>>, InputError> {
     let mut wanted = Vec::new();
     for (name, source) in columns {
@@ -87,6 +105,14 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             return Err(fail("is no column of a run".to_owned(), hint));
         }
         let (from, name, scale, offset, limit, per_rev, wraps, increments, sign) = match source {
+            Source::Constant(value) if column != Column::Supply => {
+                let hint = "give the name of a series, or { from = \"its name\", unit = \"mm\" }; a number alone is for supply_v";
+                return Err(fail(format!("{value} is no series"), hint.to_owned()));
+            }
+            Source::Constant(value) if !(value.is_finite() && *value > 0.0) => {
+                return Err(fail(format!("{value} V is no supply"), "such as supply_v = 12".to_owned()));
+            }
+            Source::Constant(_) => continue,
             Source::Name(from) => (from, "", 1.0, 0.0, None, None, None, false, None),
             Source::Scaled(s) => (
                 &s.from,
@@ -166,4 +192,31 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
         });
     }
     Ok(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Run;
+    use crate::import::{Clock, Map, Table};
+    use std::path::Path;
+
+    fn made(columns: &str) -> Result<Run, String> {
+        let log = b"t,volts,speed\n0,6,0\n0.1,12,4\n0.2,-12,9\n";
+        let table = Table::of_bytes(log, Path::new("log.csv"), None, &Clock::default()).unwrap();
+        let map = format!("[columns]\nspeed_1 = \"speed\"\n{columns}");
+        Map::parse(&map, Path::new("map.toml"))
+            .and_then(|m| m.run(&table, Path::new("log.csv")))
+            .map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_number_is_the_supply_of_every_row_and_no_other_column() {
+        let volts = "duty_1 = { from = \"volts\", scale = 0.0833333333 }\n";
+        assert_eq!(made(volts).unwrap().supply_v, None);
+        assert_eq!(made(&format!("{volts}supply_v = 12")).unwrap().supply_v, Some(vec![12.0; 3]));
+        let error = made(&format!("{volts}supply_v = -12.5")).unwrap_err();
+        assert!(error.contains("columns.supply_v") && error.contains("-12.5 V is no supply"), "{error}");
+        let error = made("duty_1 = 1").unwrap_err();
+        assert!(error.contains("columns.duty_1") && error.contains("1 is no series"), "{error}");
+    }
 }

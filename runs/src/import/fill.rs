@@ -201,7 +201,7 @@ mod tests {
         let error = of("enc_1 = { from = \"raw\", wrap = 4096 }").unwrap_err();
         assert!(error.starts_with("map.toml:2:") && error.contains("unknown field `wrap`, expected one of"), "{error}");
         let error = of("enc_1 = 4096").unwrap_err();
-        assert!(error.contains("expected the name of a series, or { from ="), "{error}");
+        assert!(error.contains("give the name of a series, or { from ="), "{error}");
         // A full register shows itself, whole: one bit less, or a slow way through it, is no leap.
         for (rows, wanted) in [
             (

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::columns::{RATES, Source, wanted};
+use super::columns::{RATES, Source, supply, wanted};
 use super::fill::{Wanted, chain, counts, integrate, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
@@ -160,12 +160,17 @@ impl Reading {
         keys.sort_unstable();
         keys.dedup();
         let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
+        let constant = supply(&self.columns);
+        columns.extend(constant.map(|_| Column::Supply));
         let mut run = Run::with_columns(&columns);
         run.t = keys.iter().map(|k| (k - first) as f64 / 1e9).collect();
         let ticks = keys.len();
         run.reals_mut().into_iter().skip(1).for_each(|c| c.resize(ticks, f64::NAN));
         if straight && let Some(slot) = run.real_mut(sideways) {
             slot.fill(0.0);
+        }
+        if let Some((volts, slot)) = constant.zip(run.real_mut(Column::Supply)) {
+            slot.fill(volts);
         }
         let poses = wanted.iter().zip(&series).filter(|(w, _)| matches!(w.column, Column::Camera(_)));
         let poses = poses.map(|(_, s)| s.t.len()).max().unwrap_or(0);

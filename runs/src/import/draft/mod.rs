@@ -246,6 +246,11 @@ fn columns(guesses: &[Guess], none: &str) -> String {
         };
         let _ = writeln!(out, "{} = {value}", column.name());
     }
+    let in_volts = guesses.iter().any(|g| matches!(g.column, Column::Duty(_)) && g.unit == "V");
+    if in_volts && !guesses.iter().any(|g| g.column == Column::Supply) {
+        let _ =
+            writeln!(out, "# supply_v = {most} # and here supply_v: volts that are known, whatever the battery has");
+    }
     if guesses.is_empty() { none.to_owned() } else { out }
 }
 

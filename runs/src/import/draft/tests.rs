@@ -170,6 +170,7 @@ fn a_servo_and_a_motor_on_a_bench_are_understood() {
     for line in [
         "speed_1 = { from = \"rpm\", unit = \"rpm\" }",
         "duty_1 = { from = \"voltage\", scale = 0.1250 } # of 8 V, the most in this file: write 1 / supply_v",
+        "# supply_v = 8 # and here supply_v",
     ] {
         assert!(motor.contains(line), "{line}\n{motor}");
     }
