@@ -75,6 +75,7 @@ impl Move {
     }
 }
 
+const PLAY: &str = "gear-backlash";
 /// Steps of Gauss-Newton at most.
 const STEPS: usize = 8;
 
@@ -96,7 +97,7 @@ impl Problem<'_> {
     pub fn candidates(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         let sizes = match self {
             Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()),
-            Self::Drive(link) => link.sizes,
+            Self::Drive(link) => sizes_with_play(link, state, catalogue),
         };
         let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);
         if let Self::Motion(MotionLink { inertial: Some(link), .. }) = self {
@@ -296,6 +297,13 @@ impl Problem<'_> {
         }
         loss
     }
+}
+
+/// The sizes of a drive's logs, with the play of its gears by which a search for that begins.
+fn sizes_with_play(link: &DriveLink, state: &State, catalogue: &[Arc<dyn Effect>]) -> Sizes {
+    let play = catalogue.iter().find(|e| e.name() == PLAY);
+    let form = play.and_then(|play| play.forms_in(&state.robot, &link.sizes).into_iter().next());
+    play.zip(form).map_or(link.sizes, |(play, form)| link.sizes_with_play(play.as_ref(), &form, &|| state.drive(None)))
 }
 
 /// Whether the first of two models is worse by some measure of them, one a run.

@@ -293,6 +293,8 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
+    /// Play of a gear that leaves least of the drive, rad at the motor shaft; `None` where none leaves less.
+    pub play_rad: Option<f64>,
 }
 
 impl Sizes {
@@ -316,6 +318,7 @@ impl Sizes {
             test_function_s: crate::drive::TEST_FUNCTION_S,
             run_s: f64::INFINITY,
             reach_rad: 1.0,
+            play_rad: None,
         }
     }
 

@@ -15,6 +15,7 @@ mod kept;
 mod laid;
 mod linearise;
 mod means;
+mod play;
 mod signals;
 mod test_functions;
 #[cfg(test)]

@@ -50,6 +50,8 @@ pub struct DriveLink<'a> {
     pub(super) felt: Option<BodyFelt>,
     /// What stands beside every effect; see [`DriveLink::answer`].
     pub(super) answers: Option<Answers>,
+    /// See [`DriveLink::sizes_with_play`].
+    pub(super) play: OnceLock<Option<f64>>,
 }
 
 /// An inertial sensor, and the noise of what it tells of a test function: to the right and forward, m/s².
@@ -123,6 +125,7 @@ impl<'a> DriveLink<'a> {
             kept: KeptRows::default(),
             felt: None,
             answers: None,
+            play: OnceLock::new(),
         };
         link.sizes = Sizes::driven(pieces.robot(), link.motors_gave(nominal), pieces.speed());
         if pieces.robot().support == Support::Blocks {

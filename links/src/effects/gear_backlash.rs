@@ -1,9 +1,8 @@
 //! `gear-backlash`: play between motor and wheel.
 
-use nalgebra::DMatrix;
 use runs::robot::Robot;
 
-use crate::drive::{Ahead, DriveModel, TEST_FUNCTION_S, smooth_sign};
+use crate::drive::{Ahead, DriveModel, TEST_FUNCTION_S};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -44,7 +43,9 @@ impl Effect for GearBacklash {
         if least >= most {
             return Vec::new();
         }
-        let p = |name: String| Parameter::new(name, (0.7 * unit).min(0.1 * most), [0.0, most], least);
+        let p = |name: String| {
+            Parameter::new(name, sizes.play_rad.unwrap_or(0.7 * unit).min(0.5 * most), [0.0, most], least)
+        };
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
         forms
@@ -52,30 +53,19 @@ impl Effect for GearBacklash {
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
-        let inertia = model.inertia.clone();
         model.angles.push(Box::new(move |segment, angles| {
             for (i, angle) in angles.iter_mut().enumerate() {
                 let half = 0.5 * values.wheel("play", i, "rad") / ratio;
-                if half != 0.0 {
-                    let side = side(segment, &inertia, i);
-                    angle.iter_mut().zip(side).for_each(|(a, s)| *a -= half * s);
-                }
+                angle.iter_mut().zip(ahead(segment, i, half)).for_each(|(a, ahead)| *a -= ahead);
             }
         }));
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
-        let ahead = move |model: &DriveModel, segment: &Segment| {
-            (0..segment.angle.len())
-                .map(|i| {
-                    let half = 0.5 * values.wheel("play", i, "rad") / ratio;
-                    if half == 0.0 {
-                        return vec![0.0; segment.t.len()];
-                    }
-                    between(model, segment, i, half)
-                })
-                .collect()
+        let ahead = move |_: &DriveModel, segment: &Segment| {
+            let half = |i: usize| 0.5 * values.wheel("play", i, "rad") / ratio;
+            (0..segment.angle.len()).map(|i| ahead(segment, i, half(i))).collect()
         };
         model.offsets.push((Ahead::Rotor, Box::new(ahead)));
     }
@@ -97,61 +87,24 @@ const MOST_TURNS: f64 = 0.25;
 /// the drive's torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
 const SHOWS: f64 = 7.8e-5;
 
-/// Torque, as a share of what is usual, within which the flank that carries is not known where a rotor weighs nothing.
-const NO_FLANK: f64 = 0.08;
-
-/// Where the rotor is between the flanks, −1 to 1 times `half` (rad at the wheel), at every tick: between them its own
-/// torque moves it against a load that coasts, and at a flank it stays without bouncing.
-fn between(model: &DriveModel, segment: &Segment, wheel: usize, half: f64) -> Vec<f64> {
-    let (axis, g) = (&model.axes[wheel], model.gear_ratio);
-    let n = segment.t.len();
-    let torque: Vec<f64> = (0..n)
-        .map(|k| {
-            let volts = segment.duty[wheel][k] * segment.supply[k] - axis.back_emf * g * segment.speed[wheel][k];
-            g * (axis.torque_constant * volts / axis.resistance - axis.friction * segment.sign[wheel][k])
-        })
-        .collect();
-    let usual = estimation::statistics::rms(torque.iter().copied()).max(f64::MIN_POSITIVE);
-    let rotor = model.moves_in_play(wheel);
-    let (mut place, mut speed) = (0.0_f64, 0.0_f64);
-    (0..n)
-        .map(|k| {
-            let now = place;
-            let Some(next) = segment.t.get(k + 1) else { return now };
-            let tick = next - segment.t[k];
-            if torque[k] == 0.0 && rotor == 0.0 {
-                // Nothing moves it.
-                return now;
-            }
-            if torque[k].abs() * tick * tick > 8.0 * half * rotor {
-                // Across within half a tick.
-                (place, speed) = (half * smooth_sign(torque[k], NO_FLANK * usual), 0.0);
-                return now;
-            }
-            let acceleration = torque[k] / rotor;
-            place += tick * (speed + 0.5 * acceleration * tick);
-            speed += tick * acceleration;
-            if place.abs() >= half {
-                (place, speed) = (place.clamp(-half, half), 0.0);
-            }
-            now
-        })
-        .collect()
-}
-
-/// Which flank of the teeth carries, −1 to 1, from the motion alone: the sign of the torque that accelerates the robot
-/// at this wheel.
-fn side(segment: &Segment, inertia: &DMatrix<f64>, wheel: usize) -> Vec<f64> {
-    let n = segment.speed.len();
-    let momentum: Vec<f64> =
-        (0..segment.t.len()).map(|k| (0..n).map(|j| inertia[(wheel, j)] * segment.speed[j][k]).sum()).collect();
-    let last = momentum.len() - 1;
-    let peak = 1e-3 * inertia.trace() / n as f64;
-    let torque = |k: usize| {
-        let (a, b) = (k.saturating_sub(4), (k + 4).min(last));
-        (momentum[b] - momentum[a]) / (segment.t[b] - segment.t[a]).max(1e-9)
-    };
-    (0..=last).map(|k| smooth_sign(torque(k), 500.0 * peak)).collect()
+/// By how much the rotor is ahead of its wheel at every tick, rad at the wheel, at most `half`. The encoder sits on the rotor,
+/// so that its motion is known: the wheel coasts until a flank takes it along, and leaves the flank when the rotor slows down.
+/// What moves the rotor does not enter: beside rest its small torques say nothing of which flank carries.
+fn ahead(segment: &Segment, wheel: usize, half: f64) -> Vec<f64> {
+    let speed = &segment.speed[wheel];
+    if half == 0.0 {
+        return vec![0.0; speed.len()];
+    }
+    let (mut ahead, mut coasts) = (0.0, speed.first().copied().unwrap_or(0.0));
+    let ticks = segment.t.windows(2).map(|t| t[1] - t[0]).zip(speed.windows(2));
+    let gone = ticks.map(|(dt, w)| {
+        ahead += dt * (0.5 * (w[0] + w[1]) - coasts);
+        if ahead.abs() > half {
+            (ahead, coasts) = (half.copysign(ahead), w[1]);
+        }
+        ahead
+    });
+    std::iter::once(0.0).chain(gone).collect()
 }
 
 #[cfg(test)]
@@ -171,6 +124,21 @@ mod tests {
         assert!((least(&robot, &slow) / fine - 4.0).abs() < 1e-9);
         let coarse = Sizes { count_rad: 100.0 * sizes.count_rad, ..sizes };
         assert!((least(&robot, &coarse) / (100.0 * count(&robot)) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_wheel_coasts_across_the_play_when_its_rotor_turns_back() {
+        let t: Vec<f64> = (0..2000).map(|k| 1e-3 * f64::from(k)).collect();
+        // From 2 rad/s at 8 rad/s² to -2 rad/s within half a second, and on.
+        let speed: Vec<f64> = t.iter().map(|t| 2.0 - 8.0 * (t - 0.5).clamp(0.0, 0.5)).collect();
+        let segment = Segment { angle: vec![vec![0.0; t.len()]], speed: vec![speed], t, ..Segment::default() };
+        let half = 0.05;
+        let found = ahead(&segment, 0, half);
+        // Nothing tells where it is before the rotor first slows down; then the rotor falls back by 4 t².
+        let (before, t) = (found[500], 0.1);
+        assert!((found[600] - (before - 4.0 * t * t)).abs() < 1e-3, "{} {before}", found[600]);
+        let there = 500 + (1e3 * ((before + half) / 4.0).sqrt()).ceil() as usize + 2;
+        assert!(found[there..].iter().all(|x| (x + half).abs() < 1e-12), "{:?}", &found[there..there + 9]);
     }
 
     #[test]
