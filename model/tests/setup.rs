@@ -10,8 +10,9 @@ use model::setup::Mistake;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::{Pose, Twist, displacement};
+use runs::geometry::Wheel;
 use runs::output::Existing;
-use runs::robot::{Robot, Support};
+use runs::robot::{Layout, Robot, Support};
 use runs::{CountSource, DataSet, DutySource, Run, Source, as_logged};
 use spoil::{SPOILS, found};
 
@@ -679,8 +680,20 @@ fn turns_the_other_way_show_where_there_are_few() {
             [&mut set, &mut swapped].into_iter().for_each(without_headings);
         }
         assert_eq!(said(&set), Vec::<String>::new(), "{turn}");
-        let told = said(&swapped);
-        assert!(told.len() == 1 && told[0].contains("the other way; ") && told[0].contains("are swapped"), "{told:?}");
+        let reversed = |set: &DataSet| {
+            let told = said(set);
+            assert!(
+                told.len() == 1 && told[0].contains("the other way; ") && told[0].contains("are swapped"),
+                "{told:?}"
+            );
+        };
+        reversed(&swapped);
+        // Ways alone also where half of the track passed for it: ways, which bend then by neither reading, are no slip.
+        if ways_alone && turn > 1.0 {
+            let halved = |wheel: Wheel| Wheel { x_m: 0.5 * wheel.x_m, ..wheel };
+            swapped.robot.layout = Layout::Wheels(swapped.robot.layout.wheels().into_iter().map(halved).collect());
+            reversed(&swapped);
+        }
     }
 }
 

@@ -18,9 +18,10 @@ const FEWEST: usize = 20;
 /// Share of the squared turns that turns by the counts must explain, beside what ways do, and of theirs that ways must
 /// leave: of random turns none explain that much of 20.
 const EXPLAINED: f64 = 0.5;
-/// Camera's turns per turn by the counts that are those of turns the other way: noise of the counts makes them small, and a
-/// track of another robot large.
-const BACKWARDS: [f64; 2] = [-2.0, -0.5];
+/// Camera's turns per turn by the counts that are those of turns the other way: a track in place of its half, or half of it,
+/// makes half or twice as many of them, and noise of the counts fewer yet. On a small robot whose distance of the wheels from the
+/// centre passed for their track they were -0.46.
+const BACKWARDS: [f64; 2] = [-4.0, -0.25];
 /// Way between frames, in distances of the outermost wheel from the centre, from which it has a direction.
 const DIRECTION: f64 = 0.5;
 
