@@ -380,7 +380,8 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
             Kind::Command => axis.is_some() && plane && !own_twist,
             // A set point of a velocity of the body was commanded; of a place it is where it should go.
             Kind::Reference if axis.is_some() => any(&BODY_SPEEDS),
-            Kind::Camera | Kind::Odometry => axis.is_some() && plane && !own_twist,
+            // A velocity is no place.
+            Kind::Camera | Kind::Odometry => axis.is_some() && plane && !own_twist && !any(&BODY_SPEEDS),
             Kind::Gyro | Kind::Acceleration => axis.is_some(),
             Kind::Supply => true,
             _ => axis.is_none(),
@@ -464,8 +465,14 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
     let share = low < high && low >= -MOST_DUTY && high <= MOST_DUTY;
     let has = |some: &[&str]| words.iter().any(|w| some.contains(w));
     let wheel = has(&CORNERS) || has(&["left", "right", "motor", "wheel", "joint"]);
+    // `motor1_speed` is a motor's; of a bare `motor1` nobody knows what.
+    let of_one =
+        wheel || words.len() > 1 && ["motor", "wheel"].iter().any(|name| words.iter().any(|w| numbers(w, name)));
     match words {
-        [_] | [_, "position" | "pos"] | ["position" | "pos", _] if axis.is_some() => Some(Kind::Camera),
+        // A velocity is no place.
+        [_] | [_, "position" | "pos"] | ["position" | "pos", _] if axis.is_some() && !has(&BODY_SPEEDS) => {
+            Some(Kind::Camera)
+        }
         // A share that reaches all of it drives; a speed or a way does not end there.
         [_] if has(&CORNERS) && share && !whole && low.abs().max(high.abs()) > 0.99 => Some(Kind::Duty),
         // A body has a velocity, too, but turns no revolutions a minute.
@@ -473,7 +480,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         _ if words.contains(&"velocity") || words.contains(&"speed") => {
             let of_shafts = ["rad/s", "rev/s", "rpm", "counts/s"];
             let turns = units::in_name(&series.name).is_some_and(|unit| of_shafts.contains(&unit));
-            (wheel || turns && axis.is_none()).then_some(Kind::Speed)
+            (of_one || turns && axis.is_none()).then_some(Kind::Speed)
         }
         // A motor on the left has no supply of its own.
         _ if has(&["voltage", "volts", "volt"]) => {
@@ -485,7 +492,7 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
             (axis.is_none() && !has(&["gyro", "imu", "body", "robot", "base", "rate"])).then_some(Kind::Speed)
         }
         // A share that a motor was told; in no other unit is that known.
-        _ if has(&["command", "cmd", "power", "output", "throttle"]) => (wheel && share).then_some(Kind::Duty),
+        _ if has(&["command", "cmd", "power", "output", "throttle"]) => (of_one && share).then_some(Kind::Duty),
         // Control engineers call the speed of a wheel w, and what they put into a motor u.
         _ if wheel && has(&["w", "omega"]) => Some(Kind::Speed),
         _ if wheel && has(&["u"]) => share.then_some(Kind::Duty),

@@ -695,3 +695,18 @@ fn corners_that_reach_all_of_a_share_are_duties_beside_a_body() {
         assert!(map.contains(line), "{line}: {map}");
     }
 }
+
+/// Motors whose number is part of the word, and what a robot of a league saw of itself: a velocity is no place.
+#[test]
+fn a_motor_with_its_number_drives_and_turns_and_a_velocity_is_no_place() {
+    let names = "time,motor1_cmd,motor2_cmd,motor1_speed,motor2_speed,motor1_temp";
+    let map = drafted(names, ["0,-0.08,0.1,0,0,30", "10,-0.08,0.1,-2.4,2.2,31", "20,0.08,0.2,-3.4,3.6,31"]);
+    for line in ["duty_1 = \"motor1_cmd\"", "duty_2 = ", "speed_2 = \"motor2_speed\"", "# \"motor1_temp\""] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let rows = ["0.1,0.5,0.1,0,0,0.3,0,1", "0.2,0.51,0.1,0,0.1,0.3,0.01,2", "0.3,0.52,0.1,0,0.1,0.3,0.01,3"];
+    let seen = drafted("time,px,vx,py,vy,pt,vt,enc_1", rows);
+    let body =
+        drafted("t,vx,vy,w,gt_vx,gt_vy,enc_1", ["0,0.1,0.2,0.3,0,0,1", "1,0.2,0.1,0.2,1,1,2", "2,0.3,0,0.1,2,2,3"]);
+    assert!(!seen.contains("\ncam_") && !body.contains("\ncam_"), "{seen}{body}");
+}
