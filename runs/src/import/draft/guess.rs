@@ -578,6 +578,35 @@ pub(super) fn is_step(series: &Series) -> bool {
     words(&lower).iter().any(|w| ["delta", "diff", "increment", "increments", "dticks", "dcounts", "dtick"].contains(w))
 }
 
+/// Whether a guess is of wheels or of an odometry.
+pub(super) fn moves(guess: &Guess) -> bool {
+    matches!(guess.column, Column::Counts(_) | Column::Speed(_) | Column::Odometry(_))
+}
+
+/// Beside a file with the pose the steps of a robot's own odometry, way and turn, of a log that has nothing else which moves.
+pub(super) fn steps<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
+    // Of x, y and heading each has been recognised.
+    if guesses.iter().any(moves) {
+        return;
+    }
+    let step = |names: &[&str]| {
+        let named = |s: &&&Series| {
+            let lower = spaced(units::without(&s.name)).to_lowercase();
+            words(&lower).iter().any(|word| names.contains(word))
+        };
+        rest.iter().copied().filter(|s| is_step(s)).find(|s| named(&s))
+    };
+    let (way, turn) = (step(&["dist", "distance", "way", "travel", "translation"]), step(&HEADINGS));
+    let (Some(way), Some(turn)) = (way, turn) else { return };
+    for (series, i) in [(way, 0), (turn, 2)] {
+        let column = Column::Odometry(i);
+        let said = unit(column, series);
+        guesses.push(Guess { series, column, unit: said });
+        rest.retain(|other| !std::ptr::eq(*other, series));
+    }
+    guesses.sort_by_key(|g| g.column);
+}
+
 /// What a series may be that was not recognised, for its owner to decide, in a remark after it.
 pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
     let lower = spaced(units::without(&series.name)).to_lowercase();

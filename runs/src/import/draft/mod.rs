@@ -28,6 +28,7 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
         let camera = |g: &mut Guess| matches!(g.column, Column::Camera(_));
         rest.extend(guesses.extract_if(.., camera).map(|g| g.series));
         reckoned(table.0, &mut guesses, &mut rest);
+        guess::steps(&mut guesses, &mut rest);
     }
     let own = guess::velocities(&mut guesses, &mut rest);
     let mut out = log(table.0, &guesses, &own, &rest);
@@ -47,8 +48,7 @@ pub fn draft_two([table, poses]: [(&Table, &Path); 2]) -> String {
 
 /// Beside a file with the pose, the poses of a log without wheels are the robot's own odometry.
 fn reckoned<'a>(table: &'a Table, guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series>) {
-    let moves = |g: &Guess| matches!(g.column, Column::Counts(_) | Column::Speed(_) | Column::Odometry(_));
-    if guesses.iter().any(moves) {
+    if guesses.iter().any(guess::moves) {
         return;
     }
     let (own, _) = pose(table);
@@ -210,8 +210,12 @@ fn columns(guesses: &[Guess], none: &str) -> String {
             "" if rates(column) && Column::from_name(&series.name) == Column::Other => {
                 format!("{} # in rad/s at the wheel? Else {{ from = {0}, unit = \"rpm\" }}", quoted(&series.name))
             }
-            "" if matches!(column, Column::Counts(_)) && guess::is_step(series) => {
-                format!("{{ from = {}, increments = true }} # what came since the row before?", quoted(&series.name))
+            unit if matches!((column, unit), (Column::Counts(_), "") | (Column::Odometry(_), _))
+                && guess::is_step(series) =>
+            {
+                let unit = if unit.is_empty() { String::new() } else { format!(", unit = \"{unit}\"") };
+                let from = quoted(&series.name);
+                format!("{{ from = {from}{unit}, increments = true }} # what came since the row before?")
             }
             "" => quoted(&series.name),
             bench::TORQUE if let Some(share) = rated(series) => format!(

@@ -710,3 +710,29 @@ fn a_motor_with_its_number_drives_and_turns_and_a_velocity_is_no_place() {
         drafted("t,vx,vy,w,gt_vx,gt_vy,enc_1", ["0,0.1,0.2,0.3,0,0,1", "1,0.2,0.1,0.2,1,1,2", "2,0.3,0,0.1,2,2,3"]);
     assert!(!seen.contains("\ncam_") && !body.contains("\ncam_"), "{seen}{body}");
 }
+
+/// Way and turn since the row before, as loggers of dead reckoning write them beside poses.
+#[test]
+fn steps_of_way_and_turn_are_an_odometry() {
+    let table = |text: &str, name: &str| {
+        Table::of_bytes(text.as_bytes(), Path::new(name), None, &Clock { rows: true, ..Clock::default() }).unwrap()
+    };
+    let truth = table("time,x,y,heading\n0,0,0,0\n1,1,1,1\n2,2,1,0\n", "gt.csv");
+    let of = |header: &str| {
+        let log = table(&format!("{header}\n0.2,0.1,0.01\n0.4,0.2,0.02\n0.6,0.1,-0.01\n"), "log.csv");
+        draft_two([(&log, Path::new("log.csv")), (&truth, Path::new("gt.csv"))])
+    };
+    let map = of("Time,Delta Dist. Trav. (m),Delta Heading (rad)");
+    for line in [
+        "odom_x = { from = \"Delta Dist. Trav. (m)\", increments = true }",
+        "odom_theta = { from = \"Delta Heading (rad)\", increments = true }",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let degrees = of("Time,delta_distance [cm],delta_yaw [deg]");
+    assert!(
+        degrees.contains("unit = \"deg\", increments = true") && degrees.contains("unit = \"cm\", incr"),
+        "{degrees}"
+    );
+    assert!(!of("Time,Dist. Trav. (m),Heading error").contains("increments"));
+}
