@@ -88,3 +88,22 @@ fn noise_for_turns_swaps_no_wheels() {
         assert_eq!(said, Vec::<String>::new(), "{seed}");
     }
 }
+
+/// Who drives by the field's axes, and takes the commands for those of the robot, has wheels that go there whatever the heading.
+#[test]
+fn velocities_of_the_field_are_no_slip() {
+    let robot = Robot::racbot();
+    let run = simulate(Manoeuvre::Star, &Applied::of(&robot), &robot, Pose::new(0.4, -0.3, 0.5), 7).unwrap();
+    let mut set = DataSet { folder: "simulated".into(), robot, runs: vec![run] };
+    // What the wheels make of the body's way is what the camera sees in the field, 0.3 rad off its axes.
+    let own: Vec<Pose> = set.runs[0].camera.iter().map(|sample| sample.pose).collect();
+    let mut at = own[0];
+    for (pair, sample) in own.windows(2).zip(&mut set.runs[0].camera[1..]) {
+        let turn = 0.3 - pair[0].theta - 0.5 * runs::frames::wrap_angle(pair[1].theta - pair[0].theta);
+        let step = Pose::new(0.0, 0.0, turn).compose(Pose::new(pair[1].x - pair[0].x, pair[1].y - pair[0].y, 0.0));
+        at = Pose::new(at.x + step.x, at.y + step.y, pair[1].theta);
+        sample.pose = at;
+    }
+    let said: Vec<String> = mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect();
+    assert!(said.len() == 1 && said[0].contains("along the field's axes"), "{said:?}");
+}

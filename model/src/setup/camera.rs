@@ -60,6 +60,8 @@ struct Reading {
     degrees: bool,
     clockwise: bool,
     down: bool,
+    /// Ways of the wheels are along the field's axes, as a driver has them who drives by those.
+    field: bool,
 }
 
 /// A way to read a data set, and how well camera and wheels then agree.
@@ -228,12 +230,17 @@ fn best(robot: &Robot, geometry: &Geometry, moving: &[Sample]) -> Option<Fit> {
     let mut fits = Vec::new();
     for degrees in [false, true] {
         for (clockwise, down) in [(false, false), (true, false), (false, true), (true, true)] {
-            let reading = Reading { degrees, clockwise, down };
+            let reading = Reading { degrees, clockwise, down, field: false };
             let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
             for order in &orders {
                 fits.push(fit(geometry, rim, moving, &seen, reading, order.clone()));
             }
         }
+    }
+    if robot.wheel_count() > 2 || runs::is_dead_reckoning(robot) {
+        let reading = Reading { field: true, ..Reading::default() };
+        let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
+        fits.push(fit(geometry, rim, moving, &seen, reading, orders.swap_remove(0)));
     }
     let turns_tell = fits.iter().any(|f| f.turns && f.seen_to_turn && f.left_turn < TURNED);
     if turns_tell {
@@ -268,14 +275,14 @@ fn gained(samples: &[Sample]) -> f64 {
     starts.get(STARTS - 1).map_or(0.0, |sample| sample.acceleration)
 }
 
-/// Displacement in the body, and turn, by the camera.
+/// Displacement in the body, or in the field where the wheels' ways are along that, and turn, by the camera.
 fn body(s: &Sample, reading: Reading) -> ([f64; 2], f64) {
     let unit = if reading.degrees { PI / 180.0 } else { 1.0 };
     let sign = if reading.clockwise { -1.0 } else { 1.0 };
     let (from, to) = (sign * unit * s.from.theta, sign * unit * s.to.theta);
     let turn = (to - from + PI).rem_euclid(TAU) - PI;
     let (dx, dy) = (s.to.x - s.from.x, if reading.down { s.from.y - s.to.y } else { s.to.y - s.from.y });
-    let (sin, cos) = (from + 0.5 * turn).sin_cos();
+    let (sin, cos) = if reading.field { (0.0, 1.0) } else { (from + 0.5 * turn).sin_cos() };
     ([cos * dx + sin * dy, cos * dy - sin * dx], turn)
 }
 
@@ -336,7 +343,12 @@ fn fit(
     let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
-    let wrong = camera + f64::from(u8::from(reading.degrees)) + quarter + 0.6 * swapped + 1.2 * reversed;
+    let wrong = camera
+        + f64::from(u8::from(reading.degrees))
+        + f64::from(u8::from(reading.field))
+        + quarter
+        + 0.6 * swapped
+        + 1.2 * reversed;
     Fit {
         reading,
         order,
@@ -402,6 +414,14 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             what,
             "take the file of the robot that drove; check [[wheel]] against it (wheels that steer are none of its robots)",
         )];
+    }
+    if fit.reading.field {
+        let what =
+            "the ways by the counts point along the field's axes, not the robot's: velocities that were commanded, or \
+                    reckoned, in the field's frame"
+                .to_owned();
+        let remedy = "turn them into the robot's frame by its heading before they become wheel speeds or an odometry";
+        return vec![new("command-frame", "cmd_vx", what, remedy)];
     }
     if fit.reading.degrees {
         let what = "headings follow the wheels only as degrees".to_owned();
