@@ -133,11 +133,14 @@ fn time(table: &Table, name: &str) -> (String, Option<String>) {
     }
     match increasing(table) {
         Some(s) => {
-            let (column, unit) = (of_every_kind(table, &s.name), time_unit(&s.values, 1.0));
-            let text = format!(
-                "\n[{name}]\ncolumn = {} # is it? it increases from row to row\nunit = \"{unit}\"\n",
-                quoted(column)
-            );
+            let column = of_every_kind(table, &s.name);
+            let unit = if is_count(s) {
+                "per_second = 1000 # it counts: write how many are a second".to_owned()
+            } else {
+                format!("unit = \"{}\"", time_unit(&s.values, 1.0))
+            };
+            let text =
+                format!("\n[{name}]\ncolumn = {} # is it? it increases from row to row\n{unit}\n", quoted(column));
             (text, Some(column.to_owned()))
         }
         None => {
@@ -333,6 +336,19 @@ fn increasing(table: &Table) -> Option<&Series> {
     let rises = |s: &Series| share(s) >= RISES && s.values.windows(2).all(|w| w[1] >= w[0]);
     let whole = || table.series.iter().filter(|s| s.values.len() == longest);
     whole().find(|s| share(s) >= 95).or_else(|| whole().find(|s| rises(s)))
+}
+
+/// What a clock that counts is called, at the end of its name.
+const COUNTED: [&str; 11] =
+    ["timestep", "step", "steps", "tick", "ticks", "loop", "cycle", "cycles", "sample", "samples", "index"];
+
+/// Whether a series that stands for the time counts turns of a loop, of which no range of numbers tells the length.
+fn is_count(series: &Series) -> bool {
+    let name = series.name.split(['(', '[']).next().unwrap_or_default().trim().to_ascii_lowercase();
+    let last = name.rsplit(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
+    COUNTED.contains(&last)
+        && units::in_name(&series.name).and_then(units::of_time).is_none()
+        && series.values.iter().all(|v| v.fract() == 0.0)
 }
 
 /// What the unit of a drive's torque is of its rated one, where it is a share.

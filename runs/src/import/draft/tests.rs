@@ -274,7 +274,7 @@ fn units_below_the_names_and_rows_of_nan_are_no_numbers() {
         "%by me\n%timestep,voltage,position\n%[#],[V],[turns]\nnan,nan,nan;\n11,0.5,0.25;\n68,1,0.5;\n114,2,1.5;\n";
     let map = read(text);
     for line in [
-        "column = \"timestep\"",
+        "column = \"timestep\" # is it? it increases from row to row\nper_second = 1000 #",
         "duty_1 = { from = \"voltage [V]\", scale = 0.5000 }",
         "enc_1 = { from = \"position [turns]\", unit = \"rev\"",
     ] {
@@ -291,6 +291,25 @@ fn units_below_the_names_and_rows_of_nan_are_no_numbers() {
     };
     assert!(error("[time]\nper_second = 0\n").contains("0 of them are no second"));
     assert!(error("[time]\nper_second = 8000\nunit = \"ms\"\n").contains("is beside a unit"));
+}
+
+/// A controller's loop that was counted: whatever its numbers look like, they are no milliseconds.
+#[test]
+fn a_clock_that_counts_has_no_unit_of_time() {
+    let of = |name: &str, rows: [&str; 3]| drafted(&format!("{name},voltage [V]"), rows);
+    let counted = ["2,0.1", "57,0.2", "109,0.3"];
+    for name in ["timestep (8Hz)", "loop.ticks", "control cycle", "Sample"] {
+        let map = of(name, counted);
+        assert!(map.contains("per_second = 1000 # it counts") && !map.contains("unit = \"ms\""), "{map}");
+        assert!(Map::parse(&map, Path::new("map.toml")).unwrap().time().is_ok(), "{map}");
+    }
+    // What has a unit, parts of one, or another name is a time.
+    for (name, rows) in
+        [("ticks_us", counted), ("steps", ["0.002,0.1", "0.057,0.2", "0.109,0.3"]), ("stepped since", counted)]
+    {
+        let map = of(name, rows);
+        assert!(map.contains("unit = \"") && !map.contains("per_second"), "{name}: {map}");
+    }
 }
 
 /// A test stand's time in seconds with rows seconds apart, its shares, and a bench with inputs called u.
