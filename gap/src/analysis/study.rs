@@ -129,7 +129,20 @@ pub(super) fn study<'a>(
         let named = &again.written.active[from..];
         let closes = again.rms.powi(2) < (1.0 - thresholds.explained) * judged.rms.powi(2);
         if closes && select::is_heavier(problem, start, named, thresholds) {
-            (judged, refused) = (again, more);
+            // What is heavy enough hardly moves, whatever drives it: in the torque of its own inertia it must leave no more than
+            // loads of the file's inertia do together.
+            let loads: Vec<Active> = all.iter().filter(|c| c.effect.is_load()).cloned().collect();
+            let light = several(problem, start, &judged, &loads, thresholds);
+            match light.filter(|light| problem.runs_away(&again.written, &light.state, thresholds)) {
+                Some(light) => {
+                    let (light, more) = sound(problem, light, start, &all, thresholds);
+                    if light.rms < judged.rms {
+                        judged = light;
+                        refused.extend(more);
+                    }
+                }
+                None => (judged, refused) = (again, more),
+            }
         }
     }
     // What laws of what is named may leave is nothing to explain by small effects.
