@@ -153,6 +153,11 @@ impl<'a> Pieces<'a> {
         self.driving
     }
 
+    /// Whether logged speeds are looked at as means over the row before.
+    pub fn means_speeds(&self) -> bool {
+        self.driving.mean_speeds
+    }
+
     /// Short pieces spread evenly over the logs, of `every_run` at least one; `None` where these would be more than half
     /// of them.
     pub fn sample(&self, every_run: bool) -> Option<Self> {

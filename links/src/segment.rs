@@ -270,6 +270,11 @@ impl Segment {
         self.rows.get_or_init(|| Rows::of(self))
     }
 
+    /// Mean time from tick to tick, s.
+    pub(crate) fn tick_s(&self) -> f64 {
+        mean_tick(&self.t)
+    }
+
     /// Number of wheels with encoders.
     pub fn wheels(&self) -> usize {
         self.angle.len()

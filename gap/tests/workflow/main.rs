@@ -22,6 +22,7 @@ mod replayed;
 mod scale;
 mod single_steps;
 mod slipping;
+mod slow_rows;
 mod smoothed;
 mod thumb_motor;
 mod uneven;

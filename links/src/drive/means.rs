@@ -44,7 +44,7 @@ impl<'a> Place<'a> {
     /// known. Residuals are given in the torque of the link's own inertia: one unit for all models, so that noise makes
     /// none of them lighter or heavier. [`super::in_own_torque`] has what that unit cannot tell.
     pub(super) fn left(&self, model: &DriveModel, inertia: Option<&DMatrix<f64>>) -> Option<Vec<f64>> {
-        let (mechanics, n) = (model.mechanics()?, model.wheels.len());
+        let (mechanics, n) = (self.link.mechanics(model, self.segment)?, model.wheels.len());
         let inertia = inertia.unwrap_or(&mechanics.inertia);
         let offsets: Vec<_> = model.offsets.iter().map(|(what, o)| (*what, o(model, self.segment))).collect();
         let given = inertia * mechanics.encoders_per_torque(model);

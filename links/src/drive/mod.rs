@@ -396,6 +396,28 @@ pub struct Mechanics {
 }
 
 impl Mechanics {
+    /// The same for mean torques that were worked out as if speeds went straight from row to row.
+    ///
+    /// Under a held duty a motor's speed bends towards its end: of y time constants in a row its mean is ahead of the straight
+    /// line by coth(y/2)/2 - 1/y of the change, so that the back-EMF took more than the line says. That is in proportion to the
+    /// acceleration, as an inertia is: it is larger by y/2 coth(y/2), here to a hundredth up to four time constants.
+    pub(crate) fn between_rows(self, model: &DriveModel, row_s: f64) -> Option<Self> {
+        let n = model.axes.len();
+        let damping = model.axes.iter().map(|a| a.braking(model.gear_ratio) * a.encoder_scale);
+        let per_s = &self.response * DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(n, damping));
+        let (one, square) = (DMatrix::identity(n, n), &per_s * &per_s * row_s.powi(2));
+        // Behind a filter speeds bend by the slower of the two.
+        let behind = (&one + &per_s * model.reading_filter_s).try_inverse()?;
+        let heavier = &one + (&one + &square / 60.0).try_inverse()? * behind * &square / 12.0;
+        let lighter = heavier.clone().try_inverse()?;
+        Some(Self {
+            body: self.body.map(|body| &lighter * body),
+            response: lighter * self.response,
+            inertia: self.inertia * heavier,
+            rows: self.rows,
+        })
+    }
+
     /// Acceleration that the encoders see per torque of each wheel and force on the body, N × (N + 3).
     pub(crate) fn encoders_per_torque(&self, model: &DriveModel) -> DMatrix<f64> {
         let n = model.wheels.len();

@@ -302,14 +302,22 @@ impl<'a> DriveLink<'a> {
         measured.into_iter().map(|a| &inertia * a).collect()
     }
 
+    /// The mechanics by which accelerations of a segment are judged: of speeds of the moment a straight line from row to row
+    /// stands for what they were in between.
+    pub(super) fn mechanics(&self, model: &DriveModel, s: &Segment) -> Option<Mechanics> {
+        let mechanics = model.mechanics()?;
+        let momentary = runs::is_from_speeds(self.pieces.robot()) && !self.pieces.means_speeds();
+        if momentary { mechanics.between_rows(model, s.tick_s()) } else { Some(mechanics) }
+    }
+
     /// Unexplained wheel acceleration at every inner tick of a segment, rad/s², and the torque it
     /// stands for, Nm, `[wheel][tick]`; as noisy as counts are, for what is averaged over many ticks.
     ///
     /// More than three wheels turn in ways that no body follows, against creep alone: Newton's law says
     /// nothing of those, and they are left out.
     pub fn raw(&self, model: &DriveModel, segment: usize) -> Option<[Vec<Vec<f64>>; 2]> {
-        let mechanics = model.mechanics()?;
         let (n, s) = (self.noise.len(), &*self.pieces.get(segment));
+        let mechanics = self.mechanics(model, s)?;
         let ticks = s.t.len();
         let forces = model.forces(s);
         let given = mechanics.encoders_per_torque(model);

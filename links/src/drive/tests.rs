@@ -173,3 +173,18 @@ fn counts_that_an_encoder_loses_are_no_torque_of_its_motor() {
     // Beside what the speed of the threshold leaves open.
     assert!(lossy[0] > 10.0 * exact[0] && lossy[1] < 0.5 * lossy[0], "{lossy:?} {exact:?}");
 }
+
+/// Of a motor alone, and of one that is all but done within a row.
+#[test]
+fn between_rows_a_back_emf_is_an_inertia() {
+    let robot = Robot { support: Support::Blocks, ..Robot::racbot() };
+    let model = DriveModel::new(&robot);
+    let plain = model.mechanics().unwrap();
+    let motor_s = plain.inertia[(0, 0)] / model.axes[0].braking(model.gear_ratio);
+    for (rows, off) in [(0.0, 1e-12), (0.5, 1e-4), (1.5, 2e-3), (4.0, 0.02)] {
+        let bent = model.mechanics().unwrap().between_rows(&model, rows * motor_s).unwrap();
+        let wanted = if rows == 0.0 { 1.0 } else { 0.5 * rows / (0.5_f64 * rows).tanh() };
+        let of = [bent.inertia[(0, 0)] / plain.inertia[(0, 0)], plain.response[(0, 0)] / bent.response[(0, 0)]];
+        assert!(of.iter().all(|of| (of / wanted - 1.0).abs() < off), "{rows}: {of:?} {wanted}");
+    }
+}

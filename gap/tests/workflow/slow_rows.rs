@@ -1,0 +1,64 @@
+//! Speeds of the moment in rows as long as a motor takes to follow its duty.
+
+use gap::{Analysis, Interval, Verdict};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use runs::Run;
+
+use super::common::{names, of_files};
+
+const VOLT: f64 = 12.0;
+const OHM: f64 = 3.8;
+const KT: f64 = 0.0083;
+const GEAR: f64 = 9.68;
+/// At the motor shaft, kg m²: a time constant of 22 ms.
+const ROTOR: f64 = 4e-7;
+
+/// A lifted motor that is so much heavier than its file, under a duty that wanders and jumps, its speed read at the rows or
+/// behind a low-pass.
+fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
+    let text = format!(
+        "encoder_counts_per_motor_rev = 2048\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
+         wheel_radius_m = 0.03\ncontrol_rate_hz = {}\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\n\
+         rotor_inertia = {ROTOR}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
+        1.0 / row_s
+    );
+    let run = |n| {
+        let mut rng = ChaCha8Rng::seed_from_u64(100 * seed + n);
+        let mut run = Run { name: format!("{n}"), ..Run::default() };
+        let (mut speed, mut seen, mut level, mut duty) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut duties, mut speeds) = (Vec::new(), Vec::new());
+        let step = 1e-4;
+        for row in 0..700_usize {
+            if row % 40 == 0 {
+                level = rng.random_range(-0.8..0.8);
+            }
+            // A ramp of the set point, as users drive.
+            duty += (level - duty).clamp(-0.08, 0.08);
+            run.t.push(row as f64 * row_s);
+            duties.push(duty);
+            speeds.push(seen + rng.random_range(-0.05..0.05));
+            for _ in 0..(row_s / step).round() as usize {
+                let torque = KT * (VOLT * duty - KT * GEAR * speed) / OHM;
+                speed += step * torque / ROTOR / (1.0 + heavier) / GEAR;
+                seen += if filter_s > 0.0 { step * (speed - seen) / filter_s } else { speed - seen };
+            }
+        }
+        (run.duty, run.speed) = (vec![duties], vec![speeds]);
+        run
+    };
+    of_files(&text, (0..5).map(run))
+}
+
+/// A straight line from row to row made it 13 % heavier, at five noise floors.
+#[test]
+fn a_motor_that_follows_within_a_row_agrees() {
+    for (seed, row_s) in [(1, 0.02), (2, 0.03), (3, 0.04)] {
+        let a = logged(seed, row_s, 0.0, 0.0);
+        assert_eq!((a.verdict, &names(&a)[..]), (Verdict::Agrees, &[][..]), "{row_s}: {}", a.terminal_summary());
+    }
+    let a = logged(4, 0.02, 0.5, 0.0);
+    let size = a.effects.first().map(|e| e.parameters[0].2);
+    let holds = matches!(size, Some(Interval::Ci95([low, high])) if low < 0.5 && 0.5 < high);
+    assert!(names(&a) == ["rotor-inertia"] && holds, "{}", a.terminal_summary());
+}
