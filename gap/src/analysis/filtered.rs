@@ -32,15 +32,43 @@ pub(super) fn of_delay(named: &[Named]) -> Option<String> {
     })
 }
 
+/// Time constants of an axis by its file and with the inertia that is named, s.
+fn motor_s(named: &[Named], model: &DriveModel) -> Option<[f64; 2]> {
+    let (heavier, _) = parameter(named, INERTIA)?;
+    let braking = model.axes[0].braking(model.gear_ratio);
+    let file_s = model.felt_inertia() / braking;
+    Some([file_s, file_s + heavier * model.inertia_of_scale(0) / braking])
+}
+
+/// A motor whose time constant by its file is no longer than a row does not show beside a filter that is: an inertia then does
+/// the same as the filter. In a sentence, and the tie; `late_s` is the age that logged speeds are taken to have by themselves.
+pub(super) fn in_place_of_inertia(
+    named: &[Named],
+    model: &DriveModel,
+    row_s: f64,
+    late_s: f64,
+) -> Option<(String, Vec<String>)> {
+    let [file_s, now_s] = motor_s(named, model)?;
+    // Both are as late.
+    let filter_s = now_s + late_s - file_s;
+    let hidden = parameter(named, FILTER).is_none() && file_s <= row_s && (row_s..=FILTER_S).contains(&filter_s);
+    hidden.then(|| {
+        let said = format!(
+            "A filter and an inertia may change places: a {FILTER} of {:.1} ms with the inertia of the file does the same as \
+             what is named, for by the file the motor is done within a row. Log counts, or speeds without the filter, to tell.",
+            1e3 * filter_s
+        );
+        (said, [INERTIA, FILTER].map(str::to_owned).to_vec())
+    })
+}
+
 /// A motor is a low-pass of its duty as a filter is one of its speed, and what comes out of both does not tell which is
 /// which: inertia and filter with their time constants exchanged, in a sentence.
 pub(super) fn exchanged(named: &[Named], model: &DriveModel) -> Option<String> {
     let (filter_s, within) = parameter(named, FILTER)?;
-    let (heavier, _) = parameter(named, INERTIA)?;
+    let [file_s, motor_s] = motor_s(named, model)?;
     let scaled = model.inertia_of_scale(0);
     let braking = model.axes[0].braking(model.gear_ratio);
-    let file_s = model.felt_inertia() / braking;
-    let motor_s = file_s + heavier * scaled / braking;
     let holds_file = within.is_some_and(|[low, high]| (low..=high).contains(&file_s));
     let inertia = match (filter_s - file_s) * braking / scaled {
         _ if holds_file => "the inertia of the file".to_owned(),

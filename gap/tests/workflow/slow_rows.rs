@@ -62,3 +62,26 @@ fn a_motor_that_follows_within_a_row_agrees() {
     let holds = matches!(size, Some(Interval::Ci95([low, high])) if low < 0.5 && 0.5 < high);
     assert!(names(&a) == ["rotor-inertia"] && holds, "{}", a.terminal_summary());
 }
+
+/// The motor's own lag is over in a row, and what comes of a filter is that of an inertia.
+#[test]
+fn a_filter_beside_a_motor_that_follows_within_a_row_may_be_an_inertia() {
+    for (seed, filter_s) in [(5, 0.06), (6, 0.09)] {
+        let a = logged(seed, 0.025, 0.0, filter_s);
+        let own = names(&a).contains(&"speed-filter");
+        let tied = a
+            .alternatives
+            .iter()
+            .any(|set| ["rotor-inertia", "speed-filter"].iter().all(|n| set.iter().any(|s| s == n)));
+        let told = a.remarks.iter().find_map(|r| {
+            let (ms, _) = r.split_once("a speed-filter of ")?.1.split_once(" ms with the inertia of the file")?;
+            ms.parse::<f64>().ok()
+        });
+        let true_told = told.is_some_and(|ms| (1e-3 * ms / filter_s - 1.0).abs() < 0.1);
+        assert!(own || tied && true_told, "{filter_s}: {told:?} {}", a.terminal_summary());
+        assert_eq!(a.verdict, Verdict::Ambiguous, "{}", a.terminal_summary());
+    }
+    // A motor that takes longer than a row shows beside a filter.
+    let a = logged(7, 0.01, 1.0, 0.0);
+    assert!(names(&a) == ["rotor-inertia"] && a.verdict != Verdict::Ambiguous, "{}", a.terminal_summary());
+}
