@@ -244,8 +244,8 @@ impl<'a> Workflow<'a> {
         }
         let alone = self.question.robot.support == Support::Blocks && !self.question.currents;
         let model = self.start.drive(None);
-        let exchanged = if alone { filtered::exchanged(&outcome.named, &model) } else { None };
         let row_s = 1.0 / self.question.robot.control_rate_hz;
+        let exchanged = if alone { filtered::exchanged(&outcome.named, &model, row_s) } else { None };
         let late_s = if self.data.pieces.means_speeds() { 0.5 * row_s } else { 0.0 };
         if let Some((said, tie)) =
             filtered::in_place_of_inertia(&outcome.named, &model, row_s, late_s).filter(|_| alone)
@@ -254,7 +254,7 @@ impl<'a> Workflow<'a> {
             outcome.sets.push(tie);
             outcome.ambiguous = true;
         }
-        let delay = filtered::of_delay(&outcome.named);
+        let delay = filtered::of_delay(&outcome.named, row_s);
         if delay.is_some() {
             let set = filtered::DELAYS.map(str::to_owned).to_vec();
             if !outcome.sets.contains(&set) && !outcome.named.iter().any(|n| n.name == set[1]) {

@@ -2,7 +2,7 @@
 
 use super::found::Named;
 use links::drive::DriveModel;
-use links::thresholds::FILTER_S;
+use links::thresholds::filter_s;
 
 const FILTER: &str = "speed-filter";
 const INERTIA: &str = "rotor-inertia";
@@ -17,13 +17,13 @@ fn parameter(named: &[Named], name: &str) -> Option<(f64, Option<[f64; 2]>)> {
 
 /// A delay that was found from speeds: a filter of higher order, or a mean, makes them late without the shape of a low-pass
 /// of first order. In a sentence.
-pub(super) fn of_delay(named: &[Named]) -> Option<String> {
+pub(super) fn of_delay(named: &[Named], row_s: f64) -> Option<String> {
     let (late_s, _) = parameter(named, LATENCY)?;
     let (names, all_s) = match parameter(named, FILTER) {
-        Some((filter_s, _)) => (format!("{FILTER} and {LATENCY}"), late_s + filter_s),
+        Some((found_s, _)) => (format!("{FILTER} and {LATENCY}"), late_s + found_s),
         None => (LATENCY.to_owned(), late_s),
     };
-    (late_s > 0.0 && all_s <= FILTER_S).then(|| {
+    (late_s > 0.0 && all_s <= filter_s(row_s)).then(|| {
         format!(
             "Found from speeds that the log has in place of counts: {names}. Where the firmware takes a mean of {:.0} ms, or \
              filters twice, that is what it looks like. Log counts, or speeds without the filter, to tell.",
@@ -50,13 +50,13 @@ pub(super) fn in_place_of_inertia(
 ) -> Option<(String, Vec<String>)> {
     let [file_s, now_s] = motor_s(named, model)?;
     // Both are as late.
-    let filter_s = now_s + late_s - file_s;
-    let hidden = parameter(named, FILTER).is_none() && file_s <= row_s && (row_s..=FILTER_S).contains(&filter_s);
+    let late_s = now_s + late_s - file_s;
+    let hidden = parameter(named, FILTER).is_none() && file_s <= row_s && (row_s..=filter_s(row_s)).contains(&late_s);
     hidden.then(|| {
         let said = format!(
             "A filter and an inertia may change places: a {FILTER} of {:.1} ms with the inertia of the file does the same as \
              what is named, for by the file the motor is done within a row. Log counts, or speeds without the filter, to tell.",
-            1e3 * filter_s
+            1e3 * late_s
         );
         (said, [INERTIA, FILTER].map(str::to_owned).to_vec())
     })
@@ -64,17 +64,17 @@ pub(super) fn in_place_of_inertia(
 
 /// A motor is a low-pass of its duty as a filter is one of its speed, and what comes out of both does not tell which is
 /// which: inertia and filter with their time constants exchanged, in a sentence.
-pub(super) fn exchanged(named: &[Named], model: &DriveModel) -> Option<String> {
-    let (filter_s, within) = parameter(named, FILTER)?;
+pub(super) fn exchanged(named: &[Named], model: &DriveModel, row_s: f64) -> Option<String> {
+    let (found_s, within) = parameter(named, FILTER)?;
     let [file_s, motor_s] = motor_s(named, model)?;
     let scaled = model.inertia_of_scale(0);
     let braking = model.axes[0].braking(model.gear_ratio);
     let holds_file = within.is_some_and(|[low, high]| (low..=high).contains(&file_s));
-    let inertia = match (filter_s - file_s) * braking / scaled {
+    let inertia = match (found_s - file_s) * braking / scaled {
         _ if holds_file => "the inertia of the file".to_owned(),
         scale => format!("{INERTIA} of {:+.0} %", 100.0 * scale),
     };
-    (motor_s.is_finite() && motor_s <= FILTER_S).then(|| {
+    (motor_s.is_finite() && motor_s <= filter_s(row_s)).then(|| {
         format!(
             "A filter and an inertia may change places: a {FILTER} of {:.1} ms with {inertia} does the same as what is named. \
              Log counts, or speeds without the filter, to tell.",

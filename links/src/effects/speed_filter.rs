@@ -36,7 +36,7 @@ impl Effect for SpeedFilter {
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
         let row = 1.0 / robot.control_rate_hz;
-        let time = Parameter::new("time_s", 0.002, [0.0, thresholds::FILTER_S], row.max(0.004));
+        let time = Parameter::new("time_s", 0.002, [0.0, thresholds::filter_s(row)], row.max(0.004));
         // A logged speed is of the moment or of the row before, as with a delay.
         vec![Form::whole(vec![time.open_by(0.5 * row)])]
     }
