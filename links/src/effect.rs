@@ -293,7 +293,8 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
-    /// Play of a gear that leaves least of the drive, rad at the motor shaft; `None` where none leaves less.
+    /// Play of a gear that leaves least of the drive, rad at the motor shaft, 0 where none leaves less; `None` where nobody
+    /// looked.
     pub play_rad: Option<f64>,
 }
 

@@ -7,29 +7,56 @@ use super::{DriveLink, DriveModel, DriveResiduals};
 use crate::effect::{Effect, Form, Sizes, Values};
 
 /// From one play that is tried to the next: an estimate goes on from within a quarter of the true one.
-const RATIO: f64 = 1.5;
+pub(crate) const RATIO: f64 = 1.5;
+/// Times that a play must be crossed: once there and back is a start and a stop, and of one step of a coarse encoder that
+/// flickers a wheel that coasts within 2.4 turns of its motor left less.
+const CROSSINGS: usize = 4;
+/// Share of the squared gap that a play must close to be looked for: less any play closes by chance.
+const CLOSES: f64 = 0.02;
 
 impl DriveLink<'_> {
     /// The sizes of the logs with the play that leaves least beside a model, of an effect in this form; worked out once.
     pub fn sizes_with_play(&self, play: &dyn Effect, form: &Form, model: &dyn Fn() -> DriveModel) -> Sizes {
         let play_rad = *self.play.get_or_init(|| {
             let p = form.free.first()?;
-            let squares = |play_rad: f64| {
+            let without = squares(&self.residuals(&model())?);
+            // One wheel of several may have it; what single counts make, a wheel that coasts takes away as well.
+            let counted = super::of_a_count(self).powi(2) * self.test_functions.len() as f64;
+            let falls = |with: Vec<f64>| {
+                let more = without.iter().zip(with).filter(|(a, _)| **a > counted);
+                more.map(|(a, b)| (a - b).max(0.0)).sum::<f64>()
+            };
+            let of = |play_rad: f64| {
                 let mut model = model();
                 let mut values = Values::default();
                 values.set(&p.name, play_rad);
                 play.drive(&values, &mut model);
-                self.residuals(&model).map(|r| squares(&r))
+                if self.crossings(&model) < CROSSINGS {
+                    return None;
+                }
+                Some((falls(squares(&self.residuals(&model)?)), play_rad))
             };
-            let without = squares(0.0)?;
-            // One wheel of several may have it.
-            let falls = |with: Vec<f64>| without.iter().zip(with).map(|(a, b)| (a - b).max(0.0)).sum::<f64>();
             let tried = std::iter::successors(Some(p.material), |play| Some(play * RATIO));
-            let of =
-                tried.take_while(|play| *play < p.bounds[1]).filter_map(|play| Some((falls(squares(play)?), play)));
-            of.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(fall, _)| *fall > 0.0).map(|(_, play)| play)
+            let best = tried.take_while(|play| *play < p.bounds[1]).filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
+            let least = CLOSES * without.iter().sum::<f64>();
+            Some(best.filter(|(fall, _)| *fall > least).map_or(0.0, |(_, play)| play))
         });
         Sizes { play_rad, ..self.sizes }
+    }
+
+    /// How often the rotor that does so most goes from one flank of the last play of a model to the other.
+    fn crossings(&self, model: &DriveModel) -> usize {
+        let Some((_, ahead)) = model.offsets.last() else { return 0 };
+        let mut crossed = vec![0; model.axes.len()];
+        for segment in self.pieces.iter() {
+            for (crossed, ahead) in crossed.iter_mut().zip(ahead(model, &segment)) {
+                let half = ahead.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let mut flanks: Vec<bool> = ahead.iter().filter(|x| x.abs() == half).map(|x| *x > 0.0).collect();
+                flanks.dedup();
+                *crossed += flanks.len().saturating_sub(1);
+            }
+        }
+        crossed.into_iter().max().unwrap_or(0)
     }
 }
 

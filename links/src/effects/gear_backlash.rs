@@ -2,7 +2,7 @@
 
 use runs::robot::Robot;
 
-use crate::drive::{Ahead, DriveModel, TEST_FUNCTION_S};
+use crate::drive::{Ahead, DriveModel, RATIO, TEST_FUNCTION_S};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -39,13 +39,13 @@ impl Effect for GearBacklash {
         // Less than a count is not told from where the counts happen to change.
         let least = unit.max(sizes.count_rad * robot.gear_ratio);
         let most = (700.0 * least).min(MOST_TURNS * std::f64::consts::TAU * robot.gear_ratio);
-        // What would have to be more than any gear has is not looked for.
-        if least >= most {
+        // What would have to be more than any gear has is not looked for, nor what leaves no less.
+        if least >= most || sizes.play_rad == Some(0.0) {
             return Vec::new();
         }
-        let p = |name: String| {
-            Parameter::new(name, sizes.play_rad.unwrap_or(0.7 * unit).min(0.5 * most), [0.0, most], least)
-        };
+        // One that was looked for lies next to where it was found.
+        let (tried, most) = sizes.play_rad.map_or((0.7 * unit, most), |play| (play, most.min(NEXT * play)));
+        let p = |name: String| Parameter::new(name, tried.min(0.5 * most), [0.0, most], least);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
         forms
@@ -80,6 +80,8 @@ impl Effect for GearBacklash {
     }
 }
 
+/// Times a play that was found from which another one would have left less.
+const NEXT: f64 = RATIO * RATIO;
 /// Turns of the output that no gear with teeth has in play: a quarter turn is a shaft that has come loose. Without it, logs of
 /// a staircase of settled speeds, whose rows no gear could tell from play, had 3 turns named beside a friction.
 const MOST_TURNS: f64 = 0.25;
