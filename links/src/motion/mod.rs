@@ -11,7 +11,6 @@ mod windows;
 
 use std::borrow::Cow;
 
-use nalgebra::DMatrix;
 use runs::frames::{Pose, Walk};
 use runs::geometry::{Geometry, Wheel};
 use runs::robot::Robot;
@@ -67,8 +66,6 @@ pub struct MotionModel {
     pub curl: [f64; 2],
     /// Age of a frame beyond `latency_s` per speed of the robot, s²/m.
     pub speed_delay: f64,
-    /// Torque per wheel acceleration, N × N, kg m²: what forces follow from speeds.
-    pub inertia: DMatrix<f64>,
     /// Mass of the whole robot, kg.
     pub mass_kg: f64,
     /// Yaw inertia about the chassis centre, kg m².
@@ -112,9 +109,6 @@ impl MotionModel {
             sideways_scale: 1.0,
             curl: [0.0; 2],
             speed_delay: 0.0,
-            inertia: crate::drive::DriveModel::new(robot)
-                .mechanics()
-                .map_or_else(|| DMatrix::zeros(robot.wheel_count(), robot.wheel_count()), |m| m.inertia),
             mass_kg: robot.mass_kg,
             yaw_inertia_kg_m2: robot.yaw_inertia_kg_m2,
             gear_ratio: robot.gear_ratio,
