@@ -60,6 +60,9 @@ pub fn analyse_logs(set: &Logs, options: &Options) -> Result<Analysis, GapError>
         Some(failure) => Err(GapError::Log(failure.clone())),
         None => analysis.map_err(|error| match (error, set.lacking()) {
             (GapError::NothingToCompare, Some(lacking)) => GapError::Lacking(lacking),
+            (GapError::NothingToCompare, None) if set.logs.iter().any(|log| !log.camera().is_empty()) => {
+                GapError::FewPoses
+            }
             (error, _) => error,
         }),
     }

@@ -9,6 +9,12 @@ pub enum GapError {
     /// No link can be compared.
     #[error("the logs hold no two neighbouring signals to compare; log counts with duties or camera poses")]
     NothingToCompare,
+    /// The camera saw the robot too rarely.
+    #[error(
+        "no second of the logs has four camera poses, which counts are compared with, as where only the ends of a run were \
+         measured; log every frame of the camera, or duties"
+    )]
+    FewPoses,
     /// There would be something to compare if robot.toml said more.
     #[error(
         "nothing can be compared before robot.toml says what the duties need: {0}; `racbot init --log` asks for it"

@@ -60,6 +60,16 @@ fn missing_columns_narrow_what_is_compared() {
     assert_eq!(error, Some(GapError::Lacking("mass_kg, motor.resistance_ohm".to_owned())));
     let nothing = analyse(&without(&|r| *r = Run { t: r.t.clone(), ..Run::default() }), &Options::default());
     assert!(matches!(nothing, Err(GapError::NothingToCompare)));
+    // Measured where each run began and ended.
+    let ends = without(&|r| {
+        r.duty.clear();
+        r.command = None;
+        r.reference.clear();
+        let last = r.camera.len() - 1;
+        let mut frames = 0..=last;
+        r.camera.retain(|_| frames.next().is_some_and(|k| k == 0 || k == last));
+    });
+    assert_eq!(analyse(&ends, &Options::default()).err(), Some(GapError::FewPoses));
 }
 
 /// A set as read from logs that have positions alone, and no duties.
