@@ -118,16 +118,15 @@ impl<'a> Workflow<'a> {
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
             let link = self.searched().motion;
-            let mut outcome = self.motion_studied(self.data.catalogue);
+            let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
+            outcome = self.smoothed(&outcome).unwrap_or(outcome);
             self.late_or_filtered(&mut outcome);
             if self.drive_is_in_step(&outcome) {
-                let here: Vec<_> = self.data.catalogue.iter().filter(|e| e.name() != LATE_COUNTS).cloned().collect();
-                outcome = self.motion_studied(&here);
+                outcome = self.motion_studied(&self.without(&[SMOOTHED, LATE_COUNTS]));
                 self.findings.remarks.push(IN_STEP.to_owned());
             }
             if self.drive_has_other_counts(&outcome) {
-                let here: Vec<_> = self.data.catalogue.iter().filter(|e| e.name() != RADIUS).cloned().collect();
-                outcome = self.motion_studied(&here);
+                outcome = self.motion_studied(&self.without(&[SMOOTHED, RADIUS]));
                 self.findings.remarks.push(OTHER_COUNTS.to_owned());
             }
             self.seen = Some(link.residuals(&outcome.written.motion(None)));
@@ -149,6 +148,23 @@ impl<'a> Workflow<'a> {
         let selection = chosen(&problem, &self.start, &[], here, &self.thresholds, matters);
         self.question.options.reached(Stage::MotionChosen);
         study(&problem, &whole, &self.start, selection, here, &self.thresholds, self.thresholds.far)
+    }
+
+    /// The catalogue without some of its effects.
+    fn without(&self, names: &[&str]) -> Vec<Arc<dyn Effect>> {
+        self.data.catalogue.iter().filter(|e| !names.contains(&e.name())).cloned().collect()
+    }
+
+    /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly
+    /// less: a little of a filter is a latency, which many robots have and few filters make.
+    fn smoothed(&self, outcome: &Outcome) -> Option<Outcome> {
+        if !outcome.named.iter().any(|n| LAGS.contains(&n.name.as_str())) {
+            return None;
+        }
+        let again = self.motion_studied(&self.without(&LAGS[2..]));
+        let is_named = again.named.iter().any(|n| n.name == SMOOTHED);
+        let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
+        (is_named && self.is_more(before, after)).then_some(again)
     }
 
     /// Whether counts were found to be late against the camera, and the drive, which shows late counts as well, has them in
@@ -233,8 +249,8 @@ impl<'a> Workflow<'a> {
             // For the motion all three are one; where two are named, the camera may be late as well.
             let one =
                 |name: &str| name == LATE_COUNTS || name == filter.name() || name == LATE_FRAMES && late.len() < 2;
-            let others = self.data.catalogue.iter().filter(|e| !one(e.name()));
-            let here: Vec<_> = others.cloned().chain([filter.clone()]).collect();
+            let others = self.without(&[SMOOTHED]).into_iter().filter(|e| !one(e.name()));
+            let here: Vec<_> = others.chain([filter.clone()]).collect();
             *outcome = self.motion_studied(&here);
         } else if late.iter().any(|a| a.effect.name() == LATE_COUNTS) && !self.is_more(filtered, written) {
             outcome.ambiguous = true;
@@ -284,6 +300,9 @@ impl<'a> Workflow<'a> {
 /// Counts that are older than their rows, and what is said where the drive does not have them so.
 const LATE_COUNTS: &str = "encoder-lag";
 const LATE_FRAMES: &str = "camera-latency";
+const SMOOTHED: &str = "camera-filter";
+/// Effects by which poses are late: first those that may stand beside a filter.
+const LAGS: [&str; 4] = ["camera-clock", LATE_FRAMES, LATE_COUNTS, "wheel-creep"];
 const RADIUS: &str = "wheel-radius";
 const OTHER_COUNTS: &str = "Against the camera other counts are another radius: the drive follows its duties with the counts, and not with \
      the radius.";
