@@ -236,6 +236,10 @@ pub trait Effect: Send + Sync {
     fn may_be_little(&self, _form: &Form) -> bool {
         true
     }
+    /// Whether it takes away what an encoder's noise makes, too.
+    fn takes_noise(&self) -> bool {
+        false
+    }
     /// Whether it only probes for structure and is never named.
     fn probe(&self) -> bool {
         false

@@ -13,6 +13,7 @@ use crate::options::Stage;
 use crate::thresholds::Thresholds;
 use crate::units::short;
 use links::effect::Link;
+use links::effects;
 
 /// A robot with what was named, its file, and the figures of that file.
 pub(super) struct Written<'a> {
@@ -47,6 +48,8 @@ impl<'a> Workflow<'a> {
             let why = |n: &Named| {
                 if is_idle(n, &measured.links, &self.thresholds) || measured.idle.contains(&n.name) {
                     Some("as written it does not lower the gap".to_owned())
+                } else if is_noise(n, &measured.links, &self.thresholds) {
+                    Some("what an encoder's noise makes a wheel that coasts takes away as well".to_owned())
                 } else {
                     let p = by_chance(n, &measured.links, &self.thresholds)?;
                     Some(format!("one of so many does as much by chance (p = {})", short(p)))
@@ -112,6 +115,13 @@ fn by_chance(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> Option<f6
     (agrees && p > thresholds.surely).then_some(p)
 }
 
+/// Whether an effect that takes away noise as well is named on a link that is not worth a sentence without it.
+fn is_noise(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> bool {
+    let takes_noise = effects::find(&n.name).is_some_and(|effect| effect.takes_noise());
+    let worth = links.iter().any(|l| l.link == n.link && l.before >= thresholds.worth_saying);
+    takes_noise && matches!(n.evidence, Evidence::Test { .. }) && !worth
+}
+
 /// What to say of logs whose times cannot be seconds.
 fn odd_clock(robot: &Robot, logs: &[Log], thresholds: &Thresholds) -> Option<String> {
     let periods = logs.iter().filter_map(|log| Some((&log.name, log.tick_s()? * robot.control_rate_hz)));
@@ -143,6 +153,18 @@ mod tests {
         };
         assert_eq!(chance(0.003, 0.4), Some(0.003));
         assert!(chance(0.0002, 0.4).is_none() && chance(0.008, 16.0).is_none());
+    }
+
+    #[test]
+    fn play_is_named_where_a_link_is_worth_a_sentence_without_it() {
+        let is_noise = |name: &str, before: f64| {
+            let evidence = Evidence::Test { method: "signs of whole clusters flipped", p: 0.0002 };
+            let named = Named { evidence, ..Named::bare(name, Link::Drive, &[]) };
+            is_noise(&named, &[gap(Link::Motion, 4.0, 0.5), gap(Link::Drive, before, 0.1)], &Thresholds::default())
+        };
+        assert!(
+            is_noise("gear-backlash", 1.1) && !is_noise("gear-backlash", 2.5) && !is_noise("viscous-friction", 1.1)
+        );
     }
 
     #[test]
