@@ -158,10 +158,11 @@ impl<'a> Workflow<'a> {
     /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly
     /// less: a little of a filter is a latency, which many robots have and few filters make.
     fn smoothed(&self, outcome: &Outcome) -> Option<Outcome> {
-        if !outcome.named.iter().any(|n| LAGS.contains(&n.name.as_str())) {
+        let is_late = |n: &Named| LATE_POSES.iter().chain(&LATE_WHEELS).any(|late| n.name == *late);
+        if !outcome.named.iter().any(is_late) {
             return None;
         }
-        let again = self.motion_studied(&self.without(&LAGS[2..]));
+        let again = self.motion_studied(&self.without(&LATE_WHEELS));
         let is_named = again.named.iter().any(|n| n.name == SMOOTHED);
         let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
         (is_named && self.is_more(before, after)).then_some(again)
@@ -301,8 +302,9 @@ impl<'a> Workflow<'a> {
 const LATE_COUNTS: &str = "encoder-lag";
 const LATE_FRAMES: &str = "camera-latency";
 const SMOOTHED: &str = "camera-filter";
-/// Effects by which poses are late: first those that may stand beside a filter.
-const LAGS: [&str; 4] = ["camera-clock", LATE_FRAMES, LATE_COUNTS, "wheel-creep"];
+/// Effects by which poses are late that may stand beside a filter, and those that do the same as it.
+const LATE_POSES: [&str; 2] = ["camera-clock", LATE_FRAMES];
+const LATE_WHEELS: [&str; 2] = [LATE_COUNTS, "wheel-creep"];
 const RADIUS: &str = "wheel-radius";
 const OTHER_COUNTS: &str = "Against the camera other counts are another radius: the drive follows its duties with the counts, and not with \
      the radius.";

@@ -246,7 +246,7 @@ struct Clock {
     offset: f64,
     /// Age per speed of the robot, s²/m.
     delay: f64,
-    /// A low-pass.
+    /// What smooths its poses after that.
     filter: CameraFilter,
 }
 

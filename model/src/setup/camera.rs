@@ -144,7 +144,7 @@ fn of_all(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
     {
         (seen, found) = (long, Some(fit));
     }
-    let as_read: Vec<([f64; 2], f64)> = seen.iter().map(|s| body(s, Reading::default())).collect();
+    let as_read = bodies(&seen, Reading::default());
     let fitted = |fit: &Fit| fit.left <= FITS && named(robot, fit, spin(&geometry, &seen, fit), before).is_empty();
     if !runs::is_dead_reckoning(robot) && !found.as_ref().is_some_and(fitted) {
         let counts = counts::of_single_wheels(robot, &geometry, &seen, &as_read);
@@ -189,7 +189,7 @@ fn uneven(robot: &Robot, geometry: &Geometry, logs: &[Log], all: &Fit) -> Option
     }
     let own = |log: &Log| {
         let samples = thinned(moving(robot, std::slice::from_ref(log), STRETCH_S)?);
-        let seen: Vec<([f64; 2], f64)> = samples.iter().map(|s| body(s, all.reading)).collect();
+        let seen = bodies(&samples, all.reading);
         let own = fit(geometry, rim(geometry), &samples, &seen, all.reading, all.order.clone());
         (own.goes && own.left_way <= FITS && own.scale < TRUE_RATIO).then_some(own)
     };
@@ -231,7 +231,7 @@ fn best(robot: &Robot, geometry: &Geometry, moving: &[Sample]) -> Option<Fit> {
     for degrees in [false, true] {
         for (clockwise, down) in [(false, false), (true, false), (false, true), (true, true)] {
             let reading = Reading { degrees, clockwise, down, field: false };
-            let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
+            let seen = bodies(moving, reading);
             for order in &orders {
                 fits.push(fit(geometry, rim, moving, &seen, reading, order.clone()));
             }
@@ -239,7 +239,7 @@ fn best(robot: &Robot, geometry: &Geometry, moving: &[Sample]) -> Option<Fit> {
     }
     if robot.wheel_count() > 2 || runs::is_dead_reckoning(robot) {
         let reading = Reading { field: true, ..Reading::default() };
-        let seen: Vec<([f64; 2], f64)> = moving.iter().map(|s| body(s, reading)).collect();
+        let seen = bodies(moving, reading);
         fits.push(fit(geometry, rim, moving, &seen, reading, orders.swap_remove(0)));
     }
     let turns_tell = fits.iter().any(|f| f.turns && f.seen_to_turn && f.left_turn < TURNED);
@@ -284,6 +284,10 @@ fn body(s: &Sample, reading: Reading) -> ([f64; 2], f64) {
     let (dx, dy) = (s.to.x - s.from.x, if reading.down { s.from.y - s.to.y } else { s.to.y - s.from.y });
     let (sin, cos) = if reading.field { (0.0, 1.0) } else { (from + 0.5 * turn).sin_cos() };
     ([cos * dx + sin * dy, cos * dy - sin * dx], turn)
+}
+
+fn bodies(samples: &[Sample], reading: Reading) -> Vec<([f64; 2], f64)> {
+    samples.iter().map(|s| body(s, reading)).collect()
 }
 
 fn fit(
