@@ -23,6 +23,7 @@ mod ratios;
 mod robot_file;
 mod study;
 mod truth;
+mod ways;
 mod workflow;
 mod writing;
 
@@ -78,8 +79,10 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     remarks.extend(question.judge_poses(pieces.searched(), crossed.as_ref().map(|(active, _)| active)));
-    let whole = question.motion_link(&pieces.whole);
-    let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched()));
+    let ways = question.ways(pieces.searched(), crossed.as_ref());
+    remarks.extend(ways.as_ref().map(|(window_s, ways)| ways::said(*window_s, ways)));
+    let whole = question.motion_link(&pieces.whole, ways);
+    let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched(), ways));
     let mut workflow = Workflow::new(&question, &whole, sample.as_ref(), crossed, remarks);
     options.reached(Stage::Exact);
     workflow.counts(&exact);

@@ -39,9 +39,9 @@ pub(crate) fn motion(link: &MotionLink, windows: &[WindowResiduals]) -> Vec<Loca
             let place = format!(
                 "{} is off by {:.2} {} (noise {:.2}) in {bad} of {} windows of {:.0} s, most in run {} at {:.1} s",
                 names[i],
-                excess * link.noise[i] * units[i].1,
+                excess * link.unit()[i] * units[i].1,
                 units[i].0,
-                link.noise[i] * units[i].1,
+                link.unit()[i] * units[i].1,
                 windows.len(),
                 link.window_s,
                 worst.0.run + 1,

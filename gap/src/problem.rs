@@ -88,6 +88,11 @@ impl Problem<'_> {
         }
     }
 
+    /// Whether ways are compared, and no single frames.
+    pub fn is_along_ways(&self) -> bool {
+        matches!(self, Self::Motion(link) if link.ways.is_some())
+    }
+
     /// Whether an inertial sensor takes part.
     pub fn is_felt(&self) -> bool {
         matches!(self, Self::Motion(link) if link.inertial.is_some())

@@ -258,11 +258,14 @@ fn swap(
     thresholds: &Thresholds,
 ) -> (Selection, bool) {
     let mut changed = false;
-    for index in from..best.state.active.len() {
-        // What took the place may have an equal that comes earlier in turn, which the former explained too much for.
-        let mut simpler_alone = false;
-        while let Some(other) = swapped(problem, &best, index, simpler_alone, from, all, thresholds) {
-            (best, changed, simpler_alone) = (other, true, true);
+    // Along ways fewer parameters may have taken a place, beside which others have simpler equals, too.
+    for _ in 0..if problem.is_along_ways() { 2 } else { 1 } {
+        for index in from..best.state.active.len() {
+            // What took the place may have an equal that comes earlier in turn, which the former explained too much for.
+            let mut simpler_alone = false;
+            while let Some(other) = swapped(problem, &best, index, simpler_alone, from, all, thresholds) {
+                (best, changed, simpler_alone) = (other, true, true);
+            }
         }
     }
     (best, changed)
@@ -297,7 +300,7 @@ fn swapped(
     // What is switched on gains as a whole, and others by a straight line, which promises less of a law that bends: a
     // motor of 130 % more resistance was a current limit.
     let whole = own.switched() && problem.link() == Link::Drive;
-    let most = if far || whole { 8 } else { 3 };
+    let most = if far || whole || problem.is_along_ways() { 8 } else { 3 };
     let mut tried: Vec<&str> = vec![own.effect.name()];
     for t in &trials {
         let candidate = &design.candidates[t.candidate];
@@ -306,7 +309,9 @@ fn swapped(
         if !near || tried.len() > most {
             break;
         }
-        let simpler = rank(name) < rank(own.effect.name()) && candidate.form.free.len() <= own.form.free.len();
+        let [own_free, free] = [&own, candidate].map(|a| a.form.free.len());
+        let simpler =
+            rank(name) < rank(own.effect.name()) && free <= own_free || problem.is_along_ways() && free < own_free;
         if simpler_alone && !simpler
             || tried.contains(&name)
             || !t.material
@@ -326,7 +331,9 @@ fn swapped(
             continue;
         }
         let clear = more <= fewer && leaves_far_more(problem, best, &alternative, thresholds);
-        let needed = if simpler || clear { tie } else { -tie };
+        // Ways tell small things apart, and of several parameters some always answer a little of what nothing explains.
+        let as_good = if problem.is_along_ways() && free < own_free { thresholds.near[1] * gain_of_own } else { tie };
+        let needed = if simpler || clear { tie.max(as_good) } else { -tie };
         let even = || simpler && leaves_as_little(problem, &alternative, best, thresholds);
         if (alternative.against(best) < needed || even())
             && !problem.runs_away(&alternative.state, &without, thresholds)

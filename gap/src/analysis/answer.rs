@@ -62,7 +62,7 @@ impl Workflow<'_> {
             active: &self.findings.found,
             pieces: self.searched().pieces,
             noise: (self.question.noise, drive_noise),
-            window_s: self.data.motion.window_s,
+            window_s: self.question.window_s,
             thresholds: &self.thresholds,
             catalogue: self.data.catalogue,
         };

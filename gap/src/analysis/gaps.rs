@@ -16,7 +16,7 @@ use links::motion::{MotionLink, WindowResiduals};
 use links::pieces::Pieces;
 
 pub(super) fn motion_gap([before, after]: [f64; 2], link: &MotionLink, plots: &[Vec<WindowResiduals>; 2]) -> LinkGap {
-    let (noise, axes) = (link.noise, link.axes());
+    let (noise, axes) = (link.unit(), link.axes());
     let rms = |side: usize, i: usize| {
         noise[i]
             * estimation::statistics::rms(
@@ -94,7 +94,7 @@ pub fn overall(links: &[LinkGap]) -> (f64, f64) {
 
 /// Gap of the motion link that matters, in noise floors.
 pub(super) fn motion_matters(link: &MotionLink, thresholds: &Thresholds) -> f64 {
-    let ([x, y, theta], [way, turn]) = (link.noise, agreement(link, thresholds));
+    let ([x, y, theta], [way, turn]) = (link.unit(), agreement(link, thresholds));
     let way = way / x.max(y);
     2.0_f64.max(if link.axes() == 2 { way } else { way.min(turn / theta) })
 }
@@ -102,7 +102,7 @@ pub(super) fn motion_matters(link: &MotionLink, thresholds: &Thresholds) -> f64 
 /// Way, m, and turn, rad, of a window up to which wheels and poses part without that it matters.
 pub(super) fn agreement(link: &MotionLink, thresholds: &Thresholds) -> [f64; 2] {
     let robot = link.pieces.robot();
-    let rolled = link.pieces.speed() * robot.wheel_radius_m * link.window_s;
+    let rolled = link.pieces.speed() * robot.wheel_radius_m * link.rolled_s();
     [thresholds.matters[0] * rolled, thresholds.matters[1] * rolled / Sizes::of(robot).rim_m]
 }
 

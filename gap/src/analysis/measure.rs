@@ -34,6 +34,8 @@ pub(super) struct Data<'a> {
     pub(super) logs: &'a [Log<'a>],
     pub(super) catalogue: &'a [Arc<dyn Effect>],
     pub(super) thresholds: &'a Thresholds,
+    /// Length of a window of single frames, s.
+    window_s: f64,
 }
 
 /// The drive link under one model of the motion, its floor and the correlation of its residuals.
@@ -78,6 +80,7 @@ impl<'a> Data<'a> {
             logs: &question.set.logs,
             catalogue: &question.catalogue,
             thresholds: &question.options.thresholds,
+            window_s: question.window_s,
         }
     }
 
@@ -158,7 +161,7 @@ impl<'a> Data<'a> {
         };
         let seen = |state: &State| {
             let (square, n) = NormalEquations::new(self.motion.linearise_camera(&state.motion(None), &[])).plain();
-            (square / n.max(1.0)).sqrt()
+            self.motion.floors() * (square / n.max(1.0)).sqrt()
         };
         if self.has_camera() {
             let plots = [self.motion.residuals(&before.motion(None)), self.motion.residuals(&after.motion(None))];
@@ -182,7 +185,8 @@ impl<'a> Data<'a> {
             out.links.push(gaps::inertial_gap(link, &before, &after));
             out.felt.extend(before);
         }
-        let mut drive = self.drive(&after, out.motion.as_ref().map(|p| &p[1]));
+        let single = self.motion.ways.map(|_| self.motion.of_frames(&after.motion(None), self.window_s));
+        let mut drive = self.drive(&after, single.as_ref().or(out.motion.as_ref().map(|p| &p[1])));
         if let Some(Drive { link, .. }) = &mut drive {
             link.noise = gaps::drive_floor(link, &link.noise, self.thresholds);
         }

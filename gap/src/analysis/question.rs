@@ -12,6 +12,7 @@ use super::cut::Cut;
 use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
+use super::workflow::Workflow;
 use crate::catalogue::strangers;
 use crate::controller::ENCODER_SCALE;
 use crate::exact::ExactLink;
@@ -21,7 +22,7 @@ use crate::{GapError, command, controller, timing};
 use links::effect::Effect;
 use links::effects;
 use links::effects::camera_clock::CameraClock;
-use links::motion::{MotionLink, MotionModel, WINDOW_S};
+use links::motion::{MotionLink, MotionModel, WINDOW_S, Ways};
 use links::pieces::{Driving, PIECE, Pieces, segments};
 
 /// A data set and what is asked of it.
@@ -34,7 +35,7 @@ pub(super) struct Question<'a> {
     /// Standard deviations of a camera pose (m, m, rad).
     pub(super) noise: [f64; 3],
     /// Length of a window of camera frames, s.
-    window_s: f64,
+    pub(super) window_s: f64,
     geometry: Geometry,
     /// Whether causes are to be looked for in every run.
     every_run: bool,
@@ -131,9 +132,27 @@ impl<'a> Question<'a> {
         }
     }
 
-    /// Encoders to camera and inertial sensor.
-    pub(super) fn motion_link<'b>(&self, pieces: &'b Pieces<'b>) -> MotionLink<'b> {
-        MotionLink::new(pieces, self.noise, self.window_s).felt(&self.filed().motion(None))
+    /// Encoders to camera and inertial sensor; along ways of that length, s, by what wheels and poses part by in them.
+    pub(super) fn motion_link<'b>(&self, pieces: &'b Pieces<'b>, ways: Option<(f64, Ways)>) -> MotionLink<'b> {
+        let window_s = ways.map_or(self.window_s, |(window_s, _)| window_s);
+        let link = MotionLink::new(pieces, self.noise, window_s).along(ways.map(|(_, ways)| ways));
+        link.felt(&self.filed().motion(None))
+    }
+
+    /// Ways that tell of the wheels what single frames do not: where those give no effect a name.
+    ///
+    /// Whatever the file says of them, all effects are looked for, so that a file as it was written is compared as it was found.
+    pub(super) fn ways(&self, pieces: &Pieces, crossed: Option<&(Active, f64)>) -> Option<(f64, Ways)> {
+        let frames = self.motion_link(pieces, None);
+        let mut bare = self.filed();
+        bare.active.retain(cabled);
+        bare.active.extend(crossed.map(|(active, _)| active.clone()));
+        let ways = super::ways::ways(&frames, &bare, &self.catalogue, &self.options.thresholds)?;
+        let mut workflow = Workflow::new(self, &frames, None, crossed.cloned(), Vec::new());
+        workflow.start = bare;
+        let before = workflow.findings.named.len();
+        workflow.motion();
+        (workflow.findings.named.len() == before).then_some(ways)
     }
 
     /// Takes for the noise of poses that were smoothed what they know at best, and says so.

@@ -70,7 +70,7 @@ pub(super) fn chosen(
         select::single(problem, start, catalogue, thresholds).unwrap_or(selection)
     };
     // With everything adjusted and named, the prediction is still far from the noise: noise does not decide then.
-    if select::figures(&selection.design).1 <= thresholds.open {
+    if select::figures(&selection.design).1 <= thresholds.open && !problem.is_along_ways() {
         return selection;
     }
     let all = problem.candidates(start, catalogue);

@@ -93,7 +93,7 @@ pub(super) fn said(before: [f64; 3], now: [f64; 3]) -> String {
 }
 
 /// All effects of wheels, marker and clocks at once, each in its largest form.
-fn everything(problem: &Problem, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
+pub(super) fn everything(problem: &Problem, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
     let mut all: Vec<Active> = Vec::new();
     for a in problem.candidates(state, catalogue) {
         let grows = a.effect.link() == Link::Motion && !a.effect.probe() && !a.switched() && !a.form.free.is_empty();

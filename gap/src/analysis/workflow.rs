@@ -119,6 +119,7 @@ impl<'a> Workflow<'a> {
         if self.data.has_motion {
             let link = self.searched().motion;
             let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
+            outcome = self.beside_refused(&outcome).unwrap_or(outcome);
             outcome = self.smoothed(&outcome).unwrap_or(outcome);
             self.late_or_filtered(&mut outcome);
             if self.drive_is_in_step(&outcome) {
@@ -129,7 +130,7 @@ impl<'a> Workflow<'a> {
                 outcome = self.motion_studied(&self.without(&[SMOOTHED, RADIUS]));
                 self.findings.remarks.push(OTHER_COUNTS.to_owned());
             }
-            self.seen = Some(link.residuals(&outcome.written.motion(None)));
+            self.seen = Some(link.of_frames(&outcome.written.motion(None), self.question.window_s));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);
             self.shared_counts();
@@ -153,6 +154,15 @@ impl<'a> Workflow<'a> {
     /// The catalogue without some of its effects.
     fn without(&self, names: &[&str]) -> Vec<Arc<dyn Effect>> {
         self.data.catalogue.iter().filter(|e| !names.contains(&e.name())).cloned().collect()
+    }
+
+    /// What is found along ways beside what was fitted there and is not named, where nothing is: a clock of each run by chance took the
+    /// place of half a track that is wider.
+    fn beside_refused(&self, outcome: &Outcome) -> Option<Outcome> {
+        self.searched().motion.ways.filter(|_| outcome.named.is_empty() && !outcome.refused.is_empty())?;
+        let refused = outcome.refused.iter().map(|r| r.name.as_str());
+        let again = self.motion_studied(&self.without(&refused.chain([SMOOTHED]).collect::<Vec<_>>()));
+        (!again.named.is_empty()).then_some(again)
     }
 
     /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly

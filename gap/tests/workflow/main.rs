@@ -26,6 +26,7 @@ mod slow_rows;
 mod smoothed;
 mod thumb_motor;
 mod uneven;
+mod ways;
 
 use common::{RICH, cut_all, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};

@@ -7,6 +7,7 @@
 
 mod lag;
 mod track;
+mod ways;
 mod windows;
 
 use std::borrow::Cow;
@@ -21,6 +22,7 @@ use crate::values::Values;
 
 pub use lag::CameraFilter;
 pub(crate) use track::Path;
+pub use ways::{Errors, Ways};
 pub use windows::{MotionLink, WINDOW_S, WindowResiduals};
 
 /// Changes wheel angles (`[wheel][tick]`, rad) of a segment.

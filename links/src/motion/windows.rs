@@ -9,6 +9,7 @@ use runs::frames::{Pose, Walk, wrap_angle};
 
 use super::MotionModel;
 use super::track::{Differs, LANES, Path};
+use super::ways::{self, Errors, Group, Ways};
 use crate::inertial::InertialLink;
 use crate::pieces::{MOST_CLUSTERS, Pieces, by_segment};
 use crate::segment::{Frame, Segment};
@@ -43,6 +44,8 @@ pub struct MotionLink<'a> {
     pub window_s: f64,
     /// What an inertial sensor felt meanwhile, if the logs have it.
     pub inertial: Option<InertialLink<'a>>,
+    /// How far wheels and poses part, where ways are compared in place of single frames.
+    pub ways: Option<Ways>,
     windows: Vec<Window>,
 }
 
@@ -91,7 +94,51 @@ impl<'a> MotionLink<'a> {
                 }
             }
         }
-        Self { pieces, noise, window_s, inertial: None, windows }
+        Self { pieces, noise, window_s, inertial: None, ways: None, windows }
+    }
+
+    /// With ways in place of single frames, if wheels and poses part by that much.
+    #[must_use]
+    pub fn along(mut self, ways: Option<Ways>) -> Self {
+        self.ways = ways;
+        self
+    }
+
+    /// What wheels and poses part by beside a model, in groups of frames of that time; `None` where there is next to nothing.
+    pub fn part(&self, model: &MotionModel, together_s: f64, rim_m: f64) -> Option<Ways> {
+        let all = self.aligned(model);
+        let together = frames_within(together_s, &all);
+        let window = |w: &WindowResiduals| {
+            let grouped = Grouped::of(w, together);
+            (w.start, grouped.groups(together), grouped.in_units(self.noise))
+        };
+        let [x, y, heading_rad] = self.noise;
+        let seen = Errors { axis_m: x.max(y), heading_rad }.times(1.0 / (together as f64).sqrt());
+        Ways::begin(together_s, rim_m, seen).likeliest(&each(&all, &window))
+    }
+
+    /// Standard deviations that residuals are in units of, m, m, rad: a frame's, or those of a group in the middle of all, no
+    /// larger than what matters.
+    pub fn unit(&self) -> [f64; 3] {
+        self.ways.map_or(self.noise, |ways| [0, 1, 2].map(|i| ways.unexpected[i] / ways.beyond[i]))
+    }
+
+    /// Floors that residuals make of what ways leave in units of its standard deviation.
+    pub fn floors(&self) -> f64 {
+        self.ways.map_or(1.0, |ways| estimation::statistics::rms(ways.beyond))
+    }
+
+    /// Time over which residuals belong to what was rolled, s.
+    pub fn rolled_s(&self) -> f64 {
+        self.ways.map_or(self.window_s, |ways| ways.together_s)
+    }
+
+    /// Residuals of single frames, however ways are compared.
+    pub fn of_frames(&self, model: &MotionModel, window_s: f64) -> Vec<WindowResiduals> {
+        match self.ways {
+            None => self.residuals(model),
+            Some(_) => Self::new(self.pieces, self.noise, window_s).residuals(model),
+        }
     }
 
     /// With what an inertial sensor felt, its floors taken about a model.
@@ -123,8 +170,31 @@ impl<'a> MotionLink<'a> {
         self.windows.is_empty()
     }
 
-    /// Residuals of every window, start poses fitted, outliers weighted down.
+    /// Residuals of every window, start poses fitted, outliers weighted down; of groups of frames where ways are compared.
     pub fn residuals(&self, model: &MotionModel) -> Vec<WindowResiduals> {
+        let all = self.aligned(model);
+        let Some(ways) = self.ways else { return all };
+        let together = frames_within(ways.together_s, &all);
+        each(&all, &|w| {
+            let grouped = Grouped::of(w, together);
+            let steps = ways.steps(w.start, &grouped.groups(together));
+            // The first group finds the start pose alone.
+            let mut residuals = ways::whitened(&steps, &grouped.in_units(self.noise)).split_off(1);
+            residuals.iter_mut().for_each(|r| r.iter_mut().zip(ways.beyond).for_each(|(r, beyond)| *r *= beyond));
+            let weights = grouped.weights[1..].iter().map(|w| (w / together as f64).min(1.0)).collect();
+            let t = grouped.frames[1..].iter().map(|f| f.t).collect();
+            WindowResiduals {
+                run: w.run,
+                t,
+                predicted: grouped.predicted[1..].to_vec(),
+                residuals,
+                weights,
+                start: w.start,
+            }
+        })
+    }
+
+    fn aligned(&self, model: &MotionModel) -> Vec<WindowResiduals> {
         let part = |range: &Range<usize>| {
             let s = self.pieces.get(self.windows[range.start].segment);
             let path = Path::new(model, &s)?;
@@ -223,16 +293,17 @@ impl<'a> MotionLink<'a> {
         model: &MotionModel,
         sides: &[(Option<MotionModel>, MotionModel, f64)],
     ) -> Vec<Cluster> {
-        let base = self.residuals(model);
+        let base = self.aligned(model);
         if base.is_empty() {
             return Vec::new();
         }
+        let together_s = self.ways.map_or(TOGETHER_S, |ways| ways.together_s);
         let neighbours = self.windows.len().div_ceil(MOST_CLUSTERS);
         let mut clusters: Vec<Cluster> = Vec::new();
         // Segment by segment, so that the columns of a long log never stand in memory at once.
         for range in by_segment(&self.windows, |w| w.segment) {
             let own = &base[range.clone()];
-            let together = frames_within(TOGETHER_S, own);
+            let together = frames_within(together_s, own);
             let grouped: Vec<Grouped> = own.iter().map(|w| Grouped::of(w, together)).collect();
             let columns = if sides.is_empty() {
                 Vec::new()
@@ -251,7 +322,10 @@ impl<'a> MotionLink<'a> {
                     first - 3 * w.frames.len()
                 })
                 .collect();
-            let part: Vec<Cluster> = numbered(grouped.len(), &|i| self.cluster(&grouped[i], &columns, places[i]));
+            let part: Vec<Cluster> = numbered(grouped.len(), &|i| match self.ways {
+                Some(ways) => self.along_way(ways, together, &grouped[i], &columns, places[i]),
+                None => self.cluster(&grouped[i], &columns, places[i]),
+            });
             Cluster::append(&mut clusters, part, neighbours);
         }
         clusters
@@ -325,6 +399,23 @@ impl<'a> MotionLink<'a> {
         all.into_iter().map(|(_, column)| column).collect()
     }
 
+    /// A window's cluster where ways are compared: residual and columns as the filter sees them.
+    fn along_way(&self, ways: Ways, together: usize, grouped: &Grouped, columns: &[Vec<f64>], first: usize) -> Cluster {
+        let aligned = grouped.of;
+        let rows = 3 * grouped.frames.len();
+        let steps = ways.steps(aligned.start, &grouped.groups(together));
+        let white = |values: &[f64]| -> Vec<f64> {
+            let (values, _) = values.as_chunks::<3>();
+            let values: Vec<[f64; 3]> = values.iter().map(|v| [0, 1, 2].map(|i| v[i] * self.noise[i])).collect();
+            ways::whitened(&steps, &values).split_off(1).concat()
+        };
+        let residual = DVector::from_vec(white(grouped.residuals.as_flattened()));
+        let white: Vec<f64> = columns.iter().flat_map(|column| white(&column[first..first + rows])).collect();
+        let jacobian = DMatrix::from_vec(rows - 3, columns.len(), white);
+        let used = grouped.weights[1..].iter().filter(|w| **w > 0.0).count();
+        Cluster::new(aligned.run, aligned.t[0], (self.axes() * used) as f64, &residual, &jacobian)
+    }
+
     fn cluster(&self, grouped: &Grouped, columns: &[Vec<f64>], first: usize) -> Cluster {
         let aligned = grouped.of;
         let rows = 3 * grouped.frames.len();
@@ -367,6 +458,16 @@ struct Grouped<'a> {
 }
 
 impl<'a> Grouped<'a> {
+    /// As a filter sees them: where they are, and the weight of each beside `together` frames.
+    fn groups(&self, together: usize) -> Vec<Group> {
+        self.predicted.iter().zip(&self.weights).map(|(p, w)| (*p, w / together as f64)).collect()
+    }
+
+    /// Residuals in m, m and rad.
+    fn in_units(&self, noise: [f64; 3]) -> Vec<[f64; 3]> {
+        self.residuals.iter().map(|r| [0, 1, 2].map(|i| r[i] * noise[i])).collect()
+    }
+
     fn of(window: &'a WindowResiduals, together: usize) -> Self {
         let n = window.t.len();
         let groups = 1 + (n - 1).div_ceil(together);

@@ -1,0 +1,176 @@
+//! Whether single frames tell what is wrong with wheels, or only the way of several seconds.
+//!
+//! Within a second a radius that is a per cent off moves a slow robot by no more than its poses err. Over several seconds it
+//! does, and the wheels' own wandering counts, too: how much of that there is, is what every effect at once leaves.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::gaps::agreement;
+use super::truth::everything;
+use crate::problem::{Linear, Owner, Problem};
+use crate::state::{Active, State};
+use crate::thresholds::Thresholds;
+use estimation::normal_equations::solve;
+use links::effect::{Effect, Link, Parameter, Sizes};
+use links::motion::{Errors, MotionLink, Ways};
+
+/// Effects of the wheels that any robot may have, whose sizes single frames must tell.
+const WHEELS: [&str; 2] = ["body-radius", "wheel-radius"];
+/// Groups of frames in a window of single frames.
+const GROUPS: f64 = 2.0;
+/// Sizes that matter within which each of all effects is held as they are fitted together: look-alikes share what they do.
+const LOOSELY: f64 = 30.0;
+/// Steps of Gauss-Newton, and halvings of each, at most.
+const STEPS: [usize; 2] = [6, 5];
+/// Share of the objective below which a step is the last.
+const SETTLED: f64 = 1e-3;
+
+/// Length of windows, s, and what wheels and poses part by in them. `None` where single frames tell what matters of the wheels,
+/// where ways do not tell much more, and where wheels wander by much more than matters: those slip.
+pub(super) fn ways(
+    link: &MotionLink,
+    start: &State,
+    catalogue: &[Arc<dyn Effect>],
+    thresholds: &Thresholds,
+) -> Option<(f64, Ways)> {
+    if link.is_empty() || link.axes() < 3 {
+        return None;
+    }
+    let problem = Problem::Motion(link);
+    let mut state = start.clone();
+    state.active.iter_mut().for_each(|a| a.given = true);
+    state.active.extend(everything(&problem, &state, catalogue));
+    // A straight line tells most data sets apart.
+    let linear = problem.linearise(&state, &[]);
+    let tells = |least: &[f64]| least.iter().all(|least| *least < thresholds.seen);
+    if tells(&least(&linear, &state, linear.equations.loss_after(&step(&linear, &state)), thresholds)) {
+        return None;
+    }
+    fit(&problem, &mut state);
+    let frames = least_of(&problem, &state, thresholds);
+    if tells(&frames) {
+        return None;
+    }
+    let [number, shortest, longest] = thresholds.ways;
+    let window_s = link.window_s * (link.len() as f64 / number).clamp(shortest, longest);
+    let together_s = link.window_s / GROUPS;
+    let rim_m = Sizes::of(&state.robot).rim_m;
+    let along = |ways: Option<Ways>| MotionLink::new(link.pieces, link.noise, window_s).along(ways);
+    let part = |ways: Option<Ways>, state: &State| along(ways).part(&state.motion(None), together_s, rim_m);
+    let first = part(None, &state)?;
+    let long = along(Some(first));
+    fit(&Problem::Motion(&long), &mut state);
+    let ways = part(Some(first), &state)?;
+    let (square, n) = Problem::Motion(&along(Some(ways))).linearise_nothing(&state).plain();
+    // What is rare and large is in the floor as well.
+    let ways = ways.times((square / n.max(1.0)).sqrt());
+    let rolled = link.pieces.speed() * state.robot.wheel_radius_m * link.window_s;
+    let Errors { axis_m, heading_rad } = ways.wander.times(rolled.sqrt());
+    let [way, turn] = agreement(link, thresholds);
+    let beyond = [axis_m / way, heading_rad / turn];
+    if beyond.iter().zip(thresholds.wanders).any(|(beyond, most)| *beyond > most) {
+        return None;
+    }
+    let ways = ways.beyond(beyond);
+    let along = least_of(&Problem::Motion(&along(Some(ways))), &state, thresholds);
+    let better = |(frames, along): (&f64, &f64)| *frames >= thresholds.seen && thresholds.tells_more * along < *frames;
+    frames.iter().zip(&along).any(better).then_some((window_s, ways))
+}
+
+/// What is said of such a comparison.
+pub(super) fn said(window_s: f64, ways: &Ways) -> String {
+    format!(
+        "Wheels and poses were compared along ways of {window_s:.0} s: in single seconds nothing small shows of these wheels. \
+         Over a metre rolled they wander by {:.1} mm and {:.2} degrees beside every effect, and so much is their noise.",
+        1e3 * ways.wander.axis_m,
+        ways.wander.heading_rad.to_degrees()
+    )
+}
+
+fn least_of(problem: &Problem, state: &State, thresholds: &Thresholds) -> Vec<f64> {
+    let linear = problem.linearise(state, &[]);
+    let square = linear.equations.plain().0;
+    least(&linear, state, square, thresholds)
+}
+
+/// Sizes from which effects of the wheels would have a name beside what all effects leave, in those that matter.
+fn least(linear: &Linear, state: &State, square: f64, thresholds: &Thresholds) -> Vec<f64> {
+    let n = linear.equations.plain().1;
+    let needed = (thresholds.share_of_excess * (square - n).max(0.0))
+        .max(thresholds.share(Link::Motion) * square)
+        .max(thresholds.gain + thresholds.cost(1));
+    let information = linear.equations.information();
+    let of = |name: &&str| {
+        let index = state.active.iter().position(|a| !a.given && a.effect.name() == *name)?;
+        let known: f64 = linear.of_active(index).iter().map(|c| information[(*c, *c)]).sum();
+        Some((needed / known).sqrt() / state.active[index].form.free[0].material)
+    };
+    WHEELS.iter().filter_map(of).collect()
+}
+
+/// The free parameter of a column, and its value.
+fn free<'a>(linear: &Linear, state: &'a State, column: usize) -> Option<(&'a Parameter, f64)> {
+    let Owner::Active(index, j) = linear.owners[column] else { return None };
+    let a = &state.active[index];
+    let p = &a.form.free[j];
+    Some((p, a.values.get(&p.name)))
+}
+
+/// Information on a parameter by how far it is held.
+fn held(p: &Parameter) -> f64 {
+    if p.material.is_finite() { (LOOSELY * p.material).powi(-2) } else { 0.0 }
+}
+
+/// A step of all that is fitted, each held loosely.
+fn step(linear: &Linear, state: &State) -> DVector<f64> {
+    let totals = linear.equations.totals();
+    let (mut a, mut b): (DMatrix<f64>, DVector<f64>) = (totals.jj.clone(), totals.jr.clone());
+    for column in 0..linear.owners.len() {
+        match free(linear, state, column) {
+            Some((p, value)) => {
+                a[(column, column)] += held(p);
+                b[column] -= held(p) * value;
+            }
+            None => {
+                a.fill_row(column, 0.0);
+                a.fill_column(column, 0.0);
+                b[column] = 0.0;
+            }
+        }
+    }
+    solve(&a, &b)
+}
+
+/// Fits what is not given, each held loosely.
+fn fit(problem: &Problem, state: &mut State) {
+    let objective = |state: &State| {
+        let of = |a: &Active| a.form.free.iter().map(|p| held(p) * a.values.get(&p.name).powi(2)).sum::<f64>();
+        problem.loss(state) + state.active.iter().filter(|a| !a.given).map(of).sum::<f64>()
+    };
+    let mut reached = objective(state);
+    let [steps, halvings] = STEPS;
+    for _ in 0..steps {
+        let linear = problem.linearise(state, &[]);
+        let step = step(&linear, state);
+        let moved = |halving: usize| {
+            let mut trial = state.clone();
+            for (column, owner) in linear.owners.iter().enumerate() {
+                let (Owner::Active(index, _), Some((p, now))) = (*owner, free(&linear, state, column)) else {
+                    continue;
+                };
+                let next = (now + 0.5_f64.powi(halving as i32) * step[column]).clamp(p.bounds[0], p.bounds[1]);
+                trial.active[index].values.set(&p.name, next);
+            }
+            let reached = objective(&trial);
+            (trial, reached)
+        };
+        let Some((trial, less)) = (0..halvings).map(moved).find(|(_, less)| *less < reached) else { return };
+        let settled = less > (1.0 - SETTLED) * reached;
+        (*state, reached) = (trial, less);
+        if settled {
+            return;
+        }
+    }
+}
