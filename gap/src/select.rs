@@ -164,7 +164,7 @@ fn searched(problem: &Problem, start: &State, known: &[Active], all: &[Active], 
     };
     let best = backward(problem, best, from, all, thresholds);
     let (best, swapped) = swap(problem, best, from, all, thresholds);
-    let (best, joined) = join(problem, best, from, all, thresholds);
+    let (best, joined) = join(problem, start, best, from, all, thresholds);
     let best = if swapped || joined { backward(problem, best, from, all, thresholds) } else { best };
     sure::sure(problem, best, from, all, thresholds)
 }

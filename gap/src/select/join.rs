@@ -2,8 +2,9 @@
 
 use super::{Selection, finish, settle, stopped};
 use crate::problem::Problem;
-use crate::state::Active;
+use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
+use links::effect::Link;
 
 /// Effects that are tried in place of two.
 const JOINTS: usize = 3;
@@ -12,13 +13,14 @@ const JOINTS: usize = 3;
 /// is named.
 pub(super) fn join(
     problem: &Problem,
+    start: &State,
     mut best: Selection,
     from: usize,
     all: &[Active],
     thresholds: &Thresholds,
 ) -> (Selection, bool) {
     let mut changed = false;
-    while let Some(simpler) = joined(problem, &best, from, all, thresholds) {
+    while let Some(simpler) = joined(problem, start, &best, from, all, thresholds) {
         best = simpler;
         changed = true;
     }
@@ -27,6 +29,7 @@ pub(super) fn join(
 
 fn joined(
     problem: &Problem,
+    start: &State,
     best: &Selection,
     from: usize,
     all: &[Active],
@@ -49,18 +52,29 @@ fn joined(
         };
         let left = |c: usize| (design.left_by(c, &[a, b])[1], c);
         let mut alike: Vec<(f64, usize)> = (0..all.len()).filter(fits).map(left).collect();
-        alike.retain(|(left, _)| *left < thresholds.does_both * added);
+        // A heavier robot looks like weaker motors with less to turn than the file has. Accelerations go with the inverse of
+        // what is moved, which no straight line beside motors that are a quarter weaker promises.
+        let moves = |law: &Active| problem.link() == Link::Drive && problem.changes_inertia(start, law);
+        let is_either = |c: usize| [a, b].iter().any(|i| active[*i].effect.name() == all[c].effect.name());
+        let less = |law: &Active| moves(law) && law.form.free.first().is_some_and(|p| law.values.get(&p.name) < 0.0);
+        let moved = less(&active[a]) || less(&active[b]);
+        let heavier = |c: usize| moved && !is_either(c) && moves(&all[c]);
+        alike.retain(|(left, c)| *left < thresholds.does_both * added || heavier(*c));
         alike.sort_by(|x, y| x.0.total_cmp(&y.0));
         for (_, c) in alike.into_iter().take(JOINTS) {
-            let mut state = best.state.clone();
-            state.active.remove(b);
+            let mut without = best.state.clone();
+            without.active.remove(b);
+            let mut state = without.clone();
+            without.active.remove(a);
             state.active[a] = all[c].clone();
             let settled = settle(problem, &mut state, all, thresholds);
             let alternative = finish(state, settled, from, thresholds);
+            // What is adjusted beside both is as much larger in the torque of a heavier robot.
+            let other = if heavier(c) { &without } else { &best.state };
             let sound = alternative.state.active[a].worth() && !stopped(&alternative.state.active[a]);
             if sound
                 && alternative.against(best) < thresholds.doubtful.max(thresholds.tie(added))
-                && !problem.runs_away(&alternative.state, &best.state, thresholds)
+                && !problem.runs_away(&alternative.state, other, thresholds)
             {
                 return Some(alternative);
             }
