@@ -8,6 +8,7 @@ use crate::thresholds::Thresholds;
 use estimation::normal_equations::{Cluster, NormalEquations};
 use links::drive::{DriveLink, DriveModel, Side};
 use links::effect::{Effect, Link, Sizes};
+use links::inertial::NODES_S;
 use links::motion::{MotionLink, MotionModel};
 
 /// A link of a data set that can be linearised about any state.
@@ -76,6 +77,9 @@ impl Move {
 }
 
 const PLAY: &str = "gear-backlash";
+/// Age of the counts, and of an inertial sensor's readings.
+const COUNTS: &str = "encoder-lag";
+const READINGS: &str = "imu-latency";
 /// Steps of Gauss-Newton at most.
 const STEPS: usize = 8;
 
@@ -115,7 +119,37 @@ impl Problem<'_> {
             all.retain(|a| a.effect.name() != "wheel-creep");
         }
         all.retain(|a| !a.effect.stands_for_several());
+        if let Some(younger) = self.younger(state, &all) {
+            all.retain(|a| a.effect.name() != younger);
+        }
         all
+    }
+
+    /// The candidate that makes an inertial sensor's readings older than the counts, or younger where no camera is.
+    pub fn age<'b>(&self, all: &'b [Active]) -> Option<&'b Active> {
+        let named = |name: &str| all.iter().find(|a| a.effect.name() == name);
+        let Self::Motion(MotionLink { inertial: Some(_), pieces, .. }) = self else { return None };
+        named(READINGS).or_else(|| if pieces.have_frames() { None } else { named(COUNTS) })
+    }
+
+    /// Of counts and an inertial sensor alone, without a camera, what is not the older: what shows is the difference of their
+    /// ages, and both together undo each other.
+    fn younger(&self, state: &State, all: &[Active]) -> Option<&'static str> {
+        let Self::Motion(link) = self else { return None };
+        if link.inertial.is_none() || link.pieces.have_frames() {
+            return None;
+        }
+        let there = |name: &str| state.active.iter().any(|a| a.effect.name() == name);
+        if there(COUNTS) || there(READINGS) {
+            return Some(if there(COUNTS) { READINGS } else { COUNTS });
+        }
+        let age = all.iter().find(|a| a.effect.name() == READINGS)?;
+        let [early, late] = [-0.5, 0.5].map(|nodes| {
+            let mut other = state.clone();
+            other.active.push(age.moved(0, nodes * NODES_S));
+            self.linearise_nothing(&other).plain().0
+        });
+        Some(if late <= early { COUNTS } else { READINGS })
     }
 
     /// What may be named in place of several candidates.

@@ -5,6 +5,7 @@ mod design;
 mod dwarfed;
 mod gates;
 mod join;
+mod late;
 mod left;
 mod lighter;
 mod plain;
@@ -134,6 +135,10 @@ pub fn select(
         thresholds.as_well * raw(other) < raw(&best) && !best.is_simpler_and_near(other, thresholds)
     };
     let best = other.filter(better).unwrap_or(best);
+    let late = if known.is_empty() { late::late(problem, start, &all, thresholds) } else { None };
+    let other = late.map(|age| searched(problem, start, &[age], &all, thresholds));
+    // From the best of several ages on it is the same search, nearer to where it ends.
+    let best = other.filter(|other| raw(other) < raw(&best)).unwrap_or(best);
     let in_place = problem.in_place(start, catalogue);
     simpler::simpler(problem, start, best, &all, &in_place, thresholds)
 }

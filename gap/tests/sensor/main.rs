@@ -8,6 +8,7 @@ use felt::{Hidden, blind, done, effects, estimate, names, numb, sensor, set, tru
 use gap::{Analysis, Verdict, undo};
 use links::effect::Link;
 use model::manoeuvre::Manoeuvre::{Chirp, Spin, StopAndGo};
+use rand::{RngExt, SeedableRng};
 use runs::DataSet;
 use runs::robot::Robot;
 
@@ -57,6 +58,38 @@ fn late_readings_are_named() {
     let a = done(&set(&truth(&[("imu-latency", &[("latency_s", 0.012)])], 5), &[Spin, Chirp], 5));
     assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["imu-latency"]), "{}", a.terminal_summary());
     holds(&a, "latency_s", 0.012);
+}
+
+/// Rows 20 ms apart without camera, duties and accelerometer, whose counts were read up to half a row early or late.
+fn at_50_hz(mut data: DataSet, seed: u64) -> DataSet {
+    const ROWS: usize = 20;
+    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+    data.robot.control_rate_hz /= ROWS as f64;
+    for run in &mut data.runs {
+        let rows: Vec<usize> = (ROWS..run.t.len() - ROWS).step_by(ROWS).collect();
+        let read: Vec<usize> = rows.iter().map(|k| k - ROWS / 2 + rng.random_range(0..ROWS)).collect();
+        let at = |column: &Vec<f64>, ticks: &[usize]| ticks.iter().map(|k| column[*k]).collect::<Vec<f64>>();
+        for counts in &mut run.counts {
+            *counts = read.iter().map(|k| counts[*k]).collect();
+        }
+        run.gyro = run.gyro.as_ref().map(|axes| [0, 1, 2].map(|i| at(&axes[i], &rows)));
+        run.t = at(&run.t, &rows);
+        (run.command, run.supply_v, run.acceleration, run.imu_temp) = (None, None, None, None);
+        for columns in [&mut run.reference, &mut run.duty, &mut run.measured] {
+            columns.clear();
+        }
+    }
+    data
+}
+
+#[test]
+fn readings_older_than_a_rate_lasts_are_named_with_their_age() {
+    for (seed, latency) in [(21, 0.07), (22, 0.09)] {
+        let hidden = truth(&[("imu-latency", &[("latency_s", latency)])], seed);
+        let a = done(&at_50_hz(blind(set(&hidden, &[StopAndGo, Chirp], seed)), seed));
+        assert_eq!((a.verdict, names(&a)), (Verdict::MissingEffect, vec!["imu-latency"]), "{}", a.terminal_summary());
+        holds(&a, "latency_s", latency);
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ use estimation::statistics::{median, rms};
 
 /// Distance of two nodes, s: a count of an encoder, which is what the wheels' turn is not known to, is then a
 /// hundredth of the turn of a robot that turns slowly (1 rad/s).
-const NODES_S: f64 = 0.05;
+pub const NODES_S: f64 = 0.05;
 /// Ticks between two nodes at least.
 const FEWEST_TICKS: usize = 2;
 /// Increments of a window: two seconds, in which a robot both turns and does not.

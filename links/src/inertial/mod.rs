@@ -13,7 +13,7 @@ use nalgebra::{Rotation3, Vector3};
 use runs::Run;
 use runs::robot::Robot;
 
-pub use link::{Channel, Fit, InertialLink, overall};
+pub use link::{Channel, Fit, InertialLink, NODES_S, overall};
 pub use signal::Integral;
 
 /// An inertial sensor on the body; effects change it.
