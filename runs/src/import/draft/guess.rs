@@ -620,6 +620,18 @@ pub(super) fn maybe(series: &Series, rest: &[&Series]) -> String {
         _ if words.contains(&"u") && most > MOST_DUTY => {
             format!("; what drives it? duty_{wheel} = {{ from = {from}, scale = ... }}, 1 / the most that it can be")
         }
+        // What a recorder calls its channels, without a unit.
+        ["input" | "in"] if units::in_name(&series.name).is_none() && most > MOST_DUTY => {
+            format!(
+                "; what drives it? duty_1 = {{ from = {from}, scale = ... }}, 1 / the most that it can be, as of volts"
+            )
+        }
+        ["speed" | "velocity" | "velo" | "vel" | "omega"] if units::in_name(&series.name).is_none() => {
+            format!("; of a shaft? speed_1 = {from}, in rad/s, else {{ from = {from}, unit = \"rpm\" }}")
+        }
+        ["torque" | "tau" | "moment"] => {
+            format!("; Nm of a drive? current_1 = {from}, beside torque_constant = 1 and its gear_ratio")
+        }
         ["y"] if beside("u") => format!(
             "; what it measures? speed_1 = {{ from = {from}, unit = \"deg/s\" }}, or an angle: enc_1 = {{ from = {from}, unit = \
              \"deg\", counts_per_rev = 65536 }}"

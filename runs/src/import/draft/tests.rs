@@ -599,6 +599,11 @@ fn pixels_headings_and_what_drives_are_asked_for() {
     {
         assert!(plant.contains(line), "{line}\n{plant}");
     }
+    // Channels of a recorder without a unit.
+    let recorder = map("t,Input,Velo,enc_1", "1i,2i,i");
+    for line in ["\"Input\", 10 to 12; what drives it? duty_1", "\"Velo\", 20 to 22; of a shaft? speed_1"] {
+        assert!(recorder.contains(line), "{line}\n{recorder}");
+    }
 }
 
 #[test]
