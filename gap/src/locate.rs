@@ -1,6 +1,7 @@
 //! Where the model and the data part, in words.
 
 use crate::exact::ExactLink;
+use crate::units;
 use estimation::statistics::rms;
 use links::drive::{DriveLink, DriveResiduals};
 use links::effect::Link;
@@ -117,18 +118,20 @@ pub(crate) fn drive(
                     _ => "",
                 };
                 format!(
-                    "the drive of wheel {} needs {:.2}{} {more} {driven} than the model ({:.1} mNm of friction), {which}, {when}{speeds}",
+                    "the drive of wheel {} needs {}{} {more} {driven} than the model ({} of friction), {which}, {when}{speeds}",
                     i + 1,
-                    against.abs() / unit_nm,
+                    units::short(against.abs() / unit_nm),
                     if unit.is_empty() { String::new() } else { format!(" {unit}") },
-                    1e3 * against
+                    units::torque(against)
                 )
             } else {
                 format!(
-                    "the drive of wheel {} is off by {:.1} mNm RMS (floor {:.1}), {which}: {ahead:+.1} mNm forwards, {back:+.1} backwards",
+                    "the drive of wheel {} is off by {} RMS (floor {}), {which}: {} forwards, {} backwards",
                     i + 1,
-                    1e3 * excess * floor[i],
-                    1e3 * floor[i]
+                    units::torque(excess * floor[i]),
+                    units::torque(floor[i]),
+                    units::torque(1e-3 * ahead),
+                    units::torque(1e-3 * back)
                 )
             };
             Some(Located { link: Link::Drive, signal: format!("enc_{}", i + 1), excess, place })

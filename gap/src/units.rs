@@ -81,6 +81,11 @@ pub(crate) fn value(name: &str, x: f64) -> String {
     format!("{sign}{}{unit}", short(factor * x))
 }
 
+/// A torque, Nm, such as `20.8 mNm` of a servo, `0.0271 mNm` of a small motor and `32.6 Nm` of an arm.
+pub(crate) fn torque(x: f64) -> String {
+    value("torque_nm", x)
+}
+
 /// A value with its interval, such as `3.98° (3.79 to 4.16)`; the interval only if it has a width.
 pub(crate) fn interval(name: &str, x: f64, ends: Option<[f64; 2]>) -> String {
     let (factor, _) = unit_of(name, x);
@@ -111,6 +116,7 @@ mod tests {
             ("creep_s_per_kg", 0.004, "4.00 mm/s/N"),
             ("limit_a", 3.71, "3.71 A"),
             ("shift_ticks", 2.0, "2.00 ticks"),
+            ("torque_nm", 2.71e-5, "0.0271 mNm"),
         ];
         for (name, x, shown) in table {
             assert_eq!(value(name, x), shown, "{name}");

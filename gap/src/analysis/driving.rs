@@ -17,6 +17,7 @@ use crate::problem::Problem;
 use crate::select::Selection;
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
+use crate::units;
 use links::drive::DriveLink;
 use links::effect::{Effect, Link};
 use links::effects::fits;
@@ -220,7 +221,7 @@ impl<'a> Workflow<'a> {
             return;
         }
         let scatters =
-            format!("scatters by {:.0} mNm, {:.0} % of what they reach", 1e3 * worst, 100.0 * worst / reached);
+            format!("scatters by {}, {:.0} % of what they reach", units::torque(worst), 100.0 * worst / reached);
         let counted = !runs::is_from_speeds(&self.question.robot) && worst <= links::drive::of_a_count(link);
         let own = counted
             || links::drive::accounted(link, &self.start.drive(None))

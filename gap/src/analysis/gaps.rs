@@ -9,6 +9,7 @@ use crate::exact::ExactLink;
 use crate::limits::Limit;
 use crate::locate::Located;
 use crate::thresholds::Thresholds;
+use crate::units;
 use links::drive::{DriveLink, DriveResiduals};
 use links::effect::{Effect, Link, Sizes};
 use links::inertial::{self, Fit};
@@ -154,20 +155,19 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit], thresho
         located.iter().find(|l| l.link == link.link && l.signal == names(worst)).map_or_else(String::new, |l| {
             l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
         });
-    let unit = match link.units[worst] {
-        "m" => "mm",
-        "Nm" => "mNm",
-        "rad/s" => "mrad/s",
-        "m/s²" => "mm/s²",
-        _ => "mrad",
+    let left = link.rms[worst][1];
+    let size = match link.units[worst] {
+        "m" => format!("{:.2} mm", 1e3 * left),
+        "Nm" => units::torque(left),
+        "rad/s" => format!("{:.2} mrad/s", 1e3 * left),
+        "m/s²" => format!("{:.2} mm/s²", 1e3 * left),
+        _ => format!("{:.2} mrad", 1e3 * left),
     };
     let sentence = format!(
-        "{:.1} noise floors remain on the {} link ({} {:.2} {} RMS{place}), which no effect of the catalogue explains",
+        "{:.1} noise floors remain on the {} link ({} {size} RMS{place}), which no effect of the catalogue explains",
         link.after,
         link.link.name(),
         names(worst),
-        1e3 * link.rms[worst][1],
-        unit,
     );
     let most = if link.after < thresholds.far_open { 1.0 - thresholds.explained } else { thresholds.undecided };
     let sentence = if link.link == Link::Motion && link.after >= thresholds.far_open {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Series, Structure};
 use crate::thresholds::Thresholds;
+use crate::units;
 use estimation::statistics::median;
 
 /// Fewer bursts than this may be anything.
@@ -109,9 +110,9 @@ pub(super) fn bursts(
     let run = run_of(largest.segment);
     Some(Structure {
         text: format!(
-            "{} short pushes of about {:.0} mNm at a wheel, the largest in run {} at {:.2} s; nothing like them between",
+            "{} short pushes of about {} at a wheel, the largest in run {} at {:.2} s; nothing like them between",
             events.len(),
-            1e3 * median(&mut sizes),
+            units::torque(median(&mut sizes)),
             run + 1,
             largest.first as f64 * series.hop
         ),
@@ -157,9 +158,9 @@ pub(super) fn stretches(series: &Series, drive_nm: f64, thresholds: &Thresholds)
     let (mean, t, run, wheel, _) = worst?;
     Some(Structure {
         text: format!(
-            "wheel {} has {:+.1} mNm along its rotation in run {} from {t:.1} s on for about {STRETCH_S:.0} s, not elsewhere",
+            "wheel {} has {} along its rotation in run {} from {t:.1} s on for about {STRETCH_S:.0} s, not elsewhere",
             wheel + 1,
-            1e3 * mean,
+            units::torque(mean),
             run + 1
         ),
         share: 1.0,

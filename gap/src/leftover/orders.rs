@@ -11,6 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Structure;
 use crate::thresholds::Thresholds;
+use crate::units;
 use estimation::parallel::each;
 use estimation::statistics::{chi2_upper, median};
 use links::drive::{DriveLink, DriveModel};
@@ -134,10 +135,10 @@ pub(super) fn orders(
             let what = if rollers { "" } else { ": cogs of the motor, its brushes or teeth of the gear do so" };
             structures.push(Structure {
                 text: format!(
-                    "the torque of wheel {} repeats {} times a turn, amplitude {:.1} mNm{what}",
+                    "the torque of wheel {} repeats {} times a turn, amplitude {}{what}",
                     wheel + 1,
                     (1e2 * order).round() / 1e2,
-                    1e3 * torque.amplitude
+                    units::torque(torque.amplitude)
                 ),
                 share: 1.0,
             });

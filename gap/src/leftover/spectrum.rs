@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{Series, Structure, Wheel};
 use crate::thresholds::Thresholds;
+use crate::units;
 use estimation::statistics::{chi2_upper, median};
 
 /// Lowest frequency looked at, Hz: below, the drive itself is the spectrum.
@@ -88,9 +89,9 @@ fn line(w: &Wheel, index: usize, series: &Series, drive_nm: f64, thresholds: &Th
     }
     Some(Structure {
         text: format!(
-            "the torque of wheel {} oscillates in time at {f:.2} Hz, amplitude {:.1} mNm, {:.0} % of what is left there",
+            "the torque of wheel {} oscillates in time at {f:.2} Hz, amplitude {}, {:.0} % of what is left there",
             index + 1,
-            1e3 * amplitude,
+            units::torque(amplitude),
             100.0 * share
         ),
         share,
