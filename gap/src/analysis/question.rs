@@ -143,11 +143,12 @@ impl<'a> Question<'a> {
     ///
     /// Whatever the file says of them, all effects are looked for, so that a file as it was written is compared as it was found.
     pub(super) fn ways(&self, pieces: &Pieces, crossed: Option<&(Active, f64)>) -> Option<(f64, Ways)> {
-        let frames = self.motion_link(pieces, None);
         let mut bare = self.filed();
         bare.active.retain(cabled);
         bare.active.extend(crossed.map(|(active, _)| active.clone()));
+        let frames = MotionLink::new(pieces, self.noise, self.window_s);
         let ways = super::ways::ways(&frames, &bare, &self.catalogue, &self.options.thresholds)?;
+        let frames = self.motion_link(pieces, None);
         let mut workflow = Workflow::new(self, &frames, None, crossed.cloned(), Vec::new());
         workflow.start = bare;
         let before = workflow.findings.named.len();

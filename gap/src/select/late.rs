@@ -13,7 +13,7 @@ use crate::thresholds::Thresholds;
 use links::inertial::NODES_S;
 
 /// Distance of the ages that are tried, s. Counts that were read a row early or late even out between two rows, so that each
-/// row has a hollow of its own: of a log at 50 Hz none is missed.
+/// row has a minimum of its own: of a log at 50 Hz none is missed.
 const APART_S: f64 = 0.25 * NODES_S;
 
 /// An age of the readings, or of the counts, beyond the reach of the straight line that by itself closes a good part of the

@@ -167,7 +167,7 @@ impl Ways {
     /// The same with one of its four errors so many times as large.
     fn with(mut self, error: usize, factor: f64) -> Self {
         let errors = if error < 2 { &mut self.seen } else { &mut self.wander };
-        *(if error % 2 == 0 { &mut errors.axis_m } else { &mut errors.heading_rad }) *= factor;
+        *(if error.is_multiple_of(2) { &mut errors.axis_m } else { &mut errors.heading_rad }) *= factor;
         self
     }
 
