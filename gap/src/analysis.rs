@@ -79,7 +79,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
         return Err(GapError::NothingToCompare);
     }
     remarks.extend(question.judge_poses(pieces.searched(), crossed.as_ref().map(|(active, _)| active)));
-    let ways = question.ways(pieces.searched(), crossed.as_ref());
+    let ways = ways::beyond_frames(&question, pieces.searched(), crossed.as_ref());
     remarks.extend(ways.as_ref().map(|(window_s, ways)| ways::said(*window_s, ways)));
     let whole = question.motion_link(&pieces.whole, ways);
     let sample = pieces.is_sampled().then(|| question.motion_link(pieces.searched(), ways));

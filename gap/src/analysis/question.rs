@@ -12,7 +12,6 @@ use super::cut::Cut;
 use super::look::driving;
 use super::order::{cabled, wheel_order};
 use super::robot_file::{completed, given};
-use super::workflow::Workflow;
 use crate::catalogue::strangers;
 use crate::controller::ENCODER_SCALE;
 use crate::exact::ExactLink;
@@ -139,23 +138,6 @@ impl<'a> Question<'a> {
         link.felt(&self.filed().motion(None))
     }
 
-    /// Ways that tell of the wheels what single frames do not: where those give no effect a name.
-    ///
-    /// Whatever the file says of them, all effects are looked for, so that a file as it was written is compared as it was found.
-    pub(super) fn ways(&self, pieces: &Pieces, crossed: Option<&(Active, f64)>) -> Option<(f64, Ways)> {
-        let mut bare = self.filed();
-        bare.active.retain(cabled);
-        bare.active.extend(crossed.map(|(active, _)| active.clone()));
-        let frames = MotionLink::new(pieces, self.noise, self.window_s);
-        let ways = super::ways::ways(&frames, &bare, &self.catalogue, &self.options.thresholds)?;
-        let frames = self.motion_link(pieces, None);
-        let mut workflow = Workflow::new(self, &frames, None, crossed.cloned(), Vec::new());
-        workflow.start = bare;
-        let before = workflow.findings.named.len();
-        workflow.motion();
-        (workflow.findings.named.len() == before).then_some(ways)
-    }
-
     /// Takes for the noise of poses that were smoothed what they know at best, and says so.
     pub(super) fn judge_poses(&mut self, pieces: &Pieces, crossed: Option<&Active>) -> Option<String> {
         if self.robot.camera_noise.is_some() {
@@ -171,7 +153,7 @@ impl<'a> Question<'a> {
     }
 
     /// The robot as its file has it.
-    fn filed(&self) -> State {
+    pub(super) fn filed(&self) -> State {
         State { robot: self.robot.clone(), active: given(&self.robot, &self.catalogue) }
     }
 }

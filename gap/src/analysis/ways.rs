@@ -8,13 +8,17 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::gaps::agreement;
+use super::order::cabled;
+use super::question::Question;
 use super::truth::everything;
+use super::workflow::Workflow;
 use crate::problem::{Linear, Owner, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use estimation::normal_equations::solve;
 use links::effect::{Effect, Link, Parameter, Sizes};
 use links::motion::{Errors, MotionLink, Ways};
+use links::pieces::Pieces;
 
 /// Effects of the wheels that any robot may have, whose sizes single frames must tell.
 const WHEELS: [&str; 2] = ["body-radius", "wheel-radius"];
@@ -27,9 +31,30 @@ const STEPS: [usize; 2] = [6, 5];
 /// Share of the objective below which a step is the last.
 const SETTLED: f64 = 1e-3;
 
+/// Ways that tell of the wheels what single frames do not, where those give no effect a name: their length, s, and errors.
+///
+/// Whatever the file says of them, all effects are looked for, so that a file as it was written is compared as it was found.
+pub(super) fn beyond_frames(
+    question: &Question,
+    pieces: &Pieces,
+    crossed: Option<&(Active, f64)>,
+) -> Option<(f64, Ways)> {
+    let mut bare = question.filed();
+    bare.active.retain(cabled);
+    bare.active.extend(crossed.map(|(active, _)| active.clone()));
+    let frames = MotionLink::new(pieces, question.noise, question.window_s);
+    let ways = ways(&frames, &bare, &question.catalogue, &question.options.thresholds)?;
+    let frames = question.motion_link(pieces, None);
+    let mut workflow = Workflow::new(question, &frames, None, crossed.cloned(), Vec::new());
+    workflow.start = bare;
+    let before = workflow.findings.named.len();
+    workflow.motion();
+    (workflow.findings.named.len() == before).then_some(ways)
+}
+
 /// Length of windows, s, and what wheels and poses part by in them. `None` where single frames tell what matters of the wheels,
 /// where ways do not tell much more, and where wheels wander by much more than matters: those slip.
-pub(super) fn ways(
+fn ways(
     link: &MotionLink,
     start: &State,
     catalogue: &[Arc<dyn Effect>],
