@@ -87,6 +87,7 @@ impl Workflow<'_> {
             name: folder.map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
             runs: self.runs(),
             window_s: self.data.motion.window_s,
+            ways: self.data.motion.ways,
             remains,
             motion,
             drive: drive.map(|d| d.plots),

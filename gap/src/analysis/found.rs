@@ -10,7 +10,7 @@ use crate::locate::Located;
 use crate::thresholds::Thresholds;
 use links::drive::DriveResiduals;
 use links::effect::Link;
-use links::motion::WindowResiduals;
+use links::motion::{Ways, WindowResiduals};
 
 /// What the analysis comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -151,6 +151,8 @@ pub struct Analysis {
     pub driven: Driven,
     /// Windows of the motion link, s.
     pub window_s: f64,
+    /// What wheels and poses part by, where motion is compared along ways.
+    pub ways: Option<Ways>,
     /// Held-out RMS in floors of the links that were fitted: every run predicted by what the others say.
     pub held_out: Vec<(Link, f64)>,
     /// What remains beside what is named, one sentence a link.

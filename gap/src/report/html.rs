@@ -229,7 +229,11 @@ fn trajectories(page: &mut Page, a: &Analysis) {
 fn residuals(page: &mut Page, a: &Analysis) {
     if let Some([before, after]) = &a.motion {
         page.heading("Residuals");
-        page.small("Camera minus prediction within a window, frame after frame, in units of the camera's noise.");
+        page.small(if a.ways.is_some() {
+            "Camera minus what prediction and camera before let expect, group of frames after group, in its standard deviations."
+        } else {
+            "Camera minus prediction within a window, frame after frame, in units of the camera's noise."
+        });
         let mut figures = Vec::new();
         for (i, name) in ["x", "y", "heading"].iter().enumerate() {
             let points = |w: &[WindowResiduals]| {
@@ -241,7 +245,8 @@ fn residuals(page: &mut Page, a: &Analysis) {
                     .collect();
                 thin(&all)
             };
-            let panel = Panel::new(Axis::new("frame", ""), Axis::new("residual", "noise"))
+            let of = if a.ways.is_some() { "group" } else { "frame" };
+            let panel = Panel::new(Axis::new(of, ""), Axis::new("residual", "noise"))
                 .height(190.0)
                 .with(Series::points("before", points(before)).color(Color::Red))
                 .with(Series::points("after", points(after)).color(Color::Green));
@@ -300,8 +305,13 @@ fn statement(page: &mut Page, a: &Analysis) {
     page.heading("How it was decided");
     page.anchor("decided");
     page.text(&format!(
-        "Fixed before fitting: motion is compared in windows of {:.0} s with start poses fitted, against the camera's noise from third differences of its own frames (or robot.toml); the drive by test functions of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.",
+        "Fixed before fitting: motion is compared in windows of {:.0} s with start poses fitted, against {}; the drive by test functions of 0.12 s, against what a generic regression on each wheel's own signals leaves (taken again with what was named in the model, where that had passed for noise). Every effect that is not named is held near zero with a standard deviation of {:.0} % of its materiality threshold, so that what every robot has a little of is neither named nor in the way. An effect is named if it lowers the objective by {:.0} beyond its cost, explains at least {:.1} % (motion) or {:.0} % (drive) of the held-out squares and {:.0} % of what exceeds the noise, and is material. Held out: {}.",
         a.window_s,
+        if a.ways.is_some() {
+            "what poses err and wheels wander beside every effect at once, as far as that does not matter"
+        } else {
+            "the camera's noise from third differences of its own frames (or robot.toml)"
+        },
         100.0 * t.held_share,
         t.gain,
         100.0 * t.shares[0],
