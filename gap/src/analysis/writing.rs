@@ -115,10 +115,13 @@ fn by_chance(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> Option<f6
     (agrees && p > thresholds.surely).then_some(p)
 }
 
-/// Whether an effect that takes away noise as well is named on a link that is not worth a sentence without it.
+/// Whether an effect that takes away noise as well is named on a link that is not worth a sentence without it, and closes little
+/// of that: of two clean axes among 200 on which play was found it closed 8 and 14 % of the squares, of five with play on such a
+/// link 36 to 98 %.
 fn is_noise(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> bool {
     let takes_noise = effects::find(&n.name).is_some_and(|effect| effect.takes_noise());
-    let worth = links.iter().any(|l| l.link == n.link && l.before >= thresholds.worth_saying);
+    let closes = |l: &LinkGap| l.after.powi(2) < (1.0 - thresholds.closes) * l.before.powi(2);
+    let worth = links.iter().any(|l| l.link == n.link && (l.before >= thresholds.worth_saying || closes(l)));
     takes_noise && matches!(n.evidence, Evidence::Test { .. }) && !worth
 }
 
@@ -157,14 +160,15 @@ mod tests {
 
     #[test]
     fn play_is_named_where_a_link_is_worth_a_sentence_without_it() {
-        let is_noise = |name: &str, before: f64| {
+        let is_noise = |name: &str, before: f64, after: f64| {
             let evidence = Evidence::Test { method: "signs of whole clusters flipped", p: 0.0002 };
             let named = Named { evidence, ..Named::bare(name, Link::Drive, &[]) };
-            is_noise(&named, &[gap(Link::Motion, 4.0, 0.5), gap(Link::Drive, before, 0.1)], &Thresholds::default())
+            is_noise(&named, &[gap(Link::Motion, 4.0, 0.5), gap(Link::Drive, before, after)], &Thresholds::default())
         };
-        assert!(
-            is_noise("gear-backlash", 1.1) && !is_noise("gear-backlash", 2.5) && !is_noise("viscous-friction", 1.1)
-        );
+        assert!(is_noise("gear-backlash", 1.1, 1.05) && !is_noise("viscous-friction", 1.1, 1.05));
+        assert!(!is_noise("gear-backlash", 2.5, 2.3));
+        // Below that what closes a good part of it.
+        assert!(!is_noise("gear-backlash", 1.21, 0.97));
     }
 
     #[test]
