@@ -156,12 +156,13 @@ pub(super) fn remains(link: &LinkGap, located: &[Located], felt: &[Fit], thresho
             l.place.rsplit_once("most in ").map_or_else(String::new, |(_, at)| format!(", most in {at}"))
         });
     let left = link.rms[worst][1];
+    let milli = |unit: &str| format!("{:.2} {unit}", 1e3 * left);
     let size = match link.units[worst] {
-        "m" => format!("{:.2} mm", 1e3 * left),
+        "m" => milli("mm"),
         "Nm" => units::torque(left),
-        "rad/s" => format!("{:.2} mrad/s", 1e3 * left),
-        "m/s²" => format!("{:.2} mm/s²", 1e3 * left),
-        _ => format!("{:.2} mrad", 1e3 * left),
+        "rad/s" => milli("mrad/s"),
+        "m/s²" => milli("mm/s²"),
+        _ => milli("mrad"),
     };
     let sentence = format!(
         "{:.1} noise floors remain on the {} link ({} {size} RMS{place}), which no effect of the catalogue explains",
