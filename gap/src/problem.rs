@@ -105,7 +105,7 @@ impl Problem<'_> {
     /// The link's candidates: every form of every effect fitted there, in the sizes of its logs.
     pub fn candidates(&self, state: &State, catalogue: &[Arc<dyn Effect>]) -> Vec<Active> {
         let sizes = match self {
-            Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()),
+            Self::Motion(link) => Sizes::of(&state.robot).at_speed(link.pieces.speed()).seen(link.pieces.seen_m()),
             Self::Drive(link) => sizes_with_play(link, state, catalogue),
         };
         let mut all = crate::candidates::candidates_in(state, catalogue, self.link(), &sizes);

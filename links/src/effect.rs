@@ -297,6 +297,9 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
+    /// How far from the camera's origin the robot was seen, m: where the cube of the distance is to the distance as it was over
+    /// all frames, each root mean square.
+    pub seen_m: f64,
     /// Play of a gear that leaves least of the drive, rad at the motor shaft, 0 where none leaves less; `None` where nobody
     /// looked.
     pub play_rad: Option<f64>,
@@ -310,11 +313,12 @@ impl Sizes {
         let rim = |w: &Wheel| w.x_m.hypot(w.y_m);
         let stall_nm = robot.gear_ratio * m.torque_constant * stall_a;
         let no_load = robot.no_load_wheel_speed(robot.supply_v);
+        let rim_m = robot.layout.wheels().iter().map(rim).fold(0.0, f64::max);
         Self {
             stall_nm,
             no_load,
             weight_n: GRAVITY * robot.mass_kg,
-            rim_m: robot.layout.wheels().iter().map(rim).fold(0.0, f64::max),
+            rim_m,
             stall_a,
             drive_nm: stall_nm,
             moved_nm: stall_nm,
@@ -323,6 +327,7 @@ impl Sizes {
             test_function_s: crate::drive::TEST_FUNCTION_S,
             run_s: f64::INFINITY,
             reach_rad: 1.0,
+            seen_m: thresholds::FIELD_OF_RIM * rim_m,
             play_rad: None,
         }
     }
@@ -351,6 +356,12 @@ impl Sizes {
     /// Speed about 0 within which the direction of a wheel is not known, rad/s, where rows are not far apart.
     pub fn turns_round(&self) -> f64 {
         crate::segment::turns_round(self.count_rad, 0.0, self.speed)
+    }
+
+    /// The same for frames that saw the robot this far from the camera's origin, m, if any did.
+    #[must_use]
+    pub fn seen(self, seen_m: f64) -> Self {
+        Self { seen_m: if seen_m > 0.0 { seen_m } else { self.seen_m }, ..self }
     }
 
     /// The same for wheels that turned at this speed, rad/s, if they did.

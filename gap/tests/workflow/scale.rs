@@ -207,3 +207,21 @@ fn four_wheels_are_the_same_in_any_unit() {
         same(&seen, &analysed(&larger(&set, k)), 0.02);
     }
 }
+
+#[test]
+fn a_lens_matters_by_how_far_from_the_middle_the_robot_is_seen() {
+    // A quarter of what a lens must have on a field of one metre; near a corner of a large one it bends a way by 3 %.
+    const K1_PER_M2: f64 = -0.0008;
+    let nominal = Robot::racbot();
+    let mut set = short(&nominal, 83);
+    for (run, [x, y]) in set.runs.iter_mut().zip([[3.6, 2.2], [-3.4, 1.8], [0.4, -2.6]]) {
+        for seen in &mut run.camera {
+            let far = Pose::new(seen.pose.x + x, seen.pose.y + y, seen.pose.theta);
+            let scale = 1.0 + K1_PER_M2 * (far.x * far.x + far.y * far.y);
+            seen.pose = Pose::new(scale * far.x, scale * far.y, far.theta);
+        }
+    }
+    let a = analysed(&set);
+    assert_eq!(names(&a), ["lens-distortion"], "{}", a.terminal_summary());
+    assert!((value(&a, "k1_per_m2") / K1_PER_M2 - 1.0).abs() < 0.15, "{}", a.terminal_summary());
+}

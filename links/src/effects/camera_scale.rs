@@ -6,6 +6,9 @@ use runs::robot::Robot;
 use crate::effect::{Effect, Form, Link, Parameter, Values};
 use crate::motion::MotionModel;
 
+/// Scale that is worth a name.
+pub(super) const MATERIAL: f64 = 0.004;
+
 /// A camera whose metre is not a metre.
 pub(super) struct CameraScale;
 
@@ -27,7 +30,7 @@ impl Effect for CameraScale {
     }
 
     fn forms(&self, _robot: &Robot) -> Vec<Form> {
-        vec![Form::whole(vec![Parameter::new("scale", 0.01, [-0.3, 0.3], 0.004)])]
+        vec![Form::whole(vec![Parameter::new("scale", 0.01, [-0.3, 0.3], MATERIAL)])]
     }
 
     fn motion(&self, values: &Values, model: &mut MotionModel) {

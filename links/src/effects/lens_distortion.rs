@@ -27,8 +27,12 @@ impl Effect for LensDistortion {
     }
 
     fn forms(&self, robot: &Robot) -> Vec<Form> {
-        // A field some dozens of robots wide: 0.004 per square metre where wheels stand 8 cm from the centre.
-        let unit = 2.5e-5 / Sizes::of(robot).rim_m.powi(2);
+        self.forms_in(robot, &Sizes::of(robot))
+    }
+
+    fn forms_in(&self, _robot: &Robot, sizes: &Sizes) -> Vec<Form> {
+        // It matters where it moves the frames as far as a `camera-scale` that matters does.
+        let unit = super::camera_scale::MATERIAL / sizes.seen_m.powi(2);
         vec![Form::whole(vec![Parameter::new("k1_per_m2", 0.5 * unit, [-50.0 * unit, 50.0 * unit], unit)])]
     }
 
