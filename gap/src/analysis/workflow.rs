@@ -5,6 +5,7 @@ use std::sync::Arc;
 use runs::Logs;
 use runs::robot::Support;
 
+use super::clocks;
 use super::counts::{self, Wrong};
 use super::findings::Findings;
 use super::found::{LinkGap, Named};
@@ -120,6 +121,7 @@ impl<'a> Workflow<'a> {
             let link = self.searched().motion;
             let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
             outcome = self.beside_refused(&outcome).unwrap_or(outcome);
+            outcome = self.of_one_clock(&outcome).unwrap_or(outcome);
             outcome = self.smoothed(&outcome).unwrap_or(outcome);
             self.late_or_filtered(&mut outcome);
             if self.drive_is_in_step(&outcome) {
@@ -163,6 +165,19 @@ impl<'a> Workflow<'a> {
         let refused = outcome.refused.iter().map(|r| r.name.as_str());
         let again = self.motion_studied(&self.without(&refused.chain([SMOOTHED]).collect::<Vec<_>>()));
         (!again.named.is_empty()).then_some(again)
+    }
+
+    /// What is found without clocks of single runs, where those that have a name part by no more than chance, or all is far from
+    /// the noise and they close little: wheels that slip in some of the runs fall behind there as if frames were young.
+    fn of_one_clock(&self, outcome: &Outcome) -> Option<Outcome> {
+        let clocks = outcome.named.iter().find(|n| n.name == CLOCKS)?;
+        let is_far = outcome.held_out > self.thresholds.far;
+        if !is_far && !clocks::are_one(clocks) {
+            return None;
+        }
+        let again = self.motion_studied(&self.without(&[SMOOTHED, CLOCKS]));
+        let more = if is_far { self.thresholds.undecided } else { self.thresholds.worse };
+        (again.held_out.powi(2) < (1.0 + more) * outcome.held_out.powi(2)).then_some(again)
     }
 
     /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly
@@ -313,7 +328,8 @@ const LATE_COUNTS: &str = "encoder-lag";
 const LATE_FRAMES: &str = "camera-latency";
 const SMOOTHED: &str = "camera-filter";
 /// Effects by which poses are late that may stand beside a filter, and those that do the same as it.
-const LATE_POSES: [&str; 2] = ["camera-clock", LATE_FRAMES];
+const CLOCKS: &str = "camera-clock";
+const LATE_POSES: [&str; 2] = [CLOCKS, LATE_FRAMES];
 const LATE_WHEELS: [&str; 2] = [LATE_COUNTS, "wheel-creep"];
 const RADIUS: &str = "wheel-radius";
 const OTHER_COUNTS: &str = "Against the camera other counts are another radius: the drive follows its duties with the counts, and not with \

@@ -294,3 +294,21 @@ fn crossed_cables_and_crossed_set_points_are_kept_apart() {
     let again = analyse(&runs::DataSet { robot: a.robot.clone(), ..set }, &Options::default()).unwrap();
     assert_eq!(again.verdict, Verdict::Agrees, "{}", again.terminal_summary());
 }
+
+/// Frames of one age in all runs, in one of which wheels slip as it starts and stops: that run falls behind as if its frames were
+/// younger, and has no clock of its own.
+#[test]
+fn wheels_that_slip_in_one_run_have_no_clock_there() {
+    const LATE_TICKS: usize = 30;
+    let robot = with(&Robot::racbot(), "wheel-slip", &[("friction_coefficient", 0.5)]);
+    let mut set = simulate(&robot, &[RICH[0], RICH[1], RICH[2], RICH[0], HARD[0]], 95);
+    for run in &mut set.runs {
+        cut(run, 8.0);
+        run.camera.retain(|c| c.tick + LATE_TICKS < run.t.len());
+        run.camera.iter_mut().for_each(|c| c.tick += LATE_TICKS);
+    }
+    let a = analyse(&set, &Options::default()).unwrap();
+    assert_eq!(names(&a), ["camera-latency"], "{}", a.terminal_summary());
+    assert!((value(&a, "latency_s") - 1e-3 * LATE_TICKS as f64).abs() < 0.002, "{}", a.terminal_summary());
+    assert_eq!(a.verdict, Verdict::Unexplained, "{}", a.terminal_summary());
+}
