@@ -576,15 +576,25 @@ impl Design {
     /// them.
     ///
     /// What is left above the noise is no scatter: it is the same in every cluster and every run, and how much of it a
-    /// named effect took for its own does not show in the data. It points in any direction as likely as in another.
+    /// named effect took for its own does not show in the data. It points in any direction as likely as in another. Where
+    /// the rest is adjusted beside what is freed, what that takes at its price is no law that is missing; far from the noise it
+    /// would take anything.
     pub fn missed(&self, roles: &[Role], directions: f64) -> Vec<f64> {
         let (square, n) = self.linear.equations.plain();
-        let excess = (square - n).max(0.0) / directions;
-        self.penalised()
-            .inverse_diagonal(roles)
-            .into_iter()
-            .map(|x| if x.is_finite() { excess * x } else { x })
-            .collect()
+        let adjusted = if square < self.thresholds.far.powi(2) * n {
+            let weighted: f64 = self.linear.equations.clusters.iter().map(|c| c.rr).sum();
+            let fit = self.fit_roles(roles);
+            square * ((fit.loss + fit.penalty) * self.variance / weighted).min(1.0)
+        } else {
+            square
+        };
+        let alone: Vec<Role> = roles.iter().map(|r| if matches!(r, Role::Held(..)) { Role::Out } else { *r }).collect();
+        let of = |square: f64, roles: &[Role]| {
+            let excess = (square - n).max(0.0) / directions;
+            let diagonal = self.penalised().inverse_diagonal(roles).into_iter();
+            diagonal.map(|x| if x.is_finite() { excess * x } else { x }).collect::<Vec<f64>>()
+        };
+        of(adjusted, roles).into_iter().zip(of(square, &alone)).map(|(a, b)| a.max(b)).collect()
     }
 
     /// Covariance of the freed columns: see [`Penalised::covariance`].
