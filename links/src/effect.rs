@@ -297,8 +297,8 @@ pub struct Sizes {
     pub run_s: f64,
     /// Half of what the wheel that turned most turned through, rad.
     pub reach_rad: f64,
-    /// How far from the camera's origin the robot was seen, m: where the cube of the distance is to the distance as it was over
-    /// all frames, each root mean square.
+    /// How far from the camera's origin the robot was seen, m, at least as far as a usual field goes: where the cube of the
+    /// distance is to the distance as it was over all frames, each root mean square.
     pub seen_m: f64,
     /// Play of a gear that leaves least of the drive, rad at the motor shaft, 0 where none leaves less; `None` where nobody
     /// looked.
@@ -358,10 +358,10 @@ impl Sizes {
         crate::segment::turns_round(self.count_rad, 0.0, self.speed)
     }
 
-    /// The same for frames that saw the robot this far from the camera's origin, m, if any did.
+    /// The same for frames that saw the robot this far from the camera's origin, m: a usual field, or beyond.
     #[must_use]
     pub fn seen(self, seen_m: f64) -> Self {
-        Self { seen_m: if seen_m > 0.0 { seen_m } else { self.seen_m }, ..self }
+        Self { seen_m: self.seen_m.max(seen_m), ..self }
     }
 
     /// The same for wheels that turned at this speed, rad/s, if they did.

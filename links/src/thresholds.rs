@@ -18,8 +18,8 @@ pub const CARRIED: f64 = 6.0;
 /// grip) must lie above that.
 pub const GRIP: f64 = 0.43;
 
-/// How far from the camera's origin a robot is seen where no log tells, in distances of its wheels from its centre: 1 m where
-/// they stand 8 cm from it, a field some dozens of robots wide.
+/// How far from the camera's origin a robot is seen on a usual field, in distances of its wheels from its centre: 1 m where they
+/// stand 8 cm from it, a field some dozens of robots wide. What matters there matters to a log that saw less of it as well.
 pub const FIELD_OF_RIM: f64 = 12.65;
 
 /// Speed of a drive in shares of its no-load speed, where no log tells: that of the simulator's manoeuvres.
