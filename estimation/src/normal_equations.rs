@@ -254,8 +254,14 @@ impl NormalEquations {
 
     /// Fits some columns to all clusters: the step along each.
     pub fn solve(&self, columns: &[usize]) -> DVector<f64> {
+        self.solve_held(columns, &vec![[0.0; 2]; columns.len()])
+    }
+
+    /// The same with each column held by so much information near a step: both, information and their product.
+    pub fn solve_held(&self, columns: &[usize], held: &[[f64; 2]]) -> DVector<f64> {
         let m = columns.len();
-        let (mut a, mut b) = (DMatrix::zeros(m, m), DVector::zeros(m));
+        let mut a = DMatrix::from_diagonal(&DVector::from_iterator(m, held.iter().map(|h| h[0])));
+        let mut b = DVector::from_iterator(m, held.iter().map(|h| h[1]));
         for c in &self.clusters {
             for (p, jp) in columns.iter().enumerate() {
                 b[p] += c.jr[*jp];

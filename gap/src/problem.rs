@@ -7,9 +7,10 @@ use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use estimation::normal_equations::{Cluster, NormalEquations};
 use links::drive::{DriveLink, DriveModel, Side};
-use links::effect::{Effect, Link, Sizes};
+use links::effect::{Effect, Link, Parameter, Sizes};
 use links::inertial::NODES_S;
 use links::motion::{MotionLink, MotionModel};
+use nalgebra::DVector;
 
 /// A link of a data set that can be linearised about any state.
 pub enum Problem<'a> {
@@ -52,6 +53,19 @@ impl Linear {
     /// The columns of all active effects.
     pub fn active(&self) -> Vec<usize> {
         self.position(|o| matches!(o, Owner::Active(..)))
+    }
+
+    /// A step along the columns of all active effects, each parameter held near 0 by so much information on it.
+    pub fn step(&self, state: &State, held: &dyn Fn(&Parameter) -> f64) -> DVector<f64> {
+        let near_nothing = |c: &usize| {
+            let Owner::Active(index, j) = self.owners[*c] else { return [0.0; 2] };
+            let active = &state.active[index];
+            let p = &active.form.free[j];
+            [held(p), -held(p) * active.values.get(&p.name)]
+        };
+        let columns = self.active();
+        let held: Vec<[f64; 2]> = columns.iter().map(near_nothing).collect();
+        self.equations.solve_held(&columns, &held)
     }
 
     fn position(&self, wanted: impl Fn(Owner) -> bool) -> Vec<usize> {
@@ -299,14 +313,22 @@ impl Problem<'_> {
 
     /// Fits the active effects of this link by Gauss-Newton, in place; the loss reached.
     pub fn fit(&self, state: &mut State) -> f64 {
-        let mut loss = self.loss(state);
+        self.fit_held(state, &|_| 0.0)
+    }
+
+    /// The same with each parameter held near 0 by so much information on it; the loss reached has the price of that.
+    pub fn fit_held(&self, state: &mut State, held: &dyn Fn(&Parameter) -> f64) -> f64 {
+        let price = |a: &Active| a.form.free.iter().map(|p| held(p) * a.values.get(&p.name).powi(2)).sum::<f64>();
+        let objective =
+            |state: &State| self.loss(state) + state.active.iter().filter(|a| !a.given).map(price).sum::<f64>();
+        let mut loss = objective(state);
         for _ in 0..STEPS {
             let linear = self.linearise(state, &[]);
             let columns = linear.active();
             if columns.is_empty() {
                 break;
             }
-            let step = linear.equations.solve(&columns);
+            let step = linear.step(state, held);
             let mut accepted = false;
             let mut largest = 0.0_f64;
             for halving in 0..5 {
@@ -322,7 +344,7 @@ impl Problem<'_> {
                     largest = largest.max((next - now).abs() / p.scale);
                     trial.active[index].values.set(&p.name, next);
                 }
-                let reached = self.loss(&trial);
+                let reached = objective(&trial);
                 if reached.is_finite() && reached <= loss * (1.0 + 1e-9) {
                     accepted = reached < loss * (1.0 - 1e-6);
                     loss = reached;

@@ -5,17 +5,16 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::gaps::agreement;
 use super::order::cabled;
 use super::question::Question;
 use super::truth::everything;
 use super::workflow::Workflow;
-use crate::problem::{Linear, Owner, Problem};
+use crate::problem::{Linear, Problem};
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
-use estimation::normal_equations::solve;
 use links::effect::{Effect, Link, Parameter, Sizes};
 use links::motion::{Errors, MotionLink, Ways};
 use links::pieces::Pieces;
@@ -26,10 +25,6 @@ const WHEELS: [&str; 2] = ["body-radius", "wheel-radius"];
 const GROUPS: f64 = 2.0;
 /// Sizes that matter within which each of all effects is held as they are fitted together: look-alikes share what they do.
 const LOOSELY: f64 = 30.0;
-/// Steps of Gauss-Newton, and halvings of each, at most.
-const STEPS: [usize; 2] = [6, 5];
-/// Share of the objective below which a step is the last.
-const SETTLED: f64 = 1e-3;
 
 /// Ways that tell of the wheels what single frames do not, where those give no effect a name: their length, s, and errors.
 ///
@@ -69,11 +64,15 @@ fn ways(
     state.active.extend(everything(&problem, &state, catalogue));
     // A straight line tells most data sets apart.
     let linear = problem.linearise(&state, &[]);
+    let mut step = DVector::zeros(linear.owners.len());
+    for (c, x) in linear.active().into_iter().zip(linear.step(&state, &held).iter()) {
+        step[c] = *x;
+    }
     let tells = |least: &[f64]| least.iter().all(|least| *least < thresholds.seen);
-    if tells(&least(&linear, &state, linear.equations.loss_after(&step(&linear, &state)), thresholds)) {
+    if tells(&least(&linear, &state, linear.equations.loss_after(&step), thresholds)) {
         return None;
     }
-    fit(&problem, &mut state);
+    problem.fit_held(&mut state, &held);
     let frames = least_of(&problem, &state, thresholds);
     if tells(&frames) {
         return None;
@@ -86,7 +85,7 @@ fn ways(
     let part = |ways: Option<Ways>, state: &State| along(ways).part(&state.motion(None), together_s, rim_m);
     let first = part(None, &state)?;
     let long = along(Some(first));
-    fit(&Problem::Motion(&long), &mut state);
+    Problem::Motion(&long).fit_held(&mut state, &held);
     let ways = part(Some(first), &state)?;
     let (square, n) = Problem::Motion(&along(Some(ways))).linearise_nothing(&state).plain();
     // What is rare and large is in the floor as well.
@@ -135,67 +134,7 @@ fn least(linear: &Linear, state: &State, square: f64, thresholds: &Thresholds) -
     WHEELS.iter().filter_map(of).collect()
 }
 
-/// The free parameter of a column, and its value.
-fn free<'a>(linear: &Linear, state: &'a State, column: usize) -> Option<(&'a Parameter, f64)> {
-    let Owner::Active(index, j) = linear.owners[column] else { return None };
-    let a = &state.active[index];
-    let p = &a.form.free[j];
-    Some((p, a.values.get(&p.name)))
-}
-
 /// Information on a parameter by how far it is held.
 fn held(p: &Parameter) -> f64 {
     if p.material.is_finite() { (LOOSELY * p.material).powi(-2) } else { 0.0 }
-}
-
-/// A step of all that is fitted, each held loosely.
-fn step(linear: &Linear, state: &State) -> DVector<f64> {
-    let totals = linear.equations.totals();
-    let (mut a, mut b): (DMatrix<f64>, DVector<f64>) = (totals.jj.clone(), totals.jr.clone());
-    for column in 0..linear.owners.len() {
-        match free(linear, state, column) {
-            Some((p, value)) => {
-                a[(column, column)] += held(p);
-                b[column] -= held(p) * value;
-            }
-            None => {
-                a.fill_row(column, 0.0);
-                a.fill_column(column, 0.0);
-                b[column] = 0.0;
-            }
-        }
-    }
-    solve(&a, &b)
-}
-
-/// Fits what is not given, each held loosely.
-fn fit(problem: &Problem, state: &mut State) {
-    let objective = |state: &State| {
-        let of = |a: &Active| a.form.free.iter().map(|p| held(p) * a.values.get(&p.name).powi(2)).sum::<f64>();
-        problem.loss(state) + state.active.iter().filter(|a| !a.given).map(of).sum::<f64>()
-    };
-    let mut reached = objective(state);
-    let [steps, halvings] = STEPS;
-    for _ in 0..steps {
-        let linear = problem.linearise(state, &[]);
-        let step = step(&linear, state);
-        let moved = |halving: usize| {
-            let mut trial = state.clone();
-            for (column, owner) in linear.owners.iter().enumerate() {
-                let (Owner::Active(index, _), Some((p, now))) = (*owner, free(&linear, state, column)) else {
-                    continue;
-                };
-                let next = (now + 0.5_f64.powi(halving as i32) * step[column]).clamp(p.bounds[0], p.bounds[1]);
-                trial.active[index].values.set(&p.name, next);
-            }
-            let reached = objective(&trial);
-            (trial, reached)
-        };
-        let Some((trial, less)) = (0..halvings).map(moved).find(|(_, less)| *less < reached) else { return };
-        let settled = less > (1.0 - SETTLED) * reached;
-        (*state, reached) = (trial, less);
-        if settled {
-            return;
-        }
-    }
 }
