@@ -45,6 +45,8 @@ pub struct Segment {
     pub turning: f64,
     /// Duty, `[wheel][tick]`, from its tick to the next; empty if not logged.
     pub duty: Vec<Vec<f64>>,
+    /// Share of the time from each tick to the next that rows are missing of, `[wheel][tick]`; empty if none are.
+    pub unlogged: Vec<Vec<f64>>,
     /// Set point of each wheel's speed, rad/s, `[wheel][tick]`; empty if not logged.
     pub reference: Vec<Vec<f64>>,
     /// Supply, V, at each tick, and whether it was logged.
@@ -225,8 +227,16 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     // Duties of motors that nobody described predict nothing.
     if part.duty.len() == n && runs::drive_lacks(robot).is_empty() {
         s.duty = part.duty.iter().map(|d| if place.measured { straight(d, &t) } else { held(d, 0.0) }).collect();
+        let lost: Vec<Vec<Lost>> = (0..n)
+            .map(|i| lost_rows(&part.duty[i], &t, part.count_gaps.get(i).map_or(&[][..], Vec::as_slice)))
+            .collect();
         if place.measured || between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
+        } else {
+            s.duty.iter_mut().zip(&lost).for_each(|(duty, lost)| lost.iter().for_each(|rows| rows.cross(duty, &t)));
+        }
+        if lost.iter().any(|rows| !rows.is_empty()) {
+            s.unlogged = lost.iter().map(|rows| Lost::shares(rows, t.len())).collect();
         }
         if place.mean_speeds {
             s.duty.iter_mut().for_each(|d| half_a_row_later(d));
@@ -319,6 +329,7 @@ impl Segment {
             speed: each(&self.speed),
             sign: each(&self.sign),
             duty: each(&self.duty),
+            unlogged: each(&self.unlogged),
             reference: each(&self.reference),
             supply: ticks.iter().map(|k| self.supply[*k]).collect(),
             twist: ticks.iter().map(|k| self.twist[*k]).collect(),
@@ -437,6 +448,63 @@ fn mean_of_neighbours(values: &mut [f64]) {
     }
 }
 
+/// Rows that a log lacks between two that it has.
+#[derive(Debug, Clone, Copy)]
+struct Lost {
+    /// The ticks of those.
+    ends: [usize; 2],
+    /// Rows from the one to the other, one of which would follow the other.
+    steps: f64,
+}
+
+/// Where rows were lost: none came, and no count either, and the next one keeps the beat. A duty that is logged when it changes
+/// alone is held, and so is one of a loop that was late.
+fn lost_rows(duty: &[f64], t: &[f64], count_gaps: &[usize]) -> Vec<Lost> {
+    let rows: Vec<usize> = (0..t.len()).filter(|k| duty[*k].is_finite()).collect();
+    let mut apart: Vec<f64> = rows.windows(2).map(|ends| t[ends[1]] - t[ends[0]]).collect();
+    if apart.is_empty() {
+        return Vec::new();
+    }
+    let row = estimation::statistics::median(&mut apart);
+    let between = |ends: &[usize]| {
+        let (a, b) = (ends[0], ends[1]);
+        let steps = ((t[b] - t[a]) / row).round();
+        let counted = (a + 1..b).any(|k| count_gaps.binary_search(&k).is_err());
+        (steps >= 2.0 && !counted).then_some(Lost { ends: [a, b], steps })
+    };
+    let lost: Vec<Lost> = rows.windows(2).filter_map(between).collect();
+    let off = |l: &Lost| ((t[l.ends[1]] - t[l.ends[0]]) / row - l.steps).abs();
+    let mut off: Vec<f64> = lost.iter().map(off).collect();
+    if !off.is_empty() && estimation::statistics::median(&mut off) <= thresholds::BEAT { lost } else { Vec::new() }
+}
+
+impl Lost {
+    /// What was set in them lies on a line from row to row as likely as on either side of it, while the duty before, held, is
+    /// late.
+    fn cross(&self, duty: &mut [f64], t: &[f64]) {
+        let [a, b] = self.ends;
+        let (first, height, lasted) = (duty[a], duty[b] - duty[a], t[b] - t[a]);
+        // Of steps of one height and one length, the first of which has none.
+        let sum = |until: f64| {
+            let place = (until - t[a]) / lasted * self.steps;
+            let whole = (place + 1e-9).floor();
+            height / self.steps * whole * (place - 0.5 * (whole + 1.0)) / self.steps * lasted
+        };
+        for k in a..b {
+            duty[k] = first + (sum(t[k + 1]) - sum(t[k])) / (t[k + 1] - t[k]);
+        }
+    }
+
+    /// Share of the time from each tick to the next in which no row says what was set.
+    fn shares(rows: &[Self], ticks: usize) -> Vec<f64> {
+        let mut shares = vec![0.0; ticks];
+        for lost in rows {
+            shares[lost.ends[0]..lost.ends[1]].fill(1.0 - 1.0 / lost.steps);
+        }
+        shares
+    }
+}
+
 /// In place of a signal that is held from tick to tick its mean from half a tick before to half a tick after.
 fn half_a_row_later(values: &mut [f64]) {
     for k in (1..values.len()).rev() {
@@ -551,6 +619,27 @@ pub(crate) fn regular_stamps(seen: &[Seen], rate: f64, tick: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_duty_goes_on_where_rows_are_lost() {
+        let nan = f64::NAN;
+        let t = [0.0, 1.0, 2.0, 3.0, 5.0, 6.0, 9.0, 9.5, 11.0, 12.0, 13.0, 14.0];
+        // 3 to 5 lacks a row, 6 to 9 two, and 9 to 12, within which a camera has two of its own.
+        let duty = [0.0, 1.0, 1.0, 1.0, 3.0, 0.0, 6.0, nan, nan, 9.0, 9.0, 9.0];
+        let across = |gaps: &[usize]| {
+            let (mut out, lost) = (held(&duty, 0.0), lost_rows(&duty, &t, gaps));
+            lost.iter().for_each(|rows| rows.cross(&mut out, &t));
+            (out, Lost::shares(&lost, t.len()))
+        };
+        let (out, shares) = across(&[7, 8]);
+        let wanted = [0.0, 1.0, 1.0, 1.5, 3.0, 2.0, 6.0, 6.0 + 1.0 / 1.5, 8.0, 9.0, 9.0, 9.0];
+        assert!(out.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{out:?}");
+        let two_of_three = 1.0 - 1.0 / 3.0;
+        assert_eq!(shares[3..10], [0.5, 0.0, two_of_three, two_of_three, two_of_three, two_of_three, 0.0]);
+        assert_eq!(across(&[]).0[6..9], [6.0; 3], "rows that count are not lost");
+        let late = [0.0, 1.0, 2.0, 3.0, 4.6, 5.6, 8.1, 9.1, 10.1];
+        assert!(lost_rows(&duty[..7].repeat(2)[..9], &late, &[]).is_empty(), "a loop that was late lost none");
+    }
 
     #[test]
     fn slow_axes_with_coarse_encoders_turn() {

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use estimation::parallel::each;
+use estimation::sums::dot;
 use nalgebra::{DMatrix, DVector, DVectorView, DVectorViewMut};
 use runs::robot::Support;
 
@@ -440,7 +441,8 @@ impl TestFunction {
         for (i, (slot, share)) in test_function.weights.iter_mut().zip(&mut test_function.stuck).enumerate() {
             let slow = force.iter().zip(&s.speed[i][first..]).filter(|(_, w)| w.abs() < thresholds::STUCK * s.turning);
             let stuck: f64 = slow.map(|(f, _)| f).sum();
-            *slot = if stuck > STUCK_SHARE { 0.0 } else { 1.0 };
+            let unlogged = s.unlogged.get(i).map_or(0.0, |shares| dot(&force, &shares[first..]));
+            *slot = if stuck > STUCK_SHARE || unlogged > thresholds::UNLOGGED { 0.0 } else { 1.0 };
             *share = stuck;
         }
         Some(test_function)
