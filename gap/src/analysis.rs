@@ -21,6 +21,7 @@ mod patterns;
 mod question;
 mod ratios;
 mod robot_file;
+mod stale;
 mod study;
 mod truth;
 mod ways;

@@ -40,6 +40,7 @@ impl Workflow<'_> {
             driven.seen = Driven::seen(self.data.pieces, SHOWN);
         }
         if !odd_clock {
+            self.contradicted();
             self.differ(&links, drive.as_ref());
         }
         let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
@@ -155,9 +156,22 @@ impl Workflow<'_> {
         sentences
     }
 
+    /// Says what of the file the logs contradict; where nothing else is named on the link, that is the answer there.
+    fn contradicted(&mut self) {
+        for stale in &self.stale {
+            let named = |is: &dyn Fn(&Named) -> bool| self.findings.named.iter().any(is);
+            if named(&|n| n.link == stale.link) {
+                self.findings.remarks.push(stale.said(named(&|n| n.name == stale.name)));
+            } else {
+                self.findings.leave(stale.link, [stale.said(false)]);
+            }
+        }
+    }
+
     /// Says in what the runs differ, where that is a good part of what is left on a link: then no one robot explains them.
     fn differ(&mut self, links: &[LinkGap], drive: Option<&MeasuredDrive>) {
         let mut state = self.nominal.clone();
+        state.active.retain(|a| !self.stale.iter().any(|s| s.name == a.effect.name()));
         state.active.extend(self.findings.found.iter().map(|a| Active { given: false, ..a.clone() }));
         let runs = self.runs();
         let of = |link: &LinkGap| {

@@ -247,6 +247,9 @@ pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>],
 /// Turn of a wheel that shows nothing, rad: less than a degree.
 const STILL: f64 = 0.01;
 
+/// How a step begins that takes effects out of the file.
+pub(super) const WITHOUT: &str = "without ";
+
 /// The figures of all links as the file's effects are added one by one, in its order; nothing is fitted between.
 pub(super) fn waterfall(
     links: &[LinkGap],
@@ -267,7 +270,8 @@ pub(super) fn waterfall(
         for (link, rms) in figures {
             now.iter_mut().filter(|l| l.link == *link).for_each(|l| l.after = *rms);
         }
-        out.push((format!("+ {name}"), overall(&now).1));
+        let said = if name.starts_with(WITHOUT) { name.clone() } else { format!("+ {name}") };
+        out.push((said, overall(&now).1));
     }
     debug_assert!(now.iter().zip(links).all(|(a, b)| (a.after - b.after).abs() < 1e-6 * b.after.max(1.0)), "{after}");
     out.push(("noise floor".to_owned(), 1.0));

@@ -207,6 +207,11 @@ impl<'a> Data<'a> {
         };
         let mut sofar = after.clone();
         sofar.active.retain(|a| !is_new(a));
+        let has = |state: &State, name: &str| state.active.iter().any(|a| a.effect.name() == name);
+        let gone = before.active.iter().map(|a| a.effect.name()).filter(|name| !has(&sofar, name)).collect::<Vec<_>>();
+        if !gone.is_empty() {
+            out.steps.push((format!("{}{}", gaps::WITHOUT, gone.join(", ")), on_links(&sofar)));
+        }
         for a in after.active.iter().filter(|a| is_new(a)) {
             let name = a.effect.name().to_owned();
             sofar.active.push(a.clone());
@@ -239,7 +244,7 @@ fn is_switched_on_for_nothing(effect: &dyn Effect, robot: &Robot, floors: f64, t
 /// What a state leaves on the drive, in floors, and its residuals: in the torque of the link's inertia or in that of its
 /// own, whichever is less. By an inertia fifty times too small every torque of the logs is fifty times too much for the
 /// link's, beside which nothing else counted; by one too large it is too much for its own.
-fn left_on_drive(link: &DriveLink, state: &State) -> (f64, Option<DriveResiduals>) {
+pub(super) fn left_on_drive(link: &DriveLink, state: &State) -> (f64, Option<DriveResiduals>) {
     let model = state.drive(None);
     let weighed = |residuals: &DriveResiduals| -> f64 {
         let rows = residuals.torque.iter().zip(&residuals.weights);

@@ -13,6 +13,7 @@ use super::gaps;
 use super::measure::Data;
 use super::order::{TWO_SIDED, order_named};
 use super::question::Question;
+use super::stale::{self, Stale};
 use super::study::{self, Outcome, chosen, study};
 use crate::controller::{ENCODER_SCALE, with_other_counts};
 use crate::exact::{ExactLink, Finding};
@@ -34,6 +35,8 @@ pub(super) struct Workflow<'a> {
     sample: Option<Data<'a>>,
     /// What the file says.
     pub(super) nominal: State,
+    /// What of it the logs contradict.
+    pub(super) stale: Vec<Stale>,
     /// What the next link starts from.
     pub(super) start: State,
     pub(super) thresholds: Thresholds,
@@ -64,6 +67,7 @@ impl<'a> Workflow<'a> {
         }));
         let nominal = data.state(&question.set.robot);
         let mut start = nominal.clone();
+        let stale = stale::taken_out(&sample.unwrap_or(data), &mut start);
         let mut findings = Findings { remarks, ..Findings::default() };
         if let Some((active, gain)) = crossed {
             findings.named.push(order_named(&active, gain));
@@ -77,7 +81,7 @@ impl<'a> Workflow<'a> {
             &question.options.thresholds,
         ));
         let thresholds = question.options.thresholds.clone();
-        Self { question, data, sample, nominal, start, thresholds, findings, seen: None, answered: None }
+        Self { question, data, sample, nominal, stale, start, thresholds, findings, seen: None, answered: None }
     }
 
     /// The data that causes are looked for in.

@@ -5,7 +5,7 @@ use runs::robot::Robot;
 
 use super::found::{LinkGap, Named};
 use super::measure::Measured;
-use super::robot_file::{robot_text, with_effects};
+use super::robot_file::{robot_text, undo, with_effects};
 use super::workflow::Workflow;
 use crate::GapError;
 use crate::evidence::Evidence;
@@ -79,7 +79,8 @@ impl<'a> Workflow<'a> {
     /// The file as it would be, and its figures.
     fn measured(&self) -> Result<(Robot, String, Measured<'a>), GapError> {
         let (set, options) = (self.question.set, self.question.options);
-        let robot = with_effects(&set.robot, &self.findings.named, &self.findings.alternatives, &self.runs());
+        let kept = self.stale.iter().fold(set.robot.clone(), |robot, s| undo(&robot, &s.name).unwrap_or(robot));
+        let robot = with_effects(&kept, &self.findings.named, &self.findings.alternatives, &self.runs());
         let text = robot_text(set, options, &robot);
         let path = options.robot_file.clone().unwrap_or_else(|| set.folder.join("robot.toml"));
         let reread = Robot::parse_partial(&text, &path).map_err(|e| GapError::Robot(e.to_string()))?;

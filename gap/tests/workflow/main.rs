@@ -25,6 +25,7 @@ mod single_steps;
 mod slipping;
 mod slow_rows;
 mod smoothed;
+mod stale;
 mod thumb_motor;
 mod uneven;
 mod ways;
