@@ -366,6 +366,10 @@ thresholds! {
     /// it counts unless they explain, by the share of `explained`, what no answer does: weights beside a shaft had 0.66 and
     /// 0.84 before, 0.004 after.
     answered: f64 = 0.5,
+    /// Squared standard deviations a size, by which what was named must leave less beside the answers, as the set points make
+    /// it, for a size beyond its interval to be one that was fitted to the answers: three standard deviations each. Reasoned;
+    /// two servos had 62 and 95, a loop without pushes 0.6.
+    against_a_size: f64 = 9.0,
 
     // Laws that only braking tells apart.
     /// Share of the rows of turning wheels whose duties work against the motion up to which a dead band is a dry friction as

@@ -3,6 +3,7 @@
 use super::measure::Drive;
 use super::study::Outcome;
 use super::workflow::Workflow;
+use crate::problem::Problem;
 use crate::state::State;
 use links::drive::{Answers, DriveLink};
 use links::effect::Link;
@@ -10,14 +11,20 @@ use links::effect::Link;
 impl Workflow<'_> {
     /// Whether most of what is left on the drive, before or after what was written, goes with what the loops answered; from
     /// then on it is compared beside that. What was left before does not count where what was written also explains what
-    /// no answer does: a weight beside the shaft, say, which the loop has to answer, too.
-    pub(super) fn is_answered(&mut self, link: &DriveLink, written: &State) -> bool {
+    /// no answer does: a weight beside the shaft, say, which the loop has to answer, too. A motor that was fitted to the
+    /// answers leaves none of them: then its sizes are others than the set points make it.
+    pub(super) fn is_answered(&mut self, link: &DriveLink, outcome: &Outcome) -> bool {
         let Some(answers) = Answers::of(link) else { return false };
         let left = |state: &State| Some(answers.left(link, &link.residuals(&state.drive(None))?));
-        let (Some(before), Some(after)) = (left(&self.start), left(written)) else { return false };
+        let (Some(before), Some(after)) = (left(&self.start), left(&outcome.written)) else { return false };
         let explains = after.beside < (1.0 - self.thresholds.explained) * before.beside;
         let most = if explains || after.share() > before.share() { after } else { before };
-        if most.share() > self.thresholds.answered {
+        let most_of_it = most.share() > self.thresholds.answered;
+        let made = if most_of_it { None } else { self.made_by_set_points(link, outcome) };
+        let taken_in = made.and_then(|state| left(&state));
+        let is_answered = most_of_it || taken_in.is_some();
+        let most = taken_in.unwrap_or(most);
+        if is_answered {
             self.answered = Some(most.answered_nm() / link.sizes.drive_nm);
             self.findings.remarks.push(format!(
                 "The speed loop answers torques that the model does not have: {:.0} % of what is left on the drive goes with \
@@ -27,6 +34,29 @@ impl Workflow<'_> {
             ));
         }
         self.answered.is_some()
+    }
+
+    /// What was written as the set points make it, where they speak against it: a size beyond its interval, and significantly
+    /// less left beside the answers (two estimates that both hold where nothing is answered: Hausman, Econometrica 46, 1978).
+    fn made_by_set_points(&self, link: &DriveLink, outcome: &Outcome) -> Option<State> {
+        let mut beside = self.laid(self.searched(), self.seen.as_ref())?.link;
+        beside.noise.clone_from(&link.noise);
+        beside.mask_sticking(&outcome.written.drive(None), self.thresholds.sticks);
+        let answers = Answers::of(&beside)?;
+        beside.answer(answers);
+        let problem = Problem::Drive(&beside);
+        let mut state = outcome.written.clone();
+        let less = problem.loss(&outcome.written) - problem.fit(&mut state);
+        let of = |name: &str, parameter: &str| {
+            let active = state.active.iter().find(|a| !a.given && a.effect.name() == name)?;
+            active.form.free.iter().any(|p| p.name == parameter).then(|| active.values.get(parameter))
+        };
+        let sizes = || outcome.named.iter().flat_map(|n| n.parameters.iter().map(move |p| (n, p)));
+        let beyond = sizes().any(|(n, (parameter, _, interval))| {
+            of(&n.name, parameter)
+                .is_some_and(|value| interval.ends().is_some_and(|[from, to]| value < from || value > to))
+        });
+        (beyond && less > self.thresholds.against_a_size * sizes().count() as f64).then_some(state)
     }
 
     /// Says of torques that the loops answered what they are where none of them has a name.

@@ -71,7 +71,7 @@ impl<'a> Workflow<'a> {
         self.scatter(&link);
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
-        if self.is_answered(&link, &outcome.written)
+        if self.is_answered(&link, &outcome)
             && let Some(again) = self.drive_again(&read_right)
         {
             (link, outcome) = again;
@@ -199,7 +199,7 @@ impl<'a> Workflow<'a> {
     }
 
     /// The drive of some data, beside what its loops answered if they do.
-    fn laid<'b>(&self, data: Data<'b>, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'b>> {
+    pub(super) fn laid<'b>(&self, data: Data<'b>, seen: Option<&Vec<WindowResiduals>>) -> Option<Drive<'b>> {
         let drive = data.drive(&self.start, seen)?;
         Some(if self.answered.is_some() { beside_answers(drive) } else { drive })
     }

@@ -3,9 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{names, of_files, with_dry_friction};
+use super::common::{names, of_files, of_files_by, with_dry_friction};
 
-use gap::{Analysis, Interval};
+use gap::thresholds::Thresholds;
+use gap::{Analysis, Interval, Options};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -333,4 +334,57 @@ fn frictions_that_take_nearly_all_torque_are_no_inertia() {
     let coulomb = a.effects.iter().find(|e| e.name == "coulomb-friction").unwrap();
     assert!((coulomb.parameters[0].1 / 0.028 - 1.0).abs() < 0.15, "{said}");
     assert_eq!(fault(&a, "asymmetric-friction", 0.0141), None, "{said}");
+}
+
+/// A servo whose friction rises and falls as it turns, under a loop of its speed alone, logged by the torques of its drive.
+fn servo(seed: u64) -> Run {
+    const STEP_S: f64 = 2e-4;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut run = Run { name: format!("run_{seed}"), ..Run::default() };
+    let (mut angle, mut speed, mut ripple, mut set) = (0.0, 0.0, 0.0, 0.0);
+    let (mut torques, mut counted, mut asked) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..(60.0 / STEP_S) as u32 {
+        let t = f64::from(k) * STEP_S;
+        // Held for a second, then on at 4 rad/s²: to 2, 4, 6, 8 rad/s either way.
+        let goal = [2.0, 4.0, 6.0, 8.0, 4.0, -2.0, -4.0, -6.0, -8.0, -4.0][(t / 3.0) as usize % 10];
+        set += f64::clamp(goal - set, -4.0 * STEP_S, 4.0 * STEP_S);
+        let torque = GAIN * (set - speed);
+        if k % 100 == 0 {
+            run.t.push(t);
+            torques.push(torque + 0.02 * rng.random_range(-1.0..1.0));
+            counted.push((angle / TAU * 65536.0_f64).floor() as i64);
+            asked.push(set);
+        }
+        // Comes and goes within a fifth of a second.
+        ripple += STEP_S / 0.2 * -ripple
+            + (2.0 * STEP_S / 0.2).sqrt() * RIPPLE_NM * 3.0_f64.sqrt() * rng.random_range(-1.0..1.0);
+        let after = with_dry_friction(speed, torque + ripple, SERVO_DRY_NM, SERVO_INERTIA, STEP_S);
+        angle += 0.5 * STEP_S * (speed + after);
+        speed = after;
+    }
+    (run.current, run.counts, run.reference) = (vec![torques], vec![counted], vec![asked]);
+    run
+}
+
+const GAIN: f64 = 1.0;
+const RIPPLE_NM: f64 = 0.06;
+const SERVO_DRY_NM: f64 = 0.45;
+const SERVO_INERTIA: f64 = 0.016;
+
+/// Fitted to its torques, which answer the ripple, a servo is one of half the torque constant and half the friction, and
+/// leaves no answer: the set points make its sizes.
+#[test]
+fn a_motor_that_was_fitted_to_the_answers_of_its_loop_is_told_by_its_set_points() {
+    let text = format!(
+        "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\n[motor]\n\
+         torque_constant = 1\nrotor_inertia = {SERVO_INERTIA}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
+    );
+    let told = |against_a_size| {
+        let thresholds = Thresholds { against_a_size, ..Thresholds::default() };
+        of_files_by(&text, (0..3).map(|k| servo(50 + k)), &Options { thresholds, ..Options::default() })
+    };
+    let [by_set_points, by_torques] = [9.0, f64::INFINITY].map(told);
+    assert_eq!(names(&by_set_points), ["coulomb-friction"], "{}", by_set_points.terminal_summary());
+    assert!((sizes_of(&by_set_points)[0].1 / SERVO_DRY_NM - 1.0).abs() < 0.1, "{}", by_set_points.terminal_summary());
+    assert!(names(&by_torques).contains(&"torque-constant"), "{}", by_torques.terminal_summary());
 }
