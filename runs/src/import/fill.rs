@@ -46,12 +46,7 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         };
         return values.iter().map(add).collect();
     }
-    let turn = wanted.turn.filter(|turn| {
-        let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
-        counted && high - low <= 1.001 * turn && values.windows(2).any(|w| (w[1] - w[0]).abs() > 0.5 * turn)
-    });
-    let full = || if counted { register(values) } else { None };
-    let Some(period) = wanted.wraps.or(turn).or_else(full) else { return values.into() };
+    let Some(period) = period(wanted, values) else { return values.into() };
     if !counted {
         return values.iter().map(|v| v - period * (v / period).round()).collect();
     }
@@ -63,6 +58,44 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         now
     };
     values.iter().map(follow).collect()
+}
+
+/// By how much the values of a column may be off: what the map says, else what shows itself.
+fn period(wanted: &Wanted, values: &[f64]) -> Option<f64> {
+    let counted = matches!(wanted.column, Column::Counts(_));
+    let turn = wanted.turn.filter(|turn| {
+        let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
+        counted && high - low <= 1.001 * turn && values.windows(2).any(|w| (w[1] - w[0]).abs() > 0.5 * turn)
+    });
+    let full = || if counted { register(values) } else { None };
+    wanted.wraps.or(turn).or_else(full)
+}
+
+/// What the owner of an encoder should know that seems to begin again, as the angle of an actuator does after the span of its
+/// protocol, and whose span neither the map nor its values tell.
+pub(super) fn begins_again(wanted: &Wanted, values: &[f64]) -> Option<String> {
+    let counted = matches!(wanted.column, Column::Counts(_)) && !wanted.increments;
+    if !counted || period(wanted, values).is_some() {
+        return None;
+    }
+    let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
+    let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+    let leaps = steps.iter().filter(|step| step.abs() > LEAP * (high - low)).count();
+    // A counter that is set back comes from a stand; one that begins again goes on.
+    let goes_on = |s: &&[f64]| s[1].abs() > LEAP * (high - low) && s[0] * s[2] > 0.0 && s[0] * s[1] < 0.0;
+    let mut spans: Vec<f64> =
+        steps.windows(3).filter(goes_on).map(|s| s[1].abs() + 0.5 * (s[0] + s[2]).abs()).collect();
+    if 2 * spans.len() <= leaps {
+        return None;
+    }
+    spans.sort_by(f64::total_cmp);
+    let name = wanted.column.name();
+    Some(format!(
+        "{name}: {:?} leaps by nearly its whole range, and goes on: where it begins again, after about {:.3}, say wraps = \
+         that number in the map",
+        wanted.from,
+        spans[spans.len() / 2]
+    ))
 }
 
 /// The sign, at some times, of a series that has one: its last sample's, and where that is 0 the one before; of a series of
@@ -222,6 +255,30 @@ mod tests {
             "t,rad\n0,0\n1,4\n2,8\n",
         );
         assert_eq!(far.unwrap().counts[0], [0, 64, 127]);
+    }
+
+    #[test]
+    fn an_angle_that_begins_again_after_a_span_of_its_own_is_told() {
+        let told = |column: &str, rows: &str| {
+            let folder = tempfile::tempdir().unwrap();
+            let [map, log] = ["map.toml", "log.csv"].map(|name| folder.path().join(name));
+            std::fs::write(
+                &map,
+                format!("[columns]\nenc_1 = {{ from = \"p\", unit = \"rad\", counts_per_rev = 100{column} }}\n"),
+            )
+            .unwrap();
+            std::fs::write(&log, format!("t,p\n{rows}")).unwrap();
+            Map::load(&map).unwrap().import(&log, None).unwrap().remarks
+        };
+        // An actuator from -12.5 to 12.5 rad, at 0.4 rad a row; and one whose counter was set back at a stand.
+        let turned: String =
+            (0..200).map(|k| format!("{k},{:.3}\n", (0.4 * f64::from(k) + 12.5).rem_euclid(25.0) - 12.5)).collect();
+        let [said] = &told("", &turned)[..] else { panic!("no remark, or several") };
+        assert!(said.contains("after about 25.0"), "{said}");
+        assert_eq!(told(", wraps = 25", &turned), Vec::<String>::new());
+        let set_back = |k: i32| if k < 60 { 0.4 * f64::from(k.min(50)) } else { 0.4 * f64::from(k - 60) };
+        let set_back: String = (0..110).map(|k| format!("{k},{:.3}\n", set_back(k))).collect();
+        assert_eq!(told("", &set_back), Vec::<String>::new());
     }
 
     #[test]

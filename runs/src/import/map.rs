@@ -144,7 +144,7 @@ impl Map {
                 let hint = "racbot convert --draft LOG map.toml --truth FILE writes a map of two files";
                 return Err(InputError::new(&self.path, what, hint));
             }
-            return Ok(Imported { run: self.run(table, log)?, joined: None, remarks: table.remarks.clone() });
+            return Ok(Imported { run: self.run(table, log)?, joined: None, remarks: self.log.remarks(table) });
         };
         let file = truth.map_or_else(|| self.second(second, log), |file| Ok(file.to_owned()))?;
         let poses = second.reading.table(&file)?;
@@ -183,7 +183,7 @@ impl Map {
         let made = [self.made(log.0, log.1)?, second.reading.made(truth.0, truth.1)?];
         let (run, joined) = join(made, second, [log, truth])?;
         let of_poses = truth.0.remarks.iter().map(|remark| format!("{}: {remark}", truth.1.display()));
-        let remarks = log.0.remarks.iter().cloned().chain(of_poses).collect();
+        let remarks = self.log.remarks(log.0).into_iter().chain(of_poses).collect();
         Ok(Imported { run, joined: Some(joined), remarks })
     }
 }

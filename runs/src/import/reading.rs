@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::columns::{RATES, Source, supply, wanted};
-use super::fill::{Wanted, chain, counts, integrate, signs, unwrapped};
+use super::fill::{Wanted, begins_again, chain, counts, integrate, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
@@ -51,6 +51,13 @@ impl Reading {
 
     pub(super) fn table(&self, file: &Path) -> Result<Table, InputError> {
         Table::read(file, self.format(), &self.time.clock()?)
+    }
+
+    /// What the owner of a file would want to know of what is made of it.
+    pub(super) fn remarks(&self, table: &Table) -> Vec<String> {
+        let wanted = wanted(&self.columns).unwrap_or_default();
+        let of_columns = wanted.iter().filter_map(|w| begins_again(w, &table.find(w.from)?.values));
+        table.remarks.iter().cloned().chain(of_columns).collect()
     }
 
     /// Makes a run of what a file holds; without columns in the map, of the series that have our names. Errors are about
