@@ -340,7 +340,7 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     let place = any(&["position", "pos", "counts", "ticks"])
         || any(&ANGLES)
         || said.is_some_and(|unit| units::is_like(unit, "rad"));
-    if any(&WANTED) && place && axis.is_none() {
+    if (any(&WANTED) || any(&["cmd", "command"])) && place && axis.is_none() {
         return None;
     }
     // What a loop is off by was not measured, and a torque that was asked for is no speed.
@@ -496,7 +496,10 @@ fn wordless(words: &[&str], axis: Option<usize>, series: &Series) -> Option<Kind
         // Control engineers call the speed of a wheel w, and what they put into a motor u.
         _ if wheel && has(&["w", "omega"]) => Some(Kind::Speed),
         _ if wheel && has(&["u"]) => share.then_some(Kind::Duty),
-        _ if has(&["mode", "state", "error", "status", "pid", "load", "temp", "effort", "torque", "tau", "force"]) => {
+        _ if has(&[
+            "mode", "state", "error", "status", "pid", "load", "temp", "effort", "torque", "tau", "force", "id",
+        ]) =>
+        {
             None
         }
         _ if units::in_name(&series.name) == Some("A") && axis.is_none() => Some(Kind::Current),

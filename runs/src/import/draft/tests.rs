@@ -365,6 +365,16 @@ fn what_only_the_owner_knows_is_left_open() {
 }
 
 #[test]
+fn what_a_motor_is_called_and_where_it_should_be_are_no_encoders() {
+    let map = drafted(
+        "time,motor_id,position,velocity,torque_feedback,position_cmd",
+        ["0,5,0.11,0.5,0.1,0", "0.02,5,0.12,0.5,0.1,0", "0.04,5,0.13,0.5,0.1,0"],
+    );
+    assert!(map.contains("enc_1 = { from = \"position\", unit = \"rad\""), "{map}");
+    assert!(!map.contains("enc_2") && map.contains("current_1 = \"torque_feedback\""), "{map}");
+}
+
+#[test]
 fn motors_may_be_counted_from_zero() {
     let rows = ["0,0,1,2,0.1,0.2,0.3,0", "0.1,4,5,6,0.1,0.2,0.3,0", "0.2,7,8,9,0.1,0.2,0.3,0"];
     let map = drafted("t,enc0,enc1,enc2,axis0 current,axis1 current,axis2 current,over_current", rows);
