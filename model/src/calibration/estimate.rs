@@ -401,11 +401,15 @@ fn camera_remarks(estimate: &SkewEstimate) -> Vec<String> {
     let mut remarks = Vec::new();
     let Estimated { value: latency, ci95: [low, high] } = estimate.latency_s;
     if latency.abs() > 0.002 && estimate.latency_s.is_certain() {
+        let (way, sense, how) =
+            if latency > 0.0 { ("later", 1e3, "add it to") } else { ("earlier", -1e3, "take it off") };
+        let mut ends = [low, high].map(|end| sense * end);
+        ends.sort_by(f64::total_cmp);
         remarks.push(format!(
-            "The camera is {:.1} ms later (95 %: {:.1} to {:.1}) than robot.toml states; add it to camera_latency_s.",
-            latency * 1e3,
-            low * 1e3,
-            high * 1e3
+            "The camera is {:.1} ms {way} (95 %: {:.1} to {:.1}) than robot.toml states; {how} camera_latency_s.",
+            sense * latency,
+            ends[0],
+            ends[1]
         ));
     }
     if estimate.residual.reduced_chi2 > UNEXPLAINED {

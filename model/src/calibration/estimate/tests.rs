@@ -1,5 +1,7 @@
 use super::*;
 use crate::camera::CameraModel;
+use crate::effects::Applied;
+use crate::manoeuvre::{Manoeuvre, simulate};
 use crate::plant::Contact;
 use crate::simulation::{VirtualRobot, calibration_drive};
 use runs::DataSet;
@@ -76,6 +78,30 @@ fn differences_are_found_to_a_tenth_of_a_degree_in_thirty_seconds() {
     assert!(covered * 100 >= errors.len() * 88, "{covered} of {} intervals hold the truth", errors.len());
 }
 
+/// A square without turns shows neither the lever nor a marker's place: what they would have to be there is no robot's, and the
+/// skews are found all the same. They were given up at the first such size, and all said to be zero.
+#[test]
+fn sizes_that_a_manoeuvre_does_not_show_hide_no_skews() {
+    for (truth, count) in [([5.0, 0.0, -2.0], 1), ([6.0, -4.0, 1.0], 1), ([6.0, -4.0, 1.0], 4), ([3.0, 1.0, -2.0], 4)] {
+        let run = |k: u32| {
+            let start = Pose { theta: 2.4 * f64::from(k), ..Pose::default() };
+            let actual = Applied::of(&skewed(truth));
+            simulate(Manoeuvre::Square, &actual, &Robot::racbot(), start, u64::from(k) + 1).unwrap()
+        };
+        let e = estimate_skew(&Robot::racbot(), &(0..count).map(run).collect::<Vec<_>>()).unwrap();
+        let got = degrees(&e);
+        for (i, j, half) in &e.differences {
+            let off = (got[*i] - got[*j]) - (truth[*i] - truth[*j]);
+            assert!(
+                off.abs() < 1.5 * half.to_degrees() && half.to_degrees() < 0.5,
+                "{truth:?}: {got:?}, {:?}",
+                e.parts
+            );
+        }
+        assert!(e.residual.reduced_chi2 < 1.3, "{truth:?}: {:?} {:?}", e.residual, e.remarks);
+    }
+}
+
 #[test]
 fn a_common_skew_is_a_turned_marker() {
     // No drive tells the two apart; one angle says it, three are not needed.
@@ -96,10 +122,22 @@ fn an_unknown_latency_does_not_pass_for_skew() {
     let camera = CameraModel { latency_s: 0.05, ..CameraModel::of(&robot) };
     let mut v = VirtualRobot::new(&robot, Contact::Rolling, camera, Pose::default(), 8).unwrap();
     calibration_drive(&mut v, 0.8, 30.0, &Robot::racbot().geometry().unwrap());
-    let e = estimate_skew(&Robot::racbot(), &[v.into_log()]).unwrap();
+    let run = v.into_log();
+    let e = estimate_skew(&Robot::racbot(), std::slice::from_ref(&run)).unwrap();
     assert!((e.latency_s.value - 0.05).abs() < 0.001, "{:?}", e.latency_s);
     assert!((degrees(&e)[0] - 4.0).abs() < 0.15);
-    assert!(e.remarks.iter().any(|r| r.contains("camera_latency_s")), "{:?}", e.remarks);
+    assert!(
+        e.remarks.iter().any(|r| r.contains("ms later") && r.contains("add it to camera_latency_s")),
+        "{:?}",
+        e.remarks
+    );
+    let slow = Robot { camera_latency_s: 0.1, ..Robot::racbot() };
+    let e = estimate_skew(&slow, &[run]).unwrap();
+    assert!(
+        e.remarks.iter().any(|r| r.contains("50.") && r.contains("ms earlier") && r.contains("take it off")),
+        "{:?}",
+        e.remarks
+    );
 }
 
 #[test]
