@@ -107,3 +107,37 @@ fn velocities_of_the_field_are_no_slip() {
     let said: Vec<String> = mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect();
     assert!(said.len() == 1 && said[0].contains("along the field's axes"), "{said:?}");
 }
+
+/// The sense in which positive speed turns a robot is one line of `racbot init`, and one thing to be wrong, not a mirrored camera
+/// beside wheels in another order.
+#[test]
+fn wheels_that_all_turn_the_other_way_are_one_mistake() {
+    let four = [60.0_f64, 135.0, 225.0, 300.0].map(|degrees| {
+        let at = degrees.to_radians() + 0.5 * PI;
+        Wheel { x_m: 0.08 * at.cos(), y_m: 0.08 * at.sin(), drive_rad: at + 0.5 * PI, roller_rad: 0.0 }
+    });
+    let three = Robot::racbot();
+    let robots = [three.clone(), Robot { layout: Layout::Wheels(four.to_vec()), ..three }];
+    for robot in robots {
+        let mut set = DataSet { folder: "simulated".into(), robot: robot.clone(), runs: Vec::new() };
+        for (seed, manoeuvre) in [Manoeuvre::Star, Manoeuvre::Spin, Manoeuvre::Square].into_iter().enumerate() {
+            let run =
+                simulate(manoeuvre, &Applied::of(&robot), &robot, Pose::new(0.4, -0.3, 0.5), seed as u64).unwrap();
+            set.runs.push(run);
+        }
+        set.runs.iter_mut().flat_map(|run| &mut run.counts).flatten().for_each(|n| *n = -*n);
+        for with_commands in [true, false] {
+            for run in &mut set.runs {
+                // Neither duties nor set points say which of motor and encoder is the other way round.
+                run.reference.clear();
+                run.duty.clear();
+                run.measured.clear();
+                if !with_commands {
+                    run.command = None;
+                }
+            }
+            let said: Vec<String> = mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect();
+            assert!(said.len() == 1 && said[0].contains("drive every wheel the other way"), "{said:?}");
+        }
+    }
+}

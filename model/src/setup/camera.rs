@@ -13,10 +13,10 @@ use runs::frames::Twist;
 use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
 
-use super::orders::{moved, orders, words};
+use super::orders::{self, moved, orders, words};
 use super::samples::{STRETCH_S, Sample, of_camera};
 use super::slips::Slips;
-use super::{Mistake, TRUE_RATIO, common_ratio, counts, is_true, short};
+use super::{Mistake, OTHER_SENSE, OTHER_SENSE_KIND, TRUE_RATIO, common_ratio, counts, is_true, short};
 
 /// Fewest stretches with motion that tell anything.
 const FEWEST: usize = 20;
@@ -51,6 +51,9 @@ const GRAVITY: f64 = 9.81;
 /// Moments at which rims must gain more than that. A count that was lost makes one, of up to 25 m/s² in the example set; on
 /// the full-duty manoeuvre of the library, whose starts no floor would hold, the third has 10.3 of 11.4 m/s².
 const STARTS: usize = 3;
+/// How many things are wrong where positive speed turns every wheel the other way than the file says: one sense that was taken
+/// for the other, not a cable a wheel. A mirrored camera that is half a turn off, the same on two wheels, is more usual.
+const ONE_SENSE: f64 = 1.6;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;
 
@@ -172,7 +175,9 @@ fn of_all(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<Mistake> {
     let mut mistakes = found.map_or_else(Vec::new, |fit| named(robot, &fit, spin(&geometry, &seen, &fit), before));
     if gained > GRAVITY {
         // No slip turns ways round, or makes them a thousand times as long.
-        for mistake in mistakes.iter_mut().filter(|m| !["heading-axis", "camera-unit"].contains(&m.kind)) {
+        for mistake in
+            mistakes.iter_mut().filter(|m| !["heading-axis", "camera-unit", OTHER_SENSE_KIND].contains(&m.kind))
+        {
             mistake.what += &format!(", or wheels slip: rims gain {} m/s², more than a floor holds", short(gained));
             mistake.nameable = true;
         }
@@ -347,12 +352,13 @@ fn fit(
     let quarter = if turn.abs() > TRUE_TURN { 0.5 } else { 0.0 };
     let swapped = order.iter().enumerate().filter(|(i, (w, _))| w != i).count() as f64;
     let reversed = order.iter().filter(|(_, sign)| *sign < 0.0).count() as f64;
+    let reversed = if orders::all_reversed(&order) { ONE_SENSE } else { 1.2 * reversed };
     let wrong = camera
         + f64::from(u8::from(reading.degrees))
         + f64::from(u8::from(reading.field))
         + quarter
         + 0.6 * swapped
-        + 1.2 * reversed;
+        + reversed;
     Fit {
         reading,
         order,
@@ -461,12 +467,19 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
         _ => {}
     }
     let changed = moved(&fit.order);
-    if !changed.is_empty() {
+    let counts_alone = (0..fit.order.len())
+        .all(|i| fit.order[i].0 == i && before.iter().any(|m| m.is_reversed(i)) == changed.contains(&i));
+    if orders::all_reversed(&fit.order) && !counts_alone {
+        // Where commands say so, too, it is told already.
+        let told = before.iter().any(|m| m.kind == OTHER_SENSE_KIND);
+        found.extend((!told).then(|| {
+            let what = format!("camera and wheels say the opposite, ways and turns alike: {}", OTHER_SENSE[1]);
+            new(OTHER_SENSE_KIND, OTHER_SENSE[0], what, OTHER_SENSE[2])
+        }));
+    } else if !changed.is_empty() {
         let what = format!("camera and counts agree only if {}", words(&fit.order));
         let column = format!("enc_{}", changed[0] + 1);
         // A wheel that is driven and counted the other way is a matter of cables, which has a name; counts alone are not.
-        let counts_alone = (0..fit.order.len())
-            .all(|i| fit.order[i].0 == i && before.iter().any(|m| m.is_reversed(i)) == changed.contains(&i));
         if counts_alone {
             let what = format!("{what}, against what drives it");
             let remedy = "change the sign of these counts alone (scale = -1 in the map)";

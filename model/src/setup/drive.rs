@@ -6,7 +6,7 @@ use runs::{DutySource, Log, drive_lacks};
 
 use super::samples::{BOTH_WAYS, FEWEST, HELD, correlation};
 use super::signals::{Signals, signals};
-use super::{Mistake, axes, common_ratio, is_true, loops, near, short, supply};
+use super::{Mistake, OTHER_SENSE, OTHER_SENSE_KIND, axes, common_ratio, is_true, loops, near, short, supply};
 
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
@@ -279,11 +279,9 @@ fn commands(robot: &Robot, signals: &[Signals]) -> Option<Mistake> {
     // Where turns are the other way round, too, no frame is wrong but what positive speed of a wheel means.
     let back = quarter.abs() > 3.0;
     if back && all[5] < -FOLLOWS * all[6] {
-        let what = "commands say the opposite of what the wheels drive, ways and turns alike: positive speeds drive every \
-                    wheel the other way than robot.toml says";
-        let remedy = "add pi to drive_rad of every [[wheel]] (`racbot init --turns` says which way they turn the robot), or \
-                      change the signs of all encoders or speeds";
-        return Some(Mistake::new("command-frame", "[[wheel]]", what.to_owned(), remedy.to_owned()));
+        let [column, sense, remedy] = OTHER_SENSE;
+        let what = format!("commands say the opposite of what the wheels drive, ways and turns alike: {sense}");
+        return Some(Mistake::new(OTHER_SENSE_KIND, column, what, remedy.to_owned()));
     }
     let what = format!("commands point {:.0} degrees from where the wheels drive", turn.to_degrees());
     let remedy = if back {

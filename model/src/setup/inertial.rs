@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::samples::Wheels;
-use super::{Mistake, near, short};
+use super::{Mistake, OTHER_SENSE_KIND, near, short};
 use crate::plant::GRAVITY;
 use runs::robot::Robot;
 use runs::{Columns, Log};
@@ -37,7 +37,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     let stretches: Vec<Stretch> = logs.iter().flat_map(|log| stretches(robot, log)).collect();
     let mut found: Vec<Mistake> = Vec::new();
     // Where the wheels are wrong, the sensor is not to blame.
-    if !before.iter().any(|m| matches!(m.kind, "encoder-order" | "robot-file")) {
+    if !before.iter().any(|m| ["encoder-order", OTHER_SENSE_KIND, "robot-file"].contains(&m.kind)) {
         found.extend(turns(&stretches));
     }
     found.extend(gravity(&stretches));

@@ -66,6 +66,16 @@ pub const TRUE_RATIO: f64 = 1.45;
 /// Relative width about a ratio by which a mistake is recognised.
 pub(crate) const NEAR: f64 = 0.22;
 
+/// The kind of mistake of wheels that all turn the other way.
+pub(crate) const OTHER_SENSE_KIND: &str = "wheels-reversed";
+/// Where it stands, what it is and what mends it where positive speed turns every wheel the other way.
+pub(crate) const OTHER_SENSE: [&str; 3] = [
+    "[[wheel]]",
+    "positive speeds drive every wheel the other way than robot.toml says",
+    "add pi to drive_rad of every [[wheel]] (`racbot init --turns` says which way they turn the robot), or change the signs of all \
+     encoders or speeds",
+];
+
 /// Whether a ratio is within [`NEAR`] of `of`, what a mistake makes of it.
 pub(crate) fn near(ratio: f64, of: f64) -> bool {
     (ratio / of - 1.0).abs() < NEAR

@@ -38,6 +38,11 @@ pub(super) fn moved(order: &[(usize, f64)]) -> Vec<usize> {
     (0..order.len()).filter(|i| order[*i] != (*i, 1.0)).collect()
 }
 
+/// Whether every wheel turns the other way and none is another.
+pub(super) fn all_reversed(order: &[(usize, f64)]) -> bool {
+    order.iter().enumerate().all(|(i, (wheel, sign))| *wheel == i && *sign < 0.0)
+}
+
 /// In words, such as "enc_2 and enc_3 are swapped, enc_1 is reversed".
 pub(super) fn words(order: &[(usize, f64)]) -> String {
     let mut parts = Vec::new();

@@ -7,8 +7,8 @@ use runs::frames::wrap_angle;
 use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
 
-use super::Mistake;
 use super::samples::Wheels;
+use super::{Mistake, OTHER_SENSE_KIND};
 
 /// Lengths of the stretches whose turns are compared, s: a robot that hardly turns takes long to turn by more than its
 /// camera's noise, and in that time one that turns fast has no direction.
@@ -35,7 +35,7 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log], before: &[Mistake]) -> Vec<M
     let ways_alone = logs.iter().any(|log| log.layout().source.positions_only);
     // Turns of wheels that slip follow nothing; nor do ways that bend the other way than headings by the wheels, which then
     // agree where the robot drives straight alone.
-    let said = ["encoder-order", "heading-clockwise", "heading-degrees", "camera-y-down"];
+    let said = ["encoder-order", OTHER_SENSE_KIND, "heading-clockwise", "heading-degrees", "camera-y-down"];
     let told = |m: &Mistake| said.contains(&m.kind) || OF_HEADINGS.contains(&m.kind) && !ways_alone;
     if before.iter().any(told) || robot.support != Support::Floor {
         return Vec::new();
