@@ -56,6 +56,10 @@ impl DataSet {
 
 /// The robot that lies in a folder of runs.
 pub(super) fn robot_of(folder: &Path) -> Result<Robot, RunError> {
+    if folder.exists() && !folder.is_dir() {
+        let hint = "give the folder in which logs and robot.toml lie side by side";
+        return Err(RunError::new(folder, "is no folder", hint));
+    }
     let robot = folder.join("robot.toml");
     if folder.is_dir() && !robot.exists() {
         let hint = "put the robot's robot.toml beside its logs";

@@ -56,6 +56,10 @@ impl InputError {
         let hint = match error.kind() {
             std::io::ErrorKind::NotFound => "check the path",
             std::io::ErrorKind::PermissionDenied => "check the permissions",
+            std::io::ErrorKind::IsADirectory => "give a file, not a folder",
+            std::io::ErrorKind::NotADirectory => "a file stands where the path has a folder",
+            std::io::ErrorKind::AlreadyExists => "a file stands where a folder is to be",
+            std::io::ErrorKind::StorageFull => "make room on the medium",
             std::io::ErrorKind::InvalidData => "save the file as UTF-8 text",
             _ => "check the file and the medium it is on",
         };

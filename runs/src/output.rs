@@ -3,12 +3,15 @@
 //! What is written at once goes to a temporary name in the same folder and is renamed when it is whole, so a
 //! reader or a crash never meets half of it. A recording that grows while a robot drives cannot: it grows under
 //! its own name, which must be free, and holds whole ticks at every moment.
+//!
+//! Only ordinary files are replaced. A device, a pipe or a folder of that name would be gone for every program:
+//! `/dev/null` as the place of a recording nobody wants, in root's hands.
 
 use crate::error::InputError;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Permissions of a new file, of which the user's mask takes away.
 const MODE: u32 = 0o666;
@@ -34,7 +37,8 @@ pub fn exists(path: &Path) -> InputError {
 /// # Errors
 /// [`InputError`]: the file exists and is to stay, or the system refuses; nothing has changed then.
 pub fn write_whole(path: &Path, content: &[u8], existing: Existing) -> Result<(), InputError> {
-    if existing == Existing::Refuse && fs::read(path).is_ok_and(|found| found == content) {
+    let is_there = |path: &Path| is_ordinary(path) && fs::read(path).is_ok_and(|found| found == content);
+    if existing == Existing::Refuse && is_there(path) {
         return Ok(());
     }
     write_with(path, existing, |file| file.write_all(content))
@@ -50,8 +54,8 @@ pub fn write_with(
     write: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), InputError> {
     let io = |error: io::Error| InputError::io(path, &error);
-    check_free(path, existing)?;
-    let folder = folder_of(path);
+    let place = &place_of(path, existing)?;
+    let folder = folder_of(place);
     fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
     let mut temporary = tempfile::Builder::new()
         .prefix(".racbot-")
@@ -60,8 +64,8 @@ pub fn write_with(
         .map_err(io)?;
     write(temporary.as_file_mut()).map_err(io)?;
     let placed = match existing {
-        Existing::Replace => temporary.persist(path),
-        Existing::Refuse => temporary.persist_noclobber(path),
+        Existing::Replace => temporary.persist(place),
+        Existing::Refuse => temporary.persist_noclobber(place),
     };
     match placed {
         Ok(_) => Ok(()),
@@ -74,26 +78,64 @@ pub fn write_with(
 /// Creates the file of a recording that grows.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] where it exists and is to stay, or what the system says.
+/// [`io::ErrorKind::AlreadyExists`] where it exists and is to stay, [`io::ErrorKind::InvalidInput`] where it is no file,
+/// or what the system says.
 pub fn create_growing(path: &Path, existing: Existing) -> io::Result<File> {
+    let mut place = path.to_owned();
     if existing == Existing::Replace {
-        match fs::remove_file(path) {
+        place = behind_links(path);
+        if let Some(kind) = kind_if_none(path) {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, format!("is {kind}; {NAME_A_FILE}")));
+        }
+        match fs::remove_file(&place) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => {}
         }
     }
-    OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
+    OpenOptions::new().write(true).create_new(true).open(place).map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => io::Error::new(error.kind(), "exists already; replace it with --force"),
         _ => error,
     })
 }
 
-/// Fails early, before long work, where a file exists that is to stay.
+/// Fails early, before long work, where a file exists that is to stay, or something that is no file.
 ///
 /// # Errors
 /// [`InputError`] that names it.
 pub fn check_free(path: &Path, existing: Existing) -> Result<(), InputError> {
-    if existing == Existing::Refuse && fs::symlink_metadata(path).is_ok() { Err(exists(path)) } else { Ok(()) }
+    place_of(path, existing).map(drop)
+}
+
+/// What to do about a name that is none of a file.
+const NAME_A_FILE: &str = "give the name of a file";
+
+/// Where a file of this name is written: behind links, which stay.
+fn place_of(path: &Path, existing: Existing) -> Result<PathBuf, InputError> {
+    if let Some(kind) = kind_if_none(path) {
+        return Err(InputError::new(path, format!("is {kind}"), NAME_A_FILE));
+    }
+    match existing {
+        Existing::Refuse if fs::symlink_metadata(path).is_ok() => Err(exists(path)),
+        Existing::Refuse => Ok(path.to_owned()),
+        Existing::Replace => Ok(behind_links(path)),
+    }
+}
+
+/// The file that a name leads to; the name itself where there is none yet.
+fn behind_links(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// Whether there is a file in the ordinary sense, itself or behind a link.
+fn is_ordinary(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file())
+}
+
+/// What stands there that is no file in the ordinary sense.
+fn kind_if_none(path: &Path) -> Option<&'static str> {
+    let kind = fs::metadata(path).ok()?.file_type();
+    let other = if kind.is_dir() { "a folder" } else { "a device or a pipe, no file" };
+    (!kind.is_file()).then_some(other)
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -150,6 +192,37 @@ mod tests {
         fs::write(&path, "old").unwrap();
         write_with(&path, Existing::Replace, fails).unwrap_err();
         assert_eq!((fs::read(&path).unwrap().as_slice(), names(folder.path()).len()), (&b"old"[..], 1));
+    }
+
+    #[test]
+    fn what_is_no_file_is_never_replaced_and_links_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        // A socket stands for devices, which only root can make: neither is read, written or removed.
+        let _bound = std::os::unix::net::UnixListener::bind(place("socket")).unwrap();
+        fs::create_dir(place("folder")).unwrap();
+        fs::write(place("robot.toml"), "old").unwrap();
+        std::os::unix::fs::symlink("robot.toml", place("link")).unwrap();
+        std::os::unix::fs::symlink("socket", place("to-socket")).unwrap();
+        let before = names(folder.path());
+        for (name, kind) in [("socket", "a device"), ("to-socket", "a device"), ("folder", "a folder")] {
+            for existing in [Existing::Refuse, Existing::Replace] {
+                for error in [
+                    check_free(&place(name), existing).unwrap_err().to_string(),
+                    write_whole(&place(name), b"new", existing).unwrap_err().to_string(),
+                ] {
+                    assert!(error.contains(kind) && !error.contains("--force"), "{error}");
+                }
+            }
+            let error = create_growing(&place(name), Existing::Replace).unwrap_err().to_string();
+            assert!(error.contains(kind), "{error}");
+        }
+        write_whole(&place("link"), b"new", Existing::Replace).unwrap();
+        assert!(fs::symlink_metadata(place("link")).unwrap().is_symlink());
+        assert_eq!(fs::read(place("robot.toml")).unwrap(), b"new");
+        create_growing(&place("link"), Existing::Replace).unwrap().write_all(b"t\n").unwrap();
+        assert_eq!(fs::read(place("robot.toml")).unwrap(), b"t\n");
+        assert_eq!(names(folder.path()), before);
     }
 
     #[test]
