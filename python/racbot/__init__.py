@@ -2,7 +2,8 @@
 
 - `read_run(path)`: a recorded run, CSV or MCAP, as numpy arrays by the names of its columns.
 - `simulate(robot, set_points, ...)`: a drive over the bit-true FPGA.
-- `gap(folder)`, `calibrate(folder)`, `check(folder)`: the analyses of the command of the same name, as dictionaries.
+- `gap(folder)`, `calibrate(folder)`, `check(folder)`: the analyses of the command of the same name, as dictionaries. A
+  data set that is set up wrong is a `RacbotError`, as it is refused there; `despite_mistakes=True` goes on.
 - `wheel_words(robot, twists)`: the FPGA's inverse kinematics, bit for bit.
 - `BitTrueRobot`: a robot on the bit-true FPGA, tick by tick; `racbot.environment` makes a Gymnasium environment of it.
 
@@ -39,14 +40,14 @@ def simulate(robot=None, set_points=None, *, hidden=None, limit_s=60.0, seed=1, 
     return _columns(columns), toml, np.frombuffer(track, dtype="<f8").reshape(-1, 4)
 
 
-def gap(folder, robot=None, out=None):
+def gap(folder, robot=None, out=None, *, despite_mistakes=False):
     """What `racbot gap` finds in a data set, as it stands in gap.json; with `out` its report is written there."""
-    return json.loads(_racbot.gap(str(folder), _path(robot), _path(out)))
+    return json.loads(_racbot.gap(str(folder), _path(robot), _path(out), despite_mistakes))
 
 
-def calibrate(folder, robot=None):
+def calibrate(folder, robot=None, *, despite_mistakes=False):
     """Skews of the wheels as `racbot calibrate` estimates them."""
-    return json.loads(_racbot.calibrate(str(folder), _path(robot)))
+    return json.loads(_racbot.calibrate(str(folder), _path(robot), despite_mistakes))
 
 
 def check(folder, robot=None):

@@ -114,7 +114,7 @@ fn simulate(
     camera: bool,
 ) -> PyResult<(Vec<Column>, String, Py<PyBytes>)> {
     if !(limit_s > 0.0 && limit_s <= 3_600.0) {
-        return Err(failed(format!("limit_s: {limit_s} is not between 0 and 3600 seconds")));
+        return Err(failed(format!("limit_s: {limit_s} is not more than 0 and at most 3600")));
     }
     let robot = load(robot)?;
     let actual = hidden.map_or_else(|| Ok(robot.clone()), |file| load(Some(file)))?;
@@ -127,8 +127,7 @@ fn simulate(
         if points.iter().any(|(x, y, v, omega)| ![x, y, v, omega].into_iter().all(|n| n.is_finite())) {
             return Err(failed("set_points: not all are numbers"));
         }
-        drive.set_points =
-            points.into_iter().map(|(x, y, v, omega)| SetPoint::pass(x, y, v, omega)).collect();
+        drive.set_points = points.into_iter().map(|(x, y, v, omega)| SetPoint::pass(x, y, v, omega)).collect();
     }
     drive.actual = applied.robot.clone();
     drive.contact = applied.contact;
@@ -140,12 +139,30 @@ fn simulate(
     Ok((columns(py, &driven.run), driven.robot.to_toml(), bytes(py, track)))
 }
 
+/// Refuses logs that are set up wrong, as the command does, unless that is to be passed over: then what is wrong with them.
+fn set_up(folder: &str, set: &Logs<'_>, despite_mistakes: bool) -> PyResult<Vec<String>> {
+    let found = model::setup::mistakes(set);
+    let wrong: Vec<String> = found.iter().filter(|m| !m.nameable).map(model::setup::Mistake::sentence).collect();
+    if wrong.is_empty() || despite_mistakes {
+        return Ok(wrong);
+    }
+    let what = wrong.join("; also ");
+    Err(failed(format!("{folder}: set up wrong: {what} (despite_mistakes=True goes on nevertheless)")))
+}
+
 #[pyfunction(name = "gap")]
-#[pyo3(signature = (folder, robot, out))]
-fn find_gap(py: Python<'_>, folder: &str, robot: Option<&str>, out: Option<&str>) -> PyResult<String> {
+#[pyo3(signature = (folder, robot, out, despite_mistakes))]
+fn find_gap(
+    py: Python<'_>,
+    folder: &str,
+    robot: Option<&str>,
+    out: Option<&str>,
+    despite_mistakes: bool,
+) -> PyResult<String> {
     py.detach(|| {
         let set = logs(folder, robot)?;
-        let options = gap::Options { robot_file: robot.map(Into::into), ..gap::Options::default() };
+        let mistakes = set_up(folder, &set, despite_mistakes)?;
+        let options = gap::Options { robot_file: robot.map(Into::into), mistakes, ..gap::Options::default() };
         let analysis = gap::analyse_logs(&set, &options).map_err(failed)?;
         if let Some(out) = out {
             analysis.save(Path::new(out), runs::output::Existing::Refuse).map_err(failed)?;
@@ -155,14 +172,15 @@ fn find_gap(py: Python<'_>, folder: &str, robot: Option<&str>, out: Option<&str>
 }
 
 #[pyfunction]
-#[pyo3(signature = (folder, robot))]
-fn calibrate(py: Python<'_>, folder: &str, robot: Option<&str>) -> PyResult<String> {
+#[pyo3(signature = (folder, robot, despite_mistakes))]
+fn calibrate(py: Python<'_>, folder: &str, robot: Option<&str>, despite_mistakes: bool) -> PyResult<String> {
     py.detach(|| {
         let set = match robot {
             None => DataSet::open(folder),
             Some(file) => DataSet::open_as(folder, Robot::load_partial(file).map_err(failed)?),
         };
         let set = set.map_err(failed)?;
+        set_up(folder, &Logs::from(&set), despite_mistakes)?;
         let estimate = model::calibration::estimate_skew(&set.as_logged(), &set.runs).map_err(failed)?;
         Ok(estimate.to_json().to_string())
     })
@@ -180,6 +198,9 @@ fn check(py: Python<'_>, folder: &str, robot: Option<&str>) -> PyResult<Vec<Stri
 #[pyfunction]
 #[pyo3(signature = (robot, twists))]
 fn wheel_words(robot: Option<&str>, twists: Vec<(f64, f64, f64)>) -> PyResult<Vec<Vec<i32>>> {
+    if twists.iter().any(|(vx, vy, omega)| ![vx, vy, omega].into_iter().all(|n| n.is_finite())) {
+        return Err(failed("twists: not all are numbers"));
+    }
     let scale = scale(&load(robot)?)?;
     let rows = &scale.configuration().inverse[..scale.wheels()];
     let words = |(vx, vy, omega)| {

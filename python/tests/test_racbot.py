@@ -1,6 +1,7 @@
 """The Python package against files of the repository and against itself."""
 import csv
 import pathlib
+import re
 import shutil
 import sys
 
@@ -28,6 +29,8 @@ def test_mistakes_are_one_kind_of_exception_with_what_to_do():
         racbot.read_run("none.csv")
     with pytest.raises(racbot.RacbotError, match="robot.toml"):
         racbot.gap(DATA / "nowhere")
+    with pytest.raises(racbot.RacbotError, match="twists"):
+        racbot.wheel_words(None, [(np.nan, 0, 0)])
 
 
 def test_a_simulated_drive_is_a_log_that_calibrates(tmp_path):
@@ -48,6 +51,18 @@ def test_calibrate_and_check_of_a_data_set():
     found = racbot.calibrate(SET)
     assert racbot.check(SET) == []
     assert len(found["skew_rad"]) == 3 and max(abs(skew) for skew in found["skew_rad"]) > 0.02
+
+
+def test_a_set_that_is_set_up_wrong_is_refused_as_the_command_refuses_it(tmp_path):
+    wrong = tmp_path / "diameter.toml"
+    toml = (SET / "robot.toml").read_text()
+    radius = re.search(r"wheel_radius_m = ([0-9.]+)", toml)
+    wrong.write_text(toml.replace(radius[0], f"wheel_radius_m = {2 * float(radius[1])}"))
+    assert "diameter" in racbot.check(SET, robot=wrong)[0]
+    for analysis in (racbot.gap, racbot.calibrate):
+        with pytest.raises(racbot.RacbotError, match="set up wrong: .*diameter"):
+            analysis(SET, robot=wrong)
+    assert "diameter" in racbot.gap(SET, robot=wrong, despite_mistakes=True)["set_up_mistakes"][0]
 
 
 def test_the_words_are_those_that_the_card_computes():
