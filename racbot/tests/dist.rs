@@ -102,6 +102,50 @@ fn the_rule_matches_the_card_that_the_driver_finds() {
     }
 }
 
+/// A rule for one action is not run by another: what the notes say to type makes the action of the rule.
+#[test]
+fn the_printed_trigger_runs_the_rule() {
+    let rule = fs::read_to_string(dist("60-racbot.rules")).unwrap();
+    let notes = fs::read_to_string(dist("INSTALL.md")).unwrap();
+    let wanted = rule.split("ACTION==\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+    let command = notes.split("udevadm trigger").nth(1).and_then(|rest| rest.lines().next()).unwrap();
+    // udevadm's own action is "change".
+    let made = command.split("--action=").nth(1).and_then(|rest| rest.split_whitespace().next()).unwrap_or("change");
+    assert_eq!(made, wanted);
+}
+
+/// The unit's command, as systemd hands it to the shell, on the built-in card: a drive can be started again.
+#[test]
+fn a_drive_that_is_started_twice_is_recorded_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    for name in ["etc", "var", "bin"] {
+        fs::create_dir(place(name)).unwrap();
+    }
+    fs::write(place("etc/square.csv"), "1,0,1,0\n").unwrap();
+    fs::copy(dist("../data/robot.toml"), place("etc/robot.toml")).unwrap();
+    // Time that passes from start to start without waiting for it.
+    fs::write(place("bin/date"), "#!/bin/sh\necho $$\n").unwrap();
+    Command::new("chmod").arg("755").arg(place("bin/date")).status().unwrap();
+    let unit = fs::read_to_string(dist("racbot-drive@.service")).unwrap();
+    let line = unit.lines().find_map(|line| line.strip_prefix("ExecStart=/bin/sh -c '")?.strip_suffix('\'')).unwrap();
+    let built_in = format!("{} drive --card virtual --limit-s 0.1", env!("CARGO_BIN_EXE_racbot"));
+    let text = line
+        .replace("/usr/local/bin/racbot drive", &built_in)
+        .replace("/etc/racbot", &place("etc").display().to_string())
+        .replace("/var/lib/racbot", &place("var").display().to_string())
+        .replace("%i", "square")
+        .replace("%%", "%")
+        .replace("$$", "$");
+    let path = format!("{}:{}", place("bin").display(), std::env::var("PATH").unwrap());
+    for _ in 0..2 {
+        let output = Command::new("/bin/sh").args(["-c", &text]).env("PATH", &path).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+    }
+    let files: Vec<_> = fs::read_dir(place("var")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(files.iter().filter(|f| f.to_string_lossy().ends_with(".mcap")).count(), 2, "{files:?}");
+}
+
 fn release(folder: &Path, arguments: &[&str]) -> std::process::Output {
     Command::new(dist("release.sh")).args(arguments).current_dir(folder).output().unwrap()
 }
