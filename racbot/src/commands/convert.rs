@@ -58,6 +58,7 @@ impl Options {
     }
 
     fn draft(&self, file: &Path, map: Option<&PathBuf>) -> Result<Answer, Failure> {
+        Target::check_apart([Some(file), self.truth.as_deref()].into_iter().flatten(), map)?;
         self.target.check_free(map)?;
         let log = survey(file)?;
         let text = match &self.truth {
@@ -66,7 +67,7 @@ impl Options {
         };
         let Some(map) = map else { return Ok(Answer { json: json!({ "map": text }), text, wrong: None }) };
         self.target.save(map, &text)?;
-        let json = json!({ "map": map });
+        let json = json!({ "map": map.to_string_lossy() });
         let said = format!(
             "{}: check every line, then racbot convert {} {} OUT.csv",
             map.display(),
@@ -83,6 +84,7 @@ impl Options {
                 "is neither *.csv nor *.mcap; runs are one of the two, and a folder for several ends with /",
             ));
         }
+        Target::check_apart([Some(map), Some(file), self.truth.as_deref()].into_iter().flatten(), [out])?;
         self.target.check_free([out])?;
         let (text, json) = self.written(Map::load(map)?.import(file, self.truth.as_deref())?, out)?;
         Ok(Answer { text, json, wrong: None })
@@ -104,6 +106,8 @@ impl Options {
                 "--truth {pattern}: one for all; of several logs {{stem}}, {{number}} or {{folder}} say whose it is"
             )));
         }
+        let read = all.iter().flat_map(|drive| drive.truth.iter().chain([&drive.log]));
+        Target::check_apart(read, all.iter().map(|drive| &drive.run))?;
         self.target.check_free(all.iter().map(|drive| &drive.run))?;
         let (mut text, mut done, mut failed) = (String::new(), Vec::new(), Vec::new());
         for drive in &all {
@@ -134,7 +138,8 @@ impl Options {
             [(_, said)] => Some(format!("1 of {total} runs is left out: {said}")),
             _ => Some(format!("{} of {total} runs are left out: {}", failed.len(), names.join(", "))),
         };
-        let failed: Vec<Value> = failed.iter().map(|(log, said)| json!({ "file": log, "why": said })).collect();
+        let failed: Vec<Value> =
+            failed.iter().map(|(log, said)| json!({ "file": log.to_string_lossy(), "why": said })).collect();
         Ok(Answer { text, json: json!({ "runs": done, "left_out": failed }), wrong })
     }
 
@@ -161,10 +166,10 @@ impl Options {
         text += &notes(&remarks);
         let json = json!({
             "remarks": remarks,
-            "run": out, "ticks": run.len(), "seconds": run.duration_s(), "camera": run.camera.len(),
+            "run": out.to_string_lossy(), "ticks": run.len(), "seconds": run.duration_s(), "camera": run.camera.len(),
             "wheels": run.wheel_count(),
             "truth": joined.map(|j| json!({
-                "file": j.file, "offset_s": j.offset_s, "apart_s": j.apart_s,
+                "file": j.file.to_string_lossy(), "offset_s": j.offset_s, "apart_s": j.apart_s,
                 "matched": j.matched.map(|m| json!({ "share": m.share, "elsewhere": m.rival })),
                 "before": j.outside[0], "after": j.outside[1], "incomplete": j.incomplete, "alike": j.alike,
             })),

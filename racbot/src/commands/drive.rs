@@ -3,7 +3,7 @@
 use super::record::Record;
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
-use crate::terminal::{Answer, Failure, Table, Target, entry};
+use crate::terminal::{Answer, Failure, Table, Target, entry, positive};
 use clap::{Args, ValueEnum};
 use driver::Board;
 use driver::drive::{Control, Driven, Ending, Plan};
@@ -125,12 +125,11 @@ impl Options {
         // Every file first: nothing may move for one that is wrong.
         let set_points = SetPoint::read_file(&self.setpoints)?;
         let robot = super::driven::robot(self.robot.as_deref())?;
-        if !(self.limit_s > 0.0 && self.limit_s <= 3_600.0) {
-            return Err(Failure::usage(format!("--limit-s: {} is not between 0 and 3600 seconds", self.limit_s)));
-        }
+        positive("--limit-s", self.limit_s, 3_600.0)?;
         if self.sure_m.is_some_and(|sure| !(sure > 0.0 && sure.is_finite())) {
             return Err(Failure::usage("--sure-m: give metres above 0"));
         }
+        Target::check_apart(self.robot.iter().chain([&self.setpoints]), &self.record)?;
         self.target.check_free(&self.record)?;
         let (actual, pace) = self.built_in(&robot)?;
         #[cfg(feature = "vision")]
@@ -383,7 +382,7 @@ impl Report<'_> {
             "ticks": driven.ticks, "unseen": driven.unseen, "read_again": driven.reread, "refused": driven.refused,
             "looked_round": driven.lost,
             "wake_up_us": { "min": min, "avg": mean, "max": max }, "missed": driven.latency.missed,
-            "recorded": self.recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
+            "recorded": self.recorded.map(|r| json!({ "file": r.file.to_string_lossy(), "ticks": r.ticks, "lost": r.lost })),
             "remarks": self.remarks.iter().cloned().chain(self.late_remarks()).collect::<Vec<_>>(),
         })
     }

@@ -1,6 +1,6 @@
 //! `racbot latency`
 
-use crate::terminal::{Answer, Failure, Table, wrapped};
+use crate::terminal::{Answer, Failure, Table, positive, wrapped};
 use clap::Args;
 use driver::realtime::{Latency, MonotonicClock, Rights, measure_latency, stop_on_signals};
 use serde_json::json;
@@ -28,9 +28,7 @@ pub(crate) struct Options {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        if !(self.seconds > 0.0 && self.seconds <= 86_400.0) {
-            return Err(Failure::usage(format!("--seconds: {} is not between 0 and 86400", self.seconds)));
-        }
+        positive("--seconds", self.seconds, 86_400.0)?;
         let stop = stop_on_signals().map_err(Failure::data)?;
         let rights = Rights::acquire(self.priority);
         let period = Duration::from_micros(self.period_us.into());

@@ -1,6 +1,6 @@
 //! `racbot radio`
 
-use crate::terminal::{Answer, Failure, Target};
+use crate::terminal::{Answer, Failure, Target, positive};
 use clap::Args;
 use driver::radio::{BaseStation, HexLine, Line, RadioError, Sent, SerialLine};
 use driver::realtime::{Clock, MonotonicClock, stop_on_signals};
@@ -76,11 +76,14 @@ const LONGEST: f64 = 3600.0;
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
         let seconds = self.seconds.unwrap_or(0.0);
-        if self.velocity.is_some() && !(seconds > 0.0 && seconds <= LONGEST) {
-            return Err(Failure::usage(format!("--seconds: {seconds} is not between 0 and {LONGEST}")));
+        if self.velocity.is_some() {
+            positive("--seconds", seconds, LONGEST)?;
         }
         if !(1e6..=1e8).contains(&self.clock_hz) {
             return Err(Failure::usage(format!("--clock-hz: {} is not between 1e6 and 1e8", self.clock_hz)));
+        }
+        if let Some(out) = &self.out {
+            Target::check_apart([&self.commands, &self.robot].into_iter().flatten(), [out])?;
         }
         let robot = super::driven::robot(self.robot.as_deref())?;
         let velocity = self.velocity(seconds)?;
@@ -111,7 +114,7 @@ impl Options {
             to.display()
         );
         let json = json!({
-            "robot": self.number, "line": to, "boots": boots, "velocities": velocities, "stopped": stopped,
+            "robot": self.number, "line": to.to_string_lossy(), "boots": boots, "velocities": velocities, "stopped": stopped,
         });
         Ok(Answer { text, json, wrong: None })
     }

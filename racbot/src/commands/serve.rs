@@ -3,7 +3,7 @@
 use super::record::Record;
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
-use crate::terminal::{Answer, Failure, Target, entry};
+use crate::terminal::{Answer, Failure, Target, entry, positive};
 use clap::Args;
 use driver::Board;
 use driver::drive::{Ending, NoSource, Plan, PoseSource};
@@ -15,6 +15,7 @@ use serde_json::json;
 use ssl::card::{Link, Served};
 use ssl::front::Team;
 use ssl::server::{Addresses, Sockets, Traffic};
+use std::io::ErrorKind;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
@@ -46,14 +47,17 @@ pub(crate) struct Options {
 
     /// With --card: team and number of its robot
     #[arg(long, value_name = "TEAM:ID", default_value = "blue:0")]
+    #[cfg_attr(feature = "simulation", arg(requires = "card"))]
     as_robot: Who,
 
     /// With --card: where the robot stands, x and y in metres, heading of the body's x axis in degrees
     #[arg(long, value_name = "X,Y,DEG", default_value = "0,0,0", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "simulation", arg(requires = "card"))]
     start: Start,
 
     /// With --card: record the drive, .csv or .mcap; robot.toml is put beside it
-    #[arg(long, value_name = "FILE", requires = "card")]
+    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "simulation", arg(requires = "card"))]
     record: Option<PathBuf>,
 
     #[command(flatten)]
@@ -61,11 +65,13 @@ pub(crate) struct Options {
 
     /// With --card: end at the first fault; without, the robot rests, says so, and is armed again once nobody has asked
     /// for motion for half a second. An emergency stop always ends it
-    #[arg(long, requires = "card")]
+    #[arg(long)]
+    #[cfg_attr(feature = "simulation", arg(requires = "card"))]
     stay_off: bool,
 
     /// With --card: real-time priority asked for
     #[arg(long, value_name = "N", default_value_t = 80, value_parser = clap::value_parser!(u8).range(1..=99))]
+    #[cfg_attr(feature = "simulation", arg(requires = "card"))]
     priority: u8,
 
     /// End after so many seconds [default: when interrupted]
@@ -78,38 +84,38 @@ pub(crate) struct Options {
 #[derive(Args, Debug)]
 struct Simulated {
     /// Blue robots
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(0..=16))]
+    #[arg(long, value_name = "N", conflicts_with = "card", default_value_t = 6, value_parser = clap::value_parser!(u32).range(0..=16))]
     blue: u32,
 
     /// Yellow robots
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(0..=16))]
+    #[arg(long, value_name = "N", conflicts_with = "card", default_value_t = 6, value_parser = clap::value_parser!(u32).range(0..=16))]
     yellow: u32,
 
     /// Field of division a or b
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, conflicts_with = "card", value_enum, default_value_t)]
     field: Division,
 
     #[command(flatten)]
     hidden: super::options::Hidden,
 
     /// Send vision there too, as to 127.0.0.1:10006
-    #[arg(long, value_name = "ADDR:PORT")]
+    #[arg(long, value_name = "ADDR:PORT", conflicts_with = "card")]
     vision_to: Vec<SocketAddr>,
 
     /// Multicast group and port of vision; `none` for none
-    #[arg(long, value_name = "ADDR:PORT", default_value = "224.5.23.2:10020")]
+    #[arg(long, value_name = "ADDR:PORT", conflicts_with = "card", default_value = "224.5.23.2:10020")]
     vision: String,
 
     /// Frames of vision a second
-    #[arg(long, value_name = "HZ", default_value_t = 60.0)]
+    #[arg(long, value_name = "HZ", conflicts_with = "card", default_value_t = 60.0)]
     vision_hz: f64,
 
     /// Let time pass a frame at a time, after every message of this team: the same messages make the same frames
-    #[arg(long, value_name = "TEAM")]
+    #[arg(long, value_name = "TEAM", conflicts_with = "card")]
     lock_step: Option<Team>,
 
     /// Seed of the cameras' noise
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, conflicts_with = "card", default_value_t = 1)]
     seed: u64,
 }
 
@@ -178,8 +184,8 @@ impl std::str::FromStr for Ports {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
-        if self.seconds.is_some_and(|seconds| !(seconds > 0.0 && seconds < 1e9)) {
-            return Err(Failure::usage("--seconds: not more than 0".to_owned()));
+        if let Some(seconds) = self.seconds {
+            positive("--seconds", seconds, 1e9)?;
         }
         #[cfg(feature = "simulation")]
         if self.card.card.is_none() {
@@ -191,7 +197,15 @@ impl Options {
     fn open(&self, vision: &[SocketAddr]) -> Result<Sockets, Failure> {
         let Ports([control, blue, yellow]) = self.ports;
         let addresses = Addresses { interface: self.interface, control, blue, yellow, vision: vision.to_vec() };
-        let about = |error: std::io::Error| Failure::data(format!("{error}; another simulator? see --ports"));
+        let about = |error: std::io::Error| {
+            let hint = match error.kind() {
+                ErrorKind::AddrInUse => "another simulator? see --ports",
+                ErrorKind::AddrNotAvailable => "--interface is an address of this machine; `ip address` lists them",
+                ErrorKind::PermissionDenied => "ports below 1024 are root's: see --ports",
+                _ => "see --interface and --ports",
+            };
+            Failure::data(format!("{error}; {hint}"))
+        };
         let sockets = Sockets::open(&addresses).map_err(about)?;
         let [control, blue, yellow] = sockets.local().map_err(about)?;
         let vision: Vec<String> = vision.iter().map(ToString::to_string).collect();
@@ -210,6 +224,10 @@ impl Options {
 
     /// A real robot, or the built-in card in its place.
     fn drive(&self) -> Result<Answer, Failure> {
+        #[cfg(feature = "simulation")]
+        if self.simulated.hidden.is_given() {
+            return Err(Failure::usage("--hidden and --skew-deg are for simulated robots: leave out --card"));
+        }
         let Who(team, id) = self.as_robot;
         let robot = self.robot(team, id)?;
         self.target.check_free(&self.record)?;
@@ -258,7 +276,7 @@ impl Options {
             "card": name, "t_s": driven.t, "ticks": driven.ticks, "unseen": driven.unseen, "ended": ended,
             "rested": faults.iter().map(|(t, fault)| json!({ "t_s": t, "fault": fault })).collect::<Vec<_>>(),
             "outputs_off": driven.switched_off.is_ok(), "heard": traffic.heard, "refused": traffic.refused,
-            "recorded": recorded.map(|r| json!({ "file": r.file, "ticks": r.ticks, "lost": r.lost })),
+            "recorded": recorded.map(|r| json!({ "file": r.file.to_string_lossy(), "ticks": r.ticks, "lost": r.lost })),
         });
         Ok(Answer { text, json, wrong })
     }
@@ -333,9 +351,7 @@ impl Options {
         use std::time::{SystemTime, UNIX_EPOCH};
 
         let simulated = &self.simulated;
-        if !(simulated.vision_hz > 0.0 && simulated.vision_hz <= 1_000.0) {
-            return Err(Failure::usage(format!("--vision-hz: {} is not between 0 and 1000", simulated.vision_hz)));
-        }
+        positive("--vision-hz", simulated.vision_hz, 1_000.0)?;
         let mut remarks = std::collections::BTreeSet::new();
         let mut kind = |robot: &Robot| -> Result<Kind, Failure> {
             let believed = Kind::of(robot);

@@ -2,6 +2,7 @@
 
 mod answer;
 mod failure;
+mod number;
 #[cfg(feature = "simulation")]
 pub(crate) mod progress;
 mod table;
@@ -9,6 +10,7 @@ mod target;
 
 pub(crate) use answer::{Answer, print};
 pub(crate) use failure::Failure;
+pub(crate) use number::positive;
 pub(crate) use table::{Table, entry, wrapped};
 pub(crate) use target::Target;
 

@@ -26,6 +26,22 @@ impl Target {
         Ok(write_whole(path, content.as_ref(), self.existing())?)
     }
 
+    /// Fails where one of the files to write is one that is read: --force replaces what a command made, not what it is
+    /// made of.
+    pub(crate) fn check_apart<R: AsRef<Path>, W: AsRef<Path>>(
+        read: impl IntoIterator<Item = R>,
+        written: impl IntoIterator<Item = W>,
+    ) -> Result<(), Failure> {
+        let read: Vec<_> = read.into_iter().filter_map(|file| file.as_ref().canonicalize().ok()).collect();
+        for file in written {
+            let file = file.as_ref();
+            if file.canonicalize().is_ok_and(|place| read.contains(&place)) {
+                return Err(Failure::about(file, "is read by this very command; give another name to write to"));
+            }
+        }
+        Ok(())
+    }
+
     /// Fails where one of these exists and is to stay: before long work.
     pub(crate) fn check_free<P: AsRef<Path>>(self, paths: impl IntoIterator<Item = P>) -> Result<(), Failure> {
         for path in paths {

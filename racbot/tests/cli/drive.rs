@@ -36,7 +36,8 @@ fn what_cannot_be_driven_is_refused_before_a_card_is_touched() {
     let points = points.to_str().unwrap();
     let run = |arguments: &[&str]| racbot(folder.path(), arguments);
     run(&["drive", "--setpoints", "bad.csv"]).refused(1, &["bad.csv:1:5: v: \"fast\" is no number"]);
-    run(&["drive", "--setpoints", points, "--limit-s", "0"]).refused(2, &["--limit-s: 0 is not between"]);
+    run(&["drive", "--setpoints", points, "--limit-s", "0"])
+        .refused(2, &["--limit-s: 0 is not more than 0 and at most 3600"]);
     run(&["drive", "--setpoints", points, "--skew-deg", "1,2,3"]).refused(2, &["--card virtual"]);
     run(&["drive", "--setpoints", points, "--card", "virtual", "--record", "/proc/no/run.csv"])
         .refused(1, &["/proc/no"]);

@@ -134,7 +134,8 @@ fn what_no_robot_can_be_told_is_refused() {
     with(&["--out", "f", "--velocity", "1,2", "--seconds", "1"]).refused(2, &["'1,2' is no velocity"]);
     with(&["--out", "f", "--velocity", "1,2,inf", "--seconds", "1"]).refused(2, &["is no velocity"]);
     with(&["--out", "f", "--velocity", "1,2,3"]).refused(2, &["--seconds"]);
-    with(&["--out", "f", "--velocity", "1,2,3", "--seconds", "0"]).refused(2, &["not between 0 and 3600"]);
+    with(&["--out", "f", "--velocity", "1,2,3", "--seconds", "0"])
+        .refused(2, &["0 is not more than 0 and at most 3600"]);
     with(&["--out", "f"]).refused(2, &["--velocity"]);
     racbot(folder.path(), &["radio", "--number", "16", "--out", "f"]).refused(2, &["16 is not in 0..=15"]);
     with(&["--line", "nowhere", "--velocity", "1,2,3", "--seconds", "1"]).refused(1, &["nowhere: "]);

@@ -156,4 +156,7 @@ fn mistakes_of_a_call_are_said_before_anything_is_served() {
     let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
     let ports = format!("{},0,0", taken.local_addr().unwrap().port());
     racbot(folder.path(), &["serve", "--ports", &ports]).refused(1, &["control, UDP", "--ports"]);
+    // An address for documents, which no machine has.
+    racbot(folder.path(), &["serve", "--interface", "203.0.113.1", "--ports", "0,0,0"])
+        .refused(1, &["--interface is an address of this machine"]);
 }

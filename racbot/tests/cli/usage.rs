@@ -6,7 +6,7 @@ use tempfile::tempdir;
 #[test]
 fn what_is_not_a_command_or_option_is_refused() {
     let folder = tempdir().unwrap();
-    let table: [(&[&str], &str); 18] = [
+    let table: [(&[&str], &str); 24] = [
         (&["fly"], "unrecognized subcommand 'fly'"),
         (&["simulat"], "similar"),
         (&["simulate", "--speed"], "unexpected argument '--speed'"),
@@ -14,10 +14,16 @@ fn what_is_not_a_command_or_option_is_refused() {
         (&["simulate", "--skew-deg", "4,x,2"], "'x' is no angle in degrees"),
         (&["simulate", "--skew-deg", "4,-3,2", "--hidden", "robot.toml"], "cannot be used with"),
         (&["simulate", "--start", "1,2"], "'1,2' is no pose"),
-        (&["simulate", "--limit-s", "-1"], "not between 0 and 3600"),
+        (&["simulate", "--limit-s", "-1"], "-1 is not more than 0 and at most 3600"),
         (&["simulate", "--manoeuvre", "sipn"], "no such manoeuvre; there are spin, star, square, chirp"),
         (&["simulate", "--manoeuvre", "spin", "--fpga", "verilog"], "cannot be used with"),
         (&["simulate", "--times", "3"], "--manoeuvre"),
+        (&["simulate", "--start", "1e300,0,0"], "no place within 10000 m"),
+        (&["simulate", "--limit-s", "1e300"], "1e300 is not more than 0"),
+        (&["serve", "--as-robot", "blue:3"], "--card"),
+        (&["serve", "--card", "virtual", "--yellow", "3"], "cannot be used with"),
+        (&["serve", "--card", "virtual", "--skew-deg", "4,-3,2"], "leave out --card"),
+        (&["serve", "--seconds", "0"], "0 is not more than 0"),
         (&["replay"], "<DATASET>"),
         (&["calibrate"], "<DATASET>"),
         (&["gap"], "<DATASET>"),

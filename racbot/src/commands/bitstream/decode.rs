@@ -34,6 +34,7 @@ fn module(text: &str) -> Result<String, String> {
 
 impl Options {
     pub(crate) fn run(&self) -> Result<Answer, Failure> {
+        Target::check_apart([&self.bitstream], [&self.verilog])?;
         self.target.check_free([&self.verilog])?;
         let decoded = decoded(&self.bitstream)?;
         let report = &decoded.report;
@@ -50,7 +51,8 @@ impl Options {
             netlist.pads.len()
         );
         let json = json!({
-            "file": self.bitstream, "verilog": self.verilog, "module": self.module, "cells": netlist.cells.len(),
+            "file": self.bitstream.to_string_lossy(), "verilog": self.verilog.to_string_lossy(), "module": self.module,
+            "cells": netlist.cells.len(),
             "nets": netlist.nets.len(), "pads": netlist.pads.len(),
         });
         Ok(Answer { text, json, wrong: wrong(&self.bitstream, &report.faults) })

@@ -7,7 +7,7 @@ use super::fpga_options::{FpgaChoice, SpeedChoice};
 use super::options::Hidden;
 use super::start::Start;
 use crate::terminal::progress::Progress;
-use crate::terminal::{Answer, Failure, Table, Target, wrapped};
+use crate::terminal::{Answer, Failure, Table, Target, positive, wrapped};
 use clap::{Args, ValueEnum};
 use model::effects::{Applied, ControlDeviations};
 use model::plant::{Contact, Deviations};
@@ -99,7 +99,7 @@ pub(crate) struct Options {
     target: Target,
 
     /// Name of the run in the folder
-    #[arg(long, value_name = "NAME", default_value = NAME)]
+    #[arg(long, value_name = "NAME", default_value = NAME, value_parser = run_name)]
     name: String,
 }
 
@@ -148,6 +148,15 @@ pub(super) fn not_shown(applied: &Applied) -> Option<String> {
     }
     let names = applied.unsupported.join(", ");
     (!names.is_empty()).then(|| format!("not simulated: the effects {names}"))
+}
+
+/// A run's name is part of a file's in the folder of its data set.
+fn run_name(text: &str) -> Result<String, String> {
+    let hidden = text.is_empty() || text.starts_with('.');
+    if hidden || text.contains(['/', '\0']) {
+        return Err("a run's name has no folder in it, and no dot in front".to_owned());
+    }
+    Ok(text.to_owned())
 }
 
 impl Options {
@@ -222,8 +231,7 @@ impl Options {
         match self.limit_s {
             None if self.fpga.kind() == Kind::RustHdl => Ok(0.02),
             None => Ok(60.0),
-            Some(limit) if limit > 0.0 && limit <= 3_600.0 => Ok(limit),
-            Some(limit) => Err(Failure::usage(format!("--limit-s: {limit} is not between 0 and 3600 seconds"))),
+            Some(limit) => positive("--limit-s", limit, 3_600.0).map(|()| limit),
         }
     }
 
