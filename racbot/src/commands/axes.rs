@@ -30,6 +30,6 @@ pub(super) fn apart(file: &Path, text: &str, logs: &[PathBuf], axes: usize, targ
         logs.len(),
         if logs.len() == 1 { "" } else { "s" },
     );
-    let folders: Vec<PathBuf> = (0..axes).map(folder).collect();
+    let folders: Vec<String> = (0..axes).map(|axis| folder(axis).to_string_lossy().into_owned()).collect();
     Ok(Answer { text: said, json: json!({ "axes": folders }), wrong: None })
 }

@@ -56,7 +56,8 @@ impl Options {
         let text = format!("{}\nreport   {}\ntook     {seconds:.1} s\n", table(parts).render(), index.display());
         let wrong = parts.iter().find(|part| !part.good).map(|part| format!("demo: {}: {}", part.name, part.outcome));
         let parts: Vec<Value> = parts.iter().map(Part::to_json).collect();
-        let json = json!({ "parts": parts, "report": index, "seconds": seconds, "good": wrong.is_none() });
+        let json =
+            json!({ "parts": parts, "report": index.to_string_lossy(), "seconds": seconds, "good": wrong.is_none() });
         Ok(Answer { text, json, wrong })
     }
 }

@@ -109,7 +109,7 @@ impl Options {
         // An edit of this very file, which was asked for.
         write_whole(&file, Robot::edited(&text, &without.effects, &file)?.as_bytes(), Existing::Replace)?;
         let text = wrapped(&format!("{name} is taken out of {}", file.display()), 2);
-        Ok(Answer { text, json: json!({ "removed": name, "robot": file }), wrong: None })
+        Ok(Answer { text, json: json!({ "removed": name, "robot": file.to_string_lossy() }), wrong: None })
     }
 }
 

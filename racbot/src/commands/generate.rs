@@ -34,7 +34,7 @@ impl Options {
             let path = self.out.join(&file.name);
             self.target.save(&path, &file.text)?;
             table.row([path.display().to_string(), file.text.len().to_string()]);
-            written.push(json!({ "file": path, "bytes": file.text.len() }));
+            written.push(json!({ "file": path.to_string_lossy(), "bytes": file.text.len() }));
         }
         Ok(Answer { text: table.render(), json: json!({ "written": written }), wrong: None })
     }
@@ -49,7 +49,7 @@ fn check(folder: &Path, files: &[File]) -> Result<Answer, Failure> {
         let difference = compare(&path, &file.text)?;
         let state = difference.map_or_else(|| "current".to_owned(), |line| format!("differs from line {line} on"));
         table.row([path.display().to_string(), state]);
-        states.push(json!({ "file": path, "current": difference.is_none(), "line": difference }));
+        states.push(json!({ "file": path.to_string_lossy(), "current": difference.is_none(), "line": difference }));
         if let (None, Some(line)) = (&wrong, difference) {
             let path = path.display();
             wrong = Some(format!(

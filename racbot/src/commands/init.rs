@@ -227,7 +227,11 @@ impl Options {
         self.target.save(&self.file, &text)?;
         let what = if self.axis { "one axis".to_owned() } else { format!("{} wheels", wheels.len()) };
         let said = format!("{} with {what}\n", self.file.display());
-        Ok(Answer { text: said, json: json!({ "robot": self.file, "wheels": wheels.len() }), wrong: None })
+        Ok(Answer {
+            text: said,
+            json: json!({ "robot": self.file.to_string_lossy(), "wheels": wheels.len() }),
+            wrong: None,
+        })
     }
 
     /// Place (m), drive direction and roller angle (rad) of every wheel, x to the right.

@@ -105,7 +105,7 @@ impl Options {
     fn file_json(&self, bitstream: &Bitstream) -> serde_json::Value {
         let header = bitstream.header.as_ref();
         json!({
-            "file": self.bitstream, "design": header.map(|h| &h.design), "part": header.map(|h| &h.part),
+            "file": self.bitstream.as_ref().map(|file| file.to_string_lossy()), "design": header.map(|h| &h.design), "part": header.map(|h| &h.part),
             "date": header.map(|h| &h.date), "time": header.map(|h| &h.time), "bytes": bitstream.lanes().len(),
             "prom_order": bitstream.order == Order::Prom, "packets": bitstream.summary.packets,
             "crc_checks": bitstream.summary.crc_checks,

@@ -34,6 +34,10 @@ impl Options {
             self.target.save(file, &page)?;
         }
         let text = format!("{} pages in {}\n", files.len(), self.folder.display());
-        Ok(Answer { text, json: json!({ "files": files }), wrong: None })
+        Ok(Answer {
+            text,
+            json: json!({ "files": files.iter().map(|file| file.to_string_lossy()).collect::<Vec<_>>() }),
+            wrong: None,
+        })
     }
 }

@@ -53,6 +53,6 @@ impl Options {
         self.target.save(&path, &text)?;
         let shown = path.display();
         let text = format!("{shown}: {clocks} clocks of the chip's pins; open it with gtkwave or surfer\n");
-        Ok(Answer { text, json: json!({ "file": path, "clocks": clocks }), wrong: None })
+        Ok(Answer { text, json: json!({ "file": path.to_string_lossy(), "clocks": clocks }), wrong: None })
     }
 }

@@ -6,6 +6,7 @@ mod card;
 mod drive;
 mod good_data;
 mod joined;
+mod names;
 mod printed;
 mod radio;
 mod serve;

@@ -78,8 +78,8 @@ impl Runs<'_> {
         let _ = writeln!(text, "{}", wrapped(&format!("written to {} {robot}", self.out.display()), 2).trim_end());
         let json = json!({
             "manoeuvre": self.manoeuvre.name(),
-            "files": files,
-            "robot": file,
+            "files": files.iter().map(|file| file.to_string_lossy()).collect::<Vec<_>>(),
+            "robot": file.to_string_lossy(),
             "unsupported": applied.unsupported,
         });
         Ok(Answer { text, json, wrong: None })

@@ -103,7 +103,7 @@ impl Smart<'_> {
             .map(|(senses, o)| json!({ "on_board": senses_name(senses), "ball_m": finite(o.ball_miss), "off_m": finite(o.miss) }))
             .collect();
         let json = json!({ "seed": self.seed, "outcomes": outcomes, "refused": story.refused, "runs": story.legs.len(),
-            "pictures": story.shots.len(), "report": self.out.join("report.html") });
+            "pictures": story.shots.len(), "report": self.out.join("report.html").to_string_lossy() });
         Answer { text, json, wrong: None }
     }
 }
