@@ -5,7 +5,12 @@ use rust_hdl::prelude::*;
 /// A sized constant: `V` in `N` bits, a `localparam` in Verilog.
 ///
 /// rust-hdl emits a bare number as `32'h…`, which silently widens the expression around it; a sized
-/// one means the same in simulation and in Verilog.
+/// one means the same in simulation and in Verilog. A value that does not fit does not compile:
+///
+/// ```compile_fail
+/// # use hdl::primitives::Literal;
+/// let limit = Literal::<14, 20_000>::default();
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Literal<const N: usize, const V: u64>(Constant<Bits<N>>);
 
@@ -19,6 +24,8 @@ impl<const N: usize, const V: u64> Literal<N, V> {
 
 impl<const N: usize, const V: u64> Default for Literal<N, V> {
     fn default() -> Self {
+        // Else it is a panic of whoever makes the block.
+        const { assert!(N >= 64 || V >> N == 0, "the literal's value does not fit in its bits") };
         Self(Constant::new(V.to_bits()))
     }
 }
