@@ -69,7 +69,7 @@ pub const ACCOUNTED_FOR: f64 = 0.3;
 
 /// Control periods between two rows of a log from which the duty is not taken as held in between.
 pub const ROWS_APART: f64 = 1.5;
-/// Distance of rows behind a gap from the beat of the others, in rows, up to which rows were lost in it: what comes at any time
+/// Distance of rows after a gap from the beat of the others, in rows, up to which rows were lost in it: what comes at any time
 /// is a quarter off. Reasoned.
 pub const BEAT: f64 = 0.1;
 /// Share of a test function of the drive that rows may be missing of: of a step that came meanwhile it knows the size to half of
