@@ -241,8 +241,7 @@ impl<'a> Pieces<'a> {
 
     /// How far from the camera's origin it saw the robot, m, as [`crate::effect::Sizes::seen_m`] has it; 0 without frames.
     pub fn seen_m(&self) -> f64 {
-        let squares =
-            self.logs.iter().flat_map(|log| log.camera()).map(|seen| seen.pose.x.powi(2) + seen.pose.y.powi(2));
+        let squares = self.logs.iter().flat_map(Log::camera).map(|seen| seen.pose.x.powi(2) + seen.pose.y.powi(2));
         let [way, cube] = squares.fold([0.0; 2], |[way, cube], square| [way + square, cube + square.powi(3)]);
         if way > 0.0 { (cube / way).powf(0.25) } else { 0.0 }
     }
