@@ -100,6 +100,17 @@ impl<'a> Workflow<'a> {
                 self.findings.remarks.push(said);
             }
         }
+        let of_counts = ratios::of_the_same_counts(&outcome.named, &self.findings.named, &self.findings.alternatives);
+        if let Some(name) = of_counts.map(str::to_owned) {
+            here.retain(|e| !ratios::MOTORS.contains(&e.name()));
+            if let Some(again) = self.drive_again(&here) {
+                (link, outcome) = again;
+                self.findings.remarks.push(format!(
+                    "Fitted on the drive link, and not named: {name}; counts of that wheel that are others make a radius and a \
+                     motor of them."
+                ));
+            }
+        }
         if self.question.currents {
             let support = self.question.robot.support;
             if ratios::are_named_on_both_sides(&outcome.named, support) {

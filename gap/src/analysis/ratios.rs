@@ -100,6 +100,22 @@ pub(super) fn of_one_encoder(named: &[Named], robot: &Robot) -> Option<String> {
     ))
 }
 
+/// What is named of one motor on the drive where the camera has another radius of its wheel that is tied with its counts: these
+/// make both, a wheel that is larger and a motor that is off.
+pub(super) fn of_the_same_counts<'a>(named: &'a [Named], seen: &[Named], ties: &[Vec<String>]) -> Option<&'a str> {
+    let radius = seen.iter().find(|n| n.name == RADIUS && n.wheels.len() == 1)?;
+    let tied = |set: &Vec<String>| {
+        set.first().is_some_and(|first| first == RADIUS) && set.iter().any(|n| COUNTS.contains(&n.as_str()))
+    };
+    let of_it = |n: &&Named| n.link == Link::Drive && n.wheels == radius.wheels && MOTORS.contains(&n.name.as_str());
+    let motor = named.iter().find(of_it)?;
+    ties.iter().any(tied).then_some(motor.name.as_str())
+}
+
+const RADIUS: &str = "wheel-radius";
+const COUNTS: [&str; 2] = [ENCODER_SCALE, "encoder-loss"];
+pub(super) const MOTORS: [&str; 2] = [TORQUE_CONSTANT, WINDING];
+
 /// Windings of more resistance give that much less torque at any speed: so moves a robot with a load that its file lacks, which
 /// rubs as much more as it weighs. What has to be put on the scales, in a sentence, and the names.
 pub(super) fn of_a_load(named: &[Named], robot: &Robot) -> Option<(String, Vec<String>)> {
@@ -234,6 +250,19 @@ mod tests {
     fn viscous(wheels: &[usize], parameter: &str, [low, high]: [f64; 2]) -> [Named; 1] {
         let known = (parameter.to_owned(), 0.5 * (low + high), Interval::Ci95([low, high]));
         [Named { parameters: vec![known], ..Named::bare(FRICTIONS[1], Link::Drive, wheels) }]
+    }
+
+    #[test]
+    fn a_radius_that_may_be_counts_and_a_motor_on_one_wheel_are_one_cause() {
+        let seen = [Named::bare("wheel-radius", Link::Motion, &[3])];
+        let ties = [["wheel-radius", "encoder-scale"].map(str::to_owned).to_vec()];
+        let of = |link: Link, wheels: &[usize], ties: &[Vec<String>]| {
+            let named = [Named::bare("torque-constant", link, wheels)];
+            of_the_same_counts(&named, &seen, ties).map(str::to_owned)
+        };
+        assert_eq!(of(Link::Drive, &[3], &ties).as_deref(), Some("torque-constant"));
+        assert_eq!((of(Link::Drive, &[2], &ties), of(Link::Drive, &[], &ties)), (None, None));
+        assert_eq!(of(Link::Drive, &[3], &[]), None);
     }
 
     #[test]
