@@ -9,6 +9,7 @@ mod cut;
 mod differing;
 mod driven;
 mod driving;
+mod electrical;
 mod filtered;
 mod findings;
 mod found;
@@ -88,6 +89,7 @@ fn analyse_all(set: &Logs, options: &Options) -> Result<Analysis, GapError> {
     options.reached(Stage::Exact);
     workflow.counts(&exact);
     workflow.motion();
+    workflow.electrical();
     workflow.drive();
     workflow.judge_stamps(&mut exact);
     let replayed = workflow.exact(&exact);

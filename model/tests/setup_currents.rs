@@ -34,8 +34,12 @@ fn told(sign: f64, idles: bool) -> Vec<String> {
 }
 
 fn said_of(rows: &str) -> Vec<String> {
+    said_by(ROBOT, rows)
+}
+
+fn said_by(robot: &str, rows: &str) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("robot.toml"), ROBOT).unwrap();
+    std::fs::write(folder.path().join("robot.toml"), robot).unwrap();
     std::fs::write(folder.path().join("run_1.csv"), rows).unwrap();
     mistakes(&Logs::open(folder.path()).unwrap()).iter().map(Mistake::sentence).collect()
 }
@@ -77,4 +81,36 @@ fn a_current_that_drives_is_no_last_reading() {
         }
     }
     assert_eq!(said_of(&rows), Vec::<String>::new());
+}
+
+/// A motor under duties that step, of 1.2 ohm and 0.0066 V s/rad, by a file with these; currents as somebody logs them.
+fn said_of_a_winding(ohm: f64, kt: f64, logged: fn(f64, f64) -> f64) -> Vec<String> {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
+    let mut rows = "t,enc_1,duty_1,current_1\n".to_owned();
+    for k in 0..4000_usize {
+        let duty: f64 = [0.3, 0.8, -0.2, -0.7, 0.5, -0.5][k / 60 % 6];
+        let driven = |speed: f64| (12.0 * duty - 0.0066 * speed) / 1.2;
+        let amps = logged(driven(speed), duty) + 0.02 * random.random_range(-1.0..1.0);
+        rows += &format!("{},{},{duty},{amps}\n", 0.005 * k as f64, (angle / std::f64::consts::TAU * 65536.0) as i64);
+        for _ in 0..20 {
+            let against = 0.003 * (speed / 5.0).tanh() + 8e-6 * speed;
+            speed += 0.005 / 20.0 * (0.0066 * driven(speed) - against) / 7e-6;
+            angle += 0.005 / 20.0 * speed;
+        }
+    }
+    let file = ROBOT.replace("torque_constant = 0.0066", &format!("torque_constant = {kt}\nresistance_ohm = {ohm}"));
+    said_by(&format!("supply_v = 12\n{file}"), &rows)
+}
+
+#[test]
+fn another_motors_winding_is_told_by_duties_and_currents() {
+    let motor: fn(f64, f64) -> f64 = |amps, _| amps;
+    assert_eq!(said_of_a_winding(1.2, 0.0066, motor), Vec::<String>::new());
+    let said = said_of_a_winding(2.4, 0.0066, motor);
+    assert!(said.len() == 1 && said[0].starts_with("motor.resistance_ohm: duties and currents"), "{said:?}");
+    let told: f64 = said[0].split("say ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((told / 1.2 - 1.0).abs() < 0.05, "{said:?}");
+    // A battery's current is the motor's times the duty, and tells of no winding.
+    assert_eq!(said_of_a_winding(2.4, 0.0066, |amps, duty| amps * duty), Vec::<String>::new());
 }

@@ -111,6 +111,18 @@ impl<'a> Workflow<'a> {
                 ));
             }
         }
+        if let Some((names, winding)) = self.against_currents(&outcome) {
+            let names = names.join(", ");
+            let said = format!(
+                "Fitted on the drive link, and not named: {names}; the currents speak against it: {}.",
+                winding.said()
+            );
+            here.retain(|e| !names.split(", ").any(|name| name == e.name()));
+            if let Some(again) = self.drive_again(&here) {
+                (link, outcome) = again;
+                self.findings.remarks.push(said);
+            }
+        }
         if self.question.currents {
             let support = self.question.robot.support;
             if ratios::are_named_on_both_sides(&outcome.named, support) {
@@ -289,6 +301,7 @@ impl<'a> Workflow<'a> {
             let of_ways = ["body-drag", "carpet-grain"].contains(&e.name());
             let grain = || of_ways && ways_lie_along_one_line(self.searched().pieces);
             hidden
+                || self.is_told_by_currents(e.name())
                 || drives && own.peek().is_some() && own.all(|l| l.limit < self.thresholds.seen * l.material)
                 || grain()
         };

@@ -15,7 +15,7 @@ use links::pieces::Pieces;
 
 /// The one that all others are told relative to.
 pub(super) const TORQUE_CONSTANT: &str = "torque-constant";
-const WINDING: &str = "winding-resistance";
+pub(super) const WINDING: &str = "winding-resistance";
 const HEATING: &str = "motor-heating";
 const ROTOR_INERTIA: &str = "rotor-inertia";
 /// Frictions that the factor may change without a name, as long as what a file has of them is small.

@@ -25,6 +25,7 @@ use crate::timing;
 use links::effect::{Effect, Link};
 use links::effects;
 use links::motion::{MotionLink, WindowResiduals};
+use model::setup::Winding;
 
 /// An analysis under way.
 pub(super) struct Workflow<'a> {
@@ -43,6 +44,8 @@ pub(super) struct Workflow<'a> {
     pub(super) findings: Findings,
     /// Residuals of the motion that was searched, with what is named there.
     pub(super) seen: Option<Vec<WindowResiduals>>,
+    /// What currents beside the duties say of the motors.
+    pub(super) winding: Option<Winding>,
     /// Torque that its speed loops answered, in that of the drive, where this is compared beside it.
     pub(super) answered: Option<f64>,
 }
@@ -81,7 +84,19 @@ impl<'a> Workflow<'a> {
             &question.options.thresholds,
         ));
         let thresholds = question.options.thresholds.clone();
-        Self { question, data, sample, nominal, stale, start, thresholds, findings, seen: None, answered: None }
+        Self {
+            question,
+            data,
+            sample,
+            nominal,
+            stale,
+            start,
+            thresholds,
+            findings,
+            seen: None,
+            winding: None,
+            answered: None,
+        }
     }
 
     /// The data that causes are looked for in.

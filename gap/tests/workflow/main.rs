@@ -29,6 +29,7 @@ mod stale;
 mod thumb_motor;
 mod uneven;
 mod ways;
+mod windings;
 
 use common::{RICH, cut_all, example, names, simulate, value, with};
 use gap::{Options, Verdict, analyse, undo};

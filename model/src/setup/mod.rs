@@ -21,12 +21,14 @@ mod stands;
 mod supply;
 mod time;
 mod turns;
+mod winding;
 
 use runs::robot::Robot;
 use runs::{Logs, is_dead_reckoning, is_from_speeds};
 
 pub use counts::DECODED;
 pub use orders::orders;
+pub use winding::Winding;
 
 /// Something set up wrongly, with what shows it and what mends it.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,6 +122,9 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     if found.is_empty() {
         // Speeds that are wrong would be too fast for any motor.
         found.extend(motors::mistakes(&robot, &set.logs));
+    }
+    if found.is_empty() {
+        found.extend(winding::mistakes(&robot, &set.logs));
     }
     found
 }

@@ -20,13 +20,17 @@ pub(super) struct Signals {
     pub(super) acceleration: Vec<Vec<f64>>,
     pub(super) reference: Vec<Vec<f64>>,
     pub(super) duty: Vec<Vec<f64>>,
+    /// Motor currents, A, if they were logged.
+    pub(super) current: Vec<Vec<f64>>,
     pub(super) command: Vec<[f64; 3]>,
     pub(super) supply: Vec<f64>,
+    /// Supply at each sample, V: the file's where none was logged.
+    pub(super) volts: Vec<f64>,
 }
 
 pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
     let wheels = Wheels::of(robot, log)?;
-    let columns = Columns { command: true, reference: true, duty: true, supply: true, ..Columns::NONE };
+    let columns = Columns { command: true, reference: true, duty: true, supply: true, sensors: true, ..Columns::NONE };
     let run: Run = log.part(0..log.len().min(200_000), columns);
     let n = robot.wheel_count();
     let span = SPAN_S.max(2.0 * log.tick_s()?);
@@ -37,7 +41,9 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
         acceleration: vec![Vec::new(); n],
         reference: vec![Vec::new(); if run.reference.len() == n { n } else { 0 }],
         duty: vec![Vec::new(); if run.duty.len() == n { n } else { 0 }],
+        current: vec![Vec::new(); if run.current.len() == n { n } else { 0 }],
         command: Vec::new(),
+        volts: Vec::new(),
         supply: run.supply_v.iter().flatten().copied().filter(|v| v.is_finite()).collect(),
     };
     let (first, last) = (*wheels.t.first()?, *wheels.t.last()?);
@@ -67,6 +73,10 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
         for (slot, column) in out.duty.iter_mut().zip(&run.duty) {
             slot.push(held(column, a, b));
         }
+        for (slot, column) in out.current.iter_mut().zip(&run.current) {
+            slot.push(held(column, a, b));
+        }
+        out.volts.push(run.supply_v.as_ref().map_or(robot.supply_v, |supply| held(supply, a, b)));
         if let Some(command) = &run.command {
             out.command.push([0, 1, 2].map(|j| held(&command[j], a, b)));
         }
