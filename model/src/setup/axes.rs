@@ -169,6 +169,8 @@ mod tests {
             reference: of(asked),
             duty: of(sense * 0.1 * (asked - speed)),
             command: Vec::new(),
+            current: Vec::new(),
+            volts: Vec::new(),
             supply: Vec::new(),
         }
     }
