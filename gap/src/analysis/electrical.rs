@@ -3,6 +3,7 @@
 //! By the motion alone a motor of more resistance is one that moves more, or is rubbed more; by its current it is not.
 
 use links::effect::Link;
+use links::thresholds::SIGNIFICANT;
 use model::setup::Winding;
 
 use super::found::Named;
@@ -18,28 +19,39 @@ const OF_A_WINDING: [&str; 4] = [WINDING, TORQUE_CONSTANT, "motor-heating", "sup
 impl Workflow<'_> {
     /// Names a winding that is not the file's where currents beside the duties tell it; what it moves is looked for beside it.
     pub(super) fn electrical(&mut self) {
-        let robot = &self.question.robot;
-        let known = |name: &str| self.start.active.iter().any(|a| a.effect.name() == name);
-        if known(WINDING) || known(TORQUE_CONSTANT) {
+        self.winding = Winding::of(&self.question.robot, &self.question.set.logs);
+        let Some(winding) = &self.winding else { return };
+        let found = self.another_motors(winding);
+        if found.is_empty() {
             return;
         }
-        let Some(winding) = Winding::of(robot, &self.question.set.logs) else { return };
+        let said = format!("Told by volts and amperes, whatever the motors move: {}.", winding.said());
+        self.findings.remarks.push(said);
+        for (active, named) in found {
+            self.findings.named.push(named);
+            self.findings.found.push(active.clone());
+            self.start.active.push(active);
+        }
+    }
+
+    /// What of a winding is not the file's, unless the file has it as an effect.
+    fn another_motors(&self, winding: &Winding) -> Vec<(Active, Named)> {
+        let robot = &self.question.robot;
+        let known = |name: &str| self.start.active.iter().any(|a| a.effect.name() == name);
         let filed = [robot.motor.resistance_ohm, robot.motor.back_emf()];
         let p = winding.differs(filed[0], filed[1]);
-        let mut found = Vec::new();
-        for ((name, value), (half, filed)) in [(WINDING, winding.resistance_ohm), (TORQUE_CONSTANT, winding.back_emf)]
-            .into_iter()
-            .zip(winding.half.into_iter().zip(filed))
-        {
-            let Some(effect) = self.data.catalogue.iter().find(|e| e.name() == name) else { continue };
-            let forms = effect.forms(robot).into_iter();
-            let Some(form) = forms.into_iter().find(|form| form.wheels.is_empty() && form.free.len() == 1) else {
-                continue;
-            };
+        if known(WINDING) || known(TORQUE_CONSTANT) || p > SIGNIFICANT {
+            return Vec::new();
+        }
+        let told = [(WINDING, winding.resistance_ohm), (TORQUE_CONSTANT, winding.back_emf)];
+        let named = |((name, value), (half, filed)): ((&str, f64), (f64, f64))| {
+            let effect = self.data.catalogue.iter().find(|e| e.name() == name)?;
+            let mut forms = effect.forms(robot).into_iter();
+            let form = forms.find(|form| form.wheels.is_empty() && form.free.len() == 1)?;
             let (size, half) = (value / filed - 1.0, half / filed);
             let parameter = form.free[0].clone();
-            if p > links::thresholds::SIGNIFICANT || size.abs() <= half || !parameter.is_material(size) {
-                continue;
+            if size.abs() <= half || !parameter.is_material(size) {
+                return None;
             }
             let mut active = Active { link: Link::Drive, given: true, ..Active::new(effect.clone(), form) };
             active.values.set(&parameter.name, size);
@@ -53,19 +65,9 @@ impl Workflow<'_> {
                 evidence: Evidence::Test { method: "volts of the duties against currents and speeds", p },
                 conditional_on: Vec::new(),
             };
-            found.push((active, named));
-        }
-        if !found.is_empty() {
-            self.findings
-                .remarks
-                .push(format!("Told by volts and amperes, whatever the motors move: {}.", winding.said()));
-        }
-        for (active, named) in found {
-            self.findings.named.push(named);
-            self.findings.found.push(active.clone());
-            self.start.active.push(active);
-        }
-        self.winding = Some(winding);
+            Some((active, named))
+        };
+        told.into_iter().zip(winding.half.into_iter().zip(filed)).filter_map(named).collect()
     }
 
     /// Whether volts and amperes told what an effect would say of the one motor that there is.

@@ -1,6 +1,7 @@
 //! A hub motor whose controller logs duty and motor current: these say what its winding is, whatever it moves.
 
 use gap::{Analysis, Interval};
+use links::effect::Link;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::Run;
@@ -19,10 +20,14 @@ const ROW_S: f64 = 0.05;
 
 /// What is said of rides with a throttle by a file with this resistance, constant and inertia.
 fn ridden(ohm: f64, kt: f64, inertia: f64) -> Analysis {
-    let text = format!(
+    by(&format!(
         "gear_ratio = 1\nsupply_v = {SUPPLY_V}\nsupport = \"blocks\"\nwheel_radius_m = 0.28\n[motor]\nresistance_ohm = {ohm}\n\
          torque_constant = {kt}\nrotor_inertia = {inertia}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n"
-    );
+    ))
+}
+
+/// The same by the text of a file.
+fn by(text: &str) -> Analysis {
     let run = |seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut noise = move |size: f64| size * rng.random_range(-1.0..1.0);
@@ -49,7 +54,7 @@ fn ridden(ohm: f64, kt: f64, inertia: f64) -> Analysis {
         (run.duty, run.current, run.speed, run.supply_v) = (vec![duties], vec![currents], vec![speeds], Some(volts));
         run
     };
-    of_files(&text, (0..3).map(|k| run(60 + k)))
+    of_files(text, (0..3).map(|k| run(60 + k)))
 }
 
 /// The size of an effect of one parameter, if its interval holds the truth.
@@ -75,4 +80,10 @@ fn currents_beside_duties_tell_the_winding() {
     let a = ridden(OHM / 1.5, KT / 1.09, INERTIA / 1.46);
     let others = [("winding-resistance", 0.5), ("torque-constant", 0.09), ("rotor-inertia", 0.46)];
     assert!(others.iter().all(|(name, truth)| held(&a, name, *truth)), "{}", a.terminal_summary());
+    // Read again with the file that was written, the drive agrees from where it ended.
+    let again = by(&a.robot_text);
+    assert!(again.effects.is_empty(), "{}", again.terminal_summary());
+    let drive = |a: &Analysis| a.links.iter().find(|l| l.link == Link::Drive).map(|l| (l.before, l.after));
+    let (Some((before, _)), Some((_, after))) = (drive(&again), drive(&a)) else { panic!("no drive") };
+    assert!((before / after - 1.0).abs() < 0.02, "{before} {after}");
 }
