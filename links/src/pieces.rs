@@ -66,6 +66,8 @@ pub struct Pieces<'a> {
     recent: Mutex<VecDeque<(usize, Arc<Segment>)>>,
     /// Speed of the wheels while they turned, rad/s.
     speed: f64,
+    /// See [`Pieces::seen_m`].
+    seen_m: f64,
     /// How what drives the wheels is looked at.
     driving: Driving,
 }
@@ -115,6 +117,7 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
         kept: Vec::new(),
         recent: Mutex::default(),
         speed: crate::segment::usual_speed(robot, logs),
+        seen_m: seen_m(logs),
         driving: Driving::default(),
     };
     for (run, log) in logs.iter().enumerate() {
@@ -131,6 +134,12 @@ pub fn segments<'a>(robot: &Robot, geometry: &Geometry, logs: &'a [Log<'a>], pie
     pieces
 }
 
+fn seen_m(logs: &[Log]) -> f64 {
+    let squares = logs.iter().flat_map(Log::camera).map(|seen| seen.pose.x.powi(2) + seen.pose.y.powi(2));
+    let [way, cube] = squares.fold([0.0; 2], |[way, cube], square| [way + square, cube + square.powi(3)]);
+    if way > 0.0 { (cube / way).powf(0.25) } else { 0.0 }
+}
+
 impl<'a> Pieces<'a> {
     /// The same, looked at in another way.
     #[must_use]
@@ -144,6 +153,7 @@ impl<'a> Pieces<'a> {
             kept: self.kept.iter().map(|_| OnceLock::new()).collect(),
             recent: Mutex::default(),
             speed: self.speed,
+            seen_m: self.seen_m,
             driving,
         }
     }
@@ -241,9 +251,7 @@ impl<'a> Pieces<'a> {
 
     /// How far from the camera's origin it saw the robot, m, as [`crate::effect::Sizes::seen_m`] has it; 0 without frames.
     pub fn seen_m(&self) -> f64 {
-        let squares = self.logs.iter().flat_map(Log::camera).map(|seen| seen.pose.x.powi(2) + seen.pose.y.powi(2));
-        let [way, cube] = squares.fold([0.0; 2], |[way, cube], square| [way + square, cube + square.powi(3)]);
-        if way > 0.0 { (cube / way).powf(0.25) } else { 0.0 }
+        self.seen_m
     }
 
     /// Ticks of all pieces together, each once.

@@ -112,12 +112,12 @@ impl<'a> Workflow<'a> {
             }
         }
         if let Some((names, winding)) = self.against_currents(&outcome) {
-            let names = names.join(", ");
             let said = format!(
-                "Fitted on the drive link, and not named: {names}; the currents speak against it: {}.",
+                "Fitted on the drive link, and not named: {}; the currents speak against it: {}.",
+                names.join(", "),
                 winding.said()
             );
-            here.retain(|e| !names.split(", ").any(|name| name == e.name()));
+            here.retain(|e| !names.iter().any(|name| name == e.name()));
             if let Some(again) = self.drive_again(&here) {
                 (link, outcome) = again;
                 self.findings.remarks.push(said);
