@@ -17,6 +17,7 @@ mod gaps;
 mod look;
 mod measure;
 mod misses;
+mod moving;
 mod order;
 mod patterns;
 mod question;
