@@ -15,6 +15,7 @@ mod findings;
 mod found;
 mod gaps;
 mod look;
+mod look_alikes;
 mod measure;
 mod misses;
 mod moving;

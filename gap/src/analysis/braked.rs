@@ -40,8 +40,7 @@ impl<'a> Workflow<'a> {
             None if bridge == BRIDGE_DROP => outcome,
             None => return None,
         };
-        tied.sets.push([FRICTION, bridge].map(str::to_owned).to_vec());
-        tied.ambiguous = true;
+        tied.tie(&[FRICTION, bridge], true);
         let [works, does] = if bridge == BRIDGE_DROP {
             ["Motors hardly ever work", "takes volts off"]
         } else {

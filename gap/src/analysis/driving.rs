@@ -7,6 +7,7 @@ use runs::robot::Support;
 
 use super::answered::beside_answers;
 use super::gaps;
+use super::look_alikes::LookAlike;
 use super::measure::{Data, Drive};
 use super::misses::Misses;
 use super::study::{self, Outcome, chosen, study};
@@ -51,12 +52,19 @@ const ONCE_A_TURN: [&str; 2] = ["gravity-load", "joint-spring"];
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
 
+/// What something else than the drive speaks against: what is found without these names takes the place of what was.
+#[derive(Debug, PartialEq)]
+pub(super) struct Against {
+    pub(super) names: Vec<String>,
+    /// In a sentence.
+    pub(super) said: String,
+}
+
 impl<'a> Workflow<'a> {
     /// Duties to encoders.
     pub(super) fn drive(&mut self) {
         let options = self.question.options;
-        let mut here = self.not_seen();
-        let Some(mut link) = self.drive_link() else {
+        let Some((link, mut outcome)) = self.drive_looked() else {
             let logs = &self.question.set.logs;
             let told = logs.iter().any(|log| log.layout().duty.len() == self.question.robot.wheel_count());
             let none = if told && logs.iter().all(|log| log.layout().counts.is_empty()) {
@@ -68,6 +76,25 @@ impl<'a> Workflow<'a> {
             options.reached(Stage::DriveStudied);
             return;
         };
+        if self.question.currents {
+            ratios::tie(&mut outcome, &self.start, &link.sizes);
+        }
+        let alike = self.look_alikes(&outcome);
+        self.findings.remarks.extend(outcome.look_alike(alike));
+        self.findings.remarks.extend(logged_late(&outcome, self.question.robot.control_rate_hz));
+        let from = self.start.active.len();
+        self.patterns(&link, &mut outcome);
+        let alike = self.filtered(&outcome);
+        self.findings.remarks.extend(outcome.look_alike(alike));
+        self.nameless(&outcome);
+        self.findings.take(outcome, Link::Drive, from);
+        options.reached(Stage::DriveStudied);
+    }
+
+    /// The drive and what is found on it, by a first look and those that it asks for; none without duties.
+    fn drive_looked(&mut self) -> Option<(DriveLink<'a>, Outcome)> {
+        let mut here = self.not_seen();
+        let mut link = self.drive_link()?;
         self.scatter(&link);
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
@@ -90,86 +117,17 @@ impl<'a> Workflow<'a> {
                 (link, outcome) = again;
             }
         }
-        let against = self.spoken_against(&outcome);
-        if !against.is_empty() {
-            here.retain(|e| !against.iter().any(|name| name == e.name()));
-            if let Some(again) = self.drive_again(&here) {
-                (link, outcome) = again;
-                let names = against.join(", ");
-                let said = format!("Fitted on the drive link, and not named: {names}; the camera speaks against it.");
-                self.findings.remarks.push(said);
-            }
-        }
-        let of_counts = ratios::of_the_same_counts(&outcome.named, &self.findings.named, &self.findings.alternatives);
-        if let Some(name) = of_counts.map(str::to_owned) {
-            here.retain(|e| !ratios::MOTORS.contains(&e.name()));
-            if let Some(again) = self.drive_again(&here) {
-                (link, outcome) = again;
-                self.findings.remarks.push(format!(
-                    "Fitted on the drive link, and not named: {name}; counts of that wheel that are others make a radius and a \
-                     motor of them."
-                ));
-            }
-        }
-        if let Some((names, winding)) = self.against_currents(&outcome) {
-            let said = format!(
-                "Fitted on the drive link, and not named: {}; the currents speak against it: {}.",
-                names.join(", "),
-                winding.said()
-            );
+        let speaks: [fn(&Self, &Outcome) -> Option<Against>; 4] =
+            [Self::against_camera, Self::against_counts, Self::against_currents, Self::against_ratios];
+        for speaks in speaks {
+            let Some(Against { names, said }) = speaks(self, &outcome) else { continue };
             here.retain(|e| !names.iter().any(|name| name == e.name()));
             if let Some(again) = self.drive_again(&here) {
                 (link, outcome) = again;
                 self.findings.remarks.push(said);
             }
         }
-        if self.question.currents {
-            let support = self.question.robot.support;
-            if ratios::are_named_on_both_sides(&outcome.named, support) {
-                here.retain(|e| e.name() != ratios::TORQUE_CONSTANT);
-                if let Some(again) = self.drive_again(&here) {
-                    (link, outcome) = again;
-                    self.findings.remarks.push(ratios::said(support));
-                }
-            }
-            ratios::tie(&mut outcome, &self.start, &link.sizes);
-        }
-        self.findings.remarks.extend(ratios::of_rotor_and_load(&outcome.named, &self.start.robot));
-        if let Some(said) = ratios::of_wrong_counts(&mut outcome, &self.start.robot) {
-            self.findings.remarks.push(said);
-        }
-        if let Some((said, tie)) = ratios::of_a_load(&outcome.named, &self.start.robot) {
-            self.findings.remarks.push(said);
-            if !outcome.sets.iter().any(|set| tie[..2].iter().all(|name| set.contains(name))) {
-                outcome.sets.push(tie);
-            }
-        }
-        self.findings.remarks.extend(ratios::of_a_caster(&outcome.named, &self.start.robot));
-        self.findings.remarks.extend(ratios::of_one_encoder(&outcome.named, &self.start.robot));
-        let robot = &self.start.robot;
-        let [turns, _] = self.thresholds.level;
-        let of_counts = ratios::of_counts(&outcome.named, robot, self.data.has_camera());
-        // Behind currents no bridge does anything.
-        let of_one_way = ratios::of_one_way(&outcome.named, self.data.pieces, turns);
-        let of_one_way = of_one_way.filter(|_| !self.question.currents);
-        for (said, tie) in of_counts.into_iter().chain(of_one_way) {
-            self.findings.remarks.push(said);
-            outcome.sets.push(tie);
-            outcome.ambiguous = true;
-        }
-        if let Some((said, tie)) = ratios::of_warmth(&outcome.named) {
-            self.findings.remarks.push(said);
-            if !outcome.sets.contains(&tie) {
-                outcome.sets.push(tie);
-            }
-        }
-        self.findings.remarks.extend(logged_late(&outcome, self.question.robot.control_rate_hz));
-        let from = self.start.active.len();
-        self.patterns(&link, &mut outcome);
-        self.filtered(&mut outcome);
-        self.nameless(&outcome);
-        self.findings.take(outcome, Link::Drive, from);
-        options.reached(Stage::DriveStudied);
+        Some((link, outcome))
     }
 
     /// The drive laid anew, and what is found on it of a catalogue.
@@ -261,33 +219,40 @@ impl<'a> Workflow<'a> {
         }
     }
 
-    /// Says of a delay or an inertia that was found from logged speeds what a filter in the firmware has to do with it.
-    fn filtered(&mut self, outcome: &mut Outcome) {
+    /// What looks like what is named on the drive.
+    fn look_alikes(&self, outcome: &Outcome) -> Vec<LookAlike> {
+        let (named, robot) = (&outcome.named, &self.start.robot);
+        let [turns, _] = self.thresholds.level;
+        // Behind currents no bridge does anything.
+        let of_one_way = || ratios::of_one_way(named, self.data.pieces, turns).filter(|_| !self.question.currents);
+        let all = [
+            ratios::of_rotor_and_load(named, robot),
+            ratios::of_wrong_counts(named, robot),
+            ratios::of_a_load(named, robot),
+            ratios::of_a_caster(named, robot),
+            ratios::of_one_encoder(named, robot),
+            ratios::of_counts(named, robot, self.data.has_camera()),
+            of_one_way(),
+            ratios::of_warmth(named),
+        ];
+        all.into_iter().flatten().collect()
+    }
+
+    /// What a filter in the firmware has to do with a delay or an inertia that was found from logged speeds.
+    fn filtered(&self, outcome: &Outcome) -> Vec<LookAlike> {
         if !runs::is_from_speeds(&self.question.robot) {
-            return;
+            return Vec::new();
         }
         let alone = self.question.robot.support == Support::Blocks && !self.question.currents;
-        let model = self.start.drive(None);
+        let (named, model) = (&outcome.named, self.start.drive(None));
         let row_s = 1.0 / self.question.robot.control_rate_hz;
-        let exchanged = if alone { filtered::exchanged(&outcome.named, &model, row_s) } else { None };
         let late_s = if self.data.pieces.means_speeds() { 0.5 * row_s } else { 0.0 };
-        if let Some((said, tie)) =
-            filtered::in_place_of_inertia(&outcome.named, &model, row_s, late_s).filter(|_| alone)
-        {
-            self.findings.remarks.push(said);
-            outcome.sets.push(tie);
-            outcome.ambiguous = true;
-        }
-        let delay = filtered::of_delay(&outcome.named, row_s);
-        if delay.is_some() {
-            let set = filtered::DELAYS.map(str::to_owned).to_vec();
-            if !outcome.sets.contains(&set) && !outcome.named.iter().any(|n| n.name == set[1]) {
-                outcome.sets.push(set);
-            }
-        }
-        let said: Vec<String> = delay.into_iter().chain(exchanged).collect();
-        outcome.ambiguous |= !said.is_empty();
-        self.findings.remarks.extend(said);
+        let all = [
+            filtered::in_place_of_inertia(named, &model, row_s, late_s).filter(|_| alone),
+            filtered::of_delay(named, row_s),
+            filtered::exchanged(named, &model, row_s).filter(|_| alone),
+        ];
+        all.into_iter().flatten().collect()
     }
 
     /// The catalogue without what a camera or an inertial sensor would have shown: that is not deduced from duties. Nor is
@@ -310,9 +275,9 @@ impl<'a> Workflow<'a> {
 
     /// What was named for the drive, belongs to camera and wheels, and leaves more between them: that is not deduced from
     /// duties.
-    fn spoken_against(&self, outcome: &Outcome) -> Vec<String> {
+    fn against_camera(&self, outcome: &Outcome) -> Option<Against> {
         if !self.data.has_camera() {
-            return Vec::new();
+            return None;
         }
         let problem = Problem::Motion(self.searched().motion);
         let square = |state: &State| study::rms(&problem, state).powi(2);
@@ -324,7 +289,21 @@ impl<'a> Workflow<'a> {
         };
         let seen = |a: &&Active| !a.given && a.effect.link() == Link::Motion;
         let names = outcome.written.active.iter().filter(seen).map(|a| a.effect.name().to_owned());
-        names.filter(|name| worse(name)).collect()
+        let names: Vec<String> = names.filter(|name| worse(name)).collect();
+        let fitted = names.join(", ");
+        (!names.is_empty()).then(|| Against {
+            names,
+            said: format!("Fitted on the drive link, and not named: {fitted}; the camera speaks against it."),
+        })
+    }
+
+    fn against_counts(&self, outcome: &Outcome) -> Option<Against> {
+        ratios::of_the_same_counts(&outcome.named, &self.findings.named, &self.findings.alternatives)
+    }
+
+    fn against_ratios(&self, outcome: &Outcome) -> Option<Against> {
+        let support = self.question.robot.support;
+        self.question.currents.then(|| ratios::on_both_sides(&outcome.named, support)).flatten()
     }
 
     /// Whether what the camera saw remains far from its noise with what is named for it.

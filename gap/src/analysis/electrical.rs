@@ -6,6 +6,7 @@ use links::effect::Link;
 use links::thresholds::SIGNIFICANT;
 use model::setup::Winding;
 
+use super::driving::Against;
 use super::found::Named;
 use super::ratios::{TORQUE_CONSTANT, WINDING};
 use super::study::Outcome;
@@ -76,7 +77,7 @@ impl Workflow<'_> {
     }
 
     /// What is named of all motors that the currents speak against.
-    pub(super) fn against_currents(&self, outcome: &Outcome) -> Option<(Vec<String>, &Winding)> {
+    pub(super) fn against_currents(&self, outcome: &Outcome) -> Option<Against> {
         let winding = self.winding.as_ref()?;
         let motor = &self.question.robot.motor;
         let told = [
@@ -90,6 +91,13 @@ impl Workflow<'_> {
             told.zip(ends).is_some_and(|((_, size), [low, high])| *size < low - off || *size > high + off)
         };
         let names: Vec<String> = outcome.named.iter().filter(speaks_against).map(|n| n.name.clone()).collect();
-        (!names.is_empty()).then_some((names, winding))
+        (!names.is_empty()).then(|| {
+            let said = format!(
+                "Fitted on the drive link, and not named: {}; the currents speak against it: {}.",
+                names.join(", "),
+                winding.said()
+            );
+            Against { names, said }
+        })
     }
 }

@@ -1,14 +1,13 @@
 //! What a firmware's filter on logged speeds may be, beside what is named.
 
 use super::found::Named;
+use super::look_alikes::LookAlike;
 use links::drive::DriveModel;
 use links::thresholds::filter_s;
 
 const FILTER: &str = "speed-filter";
 const INERTIA: &str = "rotor-inertia";
 const LATENCY: &str = "actuation-latency";
-/// A delay, and what looks like one.
-pub(super) const DELAYS: [&str; 2] = [LATENCY, FILTER];
 
 fn parameter(named: &[Named], name: &str) -> Option<(f64, Option<[f64; 2]>)> {
     let found = named.iter().find(|n| n.name == name)?;
@@ -16,19 +15,20 @@ fn parameter(named: &[Named], name: &str) -> Option<(f64, Option<[f64; 2]>)> {
 }
 
 /// A delay that was found from speeds: a filter of higher order, or a mean, makes them late without the shape of a low-pass
-/// of first order. In a sentence.
-pub(super) fn of_delay(named: &[Named], row_s: f64) -> Option<String> {
+/// of first order.
+pub(super) fn of_delay(named: &[Named], row_s: f64) -> Option<LookAlike> {
     let (late_s, _) = parameter(named, LATENCY)?;
-    let (names, all_s) = match parameter(named, FILTER) {
-        Some((found_s, _)) => (format!("{FILTER} and {LATENCY}"), late_s + found_s),
-        None => (LATENCY.to_owned(), late_s),
+    let (found, names, all_s): (_, &[&'static str], _) = match parameter(named, FILTER) {
+        Some((found_s, _)) => (format!("{FILTER} and {LATENCY}"), &[], late_s + found_s),
+        None => (LATENCY.to_owned(), &[LATENCY, FILTER], late_s),
     };
     (late_s > 0.0 && all_s <= filter_s(row_s)).then(|| {
-        format!(
-            "Found from speeds that the log has in place of counts: {names}. Where the firmware takes a mean of {:.0} ms, or \
+        let said = format!(
+            "Found from speeds that the log has in place of counts: {found}. Where the firmware takes a mean of {:.0} ms, or \
              filters twice, that is what it looks like. Log counts, or speeds without the filter, to tell.",
             2e3 * all_s
-        )
+        );
+        LookAlike::open(said, names)
     })
 }
 
@@ -41,13 +41,8 @@ fn motor_s(named: &[Named], model: &DriveModel) -> Option<[f64; 2]> {
 }
 
 /// A motor whose time constant by its file is no longer than a row does not show beside a filter that is: an inertia then does
-/// the same as the filter. In a sentence, and the tie; `late_s` is the age that logged speeds are taken to have by themselves.
-pub(super) fn in_place_of_inertia(
-    named: &[Named],
-    model: &DriveModel,
-    row_s: f64,
-    late_s: f64,
-) -> Option<(String, Vec<String>)> {
+/// the same as the filter. `late_s` is the age that logged speeds are taken to have by themselves.
+pub(super) fn in_place_of_inertia(named: &[Named], model: &DriveModel, row_s: f64, late_s: f64) -> Option<LookAlike> {
     let [file_s, now_s] = motor_s(named, model)?;
     // Both are as late.
     let late_s = now_s + late_s - file_s;
@@ -58,13 +53,13 @@ pub(super) fn in_place_of_inertia(
              what is named, for by the file the motor is done within a row. Log counts, or speeds without the filter, to tell.",
             1e3 * late_s
         );
-        (said, [INERTIA, FILTER].map(str::to_owned).to_vec())
+        LookAlike::open(said, &[INERTIA, FILTER])
     })
 }
 
 /// A motor is a low-pass of its duty as a filter is one of its speed, and what comes out of both does not tell which is
-/// which: inertia and filter with their time constants exchanged, in a sentence.
-pub(super) fn exchanged(named: &[Named], model: &DriveModel, row_s: f64) -> Option<String> {
+/// which: inertia and filter with their time constants exchanged.
+pub(super) fn exchanged(named: &[Named], model: &DriveModel, row_s: f64) -> Option<LookAlike> {
     let (found_s, within) = parameter(named, FILTER)?;
     let [file_s, motor_s] = motor_s(named, model)?;
     let scaled = model.inertia_of_scale(0);
@@ -75,10 +70,11 @@ pub(super) fn exchanged(named: &[Named], model: &DriveModel, row_s: f64) -> Opti
         scale => format!("{INERTIA} of {:+.0} %", 100.0 * scale),
     };
     (motor_s.is_finite() && motor_s <= filter_s(row_s)).then(|| {
-        format!(
+        let said = format!(
             "A filter and an inertia may change places: a {FILTER} of {:.1} ms with {inertia} does the same as what is named. \
              Log counts, or speeds without the filter, to tell.",
             1e3 * motor_s
-        )
+        );
+        LookAlike::open(said, &[])
     })
 }

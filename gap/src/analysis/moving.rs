@@ -17,8 +17,19 @@ use crate::problem::Problem;
 use crate::state::{Active, State};
 use links::effect::{Effect, Link};
 use links::effects;
+use links::motion::MotionLink;
 
-impl Workflow<'_> {
+/// What a second look comes to.
+enum Look {
+    /// Something else takes the place of what was found.
+    Other(Outcome),
+    /// The same, with what is said of it.
+    Because(&'static str, Outcome),
+    /// The logs do not decide between the two.
+    Tied([&'static str; 2]),
+}
+
+impl<'a> Workflow<'a> {
     /// What the controller says of a radius that the camera does not tell from counts.
     fn shared_counts(&mut self) {
         let scale = counts::for_radius(&self.findings.named, &self.findings.alternatives);
@@ -30,20 +41,7 @@ impl Workflow<'_> {
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
-            let link = self.searched().motion;
-            let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
-            outcome = self.beside_refused(&outcome).unwrap_or(outcome);
-            outcome = self.of_one_clock(&outcome).unwrap_or(outcome);
-            outcome = self.smoothed(&outcome).unwrap_or(outcome);
-            self.late_or_filtered(&mut outcome);
-            if self.drive_is_in_step(&outcome) {
-                outcome = self.motion_studied(&self.without(&[SMOOTHED, LATE_COUNTS]));
-                self.findings.remarks.push(IN_STEP.to_owned());
-            }
-            if self.drive_has_other_counts(&outcome) {
-                outcome = self.motion_studied(&self.without(&[SMOOTHED, RADIUS]));
-                self.findings.remarks.push(OTHER_COUNTS.to_owned());
-            }
+            let (link, outcome) = self.motion_looked();
             self.seen = Some(link.of_frames(&outcome.written.motion(None), self.question.window_s));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);
@@ -53,6 +51,31 @@ impl Workflow<'_> {
             self.findings.remarks.push(missing(self.question.set));
         }
         self.question.options.reached(Stage::MotionStudied);
+    }
+
+    /// What is found between encoders and camera, by a first look and those that it asks for.
+    fn motion_looked(&mut self) -> (&'a MotionLink<'a>, Outcome) {
+        let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
+        let looks: [fn(&Self, &Outcome) -> Option<Look>; 6] = [
+            Self::beside_refused,
+            Self::of_one_clock,
+            Self::smoothed,
+            Self::of_filtered_speeds,
+            Self::in_step,
+            Self::of_other_counts,
+        ];
+        for look in looks {
+            match look(self, &outcome) {
+                Some(Look::Other(other)) => outcome = other,
+                Some(Look::Because(said, other)) => {
+                    outcome = other;
+                    self.findings.remarks.push(said.to_owned());
+                }
+                Some(Look::Tied(names)) => outcome.tie(&names, true),
+                None => {}
+            }
+        }
+        (self.searched().motion, outcome)
     }
 
     /// What is found between encoders and camera by effects of a catalogue.
@@ -72,16 +95,16 @@ impl Workflow<'_> {
 
     /// What is found along ways beside what was fitted there and is not named, where nothing is: a clock of each run by chance took the
     /// place of half a track that is wider.
-    fn beside_refused(&self, outcome: &Outcome) -> Option<Outcome> {
+    fn beside_refused(&self, outcome: &Outcome) -> Option<Look> {
         self.searched().motion.ways.filter(|_| outcome.named.is_empty() && !outcome.refused.is_empty())?;
         let refused = outcome.refused.iter().map(|r| r.name.as_str());
         let again = self.motion_studied(&self.without(&refused.chain([SMOOTHED]).collect::<Vec<_>>()));
-        (!again.named.is_empty()).then_some(again)
+        (!again.named.is_empty()).then_some(Look::Other(again))
     }
 
     /// What is found without clocks of single runs, where those that have a name part by no more than chance, or all is far from
     /// the noise and they close little: wheels that slip in some of the runs fall behind there as if frames were young.
-    fn of_one_clock(&self, outcome: &Outcome) -> Option<Outcome> {
+    fn of_one_clock(&self, outcome: &Outcome) -> Option<Look> {
         let clocks = outcome.named.iter().find(|n| n.name == CLOCKS)?;
         let is_far = outcome.held_out > self.thresholds.far;
         if !is_far && !clocks::are_one(clocks) {
@@ -89,12 +112,12 @@ impl Workflow<'_> {
         }
         let again = self.motion_studied(&self.without(&[SMOOTHED, CLOCKS]));
         let more = if is_far { self.thresholds.undecided } else { self.thresholds.worse };
-        (again.held_out.powi(2) < (1.0 + more) * outcome.held_out.powi(2)).then_some(again)
+        (again.held_out.powi(2) < (1.0 + more) * outcome.held_out.powi(2)).then_some(Look::Other(again))
     }
 
     /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly
     /// less: a little of a filter is a latency, which many robots have and few filters make.
-    fn smoothed(&self, outcome: &Outcome) -> Option<Outcome> {
+    fn smoothed(&self, outcome: &Outcome) -> Option<Look> {
         let is_late = |n: &Named| LATE_POSES.iter().chain(&LATE_WHEELS).any(|late| n.name == *late);
         if !outcome.named.iter().any(is_late) {
             return None;
@@ -102,18 +125,26 @@ impl Workflow<'_> {
         let again = self.motion_studied(&self.without(&LATE_WHEELS));
         let is_named = again.named.iter().any(|n| n.name == SMOOTHED);
         let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
-        (is_named && self.is_more(before, after)).then_some(again)
+        (is_named && self.is_more(before, after)).then_some(Look::Other(again))
     }
 
-    /// Whether counts were found to be late against the camera, and the drive, which shows late counts as well, has them in
+    /// What is found without counts that are late against the camera, where the drive, which shows late counts as well, has them in
     /// step with the duties: then it is the frames that are stamped early.
-    fn drive_is_in_step(&self, outcome: &Outcome) -> bool {
+    fn in_step(&self, outcome: &Outcome) -> Option<Look> {
         if !outcome.named.iter().any(|n| n.name == LATE_COUNTS) {
-            return false;
+            return None;
         }
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
-        self.is_more(self.drive_scatter(&outcome.written), self.drive_scatter(&without))
+        let in_step = self.is_more(self.drive_scatter(&outcome.written), self.drive_scatter(&without));
+        let again = || self.motion_studied(&self.without(&[SMOOTHED, LATE_COUNTS]));
+        in_step.then(|| Look::Because(IN_STEP, again()))
+    }
+
+    /// What is found without another radius where the drive has other counts.
+    fn of_other_counts(&self, outcome: &Outcome) -> Option<Look> {
+        let again = || self.motion_studied(&self.without(&[SMOOTHED, RADIUS]));
+        self.drive_has_other_counts(outcome).then(|| Look::Because(OTHER_COUNTS, again()))
     }
 
     /// Whether wheels seem to have another radius, the camera does not tell that from other counts, and the drive does: it is
@@ -157,11 +188,11 @@ impl Workflow<'_> {
         one.zip(other).is_some_and(|(one, other)| one > (1.0 + self.thresholds.worse) * other)
     }
 
-    /// Against a camera speeds that a firmware filters are late as counts would be; the drive shows the shape of a filter.
-    /// Where it does not, both are said.
-    fn late_or_filtered(&self, outcome: &mut Outcome) {
+    /// What is found where logged speeds are filtered, in place of counts or frames that are late: against a camera both are one,
+    /// and the drive shows the shape of a filter. Where it does not, both are tied.
+    fn of_filtered_speeds(&self, outcome: &Outcome) -> Option<Look> {
         if !runs::is_from_speeds(&self.question.robot) {
-            return;
+            return None;
         }
         // Frames that seem early are counts that are late, by another name.
         let late_s = |a: &Active| match (a.effect.name(), a.values.get(&a.form.free[0].name)) {
@@ -171,7 +202,7 @@ impl Workflow<'_> {
         };
         let own = |a: &&Active| !a.given;
         let late: Vec<_> = outcome.written.active.iter().filter(own).filter(|a| late_s(a).is_some()).collect();
-        let Some(time_s) = late.iter().filter_map(|a| late_s(a)).reduce(f64::max) else { return };
+        let time_s = late.iter().filter_map(|a| late_s(a)).reduce(f64::max)?;
         let filter: Arc<dyn Effect> = Arc::from(effects::filter_seen());
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || late_s(a).is_none());
@@ -189,17 +220,17 @@ impl Workflow<'_> {
                 |name: &str| name == LATE_COUNTS || name == filter.name() || name == LATE_FRAMES && late.len() < 2;
             let others = self.without(&[SMOOTHED]).into_iter().filter(|e| !one(e.name()));
             let here: Vec<_> = others.chain([filter.clone()]).collect();
-            *outcome = self.motion_studied(&here);
-        } else if late.iter().any(|a| a.effect.name() == LATE_COUNTS) && !self.is_more(filtered, written) {
-            outcome.ambiguous = true;
-            outcome.sets.push(vec![LATE_COUNTS.to_owned(), filter.name().to_owned()]);
+            return Some(Look::Other(self.motion_studied(&here)));
         }
+        let open = late.iter().any(|a| a.effect.name() == LATE_COUNTS) && !self.is_more(filtered, written);
+        open.then_some(Look::Tied([LATE_COUNTS, SPEED_FILTER]))
     }
 }
 
 /// Counts that are older than their rows, and what is said where the drive does not have them so.
 const LATE_COUNTS: &str = "encoder-lag";
 const LATE_FRAMES: &str = "camera-latency";
+const SPEED_FILTER: &str = "speed-filter";
 const SMOOTHED: &str = "camera-filter";
 /// Effects by which poses are late that may stand beside a filter, and those that do the same as it.
 const CLOCKS: &str = "camera-clock";
