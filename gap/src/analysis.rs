@@ -23,6 +23,7 @@ mod order;
 mod patterns;
 mod question;
 mod ratios;
+mod resized;
 mod robot_file;
 mod stale;
 mod study;

@@ -64,7 +64,7 @@ impl<'a> Workflow<'a> {
     /// Duties to encoders.
     pub(super) fn drive(&mut self) {
         let options = self.question.options;
-        let Some((link, mut outcome)) = self.drive_looked() else {
+        let Some(first) = self.drive_looked() else {
             let logs = &self.question.set.logs;
             let told = logs.iter().any(|log| log.layout().duty.len() == self.question.robot.wheel_count());
             let none = if told && logs.iter().all(|log| log.layout().counts.is_empty()) {
@@ -76,6 +76,8 @@ impl<'a> Workflow<'a> {
             options.reached(Stage::DriveStudied);
             return;
         };
+        let (link, mut outcome) =
+            self.resized(Link::Drive, first, &Self::drive_looked, &|(link, outcome)| (Problem::Drive(link), outcome));
         if self.question.currents {
             ratios::tie(&mut outcome, &self.start, &link.sizes);
         }

@@ -31,9 +31,9 @@ impl LookAlike {
 }
 
 impl Outcome {
-    /// Ties effects, unless the first two are tied already; `open` if the logs do not decide between them.
+    /// Ties effects, unless they are tied already; `open` if the logs do not decide between them.
     pub(super) fn tie(&mut self, names: &[&str], open: bool) {
-        let known = |set: &Vec<String>| names[..2].iter().all(|name| set.iter().any(|n| n == name));
+        let known = |set: &Vec<String>| names.iter().all(|name| set.iter().any(|n| n == name));
         if names.len() > 1 && !self.sets.iter().any(known) {
             self.sets.push(names.iter().map(|name| (*name).to_owned()).collect());
         }

@@ -41,7 +41,10 @@ impl<'a> Workflow<'a> {
     /// Encoders to camera and inertial sensor.
     pub(super) fn motion(&mut self) {
         if self.data.has_motion {
-            let (link, outcome) = self.motion_looked();
+            let first = self.motion_looked();
+            let again = |workflow: &mut Self| Some(workflow.motion_looked());
+            let (link, outcome) =
+                self.resized(Link::Motion, first, &again, &|(link, outcome)| (Problem::Motion(link), outcome));
             self.seen = Some(link.of_frames(&outcome.written.motion(None), self.question.window_s));
             self.start = self.findings.take(outcome, Link::Motion, self.start.active.len());
             self.start.active.iter_mut().for_each(|a| a.given = true);

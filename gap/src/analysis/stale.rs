@@ -14,13 +14,16 @@ pub(super) struct Stale {
     pub(super) link: Link,
     /// Noise floors left with it and without.
     pub(super) left: [f64; 2],
+    /// What is named beside it.
+    pub(super) names: Vec<String>,
 }
 
 impl Stale {
     /// What is said of it, if it has a name again or not.
     pub(super) fn said(&self, anew: bool) -> String {
         let ([with, without], name, link) = (self.left, &self.name, self.link.name());
-        let left = format!("{with:.1} noise floors are left on the {link} link with it, {without:.1} without");
+        let beside = if self.names.is_empty() { String::new() } else { format!(" and {}", self.names.join(", ")) };
+        let left = format!("{with:.1} noise floors are left on the {link} link with it{beside}, {without:.1} without");
         if anew {
             format!(
                 "{name} as the file has it does not fit these logs ({left}): it was looked for anew, and what is named stands in its place."
@@ -42,7 +45,9 @@ pub(super) fn taken_out(data: &Data, filed: &mut State) -> Vec<Stale> {
                 let effect = without.active.remove(at).effect;
                 let left = left(data, effect.link(), filed, &without)?;
                 let stale = !effect.nuisance() && data.thresholds.decided(left[0], left[1]);
-                stale.then(|| (at, Stale { name: effect.name().to_owned(), link: effect.link(), left }))
+                stale.then(|| {
+                    (at, Stale { name: effect.name().to_owned(), link: effect.link(), left, names: Vec::new() })
+                })
             })
             .min_by(|(_, a), (_, b)| (a.left[1] / a.left[0]).total_cmp(&(b.left[1] / b.left[0])));
         let Some((at, stale)) = worst else { return out };
@@ -52,7 +57,7 @@ pub(super) fn taken_out(data: &Data, filed: &mut State) -> Vec<Stale> {
 }
 
 /// Floors left on a link by two states, above what the second one leaves there.
-fn left(data: &Data, link: Link, with: &State, without: &State) -> Option<[f64; 2]> {
+pub(super) fn left(data: &Data, link: Link, with: &State, without: &State) -> Option<[f64; 2]> {
     match link {
         Link::Motion if data.has_camera() => {
             let seen = |state: &State| data.motion.floors() * rms(&Problem::Motion(data.motion), state);

@@ -257,7 +257,7 @@ fn shown_on(active: &Active, problem: &Problem) -> Link {
 }
 
 /// The same state, to be fitted again where it was fitted.
-fn written_to_fit(written: &State, from: usize) -> State {
+pub(super) fn written_to_fit(written: &State, from: usize) -> State {
     let mut state = written.clone();
     state.active[..from].iter_mut().for_each(|a| a.given = true);
     state

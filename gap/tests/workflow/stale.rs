@@ -51,6 +51,42 @@ fn an_effect_of_the_file_that_has_another_size_is_named_with_its_own() {
     assert_eq!(written(&a), ["wheel-radius-common"]);
 }
 
+/// By what undoes a part of it counts were others beside a radius that is half too large, and nothing beside friction.
+#[test]
+fn a_size_of_the_file_that_is_half_too_large_is_named_with_its_own() {
+    let robot = Robot::racbot();
+    for (seed, drive, name, parameter, [filed, truth]) in [
+        (38, false, "wheel-radius-common", "scale", [0.03, 0.02]),
+        (39, true, "coulomb-friction", "torque_nm", [0.08, 0.05]),
+        (40, true, "robot-mass", "scale", [0.6, 0.4]),
+    ] {
+        let of = |size: f64| with(&robot, name, &[(parameter, size)]);
+        let a = by(&of(filed), &of(truth), drive, seed);
+        assert_eq!((names(&a), written(&a)), (vec![name], vec![name]), "{}", a.terminal_summary());
+        assert!((value(&a, parameter) / truth - 1.0).abs() < 0.1, "{}", a.terminal_summary());
+        assert!(a.links.iter().all(|l| l.after <= l.before), "{}", a.terminal_summary());
+        let said = format!("{name} as the file has it does not fit these logs");
+        assert!(a.remarks.iter().any(|r| r.starts_with(&said)), "{:?}", a.remarks);
+    }
+}
+
+/// Of the right size it stays beside what is missing.
+#[test]
+fn an_effect_of_the_file_stays_beside_what_is_missing() {
+    let robot = Robot::racbot();
+    for (seed, drive, filed, missing) in [
+        (41, false, ("wheel-radius-common", "scale", 0.02), ("camera-latency", "latency_s", 0.04)),
+        (42, true, ("coulomb-friction", "torque_nm", 0.05), ("robot-mass", "scale", 0.4)),
+    ] {
+        let [file, other] = [filed, missing].map(|(name, parameter, value)| with(&robot, name, &[(parameter, value)]));
+        let effects = [file.effects.clone(), other.effects].concat();
+        let truth = Robot { effects, ..robot.clone() };
+        let a = by(&file, &truth, drive, seed);
+        assert_eq!(names(&a), [missing.0], "{}", a.terminal_summary());
+        assert_eq!(written(&a), [filed.0, missing.0], "{}", a.terminal_summary());
+    }
+}
+
 #[test]
 fn an_effect_of_the_file_that_is_there_stays() {
     let robot = Robot::racbot();
