@@ -256,7 +256,7 @@ impl Card {
             return;
         }
         for (index, word) in words.iter_mut().enumerate() {
-            *word = self.read(offset.wrapping_add(4 * index as u16));
+            *word = self.read(offset.wrapping_add((4 * index) as u16));
         }
     }
 

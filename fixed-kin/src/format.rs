@@ -38,12 +38,9 @@ pub type IntegralGain = FixedI32<U22>;
 /// Width and binary point of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Format {
-    /// What the value is, for messages.
-    pub name: &'static str,
-    /// Significant bits, sign included.
-    pub bits: u32,
-    /// Bits after the binary point.
-    pub fraction: u32,
+    name: &'static str,
+    bits: u32,
+    fraction: u32,
 }
 
 /// A real number that a format cannot hold.
@@ -89,12 +86,30 @@ impl Format {
 
     /// A signed format of `bits` bits with `fraction` of them after the binary point.
     #[must_use]
-    pub const fn new(name: &'static str, bits: u32, fraction: u32) -> Self {
+    pub(crate) const fn new(name: &'static str, bits: u32, fraction: u32) -> Self {
         Self { name, bits, fraction }
     }
 
     const fn of_operand(name: &'static str, scale: Scale) -> Self {
         Self::new(name, scale.operand_bits(), scale.fraction_bits())
+    }
+
+    /// What the value is, for messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// Significant bits, sign included.
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        self.bits
+    }
+
+    /// Bits after the binary point.
+    #[must_use]
+    pub const fn fraction(self) -> u32 {
+        self.fraction
     }
 
     /// Value of one LSB.

@@ -1,5 +1,6 @@
 //! Bit-true reference of the motion control gateware: pure functions and small state structs that
-//! equal the hardware bit for bit. `no_std`, no allocation, no panic, no unsafe.
+//! equal the hardware bit for bit. `no_std`, no allocation, no unsafe, and no panic whatever the arguments, but of
+//! [`registers::Register::at`] for a word that an array does not have.
 //!
 //! Every block of the gateware has its twin here: clock by clock ([`encoder`], [`pwm`], [`kicker`],
 //! [`safety`], [`stall`], [`interrupt`], [`clock_monitor`], [`local_bus`], [`radio`], [`imu_spi`]) or control tick by control tick

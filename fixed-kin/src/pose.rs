@@ -76,7 +76,7 @@ pub fn displacement(matrix: &DisplacementMatrix, counts: &[i32; AXES]) -> [i32; 
 /// `quarter`s after the sine's, of a heading: an odd number of 2⁻¹⁷, 18 bits. 0 is the sine, 1 the cosine.
 #[must_use]
 pub fn sine(heading: u32, quarter: u32) -> i32 {
-    let quadrant = (heading >> 30) + quarter;
+    let quadrant = (heading >> 30).wrapping_add(quarter);
     let index = ((heading >> 22) & 0xFF) as usize;
     let index = if quadrant & 1 == 1 { SINES - 1 - index } else { index };
     let odd = i32::from(SINE[index]) << 1 | 1;

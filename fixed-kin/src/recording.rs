@@ -107,9 +107,13 @@ impl RecordedWords {
         };
         let signed = |name: &'static str, bits: u32| within(name, bits, word(name));
         let gains = PiGains {
-            kp: ProportionalGain::from_bits(signed("kp", Format::PROPORTIONAL.bits)?),
-            ki: IntegralGain::from_bits(signed("ki", Format::INTEGRAL.bits)?),
-            kff: FeedForwardGain::from_bits(within("kff", Format::FEED_FORWARD.bits, Some(word("kff").unwrap_or(0)))?),
+            kp: ProportionalGain::from_bits(signed("kp", Format::PROPORTIONAL.bits())?),
+            ki: IntegralGain::from_bits(signed("ki", Format::INTEGRAL.bits())?),
+            kff: FeedForwardGain::from_bits(within(
+                "kff",
+                Format::FEED_FORWARD.bits(),
+                Some(word("kff").unwrap_or(0)),
+            )?),
             lower: Duty::from_bits(signed("lower", WORD_BITS)?),
             upper: Duty::from_bits(signed("upper", WORD_BITS)?),
         };
@@ -129,7 +133,7 @@ impl RecordedWords {
             }
             for (names, row) in INVERSE.into_iter().zip(&mut words.inverse) {
                 for (name, entry) in names.into_iter().zip(row) {
-                    *entry = Coefficient::from_bits(signed(name, Format::COEFFICIENT.bits)?);
+                    *entry = Coefficient::from_bits(signed(name, Format::COEFFICIENT.bits())?);
                 }
             }
             set_points = Some(words);

@@ -34,9 +34,14 @@ pub struct Receiver {
 }
 
 impl Receiver {
-    /// A receiver on a quiet line; a bit takes `clocks_per_bit` clocks, 4 to 511.
+    /// A receiver on a quiet line; a bit takes `clocks_per_bit` clocks, 4 to 511 and held within.
     #[must_use]
     pub const fn new(clocks_per_bit: u16) -> Self {
+        let clocks_per_bit = match clocks_per_bit {
+            0..4 => 4,
+            512.. => 511,
+            clocks => clocks,
+        };
         Self { clocks_per_bit, low_1: false, low_2: false, hearing: false, clocks: 0, bit: 0, shift: 0 }
     }
 

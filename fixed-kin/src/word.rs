@@ -45,13 +45,11 @@ pub fn subtract(a: i32, b: i32) -> i32 {
 }
 
 /// How the serial multiplier reads its second operand: `digits` radix-4 digits, of which the
-/// product keeps all but the last `2·digits − guard` bits.
+/// product keeps all but the last `2·digits − guard` bits. The multiplier has these five and no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// Radix-4 digits of the multiplier operand, which is read as a signed number of `2·digits` bits.
-    pub digits: u32,
-    /// Bits of the operand in front of its binary point, sign included.
-    pub guard: u32,
+    digits: u32,
+    guard: u32,
 }
 
 impl Scale {
@@ -65,6 +63,12 @@ impl Scale {
     pub const COUNTS: Self = Self { digits: 8, guard: 8 };
     /// 14-bit factor with 12 fraction bits, [−2, 2): a PWM period of up to 8191 clocks, over 2¹².
     pub const PERIOD: Self = Self { digits: 7, guard: 2 };
+
+    /// Radix-4 digits of the multiplier operand, which is read as a signed number of `2·digits` bits.
+    #[must_use]
+    pub const fn digits(self) -> u32 {
+        self.digits
+    }
 
     /// Width of the operand in bits.
     #[must_use]

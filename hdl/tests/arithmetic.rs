@@ -33,7 +33,7 @@ impl Bench {
         unit.b.next = u64::from(b as u32).to_bits();
         cycle(unit, |u, level| u.clock.next = level.into());
         unit.start.next = false;
-        for _ in 0..SCALES[scale].digits {
+        for _ in 0..SCALES[scale].digits() {
             assert!(unit.busy.val(), "done too early");
             cycle(unit, |u, level| u.clock.next = level.into());
         }

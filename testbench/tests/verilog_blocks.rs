@@ -137,7 +137,7 @@ fn a_million_products_equal_the_reference() {
             .map(|_| {
                 let scale = random.random_range(0..SCALES.len());
                 let (a, b) = (word(&mut random), random.next_u32() as i32);
-                operation(&mut rows, &[scale as u32, a as u32, b as u32], SCALES[scale].digits);
+                operation(&mut rows, &[scale as u32, a as u32, b as u32], SCALES[scale].digits());
                 (rows.len() / 4 - 1, multiply(a, b, SCALES[scale]))
             })
             .collect();
@@ -232,7 +232,7 @@ fn a_multiplier_without_rounding_is_caught() {
     let mut wanted = Vec::new();
     for _ in 0..1_000 {
         let (a, b) = (random.random_range(WORD_MIN..=WORD_MAX), random.next_u32() as i32);
-        operation(&mut rows, &[0, a as u32, b as u32], SCALES[0].digits);
+        operation(&mut rows, &[0, a as u32, b as u32], SCALES[0].digits());
         wanted.push((rows.len() / 4 - 1, multiply(a, b, SCALES[0])));
     }
     let response = respond("multiplier", &broken, &ports, &Clocks::Together, &rows);

@@ -102,7 +102,7 @@ impl Default for Radio {
 }
 
 impl Radio {
-    /// A block just configured, for a line on which a bit takes so many clocks, 4 to 511.
+    /// A block just configured, for a line on which a bit takes so many clocks, 4 to 511 and held within.
     #[must_use]
     pub const fn new(clocks_per_bit: u16) -> Self {
         Self {

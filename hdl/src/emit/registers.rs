@@ -11,8 +11,8 @@ use std::fmt::Write;
 fn kind(register: &Register) -> String {
     match register.kind {
         Kind::Unsigned(bits) => format!("unsigned {bits}"),
-        Kind::Fixed(format) if format.fraction == 0 => format!("signed {}", format.bits),
-        Kind::Fixed(format) => format!("signed {}, LSB 2^-{}", format.bits, format.fraction),
+        Kind::Fixed(format) if format.fraction() == 0 => format!("signed {}", format.bits()),
+        Kind::Fixed(format) => format!("signed {}, LSB 2^-{}", format.bits(), format.fraction()),
         Kind::Text => "4 characters".to_owned(),
         Kind::Fields(_) => "fields".to_owned(),
     }
@@ -111,8 +111,8 @@ fn configuration() -> String {
                 g.first + g.words - 1,
                 r.at(g.first),
                 g.name,
-                g.format.bits,
-                g.format.fraction,
+                g.format.bits(),
+                g.format.fraction(),
                 g.unit,
                 g.text
             );
@@ -172,8 +172,8 @@ pub fn c_header() -> String {
                 "#define RAC4I65_{name}_{} 0x{:03x}u /* Q{}.{}: {}; {} */",
                 g.name.to_uppercase(),
                 r.at(g.first),
-                g.format.bits.saturating_sub(g.format.fraction),
-                g.format.fraction,
+                g.format.bits().saturating_sub(g.format.fraction()),
+                g.format.fraction(),
                 g.unit,
                 g.text
             );
@@ -221,8 +221,8 @@ pub fn json(content_hash: u32) -> String {
             }
             match r.kind {
                 Kind::Fixed(format) => {
-                    value["bits"] = json!(format.bits);
-                    value["fraction_bits"] = json!(format.fraction);
+                    value["bits"] = json!(format.bits());
+                    value["fraction_bits"] = json!(format.fraction());
                 }
                 Kind::Unsigned(bits) => value["bits"] = json!(bits),
                 Kind::Fields(fields) => {
@@ -275,8 +275,8 @@ fn field(field: &Field) -> Value {
 
 fn group(group: &Group) -> Value {
     json!({
-        "name": group.name, "first": group.first, "words": group.words, "bits": group.format.bits,
-        "fraction_bits": group.format.fraction, "unit": group.unit, "text": group.text,
+        "name": group.name, "first": group.first, "words": group.words, "bits": group.format.bits(),
+        "fraction_bits": group.format.fraction(), "unit": group.unit, "text": group.text,
     })
 }
 
