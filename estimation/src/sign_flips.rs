@@ -14,7 +14,8 @@ const FLIPS: u32 = 4999;
 /// Seed of the draws: the same data give the same p-value.
 const SEED: u64 = 20_051_123;
 
-/// Two-sided p-value of the sum of the clusters' scores, one vector a cluster; 1 without scores, or if they have no inverse spread.
+/// Two-sided p-value of the sum of the clusters' scores, one vector a cluster; 1 without scores, if they have no
+/// inverse spread, or if one of them is no number.
 pub fn p_value(scores: &[DVector<f64>]) -> f64 {
     let Some(m) = scores.first().map(DVector::len) else { return 1.0 };
     let mut spread = DMatrix::<f64>::zeros(m, m);
@@ -30,6 +31,9 @@ pub fn p_value(scores: &[DVector<f64>]) -> f64 {
         (sum.transpose() * &inverse * &sum)[0]
     };
     let observed = statistic(&mut || 1.0);
+    if !observed.is_finite() {
+        return 1.0;
+    }
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(SEED);
     let reached = (0..FLIPS)
         .filter(|_| {
@@ -66,5 +70,8 @@ mod tests {
             (0..8).map(|i| DVector::from_column_slice(&[if i % 2 == 0 { 1.0 } else { -1.0 }, 2.0])).collect();
         assert!(p_value(&scores) < 0.03, "{}", p_value(&scores));
         assert!((p_value(&[]) - 1.0).abs() < 1e-12);
+        // What is no number is no evidence.
+        let spoilt = scores.iter().cloned().chain([DVector::from_column_slice(&[f64::NAN, 2.0])]);
+        assert!((p_value(&spoilt.collect::<Vec<_>>()) - 1.0).abs() < 1e-12);
     }
 }
