@@ -54,6 +54,8 @@ pub fn write_with(
     write: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), InputError> {
     let io = |error: io::Error| InputError::io(path, &error);
+    // Whoever makes temporary files names them in the error: nobody asked for that file.
+    let unnamed = |error: io::Error| io::Error::from(error.kind());
     let place = &place_of(path, existing)?;
     let folder = folder_of(place);
     fs::create_dir_all(folder).map_err(|error| InputError::io(folder, &error))?;
@@ -61,7 +63,7 @@ pub fn write_with(
         .prefix(".racbot-")
         .permissions(fs::Permissions::from_mode(MODE))
         .tempfile_in(folder)
-        .map_err(io)?;
+        .map_err(|error| io(unnamed(error)))?;
     write(temporary.as_file_mut()).map_err(io)?;
     let placed = match existing {
         Existing::Replace => temporary.persist(place),
@@ -192,6 +194,15 @@ mod tests {
         fs::write(&path, "old").unwrap();
         write_with(&path, Existing::Replace, fails).unwrap_err();
         assert_eq!((fs::read(&path).unwrap().as_slice(), names(folder.path()).len()), (&b"old"[..], 1));
+    }
+
+    /// Nobody knows the temporary name that is meant to become the user's.
+    #[test]
+    fn what_cannot_be_made_is_named_as_it_was_asked_for() {
+        // No file can be made there, in whosever hands.
+        let path = Path::new("/proc/self/report.html");
+        let error = write_whole(path, b"new", Existing::Refuse).unwrap_err().to_string();
+        assert!(error.starts_with("/proc/self/report.html: ") && !error.contains(".racbot-"), "{error}");
     }
 
     #[test]
