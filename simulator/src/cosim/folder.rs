@@ -5,20 +5,38 @@ use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The folder for build results: `RACBOT_COSIM_DIR`, else Cargo's scratch folder for tests, else
-/// `tmp` beside the running program's target folder, else the system's.
+/// `tmp` beside the running program's target folder, else the user's cache. Where there is none of these, a folder
+/// of this process alone: what lies here is run, so that nobody else may be able to put it there.
 pub fn root() -> PathBuf {
-    let named = |variable| std::env::var_os(variable).map(PathBuf::from);
-    named("RACBOT_COSIM_DIR")
+    let named = |variable: &str| std::env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute());
+    let beside = || {
+        let program = std::env::current_exe().ok()?;
+        let target = program.ancestors().find(|p| p.join("CACHEDIR.TAG").is_file())?;
+        Some(target.join("tmp").join("cosim"))
+    };
+    std::env::var_os("RACBOT_COSIM_DIR")
+        .map(PathBuf::from)
         .or_else(|| Some(named("CARGO_TARGET_TMPDIR")?.join("cosim")))
-        .or_else(|| {
-            let program = std::env::current_exe().ok()?;
-            let target = program.ancestors().find(|p| p.join("CACHEDIR.TAG").is_file())?;
-            Some(target.join("tmp").join("cosim"))
-        })
-        .unwrap_or_else(|| std::env::temp_dir().join("racbot-cosim"))
+        .or_else(beside)
+        .unwrap_or_else(|| own(named))
+}
+
+/// A folder that belongs to this user, or to this process.
+fn own(named: impl Fn(&str) -> Option<PathBuf>) -> PathBuf {
+    static ALONE: OnceLock<PathBuf> = OnceLock::new();
+    let cache = named("XDG_CACHE_HOME").or_else(|| Some(named("HOME")?.join(".cache")));
+    cache.map_or_else(
+        || {
+            let made = || tempfile::Builder::new().prefix("racbot-cosim-").tempdir().map(tempfile::TempDir::keep);
+            // Where nothing can be made, making what goes into it says why.
+            ALONE.get_or_init(|| made().unwrap_or_else(|_| std::env::temp_dir().join("racbot-cosim"))).clone()
+        },
+        |cache| cache.join("racbot").join("cosim"),
+    )
 }
 
 /// Runs `build` in a fresh folder once for every distinct `content`; later calls, from any process,
@@ -126,6 +144,18 @@ pub fn both(output: &Output) -> String {
 mod tests {
     use super::*;
     use std::time::Duration;
+
+    /// What is run must not lie where every user of a machine can put something.
+    #[test]
+    fn builds_live_in_a_folder_of_the_user_s_own() {
+        let of = |variable: &'static str, path: &'static str| own(move |v| (v == variable).then(|| path.into()));
+        assert_eq!(of("XDG_CACHE_HOME", "/far"), Path::new("/far/racbot/cosim"));
+        assert_eq!(of("HOME", "/home/u"), Path::new("/home/u/.cache/racbot/cosim"));
+        let alone = own(|_| None);
+        let mode = std::os::unix::fs::PermissionsExt::mode(&std::fs::metadata(&alone).unwrap().permissions());
+        assert_eq!((mode & 0o077, own(|_| None)), (0, alone.clone()), "{}", alone.display());
+        std::fs::remove_dir_all(alone).unwrap();
+    }
 
     #[test]
     fn the_same_content_is_built_once_and_others_side_by_side() {
