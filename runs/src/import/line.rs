@@ -24,10 +24,10 @@ fn open(line: &[u8], separator: u8) -> &[u8] {
     if separator == b',' { line.strip_suffix(b";").unwrap_or(line) } else { line }
 }
 
-/// The fields of a line, apart by blanks or a separator.
+/// The fields of a line, apart by blanks or a separator; of a line without any there is one, which is empty.
 pub(super) fn fields(line: &[u8], blanks: bool, separator: u8) -> Vec<String> {
     let text = String::from_utf8_lossy(open(line, separator));
-    if blanks {
+    if blanks && !text.trim().is_empty() {
         return text.split_whitespace().map(str::to_owned).collect();
     }
     text.split(char::from(separator)).map(|field| field.trim().to_owned()).collect()

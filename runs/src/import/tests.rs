@@ -293,6 +293,18 @@ fn no_soup_of_bytes_panics_an_importer() {
         bag[at] ^= 1 << (k % 8);
         let _ = Table::of_bytes(&bag, Path::new("soup"), None, &Clock::default());
     }
+    // What tables are made of, in any order: a line may be a separator and no more.
+    for text in ["x\n;", "A 1 2\nB 2 3\n;\n", "A 1 2\n\n;\nB 2 3\n", ";\nA 1 2\nB 2 3\n"] {
+        let _ = Table::of_bytes(text.as_bytes(), Path::new("soup"), None, &Clock { rows: true, ..Clock::default() });
+    }
+    let letters = b"0123,.;|\t\n\n-e: \"{}[]tabx#\xff";
+    for k in 0..20_000 {
+        let text: Vec<u8> = (0..k % 61).map(|_| letters[rng.next_u32() as usize % letters.len()]).collect();
+        let clock = Clock { rows: k % 2 == 0, ..Clock::default() };
+        let Ok(table) = Table::of_bytes(&text, Path::new("soup"), None, &clock) else { continue };
+        let map = draft(&table);
+        assert!(Map::parse(&map, Path::new("map.toml")).is_ok(), "{text:?}\n{map}");
+    }
 }
 
 #[test]
