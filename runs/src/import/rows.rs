@@ -60,6 +60,10 @@ pub(super) struct Rows<'a> {
     back: Option<(usize, f64, Vec<Option<f64>>)>,
     /// Rows left out because their time went back: how many, the line of the first and its time in the file's unit.
     left_out: Option<(usize, usize, f64)>,
+    /// Rows of numbers without a time that is one: how many, and the line of the first.
+    untimed: Option<(usize, usize)>,
+    /// Numbers beyond all that a computer holds: how many, and the line and the name of the first.
+    endless: Option<(usize, usize, String)>,
 }
 
 impl<'a> Rows<'a> {
@@ -93,6 +97,8 @@ impl<'a> Rows<'a> {
             register: (f64::NAN, f64::NAN, 0.0),
             back: None,
             left_out: None,
+            untimed: None,
+            endless: None,
         })
     }
 
@@ -124,12 +130,20 @@ impl<'a> Rows<'a> {
         // Some writers have NaN where there is no number.
         let row = |i: usize| row(i).filter(|x| !x.is_nan());
         let t = match self.at {
-            Some(at) => match row(at) {
+            Some(at) => match row(at).filter(|t| t.is_finite()) {
                 Some(t) => t,
-                None => return,
+                None => {
+                    if (0..self.names.len()).any(|i| i != at && row(i).is_some()) {
+                        self.untimed.get_or_insert((0, line)).0 += 1;
+                    }
+                    return;
+                }
             },
             None => self.rows,
         };
+        if let Some(first) = (0..self.names.len()).find(|i| row(*i).is_some_and(f64::is_infinite)) {
+            self.endless.get_or_insert_with(|| (0, line, self.names[first].clone())).0 += 1;
+        }
         let t = self.counted_on(t);
         self.rows += 1.0;
         let fields: Vec<Option<f64>> = (0..self.names.len()).map(row).collect();
@@ -185,6 +199,19 @@ impl<'a> Rows<'a> {
     pub(super) fn finish(mut self, table: &mut Table, place: &str) {
         if let Some((line, began, _)) = self.back.take() {
             self.leave_out(line, began);
+        }
+        let said = |rows: usize, one: &str, more: &str| match rows {
+            1 => format!("1 row {one}"),
+            _ => format!("{rows} rows {more}"),
+        };
+        if let Some((rows, line)) = self.untimed {
+            let are = said(rows, "is left out: its", "are left out: their");
+            table.remarks.push(format!("{are} time is no number, the first in {place} {line}"));
+        }
+        if let Some((rows, line, name)) = self.endless {
+            let have = said(rows, "has", "have");
+            let what = "a number without end, taken as no sample";
+            table.remarks.push(format!("{have} {what}, the first in {place} {line}, {name}"));
         }
         if let Some((rows, line, t)) = self.left_out {
             let (are, their) = if rows == 1 { ("1 row is", "its") } else { (&*format!("{rows} rows are"), "their") };
@@ -305,6 +332,22 @@ mod tests {
         assert_eq!(read(STEPS), Vec::<String>::new(), "a recording is none");
         let one = read("t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0,0,0\n0.04,0.2,2\n0.06,0.2,3\n");
         assert!(one[0].starts_with("1 row is left out, the first in line 4"), "{one:?}");
+    }
+
+    #[test]
+    fn times_that_are_no_numbers_and_numbers_without_end_are_said() {
+        let read = |text: &str| {
+            Table::of_bytes(text.as_bytes(), Path::new("in.csv"), None, &Clock::default()).unwrap().remarks
+        };
+        let rows = "t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n,,\n0.04,nan,2\n";
+        assert_eq!(read(rows), Vec::<String>::new(), "a row of nothing, and no sample");
+        assert_eq!(
+            read(&format!("{rows}nan,0.2,3\n0.06,0.2,4\n1e999,0.2,5\n,0.2,6\n0.08,0.2,7\n0.1,-1e999,8\n")),
+            [
+                "3 rows are left out: their time is no number, the first in line 6",
+                "1 row has a number without end, taken as no sample, the first in line 11, duty",
+            ]
+        );
     }
 
     #[test]
