@@ -2,13 +2,14 @@
 //! `.vx`, `.vy`, `.w`; `/cmd_vel.vx`; `/joint_states.position.NAME`, `.velocity.NAME`, `.effort.NAME`; `/tf.PARENT.CHILD.x`;
 //! `/imu.gyro_x`, `.acc_x`. Times are the headers' stamps, or where there are none those of the recording.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use super::Table;
 use super::cdr::Cdr;
+use crate::columns::Column;
 use crate::error::InputError;
-use crate::mcap::messages;
+use crate::mcap::{Topic, messages};
 
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
     let broken = |what: String| InputError::new(path, what, "copy the file again, or recover it with `mcap recover`");
@@ -18,11 +19,27 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
     }
     let mut table = Table::default();
     let mut others: HashSet<String> = HashSet::new();
+    let mut topics: HashMap<u16, Option<Topic>> = HashMap::new();
+    let (mut values, mut is_run) = (Vec::new(), false);
     messages(bytes, broken, |message| {
         let kind = message.schema.map_or("", |s| s.name.as_str());
         let t = message.log_time as f64 * 1e-9;
         if message.channel.message_encoding != "cdr" || !is_known(kind) {
-            others.insert(format!("{} ({kind})", message.channel.topic));
+            let channel = message.channel;
+            // Fields that are called as columns are, in protobuf or JSON: racbot's own recordings.
+            let topic = topics.entry(channel.id).or_insert_with(|| Topic::of(channel, message.schema).ok());
+            let known = topic.as_ref().is_some_and(|topic| topic.decode(message.data, &mut values).is_ok());
+            let known = known && values.iter().any(|(column, _)| *column != Column::Time);
+            if !known {
+                others.insert(format!("{} ({kind})", channel.topic));
+                return Ok(());
+            }
+            let columns: Vec<Column> = values.iter().map(|(column, _)| *column).collect();
+            is_run |= Topic::has_tick(&columns);
+            let stated = values.iter().find(|(column, _)| *column == Column::Time).map(|(_, value)| value.real());
+            for (column, value) in values.iter().filter(|(column, _)| *column != Column::Time) {
+                table.push(&column.name(), stated.unwrap_or(t), value.real());
+            }
             return Ok(());
         }
         decode(kind, &message.channel.topic, t, message.data, &mut table)
@@ -35,6 +52,11 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
         let hint =
             "record Twist, TwistStamped, JointState, Odometry, PoseStamped, PoseWithCovarianceStamped, TF or Imu";
         return Err(InputError::new(path, what, hint));
+    }
+    if is_run {
+        table
+            .remarks
+            .push("its fields are called as columns are: it is a run as it stands, and needs no map".to_owned());
     }
     Ok(table)
 }

@@ -10,13 +10,13 @@ use crate::columns::Column;
 
 /// A number of a message.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Real(f64),
     Whole(i64),
 }
 
 impl Value {
-    pub(super) fn real(self) -> f64 {
+    pub(crate) fn real(self) -> f64 {
         match self {
             Self::Real(x) => x,
             Self::Whole(x) => x as f64,
@@ -34,7 +34,7 @@ impl Value {
 
 /// How the messages of a topic are read.
 #[derive(Debug)]
-pub(super) enum Topic {
+pub(crate) enum Topic {
     /// Field number, type and column.
     Protobuf(Vec<(u32, Type, Column)>),
     /// Objects whose keys are columns.
@@ -45,7 +45,7 @@ pub(super) enum Topic {
 
 impl Topic {
     /// Says why a topic that claims to be readable is not.
-    pub(super) fn of(channel: &Channel, schema: Option<&Schema>) -> Result<Self, String> {
+    pub(crate) fn of(channel: &Channel, schema: Option<&Schema>) -> Result<Self, String> {
         match channel.message_encoding.as_str() {
             "json" => Ok(Self::Json),
             "protobuf" => {
@@ -59,12 +59,12 @@ impl Topic {
     }
 
     /// Whether a topic can hold ticks, not camera poses alone.
-    pub(super) fn has_tick(columns: &[Column]) -> bool {
+    pub(crate) fn has_tick(columns: &[Column]) -> bool {
         columns.iter().any(|c| !matches!(c, Column::Time | Column::Camera(_) | Column::Other))
     }
 
     /// The numbers of a message.
-    pub(super) fn decode(&self, data: &[u8], values: &mut Vec<(Column, Value)>) -> Result<(), String> {
+    pub(crate) fn decode(&self, data: &[u8], values: &mut Vec<(Column, Value)>) -> Result<(), String> {
         values.clear();
         match self {
             Self::Foreign => Ok(()),

@@ -14,6 +14,7 @@ mod write;
 
 pub use write::McapStream;
 
+pub(crate) use fields::Topic;
 pub(super) use read::read;
 pub(crate) use records::messages;
 

@@ -82,6 +82,20 @@ fn writing_and_reading_gives_the_same_run_and_a_data_set_holds_it() {
     assert_eq!(DataSet::open(folder.path()).unwrap().runs, [run], "the same run twice is one run");
 }
 
+/// What racbot recorded is listed as any file is, and its draft maps every column to itself.
+#[test]
+fn a_run_is_listed_and_drafted_like_others_logs() {
+    use crate::import::{Clock, Map, Table, draft};
+    let path = Path::new("run.mcap");
+    let table = Table::of_bytes(&bytes_of(&example(), 50, true), path, None, &Clock::default()).unwrap();
+    let (counts, seen) = (table.find("enc_3").unwrap(), table.find("cam_theta").unwrap());
+    assert_eq!((counts.values.len(), counts.values[1], counts.t[1]), (400, -69.0, 1e-3));
+    assert_eq!((seen.values.len(), seen.values[0], seen.t[1]), (25, 3.0, 0.016));
+    assert!(table.remarks[0].contains("it is a run as it stands"), "{:?}", table.remarks);
+    let run = Map::parse(&draft(&table), Path::new("map.toml")).unwrap().run(&table, path).unwrap();
+    assert_eq!((run.counts, run.duty[1].len()), (example().counts, 400));
+}
+
 #[test]
 fn gaps_and_missing_groups_stay_what_they_are() {
     let text = "t,enc_1,enc_2,supply_v\n0,,0,7\n0.5,,5,\n1,3,,7.1\n2,,7,\n";
