@@ -37,6 +37,7 @@ const WORDS: [(Kind, &[&str]); 10] = [
             "cam",
             "camera",
             "vision",
+            "ssl",
             "mocap",
             "optitrack",
             "opti",
@@ -162,6 +163,7 @@ fn recognised<'a>(
     heading_of_odometry(&mut guesses);
     heading_of_places(&mut guesses, &mut rest);
     drop_broken_groups(&mut guesses, &mut rest);
+    one_unit_in_the_plane(&mut guesses);
     guesses.sort_by_key(|g| g.column);
     (guesses, rest)
 }
@@ -172,6 +174,19 @@ fn heading_of_odometry(guesses: &mut [Guess]) {
     let place = |of: fn(usize) -> Column| has(of(0)) && has(of(1));
     if place(Column::Odometry) && !has(Column::Odometry(2)) && !has(Column::Camera(0)) && !has(Column::Camera(1)) {
         guesses.iter_mut().filter(|g| g.column == Column::Camera(2)).for_each(|g| g.column = Column::Odometry(2));
+    }
+}
+
+/// What stood still in y was nevertheless measured as x was, and of two velocities one unit is often written once.
+fn one_unit_in_the_plane(guesses: &mut [Guess]) {
+    for group in [Column::Command, Column::Camera, Column::Odometry] {
+        let at = |i: usize| guesses.iter().position(|g| g.column == group(i));
+        let (Some(x), Some(y)) = (at(0), at(1)) else { continue };
+        for (open, known) in [(x, y), (y, x)] {
+            if guesses[open].unit.is_empty() && units::in_name(&guesses[open].series.name).is_none() {
+                guesses[open].unit = guesses[known].unit;
+            }
+        }
     }
 }
 
@@ -190,16 +205,10 @@ fn heading_of_places<'a>(guesses: &mut Vec<Guess<'a>>, rest: &mut Vec<&'a Series
 pub(super) fn pose(table: &Table) -> (Vec<Guess<'_>>, Vec<&Series>) {
     // A heading that was made of a rotation goes before the parts of that.
     let (made, plain): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(|s| s.name.ends_with("/yaw"));
-    let (mut guesses, rest) = recognised(made.into_iter().chain(plain), |series| {
+    recognised(made.into_iter().chain(plain), |series| {
         let column = Column::Camera(part_of_pose(&series.name)?);
         Some((column, unit(column, series)))
-    });
-    // What stood still in y was nevertheless measured as x was.
-    if let [x, y, _] = &mut guesses[..] {
-        let unit = if x.unit.is_empty() { y.unit } else { x.unit };
-        (x.unit, y.unit) = (unit, unit);
-    }
-    (guesses, rest)
+    })
 }
 
 /// Keys of a map for the body's velocities, and what they are called.
@@ -266,6 +275,7 @@ fn part_of_pose(name: &str) -> Option<usize> {
         "quat",
         "quaternion",
         "rot",
+        "ball",
     ]) {
         return None;
     }
@@ -331,7 +341,11 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
         return Some((ours, ""));
     }
     let lower = spaced(units::without(&series.name)).to_lowercase();
-    let words = words(&lower);
+    let mut words = words(&lower);
+    // The league's vision has an orientation, and a ball that is no robot.
+    if words.contains(&"ssl") {
+        words.iter_mut().filter(|word| ["o", "orientation"].contains(word)).for_each(|word| *word = "theta");
+    }
     let said = units::in_name(&series.name);
     let number = numbered(&series.name, from_zero);
     let axis = axis(&words);
@@ -350,6 +364,9 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     }
     // Flags and bounds of a current or a duty are none.
     if any(&["over", "limit", "max", "min", "fault", "flag"]) && any(&["current", "duty", "pwm"]) {
+        return None;
+    }
+    if any(&["ball"]) {
         return None;
     }
     // Times, and what a satellite receiver says of its own.
@@ -579,6 +596,12 @@ fn time_unit_s(t: &[f64]) -> f64 {
 pub(super) fn is_step(series: &Series) -> bool {
     let lower = spaced(units::without(&series.name)).to_lowercase();
     words(&lower).iter().any(|w| ["delta", "diff", "increment", "increments", "dticks", "dcounts", "dtick"].contains(w))
+}
+
+/// Whether a speed is by its name that of a motor, which a gear may part from the wheel: `M1 rpm`.
+pub(super) fn is_of_a_motor(series: &Series) -> bool {
+    let lower = spaced(units::without(&series.name)).to_lowercase();
+    words(&lower).iter().any(|word| *word == "motor" || numbers(word, "motor") || numbers(word, "m"))
 }
 
 /// Whether a guess is of wheels or of an odometry.

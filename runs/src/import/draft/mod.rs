@@ -249,6 +249,12 @@ fn columns(guesses: &[Guess], none: &str) -> String {
                     1.0 / full
                 )
             }
+            unit if rates(column) && guess::is_of_a_motor(series) => {
+                format!(
+                    "{{ from = {}, unit = \"{unit}\" }} # at the wheel? At the motor with scale = 1 / gear_ratio",
+                    quoted(&series.name)
+                )
+            }
             unit => format!("{{ from = {}, unit = \"{unit}\" }}", quoted(&series.name)),
         };
         let _ = writeln!(out, "{} = {value}", column.name());

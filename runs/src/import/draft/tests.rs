@@ -770,3 +770,29 @@ fn steps_of_way_and_turn_are_an_odometry() {
     );
     assert!(!of("Time,Dist. Trav. (m),Heading error").contains("increments"));
 }
+
+/// As a team of the small-size league writes it: a unit at the first of two, rpm of motors, and what vision saw.
+#[test]
+fn a_log_of_a_league_s_team_is_understood() {
+    let map = drafted(
+        "time_ms,vx_cmd [mm/s],vy_cmd,omega_cmd,M1 rpm,M2 rpm,ssl_x [mm],ssl_y,ssl_o,ssl_ball_x,ssl_ball_y",
+        [
+            "0,30,30,-0.1,-24,61,-0.1,1.4,-0.44,800,1",
+            "10,60,60,-0.2,-52,131,,,,,",
+            "20,90,90,-0.3,-76,190,2,1.4,-0.5,800,1",
+        ],
+    );
+    for line in [
+        "cmd_vx = { from = \"vx_cmd [mm/s]\", unit = \"mm/s\" }",
+        "cmd_vy = { from = \"vy_cmd\", unit = \"mm/s\" }",
+        "speed_2 = { from = \"M2 rpm\", unit = \"rpm\" } # at the wheel? At the motor with scale = 1 / gear_ratio",
+        "cam_x = { from = \"ssl_x [mm]\", unit = \"mm\" }",
+        "cam_y = { from = \"ssl_y\", unit = \"mm\" }",
+        "cam_theta = \"ssl_o\"",
+        "# \"ssl_ball_x\"",
+    ] {
+        assert!(map.contains(line), "{line}\n{map}");
+    }
+    let said = drafted("t,cmd_x [mm/s],cmd_y [m/s],cmd_w", ["0,0,0,0", "1,900,1,1", "2,0,0,0"]);
+    assert!(said.contains("cmd_vy = \"cmd_y [m/s]\""), "a unit that is said stays\n{said}");
+}
