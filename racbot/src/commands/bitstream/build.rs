@@ -52,10 +52,11 @@ impl Options {
             bar.at(percent.into());
         };
         let mut progress = Progress::new(&mut tell);
-        let folder = std::env::temp_dir().join(format!("racbot-bitstream-{}", std::process::id()));
-        let json = synthesis::synthesise(COMMITTED_VERILOG, NAME, &folder, &mut progress).map_err(Failure::data)?;
-        // A folder that stays is no reason to fail.
-        let _ = std::fs::remove_dir_all(&folder);
+        let about = |error| Failure::about(&std::env::temp_dir(), error);
+        let folder = tempfile::Builder::new().prefix("racbot-bitstream-").tempdir().map_err(about)?;
+        let json =
+            synthesis::synthesise(COMMITTED_VERILOG, NAME, folder.path(), &mut progress).map_err(Failure::data)?;
+        drop(folder);
         let (built, file) = gateware::bitstream(&json, self.seed, &mut progress).map_err(Failure::data)?;
         drop(bar);
         let proof = &built.proof;
