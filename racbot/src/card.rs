@@ -5,7 +5,7 @@ use clap::Args;
 use driver::RegisterWindow;
 use driver::drive::PoseSource;
 use driver::load::{Options as LoadOptions, inspect, measure_clock};
-use driver::pci::{PciCard, SYSFS_DEVICES, SysfsCard, Use, find};
+use driver::pci::{FindError, PciCard, SYSFS_DEVICES, SysfsCard, Use, find};
 use driver::realtime::{Clock, MonotonicClock};
 use runs::robot::Robot;
 use std::path::Path;
@@ -101,7 +101,7 @@ impl CardOptions {
             return built_in(robot, pace);
         }
         let _ = (robot, pace);
-        let slot = find(Path::new(SYSFS_DEVICES), self.card.as_deref()).map_err(Failure::data)?;
+        let slot = find(Path::new(SYSFS_DEVICES), self.card.as_deref()).map_err(no_card)?;
         let card = SysfsCard::open(&slot, purpose).map_err(Failure::data)?;
         Ok(OpenCard {
             name: slot.name,
@@ -147,6 +147,15 @@ impl CardOptions {
             shared: open.shared,
         })
     }
+}
+
+/// What to say of a card that is not there.
+fn no_card(error: FindError) -> Failure {
+    #[cfg(feature = "simulation")]
+    if matches!(error, FindError::Sysfs { .. } | FindError::None { .. } | FindError::NoSuchSlot { .. }) {
+        return Failure::data(format!("{error}; the built-in one is --card {VIRTUAL}"));
+    }
+    Failure::data(error)
 }
 
 /// The built-in card, new and not loaded.

@@ -48,7 +48,8 @@ fn another_hash_is_refused_and_named() {
 #[test]
 fn where_no_card_is_that_is_said() {
     let folder = tempdir().unwrap();
-    racbot(folder.path(), &["info", "--card", "ffff:ff:1f.7"]).refused(1, &["no PCI device in slot ffff:ff:1f.7"]);
+    racbot(folder.path(), &["info", "--card", "ffff:ff:1f.7"])
+        .refused(1, &["no PCI device in slot ffff:ff:1f.7", "the built-in one is --card virtual"]);
     racbot(folder.path(), &["load"]).refused(2, &["which FILE is to be loaded?"]);
     racbot(folder.path(), &["load", "--check"]).refused(2, &["--check needs a FILE"]);
 }
