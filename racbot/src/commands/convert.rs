@@ -1,5 +1,6 @@
 //! `racbot convert`
 
+use super::record::check_name;
 use crate::terminal::{Answer, Failure, Target, wrapped};
 use clap::Args;
 use runs::CLOCK_OFF_S;
@@ -78,12 +79,7 @@ impl Options {
     }
 
     fn convert(&self, map: &Path, file: &Path, out: &Path) -> Result<Answer, Failure> {
-        if !out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("mcap")) {
-            return Err(Failure::about(
-                out,
-                "is neither *.csv nor *.mcap; runs are one of the two, and a folder for several ends with /",
-            ));
-        }
+        check_name(out, ", and a folder for several ends with /")?;
         Target::check_apart([Some(map), Some(file), self.truth.as_deref()].into_iter().flatten(), [out])?;
         self.target.check_free([out])?;
         let (text, json) = self.written(Map::load(map)?.import(file, self.truth.as_deref())?, out)?;

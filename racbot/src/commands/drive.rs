@@ -1,6 +1,6 @@
 //! `racbot drive`
 
-use super::record::Record;
+use super::record::{Kept, Record};
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
 use crate::terminal::{Answer, Failure, Table, Target, entry, positive};
@@ -9,7 +9,7 @@ use driver::Board;
 use driver::drive::{Control, Driven, Ending, Plan};
 use driver::pci::Use;
 use driver::realtime::{Rights, stop_on_signals};
-use driver::recording::{Recorded, Recording, logged_robot};
+use driver::recording::{Recorded, logged_robot};
 use fixed_kin::speed::SpeedMode;
 use model::trajectory::{Arrival, SetPoint};
 use runs::frames::Pose;
@@ -130,7 +130,7 @@ impl Options {
             return Err(Failure::usage("--sure-m: give metres above 0"));
         }
         Target::check_apart(self.robot.iter().chain([&self.setpoints]), &self.record)?;
-        self.target.check_free(&self.record)?;
+        self.recorder().check()?;
         let (actual, pace) = self.built_in(&robot)?;
         #[cfg(feature = "vision")]
         let setting = self.vision.setting()?;
@@ -168,12 +168,7 @@ impl Options {
             .map_err(|error| about(&error))?;
         #[cfg(feature = "vision")]
         remarks.extend(refused.into_iter().flat_map(|refused| refused()));
-        let recorded = recording.map(Recording::finish);
-        let robot_file = self.recorder().robot_beside(&logged)?;
-        let (recorded, failed) = match recorded.transpose() {
-            Ok(recorded) => (recorded, None),
-            Err(error) => (None, Some(error.to_string())),
-        };
+        let Kept { run: recorded, robot: robot_file, failed } = self.recorder().finish(recording, &logged);
         #[cfg(feature = "simulation")]
         let stands = truth.map(|card| card.pose());
         #[cfg(not(feature = "simulation"))]

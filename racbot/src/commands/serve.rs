@@ -1,6 +1,6 @@
 //! `racbot serve`
 
-use super::record::Record;
+use super::record::{Kept, Record};
 use super::start::Start;
 use crate::card::{CardOptions, Pace, ReadyCard};
 use crate::terminal::{Answer, Failure, Target, entry, positive};
@@ -9,7 +9,7 @@ use driver::Board;
 use driver::drive::{Ending, NoSource, Plan, PoseSource};
 use driver::pci::Use;
 use driver::realtime::{Rights, stop_on_signals};
-use driver::recording::{Recording, logged_robot};
+use driver::recording::logged_robot;
 use runs::robot::Robot;
 use serde_json::json;
 use ssl::card::{Link, Served};
@@ -230,7 +230,8 @@ impl Options {
         }
         let Who(team, id) = self.as_robot;
         let robot = self.robot(team, id)?;
-        self.target.check_free(&self.record)?;
+        let recorder = Record { file: self.record.as_deref(), target: self.target };
+        recorder.check()?;
         let plan =
             Plan { start: self.start.0, limit_s: self.seconds.unwrap_or(f64::INFINITY), ..Plan::new(&robot, &[]) };
         let ready = self.card.ready(Use::Drive, &robot, Pace::Real)?;
@@ -239,7 +240,6 @@ impl Options {
         let about = |what: &dyn std::fmt::Display| Failure::data(format!("{name}: {what}"));
         let scale = plan.scale(clock_hz).map_err(|error| about(&error))?;
         let logged = logged_robot(&plan.believed(), &scale, &plan.settings);
-        let recorder = Record { file: self.record.as_deref(), target: self.target };
         let mut recording = recorder.start(&logged, source.is_some())?;
         let stop = stop_on_signals().map_err(Failure::data)?;
         let mut sockets = self.open(&[])?;
@@ -252,14 +252,14 @@ impl Options {
         let link = Link { board, clock_hz, clock, source, recording: recorded, fault_ends: self.stay_off };
         let Served { driven, faults } =
             ssl::card::drive(&plan, (team, id), link, &mut sockets, &stop).map_err(|error| about(&error))?;
-        let recorded = recording.map(Recording::finish).transpose().map_err(Failure::data)?;
-        let robot_file = recorder.robot_beside(&logged)?;
+        let Kept { run: recorded, robot: robot_file, failed } = recorder.finish(recording, &logged);
         let traffic = sockets.traffic();
         let (ended, wrong) = match &driven.ending {
             Ending::Fault(fault) => ("with a fault", Some(format!("{name}: {fault}"))),
             Ending::TimeLimit => ("at the time limit", None),
             _ => ("stopped on request", None),
         };
+        let wrong = wrong.or(failed);
         let mut text = entry("ended", &format!("{ended} after {:.2} s", driven.t));
         text += &entry("ticks", &format!("{} seen, {} unseen", driven.ticks, driven.unseen));
         for (t, fault) in &faults {

@@ -41,6 +41,9 @@ fn what_cannot_be_driven_is_refused_before_a_card_is_touched() {
     run(&["drive", "--setpoints", points, "--skew-deg", "1,2,3"]).refused(2, &["--card virtual"]);
     run(&["drive", "--setpoints", points, "--card", "virtual", "--record", "/proc/no/run.csv"])
         .refused(1, &["/proc/no"]);
+    // A run of this name would be read by nothing.
+    run(&["drive", "--setpoints", points, "--card", "virtual", "--record", "run.txt"])
+        .refused(1, &["run.txt: is neither *.csv nor *.mcap"]);
     run(&["kick", "--card", "virtual", "--charge-s", "17"]).refused(2, &["--charge-s: 17 is not between 0 and 16"]);
     run(&["kick", "--card", "9999:00:00.0"]).refused(1, &[]);
     run(&["latency", "--seconds", "-1"]).refused(2, &[]);
@@ -58,6 +61,25 @@ fn a_robot_that_cannot_get_there_ends_with_a_fault_that_says_so() {
     assert_eq!(outcome.code, Some(1));
     assert!(outcome.stderr.contains("driven hard, but the encoder stands still"), "{}", outcome.stderr);
     assert!(outcome.stdout.contains("with a fault") && outcome.stdout.contains("outputs off"), "{}", outcome.stdout);
+}
+
+/// The drive was driven, whatever became of its files: who drove it is told of both.
+#[test]
+fn a_drive_whose_robot_cannot_be_written_is_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    // A link to nowhere is there, and no file that says what the robot is.
+    std::os::unix::fs::symlink("/proc/self/no/robot.toml", folder.path().join("robot.toml")).unwrap();
+    let points = data("set-points/fig-6.csv");
+    let points = points.to_str().unwrap();
+    for more in [
+        &["drive", "--card", "virtual", "--setpoints", points, "--limit-s", "0.5", "--record", "run.csv"][..],
+        &["serve", "--card", "virtual", "--ports", "0,0,0", "--seconds", "0.5", "--record", "other.csv"],
+    ] {
+        let outcome = racbot(folder.path(), more);
+        assert_eq!(outcome.code, Some(1), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("robot.toml: exists already"), "{}", outcome.stderr);
+        assert!(outcome.stdout.contains("ended ") && outcome.stdout.contains("recorded "), "{}", outcome.stdout);
+    }
 }
 
 #[test]
