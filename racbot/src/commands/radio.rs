@@ -7,6 +7,7 @@ use driver::realtime::{Clock, MonotonicClock, stop_on_signals};
 use driver::{Scale, Settings};
 use runs::Run;
 use runs::frames::Twist;
+use runs::robot::Robot;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -86,7 +87,7 @@ impl Options {
             Target::check_apart([&self.commands, &self.robot].into_iter().flatten(), [out])?;
         }
         let robot = super::driven::robot(self.robot.as_deref())?;
-        let velocity = self.velocity(seconds)?;
+        let velocity = self.velocity(seconds, &robot)?;
         let about = |error: &dyn std::fmt::Display| match &self.robot {
             Some(file) => Failure::about(file, error),
             None => Failure::data(error),
@@ -136,8 +137,12 @@ impl Options {
     }
 
     /// The wanted velocity over time, s.
-    fn velocity(&self, seconds: f64) -> Result<Box<dyn Fn(f64) -> Option<Twist>>, Failure> {
+    fn velocity(&self, seconds: f64, robot: &Robot) -> Result<Box<dyn Fn(f64) -> Option<Twist>>, Failure> {
+        let too_fast = too_fast(robot)?;
         if let Some(Velocity(twist)) = self.velocity {
+            if let Some(why) = too_fast(twist) {
+                return Err(Failure::usage(format!("--velocity: {why}")));
+            }
             return Ok(Box::new(move |t| (t < seconds).then_some(twist)));
         }
         let file = self.commands.as_ref().expect("the command line asks for it where there is no velocity");
@@ -145,6 +150,11 @@ impl Options {
         let Some([vx, vy, omega]) = run.command else {
             return Err(Failure::about(file, "it has no commands: log cmd_vx, cmd_vy and cmd_w"));
         };
+        let there = |x: f64| if x.is_finite() { x } else { 0.0 };
+        let asked = |row: usize| Twist { vx: there(vx[row]), vy: there(vy[row]), omega: there(omega[row]) };
+        if let Some((row, why)) = (0..run.t.len()).find_map(|row| Some((row, too_fast(asked(row))?))) {
+            return Err(Failure::about(file, format!("at {} s: {why}", run.t[row])));
+        }
         let begun = run.t.first().copied().unwrap_or(0.0);
         let times: Vec<f64> = run.t.iter().map(|t| t - begun).collect();
         Ok(Box::new(move |t| {
@@ -154,6 +164,24 @@ impl Options {
             (row + 1 < times.len()).then(|| Twist { vx: held(&vx), vy: held(&vy), omega: held(&omega) })
         }))
     }
+}
+
+/// Why a velocity is one that no such robot has: a wheel would turn faster than its motor does without any load.
+fn too_fast(robot: &Robot) -> Result<impl Fn(Twist) -> Option<String>, Failure> {
+    let geometry = robot.geometry().map_err(Failure::data)?;
+    let most = robot.no_load_wheel_speed(robot.supply_v);
+    Ok(move |twist: Twist| {
+        let of = |wheel: usize| geometry.wheel_speed(wheel, twist).abs();
+        let wheel = (0..geometry.wheel_count()).max_by(|a, b| of(*a).total_cmp(&of(*b)))?;
+        let speed = of(wheel);
+        (speed > most).then(|| {
+            format!(
+                "wheel {} would turn at {speed:.1} rad/s, and its motor without a load at {most:.1}; give at most {:.2} of it",
+                wheel + 1,
+                most / speed
+            )
+        })
+    })
 }
 
 /// Time for frames that nobody waits for.

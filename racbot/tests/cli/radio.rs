@@ -138,9 +138,14 @@ fn what_no_robot_can_be_told_is_refused() {
         .refused(2, &["0 is not more than 0 and at most 3600"]);
     with(&["--out", "f"]).refused(2, &["--velocity"]);
     racbot(folder.path(), &["radio", "--number", "16", "--out", "f"]).refused(2, &["16 is not in 0..=15"]);
-    with(&["--line", "nowhere", "--velocity", "1,2,3", "--seconds", "1"]).refused(1, &["nowhere: "]);
+    // What the paper's motors cannot turn without any load.
+    with(&["--out", "f", "--velocity", "1e9,0,0", "--seconds", "1"])
+        .refused(2, &["--velocity: wheel ", "at most 0.00"]);
+    fs::write(folder.path().join("fast.csv"), "t,cmd_vx,cmd_vy,cmd_w\n0,0,0,0\n0.1,0,0,\n0.2,40,,0\n").unwrap();
+    with(&["--out", "f", "--commands", "fast.csv"]).refused(1, &["fast.csv: at 0.2 s: wheel ", "rad/s"]);
+    with(&["--line", "nowhere", "--velocity", "0,0.4,0", "--seconds", "1"]).refused(1, &["nowhere: "]);
     fs::write(folder.path().join("file"), "").unwrap();
-    with(&["--line", "file", "--velocity", "1,2,3", "--seconds", "1"])
+    with(&["--line", "file", "--velocity", "0,0.4,0", "--seconds", "1"])
         .refused(1, &["file: is no serial port", "--out"]);
     fs::write(folder.path().join("bare.csv"), "t,enc_1\n0,0\n0.001,0\n").unwrap();
     with(&["--out", "f", "--commands", "bare.csv"]).refused(1, &["bare.csv: ", "cmd_vx"]);
