@@ -14,9 +14,23 @@ pub(crate) fn any_robot(file: Option<&Path>) -> Result<Robot, InputError> {
 pub(crate) fn robot(file: Option<&Path>) -> Result<Robot, InputError> {
     let robot = any_robot(file)?;
     let Some(file) = file.filter(|_| robot.pi.kp == 0.0 && robot.pi.ki == 0.0) else { return Ok(robot) };
-    let gains = |[kp, ki]: [f64; 2]| {
-        format!("write, say, kp = {kp:.2e} (duty per rad/s at the wheel) and ki = {ki:.2e} (duty per rad) below [pi]")
-    };
+    let gains = |gains| format!("write, say, {} below [pi]", words(gains));
     let hint = proposed_gains(&robot).map_or_else(|| "write kp and ki below [pi]".to_owned(), gains);
     Err(InputError::new(file, "has no gains in [pi]: its speed loops would drive nothing", hint))
+}
+
+/// The same of one that is only simulated, which breaks nothing: where its file has no gains it has proposed ones, and what is
+/// to be said of them.
+#[cfg(feature = "simulation")]
+pub(crate) fn simulated(file: Option<&Path>) -> Result<(Robot, Option<String>), InputError> {
+    let mut any = any_robot(file)?;
+    let Some(file) = file.filter(|_| any.pi.kp == 0.0 && any.pi.ki == 0.0) else { return Ok((any, None)) };
+    let Some(gains) = proposed_gains(&any) else { return Ok((robot(Some(file))?, None)) };
+    [any.pi.kp, any.pi.ki] = gains;
+    Ok((any, Some(format!("{} has no gains in [pi]: simulated with {}", file.display(), words(gains)))))
+}
+
+/// Gains, to be written and read.
+fn words([kp, ki]: [f64; 2]) -> String {
+    format!("kp = {kp:.2e} (duty per rad/s at the wheel) and ki = {ki:.2e} (duty per rad)")
 }

@@ -166,13 +166,22 @@ impl Options {
             let smart = smart::Smart { seed: self.seed, fault: self.camera_fault, out: &out, target: self.target };
             return smart.drive();
         }
-        let believed = super::driven::robot(self.robot.as_deref())?;
-        let actual = self.hidden.robot(&believed)?;
+        let (believed, remark) = super::driven::simulated(self.robot.as_deref())?;
+        let mut answer = self.simulated(&believed)?;
+        if let Some(remark) = remark {
+            answer.text += &wrapped(&remark, 2);
+            answer.json["remark"] = json!(remark);
+        }
+        Ok(answer)
+    }
+
+    fn simulated(&self, believed: &Robot) -> Result<Answer, Failure> {
+        let actual = self.hidden.robot(believed)?;
         let out = self.target.place(self.out.as_deref(), OUT);
         if let Some(manoeuvre::Name(manoeuvre)) = self.manoeuvre {
             let runs = manoeuvre::Runs {
                 manoeuvre,
-                believed: &believed,
+                believed,
                 actual: &actual,
                 camera: self.camera != CameraUse::Off,
                 start: self.start.0,
@@ -200,9 +209,9 @@ impl Options {
             speed_mode: self.speed_mode.into(),
             limit_s: self.limit_s()?,
             seed: self.seed,
-            ..Drive::new(&believed, &set_points)
+            ..Drive::new(believed, &set_points)
         };
-        let hidden = actual != believed;
+        let hidden = actual != *believed;
         let files = self.files(&out);
         self.target.check_free([&files[0], &files[2], &files[3], &files[4]])?;
         let timed = self.timed(&drive, &Robot { effects: actual.effects.clone(), ..believed.clone() })?;
