@@ -10,7 +10,7 @@ mod demo;
 mod onboard;
 mod terminal;
 
-use clap::Parser;
+use clap::{Arg, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use std::process::ExitCode;
 
@@ -28,7 +28,8 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let matches = negatives(Cli::command()).get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let Some(command) = cli.command.or_else(Command::preset) else {
         return terminal::print(&commands::help::<Cli>()).into();
     };
@@ -36,4 +37,10 @@ fn main() -> ExitCode {
         Ok(answer) => answer.print(cli.json).into(),
         Err(failure) => failure.print().into(),
     }
+}
+
+/// Takes `-5` for a number wherever a value is due: what is wrong with it, its command knows.
+fn negatives(command: clap::Command) -> clap::Command {
+    let taken = |arg: Arg| if arg.get_action().takes_values() { arg.allow_negative_numbers(true) } else { arg };
+    command.mut_args(taken).mut_subcommands(negatives)
 }

@@ -171,7 +171,13 @@ impl Options {
         ];
         match self.counts_per_wheel_rev {
             Some(n) => {
-                keys.push(key("encoder_counts_per_wheel_rev", "", Some(n), false, "counts per turn of the wheel"));
+                keys.push(key(
+                    "encoder_counts_per_wheel_rev",
+                    "--counts-per-wheel-rev",
+                    Some(n),
+                    false,
+                    "counts per turn of the wheel",
+                ));
             }
             None => keys.push(key(
                 "encoder_counts_per_motor_rev",
@@ -193,7 +199,7 @@ impl Options {
         ]);
         if self.axis {
             let load = Some(self.load_inertia.unwrap_or(0.0));
-            keys.push(key("wheel_inertia_kg_m2", "", load, false, "load at the output shaft"));
+            keys.push(key("wheel_inertia_kg_m2", "--load-inertia", load, false, "load at the output shaft"));
         } else {
             let inertia = self.yaw_inertia.or(disc);
             let meaning = "moment of inertia about the vertical";
@@ -218,8 +224,8 @@ impl Options {
             return Err(Failure::usage(format!("{whose}say {}", missing.join(", "))));
         }
         let text = self.text(&keys, &motor, &wheels);
-        // What was written must be read.
-        Robot::parse_partial(&text, &self.file)?;
+        // What was written must be read. Where it is not, nobody has seen the file: an option was wrong.
+        Robot::parse_partial(&text, &self.file).map_err(|error| self.usage(&error, keys.iter().chain(&motor)))?;
         let axes = log.as_ref().filter(|_| self.axis).map_or(1, Run::wheel_count);
         if let Some(log) = self.log.as_deref().filter(|_| axes > 1) {
             return axes::apart(&self.file, &text, &logs(log)?, axes, self.target);
@@ -232,6 +238,17 @@ impl Options {
             json: json!({ "robot": self.file.to_string_lossy(), "wheels": wheels.len() }),
             wrong: None,
         })
+    }
+
+    /// The option that a mistake in the text came by.
+    fn usage<'a>(&self, error: &InputError, mut keys: impl Iterator<Item = &'a Key>) -> Failure {
+        let name = error.field.rsplit('.').next().unwrap_or_default();
+        let layout = [("--track-mm", self.track_mm.is_some()), ("--mecanum-mm", !self.mecanum_mm.is_empty())];
+        let flag = match keys.find(|key| key.name == name) {
+            Some(key) => key.flag.split(' ').next().unwrap_or_default(),
+            None => layout.into_iter().find(|(_, given)| *given).map_or("--wheels", |(flag, _)| flag),
+        };
+        Failure::usage(format!("{flag}: {}; {}", error.what, error.hint))
     }
 
     /// Place (m), drive direction and roller angle (rad) of every wheel, x to the right.
@@ -290,24 +307,36 @@ impl Options {
         let known = motor.iter().any(|k| k.value.is_some_and(|x| x != 0.0));
         let _ = writeln!(out, "\n{}", if known { "[motor]" } else { "# [motor]" });
         motor.iter().filter(|k| known || k.value.is_none()).for_each(|k| line(&mut out, k));
+        out += "\n# [pi]  # where the firmware has racbot's law; without it `racbot simulate` takes gains that suit\n\
+                # kp =   # duty per rad/s at the wheel\n# ki =   # duty per rad at the wheel\n";
         for (i, [x, y, drive, roller]) in wheels.iter().enumerate() {
             let _ = writeln!(out, "\n[[wheel]]  # {}", i + 1);
-            let _ = writeln!(out, "x_m = {}  # to the right\ny_m = {}  # forward", number(*x), number(*y));
-            let _ = writeln!(out, "drive_deg = {}  # where positive speed drives it", number(drive.to_degrees()));
+            let _ = writeln!(out, "x_m = {}  # to the right\ny_m = {}  # forward", place(*x), place(*y));
+            let _ = writeln!(out, "drive_deg = {}  # where positive speed drives it", place(drive.to_degrees()));
             let _ = writeln!(
                 out,
                 "roller_deg = {}  # 0: omni wheel or tyre; 45 or -45: mecanum",
-                number(roller.to_degrees())
+                place(roller.to_degrees())
             );
         }
         out
     }
 }
 
-/// To a nanometre and a nanodegree, without the noise of sines; coarser, `gap` would see it in the set points.
+/// To twelve digits, without the noise of a unit that was changed.
 fn number(x: f64) -> String {
-    let rounded = (x * 1e9).round() / 1e9;
-    if rounded == 0.0 && x != 0.0 && x.abs() > 1e-12 { format!("{x:e}") } else { format!("{}", rounded + 0.0) }
+    let rounded = format!("{x:.11e}").parse().unwrap_or(x);
+    match rounded {
+        _ if !x.is_finite() => x.to_string().to_lowercase(),
+        0.0 => "0".to_owned(),
+        _ if (1e-6..1e15).contains(&f64::abs(rounded)) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// To a nanometre and a nanodegree, without the noise of sines; coarser, `gap` would see it in the set points.
+fn place(x: f64) -> String {
+    number((x * 1e9).round() / 1e9 + 0.0)
 }
 
 /// The columns of a log, or of the first of a folder.

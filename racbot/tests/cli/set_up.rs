@@ -65,6 +65,56 @@ fn init_writes_a_robot_that_reads_and_asks_once_for_what_a_log_needs() {
     assert!(check.stdout.contains("no set-up mistake"), "{}", check.stdout);
 }
 
+/// The file is not there yet: what is wrong came by an option. What is right comes as it was said, however small.
+#[test]
+fn numbers_of_init_are_judged_by_their_options_and_kept() {
+    let folder = tempdir().unwrap();
+    let wheels = ["init", "r.toml", "--wheels", "60,135,225,300", "--radius-mm", "27", "--body-radius-mm", "80"];
+    let with = |more: &[&str]| racbot(folder.path(), &[&wheels, more].concat());
+    for (flag, value, said) in [
+        ("--counts-per-motor-rev", "0", "0 is not positive"),
+        ("--counts-per-wheel-rev", "-5", "-5 is not positive"),
+        ("--mass-kg", "nan", "NaN is not a finite number"),
+        ("--rate-hz", "-1e3", "-1000 is not positive"),
+        ("--supply-v", "inf", "inf is not a finite number"),
+        ("--gear", "-3", "lengths and ratios are positive numbers"),
+    ] {
+        let answer = with(&[flag, value]);
+        assert_eq!(answer.code, Some(2), "{flag}: {}", answer.stderr);
+        assert!(!answer.stderr.contains("r.toml"), "{}", answer.stderr);
+        let said = if flag == "--gear" { said.to_owned() } else { format!("{flag}: {said}") };
+        assert!(answer.stderr.contains(&said), "{}", answer.stderr);
+    }
+    racbot(folder.path(), &["init", "--wheels", "60,60,60", "--radius-mm", "27", "--body-radius-mm", "80"])
+        .refused(2, &["--wheels: singular geometry"]);
+    assert!(!folder.path().join("r.toml").exists());
+    let small = ["--rotor-inertia", "3.1e-9", "--torque-constant", "0.00123456789", "--resistance-ohm", "9.4"];
+    with(&small).done();
+    let text = fs::read_to_string(folder.path().join("r.toml")).unwrap();
+    let robot = runs::robot::Robot::parse_partial(&text, Path::new("r.toml")).unwrap();
+    assert_eq!((robot.motor.rotor_inertia, robot.motor.torque_constant), (3.1e-9, 0.00123456789));
+    assert_eq!((robot.wheel_radius_m, robot.motor.friction_torque), (0.027, 0.0));
+}
+
+/// Gains belong to a firmware that nobody asked for: a robot drives in the simulation without them, and over no card.
+#[test]
+fn a_robot_of_init_simulates_at_once() {
+    let folder = tempdir().unwrap();
+    let run = |arguments: &[&str]| racbot(folder.path(), arguments);
+    let parts = ["--radius-mm", "27", "--body-radius-mm", "80", "--gear", "3.6", "--counts-per-motor-rev", "4096"];
+    let motor = ["--resistance-ohm", "0.3", "--torque-constant", "0.03", "--rotor-inertia", "1e-5", "--supply-v", "24"];
+    let rest = ["--mass-kg", "2.5", "--rate-hz", "1000"];
+    run(&[&["init", "r.toml", "--wheels", "60,135,225,300"], &parts[..], &motor, &rest].concat()).done();
+    let answer = run(&["simulate", "--robot", "r.toml", "--out", "sim"]).done();
+    assert!(answer.stdout.contains("has no gains in [pi]: simulated with kp ="), "{}", answer.stdout);
+    assert!(!answer.stdout.contains("missed"), "{}", answer.stdout);
+    let beside = runs::robot::Robot::load(folder.path().join("sim/robot.toml")).unwrap();
+    assert!(beside.pi.kp > 0.0 && beside.pi.ki > 0.0);
+    let points = data("set-points/square.toml");
+    run(&["drive", "--card", "virtual", "--robot", "r.toml", "--setpoints", points.to_str().unwrap()])
+        .refused(1, &["r.toml", "has no gains in [pi]", "write, say, kp ="]);
+}
+
 #[test]
 fn a_servo_on_a_bench_is_a_robot_of_one_axis() {
     let folder = tempdir().unwrap();
