@@ -44,6 +44,7 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         .trim(::csv::Trim::All)
         .from_reader(&*text);
     let mut record = ::csv::ByteRecord::new();
+    let mut lines = Lines { text: &text, at: 0, line: 1 };
     let mut next = |record: &mut ::csv::ByteRecord| {
         csv.read_byte_record(record).map_err(|e| InputError::new(path, e.to_string(), "save the log as CSV"))
     };
@@ -139,7 +140,7 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
             kinds.len() - 1
         });
         let Some(rows) = &mut kinds[at].1 else { continue };
-        let line = record.position().map_or(1, ::csv::Position::line) as usize;
+        let line = lines.of(record.position().map_or(0, ::csv::Position::byte) as usize);
         widths.see(&record);
         let of = own.as_ref().map(|(at, _)| *at);
         let plain = |i: usize| record.get(i).filter(|_| Some(i) != of).and_then(|field| number(field, separator));
@@ -173,6 +174,24 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
     headings(&mut table);
     super::rotations::headings(&mut table);
     Ok(table)
+}
+
+/// The lines at which records begin, one after the other. The reader's own count is behind where lines end in CR LF or are
+/// empty, for it stops before what ends them.
+struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl Lines<'_> {
+    fn of(&mut self, byte: usize) -> usize {
+        let ends = self.text.iter().skip(byte).take_while(|b| b"\r\n".contains(b)).count();
+        let begin = (byte + ends).min(self.text.len());
+        self.line += self.text.get(self.at..begin).map_or(0, |passed| passed.iter().filter(|b| **b == b'\n').count());
+        self.at = begin;
+        self.line
+    }
 }
 
 /// Times of day, and how many rows have that of the row before.

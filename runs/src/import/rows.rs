@@ -348,6 +348,11 @@ mod tests {
                 "1 row has a number without end, taken as no sample, the first in line 11, duty",
             ]
         );
+        // A line is one as an editor counts it, whatever ends it.
+        for (ends, line) in [("\r\n", 4), ("\n", 4), ("\n\n", 7), ("\r\n\r\n", 7)] {
+            let text = ["\u{feff}t;duty;pos", "0,00;0,2;0", "0,02;0,2;1", "nan;0,2;3", "0,06;0,2;4", ""].join(ends);
+            assert_eq!(read(&text), [format!("1 row is left out: its time is no number, the first in line {line}")]);
+        }
     }
 
     #[test]
