@@ -48,6 +48,9 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Table, InputError> {
     if table.series.is_empty() {
         let mut others: Vec<String> = others.into_iter().collect();
         others.sort();
+        if others.is_empty() {
+            return Err(broken("holds no whole message".to_owned()));
+        }
         let what = format!("holds none of the messages that are read; it has {}", others.join(", "));
         let hint =
             "record Twist, TwistStamped, JointState, Odometry, PoseStamped, PoseWithCovarianceStamped, TF or Imu";

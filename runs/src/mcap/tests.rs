@@ -92,6 +92,9 @@ fn a_run_is_listed_and_drafted_like_others_logs() {
     assert_eq!((counts.values.len(), counts.values[1], counts.t[1]), (400, -69.0, 1e-3));
     assert_eq!((seen.values.len(), seen.values[0], seen.t[1]), (25, 3.0, 0.016));
     assert!(table.remarks[0].contains("it is a run as it stands"), "{:?}", table.remarks);
+    let cut = &bytes_of(&example(), 400, false)[..2_000];
+    let error = Table::of_bytes(cut, path, None, &Clock::default()).unwrap_err().to_string();
+    assert!(error.contains("holds no whole message; copy the file again"), "{error}");
     let run = Map::parse(&draft(&table), Path::new("map.toml")).unwrap().run(&table, path).unwrap();
     assert_eq!((run.counts, run.duty[1].len()), (example().counts, 400));
 }
