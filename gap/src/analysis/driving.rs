@@ -162,10 +162,30 @@ impl<'a> Workflow<'a> {
         if study::rms(&problem, &self.start) < self.thresholds.far_left * least {
             return outcome;
         }
-        if let Some(again) = self.without_refused(&outcome, here) {
+        if let Some(again) = self.within_bounds(&outcome, here).or_else(|| self.without_refused(&outcome, here)) {
             (*link, outcome) = again;
         }
         outcome
+    }
+
+    /// What is found without the effects that fit best at the bound of what is physical, if that closes most of what was left.
+    /// Such an effect is no cause, but took what others do: motors without torque leave nothing to explain.
+    fn within_bounds(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
+        let is_inside = |e: &&Arc<dyn Effect>| !outcome.refused.iter().any(|r| r.at_bound && r.name == e.name());
+        let others: Vec<_> = here.iter().filter(is_inside).cloned().collect();
+        if others.len() == here.len() || !outcome.named.is_empty() && outcome.held_out <= self.thresholds.far {
+            return None;
+        }
+        let correlation = self.thresholds.drive_correlation;
+        let mut again = self.drive_again(&others).filter(|(link, again)| {
+            let square = |state: &State| study::rms(&Problem::Drive(link), state).powi(2);
+            square(&again.written) < (1.0 - self.thresholds.explained) * square(&outcome.written)
+        });
+        match &mut again {
+            Some((_, again)) => again.refused.extend(outcome.refused.iter().filter(|r| r.at_bound).cloned()),
+            None => self.thresholds.drive_correlation = correlation,
+        }
+        again
     }
 
     /// What else is found where all that was fitted may not be named, and stood in the way of the rest: it leaves nothing worth a

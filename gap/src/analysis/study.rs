@@ -32,11 +32,14 @@ pub(super) struct Outcome {
 }
 
 /// What was fitted and is not named.
+#[derive(Clone)]
 pub(super) struct Refused {
     pub(super) name: String,
     pub(super) why: String,
     /// Whether no chance gives as much, but its size is not known.
     pub(super) of_no_size: bool,
+    /// Whether it fits best at the bound of what is physical.
+    pub(super) at_bound: bool,
 }
 
 impl Outcome {
@@ -380,6 +383,7 @@ fn not_named(problem: &Problem, name: &str, (refusal, why): &Fault) -> Refused {
         name: name.to_owned(),
         why: format!("Fitted on the {} link, and not named: {name} ({why}).", problem.link().name()),
         of_no_size: *refusal == Refusal::HoldsZero,
+        at_bound: *refusal == Refusal::AtBound,
     }
 }
 
@@ -568,7 +572,8 @@ mod tests {
 
     #[test]
     fn what_has_a_name_in_the_end_is_not_said_to_have_none() {
-        let refused = |name: &str| Refused { name: name.to_owned(), why: String::new(), of_no_size: true };
+        let refused =
+            |name: &str| Refused { name: name.to_owned(), why: String::new(), of_no_size: true, at_bound: false };
         let mut all = vec![refused("camera-latency"), refused("wheel-radius")];
         still_refused(&mut all, &[Named::bare("camera-latency", Link::Motion, &[])]);
         assert_eq!(all.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(), ["wheel-radius"]);

@@ -388,3 +388,53 @@ fn a_motor_that_was_fitted_to_the_answers_of_its_loop_is_told_by_its_set_points(
     assert!((sizes_of(&by_set_points)[0].1 / SERVO_DRY_NM - 1.0).abs() < 0.1, "{}", by_set_points.terminal_summary());
     assert!(names(&by_torques).contains(&"torque-constant"), "{}", by_torques.terminal_summary());
 }
+
+/// A joint of an arm that is swung slowly to and fro behind a stiff loop: its inertia takes a hundredth of
+/// what its frictions take.
+fn swung(seed: u64) -> Run {
+    let (kt, inertia, dry, viscous) = (11.5, 0.2, 2.8, 3.5);
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let phases: [f64; 3] = std::array::from_fn(|_| rng.random_range(0.0..TAU));
+    let waves = [(0.09, 0.45), (0.13, 0.25), (0.21, 0.1)];
+    // Angle and its two derivatives; it sets out from rest.
+    let of = |t: f64, order: i32| {
+        let wave = |((f, a), p): (&(f64, f64), &f64)| {
+            let w = TAU * f;
+            a * w.powi(order) * (w * t + p + f64::from(order) * 0.25 * TAU).sin()
+        };
+        waves.iter().zip(&phases).map(wave).sum::<f64>()
+    };
+    let mut run = Run { name: format!("run_{seed}"), ..Run::default() };
+    let (mut currents, mut counted, mut wander) = (Vec::new(), Vec::new(), 0.0);
+    for row in 0..6000 {
+        let t = 0.01 * f64::from(row);
+        let [angle, speed, gain] = [0, 1, 2].map(|order| of(t, order));
+        // A gear that is not the same all the way round.
+        wander += 0.02 * (0.35 * rng.random_range(-1.0..1.0) - wander);
+        let torque =
+            inertia * gain + dry * (speed / 0.01).tanh() + viscous * speed + 0.1 * (30.0 * angle).sin() + wander;
+        run.t.push(t);
+        currents.push(torque / kt + 0.02 * rng.random_range(-1.0..1.0));
+        counted.push((angle / TAU * 65536.0).round() as i64);
+    }
+    run.current = vec![currents];
+    run.counts = vec![counted];
+    run
+}
+
+/// A motor without torque explains that frictions take all of it: it fitted best at the bound of what is physical, had no name,
+/// and what it had stood for had none either, 66 floors from the drive.
+#[test]
+fn frictions_have_their_names_where_a_motor_without_torque_would_do() {
+    let text = "encoder_counts_per_wheel_rev = 65536\ngear_ratio = 1\nsupport = \"blocks\"\nwheel_radius_m = 1\n\
+        wheel_inertia_kg_m2 = 0\n[motor]\ntorque_constant = 11.5\nrotor_inertia = 0.2\nfriction_torque = 0\n\
+        [[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n";
+    for seed in [600, 601, 602] {
+        let a = of_files(text, [swung(seed)]);
+        let said = a.terminal_summary();
+        for (name, size) in [("coulomb-friction", 2.8), ("viscous-friction", 3.5)] {
+            let found = a.effects.iter().find(|e| e.name == name);
+            assert!(found.is_some_and(|e| (e.parameters[0].1 / size - 1.0).abs() < 0.1), "{seed}: {name}\n{said}");
+        }
+    }
+}
