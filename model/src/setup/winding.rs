@@ -16,6 +16,9 @@ const BESIDE_SPEED: f64 = 0.1;
 /// Volts that may be left, RMS, in those that were there: an amplifier that drops more has a law of its own. Reasoned; that
 /// controller left 0.009.
 const LEFT: f64 = 0.03;
+/// Amperes per volt, RMS, of one motor's sensor in one log, as a share of the usual ones, below which it reads nothing. A motor
+/// without a load took a tenth of what it took at the start of its run; a sensor that was not connected, a hundredth.
+const SILENT: f64 = 0.03;
 /// Stretches of the logs without one of which the law is fitted in turn.
 const BLOCKS: usize = 20;
 
@@ -71,7 +74,7 @@ impl Winding {
         }
         let both = |log: &&Log| log.layout().source.duties != DutySource::Currents && !log.layout().current.is_empty();
         let signals: Vec<Signals> = logs.iter().filter(both).filter_map(|log| signals(robot, log)).collect();
-        let rows: Vec<(Vector2<f64>, f64)> = signals.iter().flat_map(|s| rows(robot, s)).collect();
+        let rows = heard(signals.iter().flat_map(|s| rows(robot, s)).collect());
         let blocks: Vec<Sums> = rows
             .chunks(rows.len().div_ceil(BLOCKS).max(1))
             .map(|chunk| {
@@ -114,16 +117,30 @@ impl Winding {
     }
 }
 
-/// Current and speed of each motor, and its volts, while a bridge drives it: one that gives nothing brakes, or lets go.
-fn rows(robot: &Robot, s: &Signals) -> Vec<(Vector2<f64>, f64)> {
+/// Current and speed of a motor, and its volts.
+type Row = (Vector2<f64>, f64);
+
+/// Rows of each motor while a bridge drives it: one that gives nothing brakes, or lets go.
+fn rows(robot: &Robot, s: &Signals) -> Vec<Vec<Row>> {
     let motors = s.duty.iter().zip(&s.current).zip(&s.speed);
+    let drives = |(row, volts): &Row| *volts != 0.0 && volts.is_finite() && row.iter().all(|x| x.is_finite());
     let of_motor = |((duty, current), speed): ((&Vec<f64>, &Vec<f64>), &Vec<f64>)| {
         let row = |k: usize| (Vector2::new(current[k], robot.gear_ratio * speed[k]), duty[k] * s.volts[k]);
-        (0..s.volts.len()).map(row).collect::<Vec<_>>()
+        (0..s.volts.len()).map(row).filter(drives).collect::<Vec<_>>()
     };
-    let drives =
-        |(row, volts): &(Vector2<f64>, f64)| *volts != 0.0 && volts.is_finite() && row.iter().all(|x| x.is_finite());
-    motors.flat_map(of_motor).filter(drives).collect()
+    motors.map(of_motor).collect()
+}
+
+/// All rows but those of sensors that read nothing: one of them would break the law of all others.
+fn heard(motors: Vec<Vec<Row>>) -> Vec<Row> {
+    let per_volt = |rows: &Vec<Row>| {
+        let square = |of: fn(&Row) -> f64| rows.iter().map(|row| of(row).powi(2)).sum::<f64>();
+        (square(|row| row.0[0]) / square(|row| row.1)).sqrt()
+    };
+    let mut usual: Vec<f64> = motors.iter().map(per_volt).filter(|x| x.is_finite()).collect();
+    usual.sort_by(f64::total_cmp);
+    let least = usual.get(usual.len() / 2).map_or(0.0, |usual| SILENT * usual);
+    motors.into_iter().filter(|rows| per_volt(rows) >= least).flatten().collect()
 }
 
 /// A winding in the file that is another motor's.
@@ -145,4 +162,32 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     );
     let mistake = Mistake::new("motor-winding", "motor.resistance_ohm", what, remedy);
     vec![Mistake { nameable: true, ..mistake }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a motor of 4 ohm and 0.007 V s/rad that runs up, seen by a sensor of so much of its current.
+    fn motor(seen: f64) -> Vec<Row> {
+        let row = |k: u32| {
+            let speed = 500.0 * (1.0 - (-f64::from(k) / 100.0).exp());
+            (Vector2::new(seen * (4.0 - 0.007 * speed) / 4.0, speed), 4.0)
+        };
+        (0..400).map(row).collect()
+    }
+
+    #[test]
+    fn a_sensor_that_reads_nothing_is_left_aside() {
+        let of = |seen: &[f64]| heard(seen.iter().map(|seen| motor(*seen)).collect()).len();
+        assert_eq!(of(&[1.0, 1.0, 0.005, 1.0]), 1200);
+        assert_eq!(of(&[1.0, 0.0]), 400);
+        // A motor that drives next to nothing tells its constant; and of one alone nobody knows what is usual.
+        assert_eq!(of(&[1.0, 1.0, 0.1]), 1200);
+        assert_eq!(of(&[0.005]), 400);
+        let mut all = Sums::default();
+        heard([1.0, 0.005, 1.0].map(motor).to_vec()).iter().for_each(|(row, volts)| all.add(*row, *volts));
+        let found = all.solved().unwrap();
+        assert!((found[0] / 4.0 - 1.0).abs() < 1e-9 && (found[1] / 0.007 - 1.0).abs() < 1e-9, "{found}");
+    }
 }
