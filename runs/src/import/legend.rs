@@ -16,6 +16,17 @@ struct Line<'a> {
 pub(super) fn names(remarks: &[&[u8]], columns: usize) -> Option<Vec<String>> {
     let remarks: Vec<&str> = remarks.iter().filter_map(|remark| std::str::from_utf8(remark).ok()).collect();
     let mut lines: Vec<Line> = remarks.into_iter().filter_map(line).collect();
+    // A range that is said to end where the next line begins ends before it.
+    for i in 1..lines.len() {
+        let next = lines[i].columns[0];
+        let columns = &mut lines[i - 1].columns;
+        if let [a, b] = columns[..]
+            && b == next
+            && a + 1 < b
+        {
+            columns[1] = b - 1;
+        }
+    }
     // Some count from 0.
     let from = usize::from(!lines.iter().any(|line| line.columns.contains(&0)));
     let numbers = || lines.iter().flat_map(|line| line.columns.iter().copied());
@@ -172,6 +183,13 @@ mod tests {
             "pose h [rad]",
         ];
         assert_eq!(of(log, 12).unwrap(), names);
+    }
+
+    #[test]
+    fn a_range_may_end_where_the_next_line_begins() {
+        let log = "1 time 0.1 sec\n2 3 motor voltage [V] left, right: 2 2\n4 .. 9 line sensor: left 0, right 0\n9 battery voltage [V]: 12";
+        let named = of(log, 9).unwrap();
+        assert_eq!((&*named[0], &*named[2], &*named[8]), ("time", "motor voltage right [V]", "battery voltage [V]"));
     }
 
     #[test]
