@@ -92,12 +92,14 @@ fn messages() -> Vec<(&'static str, &'static str, Vec<u8>)> {
     let tf = Message::new().word(1).header((6, 0), "map").text("base").doubles(&pose);
     let twist = Message::new().doubles(&[0.1, 0.2, 0.0, 0.0, 0.0, 0.3]);
     let seen = Message::new().header((5, 0), "map").doubles(&pose);
+    let level = Message::new().doubles(&[1.5, 2.5, 0.7]);
     vec![
         ("/odom", "nav_msgs/msg/Odometry", odometry.0),
         ("/joint_states", "sensor_msgs/msg/JointState", joints.0),
         ("/tf", "tf2_msgs/msg/TFMessage", tf.0),
         ("/cmd_vel", "geometry_msgs/msg/Twist", twist.0),
         ("/pose", "geometry_msgs/msg/PoseStamped", seen.0),
+        ("/ground_pose", "geometry_msgs/msg/Pose2D", level.0),
         ("/chatter", "std_msgs/msg/String", Message::new().text("hello").0),
     ]
 }
@@ -118,6 +120,7 @@ fn bags_are_read_whatever_their_compression() {
         assert_eq!(value("/tf.map.base.y"), (6.0, 2.0));
         assert!((value("/cmd_vel.vy").0 - 2.0).abs() < 1e-6, "the recording's time");
         assert_eq!(value("/pose.x"), (5.0, 1.0));
+        assert_eq!((value("/ground_pose.y").1, value("/ground_pose.theta").1), (2.5, 0.7));
         assert!(table.find("/chatter.data").is_none());
     }
     let cut = |mut m: Vec<(&'static str, &'static str, Vec<u8>)>| {
@@ -127,12 +130,27 @@ fn bags_are_read_whatever_their_compression() {
     assert!(
         error(&cut(messages()), "bag.mcap").contains("topic /odom: a message is shorter than a nav_msgs/msg/Odometry")
     );
-    let foreign = bag(&messages()[5..], "");
+    let foreign = bag(&messages()[6..], "");
     assert!(error(&foreign, "bag.mcap").contains("it has /chatter (std_msgs/msg/String)"));
     let mut broken = bag(&messages(), "zstd");
     let middle = broken.len() / 2;
     broken[middle] ^= 0xff;
     assert!(error(&broken, "bag.mcap").starts_with("bag.mcap: byte "));
+}
+
+/// The bag's times are 2 s and on, each a nanosecond after the one before.
+#[test]
+fn stamps_of_a_wrong_clock_are_brought_to_the_recording() {
+    let pose = |stamp: u32| Message::new().header((stamp, 0), "map").doubles(&[1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0]).0;
+    let kind = "geometry_msgs/msg/PoseStamped";
+    let table = table(&bag(&[("/a", kind, pose(90_000)), ("/b", kind, pose(2))], ""), "bag.mcap");
+    let first = |name: &str| table.find(name).unwrap().t[0];
+    assert!((first("/a.x") - 2.0).abs() < 1e-6 && (first("/b.x") - 2.0).abs() < 1e-6);
+    assert!(
+        table.remarks.len() == 1 && table.remarks[0].starts_with("/a: its stamps are 89998 s off"),
+        "{:?}",
+        table.remarks
+    );
 }
 
 #[test]
