@@ -46,6 +46,9 @@ pub(super) fn unwrapped<'a>(wanted: &Wanted, values: &'a [f64]) -> Cow<'a, [f64]
         };
         return values.iter().map(add).collect();
     }
+    if reads_nothing(wanted, values) {
+        return values.iter().map(|v| if *v == 0.0 { f64::NAN } else { *v }).collect();
+    }
     let Some(period) = period(wanted, values) else { return values.into() };
     if !counted {
         return values.iter().map(|v| v - period * (v / period).round()).collect();
@@ -71,11 +74,38 @@ fn period(wanted: &Wanted, values: &[f64]) -> Option<f64> {
     wanted.wraps.or(turn).or_else(full)
 }
 
+/// Falls to 0 and back of a counter at least that make it one that is not read in every row.
+const FALLS: usize = 3;
+
+/// Whether a counter falls to 0 where nobody read it: it then goes on about where it was, and no wheel went there and back.
+pub(super) fn reads_nothing(wanted: &Wanted, values: &[f64]) -> bool {
+    if !matches!(wanted.column, Column::Counts(_)) || wanted.increments || wanted.wraps.is_some() {
+        return false;
+    }
+    let readings: Vec<usize> = (0..values.len()).filter(|k| values[*k] != 0.0 && values[*k].is_finite()).collect();
+    let falls = readings.windows(2).filter(|pair| pair[0] + 1 < pair[1]).map(|pair| [values[pair[0]], values[pair[1]]]);
+    let (back, others): (Vec<_>, Vec<_>) = falls.partition(|[from, to]| 2.0 * (to - from).abs() < from.abs());
+    back.len() >= FALLS && back.len() > 9 * others.len()
+}
+
+/// What the owner of such a counter should know.
+pub(super) fn is_not_read(wanted: &Wanted, values: &[f64]) -> Option<String> {
+    let zeros = values.iter().filter(|v| **v == 0.0).count();
+    let (name, share) = (wanted.column.name(), 100.0 * zeros as f64 / values.len().max(1) as f64);
+    let said = || {
+        format!(
+            "{name}: {:?} is 0 in {share:.0} % of its rows, between its readings: those rows have none",
+            wanted.from
+        )
+    };
+    reads_nothing(wanted, values).then(said)
+}
+
 /// What the owner of an encoder should know that seems to begin again, as the angle of an actuator does after the span of its
 /// protocol, and whose span neither the map nor its values tell.
 pub(super) fn begins_again(wanted: &Wanted, values: &[f64]) -> Option<String> {
     let counted = matches!(wanted.column, Column::Counts(_)) && !wanted.increments;
-    if !counted || period(wanted, values).is_some() {
+    if !counted || period(wanted, values).is_some() || reads_nothing(wanted, values) {
         return None;
     }
     let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
@@ -255,6 +285,26 @@ mod tests {
             "t,rad\n0,0\n1,4\n2,8\n",
         );
         assert_eq!(far.unwrap().counts[0], [0, 64, 127]);
+    }
+
+    #[test]
+    fn a_counter_that_is_0_where_nobody_read_it_has_no_sample_there() {
+        let map = "[columns]\nenc_1 = \"a\"\nduty_1 = \"b\"";
+        let table = |a: [i64; 8]| {
+            let row = |(k, a): (usize, i64)| format!("0.0{k},{a},1\n");
+            format!("t,a,b\n{}", a.into_iter().enumerate().map(row).collect::<String>())
+        };
+        let run = made(map, &table([900, 0, 0, 905, 0, 909, 0, 912])).unwrap();
+        assert_eq!(
+            run.counts[0],
+            made(map, "t,a,b\n0.00,900,1\n0.01,,1\n0.02,,1\n0.03,905,1\n0.04,,1\n0.05,909,1\n0.06,,1\n0.07,912,1\n")
+                .unwrap()
+                .counts[0]
+        );
+        // One that passes through 0, and one that was set back.
+        for kept in [[-3, -1, 0, 2, 0, -2, 0, 1], [900, 0, 0, 3, 5, 0, -2, -4]] {
+            assert_eq!(made(map, &table(kept)).unwrap().counts[0], kept);
+        }
     }
 
     #[test]

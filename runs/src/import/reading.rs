@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::columns::{RATES, Source, supply, wanted};
-use super::fill::{Wanted, begins_again, chain, counts, integrate, signs, unwrapped};
+use super::fill::{Wanted, begins_again, chain, counts, integrate, is_not_read, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
 use super::{Format, Table, units};
@@ -56,7 +56,11 @@ impl Reading {
     /// What the owner of a file would want to know of what is made of it.
     pub(super) fn remarks(&self, table: &Table) -> Vec<String> {
         let wanted = wanted(&self.columns).unwrap_or_default();
-        let of_columns = wanted.iter().filter_map(|w| begins_again(w, &table.find(w.from)?.values));
+        let of_column = |w: &Wanted| {
+            let values = &table.find(w.from)?.values;
+            is_not_read(w, values).or_else(|| begins_again(w, values))
+        };
+        let of_columns = wanted.iter().filter_map(of_column);
         table.remarks.iter().cloned().chain(of_columns).collect()
     }
 
