@@ -96,7 +96,7 @@ pub(super) fn by_names<'a>(
     from_zero: &[String],
     meant: fn(&Table, &Series) -> Option<String>,
 ) -> (Vec<Guess<'a>>, Vec<&'a Series>) {
-    let mut wheels = Wheels { odometry: is_odometry(table), ..Wheels::default() };
+    let mut wheels = Wheels { odometry: is_odometry(table), own: own_pose(table), ..Wheels::default() };
     // What numbers its wheel goes before what leaves it open.
     let numbered = |series: &&Series| numbered(&series.name, from_zero).is_some();
     let (first, then): (Vec<&Series>, Vec<&Series>) = table.series.iter().partition(numbered);
@@ -138,6 +138,18 @@ struct Wheels {
     seen: [(usize, bool); Kind::Supply as usize + 1],
     /// Whether the poses are those of an odometry.
     odometry: bool,
+    /// What is before the parts of the robot's own pose, as `/robot/pose.`.
+    own: Option<String>,
+}
+
+/// Of poses in a bag, each a topic, the one that comes with its velocities is the robot's own: who tracks it sends none.
+fn own_pose(table: &Table) -> Option<String> {
+    let has = |topic: &str, field: &str| table.series.iter().any(|s| s.name.strip_prefix(topic) == Some(field));
+    let topics = || table.series.iter().filter_map(|s| s.name.strip_suffix("x").filter(|topic| topic.ends_with('.')));
+    let is_pose = |topic: &&str| has(topic, "y") && has(topic, "theta");
+    let moves = |topic: &&str| has(topic, "vx") && has(topic, "w");
+    let others = topics().filter(is_pose).any(|topic| !moves(&topic));
+    topics().filter(is_pose).find(moves).filter(|_| others).map(str::to_owned)
 }
 
 /// Whether a table is of ROS's message of odometry, which has pose and velocity, each with its covariance.
@@ -413,8 +425,9 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     };
     // A speed that was asked for is no wheel's own.
     let kind = if kind == Kind::Speed && any(&WANTED) { Kind::Reference } else { kind };
-    let of_odometry = wheels.odometry && kind == Kind::Camera && words.windows(2).any(|pair| pair == ["pose", "pose"]);
-    let kind = if of_odometry { Kind::Odometry } else { kind };
+    let is_pose = wheels.odometry && words.windows(2).any(|pair| pair == ["pose", "pose"]);
+    let is_own = wheels.own.as_ref().is_some_and(|own| series.name.starts_with(own));
+    let kind = if kind == Kind::Camera && (is_pose || is_own) { Kind::Odometry } else { kind };
     let (so_far, numbered) = &mut wheels.seen[kind as usize];
     // Beside wheels with numbers one without is the body's. Of several that nobody numbered one is the motor's: a
     // controller has currents of its supply and of both axes.
@@ -544,7 +557,10 @@ fn volts(series: &Series) -> Option<Kind> {
 /// The wheel that a name numbers, from 0; of two wheels the right one is first, as `racbot init --track-mm` has them.
 fn number(words: &[&str]) -> Option<usize> {
     let has = |word: &str| words.contains(&word);
-    match (has("right") || has("r"), has("left") || has("l"), has("front"), has("rear") || has("back")) {
+    // `Velocity [r/s] left` is not of the right one.
+    let spelled = has("right") || has("left");
+    let [right, left] = [("right", "r"), ("left", "l")].map(|(word, letter)| has(word) || !spelled && has(letter));
+    match (right, left, has("front"), has("rear") || has("back")) {
         (right, left, front, rear) if right != left && front != rear => {
             return Some(usize::from(right) + 2 * usize::from(rear));
         }

@@ -115,6 +115,27 @@ fn numbers_and_rates_in_names_are_understood() {
     for line in ["speed_1 = \"right_encoder_rate\"", "speed_2 = \"left_encoder_rate\""] {
         assert!(rates.contains(line), "{line}\n{rates}");
     }
+    // The r of a unit is no right wheel.
+    let units =
+        drafted("t,wheel velocity [r/s] left,wheel velocity [r/s] right", ["0,0.5,1.5", "1,2.5,3.5", "2,2.5,4.5"]);
+    for line in ["speed_1 = \"wheel velocity [r/s] right\"", "speed_2 = \"wheel velocity [r/s] left\""] {
+        assert!(units.contains(line), "{line}\n{units}");
+    }
+}
+
+/// Of two poses in a bag that which comes with velocities is the robot's own, whatever its topic is called.
+#[test]
+fn a_pose_with_velocities_beside_another_is_the_robots_own() {
+    let own = "/robot/pose.x,/robot/pose.y,/robot/pose.theta,/robot/pose.vx,/robot/pose.vy,/robot/pose.w";
+    let rows = ["0,0.1,0,0.1,0.3,0,0.1", "1,0.4,0,0.2,0.3,0,0.1", "2,0.7,0.1,0.3,0.3,0,0.1"];
+    let alone = drafted(&format!("t,{own}"), rows);
+    assert!(alone.contains("cam_x = \"/robot/pose.x\""), "{alone}");
+    let seen = rows.map(|row| format!("{row},2.1,3.0,1.2"));
+    let header = format!("t,{own},/ground_pose.x,/ground_pose.y,/ground_pose.theta");
+    let both = drafted(&header, seen.each_ref().map(String::as_str));
+    for line in ["odom_x = \"/robot/pose.x\"", "odom_theta = ", "cam_x = \"/ground_pose.x\"", "cam_theta = \"/ground"] {
+        assert!(both.contains(line), "{line}\n{both}");
+    }
 }
 
 #[test]
