@@ -142,6 +142,20 @@ fn a_robot_that_says_too_little_for_its_log_is_told_all_at_once() {
 }
 
 /// Poses of frames 30 times a second, to rows 500 times a second: between the frames they are lines.
+/// Ten frames of a robot that drives on arrive at once, ten times a second.
+#[test]
+fn frames_that_a_network_delivers_in_bunches_are_told() {
+    let notes = |bunch: usize| {
+        let t: Vec<f64> = (0..3000).map(|k| 0.01 * (k / bunch * bunch) as f64 + 1e-4 * (k % bunch) as f64).collect();
+        let pose = |tick| CameraSample { tick, pose: Pose::new(0.003 * tick as f64, 0.0, 0.0) };
+        let camera = (0..3000).map(pose).collect();
+        let run = Run { t, camera, has_camera: true, ..Run::default() };
+        super::camera::Repeats::of(&run).note(&run)
+    };
+    assert!(notes(10).is_some_and(|note| note.starts_with("the camera's frames come in bunches")));
+    assert_eq!(notes(1), None);
+}
+
 #[test]
 fn interpolated_poses_are_samples_where_frames_were() {
     let mut state = 7_u32;
