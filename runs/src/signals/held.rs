@@ -120,6 +120,11 @@ fn rhythm(changes: &[usize]) -> Option<f64> {
     // Beyond that a reading was the same as the one before, or the wheel stood still.
     apart.retain(|a| 2 * a < 3 * median);
     let mean = apart.iter().sum::<usize>() as f64 / apart.len() as f64;
+    // Of the two numbers of ticks about a rhythm the nearer one is the more frequent. Readings that repeat for their rounding
+    // are most often new at the next tick.
+    if (mean - median as f64).abs() > 0.5 + 1.0 / apart.len() as f64 {
+        return None;
+    }
     let kept = apart.iter().filter(|a| (**a as f64 - mean).abs() < 1.0).count();
     (kept as f64 >= RHYTHM * apart.len() as f64).then_some(mean)
 }

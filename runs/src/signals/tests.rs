@@ -1,6 +1,8 @@
 use super::*;
 use crate::frames::{Pose, displacement, wrap_angle};
 use crate::{CameraSample, DataSet, Logs};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 fn read(run: Run) -> Run {
     let mut reading = Reading::new(&Robot::racbot(), &run, Path::new("run.csv")).unwrap();
@@ -110,6 +112,26 @@ fn currents_that_repeat_their_readings_are_samples_now_and_then() {
         held.notes
     );
     assert!(run(1).duty[0].iter().all(|d| d.is_finite()));
+    // Read by a clock of its own.
+    for ticks in [3.0, 1.7] {
+        let current = vec![(0..800).map(|k| 3.0 * (f64::from(k) / ticks).floor()).collect()];
+        let read = read(Run { t: times(800), current, ..Run::default() });
+        let fresh = read.duty[0].iter().filter(|d| d.is_finite()).count() as f64;
+        assert!((fresh * ticks / 800.0 - 1.0).abs() < 0.02, "{ticks}: {fresh}");
+    }
+}
+
+/// Currents to 0.1 A with little noise: what repeats by chance was no sample, and the rows between were taken for it.
+#[test]
+fn currents_that_repeat_for_their_rounding_are_samples() {
+    let mut random = ChaCha8Rng::seed_from_u64(18);
+    for noise in [0.04, 0.06, 0.1] {
+        let amps = |k: i32| 2.0 * (0.004 * f64::from(k)).sin() + random.random_range(-noise..noise);
+        let current = vec![(0..4000).map(amps).map(|i: f64| (10.0 * i).round() / 10.0).collect()];
+        let read = read(Run { t: times(4000), current, ..Run::default() });
+        let said = read.notes.iter().any(|note| note.contains("repeat"));
+        assert!(read.duty[0].iter().all(|d| d.is_finite()) && !said, "{noise}: {:?}", read.notes);
+    }
 }
 
 #[test]
