@@ -14,6 +14,7 @@ mod filtered;
 mod flywheel;
 mod gravity;
 mod heavy;
+mod joint;
 mod lost_rows;
 mod margins;
 mod odometry;
