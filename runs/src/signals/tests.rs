@@ -163,7 +163,6 @@ fn a_robot_that_says_too_little_for_its_log_is_told_all_at_once() {
     assert_eq!(DataSet::open(folder.path()).unwrap().runs[0].counts.len(), 3);
 }
 
-/// Poses of frames 30 times a second, to rows 500 times a second: between the frames they are lines.
 /// Ten frames of a robot that drives on arrive at once, ten times a second.
 #[test]
 fn frames_that_a_network_delivers_in_bunches_are_told() {
@@ -178,6 +177,7 @@ fn frames_that_a_network_delivers_in_bunches_are_told() {
     assert_eq!(notes(1), None);
 }
 
+/// Poses of frames 30 times a second, to rows 500 times a second: between the frames they are lines.
 #[test]
 fn interpolated_poses_are_samples_where_frames_were() {
     let mut state = 7_u32;
