@@ -78,6 +78,7 @@ impl<'a> Workflow<'a> {
         };
         let (link, mut outcome) =
             self.resized(Link::Drive, first, &Self::drive_looked, &|(link, outcome)| (Problem::Drive(link), outcome));
+        self.scatter(&link);
         if self.question.currents {
             ratios::tie(&mut outcome, &self.start, &link.sizes);
         }
@@ -97,7 +98,6 @@ impl<'a> Workflow<'a> {
     fn drive_looked(&mut self) -> Option<(DriveLink<'a>, Outcome)> {
         let mut here = self.not_seen();
         let mut link = self.drive_link()?;
-        self.scatter(&link);
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
         if self.is_answered(&link, &outcome)
@@ -216,7 +216,7 @@ impl<'a> Workflow<'a> {
         Some(link)
     }
 
-    /// Says of a drive that scatters too much what that means.
+    /// Says of a drive that scatters too much beside what is named what that means.
     fn scatter(&mut self, link: &DriveLink) {
         let reached = link.sizes.drive_nm;
         let worst = link.noise.iter().copied().fold(0.0, f64::max);

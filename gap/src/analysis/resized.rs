@@ -43,7 +43,7 @@ impl Workflow<'_> {
             if agrees && !self.would_be_another(&name, &problem) {
                 continue;
             }
-            let (kept, said, left) = (self.start.clone(), self.findings.remarks.len(), self.findings.unexplained.len());
+            let (kept, said) = (self.start.clone(), self.findings.remarks.len());
             let (answered, correlation) = (self.answered.take(), self.thresholds.drive_correlation);
             self.start.active.retain(|a| a.effect.name() != name);
             let other = look(self).and_then(|other| {
@@ -66,7 +66,6 @@ impl Workflow<'_> {
                 None => {
                     self.start = kept;
                     self.findings.remarks.truncate(said);
-                    self.findings.unexplained.truncate(left);
                     (self.answered, self.thresholds.drive_correlation) = (answered, correlation);
                 }
             }
