@@ -10,7 +10,7 @@ use super::gaps;
 use super::look_alikes::LookAlike;
 use super::measure::{Data, Drive};
 use super::misses::Misses;
-use super::study::{self, Outcome, chosen, study};
+use super::study::{self, Outcome, Refused, chosen, study};
 use super::workflow::Workflow;
 use super::{filtered, patterns, ratios};
 use crate::options::Stage;
@@ -171,34 +171,47 @@ impl<'a> Workflow<'a> {
     /// What is found without the effects that fit best at the bound of what is physical, if that closes most of what was left.
     /// Such an effect is no cause, but took what others do: motors without torque leave nothing to explain.
     fn within_bounds(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
-        let is_inside = |e: &&Arc<dyn Effect>| !outcome.refused.iter().any(|r| r.at_bound && r.name == e.name());
-        let others: Vec<_> = here.iter().filter(is_inside).cloned().collect();
-        if others.len() == here.len() || !outcome.named.is_empty() && outcome.held_out <= self.thresholds.far {
+        if !outcome.named.is_empty() && outcome.held_out <= self.thresholds.far {
             return None;
         }
-        let correlation = self.thresholds.drive_correlation;
-        let mut again = self.drive_again(&others).filter(|(link, again)| {
+        let most = 1.0 - self.thresholds.explained;
+        let closes = |link: &DriveLink, again: &Outcome| {
             let square = |state: &State| study::rms(&Problem::Drive(link), state).powi(2);
-            square(&again.written) < (1.0 - self.thresholds.explained) * square(&outcome.written)
-        });
-        match &mut again {
-            Some((_, again)) => again.refused.extend(outcome.refused.iter().filter(|r| r.at_bound).cloned()),
-            None => self.thresholds.drive_correlation = correlation,
-        }
-        again
+            square(&again.written) < most * square(&outcome.written)
+        };
+        let mut again = self.drive_without(here, outcome.refused.iter().filter(|r| r.at_bound), &closes)?;
+        again.1.refused.extend(outcome.refused.iter().filter(|r| r.at_bound).cloned());
+        Some(again)
     }
 
     /// What else is found where all that was fitted may not be named, and stood in the way of the rest: it leaves nothing worth a
     /// sentence. `None` where nothing is; what was refused may be the cause, and something near it no name.
     fn without_refused(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
-        let is_refused = |e: &Arc<dyn Effect>| outcome.refused.iter().any(|refused| refused.name == e.name());
-        let others: Vec<_> = here.iter().filter(|e| !is_refused(e)).cloned().collect();
-        if !outcome.named.is_empty() || others.len() == here.len() {
+        if !outcome.named.is_empty() {
             return None;
         }
-        let again = self.drive_again(&others)?;
-        let explains = !again.1.named.is_empty() && again.1.held_out < self.thresholds.worth_saying;
-        explains.then_some(again)
+        let worth = self.thresholds.worth_saying;
+        let explains = |_: &DriveLink, again: &Outcome| !again.named.is_empty() && again.held_out < worth;
+        self.drive_without(here, outcome.refused.iter(), &explains)
+    }
+
+    /// What is found without what was refused, if it may take the place of what was.
+    fn drive_without<'r>(
+        &mut self,
+        here: &[Arc<dyn Effect>],
+        refused: impl Iterator<Item = &'r Refused> + Clone,
+        is_kept: &dyn Fn(&DriveLink, &Outcome) -> bool,
+    ) -> Option<(DriveLink<'a>, Outcome)> {
+        let others: Vec<_> = here.iter().filter(|e| !refused.clone().any(|r| r.name == e.name())).cloned().collect();
+        if others.len() == here.len() {
+            return None;
+        }
+        let correlation = self.thresholds.drive_correlation;
+        let again = self.drive_again(&others).filter(|(link, again)| is_kept(link, again));
+        if again.is_none() {
+            self.thresholds.drive_correlation = correlation;
+        }
+        again
     }
 
     /// The drive of some data, beside what its loops answered if they do.
