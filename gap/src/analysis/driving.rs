@@ -7,10 +7,10 @@ use runs::robot::Support;
 
 use super::answered::beside_answers;
 use super::gaps;
-use super::look_alikes::LookAlike;
+use super::look_alikes::{Against, LookAlike};
 use super::measure::{Data, Drive};
 use super::misses::Misses;
-use super::study::{self, Outcome, Refused, chosen, study};
+use super::study::{self, Outcome, chosen, study};
 use super::workflow::Workflow;
 use super::{filtered, patterns, ratios};
 use crate::options::Stage;
@@ -51,14 +51,6 @@ const ONCE_A_TURN: [&str; 2] = ["gravity-load", "joint-spring"];
 
 /// Looks at the drive again, each above a floor lowered by what was named.
 const LOOKS: usize = 2;
-
-/// What something else than the drive speaks against: what is found without these names takes the place of what was.
-#[derive(Debug, PartialEq)]
-pub(super) struct Against {
-    pub(super) names: Vec<String>,
-    /// In a sentence.
-    pub(super) said: String,
-}
 
 impl<'a> Workflow<'a> {
     /// Duties to encoders.
@@ -179,7 +171,8 @@ impl<'a> Workflow<'a> {
             let square = |state: &State| study::rms(&Problem::Drive(link), state).powi(2);
             square(&again.written) < most * square(&outcome.written)
         };
-        let mut again = self.drive_without(here, outcome.refused.iter().filter(|r| r.at_bound), &closes)?;
+        let mut again =
+            self.drive_without(here, &|e| outcome.refused.iter().any(|r| r.at_bound && r.name == e), &closes)?;
         again.1.refused.extend(outcome.refused.iter().filter(|r| r.at_bound).cloned());
         Some(again)
     }
@@ -192,17 +185,17 @@ impl<'a> Workflow<'a> {
         }
         let worth = self.thresholds.worth_saying;
         let explains = |_: &DriveLink, again: &Outcome| !again.named.is_empty() && again.held_out < worth;
-        self.drive_without(here, outcome.refused.iter(), &explains)
+        self.drive_without(here, &|e| outcome.refused.iter().any(|r| r.name == e), &explains)
     }
 
-    /// What is found without what was refused, if it may take the place of what was.
-    fn drive_without<'r>(
+    /// What is found without effects that are gone from a catalogue, if it may take the place of what was.
+    fn drive_without(
         &mut self,
         here: &[Arc<dyn Effect>],
-        refused: impl Iterator<Item = &'r Refused> + Clone,
+        is_gone: &dyn Fn(&str) -> bool,
         is_kept: &dyn Fn(&DriveLink, &Outcome) -> bool,
     ) -> Option<(DriveLink<'a>, Outcome)> {
-        let others: Vec<_> = here.iter().filter(|e| !refused.clone().any(|r| r.name == e.name())).cloned().collect();
+        let others: Vec<_> = here.iter().filter(|e| !is_gone(e.name())).cloned().collect();
         if others.len() == here.len() {
             return None;
         }

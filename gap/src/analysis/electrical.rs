@@ -6,8 +6,8 @@ use links::effect::Link;
 use links::thresholds::SIGNIFICANT;
 use model::setup::Winding;
 
-use super::driving::Against;
 use super::found::Named;
+use super::look_alikes::Against;
 use super::ratios::{TORQUE_CONSTANT, WINDING};
 use super::study::Outcome;
 use super::workflow::Workflow;

@@ -1,4 +1,4 @@
-//! What else does what is named, by rules that no fit of these logs knows.
+//! What looks like what is named, and what speaks against it: by rules and signals that no fit of the link knows.
 
 use super::study::Outcome;
 
@@ -28,6 +28,14 @@ impl LookAlike {
     pub(super) fn beside(said: String, names: &[&'static str]) -> Self {
         Self { said, names: names.to_vec(), open: false }
     }
+}
+
+/// What something else than the drive speaks against: what is found without these names takes the place of what was.
+#[derive(Debug, PartialEq)]
+pub(super) struct Against {
+    pub(super) names: Vec<String>,
+    /// In a sentence.
+    pub(super) said: String,
 }
 
 impl Outcome {

@@ -5,9 +5,8 @@ use model::motor::{COPPER_PER_K, MAGNET_PER_K};
 use runs::is_from_speeds;
 use runs::robot::{Robot, Support};
 
-use super::driving::Against;
 use super::found::Named;
-use super::look_alikes::LookAlike;
+use super::look_alikes::{Against, LookAlike};
 use super::study::Outcome;
 use crate::controller::ENCODER_SCALE;
 use crate::state::{Active, State};

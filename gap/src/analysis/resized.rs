@@ -50,14 +50,14 @@ impl Workflow<'_> {
                 let [with, without] = [&found, &other].map(|side| parts(side).1);
                 let left = stale::left(&self.searched(), link, &with.written, &without.written)?;
                 let sides = [Side { start: &kept, outcome: with }, Side { start: &self.start, outcome: without }];
-                let better = self.is_better_without(&name, &parts(&other).0, sides, left)?;
+                let better = self.is_better_without(&name, &parts(&other).0, &sides, left)?;
                 Some((other, left, better))
             });
             match other {
                 Some((other, left, better)) => {
                     let names: Vec<String> = parts(&found).1.named.iter().map(|n| n.name.clone()).collect();
                     if better == Better::Tied {
-                        self.findings.alternatives.push([&[name.clone()], &names[..]].concat());
+                        self.findings.alternatives.push([std::slice::from_ref(&name), &names].concat());
                         self.findings.ambiguous = true;
                     }
                     self.stale.push(Stale { name, link, left, names });
@@ -104,8 +104,8 @@ impl Workflow<'_> {
     /// Whether it is better to do without an effect of the file, which leaves so many floors with it and without: by fewer effects
     /// that leave hardly more, or by as many of which it is one, of another size by its interval, if that leaves less. Where
     /// what is named beside the file's size leaves no more, both are tied.
-    fn is_better_without(&self, name: &str, problem: &Problem, sides: [Side; 2], left: [f64; 2]) -> Option<Better> {
-        let [with, without] = &sides;
+    fn is_better_without(&self, name: &str, problem: &Problem, sides: &[Side; 2], left: [f64; 2]) -> Option<Better> {
+        let [with, without] = sides;
         let held_out = |side: &Side| {
             let state = study::written_to_fit(&side.outcome.written, side.start.active.len());
             select::held_out(problem, &state).0
