@@ -60,7 +60,7 @@ impl Axis {
         Self { label: label.into(), unit: unit.into(), range: None }
     }
 
-    /// Shows this range instead of that of the data; both finite, low before high.
+    /// Shows this range instead of that of the data, which stays where `low` and `high` are not finite or `low` is not below.
     #[must_use]
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = (low.is_finite() && high.is_finite() && low < high).then_some([low, high]);
@@ -103,10 +103,12 @@ impl Panel {
         self
     }
 
-    /// Height of the plotting area in pixels, for panels without equal aspect.
+    /// Height of the plotting area in pixels, 60 to 2000, for panels without equal aspect; what is no number changes nothing.
     #[must_use]
     pub fn height(mut self, pixels: f64) -> Self {
-        self.height = pixels.clamp(60.0, 2000.0);
+        if !pixels.is_nan() {
+            self.height = pixels.clamp(60.0, 2000.0);
+        }
         self
     }
 

@@ -87,7 +87,7 @@ impl Page {
         self.body.push_str("<div class=\"bars\">");
         for (label, value, color) in bars {
             // A fifth of the width is the figure's.
-            let width = if value.is_finite() { 80.0 * value / top } else { 0.0 };
+            let width = if value.is_finite() { 80.0 * (value / top).clamp(0.0, 1.0) } else { 0.0 };
             let _ = write!(
                 self.body,
                 "<b>{}</b><span><i style=\"width:{width:.1}%;background:{}\"></i>{value:.2}</span>",
@@ -201,5 +201,9 @@ mod tests {
         page.bars(&[("all".to_owned(), 2.0, Color::Red), ("half".to_owned(), 1.0, Color::Green)]);
         let html = page.finish();
         assert!(html.contains("width:80.0%") && html.contains("width:40.0%"), "{html}");
+        let mut page = Page::new("");
+        page.bars(&[("huge".to_owned(), f64::MAX, Color::Red), ("less".to_owned(), -1.0, Color::Green)]);
+        let html = page.finish();
+        assert!(html.contains("width:80.0%") && html.contains("width:0.0%"), "{html}");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::axis::{label, padded, round_step, ticks};
+use super::axis::{drawable, label, padded, round_step, ticks};
 use super::{Color, Figure, Mark, Panel, Series};
 
 /// Width of a panel with its margins, px; text of 15 px is still 9 px on a phone 360 px wide.
@@ -19,6 +19,8 @@ const LEGEND_LINE: f64 = 21.0;
 const LEGEND_SWATCH: f64 = 34.0;
 /// Highest and lowest maps before they get margins at the sides instead.
 const MAP_HEIGHT: [f64; 2] = [140.0, 620.0];
+/// How far outside its panel a point is drawn, in units of the panel.
+const FAR: f64 = 200.0;
 
 pub(super) fn figure(figure: &Figure) -> String {
     let columns = figure.columns.min(figure.panels.len().max(1));
@@ -68,7 +70,8 @@ impl Layout {
             let points = panel.series.iter().flat_map(move |s| s.points.iter().map(move |p| p[i]));
             padded(points.chain(panel.series.iter().flat_map(move |s| s.headings.iter().map(move |h| h[i]))))
         };
-        let (mut x, mut y) = (panel.x.range.unwrap_or_else(|| ends(0)), panel.y.range.unwrap_or_else(|| ends(1)));
+        let mut x = drawable(panel.x.range.unwrap_or_else(|| ends(0)));
+        let mut y = drawable(panel.y.range.unwrap_or_else(|| ends(1)));
         let width = PANEL_WIDTH - LEFT - RIGHT;
         let mut height = panel.height;
         if panel.equal {
@@ -89,8 +92,12 @@ impl Layout {
         self.top + self.height + BOTTOM
     }
 
+    /// Where a point is, px; of one that is not finite no number.
     fn place(&self, p: [f64; 2]) -> [f64; 2] {
-        let share = |v: f64, [low, high]: [f64; 2]| (v - low) / (high - low);
+        // Far outside the panel renderers lose precision; the clip hides it anyway.
+        let share = |v: f64, [low, high]: [f64; 2]| {
+            if v.is_finite() { ((v - low) / (high - low)).clamp(-FAR, FAR) } else { f64::NAN }
+        };
         [self.left + self.width * share(p[0], self.x), self.top + self.height * (1.0 - share(p[1], self.y))]
     }
 
@@ -169,7 +176,7 @@ impl Layout {
                     out,
                     "<path transform=\"translate({x:.1} {y:.1}) rotate({:.1})\" d=\"M0 0H15M9.5 -3.5L15.5 0L9.5 3.5\" \
                      fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.3\" fill=\"{color}\"/>",
-                    -angle.to_degrees()
+                    -(angle % std::f64::consts::TAU).to_degrees()
                 );
             }
         }
@@ -234,8 +241,7 @@ fn path(points: impl Iterator<Item = [f64; 2]>, steps: bool) -> String {
             last = None;
             continue;
         }
-        // Far outside the panel renderers lose precision; the clip hides it anyway.
-        let p = p.map(|v| (v.clamp(-1e5, 1e5) * 10.0).round() / 10.0);
+        let p = p.map(|v| (v * 10.0).round() / 10.0);
         match last {
             None => drop(write!(d, "M{} {}", p[0], p[1])),
             Some(before) if before == p => {}

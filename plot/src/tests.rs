@@ -1,3 +1,5 @@
+use proptest::prelude::*;
+
 use super::*;
 
 fn count(svg: &str, what: &str) -> usize {
@@ -70,5 +72,37 @@ fn long_legends_wrap_and_every_label_appears() {
     for line in svg.lines().filter(|l| l.contains("class=\"l\"")) {
         let x: f64 = line.split(" x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
         assert!(x + 7.6 * 21.0 < 600.0, "{line}");
+    }
+}
+
+/// A number of any size, and those at which arithmetic ends.
+fn anything() -> impl Strategy<Value = f64> {
+    let ends =
+        [0.0, 1e-310, 5e-324, 1e300, f64::MAX, f64::INFINITY, f64::NAN, f64::MIN_POSITIVE, 1.0, 1.0 + f64::EPSILON];
+    let signed = prop::sample::select(ends.to_vec()).prop_flat_map(|v| prop_oneof![Just(v), Just(-v)]);
+    prop_oneof![signed, prop::num::f64::ANY, -1e3..1e3]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn no_data_and_no_range_make_a_place_that_is_no_number(
+        numbers in prop::collection::vec([anything(), anything(), anything()], 0..5),
+        (x, y) in (prop::option::of([anything(), anything()]), prop::option::of([anything(), anything()])),
+        (equal, mark, height) in (any::<bool>(), 0..5usize, anything()),
+    ) {
+        let points: Vec<[f64; 2]> = numbers.iter().map(|[x, y, _]| [*x, *y]).collect();
+        let marks = [Series::line, Series::dashed, Series::steps, Series::points, Series::crosses];
+        let of = |name: &str, range: Option<[f64; 2]>| {
+            let axis = Axis::new(name, "m");
+            range.map_or(axis.clone(), |[low, high]| axis.range(low, high))
+        };
+        let panel = Panel::new(of("x", x), of("y", y)).height(height).with(marks[mark]("z", points).headings(numbers));
+        let panel = if equal { panel.equal_aspect() } else { panel };
+        let svg = Figure::new("t").with(panel).to_svg();
+        prop_assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        // As many decimals as a place needs, not as many as a number has.
+        prop_assert!(svg.lines().all(|line| line.len() < 700), "{svg}");
     }
 }
