@@ -3,12 +3,13 @@
 //! Pure numbers: nothing of a robot is in it. Linearised residuals are condensed to small matrices a cluster
 //! ([`normal_equations`]), which hold all that the rest needs: fits with Gaussian priors, held-out losses and
 //! cluster-robust covariances ([`prior`]), fits that leave alone what the data do not fix ([`truncated`]), and tests
-//! by flipped signs of whole clusters ([`sign_flips`]).
+//! by flipped signs of whole clusters ([`sign_flips`]). Matrices and vectors are those of [`nalgebra`], which stands here in
+//! the version that they are of.
 //!
 //! ```
+//! use estimation::nalgebra::{DMatrix, DVector};
 //! use estimation::normal_equations::{Cluster, NormalEquations};
 //! use estimation::prior::{Penalised, Role};
-//! use nalgebra::{DMatrix, DVector};
 //!
 //! // Six residuals that are 2 everywhere, and one column of ones.
 //! let residual = DVector::from_element(6, 2.0);
@@ -32,4 +33,5 @@ pub mod sums;
 mod symmetric;
 pub mod truncated;
 
+pub use nalgebra;
 pub use symmetric::Symmetric;

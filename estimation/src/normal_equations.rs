@@ -37,7 +37,11 @@ const BURST: f64 = 4.0;
 
 impl Cluster {
     /// Condenses residuals and their Jacobian.
+    ///
+    /// # Panics
+    /// If the Jacobian has not a row a residual.
     pub fn new(run: usize, t: f64, n: f64, residual: &DVector<f64>, jacobian: &DMatrix<f64>) -> Self {
+        assert_eq!(jacobian.nrows(), residual.len(), "a Jacobian has a row a residual");
         Self {
             run,
             t,
@@ -51,23 +55,32 @@ impl Cluster {
     }
 
     /// The same with columns that stand several times: column i is `of[i]` of this one's.
+    ///
+    /// # Panics
+    /// If this one has not so many columns.
     #[must_use]
     pub fn spread(self, of: &[usize]) -> Self {
         Self { jr: DVector::from_fn(of.len(), |i, _| self.jr[of[i]]), jj: self.jj.spread(of), ..self }
     }
 
     /// Huber loss after a step along the columns.
+    ///
+    /// # Panics
+    /// If the step has not as many entries as there are columns.
     pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
         let moved = self.rr - 2.0 * step.dot(&self.jr) + self.jj.square(step);
         let (square, n) = (moved.max(0.0) / self.weight, self.n / self.weight);
         huber(square, BURST * n)
     }
 
-    /// Appends neighbours in order, so many together as one.
+    /// Appends neighbours in order, so many together as one, each alone for 0.
+    ///
+    /// # Panics
+    /// If those that come together have not the same columns.
     pub fn append(clusters: &mut Vec<Self>, neighbours: Vec<Self>, together: usize) {
         for (k, cluster) in neighbours.into_iter().enumerate() {
             match clusters.last_mut() {
-                Some(last) if k % together != 0 => last.add(&cluster),
+                Some(last) if k % together.max(1) != 0 => last.add(&cluster),
                 _ => clusters.push(cluster),
             }
         }
@@ -75,6 +88,9 @@ impl Cluster {
 
     /// The same clusters with the last `nuisances` columns fitted over all of them, whatever the others are, and gone: the
     /// rest is what those columns cannot do (Frisch and Waugh 1933).
+    ///
+    /// # Panics
+    /// If the clusters have not the same columns, or fewer than `nuisances`.
     #[must_use]
     pub fn beside(clusters: Vec<Self>, nuisances: usize) -> Vec<Self> {
         let Some(first) = clusters.first() else { return clusters };
@@ -114,7 +130,11 @@ impl Cluster {
     }
 
     /// Joins the residuals of a neighbour.
+    ///
+    /// # Panics
+    /// If it has not the same columns.
     pub fn add(&mut self, other: &Self) {
+        assert_eq!(self.jr.len(), other.jr.len(), "neighbours have the same columns");
         self.n += other.n;
         self.rr += other.rr;
         self.jr += &other.jr;
@@ -173,7 +193,12 @@ const REGULARISATION: f64 = 1e-9;
 
 impl NormalEquations {
     /// Sets up folds: leave one run out, or blocks of a single run.
+    ///
+    /// # Panics
+    /// If the clusters have not the same columns.
     pub fn new(clusters: Vec<Cluster>) -> Self {
+        let same = clusters.iter().all(|c| c.jr.len() == clusters[0].jr.len());
+        assert!(same, "all clusters of normal equations have the same columns");
         let clusters: Vec<Cluster> = clusters.into_iter().map(Cluster::robust).collect();
         let first = clusters.first().map_or(0, |c| c.run);
         let single = clusters.iter().all(|c| c.run == first);
@@ -233,6 +258,9 @@ impl NormalEquations {
     }
 
     /// Huber loss of the residuals after a step along the columns.
+    ///
+    /// # Panics
+    /// If the step has not as many entries as there are columns.
     pub fn loss_after(&self, step: &DVector<f64>) -> f64 {
         self.clusters.iter().map(|c| c.loss_after(step)).sum()
     }
@@ -243,6 +271,9 @@ impl NormalEquations {
     }
 
     /// Whether the data say anything of a column.
+    ///
+    /// # Panics
+    /// If there is no such column.
     pub fn tells(&self, column: usize) -> bool {
         self.clusters.iter().any(|c| c.jj[(column, column)] > 0.0)
     }
@@ -253,12 +284,19 @@ impl NormalEquations {
     }
 
     /// Fits some columns to all clusters: the step along each.
+    ///
+    /// # Panics
+    /// If there is no such column.
     pub fn solve(&self, columns: &[usize]) -> DVector<f64> {
         self.solve_held(columns, &vec![[0.0; 2]; columns.len()])
     }
 
-    /// The same with each column held by so much information near a step: both, information and their product.
+    /// The same with each column held by so much information near a step: information, and its product with the step.
+    ///
+    /// # Panics
+    /// If there is no such column, or `held` has not an entry a column.
     pub fn solve_held(&self, columns: &[usize], held: &[[f64; 2]]) -> DVector<f64> {
+        assert_eq!(columns.len(), held.len(), "each column has what holds it");
         let m = columns.len();
         let mut a = DMatrix::from_diagonal(&DVector::from_iterator(m, held.iter().map(|h| h[0])));
         let mut b = DVector::from_iterator(m, held.iter().map(|h| h[1]));
@@ -275,8 +313,12 @@ impl NormalEquations {
 }
 
 /// Solves A·x = b for a positive semidefinite A scaled to a unit diagonal, with a tiny regularisation.
+///
+/// # Panics
+/// If A is not square, of as many rows as b.
 pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let m = b.len();
+    assert_eq!(a.shape(), (m, m), "A has a row and a column for each entry of b");
     let scale: Vec<f64> = (0..m).map(|i| if a[(i, i)] > 1e-300 { a[(i, i)].sqrt() } else { 0.0 }).collect();
     let scaled = DMatrix::from_fn(m, m, |i, j| {
         let unit = if i == j { 1.0 + REGULARISATION } else { 0.0 };
@@ -293,19 +335,70 @@ pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     DVector::from_fn(m, |i, _| if scale[i] == 0.0 { 0.0 } else { x[i] / scale[i] })
 }
 
-/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny regularisation on the way; `None` if it has
-/// none.
+/// Inverse of a positive matrix, scaled to a unit diagonal with a tiny regularisation on the way, infinite on the diagonal
+/// where the matrix is 0 there; `None` if it has none, is not square or holds what is no number.
 pub fn inverse(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if !a.is_square() || a.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
     let m = a.nrows();
     let scale: Vec<f64> = (0..m).map(|i| a[(i, i)].sqrt().max(f64::MIN_POSITIVE)).collect();
     let unit =
         DMatrix::from_fn(m, m, |p, q| a[(p, q)] / scale[p] / scale[q] + if p == q { REGULARISATION } else { 0.0 });
-    Some(unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]))
+    let inverse = unit.try_inverse()?.map_with_location(|p, q, x| x / scale[p] / scale[q]);
+    inverse.iter().all(|x| !x.is_nan()).then_some(inverse)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_a_square_matrix_of_numbers_has_an_inverse() {
+        let of = |rows, columns, x: &[f64]| inverse(&DMatrix::from_row_slice(rows, columns, x));
+        let found = of(2, 2, &[2.0, 0.0, 0.0, 4.0]).unwrap();
+        assert!((found[(0, 0)] - 0.5).abs() < 1e-6 && (found[(1, 1)] - 0.25).abs() < 1e-6, "{found}");
+        assert_eq!(of(0, 0, &[]), Some(DMatrix::zeros(0, 0)));
+        // Of a column that is 0 nothing is known, of the other all.
+        let found = of(2, 2, &[0.0, 0.0, 0.0, 4.0]).unwrap();
+        assert!(found[(0, 0)] == f64::INFINITY && (found[(1, 1)] - 0.25).abs() < 1e-6, "{found}");
+        for (rows, columns, x) in [
+            (2, 2, [f64::NAN; 4]),
+            (2, 2, [1.0, f64::NAN, f64::NAN, 1.0]),
+            (2, 2, [f64::INFINITY, 0.0, 0.0, 1.0]),
+            (2, 2, [-1.0, 0.5, 0.5, -1.0]),
+            (1, 4, [1.0; 4]),
+            (4, 1, [1.0; 4]),
+        ] {
+            assert_eq!(of(rows, columns, &x), None, "{rows} by {columns}: {x:?}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_together_is_said() {
+        let said = |work: &dyn Fn()| {
+            let panic = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).unwrap_err();
+            panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()))
+        };
+        let cluster =
+            |columns: usize| Cluster::new(0, 0.0, 3.0, &DVector::zeros(3), &DMatrix::from_element(3, columns, 1.0));
+        let short = || drop(Cluster::new(0, 0.0, 2.0, &DVector::zeros(2), &DMatrix::zeros(3, 1)));
+        let mixed = || drop(NormalEquations::new(vec![cluster(1), cluster(2)]));
+        let joined = || Cluster::add(&mut cluster(2), &cluster(1));
+        let held = || drop(NormalEquations::new(vec![cluster(1)]).solve_held(&[0], &[]));
+        let wide = || drop(solve(&DMatrix::zeros(2, 3), &DVector::zeros(2)));
+        let cases: [(&dyn Fn(), &str); 5] = [
+            (&short, "a row a residual"),
+            (&mixed, "the same columns"),
+            (&joined, "the same columns"),
+            (&held, "what holds it"),
+            (&wide, "a row and a column"),
+        ];
+        for (work, part) in cases {
+            let said = said(work).unwrap_or_default();
+            assert!(said.contains(part), "{said} has no {part}");
+        }
+    }
 
     #[test]
     fn columns_fitted_beside_others_leave_what_a_fit_of_both_does() {

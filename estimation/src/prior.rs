@@ -11,7 +11,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::normal_equations::{NormalEquations, Totals, inverse, solve};
 
-/// A penalised least-squares problem over all columns of a linearisation.
+/// A penalised least-squares problem over all columns of a linearisation. What takes roles takes one a column; columns of which
+/// there are no data take no part.
 pub struct Penalised<'a> {
     equations: &'a NormalEquations,
     /// Variance the residuals really have, in units of the assumed noise.
@@ -50,6 +51,9 @@ impl<'a> Penalised<'a> {
     }
 
     /// What the data say of one column: its sum of squares.
+    ///
+    /// # Panics
+    /// If there is no such column.
     pub fn information(&self, column: usize) -> f64 {
         self.totals.jj[(column, column)]
     }
@@ -61,6 +65,9 @@ impl<'a> Penalised<'a> {
     }
 
     /// The best step with these roles in which no free column leaves its limits.
+    ///
+    /// # Panics
+    /// If there is not a limit a role, or the lower of a limit is above the upper.
     pub fn fit_within(&self, roles: &[Role], limits: &[[f64; 2]]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         loop {
@@ -84,6 +91,9 @@ impl<'a> Penalised<'a> {
     }
 
     /// How well the other columns do in place of one, whatever the data say.
+    ///
+    /// # Panics
+    /// If there is no such column, or no role of it.
     pub fn explain(&self, column: usize, roles: &[Role]) -> PenalisedFit {
         let mut roles = roles.to_vec();
         roles[column] = if let Role::Held(..) = roles[column] { roles[column] } else { Role::Out };
@@ -132,7 +142,8 @@ impl<'a> Penalised<'a> {
 
     /// Columns that take part and that the data say something of.
     fn used(&self, roles: &[Role]) -> Vec<usize> {
-        (0..roles.len()).filter(|i| roles[*i] != Role::Out && self.equations.tells(*i)).collect()
+        let known = roles.len().min(self.totals.jj.ncols());
+        (0..known).filter(|i| roles[*i] != Role::Out && self.equations.tells(*i)).collect()
     }
 
     /// JᵀJ of some columns with the priors of those that are held.
@@ -184,6 +195,9 @@ impl<'a> Penalised<'a> {
 
     /// Covariance of all columns, 0 for those that take no part: cluster-robust (the sandwich, small-sample corrected),
     /// priors as pseudo observations, no variance below what the residual variance explains.
+    ///
+    /// # Panics
+    /// If there is not a role a column, or the fit is of other roles.
     pub fn covariance(&self, roles: &[Role], fit: &PenalisedFit) -> DMatrix<f64> {
         let equations = self.equations;
         let m = roles.len();
@@ -228,7 +242,8 @@ impl<'a> Penalised<'a> {
     }
 
     fn solve(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
-        let used = |i: &usize| roles[*i] != Role::Out && self.totals.jj[(*i, *i)] > 0.0;
+        let told = |i: usize| self.totals.jj.get((i, i)).is_some_and(|x| *x > 0.0);
+        let used = |i: &usize| roles[*i] != Role::Out && told(*i);
         let (taken, columns): (Vec<usize>, Vec<usize>) =
             (0..roles.len()).filter(used).partition(|i| matches!(roles[*i], Role::At(_)));
         let m = columns.len();
@@ -286,6 +301,19 @@ mod tests {
         assert!((fit.step[0] - 2.0).abs() < 1e-12 && (fit.step[1] - 2.0).abs() < 1e-6, "{}", fit.step);
         // What is left is 1 where the second column is 0.
         assert!((fit.loss - 15.0).abs() < 1e-6, "{}", fit.loss);
+    }
+
+    #[test]
+    fn roles_without_data_take_no_part() {
+        let (some, none) = (equations(), NormalEquations::new(Vec::new()));
+        let roles = [Role::Free, Role::Free, Role::Held(1.0, 0.0)];
+        for (equations, expected) in [(&some, [3.0, 1.0, 0.0]), (&none, [0.0; 3])] {
+            let penalised = Penalised::new(equations, 1.0);
+            let fit = penalised.fit(&roles);
+            assert!((&fit.step - DVector::from_column_slice(&expected)).amax() < 1e-6 && fit.loss.abs() < 1e-6);
+            assert_eq!(penalised.inverse_diagonal(&roles)[2], 0.0);
+        }
+        assert_eq!(Penalised::new(&none, 1.0).covariance(&roles, &Penalised::new(&none, 1.0).fit(&roles)).amax(), 0.0);
     }
 
     #[test]

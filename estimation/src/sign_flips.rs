@@ -16,8 +16,12 @@ const SEED: u64 = 20_051_123;
 
 /// Two-sided p-value of the sum of the clusters' scores, one vector a cluster; 1 without scores, if they have no
 /// inverse spread, or if one of them is no number.
+///
+/// # Panics
+/// If the scores are not of one length.
 pub fn p_value(scores: &[DVector<f64>]) -> f64 {
     let Some(m) = scores.first().map(DVector::len) else { return 1.0 };
+    assert!(scores.iter().all(|u| u.len() == m), "the scores of all clusters are of one length");
     let mut spread = DMatrix::<f64>::zeros(m, m);
     for u in scores {
         spread += u * u.transpose();

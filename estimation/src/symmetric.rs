@@ -15,7 +15,11 @@ pub struct Symmetric {
 
 impl Symmetric {
     /// The symmetric matrix with the upper triangle of `full`.
+    ///
+    /// # Panics
+    /// If `full` is not square.
     pub fn of(full: &DMatrix<f64>) -> Self {
+        assert!(full.is_square(), "a symmetric matrix is square, not {} by {}", full.nrows(), full.ncols());
         let order = full.ncols();
         let mut upper = Vec::with_capacity(order * (order + 1) / 2);
         for (c, column) in full.as_slice().chunks_exact(full.nrows().max(1)).enumerate() {
@@ -25,6 +29,9 @@ impl Symmetric {
     }
 
     /// The matrix with rows and columns that stand several times: i is `of[i]` of this one's.
+    ///
+    /// # Panics
+    /// If this one has not so many.
     pub fn spread(&self, of: &[usize]) -> Self {
         let mut upper = Vec::with_capacity(of.len() * (of.len() + 1) / 2);
         for (c, column) in of.iter().enumerate() {
@@ -41,6 +48,9 @@ impl Symmetric {
     }
 
     /// Adds it to a full matrix of the same order.
+    ///
+    /// # Panics
+    /// If that is smaller.
     pub fn add_to(&self, sum: &mut DMatrix<f64>) {
         let mut upper = self.upper.iter();
         for c in 0..self.order {
@@ -54,7 +64,11 @@ impl Symmetric {
     }
 
     /// Adds another one of the same order.
+    ///
+    /// # Panics
+    /// If it is of another order.
     pub fn add(&mut self, other: &Self) {
+        assert_eq!(self.order, other.order, "only matrices of one order have a sum");
         self.upper.iter_mut().zip(&other.upper).for_each(|(a, b)| *a += b);
     }
 
@@ -64,6 +78,9 @@ impl Symmetric {
     }
 
     /// Product with a vector of the same order.
+    ///
+    /// # Panics
+    /// If the vector is shorter.
     pub fn times(&self, x: &DVector<f64>) -> DVector<f64> {
         let mut sum = DVector::zeros(self.order);
         let (out, x) = (sum.as_mut_slice(), x.as_slice());
@@ -78,6 +95,9 @@ impl Symmetric {
     }
 
     /// Quadratic form xᵀ A x, of a vector of the same order.
+    ///
+    /// # Panics
+    /// If the vector is shorter.
     pub fn square(&self, x: &DVector<f64>) -> f64 {
         let mut upper = self.upper.iter();
         let column = |c: usize| {

@@ -23,7 +23,7 @@ pub struct Truncated {
     pub spread: DMatrix<f64>,
     /// Number of clusters.
     pub clusters: usize,
-    /// Standard deviation, in the scales, beyond which a direction counts as unknown.
+    /// Standard deviation, in the scales, beyond which a direction counts as unknown; finite.
     pub unknown_beyond: f64,
 }
 
@@ -41,6 +41,9 @@ impl Truncated {
     }
 
     /// Adds a cluster's JᵀJ and Jᵀr.
+    ///
+    /// # Panics
+    /// If they are not of as many parameters.
     pub fn add(&mut self, information: &DMatrix<f64>, score: &DVector<f64>) {
         self.spread += score * score.transpose();
         self.information += information;
@@ -49,17 +52,23 @@ impl Truncated {
     }
 
     /// A basis of the directions that are known, scaled so that the information is 1 along each,
-    /// and the directions that are not.
+    /// and the directions that are not: all of them where a cluster is no number.
     fn whitened(&self) -> (DMatrix<f64>, Vec<UnknownDirection>) {
         let n = self.gradient.len();
+        let mut numbers = self.information.iter().chain(&self.spread).chain(&self.gradient);
+        if n == 0 || !numbers.all(|x| x.is_finite()) {
+            let axis = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect();
+            let unknown = (0..n).map(|i| UnknownDirection { direction: axis(i), sd: f64::INFINITY });
+            return (DMatrix::zeros(n, 0), unknown.collect());
+        }
         let eigen = self.information.clone().symmetric_eigen();
         let (mut known, mut unknown) = (Vec::new(), Vec::new());
         for (value, v) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
             let sd = if *value > 0.0 { value.powf(-0.5) } else { f64::INFINITY };
-            if sd > self.unknown_beyond {
-                unknown.push(UnknownDirection { direction: v.iter().copied().collect(), sd });
-            } else {
+            if sd.is_finite() && sd <= self.unknown_beyond {
                 known.push(v * sd);
+            } else {
+                unknown.push(UnknownDirection { direction: v.iter().copied().collect(), sd });
             }
         }
         let basis = if known.is_empty() { DMatrix::zeros(n, 0) } else { DMatrix::from_columns(&known) };
@@ -121,12 +130,22 @@ mod tests {
             // The second so weakly that its standard deviation is 100.
             (vec![([1.0, 0.0], 3.0), ([0.0, 0.01], 5.0)], [3.0, 0.0], 1),
             (vec![], [0.0, 0.0], 2),
+            // What is no number tells nothing.
+            (vec![([1.0, 0.0], 3.0), ([0.0, 1.0], f64::NAN)], [0.0, 0.0], 2),
+            (vec![([1.0, 0.0], 3.0), ([0.0, f64::INFINITY], 1.0)], [0.0, 0.0], 2),
         ];
         for (rows, step, unknown) in table {
             let truncated = of(&rows);
             assert!((truncated.step() - DVector::from_column_slice(&step)).amax() < 1e-9, "{rows:?}");
             assert_eq!(truncated.covariance(1.0).1.len(), unknown, "{rows:?}");
         }
+    }
+
+    #[test]
+    fn without_parameters_nothing_is_known_and_nothing_unknown() {
+        let none = Truncated::new(0, 20.0);
+        assert_eq!(none.step().len(), 0);
+        assert_eq!(none.covariance(1.0), (DMatrix::zeros(0, 0), vec![]));
     }
 
     #[test]
