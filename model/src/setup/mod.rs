@@ -28,6 +28,7 @@ use runs::{Logs, is_dead_reckoning, is_from_speeds};
 
 pub use counts::DECODED;
 pub use orders::orders;
+pub use time::is_tick;
 pub use winding::Winding;
 
 /// Something set up wrongly, with what shows it and what mends it.

@@ -24,7 +24,7 @@ pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake
     let ratio = if known { tick * robot.control_rate_hz } else { 1.0 };
     let unit = UNITS
         .iter()
-        .find(|(unit, ..)| (ratio / unit).ln().abs() < 0.3 || !known && tick > TICKS[1] && in_range(tick / unit));
+        .find(|(unit, ..)| (ratio / unit).ln().abs() < 0.3 || !known && tick > TICKS[1] && is_tick(tick / unit));
     if let Some((unit, name, divide)) = unit {
         let (what, slow) = if known {
             let has = 1.0 / robot.control_rate_hz;
@@ -76,6 +76,7 @@ fn drives(log: &Log) -> bool {
     !layout.duty.is_empty() && !layout.reference.is_empty()
 }
 
-fn in_range(tick: f64) -> bool {
-    (TICKS[0]..=TICKS[1]).contains(&tick)
+/// Whether rows so many seconds apart may be ticks of a controller; else they are in another unit, or of something slower.
+pub fn is_tick(tick_s: f64) -> bool {
+    (TICKS[0]..=TICKS[1]).contains(&tick_s)
 }

@@ -2,6 +2,7 @@
 
 use crate::terminal::{Answer, Failure, Target};
 use clap::{Args, ValueEnum};
+use model::setup::is_tick;
 use runs::Run;
 use runs::error::InputError;
 use runs::frames::wrap_angle;
@@ -70,7 +71,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "N")]
     counts_per_wheel_rev: Option<f64>,
 
-    /// Control ticks a second
+    /// Control ticks a second [default: with --log, its rows a second]
     #[arg(long, value_name = "HZ")]
     rate_hz: Option<f64>,
 
@@ -148,6 +149,10 @@ impl Options {
         let speeds = counts || of(|run| !run.speed.is_empty() || !run.measured.is_empty());
         let drives = of(|run| !run.duty.is_empty() || !run.current.is_empty());
         let duties = of(|run| !run.duty.is_empty());
+        // Six digits: the median of a log's steps is no finer, and ticks need not fall on a decimal.
+        let logged = log.as_ref().and_then(Run::tick_s).filter(|tick| is_tick(*tick));
+        let logged = logged.and_then(|tick| format!("{:.5e}", 1.0 / tick).parse::<f64>().ok());
+        let by_log = logged.filter(|_| self.rate_hz.is_none());
         // The wheels stand on its edge, however their places were given.
         let apart = wheels.iter().map(|[x, y, ..]| x.hypot(*y)).reduce(f64::max);
         let radius = self.body_radius_mm.map(|r| 1e-3 * r).or(apart).filter(|r| *r > 0.0);
@@ -188,7 +193,17 @@ impl Options {
             )),
         }
         keys.extend([
-            key("control_rate_hz", "--rate-hz", self.rate_hz, false, "control ticks a second; else taken from the log"),
+            key(
+                "control_rate_hz",
+                "--rate-hz",
+                self.rate_hz.or(by_log),
+                false,
+                if by_log.is_some() {
+                    "rows of the log a second; more where the controller has more ticks"
+                } else {
+                    "control ticks a second; else taken from the log"
+                },
+            ),
             key(
                 "camera_rate_hz",
                 "--camera-hz",
@@ -232,7 +247,9 @@ impl Options {
         }
         self.target.save(&self.file, &text)?;
         let what = if self.axis { "one axis".to_owned() } else { format!("{} wheels", wheels.len()) };
-        let said = format!("{} with {what}\n", self.file.display());
+        let rate =
+            by_log.map_or(String::new(), |rate| format!(" and control_rate_hz = {}, the log's rows", number(rate)));
+        let said = format!("{} with {what}{rate}\n", self.file.display());
         Ok(Answer {
             text: said,
             json: json!({ "robot": self.file.to_string_lossy(), "wheels": wheels.len() }),

@@ -10,14 +10,13 @@ use driver::drive::{Ending, NoSource, Plan, PoseSource};
 use driver::pci::Use;
 use driver::realtime::{Rights, stop_on_signals};
 use driver::recording::logged_robot;
-use runs::robot::Robot;
 use serde_json::json;
 use ssl::card::{Link, Served};
 use ssl::front::Team;
 use ssl::server::{Addresses, Sockets, Traffic};
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of `serve`.
 #[derive(Args, Debug)]
@@ -215,11 +214,10 @@ impl Options {
     }
 
     /// The file of a robot: the last that names it, its team, or all.
-    fn robot(&self, team: Team, id: u32) -> Result<Robot, Failure> {
+    fn file(&self, team: Team, id: u32) -> Option<&Path> {
         let fits = |which: &&Which| which.team.is_none_or(|t| t == team) && which.id.is_none_or(|i| i == id);
         let rank = |which: &Which| u8::from(which.team.is_some()) + u8::from(which.id.is_some());
-        let best = self.robot.iter().filter(fits).max_by_key(|which| rank(which));
-        load(best)
+        self.robot.iter().filter(fits).max_by_key(|which| rank(which)).map(|which| which.file.as_path())
     }
 
     /// A real robot, or the built-in card in its place.
@@ -229,7 +227,7 @@ impl Options {
             return Err(Failure::usage("--hidden and --skew-deg are for simulated robots: leave out --card"));
         }
         let Who(team, id) = self.as_robot;
-        let robot = self.robot(team, id)?;
+        let robot = super::driven::robot(self.file(team, id))?;
         let recorder = Record { file: self.record.as_deref(), target: self.target };
         recorder.check()?;
         let plan =
@@ -280,10 +278,6 @@ impl Options {
         });
         Ok(Answer { text, json, wrong })
     }
-}
-
-fn load(which: Option<&Which>) -> Result<Robot, Failure> {
-    Ok(super::driven::robot(which.map(|which| which.file.as_path()))?)
 }
 
 fn heard(traffic: &Traffic) -> String {
@@ -353,20 +347,22 @@ impl Options {
         let simulated = &self.simulated;
         positive("--vision-hz", simulated.vision_hz, 1_000.0)?;
         let mut remarks = std::collections::BTreeSet::new();
-        let mut kind = |robot: &Robot| -> Result<Kind, Failure> {
-            let believed = Kind::of(robot);
-            let actual = simulated.hidden.robot(robot)?;
+        let mut kind = |file: Option<&Path>| -> Result<Kind, Failure> {
+            let (robot, remark) = super::driven::simulated(file)?;
+            remarks.extend(remark);
+            let believed = Kind::of(&robot);
+            let actual = simulated.hidden.robot(&robot)?;
             remarks.extend(super::simulate::not_shown(&Applied::of(&actual)));
             Ok(Kind { actual, ..believed })
         };
         let mut robots = Vec::new();
         for (team, count) in [(Team::Blue, simulated.blue), (Team::Yellow, simulated.yellow)] {
             for id in 0..count {
-                robots.push((team, id, kind(&self.robot(team, id)?)?));
+                robots.push((team, id, kind(self.file(team, id))?));
             }
         }
         let everybody = self.robot.iter().find(|which| which.team.is_none());
-        let newcomer = kind(&load(everybody)?)?;
+        let newcomer = kind(everybody.map(|which| which.file.as_path()))?;
         remarks.iter().for_each(|remark| eprintln!("{remark}"));
         // In lock-step nothing depends on when it is.
         let epoch = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64());

@@ -113,6 +113,41 @@ fn a_robot_of_init_simulates_at_once() {
     let points = data("set-points/square.toml");
     run(&["drive", "--card", "virtual", "--robot", "r.toml", "--setpoints", points.to_str().unwrap()])
         .refused(1, &["r.toml", "has no gains in [pi]", "write, say, kp ="]);
+    let served = run(&[
+        "serve",
+        "--robot",
+        "r.toml",
+        "--blue",
+        "2",
+        "--yellow",
+        "2",
+        "--ports",
+        "0,0,0",
+        "--vision",
+        "none",
+        "--seconds",
+        "0.3",
+    ]);
+    assert_eq!(served.code, Some(0), "{}", served.stderr);
+    assert_eq!(
+        served.stderr.matches("r.toml has no gains in [pi]: simulated with kp =").count(),
+        1,
+        "{}",
+        served.stderr
+    );
+    run(&["serve", "--card", "virtual", "--robot", "r.toml", "--seconds", "0.1"])
+        .refused(1, &["r.toml", "has no gains in [pi]", "write, say, kp ="]);
+    // What a log tells of the ticks is written; of rows that are in another unit of time nothing is.
+    let bare = ["--mass-kg", "2.5", "--log"];
+    run(&[&["init", "by_log.toml", "--wheels", "60,135,225,300"], &parts[..], &motor, &bare, &["sim/run.csv"]].concat()).done();
+    let read = |name: &str| runs::robot::Robot::load_partial(folder.path().join(name)).unwrap();
+    assert_eq!(read("by_log.toml").control_rate_hz, 1000.0);
+    let again = run(&["simulate", "--robot", "by_log.toml", "--out", "again"]).done();
+    assert!(again.stdout.contains("simulated with kp ="), "{}", again.stdout);
+    let rows: Vec<String> = (0..50).map(|k| format!("{},0.{}", 5 * k, k % 10)).collect();
+    fs::write(folder.path().join("ms.csv"), format!("t,duty_1\n{}\n", rows.join("\n"))).unwrap();
+    run(&[&["init", "ms.toml", "--wheels", "60,135,225,300"], &parts[..], &motor, &bare, &["ms.csv"]].concat()).done();
+    assert_eq!(read("ms.toml").lacks(&["control_rate_hz"]), ["control_rate_hz"]);
 }
 
 #[test]
