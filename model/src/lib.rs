@@ -4,14 +4,15 @@
 //!
 //! Four types carry the rest:
 //!
-//! - [`Robot`](robot::Robot), what the designers know: `robot.toml`;
-//! - [`Geometry`](geometry::Geometry), where the wheels are: equations (1) to (6) for any number of
+//! - [`Robot`](runs::robot::Robot), what the designers know: `robot.toml`;
+//! - [`Geometry`](runs::geometry::Geometry), where the wheels are: equations (1) to (6) for any number of
 //!   wheels;
-//! - [`Run`](run::Run), what a robot did: a CSV log;
+//! - [`Run`](runs::Run), what a robot did: a CSV log;
 //! - [`Plant`](plant::Plant), how it moves: motors, wheels and body in time.
 //!
-//! Units are SI everywhere. Body frame: x to the right, y forward ([`frames::Twist`]). World frame:
-//! the camera's field, heading of the body **x** axis ([`frames::Pose`]).
+//! Units are SI everywhere. Body frame: x to the right, y forward ([`Twist`](runs::frames::Twist)). World frame:
+//! the camera's field, heading of the body **x** axis ([`Pose`](runs::frames::Pose)). Matrices are those of [`nalgebra`],
+//! which stands here in the version that they are of.
 //!
 //! ```
 //! use model::calibration::estimate_skew;
@@ -24,6 +25,8 @@
 //! assert!((found.skew_rad[0].to_degrees() - 4.0).abs() < 0.2);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+
+pub use nalgebra;
 
 pub mod calibration;
 pub mod camera;

@@ -1,5 +1,29 @@
 //! Files people exchange: `robot.toml`, the robot as it is described ([`robot::Robot`]); recorded runs, CSV or
-//! MCAP, and folders of them ([`Run`], [`DataSet`]); and the frames, geometry and errors they share.
+//! MCAP, and folders of them ([`Run`], [`DataSet`]); and the frames, geometry and errors they share. Matrices of the
+//! geometry are those of [`nalgebra`], which stands here in the version that they are of.
+//!
+//! ```
+//! use runs::frames::Pose;
+//! use runs::{DataSet, Run};
+//!
+//! let set = DataSet::open(concat!(env!("CARGO_MANIFEST_DIR"), "/../data/runs/wheel-skew"))?;
+//! let (run, geometry) = (&set.runs[0], set.robot.geometry()?);
+//! // Where the wheels say that the robot is after the first second, from where the camera saw it first.
+//! let shaft_rad = std::f64::consts::TAU / set.robot.encoder_counts_per_motor_rev;
+//! let turned = |i: usize| run.cumulative(i)[1000] * shaft_rad / set.robot.gear_ratio;
+//! let way: Vec<f64> = (0..set.robot.wheel_count()).map(turned).collect();
+//! let pose: Pose = run.camera[0].pose.advance(geometry.twist(&way), 1.0);
+//! assert!(pose.distance(run.camera[0].pose) < 1.0);
+//!
+//! // A log is text with a column a signal, SI units; what is not logged is left out.
+//! let log = "t,cam_x,cam_y,cam_theta\n0,0,0,0\n0.02,,,\n0.04,0.01,0,0\n";
+//! let run = Run::from_bytes(log.as_bytes(), "mine.csv".as_ref())?;
+//! assert_eq!((run.len(), run.camera.len(), run.tick_s()), (3, 2, Some(0.02)));
+//! // A mistake is said with its line, its column and what to do.
+//! let wrong = Run::from_bytes(b"t,duty_1\n0,0.1\n0.01,x\n", "mine.csv".as_ref()).unwrap_err();
+//! assert!(wrong.to_string().contains("duty_1"), "{wrong}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod check;
 mod columns;
@@ -30,6 +54,7 @@ pub use data_set::DataSet;
 pub use log::{Log, Seen};
 pub use logs::Logs;
 pub use mcap::McapStream;
+pub use nalgebra;
 pub use part::Columns;
 pub use signals::{
     CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning, is_from_speeds,

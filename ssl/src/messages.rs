@@ -4,7 +4,9 @@
 
 #![allow(missing_docs)] // names and units are those of the protocol, said above
 
-use prost::{Enumeration, Message, Oneof};
+/// Encodes and decodes them.
+pub use prost::Message;
+use prost::{Enumeration, Oneof};
 use runs::vision::GeometryData;
 
 /// To a team's port.

@@ -104,7 +104,7 @@ pub enum PipKind {
     Joined,
 }
 
-/// A switch of a kind of tile, between two wires of [`TileClass::wires`].
+/// A switch of a kind of tile, between two wires of the tile's kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClassPip {
     /// From this wire.
@@ -164,7 +164,7 @@ pub struct Pin {
     pub name: &'static str,
     /// It drives its wire.
     pub output: bool,
-    /// Its wire, of [`TileClass::wires`].
+    /// Its wire, of the tile's kind.
     pub wire: u16,
 }
 

@@ -1,5 +1,5 @@
 //! Basic elements as the configuration sets them: one plain type each, read from and written to a
-//! [`Configuration`](crate::configuration::Configuration).
+//! [`Configuration`].
 //!
 //! Names of attributes: Project Combine. What they do: Xilinx DS001 and DS003 (Virtex data sheet), and where those
 //! are silent the experiment named at the field.

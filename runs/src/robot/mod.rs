@@ -132,7 +132,7 @@ impl MotorParameters {
     }
 }
 
-/// `[pi]`: gains of the speed loop, see [`crate::pi::PiLaw`].
+/// `[pi]`: gains of the speed loop, a PI law whose integral stops where the duty does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PiParameters {
     /// Duty per rad/s at the wheel.
