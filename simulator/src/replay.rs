@@ -7,7 +7,7 @@
 //!
 //! Row k of a log holds the duty that was computed at tick k from the count and set point of the
 //! same row; before the first row integrators and counts are zero, unless the first duties say otherwise.
-//! After rows that the log lacks, the duties tell where the integrators were ([`stretches`]).
+//! After rows that the log lacks, the duties tell where the integrators were (`stretches`).
 
 mod compare;
 pub mod picture;

@@ -9,7 +9,7 @@
 //! bit. If they agree before a clock (every flip-flop of the text with what its name has become in the netlist, every memory
 //! with its blocks) they agree after it, because every next state, every pin of a block and every pad is the same
 //! function of the same values: proven one clock at a time, without unrolling. What a block does with its pins is in
-//! [`memories`], and what happens where a read meets a write in [`collisions`].
+//! `memories`, and what happens where a read meets a write in `collisions`.
 //!
 //! Taken as it is: how yosys reads Verilog and writes operators as gates, and abc's `cec`.
 

@@ -144,7 +144,7 @@ pub struct Snapshot {
     pub references: [Speed; AXES],
     /// Duties that the PI loops gave, before they become compare values.
     pub duties: [Duty; AXES],
-    /// Pose, see [`Scale::pose`]; zero while the card keeps none.
+    /// Pose, see [`Scale::pose`](crate::Scale::pose); zero while the card keeps none.
     pub pose: [i32; 3],
 }
 

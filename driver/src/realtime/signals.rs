@@ -12,7 +12,7 @@ use std::time::Duration;
 /// is. A hand takes longer.
 const SAME_REQUEST: Duration = Duration::from_millis(300);
 
-/// A flag that the first of these signals sets; one that comes later than [`SAME_REQUEST`] ends the process, after which the
+/// A flag that the first of these signals sets; one that comes later than `SAME_REQUEST` ends the process, after which the
 /// card's watchdog switches off.
 ///
 /// # Errors

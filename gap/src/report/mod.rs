@@ -32,7 +32,7 @@ impl Analysis {
         html::page(self)
     }
 
-    /// Writes [`FILES`] into a folder; those that are there are replaced.
+    /// Writes all files of the report into a folder; those that are there are replaced.
     ///
     /// # Errors
     /// [`GapError::Write`] naming the file.

@@ -32,7 +32,7 @@ pub(crate) struct Options {
     #[arg(long)]
     draft: bool,
 
-    /// Second file, with the pose; else the one that the map's [truth] names. Of several logs a pattern: {stem}, {number}
+    /// Second file, with the pose; else the one that the map's `[truth]` names. Of several logs a pattern: {stem}, {number}
     /// and {folder} are the log's
     #[arg(long, value_name = "FILE", conflicts_with = "list")]
     truth: Option<PathBuf>,
