@@ -8,7 +8,7 @@ use crate::motion::MotionModel;
 
 /// Clocks of robot and camera that were set against each other anew for every run: what a recording started by hand
 /// has. Frames that are equally old in all runs are [`super::camera_latency`]; where each run has its clock, what they
-/// have in common is no latency. How fast clocks part is [`super::camera_timing`].
+/// have in common is no latency. How fast clocks part is `camera-timing`.
 pub struct CameraClock {
     /// Runs of the data set; the effect has no form with fewer than two.
     pub runs: usize,
