@@ -10,7 +10,7 @@ use felt::{Hidden, blind, done, estimate, names, numb, sensor, set, truth};
 use gap::Analysis;
 use measured::Table;
 use model::manoeuvre::Manoeuvre::{self, Chirp, Spin, StopAndGo};
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use runs::DataSet;
 
 const DRIVES: [Manoeuvre; 2] = [Spin, Chirp];
@@ -83,7 +83,7 @@ const FLOORS: [f64; 2] = [0.9, 0.3];
 fn drive_limits() -> Vec<Vec<String>> {
     let analysed = |friction: f64, of: &dyn Fn(DataSet) -> DataSet| -> Vec<Analysis> {
         let hall = |k: u64| {
-            let contact = Contact::Friction { friction_coefficient: friction, creep_s_per_kg: 3e-4 };
+            let contact = Contact::Friction { friction_coefficient: friction, creep: Creep::at_rest(3e-4) };
             model::effects::Applied { contact, ..truth(&[], 20 + k) }
         };
         (0..LIMITS).map(|k| done(&of(set(&hall(k), &HARD, 20 + k)))).collect()

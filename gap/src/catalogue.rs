@@ -85,7 +85,9 @@ fn describe(effect: &dyn Effect, robot: &Robot) -> Description {
     let is_number = |part: &str| part.parse::<usize>().is_ok();
     let plain =
         |name: &str| name.split('_').map(|part| if is_number(part) { "i" } else { part }).collect::<Vec<_>>().join("_");
-    for p in effect.forms(robot).iter().flat_map(|form| &form.free) {
+    let rolled = links::effects::rolled_creep();
+    let second = if rolled.name() == effect.name() { rolled.forms(robot) } else { Vec::new() };
+    for p in effect.forms(robot).iter().chain(&second).flat_map(|form| &form.free) {
         let numbered = p.name.split('_').any(is_number);
         let name = if numbered { plain(&p.name) } else { p.name.clone() };
         if parameters.iter().all(|known| known.name != name) {

@@ -19,7 +19,7 @@ struct Unit {
 }
 
 /// Longer ends first, of those that end alike.
-const UNITS: [Unit; 18] = {
+const UNITS: [Unit; 19] = {
     const fn unit(end: &'static str, si: &'static str, factor: f64, shown: &'static str) -> Unit {
         Unit { end, si, shown: (factor, shown) }
     }
@@ -34,6 +34,7 @@ const UNITS: [Unit; 18] = {
         unit("_v_per_s", "V/s", 60.0, " V/min"),
         unit("_s_per_kg", "s/kg", 1e3, " mm/s/N"),
         unit("_kg", "kg", 1.0, " kg"),
+        unit("_per_n", "1/N", 100.0, " %/N"),
         unit("_n", "N", 1.0, " N"),
         unit("_ohm", "Ω", 1.0, " Ω"),
         unit("_v", "V", 1.0, " V"),
@@ -114,6 +115,7 @@ mod tests {
             ("threshold_rad_s", 14.0, "14.0 rad/s"),
             ("friction_coefficient", 0.2, "0.200"),
             ("creep_s_per_kg", 0.004, "4.00 mm/s/N"),
+            ("creep_per_n", 0.004, "0.400 %/N"),
             ("limit_a", 3.71, "3.71 A"),
             ("shift_ticks", 2.0, "2.00 ticks"),
             ("torque_nm", 2.71e-5, "0.0271 mNm"),

@@ -8,7 +8,7 @@ use model::calibration::estimate_skew;
 use model::camera::CameraModel;
 use model::fusion::{Fusion, FusionOptions};
 use model::odometry::Estimate;
-use model::plant::{Contact, Plant};
+use model::plant::{Contact, Creep, Plant};
 use model::simulation::{VirtualRobot, calibration_drive};
 use runs::frames::{Pose, Twist};
 use runs::robot::Robot;
@@ -18,7 +18,7 @@ fn plant(c: &mut Criterion) {
     let robot = Robot::racbot();
     let contacts = [
         ("rolling", Contact::Rolling),
-        ("slipping", Contact::Friction { friction_coefficient: 0.5, creep_s_per_kg: 0.003 }),
+        ("slipping", Contact::Friction { friction_coefficient: 0.5, creep: Creep::at_rest(0.003) }),
     ];
     let mut group = c.benchmark_group("plant, 1 s at 1 kHz, 3 wheels");
     for (name, contact) in contacts {

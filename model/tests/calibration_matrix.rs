@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use model::calibration::{PaperOptions, calibrate_like_the_paper, estimate_skew};
 use model::camera::CameraModel;
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use model::simulation::{VirtualRobot, calibration_drive};
 use model::trajectory::{FIG_6, simulate_motion};
 use runs::frames::Pose;
@@ -74,7 +74,7 @@ fn both_procedures_over_the_matrix() {
             ..CameraModel::of(&actual)
         };
         let contact = if c.slip {
-            Contact::Friction { friction_coefficient: 0.5, creep_s_per_kg: 0.003 }
+            Contact::Friction { friction_coefficient: 0.5, creep: Creep::at_rest(0.003) }
         } else {
             Contact::Rolling
         };

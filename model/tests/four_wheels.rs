@@ -5,7 +5,7 @@ use std::path::Path;
 use model::calibration::estimate_skew;
 use model::camera::CameraModel;
 use model::localisation::Localiser;
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use model::simulation::{VirtualRobot, calibration_drive, follow};
 use model::trajectory::{FIG_6, Follower, FollowerOptions, Limits};
 use runs::frames::Pose;
@@ -40,7 +40,7 @@ fn its_four_skews_are_found() {
         }
     }
     // Four wheels of unequal skew cannot roll without slip; a little creep lets them.
-    let contact = Contact::Friction { friction_coefficient: 0.8, creep_s_per_kg: 0.001 };
+    let contact = Contact::Friction { friction_coefficient: 0.8, creep: Creep::at_rest(0.001) };
     let mut v = VirtualRobot::new(&actual, contact, CameraModel::of(&actual), Pose::default(), 2).unwrap();
     calibration_drive(&mut v, 0.8, 30.0, &nominal.geometry().unwrap());
     let e = estimate_skew(&nominal, &[v.into_log()]).unwrap();

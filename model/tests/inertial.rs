@@ -8,7 +8,7 @@ use model::imu::{Chassis, Imu, ImuModel};
 use model::inertial::Inertial;
 use model::odometry::Estimate;
 use model::pi::SpeedLoop;
-use model::plant::{Contact, Plant};
+use model::plant::{Contact, Creep, Plant};
 use runs::frames::{Pose, Twist, wrap_angle};
 use runs::robot::{Layout, Robot};
 
@@ -184,8 +184,8 @@ fn row(name: &str, skew_deg: f64, contact: Contact, hard: bool) -> ([f64; 2], Op
 
 #[test]
 fn the_gyroscope_keeps_the_heading_where_wheels_lose_it() {
-    let grip = Contact::Friction { friction_coefficient: 0.6, creep_s_per_kg: 0.000_5 };
-    let ice = Contact::Friction { friction_coefficient: 0.15, creep_s_per_kg: 0.002 };
+    let grip = Contact::Friction { friction_coefficient: 0.6, creep: Creep::at_rest(0.000_5) };
+    let ice = Contact::Friction { friction_coefficient: 0.15, creep: Creep::at_rest(0.002) };
     let rows = [
         ("calibrated, grip", 0.0, grip, false),
         ("2° of skew, grip", 2.0, grip, false),

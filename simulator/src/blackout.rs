@@ -12,7 +12,7 @@ use crate::eye::{Eye, Fault, RidingEye, SharedEye, Shot, shared};
 use crate::fpga::BitTrue;
 use crate::imu::VirtualImu;
 use driver::drive::{NoSource, PoseSource};
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use model::trajectory::SetPoint;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -262,7 +262,7 @@ impl Blackout {
         // The controller starts from its belief, the plant from the truth.
         let drive = Drive {
             actual,
-            contact: Contact::Friction { friction_coefficient: 0.5, creep_s_per_kg: 0.000_5 },
+            contact: Contact::Friction { friction_coefficient: 0.5, creep: Creep::at_rest(0.000_5) },
             fused: senses == Senses::Camera,
             start: now.belief.pose,
             start_covariance: Some(now.belief.covariance),

@@ -10,7 +10,7 @@ use fixed_kin::registers as map;
 use measured::Table;
 use model::camera::CameraModel;
 use model::measurement::Measurement;
-use model::plant::{Contact, Plant};
+use model::plant::{Contact, Creep, Plant};
 use model::trajectory::SetPoint;
 use runs::frames::wrap_angle;
 use runs::robot::{ImuMount, Layout, Robot, SensorName};
@@ -97,8 +97,8 @@ fn errors(driven: &Driven) -> [f64; 3] {
 
 #[test]
 fn the_gyroscope_keeps_the_heading_when_the_camera_is_gone() {
-    let grip = Contact::Friction { friction_coefficient: 0.6, creep_s_per_kg: 0.000_5 };
-    let slippery = Contact::Friction { friction_coefficient: 0.3, creep_s_per_kg: 0.002 };
+    let grip = Contact::Friction { friction_coefficient: 0.6, creep: Creep::at_rest(0.000_5) };
+    let slippery = Contact::Friction { friction_coefficient: 0.3, creep: Creep::at_rest(0.002) };
     let mut rows = Vec::new();
     for (name, skew_deg, contact, turning) in [
         ("calibrated, grip", 0.0_f64, grip, false),

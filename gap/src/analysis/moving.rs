@@ -59,9 +59,10 @@ impl<'a> Workflow<'a> {
     /// What is found between encoders and camera, by a first look and those that it asks for.
     fn motion_looked(&mut self) -> (&'a MotionLink<'a>, Outcome) {
         let mut outcome = self.motion_studied(&self.without(&[SMOOTHED]));
-        let looks: [fn(&Self, &Outcome) -> Option<Look>; 6] = [
+        let looks: [fn(&Self, &Outcome) -> Option<Look>; 7] = [
             Self::beside_refused,
             Self::of_one_clock,
+            Self::crept,
             Self::smoothed,
             Self::of_filtered_speeds,
             Self::in_step,
@@ -118,6 +119,24 @@ impl<'a> Workflow<'a> {
         (again.held_out.powi(2) < (1.0 + more) * outcome.held_out.powi(2)).then_some(Look::Other(again))
     }
 
+    /// What is found where wheels creep as they roll, and not with time, if that leaves clearly less. What creeps so lags behind in
+    /// proportion to its speed: it is looked for where creep has a name, or that lag is left.
+    fn crept(&self, outcome: &Outcome) -> Option<Look> {
+        let lags = outcome.selection.state.active.iter().any(|a| a.effect.name() == LAGS);
+        if !lags && !outcome.named.iter().any(|n| n.name == CREEP) {
+            return None;
+        }
+        let again = self.motion_studied(&rolled(self.without(&[SMOOTHED])));
+        let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
+        (creeps_rolled(&again) && self.is_more(before, after)).then_some(Look::Other(again))
+    }
+
+    /// The catalogue without some of its effects, beside what was found: one law of creep at a time.
+    fn without_beside(&self, outcome: &Outcome, names: &[&str]) -> Vec<Arc<dyn Effect>> {
+        let here = self.without(names);
+        if creeps_rolled(outcome) { rolled(here) } else { here }
+    }
+
     /// What is found where the camera's poses are smoothed, in place of all by which poses are merely late, if that leaves clearly
     /// less: a little of a filter is a latency, which many robots have and few filters make.
     fn smoothed(&self, outcome: &Outcome) -> Option<Look> {
@@ -140,13 +159,13 @@ impl<'a> Workflow<'a> {
         let mut without = outcome.written.clone();
         without.active.retain(|a| a.given || a.effect.name() != LATE_COUNTS);
         let in_step = self.is_more(self.drive_scatter(&outcome.written), self.drive_scatter(&without));
-        let again = || self.motion_studied(&self.without(&[SMOOTHED, LATE_COUNTS]));
+        let again = || self.motion_studied(&self.without_beside(outcome, &[SMOOTHED, LATE_COUNTS]));
         in_step.then(|| Look::Because(IN_STEP, again()))
     }
 
     /// What is found without another radius where the drive has other counts.
     fn of_other_counts(&self, outcome: &Outcome) -> Option<Look> {
-        let again = || self.motion_studied(&self.without(&[SMOOTHED, RADIUS]));
+        let again = || self.motion_studied(&self.without_beside(outcome, &[SMOOTHED, RADIUS]));
         self.drive_has_other_counts(outcome).then(|| Look::Because(OTHER_COUNTS, again()))
     }
 
@@ -221,7 +240,7 @@ impl<'a> Workflow<'a> {
             // For the motion all three are one; where two are named, the camera may be late as well.
             let one =
                 |name: &str| name == LATE_COUNTS || name == filter.name() || name == LATE_FRAMES && late.len() < 2;
-            let others = self.without(&[SMOOTHED]).into_iter().filter(|e| !one(e.name()));
+            let others = self.without_beside(outcome, &[SMOOTHED]).into_iter().filter(|e| !one(e.name()));
             let here: Vec<_> = others.chain([filter.clone()]).collect();
             return Some(Look::Other(self.motion_studied(&here)));
         }
@@ -238,12 +257,27 @@ const SMOOTHED: &str = "camera-filter";
 /// Effects by which poses are late that may stand beside a filter, and those that do the same as it.
 const CLOCKS: &str = "camera-clock";
 const LATE_POSES: [&str; 2] = [CLOCKS, LATE_FRAMES];
-const LATE_WHEELS: [&str; 2] = [LATE_COUNTS, "wheel-creep"];
+const LATE_WHEELS: [&str; 2] = [LATE_COUNTS, CREEP];
+const CREEP: &str = "wheel-creep";
+const LAGS: &str = "probe-camera-speed-delay";
 const RADIUS: &str = "wheel-radius";
 const OTHER_COUNTS: &str = "Against the camera other counts are another radius: the drive follows its duties with the counts, and not with \
      the radius.";
 const IN_STEP: &str = "The drive has counts and duties in step: against the camera the whole log is late, or its frames are \
      stamped early.";
+
+/// A catalogue in which creep goes with the way a wheel rolls.
+fn rolled(catalogue: Vec<Arc<dyn Effect>>) -> Vec<Arc<dyn Effect>> {
+    let law = |e: Arc<dyn Effect>| if e.name() == CREEP { Arc::from(effects::rolled_creep()) } else { e };
+    catalogue.into_iter().map(law).collect()
+}
+
+/// Whether wheels were found to creep so.
+fn creeps_rolled(outcome: &Outcome) -> bool {
+    let own = |a: &Active| !a.given && a.effect.name() == CREEP;
+    outcome.named.iter().any(|n| n.name == CREEP)
+        && outcome.written.active.iter().any(|a| own(a) && a.values.find("creep_per_n").is_some())
+}
 
 /// Why there is no camera to compare with.
 fn missing(set: &Logs) -> String {

@@ -6,7 +6,7 @@ use gap::{Analysis, Options, analyse};
 use model::effects::Applied;
 use model::imu::{Imu, ImuModel};
 use model::manoeuvre::{Manoeuvre, simulate};
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use runs::DataSet;
 use runs::frames::Pose;
 use runs::robot::{Effect, EffectParameter, ImuMount, Robot, SensorName};
@@ -36,7 +36,7 @@ pub(super) fn truth(hidden: &[Hidden], part: u64) -> Applied {
     applied.imu.part = part;
     if applied.contact == Contact::Rolling {
         // Contacts creep a little, as all do.
-        applied.contact = Contact::Friction { friction_coefficient: 0.9, creep_s_per_kg: 3e-4 };
+        applied.contact = Contact::Friction { friction_coefficient: 0.9, creep: Creep::at_rest(3e-4) };
     }
     applied
 }

@@ -45,6 +45,7 @@ const CASES: &[Case] = &[
     case("encoder-loss", &[("loss_1", 0.1), ("threshold_rad_s", 14.0)], ("loss_1", 0.3), &HARD, &[]),
     case("encoder-lag", &[("latency_s", 0.02)], ("latency_s", 0.2), &RICH, &[]),
     case("wheel-creep", &[("creep_s_per_kg", 0.008)], ("creep_s_per_kg", 0.35), &HARD, &[]),
+    case("wheel-creep", &[("creep_per_n", 0.012)], ("creep_per_n", 0.35), &HARD, &[]),
     case("wheel-slip", &[("friction_coefficient", 0.2)], ("friction_coefficient", 0.2), &HARD, &[]),
     case("roller-ripple", &[("cos_1", 0.08), ("sin_2", 0.08), ("order", 1.0)], ("cos_1", 0.3), &SLOW, &[]),
     case("camera-latency", &[("latency_s", 0.03)], ("latency_s", 0.1), &RICH, &[]),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use gap::{Analysis, Options, analyse};
 use model::effects::Applied;
 use model::manoeuvre::{self, Manoeuvre};
-use model::plant::Contact;
+use model::plant::{Contact, Creep};
 use runs::frames::Pose;
 use runs::output::Existing;
 use runs::robot::{Effect, EffectParameter, Robot};
@@ -31,7 +31,7 @@ pub(super) fn run(truth: &Robot, manoeuvre: Manoeuvre, seed: u64) -> Run {
     let mut applied = Applied::of(truth);
     assert!(applied.unsupported.is_empty(), "{:?}", applied.unsupported);
     if applied.contact == Contact::Rolling {
-        applied.contact = Contact::Friction { friction_coefficient: 0.9, creep_s_per_kg: 3e-4 };
+        applied.contact = Contact::Friction { friction_coefficient: 0.9, creep: Creep::at_rest(3e-4) };
     }
     driven(truth, &applied, manoeuvre, seed)
 }

@@ -90,7 +90,7 @@ pub fn catalogue_for(runs: usize) -> Vec<Box<dyn Effect>> {
         Box::new(encoder_scale::EncoderScale { on: Link::Motion }),
         Box::new(encoder_loss::EncoderLoss),
         Box::new(encoder_lag::EncoderLag),
-        Box::new(wheel_creep::WheelCreep),
+        Box::new(wheel_creep::WheelCreep { rolled: false }),
         Box::new(wheel_slip::WheelSlip),
         Box::new(sideways_creep::SidewaysCreep),
         Box::new(odometry_curl::OdometryCurl),
@@ -171,6 +171,11 @@ pub fn find(name: &str) -> Option<Box<dyn Effect>> {
 /// The low-pass on logged speeds, to be found between wheels and a camera, where the catalogue looks for late encoders.
 pub fn filter_seen() -> Box<dyn Effect> {
     Box::new(speed_filter::SpeedFilter { seen: true })
+}
+
+/// Creep that goes with the way a wheel rolls, where the catalogue looks for one that goes with time.
+pub fn rolled_creep() -> Box<dyn Effect> {
+    Box::new(wheel_creep::WheelCreep { rolled: true })
 }
 
 /// Wrong counts a turn, to be found by what drives an axis alone, which no camera sees.

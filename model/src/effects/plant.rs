@@ -2,13 +2,13 @@
 
 use super::{Applied, of_wheel};
 use crate::motor::{COPPER_PER_K, MAGNET_PER_K};
-use crate::plant::{Contact, WheelDeviation};
+use crate::plant::{Contact, Creep, WheelDeviation};
 use runs::robot::{Effect, Support};
 
 /// Coefficient of friction where only creep is given: more than any wheel uses.
 const HELD: f64 = 10.0;
 /// Creep where only the friction limit is given, s/kg: stiff against every force that occurs.
-const STIFF: f64 = 2e-4;
+const STIFF: Creep = Creep::at_rest(2e-4);
 
 /// Applies an effect if it is one of these.
 pub(super) fn apply(effect: &Effect, applied: &mut Applied) -> bool {
@@ -75,7 +75,10 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
     let d = &mut applied.deviations;
     let value = |name: &str| effect.value(name).unwrap_or(0.0);
     match effect.name.as_str() {
-        "wheel-creep" => applied.contact = friction(applied.contact, None, Some(value("creep_s_per_kg"))),
+        "wheel-creep" => {
+            let creep = Creep { s_per_kg: value("creep_s_per_kg").max(0.0), per_n: value("creep_per_n").max(0.0) };
+            applied.contact = friction(applied.contact, None, Some(creep));
+        }
         "wheel-slip" => applied.contact = friction(applied.contact, effect.value("friction_coefficient"), None),
         "centre-of-mass" => d.centre_of_mass_m = [value("x_m"), value("y_m")],
         "floor-tilt" => d.tilt_rad = [value("x_rad"), value("y_rad")],
@@ -158,13 +161,13 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
     true
 }
 
-fn friction(contact: Contact, limit: Option<f64>, creep: Option<f64>) -> Contact {
+fn friction(contact: Contact, limit: Option<f64>, creep: Option<Creep>) -> Contact {
     let (old_limit, old_creep) = match contact {
         Contact::Rolling => (HELD, STIFF),
-        Contact::Friction { friction_coefficient, creep_s_per_kg } => (friction_coefficient, creep_s_per_kg),
+        Contact::Friction { friction_coefficient, creep } => (friction_coefficient, creep),
     };
     Contact::Friction {
         friction_coefficient: limit.unwrap_or(old_limit),
-        creep_s_per_kg: creep.filter(|c| *c > 0.0).unwrap_or(old_creep),
+        creep: creep.filter(|c| c.is_any()).unwrap_or(old_creep),
     }
 }

@@ -25,19 +25,49 @@ pub enum Contact {
     #[default]
     Rolling,
     /// Friction-limited: the wheel speed is a state of its own; the contact point slips along the
-    /// traction direction at `creep_s_per_kg` × force until the force reaches its limit.
+    /// traction direction at `creep` × force until the force reaches its limit.
     Friction {
         /// Coefficient of friction between roller and floor.
         friction_coefficient: f64,
-        /// Slip velocity per force below the limit, s/kg, greater than 0.
-        creep_s_per_kg: f64,
+        /// Slip velocity per force below the limit; not nothing.
+        creep: Creep,
     },
 }
+
+/// Slip velocity of a contact per force.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Creep {
+    /// Whatever the wheel does, s/kg.
+    pub s_per_kg: f64,
+    /// Per speed at which it rolls: slip ratio per force, 1/N.
+    pub per_n: f64,
+}
+
+impl Creep {
+    /// Of a contact that yields with time alone.
+    pub const fn at_rest(s_per_kg: f64) -> Self {
+        Self { s_per_kg, per_n: 0.0 }
+    }
+
+    /// Whether there is any.
+    pub fn is_any(self) -> bool {
+        self.s_per_kg > 0.0 || self.per_n > 0.0
+    }
+
+    /// While the wheel rolls at this speed, s/kg.
+    #[inline]
+    pub fn at(self, rolled_m_s: f64) -> f64 {
+        self.s_per_kg + self.per_n * (rolled_m_s.abs() + STANDS_M_S)
+    }
+}
+
+/// Speed that is added to that of a rolling wheel, m/s: one that stands would creep by nothing, and its force be undefined.
+const STANDS_M_S: f64 = 0.001;
 
 /// Standard gravity, m/s².
 pub const GRAVITY: f64 = 9.806_65;
 /// Slip velocity per force of wheels that something knocked loose, s/kg: no more than 5 mm/s while they still hold.
-const LOOSE_CREEP_S_PER_KG: f64 = 0.001;
+const LOOSE_CREEP: Creep = Creep::at_rest(0.001);
 /// Longest internal step, s. Halving it changes a second of driving by less than 0.1 mm.
 const LONGEST_STEP_S: f64 = 0.000_25;
 /// Longest step of wheels that turn on, s, while no force on them or on the body depends on where they are.
@@ -259,12 +289,12 @@ impl Plant {
                 (Support::Blocks, ..) => self.step_on_blocks(h),
                 (_, Contact::Rolling, None) => self.step_rolling(h),
                 (_, Contact::Rolling, Some(friction_coefficient)) => {
-                    if self.step_slipping(h, friction_coefficient, LOOSE_CREEP_S_PER_KG) {
+                    if self.step_slipping(h, friction_coefficient, LOOSE_CREEP) {
                         self.loose = None;
                     }
                 }
-                (_, Contact::Friction { friction_coefficient, creep_s_per_kg }, _) => {
-                    self.step_slipping(h, friction_coefficient, creep_s_per_kg);
+                (_, Contact::Friction { friction_coefficient, creep }, _) => {
+                    self.step_slipping(h, friction_coefficient, creep);
                 }
             }
         }

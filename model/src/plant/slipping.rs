@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Plant, WheelState, friction, turn};
+use super::{Creep, Plant, WheelState, friction, turn};
 use crate::motor::Axis;
 use runs::geometry::{Geometry, Wheel};
 
@@ -31,8 +31,9 @@ impl ContactPoint {
 /// What all wheels share over one step of length `h`.
 struct Floor {
     h: f64,
-    /// s/kg.
-    creep: f64,
+    creep: Creep,
+    /// Of every wheel, m.
+    radius: f64,
     /// Largest traction force of a wheel, N.
     grip: f64,
 }
@@ -50,14 +51,15 @@ impl Floor {
         let (u, lever) = (contact.row.dot(twist), contact.lever);
         let limit = wheel.friction_limit(axis);
         let inertia = axis.inertia() / self.h;
+        let creep = self.creep.at(self.radius * wheel.speed);
         let push = inertia * wheel.speed + wheel.drive + wheel.load;
-        let (k, stiffness) = (lever / self.creep, inertia + axis.damping);
+        let (k, stiffness) = (lever / creep, inertia + axis.damping);
         let held = stiffness + lever * k;
         let speed = friction::soft(push + k * u, limit) / held;
-        let force = (lever * speed - u) / self.creep;
+        let force = (lever * speed - u) / creep;
         if force.abs() <= self.grip {
             let follows = if speed == 0.0 { 0.0 } else { lever * k / held };
-            return Traction { force, slope: (follows - 1.0) / self.creep, speed };
+            return Traction { force, slope: (follows - 1.0) / creep, speed };
         }
         let force = self.grip.copysign(force);
         let speed = friction::soft(push - lever * force, limit) / stiffness;
@@ -67,13 +69,13 @@ impl Floor {
 
 impl Plant {
     /// Whether the floor held every wheel.
-    pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: f64) -> bool {
+    pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: Creep) -> bool {
         let mass = self.platform() / h;
         let grip = friction_coefficient * self.mass * super::GRAVITY / self.wheels.len() as f64;
         let start = self.twist_vector();
         let start = start + turn(&start, 0.5 * h);
         let axes = std::mem::take(&mut self.axes);
-        let floor = Floor { h, creep, grip };
+        let floor = Floor { h, creep, radius: self.geometry.wheel_radius_m(), grip };
         // Wheels without rollers hold sideways whatever they slip along.
         let within = |slope: &Matrix3<f64>| self.geometry.invert_allowed(slope);
         let mut twist = within(&mass).map_or(start, |inverse| inverse * mass * start);

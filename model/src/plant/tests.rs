@@ -3,7 +3,16 @@ use crate::pi::SpeedLoop;
 use runs::frames::wrap_angle;
 use runs::robot::Layout;
 
-const GRIPPY: Contact = Contact::Friction { friction_coefficient: 0.6, creep_s_per_kg: 0.001 };
+const GRIPPY: Contact = Contact::Friction { friction_coefficient: 0.6, creep: Creep::at_rest(0.001) };
+
+/// A contact that creeps as it rolls gives way by nothing at rest, and by as much as another one at some speed.
+#[test]
+fn creep_goes_with_time_or_with_the_way() {
+    let rolled = Creep { s_per_kg: 0.0, per_n: 0.01 };
+    assert!(rolled.at(0.0) < 2e-5 && (rolled.at(-0.5) / 0.005 - 1.0).abs() < 0.01);
+    assert_eq!(Creep::at_rest(0.004).at(3.0), 0.004);
+    assert!(rolled.is_any() && !Creep::default().is_any());
+}
 
 fn lossless() -> Robot {
     let mut robot = Robot { gear_efficiency: 1.0, ..Robot::racbot() };
@@ -142,7 +151,7 @@ fn friction_holds_without_chatter_and_stops_for_good() {
 #[test]
 fn a_firm_contact_moves_like_rolling() {
     let [mut rolling, mut firm] = plants(&Robot::racbot());
-    firm = firm.with_contact(Contact::Friction { friction_coefficient: 5.0, creep_s_per_kg: 1e-5 });
+    firm = firm.with_contact(Contact::Friction { friction_coefficient: 5.0, creep: Creep::at_rest(1e-5) });
     for k in 0..1500 {
         let a = f64::from(k) * 0.004;
         let duty = [0.3 * a.sin(), 0.35 * (a * 1.3).cos(), -0.2];
@@ -156,7 +165,7 @@ fn a_firm_contact_moves_like_rolling() {
 #[test]
 fn grip_limits_the_acceleration() {
     let mu = 0.1;
-    let contact = Contact::Friction { friction_coefficient: mu, creep_s_per_kg: 0.001 };
+    let contact = Contact::Friction { friction_coefficient: mu, creep: Creep::at_rest(0.001) };
     let mut plant = Plant::new(&Robot::racbot()).unwrap().with_contact(contact);
     for _ in 0..100 {
         plant.step(&[0.0, 1.0, -1.0], 7.2, 0.001);
@@ -173,7 +182,7 @@ fn creep_is_slip_in_proportion_to_force() {
     let mut robot = lossless();
     robot.motor.rotor_inertia = 1e-12;
     let creep = 0.01;
-    let contact = Contact::Friction { friction_coefficient: 5.0, creep_s_per_kg: creep };
+    let contact = Contact::Friction { friction_coefficient: 5.0, creep: Creep::at_rest(creep) };
     let mut plant = Plant::new(&robot).unwrap().with_contact(contact);
     for _ in 0..50 {
         plant.step(&[0.0, 0.3, -0.3], 7.2, 0.001);

@@ -1,7 +1,7 @@
 //! Geometry, encoders, camera.
 
 use super::*;
-use crate::plant::Contact;
+use crate::plant::{Contact, Creep};
 
 #[test]
 fn geometry() {
@@ -19,7 +19,7 @@ fn geometry() {
 
 #[test]
 fn a_larger_wheel_turns_less_for_the_same_way() {
-    for floor in [Contact::Rolling, Contact::Friction { friction_coefficient: 0.9, creep_s_per_kg: 1e-4 }] {
+    for floor in [Contact::Rolling, Contact::Friction { friction_coefficient: 0.9, creep: Creep::at_rest(1e-4) }] {
         let large = Applied { contact: floor, ..applied("wheel-radius", &[("scale_2", 0.1)]) };
         let mut plant = large.plant().unwrap().moving(Twist::new(0.0, 0.5, 0.0));
         run(&mut plant, [0.0, 0.3, -0.3], 500);
@@ -95,7 +95,9 @@ fn contact() {
     let slip = applied("wheel-slip", &[("friction_coefficient", 0.3)]).contact;
     assert!(matches!(slip, Contact::Friction { friction_coefficient, .. } if friction_coefficient == 0.3));
     let creep = applied("wheel-creep", &[("creep_s_per_kg", 0.02)]).contact;
-    assert!(matches!(creep, Contact::Friction { creep_s_per_kg, .. } if creep_s_per_kg == 0.02));
+    assert!(matches!(creep, Contact::Friction { creep, .. } if creep == Creep::at_rest(0.02)));
+    let rolled = applied("wheel-creep", &[("creep_per_n", 0.02)]).contact;
+    assert!(matches!(rolled, Contact::Friction { creep, .. } if creep == Creep { s_per_kg: 0.0, per_n: 0.02 }));
 }
 
 #[test]
