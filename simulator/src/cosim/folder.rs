@@ -2,7 +2,9 @@
 
 use super::CosimError;
 use std::collections::hash_map::DefaultHasher;
+use std::fs::Permissions;
 use std::hash::{Hash, Hasher};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
@@ -31,7 +33,9 @@ fn own(named: impl Fn(&str) -> Option<PathBuf>) -> PathBuf {
     let cache = named("XDG_CACHE_HOME").or_else(|| Some(named("HOME")?.join(".cache")));
     cache.map_or_else(
         || {
-            let made = || tempfile::Builder::new().prefix("racbot-cosim-").tempdir().map(tempfile::TempDir::keep);
+            let mut folder = tempfile::Builder::new();
+            folder.prefix("racbot-cosim-").permissions(Permissions::from_mode(0o700));
+            let made = || folder.tempdir().map(tempfile::TempDir::keep);
             // Where nothing can be made, making what goes into it says why.
             ALONE.get_or_init(|| made().unwrap_or_else(|_| std::env::temp_dir().join("racbot-cosim"))).clone()
         },
@@ -152,7 +156,7 @@ mod tests {
         assert_eq!(of("XDG_CACHE_HOME", "/far"), Path::new("/far/racbot/cosim"));
         assert_eq!(of("HOME", "/home/u"), Path::new("/home/u/.cache/racbot/cosim"));
         let alone = own(|_| None);
-        let mode = std::os::unix::fs::PermissionsExt::mode(&std::fs::metadata(&alone).unwrap().permissions());
+        let mode = std::fs::metadata(&alone).unwrap().permissions().mode();
         assert_eq!((mode & 0o077, own(|_| None)), (0, alone.clone()), "{}", alone.display());
         std::fs::remove_dir_all(alone).unwrap();
     }
