@@ -86,7 +86,7 @@ pub fn open_board(chip: &str) -> Result<String, DesignError> {
 /// Every file of `generated/`.
 ///
 /// # Errors
-/// As [`verilog`].
+/// As [`verilog()`].
 pub fn files() -> Result<Vec<File>, DesignError> {
     let board = Board::mesa_4i65_7i30();
     let verilog = verilog(&board)?;
