@@ -10,7 +10,7 @@ use super::gaps;
 use super::look_alikes::{Against, LookAlike};
 use super::measure::{Data, Drive};
 use super::misses::Misses;
-use super::study::{self, Outcome, chosen, study};
+use super::study::{self, Outcome, Refused, chosen, study};
 use super::workflow::Workflow;
 use super::{filtered, patterns, ratios};
 use crate::options::Stage;
@@ -171,9 +171,9 @@ impl<'a> Workflow<'a> {
             let square = |state: &State| study::rms(&Problem::Drive(link), state).powi(2);
             square(&again.written) < most * square(&outcome.written)
         };
-        let mut again =
-            self.drive_without(here, &|e| outcome.refused.iter().any(|r| r.at_bound && r.name == e), &closes)?;
-        again.1.refused.extend(outcome.refused.iter().filter(|r| r.at_bound).cloned());
+        let at_bound: Vec<Refused> = outcome.refused.iter().filter(|r| r.at_bound).cloned().collect();
+        let mut again = self.drive_without(here, &at_bound, &closes)?;
+        again.1.refused.extend(at_bound);
         Some(again)
     }
 
@@ -185,17 +185,17 @@ impl<'a> Workflow<'a> {
         }
         let worth = self.thresholds.worth_saying;
         let explains = |_: &DriveLink, again: &Outcome| !again.named.is_empty() && again.held_out < worth;
-        self.drive_without(here, &|e| outcome.refused.iter().any(|r| r.name == e), &explains)
+        self.drive_without(here, &outcome.refused, &explains)
     }
 
-    /// What is found without effects that are gone from a catalogue, if it may take the place of what was.
+    /// What is found without what was refused, if it may take the place of what was.
     fn drive_without(
         &mut self,
         here: &[Arc<dyn Effect>],
-        is_gone: &dyn Fn(&str) -> bool,
+        refused: &[Refused],
         is_kept: &dyn Fn(&DriveLink, &Outcome) -> bool,
     ) -> Option<(DriveLink<'a>, Outcome)> {
-        let others: Vec<_> = here.iter().filter(|e| !is_gone(e.name())).cloned().collect();
+        let others: Vec<_> = here.iter().filter(|e| !refused.iter().any(|r| r.name == e.name())).cloned().collect();
         if others.len() == here.len() {
             return None;
         }

@@ -127,8 +127,7 @@ impl<'a> Workflow<'a> {
             return None;
         }
         let again = self.motion_studied(&rolled(self.without(&[SMOOTHED])));
-        let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
-        (creeps_rolled(&again) && self.is_more(before, after)).then_some(Look::Other(again))
+        (creeps_rolled(&again) && self.leaves_more(outcome, &again)).then_some(Look::Other(again))
     }
 
     /// The catalogue without some of its effects, beside what was found: one law of creep at a time.
@@ -146,8 +145,7 @@ impl<'a> Workflow<'a> {
         }
         let again = self.motion_studied(&self.without(&LATE_WHEELS));
         let is_named = again.named.iter().any(|n| n.name == SMOOTHED);
-        let [before, after] = [outcome, &again].map(|o| Some(o.held_out.powi(2)));
-        (is_named && self.is_more(before, after)).then_some(Look::Other(again))
+        (is_named && self.leaves_more(outcome, &again)).then_some(Look::Other(again))
     }
 
     /// What is found without counts that are late against the camera, where the drive, which shows late counts as well, has them in
@@ -208,6 +206,12 @@ impl<'a> Workflow<'a> {
     /// Whether one squared scatter is more than another by what decides; not where one is not known.
     fn is_more(&self, one: Option<f64>, other: Option<f64>) -> bool {
         one.zip(other).is_some_and(|(one, other)| one > (1.0 + self.thresholds.worse) * other)
+    }
+
+    /// Whether one of two looks leaves more than the other by what decides.
+    fn leaves_more(&self, one: &Outcome, other: &Outcome) -> bool {
+        let [one, other] = [one, other].map(|outcome| Some(outcome.held_out.powi(2)));
+        self.is_more(one, other)
     }
 
     /// What is found where logged speeds are filtered, in place of counts or frames that are late: against a camera both are one,
