@@ -79,7 +79,10 @@ fn on_body(effect: &Effect, applied: &mut Applied) -> bool {
             let creep = Creep { s_per_kg: value("creep_s_per_kg").max(0.0), per_n: value("creep_per_n").max(0.0) };
             applied.contact = friction(applied.contact, None, Some(creep));
         }
-        "wheel-slip" => applied.contact = friction(applied.contact, effect.value("friction_coefficient"), None),
+        "wheel-slip" => {
+            d.centre_height_m = value("centre_height_m");
+            applied.contact = friction(applied.contact, effect.value("friction_coefficient"), None);
+        }
         "centre-of-mass" => d.centre_of_mass_m = [value("x_m"), value("y_m")],
         "floor-tilt" => d.tilt_rad = [value("x_rad"), value("y_rad")],
         "roller-friction" => d.roller_friction_n = value("force_n"),

@@ -11,6 +11,8 @@ pub struct Deviations {
     pub wheels: Vec<WheelDeviation>,
     /// Place of the centre of mass in the body frame, m.
     pub centre_of_mass_m: [f64; 2],
+    /// Its height over the floor, m: what an acceleration shifts from wheel to wheel where wheels may slip.
+    pub centre_height_m: f64,
     /// Slope of the floor, downhill positive, along world x and y, rad.
     pub tilt_rad: [f64; 2],
     /// Friction of each contact in the direction its rollers roll in, N.

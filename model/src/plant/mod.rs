@@ -8,10 +8,12 @@ mod loads;
 mod rolling;
 mod slipping;
 mod turning;
+mod weight;
 
 use nalgebra::Vector3;
 
 pub use deviations::{Deviations, HeadingDrag, WheelDeviation};
+pub use weight::Weight;
 
 use crate::motor::Axis;
 use runs::frames::{Pose, Twist, Walk, small_sin_cos};
@@ -114,6 +116,7 @@ pub struct Plant {
     before: Vec<f64>,
     after: Vec<f64>,
     contacts: Vec<slipping::ContactPoint>,
+    weight: Weight,
     rolling: Option<Box<rolling::Tables>>,
     turning: Option<Box<turning::Tables>>,
     /// Friction coefficient of the floor while wheels that otherwise roll are knocked loose.
@@ -162,6 +165,7 @@ impl Plant {
         let n = geometry.wheel_count();
         Ok(Self {
             contacts: slipping::ContactPoint::of(&geometry),
+            weight: Weight::new(geometry.wheels(), robot.mass_kg, [0.0; 2], 0.0),
             geometry,
             axes: vec![Axis::of(robot); n],
             cold: vec![Axis::of(robot); n],
@@ -207,6 +211,8 @@ impl Plant {
             *axis = axis.with_motor(deviations.wheel(i).torque_constant, deviations.wheel(i).resistance);
         }
         self.cold.clone_from(&self.axes);
+        let Deviations { centre_of_mass_m, centre_height_m, .. } = *deviations;
+        self.weight = Weight::new(self.geometry.wheels(), self.mass, centre_of_mass_m, centre_height_m);
         self.set_radii();
         self
     }

@@ -34,8 +34,6 @@ struct Floor {
     creep: Creep,
     /// Of every wheel, m.
     radius: f64,
-    /// Largest traction force of a wheel, N.
-    grip: f64,
 }
 
 /// Force on the body (N), its slope against the contact's speed, and the wheel's new speed.
@@ -46,8 +44,15 @@ struct Traction {
 }
 
 impl Floor {
-    /// The wheel's answer to a body twist.
-    fn traction(&self, axis: &Axis, wheel: &WheelState, contact: &ContactPoint, twist: &Vector3<f64>) -> Traction {
+    /// The answer to a body twist of a wheel that holds no more than `grip` N.
+    fn traction(
+        &self,
+        axis: &Axis,
+        wheel: &WheelState,
+        contact: &ContactPoint,
+        twist: &Vector3<f64>,
+        grip: f64,
+    ) -> Traction {
         let (u, lever) = (contact.row.dot(twist), contact.lever);
         let limit = wheel.friction_limit(axis);
         let inertia = axis.inertia() / self.h;
@@ -57,11 +62,11 @@ impl Floor {
         let held = stiffness + lever * k;
         let speed = friction::soft(push + k * u, limit) / held;
         let force = (lever * speed - u) / creep;
-        if force.abs() <= self.grip {
+        if force.abs() <= grip {
             let follows = if speed == 0.0 { 0.0 } else { lever * k / held };
             return Traction { force, slope: (follows - 1.0) / creep, speed };
         }
-        let force = self.grip.copysign(force);
+        let force = grip.copysign(force);
         let speed = friction::soft(push - lever * force, limit) / stiffness;
         Traction { force, slope: 0.0, speed }
     }
@@ -71,11 +76,11 @@ impl Plant {
     /// Whether the floor held every wheel.
     pub(super) fn step_slipping(&mut self, h: f64, friction_coefficient: f64, creep: Creep) -> bool {
         let mass = self.platform() / h;
-        let grip = friction_coefficient * self.mass * super::GRAVITY / self.wheels.len() as f64;
         let start = self.twist_vector();
         let start = start + turn(&start, 0.5 * h);
         let axes = std::mem::take(&mut self.axes);
-        let floor = Floor { h, creep, radius: self.geometry.wheel_radius_m(), grip };
+        let floor = Floor { h, creep, radius: self.geometry.wheel_radius_m() };
+        let grip = |wheel: usize| friction_coefficient * self.weight.on(wheel);
         // Wheels without rollers hold sideways whatever they slip along.
         let within = |slope: &Matrix3<f64>| self.geometry.invert_allowed(slope);
         let mut twist = within(&mass).map_or(start, |inverse| inverse * mass * start);
@@ -84,8 +89,8 @@ impl Plant {
             for step in 0..NEWTON_STEPS {
                 let mut residual = mass * (twist - start) - self.push;
                 let mut slope: Matrix3<f64> = mass;
-                for ((wheel, contact), axis) in self.wheels.iter().zip(&self.contacts).zip(&axes) {
-                    let t = floor.traction(axis, wheel, contact, &twist);
+                for (i, ((wheel, contact), axis)) in self.wheels.iter().zip(&self.contacts).zip(&axes).enumerate() {
+                    let t = floor.traction(axis, wheel, contact, &twist, grip(i));
                     residual -= contact.row * t.force;
                     slope -= contact.row * contact.row.transpose() * t.slope;
                 }
@@ -97,18 +102,19 @@ impl Plant {
                 }
             }
             held = true;
-            for ((wheel, contact), axis) in self.wheels.iter_mut().zip(&self.contacts).zip(&axes) {
-                let t = floor.traction(axis, wheel, contact, &twist);
+            for (i, ((wheel, contact), axis)) in self.wheels.iter_mut().zip(&self.contacts).zip(&axes).enumerate() {
+                let t = floor.traction(axis, wheel, contact, &twist, grip(i));
                 let limit = wheel.friction_limit(axis);
                 let acceleration = (t.speed - wheel.speed) / h;
                 let winding = wheel.drive - axis.damping * t.speed;
                 wheel.friction = axis.inertia() * acceleration - winding - wheel.load + contact.lever * t.force;
                 wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
                 wheel.next_speed = t.speed;
-                held &= t.force.abs() < grip;
+                held &= t.force.abs() < grip(i);
             }
         }
         self.axes = axes;
+        self.weight.shift([(twist.x - start.x) / h, (twist.y - start.y) / h], h);
         for wheel in &mut self.wheels {
             wheel.angle += 0.5 * h * (wheel.speed + wheel.next_speed);
             wheel.speed = wheel.next_speed;
