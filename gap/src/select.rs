@@ -329,6 +329,10 @@ fn swapped(
         state.active.insert(index, placed(candidate, &t.values));
         let settled = settle(problem, &mut state, all, thresholds);
         let alternative = finish(state, settled, from, thresholds);
+        // What fits best at a bound has no name, and is no reason to take one away.
+        if stopped(&alternative.state.active[index]) && !stopped(&own) {
+            continue;
+        }
         // What leaves far more than another law of no more parameters is not chosen, however it looks with
         // everything else adjusted.
         let [fewer, more] = [own.form.free.len(), candidate.form.free.len()];

@@ -2,7 +2,7 @@
 //! or beyond what friction holds.
 
 use gap::{Options, Verdict, analyse};
-use model::manoeuvre::Manoeuvre::{Chirp, Spin, Square, Star};
+use model::manoeuvre::Manoeuvre::{Chirp, Spin, Square, Star, StopAndGo};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::frames::{Pose, wrap_angle};
@@ -74,6 +74,22 @@ fn friction_of_a_mecanum_robot_is_that_of_its_floor() {
     let a = analyse(&simulate(&truth, &[Star, Spin, Chirp], 72), &Options::default()).unwrap();
     assert!(names(&a).contains(&"wheel-slip"), "{}", a.terminal_summary());
     assert!((value(&a, "friction_coefficient") / 0.35 - 1.0).abs() < 0.2, "{}", a.terminal_summary());
+}
+
+/// A floor that holds as much as carpet usually does, and motors that give more: what dashes lose there
+/// passed for creep, for frames that are late or for nothing at all.
+#[test]
+fn a_usual_floor_has_its_friction_where_wheels_are_driven_beyond_it() {
+    let mut strong = Robot::racbot();
+    strong.motor.resistance_ohm *= 0.6;
+    let slip = [("friction_coefficient", 0.7)];
+    let truth = with(&with(&strong, "wheel-slip", &slip), "camera-latency", &[("latency_s", 0.04)]);
+    let a = analyse(&simulate(&truth, &[StopAndGo, Star, Chirp], 73), &Options::default()).unwrap();
+    let mut found = names(&a);
+    found.sort_unstable();
+    assert_eq!(found, ["camera-latency", "wheel-slip"], "{}", a.terminal_summary());
+    assert!((value(&a, "friction_coefficient") / 0.7 - 1.0).abs() < 0.25, "{}", a.terminal_summary());
+    assert!((value(&a, "latency_s") / 0.04 - 1.0).abs() < 0.15, "{}", a.terminal_summary());
 }
 
 const RADIUS: f64 = 0.0508;

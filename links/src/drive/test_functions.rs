@@ -181,7 +181,7 @@ impl<'a> DriveLink<'a> {
     /// Leaves out test functions in which a wheel slips by what the motion link found, at more than so many times the speed
     /// with which it turns when it turns: Newton's law in wheel coordinates needs wheels that roll.
     pub fn mask_slip(&mut self, motion: &crate::motion::MotionModel, rolling: f64) {
-        if motion.angles.is_empty() {
+        if !motion.changes_angles() {
             return;
         }
         for range in self.by_segment() {

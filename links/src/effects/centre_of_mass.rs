@@ -4,6 +4,7 @@ use runs::robot::Robot;
 
 use crate::drive::DriveModel;
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values};
+use crate::motion::MotionModel;
 
 /// A centre of mass that is not the chassis centre.
 pub(super) struct CentreOfMass;
@@ -29,6 +30,13 @@ impl Effect for CentreOfMass {
         let rim = Sizes::of(robot).rim_m;
         let p = |name| Parameter::new(name, 0.025 * rim, [-4.0 * rim, 4.0 * rim], 0.05 * rim);
         vec![Form::whole(vec![p("x_m"), p("y_m")])]
+    }
+
+    /// What each wheel carries.
+    fn motion(&self, values: &Values, model: &mut MotionModel) {
+        for (centre, name) in model.centre_of_mass_m.iter_mut().zip(["x_m", "y_m"]) {
+            *centre += values.get(name);
+        }
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {

@@ -236,7 +236,7 @@ mod tests {
         ("body-drag", &["force_n"]),
         ("turning-resistance", &["torque_nm"]),
         ("carpet-grain", &["force_n", "azimuth_rad"]),
-        ("wheel-slip", &["friction_coefficient"]),
+        ("wheel-slip", &["friction_coefficient", "centre_height_m"]),
     ];
 
     #[test]

@@ -50,7 +50,7 @@ impl<'a> Ride<'a> {
 
     fn moved(path: &Path, model: &MotionModel, segment: &Segment, every: usize) -> Vec<Moved> {
         let changed: Vec<Vec<f64>>;
-        let speed = if model.angles.is_empty() {
+        let speed = if !model.changes_angles() {
             &segment.speed
         } else {
             changed = smooth_speeds(&segment.t, path.angles(), SMOOTHING_S);

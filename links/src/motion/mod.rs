@@ -5,6 +5,7 @@
 //! a nuisance that is projected out (multiple shooting with free nodes). Parameters act on the
 //! prediction only.
 
+mod floor;
 mod lag;
 mod track;
 mod ways;
@@ -20,6 +21,7 @@ use crate::inertial::Sensor;
 use crate::segment::Segment;
 use crate::values::Values;
 
+pub use floor::Floor;
 pub use lag::CameraFilter;
 pub(crate) use track::Path;
 pub use ways::{Errors, Ways};
@@ -42,6 +44,8 @@ pub struct MotionModel {
     pub latency_s: f64,
     /// The marker plate in the body frame.
     pub marker: Pose,
+    /// What the wheels roll on: what they turn further than they roll comes off their angles first.
+    pub floor: Floor,
     /// Changes of the wheel angles, in this order.
     pub angles: Vec<AngleChange>,
     /// What the camera does to a pose of the marker, in this order.
@@ -72,6 +76,8 @@ pub struct MotionModel {
     pub mass_kg: f64,
     /// Yaw inertia about the chassis centre, kg m².
     pub yaw_inertia_kg_m2: f64,
+    /// Place of the centre of mass in the body frame, m.
+    pub centre_of_mass_m: [f64; 2],
     /// Motor turns per wheel turn.
     pub gear_ratio: f64,
     /// What each of `angles` depends on, as far as that is known.
@@ -98,6 +104,7 @@ impl MotionModel {
             wheel_radius_m: robot.wheel_radius_m,
             latency_s: robot.camera_latency_s,
             marker: Pose::default(),
+            floor: Floor::default(),
             angles: Vec::new(),
             observe: Vec::new(),
             sensor: Sensor::of(robot),
@@ -113,6 +120,7 @@ impl MotionModel {
             speed_delay: 0.0,
             mass_kg: robot.mass_kg,
             yaw_inertia_kg_m2: robot.yaw_inertia_kg_m2,
+            centre_of_mass_m: [0.0; 2],
             gear_ratio: robot.gear_ratio,
             origins: Vec::new(),
         }
@@ -130,12 +138,30 @@ impl MotionModel {
         Some(moved.collect())
     }
 
+    /// The floor as it is known so far under the robot as it is known so far, to be changed.
+    pub fn floor_beneath(&mut self) -> &mut Floor {
+        self.floor.wheels.clone_from(&self.wheels);
+        self.floor.wheel_radius_m = self.wheel_radius_m;
+        self.floor.masses = [self.mass_kg, self.yaw_inertia_kg_m2];
+        [self.floor.centre_m[0], self.floor.centre_m[1]] = self.centre_of_mass_m;
+        &mut self.floor
+    }
+
+    /// Whether wheels turn otherwise than they are read.
+    pub fn changes_angles(&self) -> bool {
+        self.floor.gives_way() || !self.angles.is_empty()
+    }
+
     /// The wheel angles of a segment with all changes; borrowed if there are none.
     pub fn angles<'a>(&self, segment: &'a Segment) -> Cow<'a, [Vec<f64>]> {
-        if self.angles.is_empty() {
+        if !self.changes_angles() {
             return Cow::Borrowed(&segment.angle);
         }
         let mut angles = segment.angle.clone();
+        if let Some(lost) = self.floor.lost(segment) {
+            let turned = angles.iter_mut().flatten();
+            turned.zip(lost.into_iter().flatten()).for_each(|(angle, lost)| *angle -= lost);
+        }
         for change in &self.angles {
             change(segment, &mut angles);
         }

@@ -54,8 +54,10 @@ impl<'a> Path<'a> {
     /// What another model changes of the angles after all that this one's does; `None` if that is not all.
     fn further<'b>(&self, model: &'b MotionModel) -> Option<&'b [AngleChange]> {
         let (known, all) = (&self.model.origins, &model.origins);
-        let is_more =
-            known.len() == self.model.angles.len() && all.len() == model.angles.len() && all.starts_with(known);
+        let is_more = self.model.floor == model.floor
+            && known.len() == self.model.angles.len()
+            && all.len() == model.angles.len()
+            && all.starts_with(known);
         is_more.then(|| &model.angles[known.len()..])
     }
 
