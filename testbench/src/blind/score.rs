@@ -48,6 +48,8 @@ impl Grade {
     }
 }
 
+const SLIP: &str = "wheel-slip";
+
 /// Whether an effect was found by name, only as a look-alike, or not.
 fn found(hidden: &Hidden, answer: &Answer) -> Option<Grade> {
     let named = answer.effects.iter().find(|e| e.name == hidden.name);
@@ -134,6 +136,7 @@ impl Scored {
             seconds,
         };
         if let Ok(answer) = &out.answer {
+            let answer = &beside_its_floor(sealed, answer);
             out.grade = if sealed.outside.is_empty() { grade(&sealed.effects, answer) } else { outside(answer) };
             out.intervals = intervals(&sealed.effects, answer);
             out.limits = in_limits(&sealed.effects, answer);
@@ -150,6 +153,23 @@ impl Scored {
     pub fn closed(&self) -> Option<f64> {
         self.answer.as_ref().ok().and_then(|a| a.closed)
     }
+}
+
+/// The answer without wheels that slip on the floor that the set is drawn on: true, and not what is hidden. Sliding friction is
+/// drawn as a share of the static one.
+fn beside_its_floor(sealed: &Truth, answer: &Answer) -> Answer {
+    let hidden = sealed.effects.iter().any(|h| h.name == SLIP);
+    let Some(nuisance) = sealed.nuisance.as_ref().filter(|_| !hidden) else { return answer.clone() };
+    let [least, most] = truth::SLIDING.map(|share| share * nuisance.friction_coefficient);
+    let is_the_floor = |e: &NamedEffect| {
+        let holds = |(name, _, [low, high]): &(String, f64, [f64; 2])| {
+            name == "friction_coefficient" && *low <= most && least <= *high
+        };
+        e.name == SLIP && e.parameters.iter().any(holds)
+    };
+    let mut out = answer.clone();
+    out.effects.retain(|e| !is_the_floor(e));
+    out
 }
 
 /// "None of these" is right; what is named must at least be called the nearest.

@@ -48,6 +48,7 @@ pub use geometry::{Mount, wrap};
 pub use log::{Columns, Log, Row};
 pub use machine::{Camera, Controller, Ground, Machine, Power, Roughness, Wheel};
 pub use noise::set_seed;
+pub use nuisance::SLIDING;
 pub use plant::{GRAVITY, Plant, Shake};
 pub use robot::{Layout, Robot};
 pub use run::{Drive, LONGEST_STEP_S, simulate_run};

@@ -73,6 +73,9 @@ fn four_wheels(rng: &mut ChaCha8Rng) -> Vec<Mount> {
         .to_vec()
 }
 
+/// Sliding friction as a share of the static one: least and most.
+pub const SLIDING: [f64; 2] = [0.8, 0.95];
+
 /// The robot with all its nuisances.
 pub(crate) fn draw_machine(robot: &Robot, rng: &mut ChaCha8Rng) -> Machine {
     let mut machine = Machine::ideal(robot);
@@ -83,7 +86,7 @@ pub(crate) fn draw_machine(robot: &Robot, rng: &mut ChaCha8Rng) -> Machine {
     ground.creep_s_per_kg = rng.random_range(1.0e-5..5.0e-5);
     ground.slip_ratio_per_n = rng.random_range(1.0e-4..4.0e-4);
     ground.friction_static = rng.random_range(0.8..1.05);
-    ground.friction_sliding = ground.friction_static * rng.random_range(0.8..0.95);
+    ground.friction_sliding = ground.friction_static * rng.random_range(SLIDING[0]..SLIDING[1]);
     let power = &mut machine.power;
     power.inductance_h = rng.random_range(5.0e-5..9.0e-5);
     power.battery_ohm = rng.random_range(0.045..0.055);
