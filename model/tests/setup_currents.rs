@@ -114,3 +114,22 @@ fn another_motors_winding_is_told_by_duties_and_currents() {
     // A battery's current is the motor's times the duty, and tells of no winding.
     assert_eq!(said_of_a_winding(2.4, 0.0066, |amps, duty| amps * duty), Vec::<String>::new());
 }
+
+/// Joints of a driver that fills in efforts which it does not measure.
+#[test]
+fn efforts_that_are_never_anything_but_0_are_not_logged() {
+    let rows = |effort: f64, turns: f64| {
+        let mut rows = "t,enc_1,current_1\n".to_owned();
+        for k in 0..2000_u32 {
+            let t = 0.005 * f64::from(k);
+            let angle = turns * 65536.0 * ((1.3 * t).sin() + 0.4 * (3.1 * t).sin());
+            rows += &format!("{t},{},{}\n", angle as i64, effort * (2.0 * t).cos());
+        }
+        said_of(&rows)
+    };
+    let said = rows(0.0, 0.3);
+    assert!(said.len() == 1 && said[0].starts_with("current_1: nothing but 0 in 2000 rows"), "{said:?}");
+    let told = |said: &[String]| said.iter().any(|said| said.contains("nothing but 0"));
+    assert!(!told(&rows(0.1, 0.3)), "it drives");
+    assert!(!told(&rows(0.0, 0.0)), "nothing turns");
+}

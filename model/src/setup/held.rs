@@ -1,5 +1,5 @@
 //! What no sensor reads: set points in the column of a measured speed, as headers that were shifted by one give them, and currents
-//! of a drive that is off, of which the last one stays in the log.
+//! of a drive that is off, of which the last one stays in the log; and what drives, where nothing but 0 was written.
 
 use runs::robot::Robot;
 use runs::{Columns, DutySource, Log, is_from_speeds};
@@ -33,10 +33,41 @@ const TURNED: i64 = 25;
 
 pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let mut found = speeds(robot, logs);
-    if logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents) {
+    let currents = logs.first().is_some_and(|log| log.layout().source.duties == DutySource::Currents);
+    found.extend(undriven(logs, if currents { "current" } else { "duty" }));
+    if currents {
         found.extend((0..robot.wheel_count()).filter_map(|axis| stale(logs, axis)));
     }
     found
+}
+
+/// What drives, of no wheel ever anything but 0 though one turns: drivers fill in so what they do not measure, as the efforts of
+/// joints. A model whose motors give nothing explains any motion by weights and springs.
+fn undriven(logs: &[Log], stem: &str) -> Option<Mistake> {
+    let (mut rows, mut wheels, mut turned) = (0, 0, 0);
+    for log in logs {
+        let columns = Columns { duty: true, counts: true, sensors: true, ..Columns::NONE };
+        let run = log.part(0..log.len().min(MOST_TICKS), columns);
+        let drives = if stem == "duty" { &run.duty } else { &run.current };
+        if drives.iter().flatten().any(|x| x.is_finite() && *x != 0.0) {
+            return None;
+        }
+        wheels = drives.len();
+        rows += drives.first().map_or(0, |drive| drive.iter().filter(|x| x.is_finite()).count());
+        let ends = |counts: &[i64]| counts.iter().max().zip(counts.iter().min()).map(|(most, least)| most - least);
+        turned = run.counts.iter().filter_map(|counts| ends(counts)).fold(turned, i64::max);
+    }
+    if rows < FEWEST || turned < TURNED {
+        return None;
+    }
+    let column = if wheels > 1 { format!("{stem}_1..{wheels}") } else { format!("{stem}_1") };
+    let what = format!(
+        "nothing but 0 in {rows} rows though {}: it was not logged",
+        if wheels > 1 { "wheels turn" } else { "the axis turns" }
+    );
+    let remedy = "leave it out of the map, or log what drives; where really nothing does, as of what swings freely, \
+                  --despite-mistakes goes on";
+    Some(Mistake::new("drive-not-logged", &column, what, remedy.to_owned()))
 }
 
 fn speeds(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {

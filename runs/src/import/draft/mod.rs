@@ -180,6 +180,8 @@ fn columns(guesses: &[Guess], none: &str) -> String {
     let most = duties.fold(0.0_f64, |most, x| most.max(x.abs()));
     let in_pixels = guesses.iter().any(|g| g.unit == guess::PIXELS);
     let headed = guesses.iter().any(|g| g.column == Column::Odometry(2));
+    let drives = |column: &Column| matches!(column, Column::Duty(_) | Column::Current(_));
+    let idle = guesses.iter().filter(|g| drives(&g.column)).all(|g| g.series.range() == [0.0; 2]);
     for Guess { series, column, unit } in guesses {
         let angle = matches!(column, Column::Counts(_)) && !unit.is_empty();
         // What only the owner knows is no guess.
@@ -190,6 +192,7 @@ fn columns(guesses: &[Guess], none: &str) -> String {
             unit if in_pixels && unit != guess::PIXELS && matches!(column, Column::Camera(_)) => {
                 Some(("", "of the pose in pixels"))
             }
+            _ if idle && drives(column) => Some(("", "nothing but 0, as of all motors: it seems not to be logged")),
             guess::PIXELS => {
                 Some(("scale = ...", "pixels: scale is metres a pixel; in an image y is mostly down, see [frame]"))
             }

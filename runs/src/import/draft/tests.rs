@@ -591,6 +591,17 @@ fn torques_stand_beside_their_joints() {
     }
 }
 
+/// Of a driver that measures no efforts.
+#[test]
+fn what_drives_is_left_open_where_it_is_never_anything_but_0() {
+    let rows = ["0,0,0.1,0,0.3", "1,0,0.2,0,0.35", "2,0,0.4,0,0.5"];
+    let header = "t,elbow/effort,elbow/position,wrist/effort,wrist/position";
+    let idle = drafted(header, rows);
+    assert!(idle.contains("\n# current_1 = \"elbow/effort\"") && idle.contains("\n# current_2 = "), "{idle}");
+    let one = drafted(header, ["0,0,0.1,0,0.3", "1,0,0.2,0.5,0.35", "2,0,0.4,0,0.5"]);
+    assert!(one.contains("\ncurrent_1 = \"elbow/effort\"") && one.contains("\ncurrent_2 = "), "{one}");
+}
+
 #[test]
 fn the_one_speed_beside_volts_is_the_motors() {
     let motor = drafted("time,voltage,velocity", ["0,-3,-20.5", "0.01,3,20.5", "0.02,12,20.5"]);
