@@ -133,3 +133,36 @@ fn efforts_that_are_never_anything_but_0_are_not_logged() {
     assert!(!told(&rows(0.1, 0.3)), "it drives");
     assert!(!told(&rows(0.0, 0.0)), "nothing turns");
 }
+
+/// An arm's joint on a sum of sines: its torques are those of the motor, before a gear of 101, and the file takes them for the
+/// output's. `coupled` is another joint that moves, which no law of this axis knows.
+#[test]
+fn torques_of_another_shaft_are_told_by_the_inertia() {
+    let said = |share: f64, coupled: f64| {
+        let mut random = ChaCha8Rng::seed_from_u64(19);
+        let mut rows = "t,enc_1,current_1\n".to_owned();
+        for k in 0..20_000_u32 {
+            let t = 0.001 * f64::from(k);
+            let [mut angle, mut speed, mut gains] = [0.0; 3];
+            for (n, size) in [(1.0, 0.3), (2.0, 0.12), (3.0, 0.08), (4.0, 0.05), (5.0, 0.04)] {
+                let (w, phase) = (0.314 * n, n * n);
+                angle += size * (w * t + phase).sin();
+                speed += size * w * (w * t + phase).cos();
+                gains -= size * w * w * (w * t + phase).sin();
+            }
+            let friction = 5.0 * (speed / 0.005).tanh() + 10.0 * speed;
+            let torque = 1.7 * gains + friction + coupled * (2.3 * t).sin() + 0.3 * random.random_range(-1.0..1.0);
+            rows += &format!("{t},{},{}\n", (angle / std::f64::consts::TAU * 524_288.0) as i64, share * torque);
+        }
+        let robot = ROBOT.replace("= 65536", "= 524288").replace("= 0.0066", "= 1").replace("= 7e-6", "= 2");
+        said_by(&robot, &rows)
+    };
+    for coupled in [0.0, 0.3] {
+        assert_eq!(said(1.0, coupled), Vec::<String>::new());
+        let of_the_motor = said(1.0 / 101.0, coupled);
+        assert!(
+            of_the_motor.len() == 1 && of_the_motor[0].starts_with("motor.rotor_inertia: 2 kg m² at the output shaft"),
+            "{of_the_motor:?}"
+        );
+    }
+}

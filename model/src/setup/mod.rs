@@ -9,6 +9,7 @@ mod camera;
 mod counts;
 mod drive;
 mod held;
+mod inertia;
 mod inertial;
 mod loops;
 mod motors;
@@ -123,6 +124,9 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
     if found.is_empty() {
         // Speeds that are wrong would be too fast for any motor.
         found.extend(motors::mistakes(&robot, &set.logs));
+    }
+    if found.is_empty() {
+        found.extend(inertia::mistakes(&robot, &set.logs));
     }
     if found.is_empty() {
         found.extend(winding::mistakes(&robot, &set.logs));

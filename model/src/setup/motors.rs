@@ -24,7 +24,7 @@ const FEWEST: usize = 20;
 const IMPOSSIBLE: f64 = 3.0;
 /// The same for the inertia of an axis on blocks, which a weight or a spring may move faster than its motor does: a pendulum
 /// that its motor swings up by and by weighs some times what the motor lifts. The least error of a unit is 10³.
-const IMPOSSIBLE_BESIDE_LOADS: f64 = 10.0;
+pub(super) const IMPOSSIBLE_BESIDE_LOADS: f64 = 10.0;
 /// Most that a floor passes on to a robot, m/s²: a coefficient of friction of 1. Wheels that slip gain more.
 const GRAVITY: f64 = 9.81;
 
