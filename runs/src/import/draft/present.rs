@@ -1,4 +1,5 @@
-//! `current` as engineers of controllers write it: not amperes, but what is now, beside what was asked for.
+//! What series are whose own names do not say it: `current` as engineers of controllers write it, not amperes, but what is now
+//! beside what was asked for; and the parts of a pose that is a list of three.
 
 use super::super::{Series, Table, owner};
 use super::guess::{ANGLES, WANTED, spaced, words};
@@ -15,7 +16,41 @@ const QUANTITIES: [&str; 18] = [
 /// one of them's.
 pub(super) fn meant(table: &Table, series: &Series) -> Option<String> {
     let of_motors = || table.of.as_deref().is_some_and(owner::is_of_motors);
-    now_or_wanted(table, series).or_else(|| of_motors().then(|| format!("motor {}", series.name)))
+    now_or_wanted(table, series)
+        .or_else(|| part_of_three(table, &series.name))
+        .or_else(|| of_motors().then(|| format!("motor {}", series.name)))
+}
+
+/// What a part of a list is: of `robot/pose/1`, 2 and 3 x, y and heading, and of velocities that were asked for beside such a
+/// pose those of the body. Of several poses in a file the robot's, if one is called so.
+fn part_of_three(table: &Table, name: &str) -> Option<String> {
+    let is_three = |list: &str| {
+        let has = |n: usize| table.series.iter().any(|other| other.name == format!("{list}/{n}"));
+        has(1) && has(2) && has(3) && !has(4)
+    };
+    let (list, part) = name.rsplit_once('/')?;
+    let part = part.parse::<usize>().ok().filter(|n| (1..=3).contains(n) && is_three(list))? - 1;
+    let (owner, what) = list.rsplit_once('/').unwrap_or(("", list));
+    let pose_of = |list: &str| list.strip_suffix("pose").map(|owner| owner.trim_end_matches('/').to_owned());
+    let firsts = table.series.iter().filter_map(|other| other.name.strip_suffix("/1"));
+    let owners: Vec<String> = firsts.filter(|list| is_three(list)).filter_map(pose_of).collect();
+    let is_robot = |owner: &str| words(&owner.to_lowercase()).contains(&"robot");
+    if !owners.iter().any(|other| other == owner) {
+        return None;
+    }
+    if owners.iter().any(|other| is_robot(other)) && !is_robot(owner) {
+        return Some("another".to_owned());
+    }
+    let lower = spaced(what).to_lowercase();
+    let words = words(&lower);
+    let asked = words.iter().any(|word| WANTED.contains(word) || ["cmd", "command"].contains(word));
+    match what {
+        "pose" => Some(format!("{owner} pose {}", ["x", "y", "theta"][part])),
+        _ if asked && words.iter().any(|word| ["velocity", "vel", "twist"].contains(word)) => {
+            Some(format!("cmd {}", ["linear x", "linear y", "angular z"][part]))
+        }
+        _ => None,
+    }
 }
 
 /// The same where it says it by such a word: `current_speed` is a speed, and of

@@ -591,6 +591,28 @@ fn torques_stand_beside_their_joints() {
     }
 }
 
+/// Lists of three in JSON: a robot that pushes something.
+#[test]
+fn a_pose_that_is_a_list_has_its_parts() {
+    let row = |t: f64| {
+        let of = |x: f64| format!("{{\"pose\":[{x},0.{t},1.5],\"target_velocity\":[0.05,{x},0.01]}}");
+        format!("{{\"time\":{t},\"object\":{},\"robot\":{}}}", of(0.3 + 0.1 * t), of(0.1 * t))
+    };
+    let text = format!("[{},{},{}]", row(0.0), row(1.0), row(2.0));
+    let table = Table::of_bytes(text.as_bytes(), Path::new("x.json"), None, &Clock::default()).unwrap();
+    let pushing = draft(&table);
+    for line in [
+        "cmd_vx = \"robot/target_velocity/1\"",
+        "cmd_w = \"robot/target_velocity/3\"",
+        "cam_x = \"robot/pose/1\"",
+        "cam_y = \"robot/pose/2\"",
+        "cam_theta = \"robot/pose/3\"",
+    ] {
+        assert!(pushing.contains(line), "{line}\n{pushing}");
+    }
+    assert!(!pushing.contains("\nref_1"), "{pushing}");
+}
+
 /// Of a driver that measures no efforts.
 #[test]
 fn what_drives_is_left_open_where_it_is_never_anything_but_0() {
