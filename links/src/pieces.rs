@@ -72,12 +72,22 @@ pub struct Pieces<'a> {
     driving: Driving,
 }
 
+/// What the rows of a log say of what drives the wheels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Driven {
+    /// What is set there, and held until the next row.
+    Held,
+    /// What was measured there; it goes straight to the next row.
+    Straight,
+    /// What was measured there, and had been since the row before: a controller reads its sensors and then sets what is next.
+    UntilThen,
+}
+
 /// How the logs of a drive are looked at, settled before anything is fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Driving {
-    /// Whether what drives the wheels was measured: at a row it is what the row says, and goes straight to the next; else
-    /// it is held until then.
-    pub measured: bool,
+    /// What the rows say of what drives the wheels.
+    pub driven: Driven,
     /// Whether logged speeds are means over the row before, as differences of counts are: half a row older than momentary ones.
     pub mean_speeds: bool,
     /// Length of a test function, s.
@@ -86,7 +96,7 @@ pub struct Driving {
 
 impl Default for Driving {
     fn default() -> Self {
-        Self { measured: false, mean_speeds: false, test_function_s: crate::drive::TEST_FUNCTION_S }
+        Self { driven: Driven::Held, mean_speeds: false, test_function_s: crate::drive::TEST_FUNCTION_S }
     }
 }
 
@@ -422,7 +432,7 @@ impl<'a> Pieces<'a> {
             frames: frames.map(|i| Frame { t: self.stamps[p.run][i], pose: seen[i].pose }).collect(),
             before: &p.history[..p.before],
             speed: self.speed,
-            measured: self.driving.measured,
+            driven: self.driving.driven,
             mean_speeds: self.driving.mean_speeds,
         };
         segment(&self.robot, &self.geometry, &part, place)

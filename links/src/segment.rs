@@ -9,6 +9,7 @@ use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
 use crate::inertial::Felt;
+use crate::pieces::Driven;
 use crate::thresholds::{self, TEST_FUNCTION_S};
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
@@ -134,8 +135,8 @@ pub(crate) struct Place<'a> {
     pub(crate) before: &'a [(f64, Vec<f64>)],
     /// Speed of the wheels of the data set while they turned, rad/s.
     pub(crate) speed: f64,
-    /// Whether what drives the wheels was measured at the rows.
-    pub(crate) measured: bool,
+    /// What the rows say of what drives the wheels.
+    pub(crate) driven: Driven,
     /// Whether logged speeds are means over the row before.
     pub(crate) mean_speeds: bool,
 }
@@ -226,11 +227,14 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
     }
     // Duties of motors that nobody described predict nothing.
     if part.duty.len() == n && runs::drive_lacks(robot).is_empty() {
-        s.duty = part.duty.iter().map(|d| if place.measured { straight(d, &t) } else { held(d, 0.0) }).collect();
+        let measured = place.driven != Driven::Held;
+        s.duty = part.duty.iter().map(|d| if measured { straight(d, &t) } else { held(d, 0.0) }).collect();
         let lost: Vec<Vec<Lost>> = (0..n)
             .map(|i| lost_rows(&part.duty[i], &t, part.count_gaps.get(i).map_or(&[][..], Vec::as_slice)))
             .collect();
-        if place.measured || between_rows(robot, &t) {
+        if place.driven == Driven::UntilThen {
+            s.duty.iter_mut().for_each(|d| d.copy_within(1.., 0));
+        } else if measured || between_rows(robot, &t) {
             s.duty.iter_mut().for_each(|d| mean_of_neighbours(d));
         } else {
             s.duty.iter_mut().zip(&lost).for_each(|(duty, lost)| lost.iter().for_each(|rows| rows.cross(duty, &t)));

@@ -5,14 +5,14 @@ use runs::robot::Robot;
 
 use super::cut::Cut;
 use links::drive::{DriveLink, DriveModel, FEWEST_PER_COLUMN, Generic};
-use links::pieces::Driving;
+use links::pieces::{Driven, Driving};
 
 /// Longest test function, s.
 const LONGEST_S: f64 = 3.0;
 
 /// Whether currents were measured, whether speeds are means of rows, and how long test functions are.
 ///
-/// Currents are measured, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
+/// Currents are measured, at a row or in the time up to it, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
 /// functions of speed and current. Speeds in place of counts are momentary or the mean of the row before by the same rule:
 /// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
 /// as long as they tell more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
@@ -36,9 +36,11 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool, no_noise: f64) 
     };
     let mut chosen = Driving::default();
     let Some(mut now) = look(chosen) else { return chosen };
-    let measured = Driving { measured: true, ..chosen };
-    if currents && let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
-        (chosen, now) = (measured, other);
+    for driven in [Driven::Straight, Driven::UntilThen].into_iter().filter(|_| currents) {
+        let measured = Driving { driven, ..chosen };
+        if let Some(other) = look(measured).filter(|other| other.tells > now.tells) {
+            (chosen, now) = (measured, other);
+        }
     }
     let mean = Driving { mean_speeds: true, ..chosen };
     if is_from_speeds(robot)
