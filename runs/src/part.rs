@@ -189,5 +189,15 @@ impl Run {
             slot.extend(gaps.iter().map(|g| before + g));
         }
         self.camera.extend(more.camera.iter().map(|f| CameraSample { tick: before + f.tick, ..*f }));
+        self.note(&more.notes);
+    }
+
+    /// Adds what is said of ticks that follow, once.
+    pub(super) fn note(&mut self, more: &[String]) {
+        for note in more {
+            if !self.notes.contains(note) {
+                self.notes.push(note.clone());
+            }
+        }
     }
 }

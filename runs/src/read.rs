@@ -133,6 +133,7 @@ fn parse(
             take(part)?;
         }
         reader.row(&record)?;
+        std::mem::swap(&mut record, &mut reader.before);
     }
     if let Some(rest) = reader.finish()? {
         take(rest)?;
@@ -177,6 +178,10 @@ struct Reader<'a> {
     fresh: bool,
     /// Offset and number of fields of a short line: an error once it is known to be the last or not.
     short: Option<(usize, usize)>,
+    /// The line before.
+    before: ByteRecord,
+    /// Lines that only repeat the one before: how many, and the offset of the first.
+    repeated: Option<(usize, usize)>,
 }
 
 impl<'a> Reader<'a> {
@@ -249,6 +254,8 @@ impl<'a> Reader<'a> {
             held,
             fresh: true,
             short: None,
+            before: ByteRecord::new(),
+            repeated: None,
         })
     }
 
@@ -266,6 +273,11 @@ impl<'a> Reader<'a> {
         }
         if record.len() < self.slots.len() {
             self.short = Some((offset, record.len()));
+            return Ok(());
+        }
+        // Two loggers of one topic, or a buffer that is written again: it says nothing new.
+        if self.last_t.is_some() && *record == self.before {
+            self.repeated.get_or_insert((0, offset)).0 += 1;
             return Ok(());
         }
         // Lines of one time with different fields are one tick of signals with clocks of their own.
@@ -341,11 +353,12 @@ impl<'a> Reader<'a> {
                         return fail("is empty".to_owned(), "every tick needs its time");
                     }
                     if let Some(before) = self.last_t.filter(|before| number <= *before) {
-                        let what = if number == before {
-                            format!("time {number} s stands twice")
-                        } else {
-                            format!("time runs backwards, from {before} s to {number} s")
-                        };
+                        if number == before {
+                            let hint = "log one line a tick, with times of more digits; rows of one beat, whose times have \
+                                        none, are numbered by `racbot convert` with rate_hz";
+                            return fail(format!("time {number} s stands twice"), hint);
+                        }
+                        let what = format!("time runs backwards, from {before} s to {number} s");
                         return fail(what, "sort the log by time, one line a tick");
                     }
                     self.last_t = Some(number);
@@ -431,6 +444,13 @@ impl<'a> Reader<'a> {
         }
         if self.last_t.is_none() {
             return Err(RunError::new(self.path, "has a header but no ticks", "log at least one line"));
+        }
+        if let Some((lines, offset)) = self.repeated {
+            let first = self.line(offset);
+            self.run.notes.push(match lines {
+                1 => format!("line {first} repeats the line before it and is left out"),
+                _ => format!("{lines} lines repeat the line before them and are left out, the first is line {first}"),
+            });
         }
         Ok((!self.run.is_empty()).then(|| self.take()))
     }

@@ -80,6 +80,7 @@ impl Spooled {
             write(gaps.iter().flat_map(|x| (*x as u64).to_le_bytes()).collect())?;
         }
         let ticks = self.len()..self.len() + run.len();
+        self.layout.note(&run.notes);
         self.parts.push(Part { offset, ticks, gaps: run.count_gaps.iter().map(Vec::len).collect() });
         Ok(())
     }

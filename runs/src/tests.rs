@@ -78,6 +78,18 @@ fn lines_of_one_time_are_one_tick_where_no_field_stands_twice() {
 }
 
 #[test]
+fn a_line_that_repeats_the_one_before_is_left_out_and_said() {
+    let run =
+        read("t,enc_1,duty_1\n0,5,0.1\n0.01,6,0.1\n0.01,6,0.1\n0.02,8,0.2\n0.02,8,0.2\n0.02,8,0.2\n0.03,9,\n").unwrap();
+    assert_eq!((run.t, run.counts), (vec![0.0, 0.01, 0.02, 0.03], vec![vec![5, 6, 8, 9]]));
+    assert_eq!(run.notes, ["3 lines repeat the line before them and are left out, the first is line 4"]);
+    assert_eq!(read("t,enc_1\n0,5\n0,5\n").unwrap().notes, ["line 3 repeats the line before it and is left out"]);
+    let once = read("t,enc_1,duty_1\n0,5,\n0,,0.1\n0,,0.1\n0.01,6,\n").unwrap();
+    assert_eq!((once.t.len(), once.duty[0][0]), (2, 0.1), "a signal of its own clock, twice");
+    assert!(error("t,enc_1,duty_1\n0,5,0.1\n0,5,0.2\n").contains("time 0 s stands twice"));
+}
+
+#[test]
 fn every_column_survives_writing_and_reading() {
     let names = "t,speed_1,speed_2,current_1,current_2,odom_x,odom_y,odom_theta,gyro_x,gyro_y,gyro_z,acc_x,acc_y,acc_z,\
                  imu_temp";
@@ -141,7 +153,7 @@ fn errors_say_where_what_and_what_to_do() {
         ("t,duty_1\n0,-inf\n", "run.csv:2:3: duty_1: -inf is not"),
         ("t,duty_1\n0,55\n", "run.csv:2:3: duty_1: duty 55 is not within ±1"),
         ("t\n0\n1\n0.5\n", "run.csv:4:1: t: time runs backwards, from 1 s to 0.5 s;"),
-        ("t\n0\n1\n1\n", "run.csv:4:1: t: time 1 s stands twice;"),
+        ("t,enc_1\n0,1\n1,2\n1,3\n", "run.csv:4:1: t: time 1 s stands twice;"),
         ("t,duty_1\n,0\n", "run.csv:2:1: t: is empty;"),
         ("t,duty_1\n0,0,0\n", "run.csv:2:1: 3 fields, but the header has 2; quote"),
         ("t,duty_1\n0\n1,0\n", "run.csv:2:1: 1 fields, but the header has 2; complete the line"),
