@@ -6,6 +6,7 @@ mod derive;
 mod headings;
 mod held;
 mod interpolated;
+mod stamps;
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -131,6 +132,7 @@ fn virtual_wheels() -> [Wheel; 3] {
 pub(crate) struct Reading {
     source: Source,
     derive: derive::Derive,
+    stamps: stamps::Stamps,
     held: held::Held,
     camera: camera::Repeats,
     interpolated: interpolated::Interpolated,
@@ -156,6 +158,7 @@ impl Reading {
         Ok(Self {
             source,
             derive: derive::Derive::new(source, &as_logged(robot, source, None), robot, first),
+            stamps: stamps::Stamps::of(first, robot.lacks(&["control_rate_hz"]).is_empty().then(|| robot.tick_s())),
             held: held::Held::of(first),
             camera: camera::Repeats::of(first),
             interpolated: interpolated::Interpolated::of(first),
@@ -166,6 +169,7 @@ impl Reading {
     /// The next part.
     pub(crate) fn apply(&mut self, mut run: Run) -> Run {
         run.source = self.source;
+        self.stamps.apply(&mut run);
         self.held.apply(&mut run);
         self.camera.apply(&mut run);
         self.interpolated.apply(&mut run);
@@ -177,6 +181,7 @@ impl Reading {
             // A log whose first frames come late has no headings for them.
             run.camera.retain(|sample| !sample.pose.theta.is_nan());
         }
+        run.notes.extend(self.stamps.note());
         run.notes.extend(self.held.note(&run));
         run.notes.extend(self.camera.note(&run));
         run.notes.extend(self.interpolated.note(&run));

@@ -42,6 +42,36 @@ fn counts_that_repeat_are_no_samples_and_slow_wheels_are() {
     }
 }
 
+/// Rows of a loop at 90 Hz: in milliseconds, and in 32 bits half a day after the clock began.
+#[test]
+fn rows_with_coarse_stamps_are_read_by_their_number() {
+    let mut rng = ChaCha8Rng::seed_from_u64(20);
+    let lost: Vec<bool> = (0..900).map(|k| k > 3 && rng.random::<f64>() < 0.02).collect();
+    let made = |stamp: &dyn Fn(f64) -> f64, truth: &dyn Fn(usize) -> f64| {
+        let robot = Robot::racbot();
+        let kept = || (0..900).filter(|k| !lost[*k]);
+        let count = |k: usize| (angle(truth(k)) * robot.counts_per_wheel_rad()).floor() as i64;
+        let counts = vec![kept().map(count).collect()];
+        let t: Vec<f64> = kept().map(|k| stamp(truth(k))).collect();
+        let run = read(Run { t, counts, count_gaps: vec![Vec::new()], ..Run::default() });
+        let apart: Vec<f64> = run.t.iter().zip(kept()).map(|(t, k)| t - truth(k)).collect();
+        let middle = apart.iter().sum::<f64>() / apart.len() as f64;
+        (apart.iter().map(|d| (d - middle).abs()).fold(0.0, f64::max), run.notes)
+    };
+    let beat = |k: usize| k as f64 / 90.0;
+    let (off, notes) = made(&|t| (t * 1e3).round() * 1e-3, &beat);
+    assert!(off < 1e-4 && notes.len() == 1 && notes[0].contains("steps of 1.000 ms"), "{off} {notes:?}");
+    let (off, notes) = made(&|t| f64::from((t + 40_000.0) as f32), &beat);
+    assert!(off < 3e-4 && notes[0].contains("by their number, at 90.0 Hz"), "{off} {notes:?}");
+    // A loop that is woken in whole milliseconds, and one that comes when it comes.
+    let woken = |k: usize| (beat(k) * 1e3).round() * 1e-3;
+    let (off, notes) = made(&|t| t, &woken);
+    assert!(off < 1e-12 && notes.is_empty(), "{off} {notes:?}");
+    let late = |k: usize| beat(k) + 2e-3 * (1.7 * k as f64).sin().abs();
+    let (off, notes) = made(&|t| (t * 1e3).round() * 1e-3, &late);
+    assert!(off < 2e-3 && notes.is_empty(), "{off} {notes:?}");
+}
+
 #[test]
 fn speeds_become_counts() {
     let speed = |k: usize| 12.0 * (3.0 * k as f64 * 1e-3).cos();
