@@ -147,3 +147,31 @@ fn a_log_of_a_robot_that_was_lifted_is_told_by_its_name() {
     set.runs = vec![set.runs[1].clone()];
     assert!(!told(&set).iter().any(|s| s.contains("sees the robot stand")), "{:?}", told(&set));
 }
+
+/// Rows that come when something happens keep the beat of the loop, at the next tick or later; those of a loop that is slower than
+/// its file says come at no next tick.
+#[test]
+fn rows_by_events_are_no_slower_loop() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew");
+    let said = |after: &mut dyn FnMut() -> usize| {
+        let mut set = DataSet::open(&folder).unwrap();
+        for run in &mut set.runs {
+            let mut rows = vec![0, 1];
+            while let Some(row) = Some(rows[rows.len() - 1] + after()).filter(|row| *row < run.len()) {
+                rows.push(row);
+            }
+            let kept = |column: &mut Vec<f64>| *column = rows.iter().map(|row| column[*row]).collect();
+            [&mut run.reference, &mut run.duty].into_iter().flatten().chain([&mut run.t]).for_each(kept);
+            run.counts.iter_mut().for_each(|c| *c = rows.iter().map(|row| c[*row]).collect());
+            run.count_gaps.iter_mut().for_each(Vec::clear);
+            run.measured.clear();
+            run.camera.clear();
+            (run.command, run.supply_v, run.has_camera) = (None, None, false);
+        }
+        told(&set).iter().any(|s| s.contains("control_rate_hz = "))
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(20);
+    assert!(!said(&mut || if rng.random::<f64>() < 0.3 { 1 } else { rng.random_range(2..12) }), "by events");
+    assert!(said(&mut || 4), "a loop of a quarter of the rate");
+    assert!(said(&mut || rng.random_range(3..6)), "one that is late and early");
+}

@@ -173,7 +173,7 @@ impl Run {
     }
 
     /// Times of the ticks at which the first encoder counts, or all where it has not twice.
-    pub(crate) fn sampled(&self) -> std::borrow::Cow<'_, [f64]> {
+    pub fn sampled(&self) -> std::borrow::Cow<'_, [f64]> {
         let gaps = self.count_gaps.first().map_or(&[][..], Vec::as_slice);
         if gaps.is_empty() || gaps.len() + 2 > self.len() {
             return std::borrow::Cow::Borrowed(&self.t);
