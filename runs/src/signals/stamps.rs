@@ -33,7 +33,9 @@ impl Stamps {
             // A beat much faster than the rows fits any.
             let known = tick_s.filter(|tick| (1.0..1.0 + LOST).contains(&(mean / tick)));
             let (beat, period) = known.into_iter().chain([mean]).find_map(|period| beat(&rows, period, step))?;
-            is_smoother(run, &rows, &beat).then_some([step, period])
+            // Rows that are missing leave whole rows.
+            let rounded = rows.iter().zip(&beat).any(|(t, beat)| (t - beat).abs() > WHOLE * step);
+            (rounded && is_smoother(run, &rows, &beat)).then_some([step, period])
         };
         Self { coarse: found(), said: false }
     }

@@ -63,7 +63,9 @@ fn rows_with_coarse_stamps_are_read_by_their_number() {
     assert!(off < 1e-4 && notes.len() == 1 && notes[0].contains("steps of 1.000 ms"), "{off} {notes:?}");
     let (off, notes) = made(&|t| f64::from((t + 40_000.0) as f32), &beat);
     assert!(off < 3e-4 && notes[0].contains("by their number, at 90.0 Hz"), "{off} {notes:?}");
-    // A loop that is woken in whole milliseconds, and one that comes when it comes.
+    // Whole rows that are missing, a loop that is woken in whole milliseconds, and one that comes when it comes.
+    let (off, notes) = made(&|t| t, &|k| k as f64 * 0.01);
+    assert!(off < 1e-12 && notes.is_empty(), "{off} {notes:?}");
     let woken = |k: usize| (beat(k) * 1e3).round() * 1e-3;
     let (off, notes) = made(&|t| t, &woken);
     assert!(off < 1e-12 && notes.is_empty(), "{off} {notes:?}");
