@@ -103,7 +103,7 @@ fn beat(rows: &[f64], period: f64, step: f64) -> Option<(Vec<f64>, f64)> {
         let sxy: f64 = numbers.iter().zip(part).map(|(k, t)| (k - mean_n) * (t - mean_t)).sum();
         (period, origin) = (sxy / sxx, mean_t - sxy / sxx * mean_n);
         let errs = |(k, t): (&f64, &f64)| (origin + period * k - t).abs() > ROUNDED * step;
-        if !(period > 0.0) || numbers.iter().zip(part).any(errs) {
+        if period.is_nan() || period <= 0.0 || numbers.iter().zip(part).any(errs) {
             return None;
         }
         if known == rows.len() {
