@@ -18,8 +18,11 @@ const SLOWER: f64 = 1.6;
 const LOOKED_AT: usize = 1 << 16;
 /// Ticks from a whole number of them within which rows keep the beat of the loop: what comes at any time is a quarter off.
 const BEAT: f64 = 0.1;
-/// Share of the rows that come at the next tick, where they come when something happens: of a slower loop none do.
-const AT_ONCE: f64 = 0.02;
+/// Times by which distances of rows that come when something happens spread, from the shortest twentieth to the longest: a loop
+/// that is late and early at times stays within two.
+const SPREAD: f64 = 3.0;
+/// Share of the distances that are no multiple of a number of ticks, from which it is not that of a slower loop.
+const BETWEEN: f64 = 0.02;
 
 pub(super) fn mistakes(file: &Robot, robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let Some(tick) = logs.iter().find_map(Log::tick_s) else { return Vec::new() };
@@ -76,14 +79,19 @@ fn odd_one_out(logs: &[Log]) -> Option<Mistake> {
     Some(Mistake::new("time-unit", "t", what, remedy))
 }
 
-/// Whether rows come in the beat of the loop, at the next tick or after as many as nothing happened.
+/// Whether rows come in the beat of the loop, after as many ticks as nothing happened.
 fn comes_by_events(robot: &Robot, log: &Log) -> bool {
     let part = log.part(0..log.len().min(LOOKED_AT), Columns { counts: true, ..Columns::NONE });
     let rows = part.sampled();
-    let ticks: Vec<f64> = rows.windows(2).map(|w| (w[1] - w[0]) * robot.control_rate_hz).collect();
-    let at_once = ticks.iter().filter(|n| n.round() == 1.0).count();
-    let in_beat = |n: &f64| *n > 0.5 && (n - n.round()).abs() <= BEAT;
-    ticks.iter().all(in_beat) && at_once as f64 >= AT_ONCE * ticks.len() as f64
+    let mut ticks: Vec<f64> = rows.windows(2).map(|w| (w[1] - w[0]) * robot.control_rate_hz).collect();
+    ticks.sort_by(f64::total_cmp);
+    let at = |share: f64| ticks.get((share * ticks.len() as f64) as usize).map_or(0.0, |n| n.round());
+    let in_beat = ticks.iter().all(|n| n.round() >= 1.0 && (n - n.round()).abs() <= BEAT);
+    let between = |every: &f64| {
+        let off = ticks.iter().filter(|n| n.round() % every != 0.0).count();
+        off as f64 >= BETWEEN * ticks.len() as f64
+    };
+    in_beat && at(0.95) >= SPREAD * at(0.05).max(1.0) && [2.0, 3.0, 5.0, 7.0].iter().all(between)
 }
 
 /// Whether a log replays a controller, tick by tick.
