@@ -9,8 +9,10 @@ use rand::{RngExt, SeedableRng};
 
 use crate::normal_equations::inverse;
 
-/// Draws of signs; the least p-value is 1/5000.
+/// Draws of signs.
 const FLIPS: u32 = 4999;
+/// The least p-value that these draws resolve, 1/5000.
+pub const LEAST: f64 = 1.0 / (FLIPS + 1) as f64;
 /// Seed of the draws: the same data give the same p-value.
 const SEED: u64 = 20_051_123;
 

@@ -13,6 +13,7 @@ use super::Structure;
 use crate::thresholds::Thresholds;
 use crate::units;
 use estimation::parallel::each;
+use estimation::sign_flips;
 use estimation::statistics::{chi2_upper, median};
 use links::drive::{DriveLink, DriveModel};
 use links::segment::Segment;
@@ -149,7 +150,8 @@ pub(super) fn orders(
     let ripple = best.map(|(count, p)| Ripple {
         count,
         wheels: ripples.iter().filter(|r| r.1 == count).map(|r| (r.0, r.2.amplitude, r.2.sd)).collect(),
-        p_value: (p * tests).max(f64::MIN_POSITIVE),
+        // Noise is normal in its middle; of the tail of χ² beyond what flips of signs resolve no log tells anything.
+        p_value: (p * tests).max(sign_flips::LEAST),
     });
     (ripple, structures)
 }

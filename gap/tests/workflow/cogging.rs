@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{of_files, with_dry_friction};
+use super::common::{names, of_files, simulate, with, with_dry_friction};
 
-use gap::{Analysis, Verdict};
+use gap::{Analysis, Options, Verdict, analyse};
+use model::manoeuvre::Manoeuvre;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::Run;
+use runs::robot::Robot;
 
 const KT: f64 = 0.12;
 const INERTIA: f64 = 2.5e-4;
@@ -65,4 +67,20 @@ fn cogs_of_a_motor_without_a_gear_are_said_by_their_number() {
         let a = done(0.0, seed);
         assert_eq!(a.verdict, Verdict::Agrees, "{}", a.terminal_summary());
     }
+}
+
+/// Rollers show in thousands of blocks, and by the tail of their law's distribution no chance would be left; none is told that
+/// is less than what flips of signs resolve.
+#[test]
+fn a_ripple_of_rollers_has_a_chance_that_a_test_can_resolve() {
+    let ripple = [("cos_1", 0.05), ("cos_2", 0.05), ("cos_3", 0.05), ("order", 15.0)];
+    let truth = with(&Robot::racbot(), "roller-ripple", &ripple);
+    let a = analyse(&simulate(&truth, &[Manoeuvre::Chirp, Manoeuvre::Chirp], 71), &Options::default()).unwrap();
+    assert_eq!(names(&a), ["roller-ripple"], "{}", a.terminal_summary());
+    let p = a.effects[0].evidence.p_value().unwrap();
+    assert!((estimation::sign_flips::LEAST..1e-3).contains(&p), "{p}");
+    let folder = tempfile::tempdir().unwrap();
+    a.write(folder.path()).unwrap();
+    let written = std::fs::read_to_string(folder.path().join("robot.toml")).unwrap();
+    assert!(written.contains(&format!("p_value = {p:?}\n")), "{written}");
 }

@@ -256,6 +256,20 @@ fn what_is_no_slip_of_a_known_key_is_kept() {
 }
 
 #[test]
+fn numbers_of_any_size_are_short_to_read_wherever_they_stand() {
+    let effect = "\n[[effect]]\nname = \"wheel-radius\"\np_value = 2e-308\nseen = [1e-300, { least = -1e300 }]\n\
+                  [effect.parameters]\nscale_2 = { value = 1e-250, resolution = [9e-251, 1.1e-250] }\n";
+    let text = with("mass_kg = 2.4", "mass_kg = 2.4\nweakest = { n = 5e-324 }") + effect;
+    let robot = Robot::parse(&text, Path::new("r")).unwrap();
+    let written = [robot.to_toml(), Robot::edited(&text, &[], Path::new("r")).unwrap()];
+    let again = Robot::edited(&written[1], &robot.effects, Path::new("r")).unwrap();
+    for text in [&written[0], &again] {
+        assert!(text.lines().all(|line| line.len() < 120), "{text}");
+        assert_eq!(Robot::parse(text, Path::new("again")).unwrap(), robot, "{text}");
+    }
+}
+
+#[test]
 fn a_missing_file_is_one_clear_error() {
     let e = Robot::load("/nowhere/robot.toml").unwrap_err();
     assert_eq!(e.file, Path::new("/nowhere/robot.toml"));

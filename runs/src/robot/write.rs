@@ -70,7 +70,7 @@ pub(super) fn robot(robot: &Robot) -> String {
 /// What the file said beside; tables inline, so that they stay where they are.
 fn others(out: &mut String, robot: &Robot, table: &str) {
     for (_, key, value) in robot.other.iter().filter(|(t, ..)| t == table) {
-        line(out, key, value);
+        line(out, key, text(value));
     }
 }
 
@@ -80,7 +80,7 @@ pub(super) fn effect(out: &mut String, effect: &Effect) {
     let wheels = effect.wheels.iter().map(|w| toml::Value::Integer(*w as i64)).collect();
     line(out, "wheels", toml::Value::Array(wheels));
     for (key, value) in &effect.other {
-        line(out, key, value);
+        line(out, key, text(value));
     }
     if effect.parameters.is_empty() {
         return;
@@ -88,7 +88,7 @@ pub(super) fn effect(out: &mut String, effect: &Effect) {
     out.push_str("[effect.parameters]\n");
     for (name, p) in &effect.parameters {
         let ci95 = p.ci95.map(|ci| ("ci95".to_owned(), floats(&ci)));
-        let rest = p.other.iter().map(|(key, value)| (key.clone(), value.to_string()));
+        let rest = p.other.iter().map(|(key, value)| (key.clone(), text(value)));
         let entries = [("value".to_owned(), number(p.value))].into_iter().chain(ci95).chain(rest);
         line(out, name, inline(entries));
     }
@@ -97,6 +97,16 @@ pub(super) fn effect(out: &mut String, effect: &Effect) {
 /// One `key = value`, everything nested inline, so that no later key falls into a sub-table.
 fn line(out: &mut String, name: &str, value: impl Display) {
     let _ = writeln!(out, "{} = {value}", key(name));
+}
+
+/// A value inline. Its numbers have exponents where `toml` would write hundreds of zeros.
+fn text(value: &toml::Value) -> String {
+    match value {
+        toml::Value::Float(x) => float(*x),
+        toml::Value::Array(values) => format!("[{}]", values.iter().map(text).collect::<Vec<_>>().join(", ")),
+        toml::Value::Table(table) => inline(table.iter().map(|(key, value)| (key.clone(), text(value)))),
+        other => other.to_string(),
+    }
 }
 
 /// An inline table of entries in this order.
@@ -115,11 +125,15 @@ fn number(x: f64) -> String {
     if x.fract() == 0.0 && x.abs() < 1e15 {
         return format!("{x}");
     }
-    // Rust writes NaN and TOML nan, so that what is not valid stays readable for the error message.
+    float(x)
+}
+
+/// Rust writes NaN and TOML nan, so that what is not valid stays readable for the error message.
+fn float(x: f64) -> String {
     format!("{x:?}").to_lowercase()
 }
 
 fn floats(numbers: &[f64]) -> String {
-    let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:?}").to_lowercase()).collect();
+    let numbers: Vec<String> = numbers.iter().copied().map(float).collect();
     format!("[{}]", numbers.join(", "))
 }
