@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::fill::Wanted;
 use super::units;
-use crate::columns::Column;
+use crate::columns::{Column, MOST_DUTY};
 use crate::error::{InputError, nearest};
 
 /// Which series a column is made of, and how.
@@ -28,7 +28,7 @@ impl<'de> Deserialize<'de> for Source {
             type Value = Source;
 
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                f.write_str("the name of a series, { from = \"its name\", unit = \"mm\" }, or of a supply its volts")
+                f.write_str("the name of a series, { from = \"its name\", unit = \"mm\" }, or one number for every row")
             }
 
             fn visit_str<E>(self, name: &str) -> Result<Source, E> {
@@ -79,10 +79,35 @@ pub(super) struct Scaled {
 /// Velocities of the body that its odometry was made of: integrated, they are the odometry.
 pub(super) const RATES: [&str; 3] = ["odom_vx", "odom_vy", "odom_w"];
 
-/// The supply that a map gives in place of a column, V.
-pub(super) fn supply(columns: &BTreeMap<String, Source>) -> Option<f64> {
-    match columns.get(&Column::Supply.name())? {
-        Source::Constant(volts) => Some(*volts),
+/// What a map gives one number for, the same in every row.
+pub(super) fn constants(columns: &BTreeMap<String, Source>) -> Vec<(Column, f64)> {
+    let constant = |(name, source): (&String, &Source)| match source {
+        Source::Constant(value) => Some((Column::from_name(name), *value)),
+        Source::Name(_) | Source::Scaled(_) => None,
+    };
+    columns.iter().filter_map(constant).collect()
+}
+
+/// Whether somebody knows the number without a log: what was asked or given, not what was measured.
+fn is_set(column: Column) -> bool {
+    matches!(column, Column::Supply | Column::Duty(_) | Column::Reference(_) | Column::Command(_))
+}
+
+/// What is wrong with a number that stands for every row of a column, and what to write.
+fn constant_fault(column: Column, value: f64) -> Option<(String, &'static str)> {
+    if !is_set(column) {
+        let hint = "give the name of a series, or { from = \"its name\", unit = \"mm\" }; a number alone is for what was \
+                    set: supply_v, duty_, ref_, cmd_";
+        return Some((format!("{value} is no series"), hint));
+    }
+    match column {
+        Column::Supply if !(value.is_finite() && value > 0.0) => {
+            Some((format!("{value} V is no supply"), "such as supply_v = 12"))
+        }
+        Column::Duty(_) if value.is_nan() || value.abs() > MOST_DUTY => {
+            Some((format!("duty {value} is not within ±1"), "it is a share of the supply: 60 percent are 0.6"))
+        }
+        _ if !value.is_finite() => Some((format!("{value} is no number"), "give one, in the unit of the column")),
         _ => None,
     }
 }
@@ -105,14 +130,10 @@ pub(super) fn wanted(columns: &BTreeMap<String, Source>) -> Result<Vec<Wanted<'_
             return Err(fail("is no column of a run".to_owned(), hint));
         }
         let (from, name, scale, offset, limit, per_rev, wraps, increments, sign) = match source {
-            Source::Constant(value) if column != Column::Supply => {
-                let hint = "give the name of a series, or { from = \"its name\", unit = \"mm\" }; a number alone is for supply_v";
-                return Err(fail(format!("{value} is no series"), hint.to_owned()));
-            }
-            Source::Constant(value) if !(value.is_finite() && *value > 0.0) => {
-                return Err(fail(format!("{value} V is no supply"), "such as supply_v = 12".to_owned()));
-            }
-            Source::Constant(_) => continue,
+            Source::Constant(value) => match constant_fault(column, *value) {
+                Some((what, hint)) => return Err(fail(what, hint.to_owned())),
+                None => continue,
+            },
             Source::Name(from) => (from, "", 1.0, 0.0, None, None, None, false, None),
             Source::Scaled(s) => (
                 &s.from,
@@ -210,13 +231,32 @@ mod tests {
     }
 
     #[test]
-    fn a_number_is_the_supply_of_every_row_and_no_other_column() {
+    fn a_number_is_what_was_set_in_every_row_and_nothing_that_is_measured() {
         let volts = "duty_1 = { from = \"volts\", scale = 0.0833333333 }\n";
         assert_eq!(made(volts).unwrap().supply_v, None);
         assert_eq!(made(&format!("{volts}supply_v = 12")).unwrap().supply_v, Some(vec![12.0; 3]));
         let error = made(&format!("{volts}supply_v = -12.5")).unwrap_err();
         assert!(error.contains("columns.supply_v") && error.contains("-12.5 V is no supply"), "{error}");
-        let error = made("duty_1 = 1").unwrap_err();
-        assert!(error.contains("columns.duty_1") && error.contains("1 is no series"), "{error}");
+        // A step of one duty, of which the log has the speed alone; set points and commands likewise.
+        let step = made("duty_1 = 0.6\nsupply_v = 12").unwrap();
+        assert_eq!((step.duty, step.supply_v), (vec![vec![0.6; 3]], Some(vec![12.0; 3])));
+        assert_eq!(made("ref_1 = -4").unwrap().reference, [[-4.0; 3]]);
+        let told = "cmd_vx = 0.5\ncmd_w = 0\n[frame]\nx = \"forward\"\nheadings = \"clockwise\"";
+        assert_eq!(made(told).unwrap().command, Some([vec![0.0; 3], vec![0.5; 3], vec![0.0; 3]]));
+        for (wrong, says) in [
+            ("duty_1 = 60", "duty 60 is not within ±1"),
+            ("duty_1 = nan", "duty NaN is not within ±1"),
+            ("ref_1 = inf", "inf is no number"),
+            ("current_1 = 1", "1 is no series"),
+            ("enc_1 = 0", "0 is no series"),
+        ] {
+            let error = made(wrong).unwrap_err();
+            assert!(error.contains(&format!("columns.{}", &wrong[..4])) && error.contains(says), "{error}");
+        }
+        // Of a map without a series there is nothing to set it beside.
+        let table = Table::of_bytes(b"t,v\n0,1\n1,2\n", Path::new("log.csv"), None, &Clock::default()).unwrap();
+        let map = Map::parse("[columns]\nduty_1 = 0.6\n", Path::new("map.toml")).unwrap();
+        let error = map.run(&table, Path::new("log.csv")).unwrap_err().to_string();
+        assert!(error.contains("none of its series is a column of ours"), "{error}");
     }
 }

@@ -14,8 +14,11 @@ use crate::error::InputError;
 /// Rows without a number below the names at most, and before the numbers: units, and short names.
 const HEADER_ROWS: usize = 2;
 
-/// Rows of one time, of all, from which times that were written as a time of day are too coarse to tell rows apart.
-const COARSE: f64 = 0.5;
+/// Rows of one time, of all, from which times are too coarse to tell rows apart.
+pub(super) const COARSE: f64 = 0.5;
+
+/// Rows that are looked at for dates: at up to so many a second whole seconds show that they go on.
+const DATED: usize = 1000;
 
 /// Share of a file's rows that have more fields than its names and its first row, from which these are columns. Reasoned: a row
 /// that is torn, or runs into the next one, is one of many.
@@ -36,7 +39,13 @@ pub(super) fn read(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, In
 fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError> {
     let Sheet { names, rows: text, separator, tagged } = Sheet::of(bytes);
     let own = || titles::frames_per_s(bytes).filter(|_| clock.column.is_none());
-    let clock = &Clock { rate_hz: clock.rate_hz.or_else(own), ..*clock };
+    let rate_hz = clock.rate_hz.or_else(own);
+    let dated = if clock.column.is_none() && rate_hz.is_none() {
+        dated(if tagged { Some(&[]) } else { names.as_deref() }, &text, separator)
+    } else {
+        None
+    };
+    let clock = &Clock { rate_hz, column: clock.column.or(dated.as_deref()), ..*clock };
     let mut csv = ::csv::ReaderBuilder::new()
         .delimiter(separator)
         .flexible(true)
@@ -49,13 +58,12 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         csv.read_byte_record(record).map_err(|e| InputError::new(path, e.to_string(), "save the log as CSV"))
     };
     let mut table = Table::default();
-    // Kinds of rows, each with its columns: one, but where every line begins with a word that says what it is.
-    let mut kinds: Vec<(Vec<u8>, Option<Rows>)> = Vec::new();
+    // Kinds of rows, each with its columns and times of day: one, but where every line begins with a word that says what it is.
+    let mut kinds: Vec<(Vec<u8>, Option<Rows>, Days)> = Vec::new();
     let mut timeless = None;
     // Whether a row is read and not looked at yet.
     let mut pending = false;
     let mut widths = Widths::default();
-    let mut days = Days::default();
     let mut begin = |prefix: &str, names: Vec<String>| {
         let rows = Rows::new(prefix, &names, clock);
         if rows.is_none() {
@@ -121,7 +129,7 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         .map(|at| (at, names.clone()));
         match &own {
             Some((at, _)) => table.of = Some(names[*at].clone()),
-            None => kinds.push((Vec::new(), begin("", names))),
+            None => kinds.push((Vec::new(), begin("", names), Days::default())),
         }
     }
     while std::mem::take(&mut pending) || next(&mut record)? {
@@ -134,12 +142,13 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
             None if tagged => record.get(0).unwrap_or_default(),
             None => b"",
         };
-        let at = kinds.iter().position(|(known, _)| known == tag).unwrap_or_else(|| {
+        let at = kinds.iter().position(|(known, ..)| known == tag).unwrap_or_else(|| {
             let names = own.as_ref().map_or_else(|| numbered(record.len()), |(_, names)| names.clone());
-            kinds.push((tag.to_owned(), begin(&format!("{}/", String::from_utf8_lossy(tag)), names)));
+            let rows = begin(&format!("{}/", String::from_utf8_lossy(tag)), names);
+            kinds.push((tag.to_owned(), rows, Days::default()));
             kinds.len() - 1
         });
-        let Some(rows) = &mut kinds[at].1 else { continue };
+        let (_, Some(rows), days) = &mut kinds[at] else { continue };
         let line = lines.of(record.position().map_or(0, ::csv::Position::byte) as usize);
         widths.see(&record);
         let of = own.as_ref().map(|(at, _)| *at);
@@ -159,17 +168,17 @@ fn read_by(bytes: &[u8], path: &Path, clock: &Clock) -> Result<Table, InputError
         }
         rows.push(&mut table, line, |i| dated.filter(|(at, _)| *at == i).map(|(_, t)| t).or_else(|| plain(i)));
     }
-    if let Some(error) = days.too_coarse(path) {
+    if let Some(error) = kinds.iter().find_map(|(.., days)| days.too_coarse(path)) {
         return Err(error);
     }
     match timeless {
-        Some(error) if kinds.iter().all(|(_, rows)| rows.is_none()) => return Err(error),
-        _ => table.time = kinds.iter().flat_map(|(_, rows)| rows).find_map(Rows::time),
+        Some(error) if kinds.iter().all(|(_, rows, _)| rows.is_none()) => return Err(error),
+        _ => table.time = kinds.iter().flat_map(|(_, rows, _)| rows).find_map(Rows::time),
     }
     if let (Some((_, names)), Some((name, _))) = (&own, &mut table.time) {
         *name = names.iter().find(|own| name.ends_with(&format!("/{own}"))).unwrap_or(name).clone();
     }
-    kinds.into_iter().filter_map(|(_, rows)| rows).for_each(|rows| rows.finish(&mut table, "line"));
+    kinds.into_iter().filter_map(|(_, rows, _)| rows).for_each(|rows| rows.finish(&mut table, "line"));
     table.remarks.extend(widths.remark());
     headings(&mut table);
     super::rotations::headings(&mut table);
@@ -220,14 +229,50 @@ impl Days {
         if (self.repeated as f64) < COARSE * self.rows as f64 {
             return None;
         }
-        let each = self.rows as f64 / (self.rows - self.repeated).max(1) as f64;
         let rate = self.rows as f64 / (last - first).max(1.0);
-        let what = format!("its times are too coarse: {each:.0} rows have the same");
-        let hint = format!(
-            "give another column of time, or how many rows come in a second in place of one: [time] rate_hz = {rate:.0}"
-        );
-        Some(InputError::new(path, what, hint).at(*line, 1).field(name.clone()))
+        let error = coarse(path, [self.rows, self.rows - self.repeated], Some(rate));
+        Some(error.at(*line, 1).field(name.clone()))
     }
+}
+
+/// That so many rows have so few times, and how many there seem to be in a second.
+pub(super) fn coarse(path: &Path, [rows, times]: [usize; 2], rate: Option<f64>) -> InputError {
+    let each = rows as f64 / times.max(1) as f64;
+    let rate = rate.map_or_else(|| "100".to_owned(), |rate| format!("{rate:.0}"));
+    let hint = format!(
+        "give another column of time, or how many rows come in a second in place of one: [time] rate_hz = {rate}"
+    );
+    InputError::new(path, format!("its times are too coarse: {each:.0} rows have the same"), hint)
+}
+
+/// The column that has a date or a time of day in every row, of a table in which no name is that of a time. Without `names`
+/// they are the first row; columns without a name are numbered.
+fn dated(names: Option<&[String]>, text: &[u8], separator: u8) -> Option<String> {
+    let mut csv = ::csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .flexible(true)
+        .has_headers(false)
+        .trim(::csv::Trim::All)
+        .from_reader(text);
+    let mut rows = csv.records().map_while(Result::ok).take(DATED);
+    let owned = |record: &::csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
+    let named = match names {
+        Some(names) => names.to_vec(),
+        None => owned(&rows.next()?),
+    };
+    if rows::named_like_time(&named).is_some() {
+        return None;
+    }
+    let mut rows: Vec<::csv::StringRecord> = rows.collect();
+    let units =
+        |row: &::csv::StringRecord| row.iter().all(|f| dates::seconds(f).is_none() && f.parse::<f64>().is_err());
+    rows.drain(..rows.iter().take(HEADER_ROWS).take_while(|row| units(row)).count());
+    let width = rows.first()?.len();
+    let at = (0..width).find(|at| {
+        let times: Option<Vec<f64>> = rows.iter().map(|row| row.get(*at).and_then(dates::seconds)).collect();
+        times.is_some_and(|t| t.windows(2).all(|pair| pair[0] <= pair[1]) && t.first() < t.last())
+    })?;
+    named.get(at).cloned().or_else(|| numbered(width).into_iter().nth(at))
 }
 
 /// How many names a table has, and how many fields its rows.
@@ -382,6 +427,41 @@ mod tests {
         for right in ["t,x\n0,1,\n1,1,\n", "t,x,\n0,1,\n1,1,\n", "t,x,y\n0,1,\n1,1\n2,,3\n", "t,x\n0,1\n1\n"] {
             assert_eq!(remarks(right), Vec::<String>::new(), "{right}");
         }
+    }
+
+    #[test]
+    fn dates_are_the_time_of_a_table_in_which_no_name_is() {
+        let rows = |before: &str| {
+            (0..90)
+                .map(|k| format!("{before}2024-05-01 12:00:{:02}.{},{k},{}\n", k / 2, k % 2 * 5, 3 * k))
+                .collect::<String>()
+        };
+        for (head, before, column, other) in [
+            ("", "", "column_1", "column_3"),
+            ("when,left,right\n", "", "when", "right"),
+            ("when,left,right\n,ticks,ticks\n", "", "when", "right [ticks]"),
+            ("", "ODOM,", "ODOM/column_2", "ODOM/column_4"),
+        ] {
+            let table = table(&(head.to_owned() + &rows(before))).unwrap();
+            assert_eq!(table.time.as_ref().map(|(name, _)| name.as_str()), Some(column));
+            let t = &table.find(other).unwrap().t;
+            assert!(t.len() == 90 && t.windows(2).all(|w| (w[1] - w[0] - 0.5).abs() < 1e-6), "{head:?} {t:?}");
+        }
+        // The day on which a file was begun, or a name that is that of a time, leave things as they were.
+        let begun = "day,n,m\n2024-05-01 12:00:00,1,2\n2024-05-01 12:00:00,2,4\n2024-05-01 12:00:00,3,6\n";
+        assert!(table(begun).unwrap_err().to_string().contains("no column of time"));
+        let both = table("saved,t,m\n2024-05-01 12:00:00,1,2\n2024-05-01 12:00:01,3,4\n").unwrap();
+        assert_eq!(both.find("m").unwrap().t, [1.0, 3.0]);
+    }
+
+    /// Every motor has a row of its own at each time.
+    #[test]
+    fn rows_of_several_motors_share_their_times_of_day() {
+        let row = |k: usize| ["A", "B", "C"].map(|m| format!("{m},2024-05-01 12:00:{k:02},{k}\n")).concat();
+        let text = format!("motor,time,speed\n{}", (0..50).map(row).collect::<String>());
+        let clock = Clock { of: Some("motor"), ..Clock::default() };
+        let table = read(text.as_bytes(), Path::new("x.csv"), &clock).unwrap();
+        assert_eq!(table.find("C/speed").unwrap().t.len(), 50);
     }
 
     #[test]

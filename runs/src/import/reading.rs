@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::columns::{RATES, Source, supply, wanted};
+use super::columns::{RATES, Source, constants, wanted};
+use super::csv::{COARSE, coarse};
 use super::fill::{Wanted, begins_again, chain, counts, integrate, is_not_read, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
-use super::{Format, Table, units};
+use super::{Format, Series, Table, units};
 use crate::columns::{Column, GROUPS, MOST_DUTY, missing_member};
 use crate::error::InputError;
 use crate::frames::Pose;
@@ -31,6 +32,33 @@ pub(super) struct Made {
     pub(super) first_s: f64,
     /// Samples of the pose in the file, those with the time of another among them.
     pub(super) poses: usize,
+}
+
+/// Samples of a series that stand at the time of the one before, to the nanosecond, with another value: only one of them can be
+/// in a run.
+fn crowded(series: &Series) -> usize {
+    let at = |k: usize| (nanoseconds(series.t[k]), series.values[k]);
+    let same = |k: &usize| {
+        let ((t, value), (before, other)) = (at(*k), at(*k - 1));
+        t == before && value != other
+    };
+    (1..series.t.len()).filter(same).count()
+}
+
+/// What to say of a series whose times do not tell its samples apart.
+fn too_coarse(series: &Series, path: &Path) -> InputError {
+    let mut times: Vec<i64> = series.t.iter().map(|t| nanoseconds(*t)).collect();
+    times.dedup();
+    let rows = series.t.len();
+    match times[..] {
+        [first, .., last] => coarse(path, [rows, times.len()], Some(rows as f64 / ((last - first) as f64 / 1e9))),
+        _ => {
+            let error = coarse(path, [rows, times.len()], None);
+            let why =
+                "write times with all their digits (a spreadsheet leaves some out of long ones), and name their unit";
+            InputError { hint: format!("{why}; or {}", error.hint), ..error }
+        }
+    }
 }
 
 impl Reading {
@@ -61,7 +89,11 @@ impl Reading {
             is_not_read(w, values).or_else(|| begins_again(w, values))
         };
         let of_columns = wanted.iter().filter_map(of_column);
-        table.remarks.iter().cloned().chain(of_columns).collect()
+        let crowded = wanted.iter().filter_map(|w| table.find(w.from)).map(|s| (crowded(s), s.t.len())).max();
+        let lost = crowded.filter(|(lost, _)| *lost > 0).map(|(lost, all)| {
+            format!("{lost} of {all} rows have the time of the one before, and other values: the last of a time counts")
+        });
+        table.remarks.iter().cloned().chain(of_columns).chain(lost).collect()
     }
 
     /// Makes a run of what a file holds; without columns in the map, of the series that have our names. Errors are about
@@ -78,10 +110,12 @@ impl Reading {
             return Err(InputError::new(path, what, hint).at(restart.line, 1));
         }
         let mut wanted = wanted(&self.columns).map_err(fail)?;
+        let constants = constants(&self.columns);
         if wanted.is_empty() {
             let ours = table.series.iter().map(|s| (Column::from_name(&s.name), s.name.as_str()));
             let ours = ours.filter(|(column, _)| !matches!(column, Column::Other | Column::Time));
             let ours = ours.filter(|(column, _)| !self.pose_alone || matches!(column, Column::Camera(_)));
+            let ours = ours.filter(|(column, _)| constants.iter().all(|(set, _)| set != column));
             wanted.extend(ours.map(|(column, from)| Wanted {
                 column,
                 from,
@@ -96,6 +130,7 @@ impl Reading {
             }));
         }
         let mut columns: Vec<Column> = wanted.iter().map(|w| w.column).collect();
+        columns.extend(constants.iter().map(|(column, _)| *column));
         // Two wheels on an axle are told no sideways velocity.
         let sideways = Column::Command(if self.frame.x == Axis::Forward { 1 } else { 0 });
         let others = (0..3).map(Column::Command).filter(|c| *c != sideways);
@@ -127,7 +162,7 @@ impl Reading {
             let hint = "steps are seen from the pose before them: map its heading's, too";
             return Err(InputError::new(path, "no such column in the map", hint).field("cam_theta"));
         }
-        if columns.is_empty() {
+        if wanted.is_empty() {
             let (name, its) = if self.pose_alone { ("cam_x", "truth.columns") } else { ("enc_1", "columns") };
             let what = format!("none of its series is a column of ours: name them in [{its}]");
             return Err(InputError::new(path, what, table.suggestion(name)));
@@ -167,12 +202,16 @@ impl Reading {
             });
             sign_of.push(signed.transpose()?);
         }
+        if let Some((time, _)) = &table.time {
+            let coarse = |s: &&&Series| crowded(s) as f64 >= COARSE * s.t.len().max(2) as f64;
+            if let Some(s) = series.iter().find(coarse) {
+                return Err(too_coarse(s, path).field(time.clone()));
+            }
+        }
         let mut keys: Vec<i64> = series.iter().flat_map(|s| s.t.iter().map(|t| nanoseconds(*t))).collect();
         keys.sort_unstable();
         keys.dedup();
         let first = if self.time.keep { 0 } else { keys.first().copied().unwrap_or(0) };
-        let constant = supply(&self.columns);
-        columns.extend(constant.map(|_| Column::Supply));
         let mut run = Run::with_columns(&columns);
         run.t = keys.iter().map(|k| (k - first) as f64 / 1e9).collect();
         let ticks = keys.len();
@@ -180,8 +219,10 @@ impl Reading {
         if straight && let Some(slot) = run.real_mut(sideways) {
             slot.fill(0.0);
         }
-        if let Some((volts, slot)) = constant.zip(run.real_mut(Column::Supply)) {
-            slot.fill(volts);
+        for (column, value) in constants {
+            if let Some(slot) = run.real_mut(column) {
+                slot.fill(value);
+            }
         }
         let poses = wanted.iter().zip(&series).filter(|(w, _)| matches!(w.column, Column::Camera(_)));
         let poses = poses.map(|(_, s)| s.t.len()).max().unwrap_or(0);

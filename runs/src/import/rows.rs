@@ -11,7 +11,7 @@ const TIMES: [&str; 12] =
     ["t", "time", "timestamp", "stamp", "seconds", "elapsed", "millis", "micros", "zeit", "clock", "sec", "secs"];
 
 /// The column of time and its unit in seconds, where the map says nothing of it.
-fn named_like_time(names: &[String]) -> Option<(usize, f64)> {
+pub(super) fn named_like_time(names: &[String]) -> Option<(usize, f64)> {
     let exact = names.iter().enumerate().find_map(|(i, name)| {
         let plain = name.to_lowercase();
         let mut words = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
@@ -370,6 +370,40 @@ mod tests {
         assert_eq!(read(STEPS), Vec::<String>::new(), "a recording is none");
         let one = read("t,duty,pos\n0.00,0.2,0\n0.02,0.2,1\n0,0,0\n0.04,0.2,2\n0.06,0.2,3\n");
         assert!(one[0].starts_with("1 row is left out, the first in line 4"), "{one:?}");
+    }
+
+    #[test]
+    fn times_that_tell_no_rows_apart_are_refused_and_some_are_said() {
+        let map = "[columns]\nenc_1 = \"n\"\nspeed_1 = \"v\"\n";
+        let log = |time: &dyn Fn(u32) -> String, v: &dyn Fn(u32) -> u32| {
+            let row = |k| format!("{},{k},{}\n", time(k), v(k));
+            format!("time,n,v\n{}", (0..400).map(row).collect::<String>())
+        };
+        // Seconds, at a hundred rows each.
+        let error = made(map, &log(&|k| (k / 100).to_string(), &|k| k)).unwrap_err();
+        assert!(error.contains("time: its times are too coarse: 100 rows have the same"), "{error}");
+        assert!(error.contains("rate_hz = 133"), "{error}");
+        // Nanoseconds of which a spreadsheet kept six digits; and those that somebody took for seconds.
+        for time in [&(|_| "1.62766E+18".to_owned()) as &dyn Fn(u32) -> String, &|k| {
+            (1_627_660_000_000_000_000 + u64::from(k)).to_string()
+        }] {
+            let error = made(map, &log(time, &|k| k)).unwrap_err();
+            assert!(error.contains("400 rows have the same; write times with all their digits"), "{error}");
+        }
+        // A row that stands twice is one; of one time with two values one is lost.
+        let twice = log(&|k| format!("{}", f64::from(k - k % 2) * 0.01), &|_| 5).replace("n,v", "m,v");
+        assert_eq!(made("[columns]\nspeed_1 = \"v\"\n", &twice).unwrap().t.len(), 200);
+        let some = log(&|k| (if k % 10 == 9 { k - 1 } else { k }).to_string(), &|_| 5);
+        let table = Table::of_bytes(some.as_bytes(), Path::new("log.csv"), None, &Clock::default()).unwrap();
+        let remarks = |map: &str| -> Vec<String> {
+            let folder = tempfile::tempdir().unwrap();
+            let log = folder.path().join("log.csv");
+            std::fs::write(&log, &some).unwrap();
+            Map::parse(map, Path::new("map.toml")).unwrap().import(&log, None).unwrap().remarks
+        };
+        assert!(table.remarks.is_empty() && remarks("[columns]\nspeed_1 = \"v\"\n").is_empty());
+        let said = remarks(map);
+        assert!(said.len() == 1 && said[0].starts_with("40 of 400 rows have the time of the one before"), "{said:?}");
     }
 
     #[test]

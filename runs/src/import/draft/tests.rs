@@ -12,6 +12,8 @@ fn drafted(header: &str, rows: [&str; 3]) -> String {
     let map = draft(&table);
     let parsed = Map::parse(&map, Path::new("map.toml")).unwrap_or_else(|e| panic!("{e}\n{map}"));
     if table.time.is_some() {
+        // Read again, as a map is used: by its unit of time.
+        let table = Table::of_bytes(text.as_bytes(), Path::new("x.csv"), None, &parsed.time().unwrap()).unwrap();
         parsed.run(&table, Path::new("x.csv")).unwrap_or_else(|e| panic!("{e}\n{map}"));
     }
     map
@@ -200,6 +202,17 @@ fn motors_have_one_supply_and_one_full_duty() {
     }
     let counter = drafted("time,n,pwm", ["0,4294967290,1", "1,4294967295,1", "2,4,0"]);
     assert!(counter.contains("32 bits read without their sign? wraps = 4294967296"), "{counter}");
+}
+
+/// Whatever counts up beside them: the dates are the time.
+#[test]
+fn dates_without_a_name_of_a_time_are_not_asked_for() {
+    let row = |k: usize| format!("ODOM 2024-05-01T12:00:{k:02}.25 {} {}\n", 10 * k, 11 * k);
+    let text: String = (0..60).map(row).collect();
+    let clock = Clock { rows: true, ..Clock::default() };
+    let map = draft(&Table::of_bytes(text.as_bytes(), Path::new("x.txt"), None, &clock).unwrap());
+    assert!(map.contains("column = \"ODOM/column_2\"\nunit = \"s\"\n"), "{map}");
+    assert!(!map.contains("is it?") && map.contains("ODOM/column_3"), "{map}");
 }
 
 #[test]
