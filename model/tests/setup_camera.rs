@@ -32,6 +32,26 @@ fn clockwise_headings_that_were_turned_are_one_mistake() {
     assert!(said.len() == 1 && said[0].contains("180 degrees from that of the body's x axis"), "{said:?}");
 }
 
+/// Of a robot whose tyres are dragged sideways the camera shows turns and ways apart: what its track acts as is told.
+#[test]
+fn a_track_that_acts_wider_is_told_with_its_size() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/real/differential-squares");
+    let set = DataSet::open(&folder).unwrap();
+    let stands = set.robot.geometry().unwrap().wheels().iter().map(|w| 2.0 * w.x_m).fold(0.0, f64::max);
+    for (acts, skids) in [(1.8, true), (0.6, false)] {
+        let mut set = set.clone();
+        let Layout::Wheels(wheels) = &mut set.robot.layout else { panic!("it has two wheels") };
+        wheels.iter_mut().for_each(|w| w.x_m /= acts);
+        let said: Vec<String> = mistakes(&Logs::from(&set)).iter().map(Mistake::sentence).collect();
+        assert!(said.len() == 1 && said[0].contains("a track of"), "{said:?}");
+        assert_eq!(said[0].contains("skid-steered"), skids, "{said:?}");
+        assert!(!said[0].contains("diameter"), "{said:?}");
+        let size: f64 =
+            said[0].split("acts as one of ").nth(1).and_then(|s| s.split(' ').next()).unwrap().parse().unwrap();
+        assert!((size / stands - 1.0).abs() < 0.03, "{stands}: {said:?}");
+    }
+}
+
 #[test]
 fn units_that_were_taken_for_the_next_are_told() {
     for (scale, which) in

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Complex, Matrix3, Vector3};
 use runs::Log;
 use runs::frames::Twist;
-use runs::geometry::Geometry;
+use runs::geometry::{Geometry, Wheel};
 use runs::robot::{Robot, Support};
 
 use super::orders::{self, moved, orders, words};
@@ -535,15 +535,7 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
         match common_ratio(robot, fit.scale).filter(|_| common) {
             Some(_) if told(&distances) => {}
             Some(mistake) => found.push(or_slip(robot, fit, mistake)),
-            None if is_true(fit.scale) => {
-                let what = format!("the robot turns {} times as far as the counts say, but drives as far", short(spin));
-                found.push(new(
-                    "robot-file",
-                    "[[wheel]]",
-                    what,
-                    "check the distances of the wheels from the centre (a diameter?)",
-                ));
-            }
+            None if is_true(fit.scale) => found.push(of_turns(robot, spin)),
             None if common => found.push(or_slip(robot, fit, of_all_distances(robot, fit))),
             None => {
                 let what = format!(
@@ -576,6 +568,37 @@ fn or_slip(robot: &Robot, fit: &Fit, mut mistake: Mistake) -> Mistake {
 
 /// What to look at where dead reckoning is off as a whole.
 const ODOMETRY: &str = "check the units of odom_x, odom_y and odom_theta";
+
+/// Turns alone that are wrong by a factor: the wheels act as if they stood elsewhere.
+fn of_turns(robot: &Robot, spin: f64) -> Mistake {
+    let what = format!("the robot turns {} times as far as the counts say, but drives as far", short(spin));
+    if runs::is_dead_reckoning(robot) {
+        return Mistake::new("robot-file", "odom_theta", what, ODOMETRY.to_owned());
+    }
+    let lever = |w: &Wheel| w.x_m * w.drive_rad.sin() - w.y_m * w.drive_rad.cos();
+    let track = robot.geometry().ok().filter(Geometry::is_differential).map(|geometry| {
+        let levers = || geometry.wheels().iter().map(lever);
+        levers().fold(f64::NEG_INFINITY, f64::max) - levers().fold(f64::INFINITY, f64::min)
+    });
+    let Some(track) = track else {
+        let remedy = format!(
+            "check the distances of the wheels from the centre (a diameter?): these turns are of {} times what stands there",
+            short(1.0 / spin)
+        );
+        return Mistake::new("robot-file", "[[wheel]]", what, remedy);
+    };
+    let acts = short(track / spin);
+    let what = format!("{what}: a track of {} m acts as one of {acts} m", short(track));
+    let dragged = if spin < 1.0 {
+        "; tyres that are dragged sideways in a turn, as those of a skid-steered robot, act wider apart than they stand: write the \
+         track that acts"
+    } else {
+        ""
+    };
+    let remedy =
+        format!("measure the track, and write x_m and y_m of every [[wheel]] for {acts} m if that is it{dragged}");
+    Mistake::new("robot-file", "[[wheel]]", what, remedy)
+}
 
 /// Ways and turns by the counts that are wrong by one factor which is that of no mistake made often.
 fn of_all_distances(robot: &Robot, fit: &Fit) -> Mistake {
