@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The release archive: racbot for a PC, the robot's one static file, the bitstream, units, manual pages, completions,
-# checksums. From the same sources it has the same bytes, but for what the compiler does.
+# The release archive: racbot for a PC, the robot's one static file, the bitstream, units, the book, manual pages,
+# completions, checksums. From the same sources it has the same bytes, but for what the compiler does.
 #
 #   dist/release.sh [--out DIR] [--pc FILE] [--robot FILE]
 #
@@ -37,14 +37,19 @@ name=racbot-$version-x86_64-linux
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 root=$work/$name
-mkdir -p "$root"/{bin,robot,share/man/man1,share/completions,data}
+mkdir -p "$root"/{bin,robot,share/man/man1,share/completions,data,generated,docs/book/src/effects,docs/measured,docs/pictures}
 install -m 755 "$pc" "$root/bin/racbot"
 install -m 755 "$robot" "$root/robot/racbot"
 install -m 644 "$repository/generated/rac4i65.bit" "$root/robot/"
 for file in 60-racbot.rules INSTALL.md racbot-drive@.service racbot-load.service racbot.limits racbot.sysusers; do
     install -m 644 "$repository/dist/$file" "$root/robot/"
 done
-install -m 644 "$repository"/{README.md,CHANGELOG.md,LICENSE-MIT,LICENSE-APACHE} "$root/"
+install -m 644 "$repository"/{README.md,CHANGELOG.md,ARCHITECTURE.md,CONTRIBUTING.md,LICENSE-MIT,LICENSE-APACHE} "$root/"
+# What README and errors point to: the book, with the tables and pictures that it shows.
+for folder in docs/book/src docs/book/src/effects docs/measured docs/pictures; do
+    find "$repository/$folder" -maxdepth 1 -type f -exec install -m 644 -t "$root/$folder" {} +
+done
+install -m 644 "$repository"/generated/{blocks,registers}.md "$root/generated/"
 install -m 644 "$repository/data/robot.toml" "$root/data/"
 "$pc" man "$root/share/man/man1" >/dev/null
 for shell in bash zsh fish elvish powershell; do

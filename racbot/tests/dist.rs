@@ -114,6 +114,29 @@ fn the_printed_trigger_runs_the_rule() {
     assert_eq!(made, wanted);
 }
 
+/// Nothing that the notes install stays where they take it off, but for what is the owner's.
+#[test]
+fn what_is_installed_is_taken_off() {
+    let notes = fs::read_to_string(dist("INSTALL.md")).unwrap();
+    let (on, off) = notes.split_once("**Taking it off.**").unwrap();
+    let mut places = 0;
+    for line in on.lines().filter(|line| line.contains("sudo install ") && !line.contains(" /etc/racbot/")) {
+        let words = line.split_whitespace().map(|word| word.trim_matches(['`', ',']));
+        let words: Vec<&str> = words.skip_while(|word| *word != "install").skip(1).collect();
+        let end = words.iter().position(|word| word.starts_with('/')).unwrap();
+        let place = words[end];
+        let (folder, _) = place.rsplit_once('/').unwrap();
+        for file in words[..end].iter().filter(|word| word.contains(['/', '.'])) {
+            let name = file.rsplit('/').next().unwrap();
+            let whole = if place.ends_with('/') { format!("{place}{name}") } else { place.to_owned() };
+            let gone = |path: &str| off.split_whitespace().any(|word| word == path);
+            assert!(gone(&whole) || gone(folder), "{whole} stays");
+            places += 1;
+        }
+    }
+    assert!(places > 6, "{places} of what is installed");
+}
+
 /// The unit's command, as systemd hands it to the shell, on the built-in card: a drive can be started again.
 #[test]
 fn a_drive_that_is_started_twice_is_recorded_twice() {
@@ -188,6 +211,21 @@ fn the_release_archive_is_whole_and_the_same_twice() {
         "LICENSE-MIT",
     ] {
         assert!(fs::metadata(root.join(file)).is_ok_and(|f| f.len() > 100), "{file}");
+    }
+    // What README, the book and the notes point to is there, but for what only the sources have.
+    for page in ["README.md", "docs/book/src/SUMMARY.md", "docs/book/src/gap.md", "docs/book/src/calibration.md"] {
+        let text = fs::read_to_string(root.join(page)).unwrap();
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+        let ours: Vec<&str> = links.filter(|link| !link.is_empty() && !link.contains("://")).collect();
+        assert!(!ours.is_empty());
+        for link in ours {
+            let there = root.join(page).parent().unwrap().join(link);
+            assert!(there.exists(), "{page}: {link} is not in the archive");
+        }
+    }
+    let notes = fs::read_to_string(root.join("robot/INSTALL.md")).unwrap();
+    for file in notes.split("dist/").skip(1).filter_map(|rest| rest.split([' ', '`']).next()) {
+        assert!(file == "release.sh" || root.join("robot").join(file).exists(), "INSTALL.md: {file}");
     }
     assert!(run("robot/racbot", &["--version"], &root).starts_with("racbot 0."));
     let checked = run("bin/racbot", &["load", "--check", "robot/rac4i65.bit"], &root);
