@@ -1,4 +1,5 @@
-//! The Rust half of racbot for Python. Columns go over as bytes of doubles, which numpy wraps without a copy of its own;
+//! The Rust half of racbot for Python. Columns go over as bytes of doubles, which numpy wraps without a copy of its own and
+//! may write to;
 //! `racbot/__init__.py` is the half that people meet.
 
 use driver::{Board, Registers, Scale};
@@ -10,14 +11,14 @@ use model::trajectory::SetPoint;
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::PyByteArray;
 use runs::frames::Twist;
 use runs::robot::Robot;
 use runs::{DataSet, Logs, Run};
 use simulator::closed_loop::{Drive, VirtualRobot, whole_tick_clock_hz};
 use simulator::fpga::BitTrue;
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 create_exception!(_racbot, RacbotError, PyException, "What is wrong, where, and what to do.");
@@ -26,11 +27,11 @@ fn failed(what: impl Display) -> PyErr {
     RacbotError::new_err(what.to_string())
 }
 
-type Column = (String, Py<PyBytes>);
+type Column = (String, Py<PyByteArray>);
 
-fn bytes(py: Python<'_>, values: impl IntoIterator<Item = f64>) -> Py<PyBytes> {
+fn bytes(py: Python<'_>, values: impl IntoIterator<Item = f64>) -> Py<PyByteArray> {
     let data: Vec<u8> = values.into_iter().flat_map(f64::to_le_bytes).collect();
-    PyBytes::new(py, &data).unbind()
+    PyByteArray::new(py, &data).unbind()
 }
 
 /// The columns of a run by their names in a CSV.
@@ -85,11 +86,11 @@ fn columns(py: Python<'_>, run: &Run) -> Vec<Column> {
     out
 }
 
-fn load(robot: Option<&str>) -> PyResult<Robot> {
+fn load(robot: Option<&Path>) -> PyResult<Robot> {
     robot.map_or_else(|| Ok(Robot::racbot()), |file| Robot::load(file).map_err(failed))
 }
 
-fn logs(folder: &str, robot: Option<&str>) -> PyResult<Logs<'static>> {
+fn logs(folder: &Path, robot: Option<&Path>) -> PyResult<Logs<'static>> {
     match robot {
         None => Logs::open(folder).map_err(failed),
         Some(file) => Logs::open_as(folder, Robot::load_partial(file).map_err(failed)?).map_err(failed),
@@ -97,7 +98,7 @@ fn logs(folder: &str, robot: Option<&str>) -> PyResult<Logs<'static>> {
 }
 
 #[pyfunction]
-fn read_run(py: Python<'_>, path: &str) -> PyResult<Vec<Column>> {
+fn read_run(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Column>> {
     let run = py.detach(|| Run::read(path)).map_err(failed)?;
     Ok(columns(py, &run))
 }
@@ -106,18 +107,18 @@ fn read_run(py: Python<'_>, path: &str) -> PyResult<Vec<Column>> {
 #[pyo3(signature = (robot, set_points, hidden, limit_s, seed, camera))]
 fn simulate(
     py: Python<'_>,
-    robot: Option<&str>,
+    robot: Option<PathBuf>,
     set_points: Option<Vec<(f64, f64, f64, f64)>>,
-    hidden: Option<&str>,
+    hidden: Option<PathBuf>,
     limit_s: f64,
     seed: u64,
     camera: bool,
-) -> PyResult<(Vec<Column>, String, Py<PyBytes>)> {
+) -> PyResult<(Vec<Column>, String, Py<PyByteArray>)> {
     if !(limit_s > 0.0 && limit_s <= 3_600.0) {
         return Err(failed(format!("limit_s: {limit_s} is not more than 0 and at most 3600")));
     }
-    let robot = load(robot)?;
-    let actual = hidden.map_or_else(|| Ok(robot.clone()), |file| load(Some(file)))?;
+    let robot = load(robot.as_deref())?;
+    let actual = hidden.map_or_else(|| Ok(robot.clone()), |file| load(Some(&file)))?;
     if actual.wheel_count() != robot.wheel_count() {
         return Err(failed("hidden: a robot with another number of wheels"));
     }
@@ -140,13 +141,13 @@ fn simulate(
 }
 
 /// Refuses logs that are set up wrong, as the command does, unless that is to be passed over: then what is wrong with them.
-fn set_up(folder: &str, set: &Logs<'_>, despite_mistakes: bool) -> PyResult<Vec<String>> {
+fn set_up(folder: &Path, set: &Logs<'_>, despite_mistakes: bool) -> PyResult<Vec<String>> {
     let found = model::setup::mistakes(set);
     let wrong: Vec<String> = found.iter().filter(|m| !m.nameable).map(model::setup::Mistake::sentence).collect();
     if wrong.is_empty() || despite_mistakes {
         return Ok(wrong);
     }
-    let what = wrong.join("; also ");
+    let (folder, what) = (folder.display(), wrong.join("; also "));
     Err(failed(format!("{folder}: set up wrong: {what} (despite_mistakes=True goes on nevertheless)")))
 }
 
@@ -154,18 +155,18 @@ fn set_up(folder: &str, set: &Logs<'_>, despite_mistakes: bool) -> PyResult<Vec<
 #[pyo3(signature = (folder, robot, out, despite_mistakes))]
 fn find_gap(
     py: Python<'_>,
-    folder: &str,
-    robot: Option<&str>,
-    out: Option<&str>,
+    folder: PathBuf,
+    robot: Option<PathBuf>,
+    out: Option<PathBuf>,
     despite_mistakes: bool,
 ) -> PyResult<String> {
     py.detach(|| {
-        let set = logs(folder, robot)?;
-        let mistakes = set_up(folder, &set, despite_mistakes)?;
-        let options = gap::Options { robot_file: robot.map(Into::into), mistakes, ..gap::Options::default() };
+        let set = logs(&folder, robot.as_deref())?;
+        let mistakes = set_up(&folder, &set, despite_mistakes)?;
+        let options = gap::Options { robot_file: robot, mistakes, ..gap::Options::default() };
         let analysis = gap::analyse_logs(&set, &options).map_err(failed)?;
         if let Some(out) = out {
-            analysis.save(Path::new(out), runs::output::Existing::Refuse).map_err(failed)?;
+            analysis.save(&out, runs::output::Existing::Refuse).map_err(failed)?;
         }
         Ok(analysis.to_json().to_string())
     })
@@ -173,14 +174,14 @@ fn find_gap(
 
 #[pyfunction]
 #[pyo3(signature = (folder, robot, despite_mistakes))]
-fn calibrate(py: Python<'_>, folder: &str, robot: Option<&str>, despite_mistakes: bool) -> PyResult<String> {
+fn calibrate(py: Python<'_>, folder: PathBuf, robot: Option<PathBuf>, despite_mistakes: bool) -> PyResult<String> {
     py.detach(|| {
         let set = match robot {
-            None => DataSet::open(folder),
-            Some(file) => DataSet::open_as(folder, Robot::load_partial(file).map_err(failed)?),
+            None => DataSet::open(&folder),
+            Some(file) => DataSet::open_as(&folder, Robot::load_partial(file).map_err(failed)?),
         };
         let set = set.map_err(failed)?;
-        set_up(folder, &Logs::from(&set), despite_mistakes)?;
+        set_up(&folder, &Logs::from(&set), despite_mistakes)?;
         let estimate = model::calibration::estimate_skew(&set.as_logged(), &set.runs).map_err(failed)?;
         Ok(estimate.to_json().to_string())
     })
@@ -188,20 +189,20 @@ fn calibrate(py: Python<'_>, folder: &str, robot: Option<&str>, despite_mistakes
 
 #[pyfunction]
 #[pyo3(signature = (folder, robot))]
-fn check(py: Python<'_>, folder: &str, robot: Option<&str>) -> PyResult<Vec<String>> {
+fn check(py: Python<'_>, folder: PathBuf, robot: Option<PathBuf>) -> PyResult<Vec<String>> {
     py.detach(|| {
-        let set = logs(folder, robot)?;
+        let set = logs(&folder, robot.as_deref())?;
         Ok(model::setup::mistakes(&set).iter().map(model::setup::Mistake::sentence).collect())
     })
 }
 
 #[pyfunction]
 #[pyo3(signature = (robot, twists))]
-fn wheel_words(robot: Option<&str>, twists: Vec<(f64, f64, f64)>) -> PyResult<Vec<Vec<i32>>> {
+fn wheel_words(robot: Option<PathBuf>, twists: Vec<(f64, f64, f64)>) -> PyResult<Vec<Vec<i32>>> {
     if twists.iter().any(|(vx, vy, omega)| ![vx, vy, omega].into_iter().all(|n| n.is_finite())) {
         return Err(failed("twists: not all are numbers"));
     }
-    let scale = scale(&load(robot)?)?;
+    let scale = scale(&load(robot.as_deref())?)?;
     let rows = &scale.configuration().inverse[..scale.wheels()];
     let words = |(vx, vy, omega)| {
         let twist = scale.twist_words(Twist::new(vx, vy, omega));
@@ -226,8 +227,8 @@ struct BitTrueRobot {
 impl BitTrueRobot {
     #[new]
     #[pyo3(signature = (robot=None))]
-    fn new(robot: Option<&str>) -> PyResult<Self> {
-        let file = load(robot)?;
+    fn new(robot: Option<PathBuf>) -> PyResult<Self> {
+        let file = load(robot.as_deref())?;
         let applied = Applied::of(&file);
         let believed = Robot { effects: Vec::new(), ..file };
         let scale = scale(&believed)?;

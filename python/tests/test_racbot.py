@@ -1,9 +1,11 @@
 """The Python package against files of the repository and against itself."""
 import csv
+import inspect
 import pathlib
 import re
 import shutil
 import sys
+import typing
 
 import numpy as np
 import pytest
@@ -24,6 +26,39 @@ def test_a_run_has_the_columns_of_its_file():
         np.testing.assert_array_equal(run[name], theirs)
 
 
+def test_columns_are_their_readers_own():
+    path = sorted(SET.glob("*.csv"))[0]
+    run = racbot.read_run(path)
+    run["t"] -= run["t"][0] - 1.0
+    assert run["t"][0] == 1.0 and racbot.read_run(path)["t"][0] == 0.0
+    track = racbot.simulate(limit_s=0.1)[2]
+    track[:, 0] += 5.0
+    assert track[0, 0] >= 5.0
+
+
+def test_paths_are_what_python_takes_for_paths(tmp_path):
+    path = sorted(SET.glob("*.csv"))[0]
+    latin = bytes(tmp_path) + b"/run_\xff.csv"
+    shutil.copy(path, latin)
+    for same in (str(path), bytes(path), latin):
+        np.testing.assert_array_equal(racbot.read_run(same)["t"], racbot.read_run(path)["t"])
+    for wrong in (None, 3, ["a.csv"]):
+        with pytest.raises(TypeError):
+            racbot.read_run(wrong)
+        with pytest.raises(TypeError):
+            racbot.check(wrong)
+
+
+def test_whatever_is_public_has_hints_and_says_what_it_does():
+    assert (pathlib.Path(racbot.__file__).parent / "py.typed").exists()
+    for name in racbot.__all__:
+        thing = getattr(racbot, name)
+        assert thing.__doc__, name
+        if inspect.isfunction(thing):
+            hints = typing.get_type_hints(thing)
+            assert set(hints) == set(inspect.signature(thing).parameters) | {"return"}, name
+
+
 def test_mistakes_are_one_kind_of_exception_with_what_to_do():
     with pytest.raises(racbot.RacbotError, match="none.csv"):
         racbot.read_run("none.csv")
@@ -31,6 +66,10 @@ def test_mistakes_are_one_kind_of_exception_with_what_to_do():
         racbot.gap(DATA / "nowhere")
     with pytest.raises(racbot.RacbotError, match="twists"):
         racbot.wheel_words(None, [(np.nan, 0, 0)])
+    with pytest.raises(racbot.RacbotError, match=r"twists: row 1 has 2 numbers; give \(vx, vy, omega\)"):
+        racbot.wheel_words(None, [(1.0, 0)])
+    with pytest.raises(racbot.RacbotError, match="set_points: row 2 has 3 numbers"):
+        racbot.simulate(set_points=[(1, 0, 1, 0), (1, 0, 1)])
 
 
 def test_a_simulated_drive_is_a_log_that_calibrates(tmp_path):
