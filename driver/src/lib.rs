@@ -8,6 +8,33 @@
 //! [`Scale`] is the one place that knows seconds and radians; [`Board`] is the protocol: identify,
 //! configure, arm, command, read snapshots. [`imu`] is the inertial sensor behind it. [`drive`] is the control loop over all that, [`realtime`] its
 //! time, [`recording`] its way to a file.
+//!
+//! ```
+//! use driver::{Board, Scale, Settings, fault_names};
+//! use fixed_kin::card::{Card, Pins};
+//! use runs::frames::Twist;
+//! use runs::robot::Robot;
+//!
+//! // The bit-true card is a bus like any other; a real one is a `RegisterWindow`.
+//! let scale = Scale::new(&Robot::racbot(), 33_333_333.0)?;
+//! let mut board = Board::new(Card::new(0));
+//! board.identify()?;
+//! board.configure(&scale, &Settings::default())?;
+//! board.bus.tick(&Pins::default());
+//! board.arm()?;
+//! board.set_twist(&scale, Twist::new(0.0, 0.5, 0.0))?;
+//! board.bus.tick(&Pins::default());
+//! assert!(board.snapshot()?.duties.iter().any(|duty| *duty != 0));
+//!
+//! // The emergency stop switches off, and off it stays until somebody arms anew.
+//! board.bus.tick(&Pins { emergency_stop: true, ..Pins::default() });
+//! board.bus.tick(&Pins::default());
+//! assert!(!board.status()?.armed);
+//! assert_eq!(fault_names(board.first_fault()?), "emergency-stop");
+//! board.arm()?;
+//! assert!(board.status()?.armed);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 // A file in which casts are the point says so itself.
 #![cfg_attr(not(test), warn(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_possible_wrap))]

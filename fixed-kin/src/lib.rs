@@ -66,6 +66,11 @@
 //! // Half of it, by a coefficient of ½.
 //! let half = Format::COEFFICIENT.round(0.5)?;
 //! assert_eq!(Speed::from_bits(multiply(word, half, Scale::COEFFICIENT)).to_bits(), 6_442_451);
+//! // What is written for any format is written by the traits of [`fixed`], which stands here in the version that they are of.
+//! fn lsb<F: fixed_kin::fixed::traits::Fixed>() -> f64 {
+//!     F::DELTA.to_num()
+//! }
+//! assert_eq!(lsb::<Speed>(), 2.0_f64.powi(-32));
 //! # Ok::<(), fixed_kin::format::OutOfRange>(())
 //! ```
 #![no_std]
@@ -74,6 +79,8 @@
 
 #[cfg(test)]
 extern crate std;
+
+pub use fixed;
 
 pub mod card;
 pub mod clock_monitor;

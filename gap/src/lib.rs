@@ -5,6 +5,8 @@
 //! let set = runs::DataSet::open("data/runs/wheel-skew")?;
 //! let analysis = gap::analyse(&set, &gap::Options::default())?;
 //! println!("{}", analysis.terminal_summary());
+//! let written: gap::serde_json::Value = analysis.to_json();
+//! println!("{}", written["verdict"]);
 //! analysis.write("out")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -41,3 +43,5 @@ pub use analysis::{Analysis, Verdict, analyse, analyse_logs, undo};
 pub use error::GapError;
 pub use evidence::{Evidence, Interval};
 pub use options::Options;
+// What stands in public types, in the version that they are of.
+pub use {nalgebra, serde_json};

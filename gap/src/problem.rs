@@ -56,6 +56,13 @@ impl Linear {
     }
 
     /// A step along the columns of all active effects, each parameter held near 0 by so much information on it.
+    ///
+    /// ```
+    /// fn length(linear: &gap::problem::Linear, state: &gap::state::State) -> f64 {
+    ///     let step: gap::nalgebra::DVector<f64> = linear.step(state, &|_| 0.0);
+    ///     step.norm()
+    /// }
+    /// ```
     pub fn step(&self, state: &State, held: &dyn Fn(&Parameter) -> f64) -> DVector<f64> {
         let near_nothing = |c: &usize| {
             let Owner::Active(index, j) = self.owners[*c] else { return [0.0; 2] };

@@ -11,8 +11,8 @@
 //! - [`Plant`](plant::Plant), how it moves: motors, wheels and body in time.
 //!
 //! Units are SI everywhere. Body frame: x to the right, y forward ([`Twist`](runs::frames::Twist)). World frame:
-//! the camera's field, heading of the body **x** axis ([`Pose`](runs::frames::Pose)). Matrices are those of [`nalgebra`],
-//! which stands here in the version that they are of.
+//! the camera's field, heading of the body **x** axis ([`Pose`](runs::frames::Pose)). Matrices are those of [`nalgebra`]
+//! and what is written of an estimate is of [`serde_json`]; both stand here in the version that they are of.
 //!
 //! ```
 //! use model::calibration::estimate_skew;
@@ -23,10 +23,13 @@
 //! let found = estimate_skew(&set.robot, &set.runs)?;
 //! // The hidden truth is +4, −3 and +2 degrees.
 //! assert!((found.skew_rad[0].to_degrees() - 4.0).abs() < 0.2);
+//! let written: model::serde_json::Value = found.to_json();
+//! assert_eq!(written["skew_rad"][0], found.skew_rad[0]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub use nalgebra;
+pub use serde_json;
 
 pub mod calibration;
 pub mod camera;

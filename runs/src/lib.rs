@@ -1,6 +1,7 @@
 //! Files people exchange: `robot.toml`, the robot as it is described ([`robot::Robot`]); recorded runs, CSV or
 //! MCAP, and folders of them ([`Run`], [`DataSet`]); and the frames, geometry and errors they share. Matrices of the
-//! geometry are those of [`nalgebra`], which stands here in the version that they are of.
+//! geometry are those of [`nalgebra`], and what a `robot.toml` says beside its own keys is in [`toml`]; both stand here in the
+//! version that they are of.
 //!
 //! ```
 //! use runs::frames::Pose;
@@ -22,6 +23,15 @@
 //! // A mistake is said with its line, its column and what to do.
 //! let wrong = Run::from_bytes(b"t,duty_1\n0,0.1\n0.01,x\n", "mine.csv".as_ref()).unwrap_err();
 //! assert!(wrong.to_string().contains("duty_1"), "{wrong}");
+//!
+//! // An effect that somebody measured, with where it is from, as the robot's file has it.
+//! use runs::robot::{Effect, EffectParameter, Robot};
+//! let heavier = EffectParameter { value: 0.1, ..EffectParameter::default() };
+//! let other = runs::toml::Table::from_iter([("source".to_owned(), runs::toml::Value::from("kitchen scales"))]);
+//! let parameters = vec![("scale".to_owned(), heavier)];
+//! let effect = Effect { name: "robot-mass".to_owned(), parameters, other, ..Effect::default() };
+//! let robot = Robot { effects: vec![effect], ..set.robot.clone() };
+//! assert!(robot.to_toml().contains("source = \"kitchen scales\""));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -60,6 +70,7 @@ pub use signals::{
     CountSource, DRIVE_KEYS, DutySource, Source, as_logged, drive_lacks, is_dead_reckoning, is_from_speeds,
 };
 pub use stream::{CsvStream, Layout, RunStream, Tick, create};
+pub use toml;
 
 /// How far the clocks of a robot and its camera may be apart in a run, s: `gap` looks for no more.
 pub const CLOCK_OFF_S: f64 = 0.5;

@@ -15,6 +15,13 @@
 //! let sample = vision::render::sample(3, 224, 224);
 //! let scene = vision::detect(&sample.rendered.picture, vision::ball::DEFAULT_SCORE);
 //! assert!(!scene.boundary.is_empty());
+//!
+//! // Where a point on the floor, a metre ahead, is in a picture, and back. Vectors are those of [`nalgebra`], which stands
+//! // here in the version that they are of.
+//! let camera = sample.camera;
+//! let pixel = camera.project(vision::nalgebra::Vector3::new(1.0, 0.0, 0.0)).expect("it is ahead");
+//! let [x, y] = camera.onto(pixel, 0.0).expect("it is on the floor");
+//! assert!((x - 1.0).hypot(y) < 1e-3);
 //! ```
 
 pub mod ball;
@@ -29,6 +36,7 @@ pub mod picture;
 pub mod render;
 
 pub use lines::LinePoint;
+pub use nalgebra;
 
 use ball::{Ball, Region};
 use carpet::Carpet;
