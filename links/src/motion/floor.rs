@@ -85,8 +85,12 @@ impl Body {
         Vector3::from_fn(|a, _| self.geometry.inverse()[(wheel, a)])
     }
 
-    /// A twist as the turn of the body frame over some time leaves it.
-    fn turned(twist: &Vector3<f64>, dt: f64) -> Vector3<f64> {
+    /// A twist as the turn of the body frame over some time leaves it. Of wheels without rollers the floor takes what would be
+    /// sideways.
+    fn turned(&self, twist: &Vector3<f64>, dt: f64) -> Vector3<f64> {
+        if self.geometry.is_differential() {
+            return *twist;
+        }
         let (s, c) = (twist.z * dt).sin_cos();
         Vector3::new(c * twist.x + s * twist.y, c * twist.y - s * twist.x, twist.z)
     }
@@ -121,7 +125,7 @@ impl Body {
             } else if (dt - known.0).abs() > 1e-6 * dt {
                 known = (dt, solver(&stiffness, dt));
             }
-            let mut push = self.inertia.component_mul(&Self::turned(&twist, dt));
+            let mut push = self.inertia.component_mul(&self.turned(&twist, dt));
             let moved = |i: usize| segment.angle[i][k] - segment.angle[i][k - 1];
             for i in 0..n {
                 push += rows[i] * (stiffness[i] * moved(i));
@@ -148,7 +152,7 @@ impl Body {
             lost.iter_mut().for_each(|lost| lost[k] = lost[k - 1]);
             grip.hold(&mut held);
             speeds.iter_mut().zip(&segment.speed).for_each(|(to, of)| *to = of[k]);
-            let free = Self::turned(&twist, dt);
+            let free = self.turned(&twist, dt);
             let missing: Vec<f64> = rows.iter().zip(&speeds).map(|(row, speed)| speed - row.dot(&free)).collect();
             // Mostly friction can give what it takes to end every wheel's slip.
             if !self.creep.is_any() && grip.takes(&missing, &held, dt) {
@@ -164,7 +168,7 @@ impl Body {
                 for (to, of) in speeds.iter_mut().zip(&segment.speed) {
                     *to = of[k - 1] + share * (of[k] - of[k - 1]);
                 }
-                let free = Self::turned(&twist, h);
+                let free = self.turned(&twist, h);
                 grip.hold(&mut held);
                 twist = self.pulled(&rows, &speeds, &free, twist, &held, h);
                 grip.moves(&twist, &free, h);

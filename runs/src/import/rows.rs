@@ -62,9 +62,6 @@ pub(super) struct Rows<'a> {
     left_out: Option<(usize, usize, f64)>,
     /// Rows of numbers without a time that is one: how many, and the line of the first.
     untimed: Option<(usize, usize)>,
-    /// The last row, and rows of its time with other numbers: how many, and the line of the first.
-    before: Vec<Option<f64>>,
-    shared: Option<(usize, usize)>,
     /// Numbers beyond all that a computer holds: how many, and the line and the name of the first.
     endless: Option<(usize, usize, String)>,
 }
@@ -101,8 +98,6 @@ impl<'a> Rows<'a> {
             back: None,
             left_out: None,
             untimed: None,
-            before: Vec::new(),
-            shared: None,
             endless: None,
         })
     }
@@ -161,7 +156,7 @@ impl<'a> Rows<'a> {
         match self.back.take() {
             Some((line, began, fields)) if goes_back => {
                 self.restart(table, line);
-                self.add(table, line, began, &fields);
+                self.add(table, began, &fields);
             }
             Some((line, began, _)) => self.leave_out(line, began),
             None => {}
@@ -169,7 +164,7 @@ impl<'a> Rows<'a> {
         if self.goes_back(t) {
             self.back = Some((line, t, fields));
         } else {
-            self.add(table, line, t, &fields);
+            self.add(table, t, &fields);
         }
     }
 
@@ -213,13 +208,6 @@ impl<'a> Rows<'a> {
             let are = said(rows, "is left out: its", "are left out: their");
             table.remarks.push(format!("{are} time is no number, the first in {place} {line}"));
         }
-        if let Some((rows, line)) = self.shared {
-            let have = said(rows, "has", "have");
-            table.remarks.push(format!(
-                "{have} the time of the row before but other numbers, the first in {place} {line}: of a beat whose times lack \
-                 digits (float32 seconds, milliseconds) say rate_hz in place of the column"
-            ));
-        }
         if let Some((rows, line, name)) = self.endless {
             let have = said(rows, "has", "have");
             let what = "a number without end, taken as no sample";
@@ -239,13 +227,7 @@ impl<'a> Rows<'a> {
         self.first.is_some_and(|first| t < self.last - 0.5 * (self.last - first))
     }
 
-    fn add(&mut self, table: &mut Table, line: usize, t: f64, fields: &[Option<f64>]) {
-        let differs = |(a, b): (&Option<f64>, &Option<f64>)| a.zip(*b).is_some_and(|(a, b)| a != b);
-        if self.at.is_some() && self.first.is_some() && t == self.last && fields.iter().zip(&self.before).any(differs) {
-            self.shared.get_or_insert((0, line)).0 += 1;
-        }
-        self.before.clear();
-        self.before.extend_from_slice(fields);
+    fn add(&mut self, table: &mut Table, t: f64, fields: &[Option<f64>]) {
         self.first.get_or_insert(t); // it may be negative
         self.last = t;
         if self.clock.recording.is_some_and(|wanted| wanted != self.recording) {
@@ -316,26 +298,6 @@ mod tests {
         let run = of("per_second = 100\nwraps = 256\n", &[250, 252, 255, 1, 200, 255, 3]).unwrap();
         assert_eq!(run.t, [0.0, 0.02, 0.05, 0.07, 2.06, 2.61, 2.65]);
         assert!(of("wraps = 0\n", &[1, 2]).unwrap_err().contains("time.wraps: 0 is no end of a counter"));
-    }
-
-    /// A loop at 500 Hz whose seconds of the day are of 32 bits; and two sensors whose rows have times in common.
-    #[test]
-    fn rows_that_share_a_time_are_said() {
-        let said = |rows: String| {
-            let map = Map::parse(COLUMNS, Path::new("map.toml")).unwrap();
-            let text = format!("t,duty,pos\n{rows}");
-            let clock = map.time().unwrap();
-            Table::of_bytes(text.as_bytes(), Path::new("in.csv"), None, &clock).unwrap().remarks
-        };
-        let stamp = |k: u16| 40_000.0 + f32::from(k) / 500.0;
-        let remarks = said((0..400).map(|k| format!("{},0.2,{k}\n", stamp(k))).collect());
-        assert!(
-            remarks.len() == 1 && remarks[0].starts_with("195 rows have the time of the row before"),
-            "{remarks:?}"
-        );
-        assert!(remarks[0].contains("the first in line 4") && remarks[0].contains("rate_hz"), "{remarks:?}");
-        let two = said((0..400).map(|k| format!("{},0.2,\n{0},,{k}\n", 0.01 * f64::from(k))).collect());
-        assert!(two.is_empty(), "{two:?}");
     }
 
     #[test]
