@@ -14,7 +14,7 @@ use super::workflow::Workflow;
 use crate::controller::{ENCODER_SCALE, with_other_counts};
 use crate::options::Stage;
 use crate::problem::Problem;
-use crate::state::{Active, State};
+use crate::state::{Active, SLIP, State};
 use links::effect::{Effect, Link};
 use links::effects;
 use links::motion::MotionLink;
@@ -107,14 +107,16 @@ impl<'a> Workflow<'a> {
     }
 
     /// What is found without clocks of single runs, where those that have a name part by no more than chance, or all is far from
-    /// the noise and they close little: wheels that slip in some of the runs fall behind there as if frames were young.
+    /// the noise and they close little: wheels that slip in some of the runs fall behind there as if frames were young. So do
+    /// contacts that give way in runs that speed up more: theirs is a law of one number for all runs.
     fn of_one_clock(&self, outcome: &Outcome) -> Option<Look> {
         let clocks = outcome.named.iter().find(|n| n.name == CLOCKS)?;
         let is_far = outcome.held_out > self.thresholds.far;
-        if !is_far && !clocks::are_one(clocks) {
+        let again = self.motion_studied(&self.without(&[SMOOTHED, CLOCKS]));
+        let gives_way = again.named.iter().any(|n| n.name == CREEP || n.name == SLIP);
+        if !is_far && !gives_way && !clocks::are_one(clocks) {
             return None;
         }
-        let again = self.motion_studied(&self.without(&[SMOOTHED, CLOCKS]));
         let more = if is_far { self.thresholds.undecided } else { self.thresholds.worse };
         (again.held_out.powi(2) < (1.0 + more) * outcome.held_out.powi(2)).then_some(Look::Other(again))
     }

@@ -91,7 +91,10 @@ impl Reading {
         let of_columns = wanted.iter().filter_map(of_column);
         let crowded = wanted.iter().filter_map(|w| table.find(w.from)).map(|s| (crowded(s), s.t.len())).max();
         let lost = crowded.filter(|(lost, _)| *lost > 0).map(|(lost, all)| {
-            format!("{lost} of {all} rows have the time of the one before, and other values: the last of a time counts")
+            format!(
+                "{lost} of {all} rows have the time of the one before, and other values: the last of a time counts; of a beat \
+                 whose times lack digits say rate_hz in place of the column"
+            )
         });
         table.remarks.iter().cloned().chain(of_columns).chain(lost).collect()
     }
