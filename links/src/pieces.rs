@@ -13,6 +13,7 @@ use runs::geometry::Geometry;
 use runs::robot::Robot;
 use runs::{Columns, Log};
 
+pub use crate::segment::Driven;
 use crate::segment::{Frame, Place, Segment, regular_stamps, segment};
 
 /// A pause longer than this many ticks starts a new segment.
@@ -70,17 +71,6 @@ pub struct Pieces<'a> {
     seen_m: f64,
     /// How what drives the wheels is looked at.
     driving: Driving,
-}
-
-/// What the rows of a log say of what drives the wheels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Driven {
-    /// What is set there, and held until the next row.
-    Held,
-    /// What was measured there; it goes straight to the next row.
-    Straight,
-    /// What was measured there, and had been since the row before: a controller reads its sensors and then sets what is next.
-    UntilThen,
 }
 
 /// How the logs of a drive are looked at, settled before anything is fitted.

@@ -9,7 +9,6 @@ use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
 use crate::inertial::Felt;
-use crate::pieces::Driven;
 use crate::thresholds::{self, TEST_FUNCTION_S};
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
@@ -110,6 +109,17 @@ impl Rows {
             turned: OnceLock::new(),
         }
     }
+}
+
+/// What the rows of a log say of what drives the wheels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Driven {
+    /// What is set there, and held until the next row.
+    Held,
+    /// What was measured there; it goes straight to the next row.
+    Straight,
+    /// What was measured there, and had been since the row before: a controller reads its sensors and then sets what is next.
+    UntilThen,
 }
 
 /// Where a segment lies in its log, and what only the log before it tells.
