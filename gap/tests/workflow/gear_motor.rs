@@ -105,10 +105,3 @@ fn a_full_battery_is_no_motor_of_two_other_constants() {
     let truth = Truth { supply: 1.15, dry: 0.0, viscous: 0.0 };
     assert_eq!(faults(&[("supply-voltage", 0.15)], truth, [3, 10, 11]), "");
 }
-
-/// Friction of a tenth of the stall torque, and a viscous one of 5 % of it at full speed.
-#[test]
-fn two_frictions_are_no_four_laws() {
-    let expected = [("coulomb-friction", 0.19), ("viscous-friction", 0.0062)];
-    assert_eq!(faults(&expected, Truth { supply: 1.0, dry: 0.19, viscous: 0.0062 }, [4, 6, 22]), "");
-}
