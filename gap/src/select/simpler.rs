@@ -111,9 +111,7 @@ fn is_decoded(law: &Active, thresholds: &Thresholds) -> bool {
 /// One law in place of named ones, where it leaves noise and they far more, each fitted with nothing adjusted beside it: one
 /// of them, or one that comes earlier in the catalogue. And one of several where it leaves as little as they, or, far from the
 /// noise, hardly more, and by no more than it may for its own law: a joint with three times its friction was a third of its
-/// inertia behind motors of a third of their torque, which left 2.5 floors where the friction leaves 2.6. So it may leave a
-/// small part of what any of them adds to the others: a supply that is 10 % higher is weaker motors of less resistance to the
-/// last digit, and how exact a law is decides which of the two leaves less far below the floor. In place of an
+/// inertia behind motors of a third of their torque, which left 2.5 floors where the friction leaves 2.6. In place of an
 /// axis's inertia any: a delay of some time constants is no straight line, and an inertia three times the file's left less of it
 /// than what a delay promised.
 ///
@@ -144,7 +142,6 @@ fn of_one(
     let several = named.len() > 1;
     let axis = start.robot.support == Support::Blocks;
     let before = Left::fitted(problem, start);
-    let adds = if several { least_added(problem, start, &named, &now) } else { 0.0 };
     let any = several || axis && named.iter().any(|n| problem.changes_inertia(start, n));
     laws.retain(|law| any || one_of_them(law) || named.iter().all(|n| rank(law) < rank(n)));
     laws.sort_by_key(|law| law.form.free.len());
@@ -157,10 +154,9 @@ fn of_one(
         let far_better = || now.far_above(&left, thresholds) && left.is_noise(thresholds) || in_floor();
         // What a step by step search does not reach from another law: a low-pass of 50 ms looked like twice the inertia
         // and 20 ms.
-        let more = left.sum() - now.sum();
         let for_its_law = problem.link() == Link::Drive
-            && (left.is_hardly_more(&now, thresholds) || more <= thresholds.does_both * adds)
-            && more <= may_leave(law, before.sum() - left.sum(), thresholds);
+            && left.is_hardly_more(&now, thresholds)
+            && left.sum() - now.sum() <= may_leave(law, before.sum() - left.sum(), thresholds);
         let better = several && (left.is_as_little(&now, thresholds) || for_its_law) || far_better();
         (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
     });
@@ -201,15 +197,6 @@ fn of_two(
         })
         .collect();
     first_of_least(better, thresholds)
-}
-
-/// What one of several laws adds to the others at least, each time fitted with nothing adjusted beside them.
-fn least_added(problem: &Problem, start: &State, named: &[&Active], now: &Left) -> f64 {
-    let without = |out: usize| {
-        let others = named.iter().enumerate().filter(|(i, _)| *i != out).map(|(_, a)| *a);
-        Left::fitted(problem, &bare(problem, start, others)).sum() - now.sum()
-    };
-    (0..named.len()).map(without).fold(f64::INFINITY, f64::min)
 }
 
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {

@@ -12,7 +12,6 @@ mod drive_train;
 mod experiment;
 mod filtered;
 mod flywheel;
-mod gear_motor;
 mod gravity;
 mod heavy;
 mod joint;
