@@ -13,7 +13,7 @@ use crate::segment::Segment;
 const STEPS: [usize; 2] = [24, 8];
 /// Steps within a tick in which a wheel slips: their length at most, s, and their number at most. Of three wheels that slip by 76 rad
 /// in 3 s, logged at 500 Hz, the simulator's robot keeps within 1 % of its way of the law's with these, and not with one a tick.
-const LONGEST_STEP_S: f64 = 0.001;
+const LONGEST_STEP_S: f64 = 0.000_5;
 const MOST_STEPS: f64 = 8.0;
 /// Change of a twist, m/s or rad/s, that no camera sees.
 const EXACT: f64 = 1e-8;
