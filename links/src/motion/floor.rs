@@ -8,8 +8,8 @@ use runs::geometry::{Geometry, Wheel};
 use crate::drive::twist_per_wheel_speed;
 use crate::segment::Segment;
 
-/// Newton steps a tick, of which one or two are the rule; from the second number on they are halved, for full ones can
-/// cycle between two kinks.
+/// Newton steps at most, of which one or two are the rule, and those of them that are whole: whole ones can cycle between two
+/// kinks, halves cannot.
 const STEPS: [usize; 2] = [24, 8];
 /// Steps within a tick in which a wheel slips: their length at most, s, and their number at most. Of three wheels that slip by 76 rad
 /// in 3 s, logged at 500 Hz, the simulator's robot keeps within 1 % of its way of the law's with these, and not with one a tick.
@@ -370,9 +370,40 @@ mod tests {
         assert!(most < 1e-6, "{most} rad");
     }
 
+    /// What the least impulses that take a change of wheel speeds change of them.
+    fn changed(geometry: &Geometry, masses: [f64; 2]) -> DMatrix<f64> {
+        let rows = DMatrix::from_fn(geometry.wheel_count(), 3, |i, a| geometry.inverse()[(i, a)]);
+        let body = DMatrix::from_diagonal(&nalgebra::dvector![masses[0], masses[0], masses[1]].map(|m: f64| 1.0 / m));
+        &rows * body * rows.transpose() * least_impulses(geometry, masses).unwrap()
+    }
+
+    #[test]
+    fn a_push_moves_the_body_as_newton_says() {
+        let geometry = runs::robot::Robot::racbot().geometry().unwrap();
+        // What impulses give is the change of speed they were asked for.
+        let both = changed(&geometry, [2.0, 0.01]);
+        assert!((&both - DMatrix::identity(3, 3)).abs().max() < 1e-12, "{both}");
+    }
+
+    #[test]
+    fn four_wheels_have_no_stiffness_where_no_body_moves() {
+        let wheel = |k: usize| {
+            let at = std::f64::consts::FRAC_PI_4 * (2 * k + 1) as f64;
+            let drive_rad = at + std::f64::consts::FRAC_PI_2;
+            Wheel { x_m: 0.08 * at.cos(), y_m: 0.08 * at.sin(), drive_rad, roller_rad: 0.0 }
+        };
+        let geometry = Geometry::new((0..4).map(wheel).collect(), RADIUS).unwrap();
+        let both = changed(&geometry, [2.0, 0.01]);
+        // A projection of rank 3, and nothing blown up beside it.
+        assert!((&both * &both - &both).abs().max() < 1e-9 && (both.trace() - 3.0).abs() < 1e-9, "{both}");
+        assert!(least_impulses(&geometry, [2.0, 0.01]).unwrap().amax() < 1e-2);
+    }
+
     #[test]
     fn two_wheels_on_an_axle_share_what_moves_them() {
         let geometry = Geometry::new(vec![wheel(0.045), wheel(-0.045)], RADIUS).unwrap();
+        let both = changed(&geometry, [MASS, 0.01]);
+        assert!((&both - DMatrix::identity(2, 2)).abs().max() < 1e-9, "{both}");
         let inertia = least_impulses(&geometry, [MASS, 0.01]).unwrap();
         // Ahead each moves a half of the mass.
         let half = 0.5 * MASS * RADIUS.powi(2);

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Complex, Matrix3, Vector3};
 use runs::Log;
 use runs::frames::Twist;
-use runs::geometry::{Geometry, Wheel};
+use runs::geometry::Geometry;
 use runs::robot::{Robot, Support};
 
 use super::orders::{self, moved, orders, words};
@@ -575,9 +575,8 @@ fn of_turns(robot: &Robot, spin: f64) -> Mistake {
     if runs::is_dead_reckoning(robot) {
         return Mistake::new("robot-file", "odom_theta", what, ODOMETRY.to_owned());
     }
-    let lever = |w: &Wheel| w.x_m * w.drive_rad.sin() - w.y_m * w.drive_rad.cos();
     let track = robot.geometry().ok().filter(Geometry::is_differential).map(|geometry| {
-        let levers = || geometry.wheels().iter().map(lever);
+        let levers = || geometry.wheels().iter().map(|w| w.traction_row()[2]);
         levers().fold(f64::NEG_INFINITY, f64::max) - levers().fold(f64::INFINITY, f64::min)
     });
     let Some(track) = track else {
