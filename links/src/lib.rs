@@ -35,6 +35,7 @@ pub mod drive;
 pub mod effect;
 pub mod effects;
 pub mod inertial;
+mod memo;
 pub mod motion;
 pub mod pieces;
 pub mod segment;

@@ -1,6 +1,6 @@
 //! A piece of a run without gaps, with everything the links need derived from it once.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use estimation::sums::dot;
 use runs::frames::{Pose, Twist, displacement, wrap_angle};
@@ -9,6 +9,7 @@ use runs::robot::Robot;
 use runs::{Columns, Log, Run, Seen};
 
 use crate::inertial::Felt;
+use crate::memo::Memo;
 use crate::thresholds::{self, TEST_FUNCTION_S};
 
 /// Time over which wheel speeds are smoothed (full width of a Hann window), s: at one count a
@@ -83,6 +84,20 @@ pub struct Segment {
     pub before: Vec<(f64, Vec<f64>)>,
     /// What its wheels did from each tick to the next, worked out when it is first asked for.
     pub rows: OnceLock<Rows>,
+    /// What its wheels lose on the floors that were asked about.
+    pub lost: Memo,
+    /// See [`Segment::coarser`].
+    pub thinned: Thinned,
+}
+
+/// A segment with fewer ticks, the one asked for last, and of how many one is left. A copy begins without.
+#[derive(Debug, Default)]
+pub struct Thinned(Mutex<Option<(usize, Arc<Segment>)>>);
+
+impl Clone for Thinned {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// What the wheels did from each tick to the next, `[wheel][tick]`, whatever the model.
@@ -326,7 +341,7 @@ impl Segment {
 
     /// The same with no more ticks than `part` of the time between two camera frames takes, the first and the last among
     /// them: angles and what is smooth are what they are at those ticks. `None` if that leaves half of them or more.
-    pub(crate) fn coarser(&self, part: f64) -> Option<Self> {
+    pub(crate) fn coarser(&self, part: f64) -> Option<Arc<Self>> {
         let last = self.t.len().checked_sub(1)?;
         let mut apart: Vec<f64> = self.frames.windows(2).map(|f| f[1].t - f[0].t).collect();
         let tick = (self.t[last] - self.t[0]) / last.max(1) as f64;
@@ -334,9 +349,23 @@ impl Segment {
         if !(every >= 2.0 && every < last as f64) {
             return None;
         }
-        let ticks: Vec<usize> = (0..last).step_by(every as usize).chain([last]).collect();
+        let every = every as usize;
+        let mut known = self.thinned.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, thinned)) = &*known
+            && *of == every
+        {
+            return Some(thinned.clone());
+        }
+        let thinned = Arc::new(self.thinned(every));
+        *known = Some((every, thinned.clone()));
+        Some(thinned)
+    }
+
+    fn thinned(&self, every: usize) -> Self {
+        let last = self.t.len() - 1;
+        let ticks: Vec<usize> = (0..last).step_by(every).chain([last]).collect();
         let each = |rows: &[Vec<f64>]| rows.iter().map(|row| ticks.iter().map(|k| row[*k]).collect()).collect();
-        Some(Self {
+        Self {
             t: ticks.iter().map(|k| self.t[*k]).collect(),
             angle: each(&self.angle),
             zero: self.zero.clone(),
@@ -356,8 +385,10 @@ impl Segment {
             // The sensor's links cut the segments as they are.
             felt: None,
             rows: OnceLock::new(),
+            lost: Memo::default(),
+            thinned: Thinned::default(),
             ..*self
-        })
+        }
     }
 
     /// A frame that repeats the one before to the last digit while the wheels turned is no new

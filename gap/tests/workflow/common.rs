@@ -16,14 +16,16 @@ pub(super) fn example() -> DataSet {
     DataSet::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/runs/wheel-skew")).unwrap()
 }
 
-/// A robot with one effect.
+/// A robot with one effect more.
 pub(super) fn with(robot: &Robot, name: &str, parameters: &[(&str, f64)]) -> Robot {
     let parameters = parameters
         .iter()
         .map(|(n, v)| ((*n).to_owned(), EffectParameter { value: *v, ..EffectParameter::default() }))
         .collect();
     let effect = Effect { name: name.to_owned(), parameters, ..Effect::default() };
-    Robot { effects: vec![effect], ..robot.clone() }
+    let mut truth = robot.clone();
+    truth.effects.push(effect);
+    truth
 }
 
 /// A run of the true robot. Contacts creep a little, as all do.

@@ -88,7 +88,9 @@ impl Effect for WheelCreep {
         };
         if floor.gives_way() {
             let none = |segment: &Segment| vec![vec![0.0; segment.t.len()]; segment.speed.len()];
-            let ahead = move |_: &DriveModel, segment: &Segment| floor.lost(segment).unwrap_or_else(|| none(segment));
+            let ahead = move |_: &DriveModel, segment: &Segment| {
+                floor.lost(segment).map_or_else(|| none(segment), |lost| lost.to_vec())
+            };
             model.offsets.push((Ahead::Rotor, Box::new(ahead)));
         }
     }

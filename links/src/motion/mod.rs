@@ -160,7 +160,7 @@ impl MotionModel {
         let mut angles = segment.angle.clone();
         if let Some(lost) = self.floor.lost(segment) {
             let turned = angles.iter_mut().flatten();
-            turned.zip(lost.into_iter().flatten()).for_each(|(angle, lost)| *angle -= lost);
+            turned.zip(lost.iter().flatten()).for_each(|(angle, lost)| *angle -= lost);
         }
         for change in &self.angles {
             change(segment, &mut angles);
