@@ -78,15 +78,16 @@ pub struct Pieces<'a> {
 pub struct Driving {
     /// What the rows say of what drives the wheels.
     pub driven: Driven,
-    /// Whether logged speeds are means over the row before, as differences of counts are: half a row older than momentary ones.
-    pub mean_speeds: bool,
+    /// Half rows by which logged speeds are older than momentary ones beside their duties: one as means over the row before, as
+    /// differences of counts are; two where such means are read in the middle between two duties.
+    pub half_rows: usize,
     /// Length of a test function, s.
     pub test_function_s: f64,
 }
 
 impl Default for Driving {
     fn default() -> Self {
-        Self { driven: Driven::Held, mean_speeds: false, test_function_s: crate::drive::TEST_FUNCTION_S }
+        Self { driven: Driven::Held, half_rows: 0, test_function_s: crate::drive::TEST_FUNCTION_S }
     }
 }
 
@@ -163,9 +164,9 @@ impl<'a> Pieces<'a> {
         self.driving
     }
 
-    /// Whether logged speeds are looked at as means over the row before.
-    pub fn means_speeds(&self) -> bool {
-        self.driving.mean_speeds
+    /// Half rows by which logged speeds are looked at as older than momentary ones.
+    pub fn half_rows(&self) -> usize {
+        self.driving.half_rows
     }
 
     /// Short pieces spread evenly over the logs, of `every_run` at least one; `None` where these would be more than half
@@ -423,7 +424,7 @@ impl<'a> Pieces<'a> {
             before: &p.history[..p.before],
             speed: self.speed,
             driven: self.driving.driven,
-            mean_speeds: self.driving.mean_speeds,
+            half_rows: self.driving.half_rows,
         };
         segment(&self.robot, &self.geometry, &part, place)
     }

@@ -162,8 +162,8 @@ pub(crate) struct Place<'a> {
     pub(crate) speed: f64,
     /// What the rows say of what drives the wheels.
     pub(crate) driven: Driven,
-    /// Whether logged speeds are means over the row before.
-    pub(crate) mean_speeds: bool,
+    /// Half rows by which logged speeds are older than momentary ones.
+    pub(crate) half_rows: usize,
 }
 
 /// Speed of the wheels while they turned, rad/s: how long they stood makes no difference. Of a long log some parts are
@@ -267,9 +267,7 @@ pub(crate) fn segment(robot: &Robot, geometry: &Geometry, part: &Run, place: Pla
         if lost.iter().any(|rows| !rows.is_empty()) {
             s.unlogged = lost.iter().map(|rows| Lost::shares(rows, t.len())).collect();
         }
-        if place.mean_speeds {
-            s.duty.iter_mut().for_each(|d| half_a_row_later(d));
-        }
+        s.duty.iter_mut().for_each(|d| later(d, place.half_rows));
     }
     if part.reference.len() == n && !s.duty.is_empty() {
         s.reference = part.reference.iter().map(|r| held(r, 0.0)).collect();
@@ -550,10 +548,12 @@ impl Lost {
     }
 }
 
-/// In place of a signal that is held from tick to tick its mean from half a tick before to half a tick after.
-fn half_a_row_later(values: &mut [f64]) {
+/// A signal that is held from tick to tick, later by half ticks: of half a one its mean from half a tick before to half a
+/// tick after.
+fn later(values: &mut [f64], half_rows: usize) {
     for k in (1..values.len()).rev() {
-        values[k] = 0.5 * (values[k - 1] + values[k]);
+        let [now, before] = [0, 1].map(|row| values[k.saturating_sub(half_rows / 2 + row)]);
+        values[k] = if half_rows % 2 == 0 { now } else { 0.5 * (before + now) };
     }
 }
 

@@ -274,7 +274,7 @@ impl<'a> Workflow<'a> {
         let alone = self.question.robot.support == Support::Blocks && !self.question.currents;
         let (named, model) = (&outcome.named, self.start.drive(None));
         let row_s = 1.0 / self.question.robot.control_rate_hz;
-        let late_s = if self.data.pieces.means_speeds() { 0.5 * row_s } else { 0.0 };
+        let late_s = 0.5 * row_s * self.data.pieces.half_rows() as f64;
         let all = [
             filtered::in_place_of_inertia(named, &model, row_s, late_s).filter(|_| alone),
             filtered::of_delay(named, row_s),

@@ -13,8 +13,8 @@ const LONGEST_S: f64 = 3.0;
 /// Whether currents were measured, whether speeds are means of rows, and how long test functions are.
 ///
 /// Currents are measured, at a row or in the time up to it, or what an amplifier is told and holds: whichever leaves less of the accelerations beside smooth
-/// functions of speed and current. Speeds in place of counts are momentary or the mean of the row before by the same rule:
-/// half a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
+/// functions of speed and current. Speeds in place of counts are momentary, or the mean of the row before up to its end or its
+/// middle, by the same rule: a part of a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
 /// as long as they tell more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
 pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool, no_noise: f64) -> Driving {
@@ -42,11 +42,20 @@ pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool, no_noise: f64) 
             (chosen, now) = (measured, other);
         }
     }
-    let mean = Driving { mean_speeds: true, ..chosen };
-    if is_from_speeds(robot)
-        && let Some(other) = look(mean).filter(|other| other.tells > now.tells)
-    {
-        (chosen, now) = (mean, other);
+    if is_from_speeds(robot) {
+        let held = chosen;
+        let aged = |half_rows: usize| {
+            let older = Driving { half_rows, ..held };
+            look(older).map(|seen| (older, seen))
+        };
+        if let Some(mean) = aged(1).filter(|(_, mean)| mean.tells > now.tells) {
+            (chosen, now) = mean;
+            // Where they tell still more as older ones they are late by the machine, and the latency has a name.
+            let beyond = aged(3).map_or(0.0, |(_, beyond)| beyond.tells);
+            if let Some(older) = aged(2).filter(|(_, older)| older.tells > now.tells.max(beyond)) {
+                (chosen, now) = older;
+            }
+        }
     }
     while now.loud && 2.0 * now.length <= LONGEST_S {
         let longer = Driving { test_function_s: 2.0 * now.length, ..chosen };

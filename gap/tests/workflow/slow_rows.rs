@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::Run;
 
-use super::common::{names, of_files};
+use super::common::{names, of_files, with_dry_friction};
 
 const VOLT: f64 = 12.0;
 const OHM: f64 = 3.8;
@@ -14,15 +14,19 @@ const GEAR: f64 = 9.68;
 /// At the motor shaft, kg m²: a time constant of 22 ms.
 const ROTOR: f64 = 4e-7;
 
-/// A lifted motor that is so much heavier than its file, under a duty that wanders and jumps, its speed read at the rows or
-/// behind a low-pass.
-fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
-    let text = format!(
+/// A lifted motor's file, whose logs have rows of that length.
+fn file(row_s: f64) -> String {
+    format!(
         "encoder_counts_per_motor_rev = 2048\ngear_ratio = {GEAR}\nsupply_v = {VOLT}\nsupport = \"blocks\"\n\
          wheel_radius_m = 0.03\ncontrol_rate_hz = {}\n[motor]\nresistance_ohm = {OHM}\ntorque_constant = {KT}\n\
          rotor_inertia = {ROTOR}\nfriction_torque = 0\n[[wheel]]\nx_m = 0\ny_m = 0\ndrive_deg = 0\n",
         1.0 / row_s
-    );
+    )
+}
+
+/// A lifted motor that is so much heavier than its file, under a duty that wanders and jumps, its speed read at the rows or
+/// behind a low-pass.
+fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
     let run = |n| {
         let mut rng = ChaCha8Rng::seed_from_u64(100 * seed + n);
         let mut run = Run { name: format!("{n}"), ..Run::default() };
@@ -47,7 +51,7 @@ fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
         (run.duty, run.speed) = (vec![duties], vec![speeds]);
         run
     };
-    of_files(&text, (0..5).map(run))
+    of_files(&file(row_s), (0..5).map(run))
 }
 
 /// A straight line from row to row made it 13 % heavier, at five noise floors.
@@ -84,4 +88,53 @@ fn a_filter_beside_a_motor_that_follows_within_a_row_may_be_an_inertia() {
     // A motor that takes longer than a row shows beside a filter.
     let a = logged(7, 0.01, 1.0, 0.0);
     assert!(names(&a) == ["rotor-inertia"] && a.verdict != Verdict::Ambiguous, "{}", a.terminal_summary());
+}
+
+/// A motor with a dry friction (Nm at the wheel) under a duty of two levels, its counts differenced in the middle between two
+/// duties, as of tasks that take turns.
+fn differenced_between_duties(seed: u64, row_s: f64, heavier: f64, dry: f64) -> Analysis {
+    let run = |n| {
+        let mut rng = ChaCha8Rng::seed_from_u64(100 * seed + n);
+        let mut run = Run { name: format!("{n}"), ..Run::default() };
+        let (mut speed, mut angle, mut read) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut duties, mut speeds) = (vec![0.5], Vec::new());
+        let (step, inertia) = (1e-4, ROTOR * (1.0 + heavier) * GEAR * GEAR);
+        let halves = (0.5 * row_s / step).round() as usize;
+        for row in 0..1000_usize {
+            run.t.push(row as f64 * row_s);
+            let count = (angle / 0.002).floor() * 0.002;
+            speeds.push((count - read) / row_s);
+            read = count;
+            let before = duties[row];
+            let now = if rng.random_range(0.0..1.0) < 0.2 { 0.75 - before } else { before };
+            duties.push(now);
+            for i in 0..2 * halves {
+                let duty = if i < halves { before } else { now };
+                let torque = KT * GEAR * (VOLT * duty - KT * GEAR * speed) / OHM;
+                speed = with_dry_friction(speed, torque, dry, inertia, step);
+                angle += step * speed;
+            }
+        }
+        (run.duty, run.speed) = (vec![duties.split_off(1)], vec![speeds]);
+        run
+    };
+    of_files(&file(row_s), (0..3).map(run))
+}
+
+/// Read as means up to their duty they were a curve of the bridge that is not there, and half as much friction again.
+#[test]
+fn speeds_differenced_between_two_duties_are_late_by_the_log() {
+    const DRY: f64 = 0.02;
+    for (seed, row_s, heavier) in [(11, 0.02, 0.0), (12, 0.01, -0.4), (13, 0.03, 0.0), (14, 0.02, 0.8)] {
+        let a = differenced_between_duties(seed, row_s, heavier, DRY);
+        let holds = |name: &str, value: f64| {
+            let found = a.effects.iter().find(|e| e.name == name).map(|e| e.parameters[0].2);
+            matches!(found, Some(Interval::Ci95([low, high])) if low <= value && value <= high)
+        };
+        let wanted = if heavier == 0.0 { vec!["coulomb-friction"] } else { vec!["coulomb-friction", "rotor-inertia"] };
+        let mut found = names(&a);
+        found.sort_unstable();
+        let sized = holds("coulomb-friction", DRY) && (heavier == 0.0 || holds("rotor-inertia", heavier));
+        assert!(found == wanted && sized, "{row_s} {heavier}: {}", a.terminal_summary());
+    }
 }

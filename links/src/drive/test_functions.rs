@@ -307,7 +307,7 @@ impl<'a> DriveLink<'a> {
     /// stands for what they were in between.
     pub(super) fn mechanics(&self, model: &DriveModel, s: &Segment) -> Option<Mechanics> {
         let mechanics = model.mechanics()?;
-        let momentary = runs::is_from_speeds(self.pieces.robot()) && !self.pieces.means_speeds();
+        let momentary = runs::is_from_speeds(self.pieces.robot()) && self.pieces.half_rows() == 0;
         if momentary { mechanics.between_rows(model, s.tick_s()) } else { Some(mechanics) }
     }
 
