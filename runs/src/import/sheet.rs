@@ -33,7 +33,7 @@ pub(super) fn numbered(columns: usize) -> Vec<String> {
 impl<'a> Sheet<'a> {
     pub(super) fn of(bytes: &'a [u8]) -> Self {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        if let Some(bare) = unquoted(bytes) {
+        if let Some(bare) = unquoted(bytes).or_else(|| printed(bytes)) {
             let Sheet { names, rows, separator, tagged } = Sheet::of(&bare);
             return Self { names, rows: Cow::Owned(rows.into_owned()), separator, tagged };
         }
@@ -166,6 +166,26 @@ fn unquoted(bytes: &[u8]) -> Option<Vec<u8>> {
     Some(bytes.split_inclusive(|b| *b == b'\n').flat_map(line).collect())
 }
 
+/// The text of lines that were written as Python shows bytes, such as those of a serial port that nobody decoded:
+/// `b'5460,12,13\r\n'`, alone or after a time of arrival. Names may stand above.
+fn printed(bytes: &[u8]) -> Option<Vec<u8>> {
+    let text = |line: &[u8]| -> Option<Vec<u8>> {
+        let begins = |at: usize| at == 0 || b",;\t ".contains(&line[at - 1]);
+        let at = (0..line.len().saturating_sub(1))
+            .find(|at| begins(*at) && line[*at] == b'b' && [b'\'', b'"'].contains(&line[at + 1]))?;
+        let inside = &line[at + 2..];
+        // An escape ends what the port sent of a line, or the quote does; a line may also be cut off there.
+        let ends = inside.iter().position(|b| *b == b'\\' || *b == line[at + 1]);
+        Some([&line[..at], &inside[..ends.unwrap_or(inside.len())]].concat())
+    };
+    let lines: Vec<&[u8]> = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).collect();
+    let texts: Vec<Option<Vec<u8>>> = lines.iter().map(|line| text(line)).collect();
+    let filled = || lines.iter().zip(&texts).filter(|(line, _)| !line.is_empty());
+    let all = filled().skip(1).all(|(_, text)| text.is_some()) && filled().nth(1).is_some();
+    let line = |(line, text): (&&[u8], Option<Vec<u8>>)| text.unwrap_or_else(|| line.to_vec());
+    all.then(|| lines.iter().zip(texts).map(line).collect::<Vec<_>>().join(&b'\n'))
+}
+
 /// The lines with semicolons in place of the bars between their fields, `| t | x |` and `t | x |`; titles above and rules below
 /// the names are emptied. Names may have a bar too many, as between tables that were put side by side.
 fn barred<'a>(bytes: &'a [u8]) -> Option<Vec<u8>> {
@@ -272,6 +292,15 @@ mod tests {
             assert_eq!(sheet(text), (None, rows.into(), ';'), "{text}");
         }
         assert_eq!(sheet("t,a|b\n0,1\n").2, ',');
+        // As Python shows bytes: whole, cut off, below names, after a time, with names before the numbers.
+        let serial = (names(&["column_1", "column_2"]), "5,0\n6,-2\n".into(), ',');
+        for lines in [["b'5,0\\r\\n'", "b'6,-2\\r\\n'"], ["b'5,0\\r\\", "b'6,-2\\r\\"], ["5,b\"0\\n\"", "6,b\"-2\\n\""]]
+        {
+            assert_eq!(sheet(&(lines.join("\n") + "\n")), serial, "{lines:?}");
+        }
+        assert_eq!(sheet("t,a\nb'5,0\\r\\n'\n").1, "t,a\n5,0\n");
+        assert_eq!(sheet("b't:5 a:0\\r\\n'\nb't:6 a:1\\r\\n'\n").0, names(&["t", "a"]));
+        assert_eq!(sheet("t,b'\n0,1\n1,2\n").1, "t,b'\n0,1\n1,2\n");
         // A row for each series.
         let row = |name: &str, step: f64| {
             let samples = (0..200).map(|k| (step * f64::from(k)).to_string()).collect::<Vec<_>>();
