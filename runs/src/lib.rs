@@ -183,8 +183,14 @@ impl Run {
         out
     }
 
-    /// Times of the ticks at which the first encoder counts, or all where it has not twice.
+    /// Times of the ticks at which the first encoder counts, or what stands in its place is logged; all where that is not twice.
     pub fn sampled(&self) -> std::borrow::Cow<'_, [f64]> {
+        if self.counts.is_empty() {
+            let first = self.speed.first().or_else(|| self.odometry.as_ref().map(|of| &of[0]));
+            let logged =
+                first.map(|of| self.t.iter().zip(of).filter(|(_, x)| x.is_finite()).map(|(t, _)| *t).collect());
+            return logged.filter(|times: &Vec<f64>| times.len() > 1).map_or(self.t[..].into(), Into::into);
+        }
         let gaps = self.count_gaps.first().map_or(&[][..], Vec::as_slice);
         if gaps.is_empty() || gaps.len() + 2 > self.len() {
             return std::borrow::Cow::Borrowed(&self.t);

@@ -74,6 +74,13 @@ fn lines_of_one_time_are_one_tick_where_no_field_stands_twice() {
     assert_eq!(run.gyro.as_ref().unwrap()[2][2], 2.0);
     assert!(run.gyro.as_ref().unwrap()[0].iter().all(|x| x.is_nan()), "an axis nobody logged");
     assert!((run.tick_s().unwrap() - 0.02).abs() < 1e-12, "the encoder's");
+    // So it is of what stands in the place of counts.
+    for text in [
+        "t,speed_1,gyro_z\n0,1,\n0.01,,2\n0.04,,2\n0.05,1,\n0.06,,2\n0.1,2,\n",
+        "t,odom_x,odom_y,odom_theta,gyro_z\n0,1,2,3,\n0.01,,,,2\n0.04,,,,2\n0.05,1,2,3,\n0.06,,,,2\n0.1,2,2,3,\n",
+    ] {
+        assert!((read(text).unwrap().tick_s().unwrap() - 0.05).abs() < 1e-12, "{text}");
+    }
     assert!(error("t,enc_1\n0,1\n0,2\n").contains("time 0 s stands twice"));
 }
 
