@@ -54,6 +54,7 @@ const WORDS: [(Kind, &[&str]); 10] = [
             "real",
             "laser",
             "slam",
+            "map",
             "gps",
             "aruco",
             "apriltag",
@@ -339,6 +340,17 @@ pub(super) fn words(name: &str) -> Vec<&str> {
         .collect()
 }
 
+/// Which velocity of the body a command without an axis is of, `velocity_command` beside `rotation_command`: one alone is a
+/// motor's, and goes with its broken group.
+fn commanded(words: &[&str]) -> Option<usize> {
+    let ([of, "command" | "cmd"] | ["command" | "cmd", of]) = words else { return None };
+    match *of {
+        "velocity" | "linear" | "forward" => Some(0),
+        "rotation" | "rotational" | "angular" | "turn" => Some(2),
+        _ => None,
+    }
+}
+
 /// Whose axis a word is, and which: `oth` is `o` and `th`, `xgt` is `gt` and `x`.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let axes = || ["x", "y"].into_iter().chain(HEADINGS);
@@ -360,7 +372,7 @@ fn guess(series: &Series, wheels: &mut Wheels, from_zero: &[String]) -> Option<(
     }
     let said = units::in_name(&series.name);
     let number = numbered(&series.name, from_zero);
-    let axis = axis(&words);
+    let axis = axis(&words).or_else(|| commanded(&words));
     // Where a motor should be is no column, and no encoder's.
     let any = |some: &[&str]| words.iter().any(|word| some.contains(word));
     let place = any(&["position", "pos", "counts", "ticks"])

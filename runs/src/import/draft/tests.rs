@@ -444,6 +444,23 @@ fn volts_that_were_not_measured_are_none() {
     assert!(stand.contains("speed_1 = ") && !stand.contains("duty_1"), "{stand}");
 }
 
+/// A lecture's robot on a map, whose commands have no axes.
+#[test]
+fn commands_without_axes_and_poses_on_a_map_are_known() {
+    let names = "time_ns,velocity_command,rotation_command,map_x,map_y,map_theta,odom_x,odom_y,odom_theta,beacon_x";
+    let map = drafted(
+        names,
+        ["0,0.1,0.2,1,2,0.5,1,2,0.3,4", "50000000,0.1,0.2,1,2,0.5,1,2,0.3,4", "100000000,0,0.2,1,2,0.5,1,2,0.3,4"],
+    );
+    for line in
+        ["cmd_vx = \"velocity_command\"", "cmd_w = \"rotation_command\"", "cam_x = \"map_x\"", "odom_x = \"odom_x\""]
+    {
+        assert!(map.contains(line), "{line}: {map}");
+    }
+    let motor = drafted("time,velocity_command,velocity,position", ["0,1,0.5,0", "0.01,2,0.7,0.1", "0.02,2,0.8,0.1"]);
+    assert!(!motor.contains("cmd_vx"), "{motor}");
+}
+
 /// A three-wheeled robot of a thesis, whose commands are set points of its body's velocities.
 #[test]
 fn speeds_and_set_points_of_control_engineers_are_understood() {
