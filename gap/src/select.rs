@@ -38,6 +38,7 @@ pub use design::{Design, Trial};
 pub(crate) use dwarfed::dwarfed;
 pub(crate) use lighter::{heavier, is_heavier};
 pub(crate) use plain::{held_out, plain};
+pub(crate) use simpler::one_beside;
 pub use sure::estimates;
 pub(crate) use undecided::undecided;
 pub(crate) use undone::not_undone;

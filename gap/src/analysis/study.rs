@@ -153,9 +153,10 @@ pub(super) fn study<'a>(
     let laws = design.left_by_laws() / design.linear.equations.plain().1.max(1.0);
     if judged.rms > far
         && judged.rms.powi(2) - 1.0 > laws
-        && let Some(several) = several(problem, start, &judged, &all, thresholds)
+        && let Some(beside) = one_beside(problem, start, &judged, &all, far / thresholds.far, thresholds)
+            .or_else(|| several(problem, start, &judged, &all, thresholds))
     {
-        let (again, more) = sound(problem, several, start, &all, thresholds);
+        let (again, more) = sound(problem, beside, start, &all, thresholds);
         if again.rms < judged.rms {
             judged = again;
             refused.extend(more);
@@ -264,6 +265,22 @@ pub(super) fn written_to_fit(written: &State, from: usize) -> State {
     let mut state = written.clone();
     state.active[..from].iter_mut().for_each(|a| a.given = true);
     state
+}
+
+/// One more effect of the drive that matters and takes it to its floor: the search took it for a little of many others, none of
+/// which matters.
+fn one_beside(
+    problem: &Problem,
+    start: &State,
+    judged: &Judged,
+    all: &[Active],
+    floor: f64,
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let from = start.active.len();
+    let named: Vec<Active> = judged.written.active[from..].iter().filter(|a| a.is_named()).cloned().collect();
+    let drive = problem.link() == Link::Drive && !named.is_empty();
+    drive.then(|| select::one_beside(problem, start, &named, all, floor, thresholds)).flatten()
 }
 
 /// Effects each too small to matter, where together they close what matters.

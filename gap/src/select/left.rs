@@ -33,6 +33,10 @@ impl Left {
         self.sum() - self.n
     }
 
+    pub(super) fn rms(&self) -> f64 {
+        (self.sum() / self.n.max(1.0)).sqrt()
+    }
+
     /// By how much it is more than another, in standard deviations of that over the clusters.
     pub(super) fn above(&self, other: &Self) -> f64 {
         let differences = || self.clusters.iter().zip(&other.clusters).map(|(a, b)| a - b);

@@ -199,6 +199,27 @@ fn of_two(
     first_of_least(better, thresholds)
 }
 
+/// One law more, large enough to matter, beside what is named, that leaves no more than so many noises; of several between
+/// which the data do not decide the first of the catalogue.
+pub(crate) fn one_beside(
+    problem: &Problem,
+    start: &State,
+    named: &[Active],
+    all: &[Active],
+    within: f64,
+    thresholds: &Thresholds,
+) -> Option<Selection> {
+    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
+    let is_new = |a: &Active| !named.iter().any(|n| n.effect.name() == a.effect.name());
+    let fitted = each(&laws(problem, start, all, |a| plain(a) && is_new(a)), &|law| {
+        let state = bare(problem, start, named.iter().chain(std::iter::once(law)));
+        let left = Left::of(problem, &state);
+        (left.rms() <= within && is_sound(problem, start, &state, thresholds)).then_some((state, left))
+    });
+    let state = first_of_least(fitted.into_iter().flatten().collect(), thresholds)?;
+    Some(finish_bare(problem, state, start.active.len(), all, thresholds))
+}
+
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {
     found.state.active[start.active.len()..].iter().filter(|a| a.is_named()).collect()
 }

@@ -12,6 +12,7 @@ mod drive_train;
 mod experiment;
 mod filtered;
 mod flywheel;
+mod gear_motor;
 mod gravity;
 mod heavy;
 mod joint;
