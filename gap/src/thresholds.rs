@@ -82,6 +82,10 @@ thresholds! {
     one: f64 = 0.99,
     /// Squared cosine from which an effect looks like others.
     alike: f64 = 0.98,
+    /// Share of what a law does that several others may not do together for it to be a special case of them. By algebra it is
+    /// 0, by differences 1e-9 to 5e-9 (a supply beside a motor's two constants, an inertia beside resistance and friction); of
+    /// what merely looks alike, a bridge that drops volts beside a motor's constant and viscous friction, 1e-3.
+    special: f64 = 1e-6,
     /// Share of what an unnamed effect does that the named ones could do in its place, from which it is frozen while
     /// they are estimated: they would share the signal (-2.3 % was found where -3.6 % is true).
     twin: f64 = 0.3,

@@ -98,6 +98,14 @@ fn faults(expected: &[(&str, f64)], truth: Truth, seeds: [u64; 3]) -> String {
     seeds.into_par_iter().filter_map(fault).collect::<Vec<_>>().join("\n")
 }
 
+/// A supply that is higher by a share is a motor of a smaller constant and less resistance, to the last digit: the one has
+/// the name.
+#[test]
+fn a_full_battery_is_no_motor_of_two_other_constants() {
+    let truth = Truth { supply: 1.15, dry: 0.0, viscous: 0.0 };
+    assert_eq!(faults(&[("supply-voltage", 0.15)], truth, [3, 10, 11]), "");
+}
+
 /// Friction of a tenth of the stall torque, and a viscous one of 5 % of it at full speed.
 #[test]
 fn two_frictions_are_no_four_laws() {
