@@ -39,7 +39,30 @@ pub(super) fn simpler(
     if let Some(state) = for_several(problem, start, &found, in_place, thresholds) {
         found = finish_bare(problem, state, from, all, thresholds);
     }
+    if is_a_trifle(problem, start, &found, all) {
+        return finish_bare(problem, start.clone(), from, all, thresholds);
+    }
     found
+}
+
+/// Whether one law of the drive, of a size too small to matter, leaves no more than all that is named. Effects that matter, of
+/// which one takes back most of the other, are then a small one by other names: more resistance and less mass do what a
+/// little more friction does.
+fn is_a_trifle(problem: &Problem, start: &State, found: &Selection, all: &[Active]) -> bool {
+    let named = named(start, found);
+    if problem.link() != Link::Drive || named.len() < 2 {
+        return false;
+    }
+    let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
+    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
+    let small = |law: &Active| {
+        let state = bare(problem, start, [law]);
+        let fitted = &state.active[start.active.len()];
+        !is_material(fitted, &fitted.parameters())
+            && !stopped(fitted)
+            && Left::fitted(problem, &state).sum() <= now.sum()
+    };
+    each(&laws(problem, start, all, plain), &small).contains(&true)
 }
 
 /// A law in place of two or more of those named, where with the others it leaves as little as they, or of one where it leaves
@@ -387,5 +410,25 @@ mod tests {
         let motor = ["torque-constant", "winding-resistance"];
         assert!(special("supply-voltage", motor, ("supply-voltage", "scale", 0.15)));
         assert!(!special("bridge-drop", ["torque-constant", "viscous-friction"], ("bridge-drop", "drop_v", 1.0)));
+    }
+
+    #[test]
+    fn a_little_friction_is_no_resistance_that_a_lighter_robot_takes_back() {
+        let trifle = |hidden: &[(&str, &str, f64)]| {
+            ask(hidden, |problem, start, all| {
+                let mut state = start.clone();
+                for (name, value) in [("winding-resistance", 0.1), ("robot-mass", -0.15)] {
+                    let mut named = law(all, name).clone();
+                    let parameter = named.form.free[0].name.clone();
+                    named.values.set(&parameter, value);
+                    state.active.push(named);
+                }
+                let found = finish_bare(problem, state, 0, all, &Thresholds::default());
+                is_a_trifle(problem, start, &found, all)
+            })
+        };
+        let little = ask(&[], |_, _, all| 0.5 * law(all, "coulomb-friction").form.free[0].material);
+        assert!(trifle(&[("coulomb-friction", "torque_nm", little)]));
+        assert!(!trifle(&[("winding-resistance", "scale", 0.2), ("robot-mass", "scale", -0.2)]));
     }
 }
