@@ -43,37 +43,64 @@ impl Run {
     /// What a log of several axes says of one of them, as a log of an axis alone.
     #[must_use]
     pub fn axis(&self, axis: usize) -> Self {
-        let counted = self.count_gaps.get(axis).filter(|_| self.counts.len() > axis);
-        let groups = [&self.reference, &self.duty, &self.measured, &self.speed, &self.current];
         // What is logged of each axis at times of its own leaves ticks that are the others' alone.
-        let told = |tick: &usize| {
-            counted.is_some_and(|gaps| gaps.binary_search(tick).is_err())
-                || groups.iter().any(|group| group.get(axis).is_some_and(|column| column[*tick].is_finite()))
-        };
-        let mut own: Vec<usize> = (0..self.len()).filter(told).collect();
-        if own.is_empty() {
-            own = (0..self.len()).collect();
-        }
-        let of = |column: &Vec<f64>| own.iter().map(|tick| column[*tick]).collect::<Vec<f64>>();
-        let one = |group: &[Vec<f64>]| group.get(axis).map(of).into_iter().collect::<Vec<_>>();
-        let gaps = |gaps: &Vec<usize>| -> Vec<usize> {
-            let own = own.iter().enumerate().filter(|(_, tick)| gaps.binary_search(tick).is_ok());
-            own.map(|(tick, _)| tick).collect()
-        };
+        let own = self.told_of(axis..axis + 1, false);
+        let run = if own.is_empty() { self.clone() } else { self.of_ticks(&own) };
+        let one = |group: Vec<Vec<f64>>| group.into_iter().nth(axis).into_iter().collect::<Vec<_>>();
         Self {
-            name: self.name.clone(),
-            t: of(&self.t),
-            reference: one(&self.reference),
-            counts: self.counts.get(axis).map(|c| own.iter().map(|tick| c[*tick]).collect()).into_iter().collect(),
-            count_gaps: self.count_gaps.get(axis).map(gaps).into_iter().collect(),
-            duty: one(&self.duty),
-            measured: one(&self.measured),
-            supply_v: self.supply_v.as_ref().map(of),
-            speed: one(&self.speed),
-            current: one(&self.current),
-            source: self.source,
+            name: run.name,
+            t: run.t,
+            reference: one(run.reference),
+            counts: run.counts.into_iter().nth(axis).into_iter().collect(),
+            count_gaps: run.count_gaps.into_iter().nth(axis).into_iter().collect(),
+            duty: one(run.duty),
+            measured: one(run.measured),
+            supply_v: run.supply_v,
+            speed: one(run.speed),
+            current: one(run.current),
+            source: run.source,
             ..Self::default()
         }
+    }
+
+    /// Ticks at which a wheel of these was read, set or driven, or with `commanded` the robot was; others are a camera's, or
+    /// another sensor's.
+    #[must_use]
+    pub fn told_of(&self, wheels: Range<usize>, commanded: bool) -> Vec<usize> {
+        let groups = [&self.reference, &self.duty, &self.measured, &self.speed, &self.current];
+        let of_wheels = |group: &'_ &Vec<Vec<f64>>| wheels.start.min(group.len())..wheels.end.min(group.len());
+        let columns: Vec<&Vec<f64>> = groups
+            .iter()
+            .flat_map(|group| &group[of_wheels(group)])
+            .chain(self.command.iter().flatten().filter(|_| commanded))
+            .filter(|column| column.len() == self.len())
+            .collect();
+        let counted: Vec<&Vec<usize>> = wheels
+            .filter(|wheel| self.counts.get(*wheel).is_some_and(|counts| counts.len() == self.len()))
+            .filter_map(|wheel| self.count_gaps.get(wheel))
+            .collect();
+        let told = |tick: &usize| {
+            counted.iter().any(|gaps| gaps.binary_search(tick).is_err())
+                || columns.iter().any(|column| column[*tick].is_finite())
+        };
+        (0..self.len()).filter(told).collect()
+    }
+
+    /// Some ticks of a run, without the camera's frames and unknown columns.
+    #[must_use]
+    pub fn of_ticks(&self, ticks: &[usize]) -> Self {
+        let of = |column: &Vec<f64>| ticks.iter().map(|tick| column[*tick]).collect::<Vec<f64>>();
+        let mut run =
+            Self { camera: Vec::new(), has_camera: false, other: Vec::new(), notes: Vec::new(), ..self.clone() };
+        run.reals_mut().into_iter().filter(|column| !column.is_empty()).for_each(|column| *column = of(column));
+        for counts in run.counts.iter_mut().filter(|counts| !counts.is_empty()) {
+            *counts = ticks.iter().map(|tick| counts[*tick]).collect();
+        }
+        for gaps in &mut run.count_gaps {
+            let own = ticks.iter().enumerate().filter(|(_, tick)| gaps.binary_search(tick).is_ok());
+            *gaps = own.map(|(tick, _)| tick).collect();
+        }
+        run
     }
 
     /// The columns of numbers, the time first.

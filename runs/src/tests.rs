@@ -280,3 +280,15 @@ fn an_axis_has_the_ticks_at_which_something_is_logged_of_it() {
     let held = read(text).unwrap().axis(0);
     assert_eq!((held.t, held.counts, held.count_gaps), (vec![0.0, 0.01], vec![vec![1, 1]], vec![vec![1]]));
 }
+
+#[test]
+fn rows_of_a_camera_alone_are_told_from_ticks() {
+    let text = "t,enc_1,enc_2,duty_1,duty_2,cam_x,cam_y,cam_theta\n0,1,1,0.1,0.2,,,\n0.013,,,,,0.1,0.2,0.3\n0.02,5,,0.3,0.4,,,\n";
+    let run = read(text).unwrap();
+    let ticks = run.told_of(0..2, true);
+    assert_eq!(ticks, [0, 2]);
+    let ticks = run.of_ticks(&ticks);
+    assert_eq!((ticks.t, ticks.counts), (vec![0.0, 0.02], vec![vec![1, 5], vec![1, 1]]));
+    assert_eq!((ticks.duty, ticks.count_gaps), (vec![vec![0.1, 0.3], vec![0.2, 0.4]], vec![vec![], vec![1]]));
+    assert!(ticks.camera.is_empty() && !ticks.has_camera);
+}
