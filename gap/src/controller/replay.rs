@@ -239,6 +239,18 @@ mod tests {
         Robot { effects: vec![effect], ..robot.clone() }
     }
 
+    /// Between gaps of which none is four ticks from the next a delay of three replays nothing, and so nothing wrong.
+    #[test]
+    fn what_has_next_to_nothing_to_replay_explains_nothing() {
+        let robot = robot();
+        let run = log(&with_kp(&robot, 0.3), |k| k % 4 != 0);
+        let log = [Log::from(Cow::Owned(run))];
+        let link =
+            super::super::analyse(&robot, &log, &crate::thresholds::Thresholds::default(), &mut Vec::new()).unwrap();
+        assert!(link.wrong_share > 0.1);
+        assert!(link.finding.as_ref().is_none_or(|f| f.name != "sample-order"), "{:?}", link.finding);
+    }
+
     #[test]
     fn a_wrong_gain_shows_between_gaps_as_well() {
         let robot = robot();
