@@ -553,7 +553,7 @@ impl Lost {
 fn later(values: &mut [f64], half_rows: usize) {
     for k in (1..values.len()).rev() {
         let [now, before] = [0, 1].map(|row| values[k.saturating_sub(half_rows / 2 + row)]);
-        values[k] = if half_rows % 2 == 0 { now } else { 0.5 * (before + now) };
+        values[k] = if half_rows.is_multiple_of(2) { now } else { 0.5 * (before + now) };
     }
 }
 
