@@ -77,13 +77,19 @@ fn period(wanted: &Wanted, values: &[f64]) -> Option<f64> {
 /// Falls to 0 and back of a counter at least that make it one that is not read in every row.
 const FALLS: usize = 3;
 
+/// Share of a counter's furthest reading from which on it may fall: nobody fails to read it near 0 alone.
+const FAR: f64 = 0.1;
+
 /// Whether a counter falls to 0 where nobody read it: it then goes on about where it was, and no wheel went there and back.
+/// One that stands where a count begins flickers to 0 and back by that count.
 pub(super) fn reads_nothing(wanted: &Wanted, values: &[f64]) -> bool {
     if !matches!(wanted.column, Column::Counts(_)) || wanted.increments || wanted.wraps.is_some() {
         return false;
     }
     let readings: Vec<usize> = (0..values.len()).filter(|k| values[*k] != 0.0 && values[*k].is_finite()).collect();
+    let furthest = readings.iter().fold(0.0, |far: f64, k| far.max(values[*k].abs()));
     let falls = readings.windows(2).filter(|pair| pair[0] + 1 < pair[1]).map(|pair| [values[pair[0]], values[pair[1]]]);
+    let falls = falls.filter(|[from, _]| from.abs() > FAR * furthest && (wanted.factor * from).abs() > 1.5);
     let (back, others): (Vec<_>, Vec<_>) = falls.partition(|[from, to]| 2.0 * (to - from).abs() < from.abs());
     back.len() >= FALLS && back.len() > 9 * others.len()
 }
@@ -301,8 +307,13 @@ mod tests {
                 .unwrap()
                 .counts[0]
         );
-        // One that passes through 0, and one that was set back.
-        for kept in [[-3, -1, 0, 2, 0, -2, 0, 1], [900, 0, 0, 3, 5, 0, -2, -4]] {
+        // One that passes through 0, one that was set back, and two that stand at the edge of a count, of which one then drives.
+        for kept in [
+            [-3, -1, 0, 2, 0, -2, 0, 1],
+            [900, 0, 0, 3, 5, 0, -2, -4],
+            [-1, 0, -1, 0, 0, -1, 0, -1],
+            [2, 0, 2, 0, 2, 0, 2, 90],
+        ] {
             assert_eq!(made(map, &table(kept)).unwrap().counts[0], kept);
         }
     }
