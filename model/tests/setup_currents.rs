@@ -83,6 +83,27 @@ fn a_current_that_drives_is_no_last_reading() {
     assert_eq!(said_of(&rows), Vec::<String>::new());
 }
 
+/// A sensor that resolves 20 mA, of a motor that now and then turns evenly: there the same is read in many rows.
+#[test]
+fn what_a_coarse_sensor_reads_of_an_even_drive_is_no_last_reading() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
+    let mut rows = "t,enc_1,current_1\n".to_owned();
+    for k in 0..6000_u32 {
+        let t = 0.011 * f64::from(k);
+        let wanted = if k / 60 % 8 == 0 { 900.0 } else { 600.0 * (7.0 * t).sin() };
+        let asked = |speed: f64| (0.2 * (wanted - speed)).clamp(-12.0, 12.0);
+        let amps = (50.0 * (asked(speed) + 0.006 * random.random_range(-1.0..1.0))).round() / 50.0;
+        rows += &format!("{t},{},{amps}\n", (angle / std::f64::consts::TAU * 65536.0) as i64);
+        for _ in 0..20 {
+            let against = 0.003 * (speed / 5.0).tanh() + 8e-6 * speed;
+            speed += 0.011 / 20.0 * (0.0066 * asked(speed) - against) / 7e-6;
+            angle += 0.011 / 20.0 * speed;
+        }
+    }
+    assert_eq!(said_of(&rows), Vec::<String>::new());
+}
+
 /// A motor under duties that step, of 1.2 ohm and 0.0066 V s/rad, by a file with these; currents as somebody logs them.
 fn said_of_a_winding(ohm: f64, kt: f64, logged: fn(f64, f64) -> f64) -> Vec<String> {
     let mut random = ChaCha8Rng::seed_from_u64(9);

@@ -28,6 +28,12 @@ struct Rows {
 /// of its rows that comes by chance in no log.
 const STALE: usize = 25;
 const READ: f64 = 0.75;
+/// Rows after those in which a sensor that is coarse shows that it read a steady current, and the share of them that is as near to
+/// it as it resolves.
+const BESIDE: usize = 12;
+const NEAR: f64 = 0.5;
+/// Share of its speed that an axis keeps whose drive is on: of a loop, to what counts resolve.
+const KEEPS: f64 = 0.98;
 /// Counts by which the axis turns meanwhile: one that rests may hold its load by a current that is asked for.
 const TURNED: i64 = 25;
 
@@ -109,7 +115,7 @@ fn speeds(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
 }
 
 /// A current that stays in the log while its axis turns on. None of a loop that reaches its limit, nor 0, nor what is asked for
-/// and seldom changes, or drives: an axis that is off gains no speed.
+/// and seldom changes, or drives: an axis that is off gains no speed. Nor what a coarse sensor reads of an even drive.
 fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
     let (mut rows, mut changes, mut longest) = (0, 0, None::<(f64, f64, &str)>);
     for log in logs {
@@ -117,6 +123,7 @@ fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
         let run = log.part(0..log.len().min(MOST_TICKS), columns);
         let (Some(current), Some(counts)) = (run.current.get(axis), run.counts.get(axis)) else { continue };
         let most = current.iter().filter(|i| i.is_finite()).fold(0.0_f64, |most, i| most.max(i.abs()));
+        let step = finest(current);
         let mut from = 0;
         for same in current.chunk_by(|a, b| a == b) {
             let to = from + same.len() - 1;
@@ -127,7 +134,8 @@ fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
                 if is_driven(&counts[from..=to], same[0]) {
                     return None;
                 }
-                if size < HELD * most && turned >= TURNED && longest.is_none_or(|(most, ..)| lasted > most) {
+                let told = size < HELD * most && turned >= TURNED && longest.is_none_or(|(most, ..)| lasted > most);
+                if told && !is_even(current, counts, [from, to], step) {
                     longest = Some((lasted, same[0], log.name.as_str()));
                 }
             } else if size > 0.0 {
@@ -149,10 +157,30 @@ fn stale(logs: &[Log], axis: usize) -> Option<Mistake> {
     Some(Mistake::new("current-held", &column, what, remedy))
 }
 
-/// Whether an axis turns farther in the last third of these rows than in the first, and the way that its current drives it.
-fn is_driven(counts: &[i64], current: f64) -> bool {
+/// What a sensor resolves: the least by which its readings differ.
+fn finest(current: &[f64]) -> f64 {
+    let steps = current.windows(2).map(|i| (i[1] - i[0]).abs());
+    steps.filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether a coarse sensor read the same of an even drive: the axis then loses no speed, or is next read so as well, which a
+/// drive that begins again is not.
+fn is_even(current: &[f64], counts: &[i64], [from, to]: [usize; 2], step: f64) -> bool {
+    let [first, last] = thirds(&counts[from..=to]).map(|turned| turned as f64);
+    let beside = &current[to + 1..current.len().min(to + 1 + BESIDE)];
+    let near = beside.iter().filter(|i| (**i - current[from]).abs() < 1.5 * step).count();
+    last.abs() + 1.0 >= KEEPS * first.abs() || near > 0 && near as f64 >= NEAR * beside.len() as f64
+}
+
+/// By how much an axis turns in the first third of these rows, and in the last.
+fn thirds(counts: &[i64]) -> [i64; 2] {
     let third = counts.len() / 3;
     let turned = |rows: &[i64]| rows[rows.len() - 1].wrapping_sub(rows[0]);
-    let [first, last] = [turned(&counts[..=third]), turned(&counts[counts.len() - 1 - third..])];
+    [turned(&counts[..=third]), turned(&counts[counts.len() - 1 - third..])]
+}
+
+/// Whether an axis turns farther in the last third of these rows than in the first, and the way that its current drives it.
+fn is_driven(counts: &[i64], current: f64) -> bool {
+    let [first, last] = thirds(counts);
     last as f64 * current > 0.0 && last.abs() > first.abs() + TURNED
 }
