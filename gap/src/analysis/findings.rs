@@ -62,10 +62,34 @@ impl Findings {
         !open && self.of_no_size.iter().any(|(l, _)| own(l))
     }
 
-    /// Takes back some names.
+    /// Takes back some names. From which size they would be named is then not known: of that which was fitted they were not.
     pub(super) fn forget(&mut self, gone: &[String]) {
         self.named.retain(|n| !gone.contains(&n.name));
         self.alternatives.retain(|set| !set.first().is_some_and(|first| gone.contains(first)));
+        self.limits.retain(|limit| !gone.contains(&limit.name));
         self.ambiguous &= !self.named.is_empty();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_fitted_and_is_not_named_has_no_limit_from_which_it_would_be() {
+        let limit = |name: &str, limit: f64| Limit {
+            name: name.to_owned(),
+            parameter: "of".to_owned(),
+            estimate: 1.8,
+            sd: 0.1,
+            limit,
+            material: 0.1,
+        };
+        let mut findings = Findings::default();
+        findings.limits = vec![limit("gear-backlash", 0.35), limit("coulomb-friction", 0.23)];
+        findings.named = vec![Named::bare("gear-backlash", Link::Drive, &[])];
+        findings.forget(&["gear-backlash".to_owned()]);
+        let left: Vec<&str> = findings.limits.iter().map(|l| l.name.as_str()).collect();
+        assert!(findings.named.is_empty() && left == ["coulomb-friction"], "{left:?}");
     }
 }
