@@ -7,6 +7,8 @@ const DAYS: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.
 /// for all rows, and says nothing of how far they are apart.
 pub(super) fn seconds(text: &str) -> Option<f64> {
     let text = text.trim().trim_matches('"');
+    let plain = underscored(text);
+    let text = plain.as_deref().unwrap_or(text);
     // Pictures and some loggers have colons in the date, too: `2022:06:01 13:42:57`.
     let colons = text.split_once(' ').filter(|(date, _)| date.len() == 10 && date.matches(':').count() == 2);
     let dashed = colons.map(|(date, clock)| format!("{} {clock}", date.replace(':', "-")));
@@ -27,6 +29,20 @@ pub(super) fn seconds(text: &str) -> Option<f64> {
     let seconds: f64 = parts.next()?.replace(',', ".").parse().ok()?;
     let known = parts.next().is_none() && hours? < 24.0 && minutes? < 60.0 && (0.0..61.0).contains(&seconds);
     known.then(|| 86_400.0 * day + 3600.0 * hours.unwrap_or(0.0) + 60.0 * minutes.unwrap_or(0.0) + seconds)
+}
+
+/// The usual form of a stamp that is fit to name a file, `2024_04_23_12_31_47_388`: with whole milliseconds or microseconds, all
+/// their digits written, or none.
+fn underscored(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split('_').collect();
+    let (fraction, whole) = match parts[..] {
+        [.., fraction] if parts.len() == 7 && [3, 6].contains(&fraction.len()) => (fraction, &parts[..6]),
+        _ if parts.len() == 6 => ("0", &parts[..]),
+        _ => return None,
+    };
+    let [year, month, day, hours, minutes, seconds] = whole[..] else { return None };
+    let digits = parts.iter().all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()));
+    digits.then(|| format!("{year}-{month}-{day} {hours}:{minutes}:{seconds}.{fraction}"))
 }
 
 /// Days since 1970 of a date, year first.
@@ -57,7 +73,11 @@ mod tests {
         assert_eq!(seconds("2022:11:16 19:06:18"), Some(1_668_625_578.0));
         assert_eq!(seconds("2022/11/16/19:06:18.5"), Some(1_668_625_578.5));
         assert_eq!(seconds("19:06:18.250"), Some(68_778.25));
+        assert_eq!(seconds("2022_11_16_19_06_18"), Some(1_668_625_578.0));
+        assert_eq!(seconds("2022_11_16_19_06_18_250"), Some(1_668_625_578.25));
         for none in ["x", "12:60:00", "3-4-2022 10:00:00", "2022-13-01 00:00:00", "10:00", "-0.5", "1e-5", "2022-11-16"]
+            .into_iter()
+            .chain(["2022_11_16_19_06_18_5", "2022_13_16_19_06_18", "run_1_2_3_4_5", "1_2_3_4_5_6"])
         {
             assert_eq!(seconds(none), None, "{none}");
         }
