@@ -23,6 +23,7 @@ mod reading;
 mod ros2;
 mod rotations;
 mod rows;
+mod scope;
 mod sheet;
 mod ssl;
 mod sysid;

@@ -46,6 +46,9 @@ impl<'a> Sheet<'a> {
         if let Some((names, rows)) = lying(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
+        if let Some((names, rows)) = super::scope::table(bytes) {
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b',', tagged: false };
+        }
         if let Some((names, above)) = super::titles::table(bytes) {
             let line = |(i, line): (usize, &[u8])| if i < above { b"\n".to_vec() } else { line.to_vec() };
             let rows: Vec<u8> = bytes.split_inclusive(|b| *b == b'\n').enumerate().flat_map(line).collect();
