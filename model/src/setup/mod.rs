@@ -4,10 +4,12 @@
 //! is a ratio or a turn, fitted over all logs; a mistake is a ratio of 1000, 57.3, 9.55, 4, 2 or a quarter turn, far from
 //! what a robot that differs from its drawing can show.
 
+mod aside;
 mod axes;
 mod camera;
 mod counts;
 mod drive;
+mod foreign;
 mod held;
 mod inertia;
 mod inertial;
@@ -98,6 +100,10 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
         // Every speed would be wrong.
         return found;
     }
+    let found = foreign::mistakes(&robot, &set.logs);
+    if !found.is_empty() {
+        return found;
+    }
     let found = held::mistakes(&robot, &set.logs);
     if !found.is_empty() {
         return found;
@@ -117,6 +123,7 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
         // It says which of the two is the wrong way round.
         found.retain(|m| m.kind != "drive-reversed");
     }
+    found.extend(aside::mistakes(&set.robot, &robot, &set.logs));
     found.extend(inertial::mistakes(&robot, &set.logs, &found));
     if found.is_empty() {
         found.extend(speeds::mistakes(&robot, &set.logs));
