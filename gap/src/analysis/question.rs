@@ -33,6 +33,8 @@ pub(super) struct Question<'a> {
     pub(super) catalogue: Vec<Arc<dyn Effect>>,
     /// Standard deviations of a camera pose (m, m, rad).
     pub(super) noise: [f64; 3],
+    /// Whether that is what they err by for seconds.
+    errs_for_seconds: bool,
     /// Length of a window of camera frames, s.
     pub(super) window_s: f64,
     geometry: Geometry,
@@ -76,7 +78,8 @@ impl<'a> Question<'a> {
         let noise = robot.camera_noise.unwrap_or_else(|| model::fit::camera_noise_of(frames));
         let noise = model::fit::with_headings(noise, set.logs.iter().any(|log| log.layout().source.positions_only));
         let window_s = model::fit::window_s(WINDOW_S, robot.camera_rate_hz);
-        Ok(Self { set, options, robot, catalogue, noise, window_s, geometry, every_run: true, currents })
+        let (errs_for_seconds, every_run) = (false, true);
+        Ok(Self { set, options, robot, catalogue, noise, errs_for_seconds, window_s, geometry, every_run, currents })
     }
 
     /// The links that are replayed bit by bit, and what is to be said of them.
@@ -134,7 +137,9 @@ impl<'a> Question<'a> {
     /// Encoders to camera and inertial sensor; along ways of that length, s, by what wheels and poses part by in them.
     pub(super) fn motion_link<'b>(&self, pieces: &'b Pieces<'b>, ways: Option<(f64, Ways)>) -> MotionLink<'b> {
         let window_s = ways.map_or(self.window_s, |(window_s, _)| window_s);
-        let link = MotionLink::new(pieces, self.noise, window_s).along(ways.map(|(_, ways)| ways));
+        let link = MotionLink::new(pieces, self.noise, window_s)
+            .along(ways.map(|(_, ways)| ways))
+            .erring(self.errs_for_seconds);
         link.felt(&self.filed().motion(None))
     }
 
@@ -149,6 +154,7 @@ impl<'a> Question<'a> {
         let noise = super::truth::smoothed(&link, &start, &self.catalogue, &self.options.thresholds)?;
         let said = super::truth::said(self.noise, noise);
         self.noise = noise;
+        self.errs_for_seconds = true;
         Some(said)
     }
 

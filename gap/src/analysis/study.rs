@@ -120,6 +120,7 @@ pub(super) fn study<'a>(
 ) -> Outcome {
     let all = problem.candidates(start, catalogue);
     let from = start.active.len();
+    let selection = above_errors(problem, selection, from, &all, thresholds);
     let (mut judged, mut refused) = sound(problem, selection, start, &all, thresholds);
     // Where laws that bend speeds stood for a load that the file lacks, each of them is taken back, and nothing is left.
     // Of a robot on the floor a rotor is a small part of what its motors move.
@@ -223,6 +224,27 @@ pub(super) fn study<'a>(
         leftovers,
         refused,
     }
+}
+
+/// A selection without structure that moves frames by less than their poses err for seconds: what lasts as long is no more
+/// the robot's for showing in many of them.
+fn above_errors(
+    problem: &Problem,
+    selection: Selection,
+    from: usize,
+    all: &[Active],
+    thresholds: &Thresholds,
+) -> Selection {
+    let Problem::Motion(link) = problem else { return selection };
+    let is_told = |a: &Active| {
+        let mut absent = selection.state.clone();
+        absent.active.retain(|b| b.effect.name() != a.effect.name());
+        !a.effect.probe() || link.apart([&selection.state.motion(None), &absent.motion(None)]) >= 1.0
+    };
+    if !link.errs_for_seconds || selection.state.active[from..].iter().all(is_told) {
+        return selection;
+    }
+    select::without(problem, &selection, from, is_told, all, thresholds)
 }
 
 /// A parameter as it is told: no interval of a share reaches beyond nothing and all, and none of a factor, or of what is never

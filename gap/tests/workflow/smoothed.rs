@@ -7,6 +7,7 @@ use model::manoeuvre::Manoeuvre::{Chirp, Spin, Star};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::Run;
+use runs::frames::Pose;
 use runs::robot::Robot;
 
 use super::common::{names, simulate, with};
@@ -80,6 +81,32 @@ fn poses_of_a_map_name_what_they_show_and_agree_where_they_show_nothing() {
             assert!(low < 0.05 && 0.05 < high && high - low < 0.06, "{seed} {name}: {v}, {low} to {high}");
         }
     }
+}
+
+/// Moves every pose back along its way by so much at 1 m/s, and by the square of the speed else.
+fn late_with_speed(run: &mut Run, seconds_per_speed: f64) {
+    let before: Vec<(f64, Pose)> = run.camera.iter().map(|s| (run.t[s.tick], s.pose)).collect();
+    for (i, sample) in run.camera.iter_mut().enumerate() {
+        let [(t0, from), (t1, to)] = [before[i.saturating_sub(1)], before[(i + 1).min(before.len() - 1)]];
+        let [vx, vy] = [to.x - from.x, to.y - from.y].map(|way| way / (t1 - t0));
+        let late_s = seconds_per_speed * vx.hypot(vy);
+        (sample.pose.x, sample.pose.y) = (sample.pose.x - late_s * vx, sample.pose.y - late_s * vy);
+    }
+}
+
+/// Poses of a map err by 12 mm for seconds: what moves them by a few is nothing that the robot is asked for.
+#[test]
+fn structure_below_what_poses_of_a_map_err_by_decides_nothing() {
+    let robot = with(&Robot::racbot(), "wheel-radius-common", &[("scale", 0.05)]);
+    let mut set = simulate(&robot, &[Star, Spin, Chirp, Star], 50);
+    for (k, run) in set.runs.iter_mut().enumerate() {
+        run.duty.clear();
+        late_with_speed(run, 0.03);
+        mapped(run, 500 + k as u64);
+    }
+    let a = analyse(&set, &Options::default()).unwrap();
+    assert!(matches!(a.verdict, Verdict::MissingEffect | Verdict::Ambiguous), "{}", a.terminal_summary());
+    assert!(names(&a).iter().any(|name| name.starts_with("wheel-radius")), "{}", a.terminal_summary());
 }
 
 /// Standard deviation of a camera's place, m, and of its heading, rad.

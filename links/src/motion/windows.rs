@@ -46,6 +46,8 @@ pub struct MotionLink<'a> {
     pub inertial: Option<InertialLink<'a>>,
     /// How far wheels and poses part, where ways are compared in place of single frames.
     pub ways: Option<Ways>,
+    /// Whether poses err by their noise for seconds, not from frame to frame: no number of them tells less.
+    pub errs_for_seconds: bool,
     windows: Vec<Window>,
 }
 
@@ -94,7 +96,7 @@ impl<'a> MotionLink<'a> {
                 }
             }
         }
-        Self { pieces, noise, window_s, inertial: None, ways: None, windows }
+        Self { pieces, noise, window_s, inertial: None, ways: None, errs_for_seconds: false, windows }
     }
 
     /// With ways in place of single frames, if wheels and poses part by that much.
@@ -146,6 +148,22 @@ impl<'a> MotionLink<'a> {
     pub fn felt(mut self, model: &MotionModel) -> Self {
         self.inertial = InertialLink::new(self.pieces, model);
         self
+    }
+
+    /// With poses that err by their noise for seconds, or not.
+    #[must_use]
+    pub fn erring(mut self, for_seconds: bool) -> Self {
+        self.errs_for_seconds = for_seconds;
+        self
+    }
+
+    /// By how much two models part in the frames, in units of the noise: RMS over all windows.
+    pub fn apart(&self, models: [&MotionModel; 2]) -> f64 {
+        let [one, other] = models.map(|model| self.residuals(model));
+        let axes = self.axes();
+        let used = one.iter().zip(&other).flat_map(|(a, b)| a.residuals.iter().zip(&b.residuals).zip(&a.weights));
+        let used = used.filter(|(_, weight)| **weight > 0.0);
+        estimation::statistics::rms(used.flat_map(|((a, b), _)| (0..axes).map(move |i| a[i] - b[i])))
     }
 
     /// No more than the first windows.
