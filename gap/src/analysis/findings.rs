@@ -85,9 +85,11 @@ mod tests {
             limit,
             material: 0.1,
         };
-        let mut findings = Findings::default();
-        findings.limits = vec![limit("gear-backlash", 0.35), limit("coulomb-friction", 0.23)];
-        findings.named = vec![Named::bare("gear-backlash", Link::Drive, &[])];
+        let mut findings = Findings {
+            limits: vec![limit("gear-backlash", 0.35), limit("coulomb-friction", 0.23)],
+            named: vec![Named::bare("gear-backlash", Link::Drive, &[])],
+            ..Findings::default()
+        };
         findings.forget(&["gear-backlash".to_owned()]);
         let left: Vec<&str> = findings.limits.iter().map(|l| l.name.as_str()).collect();
         assert!(findings.named.is_empty() && left == ["coulomb-friction"], "{left:?}");
