@@ -92,10 +92,10 @@ if [ ! -e "${CARGO_TARGET_DIR:-target}/qemu/complete" ]; then
 fi
 # Benches are compiled by the lints and never run here.
 stage "build" cargo build --workspace --lib --bins --tests --examples --release
-# The Python package builds in a workspace of its own, and is tried as its users install it, but without optimisation: that
-# takes 115 s of processor time more, its tests 35 s less, and what it computes is tested elsewhere.
+# The Python package builds in a workspace of its own, and is tried as its users install it, but with the least optimisation:
+# without any it builds in 107 s of processor time less, and its tests take 10 times as long (170 s more).
 python_package() {
-    CARGO_PROFILE_RELEASE_OPT_LEVEL=0 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")/pyext "$python_environment/bin/pip" install -q \
+    CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")/pyext "$python_environment/bin/pip" install -q \
         --disable-pip-version-check './python[test]' && "$python_environment/bin/python" -m pytest -q "$PWD/python/tests"
 }
 if [ -x "$python_environment/bin/pip" ]; then
