@@ -86,7 +86,7 @@ pub struct Segment {
     pub rows: OnceLock<Rows>,
     /// What its wheels lose on the floors that were asked about.
     pub lost: Memo,
-    /// See [`Segment::coarser`].
+    /// What it is with fewer ticks.
     pub thinned: Thinned,
 }
 
