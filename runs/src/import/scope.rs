@@ -7,10 +7,10 @@ const FEWEST: usize = 40;
 /// Names of the columns of samples, and their rows alone, each on the line where it was; apart by commas.
 pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
     let text = String::from_utf8_lossy(bytes);
-    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').map(str::trim).collect()).collect();
-    let written = rows.iter().filter(|row| row.iter().any(|field| !field.is_empty()));
+    let fields = |line| -> Vec<&str> { str::split(line, ',').map(str::trim).collect() };
     let (mut with, mut without, mut beside) = (0_usize, 0_usize, usize::MAX);
-    for row in written {
+    // Most tables are none by their second line.
+    for row in text.lines().map(fields).filter(|row| row.iter().any(|field| !field.is_empty())) {
         let empty = row.iter().take_while(|field| field.is_empty()).count();
         if row.first().is_some_and(|name| name.starts_with(|c: char| c.is_alphabetic())) && without < SETTINGS {
             with += 1;
@@ -20,6 +20,7 @@ pub(super) fn table(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
             return None;
         }
     }
+    let rows: Vec<Vec<&str>> = text.lines().map(fields).collect();
     let samples = |row: &[&str]| row.get(beside..).unwrap_or(&[]).iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
     let ended = |row: &[String]| row.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
     let width = rows.iter().map(|row| ended(&samples(row))).max()?;

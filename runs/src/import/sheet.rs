@@ -181,12 +181,13 @@ fn printed(bytes: &[u8]) -> Option<Vec<u8>> {
         let ends = inside.iter().position(|b| *b == b'\\' || *b == line[at + 1]);
         Some([&line[..at], &inside[..ends.unwrap_or(inside.len())]].concat())
     };
-    let lines: Vec<&[u8]> = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).collect();
-    let texts: Vec<Option<Vec<u8>>> = lines.iter().map(|line| text(line)).collect();
-    let filled = || lines.iter().zip(&texts).filter(|(line, _)| !line.is_empty());
-    let all = filled().skip(1).all(|(_, text)| text.is_some()) && filled().nth(1).is_some();
-    let line = |(line, text): (&&[u8], Option<Vec<u8>>)| text.unwrap_or_else(|| line.to_vec());
-    all.then(|| lines.iter().zip(texts).map(line).collect::<Vec<_>>().join(&b'\n'))
+    let lines = || bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii);
+    // Most tables are none by their second line.
+    let mut below = lines().filter(|line| !line.is_empty()).skip(1).peekable();
+    if below.peek().is_none() || !below.all(|line| text(line).is_some()) {
+        return None;
+    }
+    Some(lines().map(|line| text(line).unwrap_or_else(|| line.to_vec())).collect::<Vec<_>>().join(&b'\n'))
 }
 
 /// The lines with semicolons in place of the bars between their fields, `| t | x |` and `t | x |`; titles above and rules below
