@@ -54,7 +54,6 @@ fn is_a_trifle(problem: &Problem, start: &State, found: &Selection, all: &[Activ
         return false;
     }
     let now = Left::fitted(problem, &bare(problem, start, named.iter().copied()));
-    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
     let small = |law: &Active| {
         let state = bare(problem, start, [law]);
         let fitted = &state.active[start.active.len()];
@@ -186,15 +185,16 @@ fn of_one(
         // What a step by step search does not reach from another law: a low-pass of 50 ms looked like twice the inertia
         // and 20 ms.
         let more = left.sum() - now.sum();
-        let nested =
-            || several && more <= thresholds.does_both * adds && is_special(problem, start, &state, &named, thresholds);
-        let for_its_law = || {
-            problem.link() == Link::Drive
-                && more <= may_leave(law, before.sum() - left.sum(), thresholds)
-                && (left.is_hardly_more(&now, thresholds) || nested())
+        let for_its_law =
+            problem.link() == Link::Drive && more <= may_leave(law, before.sum() - left.sum(), thresholds);
+        let of_load = || axis && problem.changes_inertia(start, law);
+        let nested = || more <= thresholds.does_both * adds && is_special(problem, start, &state, &named, thresholds);
+        let for_several = || {
+            left.is_as_little(&now, thresholds)
+                || for_its_law && left.is_hardly_more(&now, thresholds)
+                || (for_its_law || of_load()) && nested()
         };
-        let of_load = || axis && problem.changes_inertia(start, law) && nested();
-        let better = several && (left.is_as_little(&now, thresholds) || for_its_law() || of_load()) || far_better();
+        let better = several && for_several() || far_better();
         (better && is_sound(problem, start, &state, thresholds)).then_some((state, left))
     });
     first_of_least(better.into_iter().flatten().collect(), thresholds)
@@ -217,7 +217,6 @@ fn of_two(
     }
     let now = Left::of(problem, &bare(problem, start, named.iter().copied()));
     let is_far = now.is_far(thresholds);
-    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
     let laws = laws(problem, start, all, plain);
     let needed = if parameters > 2 { 0.0 } else { thresholds.held_out_t };
     let mut pairs = promising(problem, start, &laws);
@@ -246,7 +245,6 @@ pub(crate) fn one_beside(
     within: f64,
     thresholds: &Thresholds,
 ) -> Option<Selection> {
-    let plain = |a: &Active| a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched();
     let is_new = |a: &Active| !named.iter().any(|n| n.effect.name() == a.effect.name());
     let fitted = each(&laws(problem, start, all, |a| plain(a) && is_new(a)), &|law| {
         let state = bare(problem, start, named.iter().chain(std::iter::once(law)));
@@ -278,6 +276,11 @@ fn is_special(problem: &Problem, start: &State, one: &State, several: &[&Active]
         let b = jj.column(*j).select_rows(&others);
         b.dot(&estimation::normal_equations::solve(&a, &b)) > (1.0 - thresholds.special) * jj[(*j, *j)]
     })
+}
+
+/// Whether a law has one parameter, grows from 0 and may matter.
+fn plain(a: &Active) -> bool {
+    a.form.free.len() == 1 && a.form.free[0].material.is_finite() && !a.switched()
 }
 
 fn named<'a>(start: &State, found: &'a Selection) -> Vec<&'a Active> {

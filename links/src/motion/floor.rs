@@ -298,7 +298,8 @@ impl Contacts {
             let less = |i: usize| gains[i] * (torque(i, 0.0) - torque(i, share));
             slope + share * bends + h * (0..gains.len()).map(less).sum::<f64>()
         };
-        if climbs(1.0) <= 0.0 {
+        let whole = climbs(1.0);
+        if whole <= 0.0 {
             return 1.0;
         }
         // A straight line from kink to kink.
@@ -306,7 +307,7 @@ impl Contacts {
             let slips = held[i] / stiffness[i];
             [missing[i] - slips, missing[i] + slips].map(|at| at / gains[i])
         });
-        let (mut below, mut above) = ([0.0, slope], [1.0, climbs(1.0)]);
+        let (mut below, mut above) = ([0.0, slope], [1.0, whole]);
         for kink in kinks {
             if kink > below[0] && kink < above[0] {
                 let here = climbs(kink);
