@@ -300,9 +300,17 @@ pub struct Sizes {
     /// How far from the camera's origin the robot was seen, m, at least as far as a usual field goes: where the cube of the
     /// distance is to the distance as it was over all frames, each root mean square.
     pub seen_m: f64,
-    /// Play of a gear that leaves least of the drive, rad at the motor shaft, 0 where none leaves less; `None` where nobody
-    /// looked.
-    pub play_rad: Option<f64>,
+    /// Play of a gear that leaves least of the drive; `None` where nobody looked.
+    pub play: Option<Play>,
+}
+
+/// A gear's play by which a search for it begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Play {
+    /// Rad at the motor shaft; 0 where none leaves less.
+    pub rad: f64,
+    /// Dry friction of the wheel beyond it, Nm; 0 where one that coasts leaves less.
+    pub load_friction_nm: f64,
 }
 
 impl Sizes {
@@ -328,7 +336,7 @@ impl Sizes {
             run_s: f64::INFINITY,
             reach_rad: 1.0,
             seen_m: thresholds::FIELD_OF_RIM * rim_m,
-            play_rad: None,
+            play: None,
         }
     }
 

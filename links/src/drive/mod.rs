@@ -271,6 +271,11 @@ impl DriveModel {
             name.hash(&mut hasher);
             values.0.iter().for_each(|(name, value)| (name, value.to_bits()).hash(&mut hasher));
         }
+        if !self.prepare.is_empty() {
+            // How fast a wheel coasts to rest in its gear's play.
+            let turning = self.axes.iter().flat_map(|a| [a.rotor_inertia, a.load_inertia]);
+            turning.chain([self.yaw_inertia]).for_each(|x| x.to_bits().hash(&mut hasher));
+        }
         self.motion_identity().hash(&mut hasher);
         hasher.finish()
     }
@@ -300,6 +305,14 @@ impl DriveModel {
     /// Inertia of a rotor at its wheel's shaft, kg m².
     fn rotor_at_wheel(&self, wheel: usize) -> f64 {
         self.gear_ratio.powi(2) * self.axes[wheel].rotor_inertia
+    }
+
+    /// Inertia that a wheel moves without its rotor, kg m² at the wheel's shaft.
+    pub fn beyond_the_gear(&self, wheel: usize) -> f64 {
+        match self.support {
+            Support::Blocks => self.axes[wheel].load_inertia,
+            Support::Floor => self.felt_inertia() - self.rotor_at_wheel(wheel),
+        }
     }
 
     /// Inertia of a wheel with its rotor, kg m² at the wheel's shaft.

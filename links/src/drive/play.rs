@@ -4,20 +4,22 @@
 //! derivative is taken at the play that leaves least.
 
 use super::{DriveLink, DriveModel, DriveResiduals};
-use crate::effect::{Effect, Form, Sizes, Values};
+use crate::effect::{Effect, Form, Play, Sizes, Values};
 
 /// From one play that is tried to the next: an estimate goes on from within a quarter of the true one.
 pub(crate) const RATIO: f64 = 1.5;
 /// Times that a play must be crossed: once there and back is a start and a stop, and of one step of a coarse encoder that
 /// flickers a wheel that coasts within 2.4 turns of its motor left less.
 const CROSSINGS: usize = 4;
+/// Shares of a model's dry friction that are tried on the wheel's side of the play.
+const HELD: [f64; 5] = [0.0, 0.1, 0.25, 0.5, 1.0];
 /// Share of the squared gap that a play must close to be looked for: less any play closes by chance.
 const CLOSES: f64 = 0.02;
 
 impl DriveLink<'_> {
     /// The sizes of the logs with the play that leaves least beside a model, of an effect in this form; worked out once.
     pub fn sizes_with_play(&self, play: &dyn Effect, form: &Form, model: &dyn Fn() -> DriveModel) -> Sizes {
-        let play_rad = *self.play.get_or_init(|| {
+        let found = *self.play.get_or_init(|| {
             let p = form.free.first()?;
             let without = squares(&self.residuals(&model())?);
             // One wheel of several may have it; what single counts make, a wheel that coasts takes away as well.
@@ -26,22 +28,33 @@ impl DriveLink<'_> {
                 let more = without.iter().zip(with).filter(|(a, _)| **a > counted);
                 more.map(|(a, b)| (a - b).max(0.0)).sum::<f64>()
             };
-            let of = |play_rad: f64| {
+            let of = |found: Play| {
                 let mut model = model();
                 let mut values = Values::default();
-                values.set(&p.name, play_rad);
-                play.drive(&values, &mut model);
+                values.set(&p.name, found.rad);
+                values.set("load_friction_nm", found.load_friction_nm);
+                model.add(play, &values, form);
                 if self.crossings(&model) < CROSSINGS {
                     return None;
                 }
-                Some((falls(squares(&self.residuals(&model)?)), play_rad))
+                Some((falls(squares(&self.residuals(&model)?)), found))
             };
+            let friction = self.standing_friction(&model());
+            let frictions = HELD.map(|share| share * friction);
             let tried = std::iter::successors(Some(p.material), |play| Some(play * RATIO));
-            let best = tried.take_while(|play| *play < p.bounds[1]).filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
+            let tried = tried.take_while(|play| *play < p.bounds[1]);
+            let tried = tried.flat_map(|rad| frictions.map(|load_friction_nm| Play { rad, load_friction_nm }));
+            let best = tried.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
             let least = CLOSES * without.iter().sum::<f64>();
-            Some(best.filter(|(fall, _)| *fall > least).map_or(0.0, |(_, play)| play))
+            Some(best.filter(|(fall, _)| *fall > least).map_or(Play { rad: 0.0, load_friction_nm: 0.0 }, |(_, play)| play))
         });
-        Sizes { play_rad, ..self.sizes }
+        Sizes { play: found, ..self.sizes }
+    }
+
+    /// The most that friction may hold a wheel with, Nm.
+    fn standing_friction(&self, model: &DriveModel) -> f64 {
+        let Some(first) = self.test_functions.first() else { return 0.0 };
+        model.standing_friction(&self.pieces.get(first.segment)).into_iter().fold(0.0, f64::max)
     }
 
     /// How often the rotor that does so most goes from one flank of the last play of a model to the other.

@@ -12,7 +12,7 @@ use super::answers::Answers;
 use super::kept::KeptRows;
 use super::laid::{Laid, Shape, TestFunction};
 use super::{Ahead, DriveModel, Mechanics};
-use crate::effect::Sizes;
+use crate::effect::{Play, Sizes};
 use crate::inertial::Sensor;
 use crate::pieces::{Pieces, by_segment};
 use crate::segment::Segment;
@@ -52,7 +52,7 @@ pub struct DriveLink<'a> {
     /// What stands beside every effect; see [`DriveLink::answer`].
     pub(super) answers: Option<Answers>,
     /// See [`DriveLink::sizes_with_play`].
-    pub(super) play: OnceLock<Option<f64>>,
+    pub(super) play: OnceLock<Option<Play>>,
 }
 
 /// An inertial sensor, and the noise of what it tells of a test function: to the right and forward, m/s².

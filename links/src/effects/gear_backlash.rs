@@ -2,7 +2,7 @@
 
 use runs::robot::Robot;
 
-use crate::drive::{Ahead, DriveModel, RATIO, TEST_FUNCTION_S};
+use crate::drive::{Ahead, DriveModel, RATIO, TEST_FUNCTION_S, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -40,14 +40,24 @@ impl Effect for GearBacklash {
         let least = unit.max(sizes.count_rad * robot.gear_ratio);
         let most = (700.0 * least).min(MOST_TURNS * std::f64::consts::TAU * robot.gear_ratio);
         // What would have to be more than any gear has is not looked for, nor what leaves no less.
-        if least >= most || sizes.play_rad == Some(0.0) {
+        if least >= most || sizes.play.is_some_and(|play| play.rad == 0.0) {
             return Vec::new();
         }
         // One that was looked for lies next to where it was found.
-        let (tried, most) = sizes.play_rad.map_or((0.7 * unit, most), |play| (play, most.min(NEXT * play)));
+        let found = sizes.play.map(|play| play.rad);
+        let (tried, most) = found.map_or((0.7 * unit, most), |play| (play, most.min(NEXT * play)));
         let p = |name: String| Parameter::new(name, tried.min(0.5 * most), [0.0, most], least);
         let mut forms = vec![Form::whole(vec![p("play_rad".to_owned())])];
         forms.extend(Form::alone(robot, |i| p(wheel_name("play", i, "rad"))));
+        let held = sizes.play.map_or(0.0, |play| play.load_friction_nm);
+        if held > 0.0 {
+            let bounds = [0.0, sizes.drive_nm.max(sizes.stall_nm)];
+            let friction = Parameter::new(LOAD_FRICTION, 0.1 * held, bounds, f64::INFINITY).from(held);
+            for form in &mut forms {
+                form.free[0].start = Some(tried);
+                form.free.push(friction.clone());
+            }
+        }
         forms
     }
 
@@ -56,16 +66,34 @@ impl Effect for GearBacklash {
         model.angles.push(Box::new(move |segment, angles| {
             for (i, angle) in angles.iter_mut().enumerate() {
                 let half = 0.5 * values.wheel("play", i, "rad") / ratio;
-                angle.iter_mut().zip(ahead(segment, i, half)).for_each(|(a, ahead)| *a -= ahead);
+                let crossed = Crossed::new(segment, i, half, 0.0);
+                angle.iter_mut().zip(crossed.ahead).for_each(|(a, ahead)| *a -= ahead);
             }
         }));
     }
 
     fn drive(&self, values: &Values, model: &mut DriveModel) {
         let (values, ratio) = (values.clone(), model.gear_ratio);
-        let ahead = move |_: &DriveModel, segment: &Segment| {
+        let friction = values.find(LOAD_FRICTION).unwrap_or(0.0);
+        let crossed = move |model: &DriveModel, segment: &Segment| -> Vec<Crossed> {
             let half = |i: usize| 0.5 * values.wheel("play", i, "rad") / ratio;
-            (0..segment.angle.len()).map(|i| ahead(segment, i, half(i))).collect()
+            let slows = |i: usize| friction / model.beyond_the_gear(i);
+            (0..segment.angle.len()).map(|i| Crossed::new(segment, i, half(i), slows(i))).collect()
+        };
+        let crossed = std::sync::Arc::new(crossed);
+        if friction > 0.0 {
+            let (index, crossed) = (model.prepare.len(), crossed.clone());
+            model.prepare.push(Box::new(move |model, segment| {
+                crossed(model, segment).into_iter().map(|wheel| wheel.spared).collect()
+            }));
+            model.loads.push(Box::new(move |now, loads| {
+                for (i, load) in loads.wheel.iter_mut().enumerate() {
+                    *load += friction * now.prepared[index][i][now.tick];
+                }
+            }));
+        }
+        let ahead = move |model: &DriveModel, segment: &Segment| {
+            crossed(model, segment).into_iter().map(|wheel| wheel.ahead).collect()
         };
         model.offsets.push((Ahead::Rotor, Box::new(ahead)));
     }
@@ -85,6 +113,8 @@ impl Effect for GearBacklash {
     }
 }
 
+/// Dry friction of the wheel beyond the play: a part of what there is.
+const LOAD_FRICTION: &str = "load_friction_nm";
 /// Times a play that was found from which another one would have left less.
 const NEXT: f64 = RATIO * RATIO;
 /// Turns of the output that no gear with teeth has in play: a quarter turn is a shaft that has come loose. Without it, logs of
@@ -94,24 +124,40 @@ const MOST_TURNS: f64 = 0.25;
 /// the drive's torque that matters (0.034), s²: what makes it 0.03 rad on the paper's robot, as the blind bench has it.
 const SHOWS: f64 = 7.8e-5;
 
-/// By how much the rotor is ahead of its wheel at every tick, rad at the wheel, at most `half`. The encoder sits on the rotor,
-/// so that its motion is known: the wheel coasts until a flank takes it along, and leaves the flank when the rotor slows down.
-/// What moves the rotor does not enter: beside rest its small torques say nothing of which flank carries.
-fn ahead(segment: &Segment, wheel: usize, half: f64) -> Vec<f64> {
-    let speed = &segment.speed[wheel];
-    if half == 0.0 {
-        return vec![0.0; speed.len()];
-    }
-    let (mut ahead, mut coasts) = (0.0, speed.first().copied().unwrap_or(0.0));
-    let ticks = segment.t.windows(2).map(|t| t[1] - t[0]).zip(speed.windows(2));
-    let gone = ticks.map(|(dt, w)| {
-        ahead += dt * (0.5 * (w[0] + w[1]) - coasts);
-        if ahead.abs() > half {
-            (ahead, coasts) = (half.copysign(ahead), w[1]);
+/// How a wheel follows its rotor, on which the encoder sits, so that its motion is known: the wheel coasts, slowed down by its
+/// own dry friction, until a flank takes it along, and leaves the flank when the rotor slows down faster. What moves the rotor
+/// does not enter: beside rest its small torques say nothing of which flank carries.
+struct Crossed {
+    /// By how much the rotor is ahead of its wheel at every tick, rad at the wheel, at most half the play.
+    ahead: Vec<f64>,
+    /// Sense of the rotor's motion minus that of the wheel's, from each tick to the next.
+    spared: Vec<f64>,
+}
+
+impl Crossed {
+    /// With half the play, rad at the wheel; `slows` is what dry friction takes of a wheel that coasts, rad/s².
+    fn new(segment: &Segment, wheel: usize, half: f64, slows: f64) -> Self {
+        let speed = &segment.speed[wheel];
+        let mut out = Self { ahead: vec![0.0; speed.len()], spared: vec![0.0; speed.len()] };
+        if half == 0.0 {
+            return out;
         }
-        ahead
-    });
-    std::iter::once(0.0).chain(gone).collect()
+        let (mut ahead, mut coasts) = (0.0, speed.first().copied().unwrap_or(0.0));
+        for (k, w) in speed.windows(2).enumerate() {
+            let dt = segment.t[k + 1] - segment.t[k];
+            let (began, mean) = (coasts, 0.5 * (w[0] + w[1]));
+            coasts -= (slows * dt).min(coasts.abs()).copysign(coasts);
+            ahead += dt * (mean - 0.5 * (began + coasts));
+            let mut goes = 0.5 * (began + coasts);
+            if ahead.abs() > half {
+                (ahead, coasts, goes) = (half.copysign(ahead), w[1], mean);
+            }
+            out.ahead[k + 1] = ahead;
+            let sense = |w: f64| smooth_sign(w, segment.turning);
+            out.spared[k] = sense(mean) - sense(goes);
+        }
+        out
+    }
 }
 
 #[cfg(test)]
@@ -140,7 +186,7 @@ mod tests {
         let speed: Vec<f64> = t.iter().map(|t| 2.0 - 8.0 * (t - 0.5).clamp(0.0, 0.5)).collect();
         let segment = Segment { angle: vec![vec![0.0; t.len()]], speed: vec![speed], t, ..Segment::default() };
         let half = 0.05;
-        let found = ahead(&segment, 0, half);
+        let found = Crossed::new(&segment, 0, half, 0.0).ahead;
         // Nothing tells where it is before the rotor first slows down; then the rotor falls back by 4 t².
         let (before, t) = (found[500], 0.1);
         assert!((found[600] - (before - 4.0 * t * t)).abs() < 1e-3, "{} {before}", found[600]);

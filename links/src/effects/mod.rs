@@ -228,7 +228,7 @@ mod tests {
         ("roller-friction", &["force_n"]),
         ("dead-band", &["duty", "duty_#"]),
         ("bridge-drop", &["drop_v"]),
-        ("gear-backlash", &["play_rad", "play_#_rad"]),
+        ("gear-backlash", &["play_rad", "play_#_rad", "load_friction_nm"]),
         ("battery-sag", &["resistance_ohm", "drop_v"]),
         ("supply-voltage", &["scale", "fall_v_per_s"]),
         ("current-limit", &["limit_a"]),
