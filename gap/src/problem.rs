@@ -367,6 +367,17 @@ impl Problem<'_> {
     }
 }
 
+/// Looks anew for the play by which a search for that begins, beside what else was found: dry friction holds a wheel in it.
+/// Returns whether it does, and nobody looked for that before.
+pub(crate) fn look_for_play(link: &mut DriveLink, found: &State, catalogue: &[Arc<dyn Effect>]) -> bool {
+    let mut beside = found.clone();
+    beside.active.retain(|a| a.effect.name() != PLAY);
+    let held = |sizes: Sizes| sizes.play.is_some_and(|play| play.load_friction_nm > 0.0);
+    let before = held(sizes_with_play(link, &beside, catalogue));
+    link.forget_play();
+    held(sizes_with_play(link, &beside, catalogue)) && !before
+}
+
 /// The sizes of a drive's logs, with the play of its gears by which a search for that begins.
 fn sizes_with_play(link: &DriveLink, state: &State, catalogue: &[Arc<dyn Effect>]) -> Sizes {
     let play = catalogue.iter().find(|e| e.name() == PLAY);

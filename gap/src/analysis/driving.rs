@@ -14,7 +14,7 @@ use super::study::{self, Outcome, Refused, chosen, study};
 use super::workflow::Workflow;
 use super::{filtered, patterns, ratios};
 use crate::options::Stage;
-use crate::problem::Problem;
+use crate::problem::{Problem, look_for_play};
 use crate::select::Selection;
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
@@ -350,13 +350,15 @@ impl<'a> Workflow<'a> {
                 break;
             }
             let stuck = link.mask_sticking(&selection.state.drive(None), self.thresholds.sticks);
-            match lowered(link, &selection.state, &floor, &self.thresholds) {
+            let lowered = lowered(link, &selection.state, &floor, &self.thresholds);
+            let held = look_for_play(link, &selection.state, here);
+            match lowered {
                 Some((lower, correlation)) => {
                     link.noise.clone_from(&lower);
                     floor = lower;
                     self.thresholds.drive_correlation = correlation;
                 }
-                None if stuck > self.thresholds.sticks_often => {}
+                None if held || stuck > self.thresholds.sticks_often => {}
                 None => break,
             }
             selection = self.looked(link, here, &selection.state.active[from..], &floor);

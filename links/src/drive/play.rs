@@ -51,6 +51,11 @@ impl DriveLink<'_> {
         Sizes { play: found, ..self.sizes }
     }
 
+    /// The next search for play is worked out anew.
+    pub fn forget_play(&mut self) {
+        self.play.take();
+    }
+
     /// The most that friction may hold a wheel with, Nm.
     fn standing_friction(&self, model: &DriveModel) -> f64 {
         let Some(first) = self.test_functions.first() else { return 0.0 };
