@@ -21,6 +21,7 @@ mod margins;
 mod odometry;
 mod pairs;
 mod partial;
+mod play;
 mod replayed;
 mod scale;
 mod single_steps;

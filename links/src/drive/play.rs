@@ -46,7 +46,10 @@ impl DriveLink<'_> {
             let tried = tried.flat_map(|rad| frictions.map(|load_friction_nm| Play { rad, load_friction_nm }));
             let best = tried.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
             let least = CLOSES * without.iter().sum::<f64>();
-            Some(best.filter(|(fall, _)| *fall > least).map_or(Play { rad: 0.0, load_friction_nm: 0.0 }, |(_, play)| play))
+            Some(
+                best.filter(|(fall, _)| *fall > least)
+                    .map_or(Play { rad: 0.0, load_friction_nm: 0.0 }, |(_, play)| play),
+            )
         });
         Sizes { play: found, ..self.sizes }
     }

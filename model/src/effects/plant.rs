@@ -142,7 +142,11 @@ fn on_wheels(effect: &Effect, applied: &mut Applied) -> bool {
             (each("preload", "nm"), |w, x| w.preload_nm = x)
         }
         "hanging-load" => (each("torque", "nm"), |w, x| w.preload_nm = x),
-        "gear-backlash" => (each("play", "rad"), |w, x| w.play_rad = x),
+        "gear-backlash" => {
+            let held = value("load_friction_nm");
+            applied.deviations.wheels_mut(n).iter_mut().for_each(|w| w.load_friction_nm = held);
+            (each("play", "rad"), |w, x| w.play_rad = x)
+        }
         "asymmetric-friction" if value("sense") < 0.0 => (each("torque", "nm"), |w, x| w.one_way_nm[0] = x),
         "asymmetric-friction" => (each("torque", "nm"), |w, x| w.one_way_nm[1] = x),
         "encoder-loss" => {

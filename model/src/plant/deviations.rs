@@ -92,6 +92,8 @@ pub struct WheelDeviation {
     pub loss: f64,
     /// Play between motor and wheel, rad at the motor shaft.
     pub play_rad: f64,
+    /// Dry friction of the wheel beyond that play on blocks, Nm: a part of what there is.
+    pub load_friction_nm: f64,
 }
 
 /// Friction torque mean + cos·cos(n θ) + sin·sin(n θ) at every wheel, θ the heading.

@@ -2,12 +2,15 @@
 
 use std::collections::VecDeque;
 
+use runs::robot::Support;
+
 use super::Plant;
+use super::play::Play;
 
 /// One encoder with its gear.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Encoder {
-    /// Wheel angle of the last tick, rad.
+    /// Wheel angle of the last tick, or on blocks its rotor's, rad.
     angle: f64,
     /// What has been counted, rad at the wheel.
     counted: f64,
@@ -25,9 +28,11 @@ impl Plant {
         let wheel = &self.wheels[i];
         let Some(d) = self.deviations.as_deref() else { return wheel.angle };
         let (w, e) = (d.wheel(i), &mut self.encoders[i]);
-        let mut moved = wheel.angle - e.angle;
-        e.angle = wheel.angle;
-        if w.play_rad > 0.0 {
+        let rotor = wheel.angle + wheel.ahead;
+        let mut moved = rotor - e.angle;
+        e.angle = rotor;
+        let apart = self.support == Support::Blocks && Play::of(&w, &self.axes[i], self.gear_ratio).is_some();
+        if w.play_rad > 0.0 && !apart {
             // The free rotor runs across the play until the other flank stops it.
             let (half, [at, speed]) = (0.5 * w.play_rad, e.play);
             let speed = speed + dt * wheel.transmitted / self.gear_ratio / self.rotor_inertia;

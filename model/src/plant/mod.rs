@@ -5,6 +5,7 @@ mod deviations;
 mod encoder;
 mod friction;
 mod loads;
+mod play;
 mod rolling;
 mod slipping;
 mod turning;
@@ -15,6 +16,7 @@ use nalgebra::Vector3;
 pub use deviations::{Deviations, HeadingDrag, WheelDeviation};
 pub use weight::Weight;
 
+use self::play::Play;
 use crate::motor::Axis;
 use runs::frames::{Pose, Twist, Walk, small_sin_cos};
 use runs::geometry::{Geometry, GeometryError};
@@ -146,12 +148,30 @@ struct WheelState {
     dry: f64,
     /// Mean square of the duty, as the winding's warmth follows it.
     heat: f64,
+    /// By how much the rotor is ahead in the gear's play on blocks, rad at the wheel, and how fast the rotor is, rad/s.
+    ahead: f64,
+    rotor_speed: f64,
 }
 
 impl WheelState {
     /// Largest friction torque, Nm.
     fn friction_limit(&self, axis: &Axis) -> f64 {
         (axis.friction_limit(self.transmitted) + self.dry).max(0.0)
+    }
+
+    fn step_on_blocks(&mut self, axis: &Axis, h: f64) {
+        let stiffness = axis.inertia() / h + axis.damping;
+        let push = axis.inertia() / h * self.speed + self.drive + self.load;
+        let old = self.speed;
+        for _ in 0..friction::GEAR_ROUNDS {
+            let limit = self.friction_limit(axis);
+            self.speed = friction::soft(push, limit) / stiffness;
+            self.friction = stiffness * self.speed - push;
+            let winding = self.drive - axis.damping * self.speed;
+            let acceleration = (self.speed - old) / h;
+            self.transmitted = axis.transmitted(winding, acceleration, self.friction, limit);
+        }
+        self.angle += 0.5 * h * (old + self.speed);
     }
 }
 
@@ -349,19 +369,12 @@ impl Plant {
     }
 
     fn step_on_blocks(&mut self, h: f64) {
-        for (wheel, axis) in self.wheels.iter_mut().zip(&self.axes) {
-            let stiffness = axis.inertia() / h + axis.damping;
-            let push = axis.inertia() / h * wheel.speed + wheel.drive + wheel.load;
-            let old = wheel.speed;
-            for _ in 0..friction::GEAR_ROUNDS {
-                let limit = wheel.friction_limit(axis);
-                wheel.speed = friction::soft(push, limit) / stiffness;
-                wheel.friction = stiffness * wheel.speed - push;
-                let winding = wheel.drive - axis.damping * wheel.speed;
-                let acceleration = (wheel.speed - old) / h;
-                wheel.transmitted = axis.transmitted(winding, acceleration, wheel.friction, limit);
+        for (i, (wheel, axis)) in self.wheels.iter_mut().zip(&self.axes).enumerate() {
+            let play = self.deviations.as_deref().and_then(|d| Play::of(&d.wheel(i), axis, self.gear_ratio));
+            match play {
+                Some(play) => play.step(wheel, axis, h, |wheel| wheel.step_on_blocks(axis, h)),
+                None => wheel.step_on_blocks(axis, h),
             }
-            wheel.angle += 0.5 * h * (old + wheel.speed);
         }
     }
 

@@ -111,3 +111,26 @@ fn camera_and_marker() {
     close(image("lens-distortion", &[("k1_per_m2", 0.01)]).y, 2.0 * 1.05, 1e-12);
     close(applied("camera-latency", &[("latency_s", 0.07)]).camera.latency_s, 0.07, 1e-12);
 }
+
+#[test]
+fn a_wheel_on_blocks_stands_while_its_rotor_crosses_the_play() {
+    let counted = |play: f64, held: f64| {
+        let mut hidden = robot("coulomb-friction", &[("torque_nm", 0.004)]);
+        hidden.effects.extend(robot("gear-backlash", &[("play_rad", play), ("load_friction_nm", held)]).effects);
+        (hidden.support, hidden.wheel_inertia_kg_m2) = (Support::Blocks, 1e-5);
+        let mut plant = Applied::of(&hidden).plant().unwrap();
+        // Pushed forwards until friction stops it.
+        run(&mut plant, [0.06; 3], 300);
+        run(&mut plant, [0.02; 3], 300);
+        let rests = plant.encoder_after()[0];
+        // The friction of the rotor alone lets it turn, that of both does not.
+        run(&mut plant, [-0.02; 3], 400);
+        (rests - plant.encoder_after()[0]) / Robot::racbot().counts_per_motor_rad()
+    };
+    assert_eq!(counted(0.0, 0.0), 0.0);
+    // When the flanks meet, the rotor takes its wheel along for a little.
+    let turned = counted(0.4, 0.004);
+    assert!((0.4..0.44).contains(&turned), "{turned}");
+    // Where the rotor has all of the friction it stands with its wheel.
+    assert_eq!(counted(0.4, 0.0), 0.0);
+}
