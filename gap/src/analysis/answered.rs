@@ -4,7 +4,7 @@ use super::measure::Drive;
 use super::study::Outcome;
 use super::workflow::Workflow;
 use crate::problem::Problem;
-use crate::state::State;
+use crate::state::{Active, State};
 use links::drive::{Answers, DriveLink};
 use links::effect::Link;
 
@@ -43,10 +43,13 @@ impl Workflow<'_> {
         beside.noise.clone_from(&link.noise);
         beside.mask_sticking(&outcome.written.drive(None), self.thresholds.sticks);
         let answers = Answers::of(&beside)?;
+        let mut state = outcome.written.clone();
+        let answered: Vec<bool> =
+            state.active.iter().map(|a| self.is_itself_answered(&answers, &beside, outcome, a)).collect();
+        state.active.iter_mut().zip(answered).for_each(|(a, answered)| a.given |= answered);
         beside.answer(answers);
         let problem = Problem::Drive(&beside);
-        let mut state = outcome.written.clone();
-        let less = problem.loss(&outcome.written) - problem.fit(&mut state);
+        let less = problem.loss(&state) - problem.fit(&mut state);
         let of = |name: &str, parameter: &str| {
             let active = state.active.iter().find(|a| !a.given && a.effect.name() == name)?;
             active.form.free.iter().any(|p| p.name == parameter).then(|| active.values.get(parameter))
@@ -57,6 +60,22 @@ impl Workflow<'_> {
                 .is_some_and(|value| interval.ends().is_some_and(|[from, to]| value < from || value > to))
         });
         (beyond && less > self.thresholds.against_a_size * sizes().count() as f64).then_some(state)
+    }
+
+    /// Whether most of what something written does is what the loops answer, as a weight or a slope is: what set points make of
+    /// that is next to nothing, and its size beside the answers is one that undoes pushes, which are answered as well.
+    fn is_itself_answered(&self, answers: &Answers, link: &DriveLink, outcome: &Outcome, of: &Active) -> bool {
+        if of.given {
+            return false;
+        }
+        let mut without = outcome.written.clone();
+        without.active.retain(|a| a.given || a.effect.name() != of.effect.name());
+        let [with, without] = [&outcome.written, &without].map(|state| link.residuals(&state.drive(None)));
+        let (Some(mut does), Some(without)) = (with, without) else { return false };
+        for (with, without) in does.torque.iter_mut().zip(&without.torque) {
+            with.iter_mut().zip(without).for_each(|(with, without)| *with -= without);
+        }
+        answers.left(link, &does).share() > self.thresholds.answered
     }
 
     /// Says of torques that the loops answered what they are where none of them has a name.

@@ -269,6 +269,21 @@ fn a_weight_that_a_loop_answers_has_its_name() {
     assert!((value(&a, "sin_1_nm") / weight_nm - 1.0).abs() < 0.1, "{}", a.terminal_summary());
 }
 
+/// A loop answers small pushes as it does a weight. Beside its answers a weight would be as large as undoes the pushes best: a
+/// size that set points say nothing of is judged by the duties.
+#[test]
+fn a_weight_beside_small_pushes_has_its_size() {
+    let stall = KT * VOLT / OHM;
+    let weight_nm = 0.2 * stall;
+    for (seed, pushed) in [(22, 0.02), (23, 0.02), (24, 0.01)] {
+        let a = Bench { weight_nm, pushed_nm: pushed * stall, ..PLAIN }.told(seed);
+        let text = a.terminal_summary();
+        assert_eq!(names(&a), ["gravity-load"], "{text}");
+        let found = value(&a, "sin_1_nm");
+        assert!((found / weight_nm - 1.0).abs() < 0.05, "{found} instead of {weight_nm}: {text}");
+    }
+}
+
 /// Pushes beyond what is noise of a drive, and no name: that is no agreement.
 #[test]
 fn pushes_beyond_noise_are_no_agreement() {
