@@ -55,6 +55,34 @@ fn currents_the_wrong_way_round_are_told_of_a_motor_that_brakes_as_well() {
     assert_eq!(told(1.0, false), Vec::<String>::new());
 }
 
+/// A winch lifts a load and lets it down again: its currents have one sign throughout, whichever that is, and friction alone tells
+/// which way it is driven. `lag` is how many rows the currents are ahead of the counts.
+#[test]
+fn currents_of_a_winch_the_wrong_way_round_are_told_by_its_friction() {
+    let lifted = |sign: f64, rubs: f64, lag: usize| {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
+        let (mut counts, mut currents) = (Vec::new(), Vec::new());
+        for k in 0..3000 {
+            let wanted = [0.0, 6.0, 0.0, -6.0][k / 150 % 4];
+            let acceleration = (4.0 * (wanted - speed)).clamp(-20.0, 20.0);
+            counts.push((angle / std::f64::consts::TAU * 65536.0) as i64);
+            let torque = 0.9 + rubs * (speed / 0.05).tanh() + 0.002 * acceleration;
+            currents.push(sign * (torque / 0.0551 + 0.5 * random.random_range(-1.0..1.0)));
+            speed += 0.03 * acceleration;
+            angle += 0.03 * speed;
+        }
+        let rows = counts.iter().zip(&currents[lag..]).enumerate();
+        let rows: String = rows.map(|(k, (n, i))| format!("{},{n},{i}\n", 0.03 * k as f64)).collect();
+        said_by(&ROBOT.replace("0.0066", "0.0551").replace("7e-6", "2e-3"), &format!("t,enc_1,current_1\n{rows}"))
+    };
+    let said = lifted(-1.0, 0.08, 0);
+    assert!(said.len() == 1 && said[0].starts_with("current_1: at the same places the axis is driven"), "{said:?}");
+    for (sign, rubs, lag) in [(1.0, 0.08, 0), (1.0, 0.08, 3), (-1.0, 0.0, 0), (-1.0, 0.0, 3)] {
+        assert_eq!(lifted(sign, rubs, lag), Vec::<String>::new(), "{sign} {rubs} {lag}");
+    }
+}
+
 #[test]
 fn the_last_reading_of_a_drive_that_is_off_is_told() {
     let said = told(1.0, true);

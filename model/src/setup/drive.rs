@@ -4,18 +4,15 @@ use estimation::statistics::median;
 use runs::robot::{Robot, Support};
 use runs::{DutySource, Log, drive_lacks};
 
-use super::samples::{BOTH_WAYS, FEWEST, HELD, correlation};
+use super::samples::{BOTH_WAYS, FEWEST, HELD, SETTLED_S, correlation};
 use super::signals::{Signals, signals};
-use super::{Mistake, OTHER_SENSE, OTHER_SENSE_KIND, axes, common_ratio, is_true, loops, near, short, supply};
+use super::{Mistake, OTHER_SENSE, OTHER_SENSE_KIND, axes, common_ratio, is_true, loops, near, short, supply, work};
 
 /// Correlation from which a signal follows the wheels at all.
 const FOLLOWS: f64 = 0.8;
 /// Correlation with the angle of its axis from which a set point that does not follow the speed is a position: speeds have
 /// 0.64 at most (the example sets, their runs one by one, the library's manoeuvres), a servo whose lag was found 1.00.
 const PLACED: f64 = 0.95;
-/// Time over which a wheel that follows its set point does not change its speed by as much as that: one that lags by 0.1 s
-/// is then no tenth off.
-const SETTLED_S: f64 = 1.0;
 /// How many times as fast as its set point a wheel turns from which that is said: load and lag make it slower, and on the
 /// example sets it is 1.0; robots of others had 1.3 to 1.9. From [`TRUE_RATIO`](super::TRUE_RATIO) on it is another unit.
 const FASTER: f64 = 1.25;
@@ -39,6 +36,8 @@ pub(super) fn mistakes(robot: &Robot, logs: &[Log]) -> Vec<Mistake> {
     let stem = if currents { "current" } else { "duty" };
     found.extend(unsigned(robot, &signals, stem));
     found.extend(axes::against(robot, &signals, stem));
+    let gained = work::gained(robot, &signals, stem, &found);
+    found.extend(gained);
     match positions(&signals) {
         Some(mistake) => found.push(mistake),
         None => {

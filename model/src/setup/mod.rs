@@ -25,6 +25,7 @@ mod supply;
 mod time;
 mod turns;
 mod winding;
+mod work;
 
 use runs::robot::Robot;
 use runs::{Logs, is_dead_reckoning, is_from_speeds};

@@ -9,6 +9,9 @@ use runs::{Columns, Log, is_from_speeds};
 pub(super) const BOTH_WAYS: f64 = 0.1;
 /// Share of an axis's largest duty from which a firmware's limit holds it, where it cannot follow.
 pub(super) const HELD: f64 = 0.99;
+/// Time over which a wheel that follows its set point does not change its speed by as much as that: one that lags by 0.1 s
+/// is then no tenth off.
+pub(super) const SETTLED_S: f64 = 1.0;
 /// Samples from which anything is said.
 pub(super) const FEWEST: usize = 50;
 /// Ticks of a log that are looked at.
