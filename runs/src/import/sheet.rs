@@ -13,6 +13,9 @@ const LOOKED_AT: usize = 64;
 const SERIES: usize = 32;
 const LONGER: usize = 10;
 
+/// Lines of words above a table without names at most.
+const TITLES: usize = 16;
+
 /// A table whose rows have one separator.
 pub(super) struct Sheet<'a> {
     /// Names of the columns if the first record does not hold them.
@@ -54,6 +57,10 @@ impl<'a> Sheet<'a> {
             let rows: Vec<u8> = bytes.split_inclusive(|b| *b == b'\n').enumerate().flat_map(line).collect();
             let separator = separator(rows.trim_ascii_start());
             return Self { names: Some(names), rows: Cow::Owned(rows), separator, tagged: false };
+        }
+        if let Some(remarked) = titled(bytes) {
+            let Sheet { names, rows, separator, tagged } = Sheet::of(&remarked);
+            return Self { names, rows: Cow::Owned(rows.into_owned()), separator, tagged };
         }
         let mut before = Vec::new();
         let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
@@ -188,6 +195,38 @@ fn printed(bytes: &[u8]) -> Option<Vec<u8>> {
         return None;
     }
     Some(lines().map(|line| text(line).unwrap_or_else(|| line.to_vec())).collect::<Vec<_>>().join(&b'\n'))
+}
+
+/// The lines with titles as remarks, where lines of words stand above rows of numbers that are apart as no word of these is:
+/// `Console - port 0` above `0.01,0,1.5`. Words as many as columns are their names.
+fn titled(bytes: &[u8]) -> Option<Vec<u8>> {
+    let filled = || bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
+    let marked = |line: &[u8]| remark(line).is_some() || line.iter().any(|b| b",;\t|".contains(b));
+    let titles = filled().take(TITLES + 1).take_while(|line| !marked(line)).count();
+    let first = filled().nth(titles).filter(|_| (1..=TITLES).contains(&titles))?;
+    let separator = separator(first);
+    let rows: Vec<Vec<String>> =
+        filled().skip(titles).take(LOOKED_AT).map(|line| super::line::fields(line, false, separator)).collect();
+    let width = rows[0].len();
+    // A comma between two whole numbers may be that of a decimal.
+    let parted = separator != b',' || width > 2 || rows.iter().flatten().any(|field| field.contains('.'));
+    let numbers = |row: &Vec<String>| row.len() == width && row.iter().all(|field| is_number(field, separator));
+    let worded = |line: &[u8]| line.iter().any(u8::is_ascii_alphabetic);
+    if width < 2 || rows.len() < 2 || !parted || !rows.iter().all(numbers) || !filled().take(titles).all(worded) {
+        return None;
+    }
+    let mut left = titles;
+    let line = |line: &[u8]| {
+        if left == 0 || line.trim_ascii().is_empty() {
+            return line.to_vec();
+        }
+        left -= 1;
+        let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+        let names = words.len() == width && words.iter().all(|word| word[0].is_ascii_alphabetic());
+        let text = if names { words.join(&separator) } else { line.trim_ascii().to_vec() };
+        [b"# ", &text[..], b"\n"].concat()
+    };
+    Some(bytes.split_inclusive(|b| *b == b'\n').flat_map(line).collect())
 }
 
 /// The lines with semicolons in place of the bars between their fields, `| t | x |` and `t | x |`; titles above and rules below
@@ -331,6 +370,11 @@ mod tests {
             (names(&["column_1", "column_2", "column_3"]), "\n0.1;0x0;1.5\n0.2;0x1;2\n".into(), ';')
         );
         assert_eq!(sheet("0.1,on,1.5\n0.2,off,2\n").0, names(&["column_1", "column_2", "column_3"]));
+        // Titles without a mark of a remark, above rows without names.
+        let title = "Console - port: 0\n.01,0,0\n0.02,1,2\n";
+        assert_eq!(sheet(title), (names(&["column_1", "column_2", "column_3"]), "\n.01,0,0\n0.02,1,2\n".into(), ','));
+        assert_eq!(sheet("by me\n\nt u w\n0;1;2\n1;1;2\n").0, names(&["t", "u", "w"]));
+        assert_eq!(sheet("speed\n0,5\n0,6\n"), (None, "speed\n0,5\n0,6\n".into(), ','));
         assert_eq!(sheet("").0, None);
     }
 }
