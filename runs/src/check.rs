@@ -30,6 +30,17 @@ fn bunched(t: &[f64], counts: &[i64], now: usize, per_second: f64) -> Option<usi
     })
 }
 
+/// How long a logger stood still, s, between the counts of the row before a jump and its time: the jump and that wait together are
+/// no faster than the wheel can turn.
+fn stalled(t: &[f64], counts: &[i64], now: usize, per_second: f64) -> Option<f64> {
+    let [a, b] = [now.checked_sub(2)?, now - 1];
+    let usual = (t[counts.len() - 1] - t[0]) / (counts.len() - 1) as f64;
+    let fits = counts[now].abs_diff(counts[a]) as f64 <= per_second * (t[now] - t[a]) / SPEED_FACTOR + COUNT_MARGIN;
+    let (waited, next) = (t[b] - t[a], t[now] - t[b]);
+    // Rows that came at once waited for each other.
+    (waited > LATE * usual && next >= CLOSE * usual && fits).then_some(waited)
+}
+
 /// Steps of time that are those of rows that arrived together, and of the wait before them, in usual ones.
 const CLOSE: f64 = 0.3;
 const LATE: f64 = 2.0;
@@ -90,6 +101,17 @@ impl Run {
                              the robot's own"
                                 .to_owned(),
                         ),
+                        (None, None) if stalled(&self.t, counts, now, per_second).is_some() => {
+                            let waited = stalled(&self.t, counts, now, per_second).unwrap_or_default();
+                            (
+                                format!(
+                                    "{what}; the line before came {:.0} ms after its own, and together they fit",
+                                    1e3 * waited
+                                ),
+                                "the logger stood still between the counts of that line and its time: leave the line out"
+                                    .to_owned(),
+                            )
+                        }
                         (None, Some(bits)) => (
                             what,
                             format!(

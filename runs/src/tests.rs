@@ -195,6 +195,23 @@ fn rows_that_arrived_together_are_no_leaping_counter() {
 }
 
 #[test]
+fn a_line_whose_time_was_taken_after_a_pause_is_named() {
+    // 100 counts a millisecond; for 60 ms the logger stands still after it has read the counts of a row.
+    let refused = |leap: i64| {
+        let mut text = "t,enc_1,enc_2,enc_3\n".to_owned();
+        for row in 0..40_i64 {
+            let at = |from: i64| row + if row >= from { 60 } else { 0 };
+            let counts = 100 * at(21) + if row >= 21 { leap } else { 0 };
+            text += &format!("{:.3},0,{counts},0\n", 1e-3 * at(20) as f64);
+        }
+        read(&text).unwrap().check(&Robot::racbot(), Path::new("run.csv")).unwrap_err().to_string()
+    };
+    let paused = refused(0);
+    assert!(paused.contains("came 61 ms after its own, and together they fit; the logger stood still"), "{paused}");
+    assert!(refused(1 << 20).contains("look for a counter that was reset"));
+}
+
+#[test]
 fn counts_that_jump_further_than_the_wheel_can_turn_are_refused() {
     // No load at 7.2 V: 1040 rad/s at the motor, 339 counts a millisecond.
     let log = |jump: i64| {
