@@ -22,7 +22,7 @@ use crate::robot::Robot;
 #[derive(Debug, Clone, Default)]
 pub struct Map {
     path: PathBuf,
-    log: Reading,
+    pub(super) log: Reading,
     /// The second file, with the pose.
     truth: Option<Truth>,
     /// What [`Derive::speeds`] names.

@@ -18,6 +18,7 @@ mod legend;
 mod line;
 mod many;
 mod map;
+mod misread;
 mod owner;
 mod reading;
 mod ros2;

@@ -8,7 +8,7 @@ use super::csv::{COARSE, coarse};
 use super::fill::{Wanted, begins_again, chain, counts, integrate, is_not_read, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
-use super::{Format, Series, Table, units};
+use super::{Format, Series, Table, misread, units};
 use crate::columns::{Column, GROUPS, MOST_DUTY, missing_member};
 use crate::error::InputError;
 use crate::frames::Pose;
@@ -85,8 +85,8 @@ impl Reading {
     pub(super) fn remarks(&self, table: &Table) -> Vec<String> {
         let wanted = wanted(&self.columns).unwrap_or_default();
         let of_column = |w: &Wanted| {
-            let values = &table.find(w.from)?.values;
-            is_not_read(w, values).or_else(|| begins_again(w, values))
+            let Series { t, values, .. } = table.find(w.from)?;
+            is_not_read(w, values).or_else(|| begins_again(w, values)).or_else(|| misread::remark(w, t, values))
         };
         let of_columns = wanted.iter().filter_map(of_column);
         let crowded = wanted.iter().filter_map(|w| table.find(w.from)).map(|s| (crowded(s), s.t.len())).max();
@@ -234,7 +234,7 @@ impl Reading {
         for ((w, s), sign) in wanted.iter().zip(&series).zip(&sign_of) {
             let mut column = vec![f64::NAN; ticks];
             let sign = sign.map_or_else(|| vec![1.0; s.t.len()], |of| signs(of, &s.t));
-            for ((t, value), sign) in s.t.iter().zip(unwrapped(w, &s.values).iter()).zip(sign) {
+            for ((t, value), sign) in s.t.iter().zip(unwrapped(w, &misread::left_out(w, &s.values)).iter()).zip(sign) {
                 if let Ok(tick) = keys.binary_search(&nanoseconds(*t)) {
                     let value = units::times(*value, sign * w.factor) + w.offset;
                     column[tick] = w.limit.map_or(value, |limit| value.clamp(-limit, limit));
