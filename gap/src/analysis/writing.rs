@@ -117,11 +117,10 @@ fn by_chance(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> Option<f6
 }
 
 /// Whether an effect that takes away noise as well is named on a link that is not worth a sentence without it, and closes little
-/// of that: of two clean axes among 200 on which play was found it closed 8 and 14 % of the squares, of five with play on such a
-/// link 36 to 98 %.
+/// of that.
 fn is_noise(n: &Named, links: &[LinkGap], thresholds: &Thresholds) -> bool {
     let takes_noise = effects::find(&n.name).is_some_and(|effect| effect.takes_noise());
-    let closes = |l: &LinkGap| l.after.powi(2) < (1.0 - thresholds.closes) * l.before.powi(2);
+    let closes = |l: &LinkGap| l.after.powi(2) < (1.0 - thresholds.play_closes) * l.before.powi(2);
     let worth = links.iter().any(|l| l.link == n.link && (l.before >= thresholds.worth_saying || closes(l)));
     takes_noise && matches!(n.evidence, Evidence::Test { .. }) && !worth
 }

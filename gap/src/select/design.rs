@@ -82,7 +82,11 @@ impl Design {
                             Some(_) => own.last() == Some(c),
                             None => own.first() == Some(c) || own.get(own.len() / 2) == Some(c),
                         };
-                        return if near { Role::Held(thresholds.held_switch, 0.0) } else { Role::Out };
+                        // No more of a large one that is tried than of any.
+                        let little = thresholds.held_share * p.material / p.start.map_or(1.0, f64::abs);
+                        let share =
+                            if p.below.is_none() { little.min(thresholds.held_switch) } else { thresholds.held_switch };
+                        return if near { Role::Held(share, 0.0) } else { Role::Out };
                     }
                     Role::Held(thresholds.held_share * p.material, 0.0)
                 }
