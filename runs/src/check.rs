@@ -125,7 +125,8 @@ impl Run {
                             format!(
                                 "look for a counter that was reset, wrapped or not read; log cumulative counts; if it turns \
                                  so fast, mend what says that {:.3} rad/s is its top speed: supply_v, torque_constant \
-                                 (Nm/A), back_emf_constant (V s/rad), gear_ratio",
+                                 (Nm/A), back_emf_constant (V s/rad), gear_ratio, or the counts of a turn: a decoder that \
+                                 takes all edges makes four of each",
                                 robot.no_load_wheel_speed(supply)
                             ),
                         ),

@@ -16,7 +16,8 @@ impl Effect for GearBacklash {
     }
 
     fn equation(&self) -> &str {
-        "the wheel follows the motor shaft with play of play_rad, turned at that shaft"
+        "the wheel follows the motor shaft with play of play_rad, turned at that shaft; of the dry friction load_friction_nm acts on \
+         the wheel"
     }
 
     fn reference(&self) -> &str {
