@@ -39,7 +39,7 @@ pub use forces::Forces;
 pub use free_run::{further, in_own_torque, runaway};
 pub use instant::{Instant, Loads};
 pub use linearise::Side;
-pub(crate) use play::RATIO;
+pub(crate) use play::{LOAD_FRICTION, RATIO};
 pub use test_functions::{DriveLink, DriveResiduals};
 
 /// Adds torques and forces at one instant.

@@ -8,6 +8,8 @@ use crate::effect::{Effect, Form, Play, Sizes, Values};
 
 /// From one play that is tried to the next: an estimate goes on from within a quarter of the true one.
 pub(crate) const RATIO: f64 = 1.5;
+/// Dry friction of the wheel beyond the play, Nm: a part of what there is.
+pub(crate) const LOAD_FRICTION: &str = "load_friction_nm";
 /// Times that a play must be crossed: once there and back is a start and a stop, and of one step of a coarse encoder that
 /// flickers a wheel that coasts within 2.4 turns of its motor left less.
 const CROSSINGS: usize = 4;
@@ -32,7 +34,7 @@ impl DriveLink<'_> {
                 let mut model = model();
                 let mut values = Values::default();
                 values.set(&p.name, found.rad);
-                values.set("load_friction_nm", found.load_friction_nm);
+                values.set(LOAD_FRICTION, found.load_friction_nm);
                 model.add(play, &values, form);
                 if self.crossings(&model) < CROSSINGS {
                     return None;

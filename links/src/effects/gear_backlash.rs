@@ -2,7 +2,7 @@
 
 use runs::robot::Robot;
 
-use crate::drive::{Ahead, DriveModel, RATIO, TEST_FUNCTION_S, smooth_sign};
+use crate::drive::{Ahead, DriveModel, LOAD_FRICTION, RATIO, TEST_FUNCTION_S, smooth_sign};
 use crate::effect::{Effect, Form, Link, Parameter, Sizes, Values, wheel_name};
 use crate::motion::MotionModel;
 use crate::segment::Segment;
@@ -114,8 +114,6 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Dry friction of the wheel beyond the play: a part of what there is.
-const LOAD_FRICTION: &str = "load_friction_nm";
 /// Times a play that was found from which another one would have left less.
 const NEXT: f64 = RATIO * RATIO;
 /// Turns of the output that no gear with teeth has in play: a quarter turn is a shaft that has come loose. Without it, logs of
