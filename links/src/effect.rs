@@ -70,6 +70,8 @@ pub struct Parameter {
     pub below: Option<f64>,
     /// Whether the lower bound is where it can no longer be told from what is there anyway.
     pub blurred: bool,
+    /// Whether at its upper bound it is no more what it says, though it has no size by which it is named.
+    pub closed: bool,
     /// By how much the log leaves it open at most, the same in every run.
     pub open: f64,
 }
@@ -77,7 +79,17 @@ pub struct Parameter {
 impl Parameter {
     /// A parameter that is 0 in the nominal model.
     pub fn new(name: impl Into<String>, scale: f64, bounds: [f64; 2], material: f64) -> Self {
-        Self { name: name.into(), scale, bounds, material, start: None, below: None, blurred: false, open: 0.0 }
+        Self {
+            name: name.into(),
+            scale,
+            bounds,
+            material,
+            start: None,
+            below: None,
+            blurred: false,
+            closed: false,
+            open: 0.0,
+        }
     }
 
     /// A parameter that is material if it falls below `limit`.
@@ -91,6 +103,13 @@ impl Parameter {
     #[must_use]
     pub fn blurred_below(mut self) -> Self {
         self.blurred = true;
+        self
+    }
+
+    /// A parameter with which nothing is named at its upper bound.
+    #[must_use]
+    pub fn closed_above(mut self) -> Self {
+        self.closed = true;
         self
     }
 
@@ -311,6 +330,8 @@ pub struct Play {
     pub rad: f64,
     /// Dry friction of the wheel beyond it, Nm; 0 where one that coasts leaves less.
     pub load_friction_nm: f64,
+    /// All dry friction that there is, Nm.
+    pub friction_nm: f64,
 }
 
 impl Sizes {

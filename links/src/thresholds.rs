@@ -99,6 +99,8 @@ pub struct Estimate {
     pub absent_at_zero: bool,
     /// Whether at its lower bound it cannot be told from what is there anyway.
     pub blurred: bool,
+    /// Whether at its upper bound it is no more what it says.
+    pub closed: bool,
 }
 
 /// Why something is not named.
@@ -153,7 +155,10 @@ pub fn gate(estimates: &[Estimate], p_value: Option<f64>) -> Result<(), Refusal>
     if sized().any(|e| at_bound(e) && !(e.absent_at_zero && e.value.abs() < 0.05 * (e.bounds[1] - e.bounds[0]))) {
         return Err(Refusal::AtBound);
     }
-    if estimates.iter().any(|e| e.blurred && e.value <= e.bounds[0] + AT_BOUND * (e.bounds[1] - e.bounds[0])) {
+    let near = |e: &Estimate| AT_BOUND * (e.bounds[1] - e.bounds[0]);
+    let ends =
+        |e: &Estimate| e.blurred && e.value <= e.bounds[0] + near(e) || e.closed && e.value >= e.bounds[1] - near(e);
+    if estimates.iter().any(ends) {
         return Err(Refusal::AtBound);
     }
     let says_nothing = |e: &Estimate| {
@@ -179,6 +184,7 @@ mod tests {
             sized: true,
             absent_at_zero: true,
             blurred: false,
+            closed: false,
         }
     }
 
@@ -206,6 +212,9 @@ mod tests {
         let blurred = |value: f64| Estimate { sized: false, blurred: true, ..estimate(value, 0.1) };
         assert_eq!(gate(&[estimate(0.2, 0.1), blurred(-0.6)], None), Err(Refusal::AtBound));
         assert_eq!(gate(&[estimate(0.2, 0.1), blurred(0.1)], None), Ok(()));
+        let closed = |value: f64| Estimate { sized: false, closed: true, ..estimate(value, 0.1) };
+        assert_eq!(gate(&[estimate(0.2, 0.1), closed(2.0)], None), Err(Refusal::AtBound));
+        assert_eq!(gate(&[estimate(0.2, 0.1), closed(-0.6)], None), Ok(()));
         assert_eq!(gate(&[place], Some(0.01)), Ok(()));
     }
 }

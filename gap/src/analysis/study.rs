@@ -489,6 +489,7 @@ fn fault(active: &Active, estimate: &Estimate) -> Option<Fault> {
             // What is switched on is not absent at 0, unless it may be 0 and was only begun elsewhere.
             absent_at_zero: p.below.is_none() && (p.start.is_none() || p.bounds[0] <= 0.0),
             blurred: p.blurred,
+            closed: p.closed,
         }
     };
     let known: Vec<thresholds::Estimate> = active.form.free.iter().zip(&estimate.parameters).map(known).collect();

@@ -40,6 +40,7 @@ fn estimates_of(
             sized: p.material.is_finite(),
             absent_at_zero: p.below.is_none(),
             blurred: p.blurred,
+            closed: p.closed,
         }
     };
     free.iter().enumerate().map(estimate).collect()

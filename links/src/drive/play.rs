@@ -45,12 +45,14 @@ impl DriveLink<'_> {
             let frictions = HELD.map(|share| share * friction);
             let tried = std::iter::successors(Some(p.material), |play| Some(play * RATIO));
             let tried = tried.take_while(|play| *play < p.bounds[1]);
-            let tried = tried.flat_map(|rad| frictions.map(|load_friction_nm| Play { rad, load_friction_nm }));
+            let tried = tried.flat_map(|rad| {
+                frictions.map(|load_friction_nm| Play { rad, load_friction_nm, friction_nm: friction })
+            });
             let best = tried.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
             let least = CLOSES * without.iter().sum::<f64>();
             Some(
                 best.filter(|(fall, _)| *fall > least)
-                    .map_or(Play { rad: 0.0, load_friction_nm: 0.0 }, |(_, play)| play),
+                    .map_or(Play { rad: 0.0, load_friction_nm: 0.0, friction_nm: friction }, |(_, play)| play),
             )
         });
         Sizes { play: found, ..self.sizes }
