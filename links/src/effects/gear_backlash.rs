@@ -115,9 +115,9 @@ impl Effect for GearBacklash {
     }
 }
 
-/// Share of the dry friction that the wheel may have of its own: all, and as much as an estimate of that scatters by (up to 1.04
-/// of 22 simulated axes). Friction that gives way before it slips looked like play with 2.6 times the friction that there was.
-const MOST_HELD: f64 = 1.5;
+/// Share of the dry friction that the wheel may have of its own: all, and as much as an estimate of that scatters by (0.87 to 1.06
+/// of twelve simulated axes). Friction that gives way before it slips looked like play with 1.18 to 2.6 of the friction there was.
+const MOST_HELD: f64 = 1.15;
 /// Times a play that was found from which another one would have left less.
 const NEXT: f64 = RATIO * RATIO;
 /// Turns of the output that no gear with teeth has in play: a quarter turn is a shaft that has come loose. Without it, logs of
