@@ -147,18 +147,15 @@ pub fn gate(estimates: &[Estimate], p_value: Option<f64>) -> Result<(), Refusal>
     if sized().count() > 0 && sized().all(|e| e.absent_at_zero && holds_zero(e)) {
         return Err(Refusal::HoldsZero);
     }
-    let at_bound = |e: &Estimate| {
-        let near = AT_BOUND * (e.bounds[1] - e.bounds[0]);
-        e.value != 0.0 && (e.value <= e.bounds[0] + near || e.value >= e.bounds[1] - near)
-    };
+    let near = |e: &Estimate| AT_BOUND * (e.bounds[1] - e.bounds[0]);
+    let is_low = |e: &Estimate| e.value <= e.bounds[0] + near(e);
+    let is_high = |e: &Estimate| e.value >= e.bounds[1] - near(e);
+    let at_bound = |e: &Estimate| e.value != 0.0 && (is_low(e) || is_high(e));
     // A bound at which the effect is absent, or nearly so, is judged by materiality.
     if sized().any(|e| at_bound(e) && !(e.absent_at_zero && e.value.abs() < 0.05 * (e.bounds[1] - e.bounds[0]))) {
         return Err(Refusal::AtBound);
     }
-    let near = |e: &Estimate| AT_BOUND * (e.bounds[1] - e.bounds[0]);
-    let ends =
-        |e: &Estimate| e.blurred && e.value <= e.bounds[0] + near(e) || e.closed && e.value >= e.bounds[1] - near(e);
-    if estimates.iter().any(ends) {
+    if estimates.iter().any(|e| e.blurred && is_low(e) || e.closed && is_high(e)) {
         return Err(Refusal::AtBound);
     }
     let says_nothing = |e: &Estimate| {

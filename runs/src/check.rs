@@ -94,25 +94,23 @@ impl Run {
                         dt * 1e3
                     );
                     let bits = [16, 32].into_iter().find(|bits| (1_u64 << bits).abs_diff(jump) as f64 <= limit);
-                    let (what, hint) = match (bunched(&self.t, counts, now, per_second), bits) {
-                        (Some(rows), _) => (
+                    let rows = bunched(&self.t, counts, now, per_second);
+                    let (what, hint) = match (rows, bits, stalled(&self.t, counts, now, per_second)) {
+                        (Some(rows), ..) => (
                             format!("{what}; the {rows} rows about it come at once, and together they fit"),
                             "the times are those of arrival: take the time at which each row was measured, as a stamp of \
                              the robot's own"
                                 .to_owned(),
                         ),
-                        (None, None) if stalled(&self.t, counts, now, per_second).is_some() => {
-                            let waited = stalled(&self.t, counts, now, per_second).unwrap_or_default();
-                            (
-                                format!(
-                                    "{what}; the line before came {:.0} ms after its own, and together they fit",
-                                    1e3 * waited
-                                ),
-                                "the logger stood still between the counts of that line and its time: leave the line out"
-                                    .to_owned(),
-                            )
-                        }
-                        (None, Some(bits)) => (
+                        (None, None, Some(waited)) => (
+                            format!(
+                                "{what}; the line before came {:.0} ms after its own, and together they fit",
+                                1e3 * waited
+                            ),
+                            "the logger stood still between the counts of that line and its time: leave the line out"
+                                .to_owned(),
+                        ),
+                        (None, Some(bits), _) => (
                             what,
                             format!(
                                 "a counter of {bits} bits began again: log cumulative counts; `racbot convert` counts on \
@@ -120,7 +118,7 @@ impl Run {
                                 1_u64 << bits
                             ),
                         ),
-                        (None, None) => (
+                        (None, None, None) => (
                             what,
                             format!(
                                 "look for a counter that was reset, wrapped or not read; log cumulative counts; if it turns \

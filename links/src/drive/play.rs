@@ -42,11 +42,12 @@ impl DriveLink<'_> {
                 Some((falls(squares(&self.residuals(&model)?)), found))
             };
             let friction = self.standing_friction(&model());
-            let frictions = HELD.map(|share| share * friction);
+            // Without friction all shares are one.
+            let shares = if friction > 0.0 { &HELD[..] } else { &HELD[..1] };
             let tried = std::iter::successors(Some(p.material), |play| Some(play * RATIO));
             let tried = tried.take_while(|play| *play < p.bounds[1]);
             let tried = tried.flat_map(|rad| {
-                frictions.map(|load_friction_nm| Play { rad, load_friction_nm, friction_nm: friction })
+                shares.iter().map(move |share| Play { rad, load_friction_nm: share * friction, friction_nm: friction })
             });
             let best = tried.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
             let least = CLOSES * without.iter().sum::<f64>();
