@@ -4,11 +4,17 @@ use runs::is_from_speeds;
 use runs::robot::Robot;
 
 use super::cut::Cut;
-use links::drive::{DriveLink, DriveModel, FEWEST_PER_COLUMN, Generic};
+use crate::state::State;
+use links::drive::{DriveLink, FEWEST_PER_COLUMN, Generic};
 use links::pieces::{Driven, Driving};
 
 /// Longest test function, s.
 const LONGEST_S: f64 = 3.0;
+
+/// Effects that make a log older than what drives it.
+const LATE: [&str; 2] = ["actuation-latency", "speed-filter"];
+/// Part of a row by which a stated latency may be short of a whole number of rows: files have six digits or so.
+const A_HAIR: f64 = 1e-3;
 
 /// Whether currents were measured, whether speeds are means of rows, and how long test functions are.
 ///
@@ -17,9 +23,16 @@ const LONGEST_S: f64 = 3.0;
 /// middle, by the same rule: a part of a row of age is the log's, not the machine's. Test functions of an axis alone that scatters too much get longer
 /// as long as they tell more: the squared noise of an acceleration falls with the fifth power of their length, and what the motors of a heavy
 /// machine do hardly at all.
-pub(super) fn driving(held: &Cut, robot: &Robot, currents: bool, no_noise: f64) -> Driving {
-    // Without effects of the file: so that it is the same before something was found and after.
-    let model = DriveModel::new(robot);
+pub(super) fn driving(held: &Cut, filed: &State, currents: bool, no_noise: f64) -> Driving {
+    let robot: &Robot = &filed.robot;
+    // Without other effects of the file, so that it is the same before something was found and after. What the file says of an
+    // age is not taken for that of the rows as well: a part of a stated latency looked like means of the row before. Parts of a
+    // row are left to the rows' own age, for which speeds of the moment do not bend as under a duty that begins with the row.
+    let mut late = filed.clone();
+    late.active.retain(|a| LATE.contains(&a.effect.name()));
+    let mut model = late.drive(None);
+    let row_s = 1.0 / robot.control_rate_hz;
+    model.duty_delay_s = row_s * (model.duty_delay_s / row_s + A_HAIR).floor();
     let look = |driving: Driving| {
         let pieces = held.searched().driven(driving);
         let mut link = DriveLink::new(&pieces, &model)?;

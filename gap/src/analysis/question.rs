@@ -118,7 +118,7 @@ impl<'a> Question<'a> {
         let cut = |geometry: &Geometry| {
             let whole = segments(&self.robot, geometry, &self.set.logs, PIECE);
             let held = Cut { sample: whole.sample(self.every_run), whole };
-            let driving = driving(&held, &self.robot, self.currents, self.options.thresholds.no_noise);
+            let driving = driving(&held, &start, self.currents, self.options.thresholds.no_noise);
             if driving == Driving::default() { held } else { held.driven(driving) }
         };
         let pieces = cut(&self.geometry);

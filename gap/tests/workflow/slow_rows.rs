@@ -27,6 +27,11 @@ fn file(row_s: f64) -> String {
 /// A lifted motor that is so much heavier than its file, under a duty that wanders and jumps, its speed read at the rows or
 /// behind a low-pass.
 fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
+    logged_by(&file(row_s), seed, row_s, [heavier, filter_s, 0.0])
+}
+
+/// The same by that file, of duties that act `late_s` later than logged.
+fn logged_by(file: &str, seed: u64, row_s: f64, [heavier, filter_s, late_s]: [f64; 3]) -> Analysis {
     let run = |n| {
         let mut rng = ChaCha8Rng::seed_from_u64(100 * seed + n);
         let mut run = Run { name: format!("{n}"), ..Run::default() };
@@ -42,8 +47,10 @@ fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
             run.t.push(row as f64 * row_s);
             duties.push(duty);
             speeds.push(seen + rng.random_range(-0.05..0.05));
-            for _ in 0..(row_s / step).round() as usize {
-                let torque = KT * (VOLT * duty - KT * GEAR * speed) / OHM;
+            for k in 0..(row_s / step).round() as usize {
+                let at = row as f64 + (step * (k as f64 + 0.5) - late_s) / row_s;
+                let acting = if at < 0.0 { 0.0 } else { duties[at as usize] };
+                let torque = KT * (VOLT * acting - KT * GEAR * speed) / OHM;
                 speed += step * torque / ROTOR / (1.0 + heavier) / GEAR;
                 seen += if filter_s > 0.0 { step * (speed - seen) / filter_s } else { speed - seen };
             }
@@ -51,7 +58,7 @@ fn logged(seed: u64, row_s: f64, heavier: f64, filter_s: f64) -> Analysis {
         (run.duty, run.speed) = (vec![duties], vec![speeds]);
         run
     };
-    of_files(&file(row_s), (0..5).map(run))
+    of_files(file, (0..5).map(run))
 }
 
 /// A straight line from row to row made it 13 % heavier, at five noise floors.
@@ -65,6 +72,19 @@ fn a_motor_that_follows_within_a_row_agrees() {
     let size = a.effects.first().map(|e| e.parameters[0].2);
     let holds = matches!(size, Some(Interval::Ci95([low, high])) if low < 0.5 && 0.5 < high);
     assert!(names(&a) == ["rotor-inertia"] && holds, "{}", a.terminal_summary());
+}
+
+/// What the file states is not looked for in the age of the rows as well: one row of it was "not in these logs", and of two rows
+/// the rest was an inertia that is not there.
+#[test]
+fn a_latency_that_the_file_states_is_no_age_of_the_rows() {
+    for (seed, row_s, rows) in [(22, 0.02, 1.0), (23, 0.02, 2.0), (24, 0.03, 1.0)] {
+        let late_s = rows * row_s;
+        let effect = "[[effect]]\nname = \"actuation-latency\"\n[effect.parameters]\nlatency_s";
+        let stated = format!("{}{effect} = {late_s}\n", file(row_s));
+        let a = logged_by(&stated, seed, row_s, [0.0, 0.0, late_s]);
+        assert_eq!((a.verdict, &names(&a)[..]), (Verdict::Agrees, &[][..]), "{rows}: {}", a.terminal_summary());
+    }
 }
 
 /// The motor's own lag is over in a row, and what comes of a filter is that of an inertia.
