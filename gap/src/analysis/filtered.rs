@@ -40,17 +40,24 @@ fn motor_s(named: &[Named], model: &DriveModel) -> Option<[f64; 2]> {
     Some([file_s, file_s + heavier * model.inertia_of_scale(0) / braking])
 }
 
-/// A motor whose time constant by its file is no longer than a row does not show beside a filter that is: an inertia then does
+/// Rows that a motor may take by its file without showing beside a filter: one, and the half by which the age of rows is known,
+/// for as late as a motor is a speed of the row before is as well. A motor of 1.2 rows behind a filter of three was one of 2.7
+/// times its inertia, next to the noise.
+const HIDDEN_ROWS: f64 = 1.5;
+
+/// A motor whose time constant by its file is about a row does not show beside a filter that is longer: an inertia then does
 /// the same as the filter. `late_s` is the age that logged speeds are taken to have by themselves.
 pub(super) fn in_place_of_inertia(named: &[Named], model: &DriveModel, row_s: f64, late_s: f64) -> Option<LookAlike> {
     let [file_s, now_s] = motor_s(named, model)?;
     // Both are as late.
     let late_s = now_s + late_s - file_s;
-    let hidden = parameter(named, FILTER).is_none() && file_s <= row_s && (row_s..=filter_s(row_s)).contains(&late_s);
+    let hidden = parameter(named, FILTER).is_none()
+        && file_s <= HIDDEN_ROWS * row_s
+        && (row_s..=filter_s(row_s)).contains(&late_s);
     hidden.then(|| {
         let said = format!(
             "A filter and an inertia may change places: a {FILTER} of {:.1} ms with the inertia of the file does the same as \
-             what is named, for by the file the motor is done within a row. Log counts, or speeds without the filter, to tell.",
+             what is named, for by the file the motor is done within about a row. Log counts, or speeds without the filter, to tell.",
             1e3 * late_s
         );
         LookAlike::open(said, &[INERTIA, FILTER])

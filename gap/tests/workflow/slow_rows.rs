@@ -87,11 +87,11 @@ fn a_latency_that_the_file_states_is_no_age_of_the_rows() {
     }
 }
 
-/// The motor's own lag is over in a row, and what comes of a filter is that of an inertia.
+/// The motor's own lag is over in a row, or half a row more, and what comes of a filter is that of an inertia.
 #[test]
 fn a_filter_beside_a_motor_that_follows_within_a_row_may_be_an_inertia() {
-    for (seed, filter_s) in [(5, 0.06), (6, 0.09)] {
-        let a = logged(seed, 0.025, 0.0, filter_s);
+    for (seed, row_s, filter_s) in [(5, 0.025, 0.06), (6, 0.025, 0.09), (25, 0.018, 0.06), (26, 0.016, 0.05)] {
+        let a = logged(seed, row_s, 0.0, filter_s);
         let own = names(&a).contains(&"speed-filter");
         let tied = a
             .alternatives
