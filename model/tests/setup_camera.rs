@@ -161,3 +161,72 @@ fn wheels_that_all_turn_the_other_way_are_one_mistake() {
         }
     }
 }
+
+/// What a robot of two wheels does is the mirror image of what it does with its wheels exchanged.
+#[test]
+fn wheels_that_seem_exchanged_may_be_mirrored_poses() {
+    let said = told(|p| Pose::new(p.x, -p.y, -p.theta - PI));
+    assert!(said.len() == 1 && said[0].contains("enc_1 and enc_2 are swapped"), "{said:?}");
+    assert!(said[0].contains("the poses are mirrored") && said[0].contains("headings = \"clockwise\""), "{said:?}");
+}
+
+/// The robot's own odometry in the columns of the camera agrees with any wheels.
+#[test]
+fn poses_that_were_computed_from_the_counts_are_told() {
+    let robot = Robot::racbot();
+    let geometry = robot.geometry().unwrap();
+    let mut set = DataSet { folder: "simulated".into(), robot: robot.clone(), runs: Vec::new() };
+    for (seed, manoeuvre) in [Manoeuvre::Star, Manoeuvre::Chirp].into_iter().enumerate() {
+        let start = Pose::new(0.4, -0.3, 0.5);
+        set.runs.push(simulate(manoeuvre, &Applied::of(&robot), &robot, start, 90 + seed as u64).unwrap());
+    }
+    // By a firmware whose wheels are 4 % smaller than the file's, of this row's counts or those of the row before.
+    let reckoned = |late: usize| {
+        let mut set = set.clone();
+        for run in &mut set.runs {
+            let mut poses = vec![run.camera[0].pose];
+            for k in 1..run.len() {
+                let turned: Vec<f64> =
+                    run.counts.iter().map(|n| 0.96 * (n[k] - n[k - 1]) as f64 / robot.counts_per_wheel_rad()).collect();
+                let (step, at) = (geometry.twist(&turned), poses[k - 1]);
+                let middle = at.theta + 0.5 * step.omega;
+                let (sin, cos) = middle.sin_cos();
+                let to = [cos * step.vx - sin * step.vy, sin * step.vx + cos * step.vy];
+                poses.push(Pose::new(at.x + to[0], at.y + to[1], runs::frames::wrap_angle(at.theta + step.omega)));
+            }
+            run.camera.iter_mut().for_each(|sample| sample.pose = poses[sample.tick.saturating_sub(late)]);
+        }
+        set
+    };
+    let said = |set: &DataSet| mistakes(&Logs::from(set)).iter().map(Mistake::sentence).collect::<Vec<_>>();
+    for late in [0, 1] {
+        let said = said(&reckoned(late));
+        assert!(said.len() == 1 && said[0].contains("computed from these counts"), "{said:?}");
+    }
+    // Places alone, of two wheels: of a drive of others, whose own camera says nothing of the kind.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/real/differential-squares");
+    let mut two = DataSet::open(&folder).unwrap();
+    two.runs.iter_mut().for_each(|run| run.source.positions_only = true);
+    assert!(!said(&two).iter().any(|s| s.contains("computed")), "{:?}", said(&two));
+    let geometry = two.robot.geometry().unwrap();
+    for run in &mut two.runs {
+        let mut at = run.camera[0].pose;
+        let mut poses = vec![at];
+        for k in 1..run.len() {
+            let turned: Vec<f64> =
+                run.counts.iter().map(|n| (n[k] - n[k - 1]) as f64 / two.robot.counts_per_wheel_rad()).collect();
+            let step = geometry.twist(&turned);
+            let ahead = at.theta + 0.5 * step.omega + 0.5 * PI;
+            at = Pose::new(at.x + step.vy * ahead.cos(), at.y + step.vy * ahead.sin(), at.theta + step.omega);
+            poses.push(at);
+        }
+        run.camera.iter_mut().for_each(|sample| sample.pose = poses[sample.tick]);
+    }
+    let told = said(&two);
+    assert!(told.len() == 1 && told[0].contains("computed from these counts"), "{told:?}");
+    // Poses that are as exact, and know nothing of how the counts of the log are rounded.
+    let mut finer = reckoned(0);
+    finer.robot.encoder_counts_per_motor_rev /= 8.0;
+    finer.runs.iter_mut().flat_map(|run| &mut run.counts).flatten().for_each(|n| *n = n.div_euclid(8));
+    assert_eq!(said(&finer), Vec::<String>::new());
+}

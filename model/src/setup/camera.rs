@@ -57,6 +57,10 @@ const ONE_SENSE: f64 = 1.6;
 /// Turn of the body frame that marker plates and skews may have, rad.
 const TRUE_TURN: f64 = 0.6;
 
+/// What wheels that are the robot's mirror image may be as well.
+const MIRRORED: &str = "; or, which looks the same, the poses are mirrored: y points to the other side and headings grow clockwise, \
+                        in a map [frame] y = \"down\" with headings = \"clockwise\"";
+
 /// How the columns of the camera are read.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Reading {
@@ -485,8 +489,11 @@ fn named(robot: &Robot, fit: &Fit, spin: Option<f64>, before: &[Mistake]) -> Vec
             let remedy = "change the sign of these counts alone (scale = -1 in the map)";
             found.push(new("encoder-order", &column, what, remedy));
         } else {
-            let remedy = "mend the wiring, the columns of the log or the order of [[wheel]]";
-            found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, remedy) });
+            let mut remedy = "mend the wiring, the columns of the log or the order of [[wheel]]".to_owned();
+            if robot.geometry().is_ok_and(|geometry| orders::mirrors(&geometry, &fit.order)) {
+                remedy += MIRRORED;
+            }
+            found.push(Mistake { nameable: true, ..new("encoder-order", &column, what, &remedy) });
         }
     }
     if fit.turn.abs() > TRUE_TURN && !half_a_turn {

@@ -16,6 +16,7 @@ mod inertial;
 mod loops;
 mod motors;
 mod orders;
+mod reckoned;
 mod samples;
 mod signals;
 mod slips;
@@ -114,6 +115,11 @@ pub fn mistakes(set: &Logs) -> Vec<Mistake> {
         return found;
     }
     let mut found = drive::mistakes(&robot, &set.logs);
+    if let Some(reckoned) = reckoned::mistakes(&robot, &set.logs) {
+        // What such poses say of the wheels is what the counts say.
+        found.push(reckoned);
+        return found;
+    }
     found.extend(camera::mistakes(&robot, &set.logs, &found));
     let reversed = turns::mistakes(&robot, &set.logs, &found);
     if !reversed.is_empty() {

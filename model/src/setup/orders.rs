@@ -1,5 +1,10 @@
 //! Signed permutations of wheels.
 
+use runs::geometry::Geometry;
+
+/// Share of a wheel's part in the motion by which two of them are no mirror images: drawings are rounded.
+const SAME: f64 = 0.01;
+
 /// Wheel and sign that every row of a log may truly be of: all orders with all signs (8 for two wheels, 48 for three, 384
 /// for four), the given one first; for more wheels than four only single reversals and swaps.
 pub fn orders(wheels: usize) -> Vec<Vec<(usize, f64)>> {
@@ -57,4 +62,23 @@ pub(super) fn words(order: &[(usize, f64)]) -> String {
         }
     }
     parts.join(", ")
+}
+
+/// Whether an order makes of what the counts say its mirror image, along the robot or across: poses that are mirrored look the same.
+pub(super) fn mirrors(geometry: &Geometry, order: &[(usize, f64)]) -> bool {
+    let wheels = order.len();
+    let alone = |wheel: usize, turned: f64| {
+        let mut turns = vec![0.0; wheels];
+        turns[wheel] = turned;
+        let twist = geometry.twist(&turns);
+        [twist.vx, twist.vy, twist.omega]
+    };
+    let largest = (0..wheels).flat_map(|i| alone(i, 1.0)).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let by = |mirror: [f64; 3]| {
+        order.iter().enumerate().all(|(i, (wheel, sign))| {
+            let [image, ordered] = [alone(i, 1.0), alone(*wheel, *sign)];
+            (0..3).all(|k| (mirror[k] * image[k] - ordered[k]).abs() < SAME * largest)
+        })
+    };
+    by([-1.0, 1.0, -1.0]) || by([1.0, -1.0, -1.0])
 }

@@ -134,6 +134,43 @@ pub(super) fn begins_again(wanted: &Wanted, values: &[f64]) -> Option<String> {
     ))
 }
 
+/// Steps of an angle that show their size, and how well each must be a multiple of it.
+const STEPS: usize = 200;
+const MULTIPLE: f64 = 0.1;
+/// Counts in a step, up to which rounding to whole counts makes steps uneven by a tenth and more.
+const COARSE: f64 = 5.0;
+/// Part of a count that a step may have beside whole ones: in the range of a joint it makes one count, or next to none.
+const WHOLE: f64 = 0.02;
+
+/// What the owner of an angle should know whose steps are a few of the map's counts and a part of one: in whole counts some are
+/// longer than others, which repeats with the angle as cogs of a motor do. An actuator's protocol had 2155.87 steps a turn, and
+/// in 4096 counts a ripple of 11 % of the speed, 216 times a turn.
+pub(super) fn has_steps(wanted: &Wanted, values: &[f64]) -> Option<String> {
+    let turn = wanted.turn.filter(|_| matches!(wanted.column, Column::Counts(_)) && !wanted.increments)?;
+    let steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|step| *step > 1e-9 * turn).collect();
+    let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+    let few: Vec<f64> = steps.into_iter().filter(|step| *step < 0.5 * least / MULTIPLE).collect();
+    let whole = |step: f64, size: f64| (step / size - (step / size).round()).abs() < MULTIPLE;
+    if few.len() < STEPS || !few.iter().all(|step| whole(*step, least)) {
+        return None;
+    }
+    let multiples: f64 = few.iter().map(|step| (step / least).round()).sum();
+    let size = few.iter().sum::<f64>() / multiples;
+    let counts = (wanted.factor * size).abs();
+    let part = (counts - counts.round()).abs();
+    if !(1.0..COARSE).contains(&counts) || part < WHOLE {
+        return None;
+    }
+    Some(format!(
+        "{}: {:?} goes in steps, {:.3} counts each, which whole counts make uneven, as a ripple of the machine would: say \
+         counts_per_rev = {:.1} in the map, and the same in robot.toml",
+        wanted.column.name(),
+        wanted.from,
+        counts,
+        turn / size
+    ))
+}
+
 /// The sign, at some times, of a series that has one: its last sample's, and where that is 0 the one before; of a series of
 /// nothing but 0 and 1, a direction, 0 is backwards.
 pub(super) fn signs(of: &Series, at: &[f64]) -> Vec<f64> {
@@ -315,6 +352,30 @@ mod tests {
             [2, 0, 2, 0, 2, 0, 2, 90],
         ] {
             assert_eq!(made(map, &table(kept)).unwrap().counts[0], kept);
+        }
+    }
+
+    #[test]
+    fn an_angle_whose_steps_are_no_whole_counts_is_told() {
+        let told = |counts_per_rev: f64, steps_per_rev: f64| {
+            let angle = |k: f64| std::f64::consts::TAU / steps_per_rev * (300.0 * (0.01 * k).sin()).round();
+            let rows: String = (0..2000).map(|k| format!("{k},{:.6}\n", angle(f64::from(k)))).collect();
+            let folder = tempfile::tempdir().unwrap();
+            let [map, log] = ["map.toml", "log.csv"].map(|name| folder.path().join(name));
+            let column = format!("{{ from = \"p\", unit = \"rad\", counts_per_rev = {counts_per_rev} }}");
+            std::fs::write(&map, format!("[columns]\nenc_1 = {column}\n")).unwrap();
+            std::fs::write(&log, format!("t,p\n{rows}")).unwrap();
+            Map::load(&map).unwrap().import(&log, None).unwrap().remarks
+        };
+        // Positions of 16 bits over 191 rad.
+        let steps = std::f64::consts::TAU * 65535.0 / 191.0;
+        let [said] = &told(4096.0, steps)[..] else { panic!("no remark, or several") };
+        assert!(said.contains("1.900 counts each") && said.contains("counts_per_rev = 2155.9"), "{said}");
+        // Counts as they are, twice and a hundred times as many, and fewer.
+        for (counts, steps) in
+            [(4096.0, 4096.0), (2155.87, steps), (8192.0, 4096.0), (215_587.0, steps), (1000.0, 4096.0)]
+        {
+            assert_eq!(told(counts, steps), Vec::<String>::new(), "{counts} {steps}");
         }
     }
 

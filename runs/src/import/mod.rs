@@ -30,6 +30,7 @@ mod ssl;
 mod sysid;
 mod time;
 mod titles;
+mod trace;
 mod track;
 mod truth;
 mod units;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::columns::{RATES, Source, constants, wanted};
 use super::csv::{COARSE, coarse};
-use super::fill::{Wanted, begins_again, chain, counts, integrate, is_not_read, signs, unwrapped};
+use super::fill::{Wanted, begins_again, chain, counts, has_steps, integrate, is_not_read, signs, unwrapped};
 use super::frame::{Axis, Frame, Sense, Up};
 use super::time::{Time, nanoseconds};
 use super::{Format, Series, Table, misread, units};
@@ -86,7 +86,10 @@ impl Reading {
         let wanted = wanted(&self.columns).unwrap_or_default();
         let of_column = |w: &Wanted| {
             let Series { t, values, .. } = table.find(w.from)?;
-            is_not_read(w, values).or_else(|| begins_again(w, values)).or_else(|| misread::remark(w, t, values))
+            is_not_read(w, values)
+                .or_else(|| begins_again(w, values))
+                .or_else(|| has_steps(w, values))
+                .or_else(|| misread::remark(w, t, values))
         };
         let of_columns = wanted.iter().filter_map(of_column);
         let crowded = wanted.iter().filter_map(|w| table.find(w.from)).map(|s| (crowded(s), s.t.len())).max();

@@ -46,6 +46,9 @@ impl<'a> Sheet<'a> {
         if let Some((names, rows)) = super::labelled::table(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
+        if let Some((names, rows)) = super::trace::table(bytes) {
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
         if let Some((names, rows)) = lying(bytes) {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }

@@ -21,25 +21,31 @@ pub(super) fn meant(table: &Table, series: &Series) -> Option<String> {
         .or_else(|| of_motors().then(|| format!("motor {}", series.name)))
 }
 
-/// What a part of a list is: of `robot/pose/1`, 2 and 3 x, y and heading, and of velocities that were asked for beside such a
-/// pose those of the body. Of several poses in a file the robot's, if one is called so.
+/// What a part of a list is: of `robot/pose/1`, 2 and 3, or `tracker_pose_1`, x, y and heading, and of velocities that were asked
+/// for beside such a pose those of the body. Of several poses in a file the robot's, if one is called so, or the tracker's.
 fn part_of_three(table: &Table, name: &str) -> Option<String> {
+    const BETWEEN: [char; 2] = ['/', '_'];
     let is_three = |list: &str| {
-        let has = |n: usize| table.series.iter().any(|other| other.name == format!("{list}/{n}"));
+        let has = |n: usize| BETWEEN.iter().any(|b| table.series.iter().any(|s| s.name == format!("{list}{b}{n}")));
         has(1) && has(2) && has(3) && !has(4)
     };
-    let (list, part) = name.rsplit_once('/')?;
+    let (list, part) = name.rsplit_once(BETWEEN)?;
     let part = part.parse::<usize>().ok().filter(|n| (1..=3).contains(n) && is_three(list))? - 1;
-    let (owner, what) = list.rsplit_once('/').unwrap_or(("", list));
-    let pose_of = |list: &str| list.strip_suffix("pose").map(|owner| owner.trim_end_matches('/').to_owned());
-    let firsts = table.series.iter().filter_map(|other| other.name.strip_suffix("/1"));
+    let pose_of = |list: &str| list.strip_suffix("pose").map(|owner| owner.trim_end_matches(BETWEEN).to_owned());
+    let (owner, what) = match pose_of(list) {
+        Some(owner) => (owner, "pose"),
+        None => list.rsplit_once('/').map_or((String::new(), list), |(owner, what)| (owner.to_owned(), what)),
+    };
+    let firsts = table.series.iter().filter_map(|other| other.name.strip_suffix('1')?.strip_suffix(BETWEEN));
     let owners: Vec<String> = firsts.filter(|list| is_three(list)).filter_map(pose_of).collect();
-    let is_robot = |owner: &str| words(&owner.to_lowercase()).contains(&"robot");
-    if !owners.iter().any(|other| other == owner) {
+    if !owners.contains(&owner) {
         return None;
     }
-    if owners.iter().any(|other| is_robot(other)) && !is_robot(owner) {
-        return Some("another".to_owned());
+    let called = |owner: &String, name: &str| words(&owner.to_lowercase()).contains(&name);
+    for name in ["robot", "tracker"] {
+        if owners.iter().any(|other| called(other, name)) && !called(&owner, name) {
+            return Some("another".to_owned());
+        }
     }
     let lower = spaced(what).to_lowercase();
     let words = words(&lower);

@@ -643,6 +643,21 @@ fn a_pose_that_is_a_list_has_its_parts() {
     assert!(!pushing.contains("\nref_1"), "{pushing}");
 }
 
+/// Lines with every number after its name: a tricycle's own reckoning beside a tracker of its laser.
+#[test]
+fn of_two_poses_in_lists_the_trackers_is_the_cameras() {
+    let line = |k: u32| {
+        let (x, y) = (0.1 * f64::from(k), 0.02 * f64::from(k * k));
+        format!("time: {k}.5 ticks: {} {} model_pose: {x} {y} 0.1 tracker_pose: {y} {x} 0.2\n", 290 + k, 4000 + 7 * k)
+    };
+    let text: String = (0..40).map(line).collect();
+    let tricycle = draft(&Table::of_bytes(text.as_bytes(), Path::new("x.txt"), None, &Clock::default()).unwrap());
+    for line in ["cam_x = \"tracker_pose_1\"", "cam_y = \"tracker_pose_2\"", "cam_theta = \"tracker_pose_3\""] {
+        assert!(tricycle.contains(line), "{line}\n{tricycle}");
+    }
+    assert!(!tricycle.contains("= \"model_pose"), "{tricycle}");
+}
+
 /// Of a driver that measures no efforts.
 #[test]
 fn what_drives_is_left_open_where_it_is_never_anything_but_0() {
