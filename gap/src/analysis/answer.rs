@@ -45,8 +45,8 @@ impl Workflow<'_> {
         }
         let remains = if odd_clock { Vec::new() } else { self.remains(&links, &located, &felt) };
         if self.findings.named.is_empty() {
-            let most = self.thresholds.blind;
-            let blind = |l: &LinkGap| gaps::blind(l.link, &self.findings.limits, self.data.catalogue, most);
+            let (limits, robot) = (&self.findings.limits, &self.question.robot);
+            let blind = |l: &LinkGap| gaps::blind(l, limits, self.data.catalogue, robot, &self.thresholds);
             weightless.extend(links.iter().filter(|l| l.link.is_fitted()).filter_map(blind));
         }
         let counts = |l: &&LinkGap| !weightless.iter().any(|w| w.0 == l.link) && l.link != Link::Timing;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use runs::robot::Support;
+use runs::robot::{Robot, Support};
 
 use super::found::{LinkGap, Named};
 use crate::exact::ExactLink;
@@ -228,7 +228,14 @@ fn least_limits<'a>(link: Link, limits: &'a [Limit], catalogue: &[Arc<dyn Effect
 }
 
 /// Why it says nothing that no effect shows on a link: what would be named there is many times what matters.
-pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>], most: f64) -> Option<(Link, String)> {
+pub(super) fn blind(
+    gap: &LinkGap,
+    limits: &[Limit],
+    catalogue: &[Arc<dyn Effect>],
+    robot: &Robot,
+    thresholds: &Thresholds,
+) -> Option<(Link, String)> {
+    let (link, most) = (gap.link, thresholds.blind);
     let least = least_limits(link, limits, catalogue);
     let named = match least.get(least.len() / 2) {
         Some((ratio, _)) if *ratio > most => {
@@ -237,10 +244,16 @@ pub(super) fn blind(link: Link, limits: &[Limit], catalogue: &[Arc<dyn Effect>],
         Some(_) => return None,
         None => "these logs are too short for anything to be named there".to_owned(),
     };
-    let why = format!(
+    let mut why = format!(
         "Compared next to nothing on the {} link: {named}; log longer, more runs, and both directions at several speeds.",
         link.name()
     );
+    // Behind a rotor that is a thirtieth of what turns no law shows: neither friction nor the weight of an arm.
+    let rotor_alone = robot.support == Support::Blocks && robot.wheel_inertia_kg_m2 == 0.0;
+    if link == Link::Drive && rotor_alone && gap.before > thresholds.far_left {
+        why += " The file has the rotor alone (wheel_inertia_kg_m2 = 0): where the axis moves an arm or another load, write its \
+                inertia.";
+    }
     Some((link, why))
 }
 
@@ -281,6 +294,27 @@ pub(super) fn waterfall(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_axis_that_shows_nothing_may_have_a_load_that_its_file_lacks() {
+        let said = |before: f64, link: Link, robot: &Robot| {
+            let (floor, rms) = (vec![1e-4], vec![[1e-4 * before; 2]]);
+            let gap = LinkGap { link, before, after: before, floor, rms, units: vec!["Nm"], signals: 1 };
+            blind(&gap, &[], &[], robot, &Thresholds::default()).unwrap().1
+        };
+        let axis = Robot { support: Support::Blocks, ..Robot::racbot() };
+        let loaded = Robot { wheel_inertia_kg_m2: 0.3, ..axis.clone() };
+        let hinted = |said: String| said.contains("wheel_inertia_kg_m2 = 0");
+        assert!(hinted(said(70.9, Link::Drive, &axis)));
+        for (before, link, robot) in [
+            (1.2, Link::Drive, &axis),
+            (70.9, Link::Motion, &axis),
+            (70.9, Link::Drive, &loaded),
+            (70.9, Link::Drive, &Robot::racbot()),
+        ] {
+            assert!(!hinted(said(before, link, robot)), "{before} {}", link.name());
+        }
+    }
 
     #[test]
     fn what_leaves_tens_of_floors_must_close_most_of_a_gap_to_explain_it() {
