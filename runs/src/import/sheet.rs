@@ -43,13 +43,8 @@ impl<'a> Sheet<'a> {
         if let Some(rows) = barred(bytes) {
             return Self { names: None, rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
-        if let Some((names, rows)) = super::labelled::table(bytes) {
-            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
-        }
-        if let Some((names, rows)) = super::trace::table(bytes) {
-            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
-        }
-        if let Some((names, rows)) = lying(bytes) {
+        let own_layout = super::labelled::table(bytes).or_else(|| super::trace::table(bytes)).or_else(|| lying(bytes));
+        if let Some((names, rows)) = own_layout {
             return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
         }
         if let Some((names, rows)) = super::scope::table(bytes) {
