@@ -91,7 +91,7 @@ impl Extractor<'_> {
         format!("X{}Y{}_{stem}", found.column, found.row)
     }
 
-    /// The name of an output's pin.
+    /// As the device's classes have it; empty where a class has no such element.
     pub(super) fn pin_name(&self, output: Output) -> &'static str {
         let bel = self.device.class(output.tile).bel(output.kind, output.index);
         bel.map_or("", |bel| bel.pins[usize::from(output.pin)].name)

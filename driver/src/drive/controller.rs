@@ -24,7 +24,7 @@ const PAPER_TOLERANCE_M: f64 = 0.05;
 pub enum Controller {
     /// With limits.
     Follower(Box<Follower>),
-    /// The paper's.
+    /// Positions by the controller of the 2005 paper, one set point after the other.
     Paper {
         /// Turns set points and poses into velocities of the body.
         motion: MotionController,

@@ -44,7 +44,7 @@ pub const HEADER_BYTES: usize = 4;
 pub const WRITE_BYTES: usize = 5;
 /// Length of the CRC-32 at the end of a frame.
 pub const CRC_BYTES: usize = 4;
-/// Bytes of the longest frame.
+/// Bytes of a frame with [`MAX_WRITES`] register writes.
 pub const LONGEST_FRAME: usize = HEADER_BYTES + MAX_WRITES * WRITE_BYTES + CRC_BYTES;
 /// Clocks a bit on the line: 115,340 baud at 33.33 MHz, 114,187 on the open board's 33 MHz.
 pub const CLOCKS_PER_BIT: u16 = 289;

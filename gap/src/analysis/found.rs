@@ -123,7 +123,7 @@ pub struct Analysis {
     pub nearest: Vec<String>,
     /// What to do next.
     pub next_experiment: Option<crate::experiment::Experiment>,
-    /// Gap per link.
+    /// How far what was compared is from its noise, by the file and with what is named.
     pub links: Vec<LinkGap>,
     /// Detection limits, and what is detectable but immaterial.
     pub limits: Vec<Limit>,

@@ -33,7 +33,7 @@ enum Axes {
 }
 
 impl<'a> Base<'a> {
-    /// Of a model at a segment.
+    /// Nothing is worked out before it is asked for.
     pub(super) fn new(model: &'a DriveModel, segment: &'a Segment) -> Self {
         Self { model, segment, forces: OnceLock::new(), signals: OnceLock::new() }
     }

@@ -207,7 +207,7 @@ impl DriveModel {
         }
     }
 
-    /// Adds an effect in one of its forms.
+    /// What it does joins the model's terms; of a load also what each parameter does at 1.
     pub fn add(&mut self, effect: &dyn Effect, values: &Values, form: &Form) {
         let terms = |m: &Self| [m.loads.len(), m.duty_maps.len(), m.supply_maps.len(), m.prepare.len()];
         let before = terms(self);

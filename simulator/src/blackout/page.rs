@@ -18,7 +18,7 @@ td,th{text-align:left;padding:.25rem .6rem .25rem 0;border-bottom:1px solid #e2e
 .v{font-size:1.15rem;background:#eef4f8;padding:.8rem;border-left:5px solid #0072b2}\
 .g{display:grid;grid-template-columns:repeat(auto-fit,minmax(19rem,1fr));gap:1rem}figure{margin:0}figcaption{color:#444;font-size:.85rem}";
 
-/// Name of the picture of a number, from 0.
+/// Path of a frame below the page's folder, counted from 0.
 #[must_use]
 pub fn picture_name(number: usize) -> String {
     format!("pictures/{number:04}.jpg")

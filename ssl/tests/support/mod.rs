@@ -45,7 +45,7 @@ pub(crate) fn local(id: u32, forward: f32, left: f32, angular: f32) -> RobotComm
     moves(id, MoveCommand::LocalVelocity(MoveLocalVelocity { forward, left, angular }))
 }
 
-/// A robot's command.
+/// One that neither kicks nor dribbles.
 pub(crate) fn moves(id: u32, command: MoveCommand) -> RobotCommand {
     RobotCommand { id, move_command: Some(RobotMoveCommand { command: Some(command) }), ..RobotCommand::default() }
 }

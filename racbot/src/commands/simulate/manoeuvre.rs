@@ -11,7 +11,7 @@ use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// A manoeuvre's name.
+/// As the command line says it; what is none is told which there are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Name(pub(super) Manoeuvre);
 
