@@ -18,6 +18,8 @@ pub struct Penalised<'a> {
     /// Variance the residuals really have, in units of the assumed noise.
     variance: f64,
     totals: Arc<Totals>,
+    /// Of the step along each held column; none are limited where there are no limits.
+    limits: Vec<[f64; 2]>,
 }
 
 /// Step along all columns and what it costs.
@@ -47,7 +49,15 @@ pub enum Role {
 impl<'a> Penalised<'a> {
     /// Sums over the clusters once.
     pub fn new(equations: &'a NormalEquations, variance: f64) -> Self {
-        Self { equations, variance, totals: equations.totals() }
+        Self { equations, variance, totals: equations.totals(), limits: Vec::new() }
+    }
+
+    /// The same where what is held stays within limits, one a column, whatever else a fit is asked: no robot has a little of
+    /// what cannot be. They hold the step 0.
+    #[must_use]
+    pub fn within(mut self, limits: Vec<[f64; 2]>) -> Self {
+        self.limits = limits;
+        self
     }
 
     /// What the data say of one column: its sum of squares.
@@ -60,7 +70,7 @@ impl<'a> Penalised<'a> {
 
     /// The best step with these roles.
     pub fn fit(&self, roles: &[Role]) -> PenalisedFit {
-        let (step, columns) = self.solve(&self.totals.jj, &self.totals.jr, roles);
+        let (step, columns) = self.limited(&self.totals.jj, &self.totals.jr, roles);
         self.rated(step, &columns, roles)
     }
 
@@ -85,7 +95,7 @@ impl<'a> Penalised<'a> {
     /// The best steps with each fold left out in turn.
     pub fn left_out(&self, roles: &[Role]) -> Vec<DVector<f64>> {
         let without = |(_, jj, jr): &(usize, DMatrix<f64>, DVector<f64>)| {
-            self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles).0
+            self.limited(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles).0
         };
         self.totals.folds.iter().map(without).collect()
     }
@@ -100,7 +110,8 @@ impl<'a> Penalised<'a> {
         let jj = &self.totals.jj;
         let totals =
             Totals { jr: jj.column(column).into_owned(), rr: jj[(column, column)], jj: jj.clone(), folds: Vec::new() };
-        let wanted = Self { equations: self.equations, variance: self.variance, totals: Arc::new(totals) };
+        let wanted =
+            Self { equations: self.equations, variance: self.variance, totals: Arc::new(totals), limits: Vec::new() };
         wanted.fit(&roles)
     }
 
@@ -124,7 +135,7 @@ impl<'a> Penalised<'a> {
             return out;
         }
         for (fold, jj, jr) in &self.totals.folds {
-            let (step, columns) = self.solve(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles);
+            let (step, columns) = self.limited(&(&self.totals.jj - jj), &(&self.totals.jr - jr), roles);
             for (i, c) in self.equations.clusters.iter().enumerate().filter(|(i, _)| self.equations.folds[*i] == *fold)
             {
                 let (mut linear, mut square) = (0.0, 0.0);
@@ -241,6 +252,39 @@ impl<'a> Penalised<'a> {
         out
     }
 
+    /// The step with what is held inside its limits: what leaves them is stopped there, and let go where it would come back
+    /// by itself (active sets). Ends after as many rounds as there are columns at most: from then on nothing is let go.
+    fn limited(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
+        let mut stopped = roles.to_vec();
+        let held: Vec<(usize, f64, f64)> = (0..self.limits.len().min(roles.len()))
+            .filter_map(|c| if let Role::Held(sd, at) = roles[c] { Some((c, sd, at)) } else { None })
+            .collect();
+        for round in 0.. {
+            let (step, columns) = self.solve(jj, jr, &stopped);
+            let mut changed = false;
+            for (c, sd, at) in &held {
+                let [low, high] = self.limits[*c];
+                if matches!(stopped[*c], Role::Held(..)) {
+                    if step[*c] < low || step[*c] > high {
+                        stopped[*c] = Role::At(step[*c].clamp(low, high));
+                        changed = true;
+                    }
+                } else if round < roles.len() {
+                    let pulled = columns.iter().map(|q| jj[(*c, *q)] * step[*q]).sum::<f64>();
+                    let inward = jr[*c] - pulled - self.variance / (sd * sd) * (step[*c] + at);
+                    if step[*c] == low && inward > 0.0 || step[*c] == high && inward < 0.0 {
+                        stopped[*c] = roles[*c];
+                        changed = true;
+                    }
+                }
+            }
+            if !changed {
+                return (step, columns);
+            }
+        }
+        unreachable!("what is only stopped ends")
+    }
+
     fn solve(&self, jj: &DMatrix<f64>, jr: &DVector<f64>, roles: &[Role]) -> (DVector<f64>, Vec<usize>) {
         let told = |i: usize| self.totals.jj.get((i, i)).is_some_and(|x| *x > 0.0);
         let used = |i: &usize| roles[*i] != Role::Out && told(*i);
@@ -314,6 +358,31 @@ mod tests {
             assert_eq!(penalised.inverse_diagonal(&roles)[2], 0.0);
         }
         assert_eq!(Penalised::new(&none, 1.0).covariance(&roles, &Penalised::new(&none, 1.0).fit(&roles)).amax(), 0.0);
+    }
+
+    #[test]
+    fn what_is_held_stays_within_its_limits() {
+        let equations = equations();
+        let held = [Role::Held(10.0, 0.0), Role::Free];
+        let step = |roles: &[Role], limits: [f64; 2]| {
+            let penalised = Penalised::new(&equations, 1.0).within(vec![limits, [-1.0, 1.0]]);
+            penalised.fit(roles)
+        };
+        // Stopped at its limit, with the price of that; the free one, which limits do not touch, takes the rest.
+        let stopped = step(&held, [-1.0, 0.5]);
+        assert!((stopped.step[0] - 0.5).abs() < 1e-12 && (stopped.step[1] - 3.5).abs() < 1e-6, "{}", stopped.step);
+        assert!((stopped.penalty - 0.0025).abs() < 1e-9, "{}", stopped.penalty);
+        let inside = step(&held, [-9.0, 9.0]);
+        assert!((inside.step[0] - Penalised::new(&equations, 1.0).fit(&held).step[0]).abs() < 1e-12);
+        // Both leave their limits at first; where the second is stopped, the first comes back by itself.
+        let columns = DMatrix::from_fn(40, 2, |r, c| if c == 0 { 1.0 } else { 1.0 + 0.5 * (r % 2) as f64 });
+        let residual = &columns * DVector::from_column_slice(&[-1.0, 4.0]);
+        let equations = NormalEquations::new(vec![Cluster::new(0, 0.0, 1e3, &residual, &columns)]);
+        let both = [Role::Held(100.0, 0.0); 2];
+        let fit = Penalised::new(&equations, 1.0).within(vec![[0.0, 9.0], [0.0, 1.0]]).fit(&both);
+        // With the second at 1 the first takes the mean of what that leaves: -1 + 3·(1 + 1.5)/2.
+        let expected = -1.0 + 3.0 * 1.25;
+        assert!((fit.step[0] - expected).abs() < 1e-3 && (fit.step[1] - 1.0).abs() < 1e-12, "{}", fit.step);
     }
 
     #[test]

@@ -73,6 +73,9 @@ thresholds! {
     held_share: f64 = 0.25,
     /// The same for effects that are switched on, as a share of the size they are tried at.
     held_switch: f64 = 0.15,
+    /// Standard deviations that it may go beyond its bounds, as laws that are not exact ask for: with 2 of them friction of simulated
+    /// arms lost its name to theirs. Duties that acted early by five hid an axis that was a third lighter.
+    held_beyond: f64 = 3.0,
     /// Share of a named effect that an effect of the same look may have without being named, where the law is one of
     /// friction or motors.
     law_share: f64 = 0.08,

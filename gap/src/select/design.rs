@@ -293,8 +293,27 @@ impl Design {
         self.linear.equations.clusters.iter().map(of).collect()
     }
 
+    /// How far a margin of so many a standard deviation goes: hardly beyond what is physical, and what the log leaves open.
+    /// Of what has no little within its bounds, as duties that are logged a row late, only what the log leaves open; what undoes
+    /// it, as duties that act late by a part of a row, may be.
+    fn limits_of(&self, candidate: &Active, parameter: usize, sd: f64) -> [f64; 2] {
+        let p = &candidate.form.free[parameter];
+        let [low, high] = p.bounds;
+        if candidate.switched() {
+            let little = |start: f64| (low..=high).contains(&(sd * start));
+            let none = p.start.filter(|start| p.below.is_none() && !little(*start));
+            return [f64::NEG_INFINITY, none.map_or(f64::INFINITY, |start| p.open / start.abs())];
+        }
+        let beyond = p.open + self.thresholds.held_beyond * sd;
+        [low - beyond, high + beyond]
+    }
+
     pub(super) fn penalised(&self) -> Penalised<'_> {
-        Penalised::new(&self.linear.equations, self.variance)
+        let limits = self.linear.owners.iter().zip(&self.held).map(|(owner, role)| match (*owner, *role) {
+            (Owner::Candidate(c, j), Role::Held(sd, _)) => self.limits_of(&self.candidates[c], j, sd),
+            _ => [f64::NEG_INFINITY, f64::INFINITY],
+        });
+        Penalised::new(&self.linear.equations, self.variance).within(limits.collect())
     }
 
     /// By which it was made.
