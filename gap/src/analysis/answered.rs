@@ -1,39 +1,62 @@
 //! Speed loops with logged set points: whether their duties answer what no model has.
 
+use std::sync::Arc;
+
 use super::measure::Drive;
-use super::study::Outcome;
+use super::study::{self, Outcome};
 use super::workflow::Workflow;
 use crate::problem::Problem;
 use crate::state::{Active, State};
 use links::drive::{Answers, DriveLink};
-use links::effect::Link;
+use links::effect::{Effect, Link};
 
-impl Workflow<'_> {
+impl<'a> Workflow<'a> {
+    /// The drive beside what its loops answered, and what is found on it, if they do. What a size alone speaks for is not
+    /// taken where nothing that set points made is worth a sentence beside the noise of what was answered: that says nothing.
+    pub(super) fn beside_answered(
+        &mut self,
+        link: &DriveLink,
+        outcome: &Outcome,
+        here: &[Arc<dyn Effect>],
+    ) -> Option<(DriveLink<'a>, Outcome)> {
+        let (correlation, said) = (self.thresholds.drive_correlation, self.findings.remarks.len());
+        let by_size = self.is_answered(link, outcome)?;
+        let again = self.drive_again(here)?;
+        if by_size && study::rms(&Problem::Drive(&again.0), &self.start) < self.thresholds.worth_saying {
+            self.answered = None;
+            self.thresholds.drive_correlation = correlation;
+            self.findings.remarks.truncate(said);
+            return None;
+        }
+        Some(again)
+    }
+
     /// Whether most of what is left on the drive, before or after what was written, goes with what the loops answered; from
     /// then on it is compared beside that. What was left before does not count where what was written also explains what
     /// no answer does: a weight beside the shaft, say, which the loop has to answer, too. A motor that was fitted to the
-    /// answers leaves none of them: then its sizes are others than the set points make it.
-    pub(super) fn is_answered(&mut self, link: &DriveLink, outcome: &Outcome) -> bool {
-        let Some(answers) = Answers::of(link) else { return false };
+    /// answers leaves none of them: then its sizes are others than the set points make it. `None` if not, and whether only a
+    /// size says so.
+    fn is_answered(&mut self, link: &DriveLink, outcome: &Outcome) -> Option<bool> {
+        let answers = Answers::of(link)?;
         let left = |state: &State| Some(answers.left(link, &link.residuals(&state.drive(None))?));
-        let (Some(before), Some(after)) = (left(&self.start), left(&outcome.written)) else { return false };
+        let (before, after) = (left(&self.start)?, left(&outcome.written)?);
         let explains = after.beside < (1.0 - self.thresholds.explained) * before.beside;
         let most = if explains || after.share() > before.share() { after } else { before };
         let most_of_it = most.share() > self.thresholds.answered;
         let made = if most_of_it { None } else { self.made_by_set_points(link, outcome) };
         let taken_in = made.and_then(|state| left(&state));
-        let is_answered = most_of_it || taken_in.is_some();
-        let most = taken_in.unwrap_or(most);
-        if is_answered {
-            self.answered = Some(most.answered_nm() / link.sizes.drive_nm);
-            self.findings.remarks.push(format!(
-                "The speed loop answers torques that the model does not have: {:.0} % of what is left on the drive goes with \
-                 duties and speeds that the set points do not account for. Effects of the drive are judged by what the set \
-                 points made.",
-                100.0 * most.share()
-            ));
+        if !most_of_it && taken_in.is_none() {
+            return None;
         }
-        self.answered.is_some()
+        let most = taken_in.unwrap_or(most);
+        self.answered = Some(most.answered_nm() / link.sizes.drive_nm);
+        self.findings.remarks.push(format!(
+            "The speed loop answers torques that the model does not have: {:.0} % of what is left on the drive goes with \
+             duties and speeds that the set points do not account for. Effects of the drive are judged by what the set \
+             points made.",
+            100.0 * most.share()
+        ));
+        Some(!most_of_it)
     }
 
     /// What was written as the set points make it, where they speak against it: a size beyond its interval, and significantly

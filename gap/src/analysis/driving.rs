@@ -92,9 +92,7 @@ impl<'a> Workflow<'a> {
         let mut link = self.drive_link()?;
         let read_right: Vec<_> = here.iter().filter(|e| e.name() != READ_AMISS).cloned().collect();
         let mut outcome = self.drive_studied(&mut link, &read_right);
-        if self.is_answered(&link, &outcome)
-            && let Some(again) = self.drive_again(&read_right)
-        {
+        if let Some(again) = self.beside_answered(&link, &outcome, &read_right) {
             (link, outcome) = again;
         }
         if let Some(again) = self.unbraked(&link, &mut outcome, &read_right) {
