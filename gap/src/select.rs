@@ -25,6 +25,7 @@ use crate::thresholds::Thresholds;
 use estimation::normal_equations::NormalEquations;
 use estimation::prior::PenalisedFit;
 use links::effect::{Effect, Link};
+use links::thresholds::Refusal;
 
 use gates::Gates;
 use join::join;
@@ -64,6 +65,8 @@ pub struct Selection {
     pub costs: f64,
     /// Whether it was chosen with nothing adjusted beside what is named.
     pub bare: bool,
+    /// What was selected and taken back again by its own estimates, and why.
+    pub taken_back: Vec<(String, Refusal)>,
     /// See [`Selection::alone`].
     alone: OnceLock<Left>,
 }
@@ -71,8 +74,8 @@ pub struct Selection {
 impl Selection {
     /// The same, linearised on other data.
     pub(crate) fn on(&self, design: Design) -> Self {
-        let (state, alone) = (self.state.clone(), OnceLock::new());
-        Self { state, design, loss: self.loss, costs: self.costs, bare: self.bare, alone }
+        let (state, taken_back, alone) = (self.state.clone(), self.taken_back.clone(), OnceLock::new());
+        Self { state, design, loss: self.loss, costs: self.costs, bare: self.bare, taken_back, alone }
     }
 
     /// The same with nothing adjusted beside what is named.
@@ -120,12 +123,17 @@ pub fn select(
     };
     let best = searched(problem, start, known, &all, thresholds);
     // What is left far above the noise is not a little of everything: another search in which next to nothing is
-    // adjusted without a name.
+    // adjusted without a name. Nearer to it, beside what has a name, only for what leaves noise alone.
     let left = raw(&best);
-    let best = if problem.link() == Link::Drive && left >= thresholds.far_left {
+    let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
+    let far = left >= thresholds.far_left;
+    let open = left >= thresholds.worth_saying && named(&best) && leaves_more_than_its_laws(&best);
+    let best = if problem.link() == Link::Drive && (far || open) {
         let other = searched(problem, start, &[], &all, &thresholds.narrow());
-        let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
-        if named(&other) && raw(&other) < thresholds.as_well * left { other } else { best }
+        // The same names have their intervals with margins beside them.
+        let near = || !is_alike(&best, &other) && other.alone(problem).is_noise(thresholds);
+        let better = raw(&other) < thresholds.as_well * left && (far || near());
+        if named(&other) && better { other } else { best }
     } else {
         best
     };
@@ -142,6 +150,23 @@ pub fn select(
     let best = other.filter(|other| raw(other) < raw(&best)).unwrap_or(best);
     let in_place = problem.in_place(start, catalogue);
     simpler::simpler(problem, start, best, &all, &in_place, thresholds)
+}
+
+/// Whether two selections name the same.
+fn is_alike(one: &Selection, other: &Selection) -> bool {
+    let names = |s: &Selection| {
+        let named = s.state.active.iter().filter(|a| a.is_named());
+        let mut names: Vec<String> = named.map(|a| a.effect.name().to_owned()).collect();
+        names.sort_unstable();
+        names
+    };
+    names(one) == names(other)
+}
+
+/// Whether more than noise is left, and than the laws of what is named may leave.
+fn leaves_more_than_its_laws(found: &Selection) -> bool {
+    let (square, n) = found.design.linear.equations.plain();
+    square - n > found.design.left_by_laws()
 }
 
 /// RMS of the residuals in units of the noise.
@@ -471,6 +496,7 @@ fn finish(state: State, design: Design, from: usize, thresholds: &Thresholds) ->
         state,
         design,
         bare: false,
+        taken_back: Vec::new(),
         alone: OnceLock::new(),
     }
 }

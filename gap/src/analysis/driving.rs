@@ -6,6 +6,7 @@ use std::sync::Arc;
 use runs::robot::Support;
 
 use super::answered::beside_answers;
+use super::found::Named;
 use super::gaps;
 use super::look_alikes::{Against, LookAlike};
 use super::measure::{Data, Drive};
@@ -149,10 +150,11 @@ impl<'a> Workflow<'a> {
         let far = self.thresholds.far * least;
         let mut outcome = study(&problem, &whole, &self.start, selection, here, &self.thresholds, far);
         outcome.held_out /= least;
-        if study::rms(&problem, &self.start) < self.thresholds.far_left * least {
-            return outcome;
-        }
-        if let Some(again) = self.within_bounds(&outcome, here).or_else(|| self.without_refused(&outcome, here)) {
+        let open = study::rms(&problem, &self.start);
+        let far = open >= self.thresholds.far_left * least;
+        let again = if far { self.within_bounds(&outcome, here) } else { None };
+        let worth = open >= self.thresholds.worth_saying * least;
+        if let Some(again) = again.or_else(|| if worth { self.without_refused(&outcome, here) } else { None }) {
             (*link, outcome) = again;
         }
         outcome
@@ -175,14 +177,18 @@ impl<'a> Workflow<'a> {
         Some(again)
     }
 
-    /// What else is found where all that was fitted may not be named, and stood in the way of the rest: it leaves nothing worth a
-    /// sentence. `None` where nothing is; what was refused may be the cause, and something near it no name.
+    /// What else is found where what was fitted may not be named and stood in the way of the rest: beside what has a name it
+    /// leaves nothing worth a sentence. `None` where nothing is; what was refused may be the cause, and something near it no
+    /// name.
     fn without_refused(&mut self, outcome: &Outcome, here: &[Arc<dyn Effect>]) -> Option<(DriveLink<'a>, Outcome)> {
-        if !outcome.named.is_empty() {
+        let worth = self.thresholds.worth_saying;
+        if !outcome.named.is_empty() && outcome.held_out < worth {
             return None;
         }
-        let worth = self.thresholds.worth_saying;
-        let explains = |_: &DriveLink, again: &Outcome| !again.named.is_empty() && again.held_out < worth;
+        let explains = |_: &DriveLink, again: &Outcome| {
+            let is_kept = |n: &Named| again.named.iter().any(|other| other.name == n.name);
+            again.named.len() > outcome.named.len() && outcome.named.iter().all(is_kept) && again.held_out < worth
+        };
         self.drive_without(here, &outcome.refused, &explains)
     }
 

@@ -120,6 +120,10 @@ pub(super) fn study<'a>(
 ) -> Outcome {
     let all = problem.candidates(start, catalogue);
     let from = start.active.len();
+    let is_probe = |name: &str| all.iter().any(|c| c.effect.name() == name && c.effect.probe());
+    let taken_back = selection.taken_back.iter().filter(|(name, _)| !is_probe(name));
+    let taken_back: Vec<Refused> =
+        taken_back.map(|(name, why)| not_named(problem, name, &(*why, why.reason().to_owned()))).collect();
     let selection = above_errors(problem, selection, from, &all, thresholds);
     let (mut judged, mut refused) = sound(problem, selection, start, &all, thresholds);
     // Where laws that bend speeds stood for a load that the file lacks, each of them is taken back, and nothing is left.
@@ -211,6 +215,7 @@ pub(super) fn study<'a>(
             conditional_on: alternatives.shared,
         });
     }
+    refused.extend(taken_back);
     let (square, n) = select::held_out(problem, &written_to_fit(&written, from));
     still_refused(&mut refused, &named);
     Outcome {

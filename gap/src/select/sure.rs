@@ -54,17 +54,21 @@ pub(super) fn sure(
     all: &[Active],
     thresholds: &Thresholds,
 ) -> Selection {
+    let mut taken_back = Vec::new();
     loop {
         let design = &found.design;
         let roles = design.estimating();
         let fit = design.fit_roles(&roles);
         let covariance = design.covariance(&roles, &fit);
-        let refused = |i: &usize| {
-            found.state.active[*i].worth() && gate(&estimates_of(design, *i, &fit.step, &covariance), None).is_err()
+        let refused = |i: usize| {
+            let why = gate(&estimates_of(design, i, &fit.step, &covariance), None).err()?;
+            found.state.active[i].worth().then_some((i, why))
         };
-        let Some(index) = (from..found.state.active.len()).rev().find(refused) else { return found };
+        let Some((index, why)) = (from..found.state.active.len()).rev().find_map(refused) else {
+            return Selection { taken_back, ..found };
+        };
         let mut state = found.state.clone();
-        state.active.remove(index);
+        taken_back.push((state.active.remove(index).effect.name().to_owned(), why));
         let settled = settle(problem, &mut state, all, thresholds);
         found = finish(state, settled, from, thresholds);
     }
