@@ -123,17 +123,21 @@ pub fn select(
     };
     let best = searched(problem, start, known, &all, thresholds);
     // What is left far above the noise is not a little of everything: another search in which next to nothing is
-    // adjusted without a name. Nearer to it, beside what has a name, only for what leaves noise alone.
+    // adjusted without a name. Nearer to it, beside what has a name, only for what leaves noise alone, and no more than one
+    // law more: several of them fit whatever a law that is not exact leaves.
     let left = raw(&best);
-    let named = |s: &Selection| s.state.active[start.active.len()..].iter().any(Active::is_named);
+    let named = |s: &Selection| s.state.active[start.active.len()..].iter().filter(|a| a.is_named()).count();
     let far = left >= thresholds.far_left;
-    let open = left >= thresholds.worth_saying && named(&best) && leaves_more_than_its_laws(&best);
+    let open = left >= thresholds.worth_saying && named(&best) > 0 && leaves_more_than_its_laws(&best);
     let best = if problem.link() == Link::Drive && (far || open) {
         let other = searched(problem, start, &[], &all, &thresholds.narrow());
         // The same names have their intervals with margins beside them.
-        let near = || !is_alike(&best, &other) && other.alone(problem).is_noise(thresholds);
+        let near = || {
+            let few = named(&other) <= named(&best) + 1;
+            few && !is_alike(&best, &other) && other.alone(problem).is_noise(thresholds)
+        };
         let better = raw(&other) < thresholds.as_well * left && (far || near());
-        if named(&other) && better { other } else { best }
+        if named(&other) > 0 && better { other } else { best }
     } else {
         best
     };
