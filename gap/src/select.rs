@@ -41,7 +41,7 @@ pub(crate) use lighter::{heavier, is_heavier};
 pub(crate) use plain::{held_out, plain};
 pub(crate) use simpler::one_beside;
 pub use sure::estimates;
-pub(crate) use undecided::undecided;
+pub(crate) use undecided::{LATENCY, Late, late_in_place, undecided};
 pub(crate) use undone::not_undone;
 
 /// Largest number of effects named on one link.

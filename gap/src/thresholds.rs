@@ -130,6 +130,14 @@ thresholds! {
     /// Objectives that differ by less are a tie, which the order of the catalogue breaks; and the share of what an
     /// effect gains that its law is not exact enough to decide by.
     ties: [f64; 2] = [4.0, 0.01],
+    /// Rows within which a motor may follow by its file without showing beside a filter or a latency: one, and the half by which
+    /// the age of rows is known, for as late as a motor is a speed of the row before is as well. A motor of 1.2 rows behind a
+    /// filter of three was one of 2.7 times its inertia, next to the noise.
+    hidden_rows: f64 = 1.5,
+    /// Share of what the inertia of such a motor explains that a latency may leave in its place and still be as likely: no row
+    /// tells what goes on within it. Of six simulated axes whose time constant was half a row, and their latency too, the
+    /// latency left 0.05, 0.04 and 0.24 of what an inertia of twice the file's explained, and less in the others.
+    late_law: f64 = 0.25,
     /// Objectives that differ by less are reported as a tie.
     tied: f64 = 6.0,
     /// Closer than this an explanation is in doubt (Kass and Raftery 1995: very strong from 10).

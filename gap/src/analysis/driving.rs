@@ -280,7 +280,7 @@ impl<'a> Workflow<'a> {
         let row_s = 1.0 / self.question.robot.control_rate_hz;
         let late_s = 0.5 * row_s * self.data.pieces.half_rows() as f64;
         let all = [
-            filtered::in_place_of_inertia(named, &model, row_s, late_s).filter(|_| alone),
+            filtered::in_place_of_inertia(named, &model, [row_s, late_s], &self.thresholds).filter(|_| alone),
             filtered::of_delay(named, row_s),
             filtered::exchanged(named, &model, row_s).filter(|_| alone),
         ];

@@ -2,6 +2,7 @@
 
 use super::found::Named;
 use super::look_alikes::LookAlike;
+use crate::thresholds::Thresholds;
 use links::drive::DriveModel;
 use links::thresholds::filter_s;
 
@@ -40,19 +41,19 @@ fn motor_s(named: &[Named], model: &DriveModel) -> Option<[f64; 2]> {
     Some([file_s, file_s + heavier * model.inertia_of_scale(0) / braking])
 }
 
-/// Rows that a motor may take by its file without showing beside a filter: one, and the half by which the age of rows is known,
-/// for as late as a motor is a speed of the row before is as well. A motor of 1.2 rows behind a filter of three was one of 2.7
-/// times its inertia, next to the noise.
-const HIDDEN_ROWS: f64 = 1.5;
-
 /// A motor whose time constant by its file is about a row does not show beside a filter that is longer: an inertia then does
 /// the same as the filter. `late_s` is the age that logged speeds are taken to have by themselves.
-pub(super) fn in_place_of_inertia(named: &[Named], model: &DriveModel, row_s: f64, late_s: f64) -> Option<LookAlike> {
+pub(super) fn in_place_of_inertia(
+    named: &[Named],
+    model: &DriveModel,
+    [row_s, late_s]: [f64; 2],
+    thresholds: &Thresholds,
+) -> Option<LookAlike> {
     let [file_s, now_s] = motor_s(named, model)?;
     // Both are as late.
     let late_s = now_s + late_s - file_s;
     let hidden = parameter(named, FILTER).is_none()
-        && file_s <= HIDDEN_ROWS * row_s
+        && file_s <= thresholds.hidden_rows * row_s
         && (row_s..=filter_s(row_s)).contains(&late_s);
     hidden.then(|| {
         let said = format!(

@@ -9,7 +9,7 @@ use crate::evidence::{Evidence, Interval};
 use crate::intervals::Intervals;
 use crate::limits::Limit;
 use crate::problem::{Owner, Problem};
-use crate::select::{self, Design, Selection};
+use crate::select::{self, Design, Late, Selection};
 use crate::state::{Active, State};
 use crate::thresholds::Thresholds;
 use links::effect::{Effect, Link, Parameter};
@@ -201,6 +201,12 @@ pub(super) fn study<'a>(
                 sets.push(pair);
             }
             ambiguous = true;
+        }
+        let late = at.map_or(Late::Less, |at| select::late_in_place(problem, &written, at, &all, thresholds));
+        let pair = vec![active.effect.name().to_owned(), select::LATENCY.to_owned()];
+        if !matches!(late, Late::Less) && !sets.contains(&pair) {
+            sets.push(pair);
+            ambiguous |= matches!(late, Late::Even);
         }
         let fixed = active.form.fixed.iter().map(|(n, v)| (n.clone(), *v, Interval::Exact));
         named.push(Named {

@@ -16,6 +16,7 @@ mod gear_motor;
 mod gravity;
 mod heavy;
 mod joint;
+mod late_duties;
 mod lost_rows;
 mod margins;
 mod odometry;
