@@ -1,6 +1,6 @@
 //! Currents the wrong way round, and such as nobody read, are told.
 
-use model::setup::{Mistake, mistakes};
+use model::setup::{Mistake, Winding, mistakes};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use runs::Logs;
@@ -132,24 +132,53 @@ fn what_a_coarse_sensor_reads_of_an_even_drive_is_no_last_reading() {
     assert_eq!(said_of(&rows), Vec::<String>::new());
 }
 
-/// A motor under duties that step, of 1.2 ohm and 0.0066 V s/rad, by a file with these; currents as somebody logs them.
-fn said_of_a_winding(ohm: f64, kt: f64, logged: fn(f64, f64) -> f64) -> Vec<String> {
+/// A motor under the duties of the rows, of 1.2 ohm and 0.0066 V s/rad, which act so many rows later; currents as somebody logs
+/// them.
+fn driven(set: fn(usize) -> f64, late: usize, logged: fn(f64, f64) -> f64) -> String {
     let mut random = ChaCha8Rng::seed_from_u64(9);
     let (mut speed, mut angle) = (0.0_f64, 0.0_f64);
     let mut rows = "t,enc_1,duty_1,current_1\n".to_owned();
     for k in 0..4000_usize {
-        let duty: f64 = [0.3, 0.8, -0.2, -0.7, 0.5, -0.5][k / 60 % 6];
+        let duty = set(k.saturating_sub(late));
         let driven = |speed: f64| (12.0 * duty - 0.0066 * speed) / 1.2;
         let amps = logged(driven(speed), duty) + 0.02 * random.random_range(-1.0..1.0);
-        rows += &format!("{},{},{duty},{amps}\n", 0.005 * k as f64, (angle / std::f64::consts::TAU * 65536.0) as i64);
+        let counts = (angle / std::f64::consts::TAU * 65536.0) as i64;
+        rows += &format!("{},{counts},{},{amps}\n", 0.005 * k as f64, set(k));
         for _ in 0..20 {
             let against = 0.003 * (speed / 5.0).tanh() + 8e-6 * speed;
             speed += 0.005 / 20.0 * (0.0066 * driven(speed) - against) / 7e-6;
             angle += 0.005 / 20.0 * speed;
         }
     }
+    rows
+}
+
+/// A file with such a winding.
+fn file_of(ohm: f64, kt: f64) -> String {
     let file = ROBOT.replace("torque_constant = 0.0066", &format!("torque_constant = {kt}\nresistance_ohm = {ohm}"));
-    said_by(&format!("supply_v = 12\n{file}"), &rows)
+    format!("supply_v = 12\n{file}")
+}
+
+fn said_of_a_winding(ohm: f64, kt: f64, logged: fn(f64, f64) -> f64) -> Vec<String> {
+    let steps = |k: usize| [0.3, 0.8, -0.2, -0.7, 0.5, -0.5][k / 60 % 6];
+    said_by(&file_of(ohm, kt), &driven(steps, 0, logged))
+}
+
+/// One row was 3 % more resistance, three rows 10 %.
+#[test]
+fn duties_that_act_later_are_no_other_winding() {
+    let waves = |k: usize| 0.5 * (0.02 * k as f64).sin() + 0.3 * (0.0073 * k as f64).cos();
+    let tells = |late: usize| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("robot.toml"), file_of(1.2, 0.0066)).unwrap();
+        std::fs::write(folder.path().join("run_1.csv"), driven(waves, late, |amps, _| amps)).unwrap();
+        let set = Logs::open(folder.path()).unwrap();
+        Winding::of(&set.robot, &set.logs).map(|w| w.resistance_ohm)
+    };
+    assert!(tells(0).is_some_and(|ohm| (ohm / 1.2 - 1.0).abs() < 0.01));
+    for late in [1, 3, 8, 15] {
+        assert_eq!(tells(late), None, "{late}");
+    }
 }
 
 #[test]

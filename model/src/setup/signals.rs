@@ -29,6 +29,11 @@ pub(super) struct Signals {
 }
 
 pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
+    signals_late(robot, log, 0)
+}
+
+/// The same with the duties, and the volts that they are a share of, so many rows before what was measured.
+pub(super) fn signals_late(robot: &Robot, log: &Log, rows: usize) -> Option<Signals> {
     let wheels = Wheels::of(robot, log)?;
     let columns = Columns { command: true, reference: true, duty: true, supply: true, sensors: true, ..Columns::NONE };
     let run: Run = log.part(0..log.len().min(200_000), columns);
@@ -56,6 +61,7 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
         let t = first + k as f64 * span;
         let row = |t: f64| run.t.partition_point(|x| *x <= t).saturating_sub(1).min(run.len() - 1);
         let (a, b) = (row(t - 0.5 * span), row(t + 0.5 * span));
+        let [set_a, set_b] = [a, b].map(|row| row.saturating_sub(rows));
         let (Some(back), Some(here), Some(ahead)) = (
             wheels.turned(t - 1.0 * span, t),
             wheels.turned(t - 0.5 * span, t + 0.5 * span),
@@ -71,12 +77,12 @@ pub(super) fn signals(robot: &Robot, log: &Log) -> Option<Signals> {
             slot.push(held(column, a, b));
         }
         for (slot, column) in out.duty.iter_mut().zip(&run.duty) {
-            slot.push(held(column, a, b));
+            slot.push(held(column, set_a, set_b));
         }
         for (slot, column) in out.current.iter_mut().zip(&run.current) {
             slot.push(held(column, a, b));
         }
-        out.volts.push(run.supply_v.as_ref().map_or(robot.supply_v, |supply| held(supply, a, b)));
+        out.volts.push(run.supply_v.as_ref().map_or(robot.supply_v, |supply| held(supply, set_a, set_b)));
         if let Some(command) = &run.command {
             out.command.push([0, 1, 2].map(|j| held(&command[j], a, b)));
         }

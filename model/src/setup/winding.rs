@@ -7,7 +7,7 @@ use runs::robot::Robot;
 use runs::{DutySource, Log, drive_lacks};
 
 use super::samples::FEWEST;
-use super::signals::{Signals, signals};
+use super::signals::{Signals, signals_late};
 use super::{Mistake, is_true, short};
 
 /// Share of the squared volts that the speed alone leaves, which currents may leave of them: else they are not these motors',
@@ -19,6 +19,9 @@ const LEFT: f64 = 0.03;
 /// Amperes per volt, RMS, of one motor's sensor in one log, as a share of the usual ones, below which it reads nothing. A motor
 /// without a load took a tenth of what it took at the start of its run; a sensor that was not connected, a hundredth.
 const SILENT: f64 = 0.03;
+/// Longest time, s, by which currents are looked for after the duties of their row. Reasoned: a loop of speeds is hardly steady
+/// beyond it.
+const LATEST_S: f64 = 0.1;
 /// Stretches of the logs without one of which the law is fitted in turn.
 const BLOCKS: usize = 20;
 
@@ -73,21 +76,10 @@ impl Winding {
             return None;
         }
         let both = |log: &&Log| log.layout().source.duties != DutySource::Currents && !log.layout().current.is_empty();
-        let signals: Vec<Signals> = logs.iter().filter(both).filter_map(|log| signals(robot, log)).collect();
-        let rows = heard(signals.iter().flat_map(|s| rows(robot, s)).collect());
-        let blocks: Vec<Sums> = rows
-            .chunks(rows.len().div_ceil(BLOCKS).max(1))
-            .map(|chunk| {
-                let mut sums = Sums::default();
-                chunk.iter().for_each(|(row, volts)| sums.add(*row, *volts));
-                sums
-            })
-            .collect();
-        let mut all = Sums::default();
-        rows.iter().for_each(|(row, volts)| all.add(*row, *volts));
-        let found = all.solved()?;
+        let logs: Vec<&Log> = logs.iter().filter(both).collect();
+        let tick_s = logs.iter().filter_map(|log| log.tick_s()).reduce(f64::min)?;
+        let Law { blocks, all, found, left } = Law::of(robot, &logs, 0)?;
         let by_speed = all.square - all.right[1] * all.right[1] / all.normal[(1, 1)];
-        let left = all.square - all.right.dot(&found);
         let holds = left < BESIDE_SPEED * by_speed && left < LEFT * LEFT * all.square;
         if all.n < FEWEST || blocks.len() < BLOCKS / 2 || !holds || found.min() <= 0.0 {
             return None;
@@ -97,6 +89,14 @@ impl Winding {
         let mean = jackknife.iter().sum::<Vector2<f64>>() / n;
         let spread = jackknife.iter().map(|x| (x - mean).component_mul(&(x - mean))).sum::<Vector2<f64>>();
         let half = [0, 1].map(|i| t_quantile_975(jackknife.len() - 1) * ((n - 1.0) / n * spread[i]).sqrt());
+        // Duties that act later than their rows are said to flow less than they do, as through more ohms: where another lateness
+        // leaves less, and says another winding, the logs tell an age and no winding.
+        let nearer = |a: Law, b: Law| if b.left * a.all.square < a.left * b.all.square { b } else { a };
+        let nearest = latenesses(tick_s).filter_map(|rows| Law::of(robot, &logs, rows)).reduce(nearer)?;
+        let other = (0..2).any(|i| (nearest.found[i] - found[i]).abs() > half[i]);
+        if other && nearest.left * all.square < left * nearest.all.square {
+            return None;
+        }
         Some(Self { resistance_ohm: found[0], back_emf: found[1], half, blocks })
     }
 
@@ -114,6 +114,41 @@ impl Winding {
             short(self.resistance_ohm),
             short(self.back_emf)
         )
+    }
+}
+
+/// Rows up to [`LATEST_S`], each some quarter more than the one before.
+fn latenesses(tick_s: f64) -> impl Iterator<Item = usize> {
+    let most = (LATEST_S / tick_s) as usize;
+    std::iter::successors(Some(0), |rows| Some(rows + 1 + rows / 4)).take_while(move |rows| *rows <= most)
+}
+
+/// The law of a winding with duties so many rows before their currents.
+struct Law {
+    blocks: Vec<Sums>,
+    all: Sums,
+    /// Resistance and back-EMF constant.
+    found: Vector2<f64>,
+    /// Sum of the squared volts that they leave.
+    left: f64,
+}
+
+impl Law {
+    fn of(robot: &Robot, logs: &[&Log], late: usize) -> Option<Self> {
+        let signals: Vec<Signals> = logs.iter().filter_map(|log| signals_late(robot, log, late)).collect();
+        let rows = heard(signals.iter().flat_map(|s| rows(robot, s)).collect());
+        let blocks: Vec<Sums> = rows
+            .chunks(rows.len().div_ceil(BLOCKS).max(1))
+            .map(|chunk| {
+                let mut sums = Sums::default();
+                chunk.iter().for_each(|(row, volts)| sums.add(*row, *volts));
+                sums
+            })
+            .collect();
+        let mut all = Sums::default();
+        rows.iter().for_each(|(row, volts)| all.add(*row, *volts));
+        let found = all.solved()?;
+        Some(Self { blocks, all, found, left: all.square - all.right.dot(&found) })
     }
 }
 
