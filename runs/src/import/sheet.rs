@@ -60,6 +60,9 @@ impl<'a> Sheet<'a> {
             let Sheet { names, rows, separator, tagged } = Sheet::of(&remarked);
             return Self { names, rows: Cow::Owned(rows.into_owned()), separator, tagged };
         }
+        if let Some((names, rows)) = spaced(bytes) {
+            return Self { names: Some(names), rows: Cow::Owned(rows), separator: b';', tagged: false };
+        }
         let mut before = Vec::new();
         let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty());
         let mut first: &[u8] = &[];
@@ -271,6 +274,40 @@ fn loose(line: &[u8]) -> Vec<Vec<String>> {
     ways
 }
 
+/// Names of several words apart by more blanks than one, above rows of as many numbers, which may stand in brackets as a matrix of
+/// MATLAB does: `Time   Encoder 1 Pos   Control Effort`.
+fn spaced(bytes: &[u8]) -> Option<(Vec<String>, Vec<u8>)> {
+    let numbers = |line: &[u8]| -> Vec<String> {
+        let text = String::from_utf8_lossy(line);
+        let inside = text.trim_matches(|c: char| c.is_whitespace() || "[];".contains(c));
+        inside.split_whitespace().map(str::to_owned).collect()
+    };
+    let mut lines = bytes.split_inclusive(|b| *b == b'\n').skip_while(|line| line.trim_ascii().is_empty());
+    let head = lines.next()?.trim_ascii();
+    if head.iter().any(|b| b",;|\t".contains(b)) {
+        return None;
+    }
+    let names = loose(head).pop()?;
+    if names.len() < 2 || !names.iter().any(|name| name.contains(' ')) {
+        return None;
+    }
+    let rows: Vec<Vec<String>> = lines.map(numbers).collect();
+    let fits = |row: &&Vec<String>| row.len() == names.len() && row.iter().all(|field| is_number(field, b';'));
+    let mut looked_at = rows.iter().filter(|row| !row.is_empty()).take(LOOKED_AT).peekable();
+    looked_at.peek()?;
+    if !looked_at.all(|row| fits(&row)) {
+        return None;
+    }
+    // Every line stays where it was.
+    let above = bytes.split(|b| *b == b'\n').position(|line| !line.trim_ascii().is_empty())?;
+    let mut out = vec![b'\n'; above + 1];
+    for row in rows {
+        out.extend_from_slice(row.join(";").as_bytes());
+        out.push(b'\n');
+    }
+    Some((names, out))
+}
+
 /// Whether a field is a unit alone: `[V]`, `(turns/s)`.
 fn is_unit(field: &str) -> bool {
     field.starts_with('[') && field.ends_with(']') || field.starts_with('(') && field.ends_with(')')
@@ -304,6 +341,19 @@ mod tests {
     fn sheet(text: &str) -> (Option<Vec<String>>, String, char) {
         let sheet = Sheet::of(text.as_bytes());
         (sheet.names, String::from_utf8(sheet.rows.into_owned()).unwrap(), sheet.separator.into())
+    }
+
+    /// As the software of a laboratory's servo trainer writes it: six names were ten, and four columns had the names of others.
+    #[test]
+    fn names_of_several_words_stand_above_blanks() {
+        let names = |of: &[&str]| Some(of.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>());
+        let text = " Sample   Time     Encoder 1 Pos   Control Effort\n\n[    0    0.000    0   0.1000;\n     1    0.022    -7   0.0000];\n";
+        let (found, rows, separator) = sheet(text);
+        assert_eq!(found, names(&["Sample", "Time", "Encoder 1 Pos", "Control Effort"]));
+        assert_eq!((rows.as_str(), separator), ("\n\n0;0.000;0;0.1000\n1;0.022;-7;0.0000\n", ';'));
+        // Names of one word, and rows of as many fields as there are words.
+        assert_eq!(sheet("t   a\n0   1\n").0, None);
+        assert_eq!(sheet("t  a b\n0  1 2\n").0, None);
     }
 
     #[test]
