@@ -92,9 +92,12 @@ impl Winding {
         // Duties that act later than their rows are said to flow less than they do, as through more ohms: where another lateness
         // leaves less, and says another winding, the logs tell an age and no winding.
         let nearer = |a: Law, b: Law| if b.left * a.all.square < a.left * b.all.square { b } else { a };
-        let nearest = latenesses(tick_s).filter_map(|rows| Law::of(robot, &logs, rows)).reduce(nearer)?;
-        let other = (0..2).any(|i| (nearest.found[i] - found[i]).abs() > half[i]);
-        if other && nearest.left * all.square < left * nearest.all.square {
+        let says_another = |law: &Law| {
+            let other = (0..2).any(|i| (law.found[i] - found[i]).abs() > half[i]);
+            other && law.left * all.square < left * law.all.square
+        };
+        let late = latenesses(tick_s).filter_map(|rows| Law::of(robot, &logs, rows)).reduce(nearer);
+        if late.is_some_and(|late| says_another(&late)) {
             return None;
         }
         Some(Self { resistance_ohm: found[0], back_emf: found[1], half, blocks })
@@ -117,10 +120,10 @@ impl Winding {
     }
 }
 
-/// Rows up to [`LATEST_S`], each some quarter more than the one before.
+/// Rows from one up to [`LATEST_S`], each some quarter more than the one before.
 fn latenesses(tick_s: f64) -> impl Iterator<Item = usize> {
     let most = (LATEST_S / tick_s) as usize;
-    std::iter::successors(Some(0), |rows| Some(rows + 1 + rows / 4)).take_while(move |rows| *rows <= most)
+    std::iter::successors(Some(1), |rows| Some(rows + 1 + rows / 4)).take_while(move |rows| *rows <= most)
 }
 
 /// The law of a winding with duties so many rows before their currents.
